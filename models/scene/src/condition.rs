@@ -1,0 +1,66 @@
+//! What a user fixes about a road user: start and goal, each field free (`None`) or fixed.
+
+use crate::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
+use serde::Serialize;
+
+/// Where a road user starts. A free field comes from the log, else from defaults.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Start {
+    /// Box centre, metres, scene frame.
+    pub position: Option<Vec2>,
+    /// Radians, wrapped.
+    pub heading_rad: Option<f64>,
+    /// Along the heading, m/s, not negative.
+    pub speed_mps: Option<f64>,
+}
+
+/// Where a road user should be at [`Goal::time_s`]. A free field is the generator's to choose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Goal {
+    /// Box centre, metres, scene frame.
+    pub position: Option<Vec2>,
+    /// Radians, wrapped.
+    pub heading_rad: Option<f64>,
+    /// m/s, not negative.
+    pub speed_mps: Option<f64>,
+    /// Scene time at which the goal is to be met; the end of the horizon when free.
+    pub time_s: Option<f64>,
+}
+
+impl Goal {
+    /// True when no field but the time is fixed.
+    pub fn is_free(&self) -> bool {
+        self.position.is_none() && self.heading_rad.is_none() && self.speed_mps.is_none()
+    }
+
+    /// Step within the window (1 ..= [`HORIZON_STEPS`]) at which the goal is due, for a window that
+    /// starts at `start_s`. A later goal is due at the window's end.
+    pub fn step_in_window(&self, start_s: f64) -> usize {
+        match self.time_s {
+            Some(t) => (((t - start_s) / STEP_S).round().max(1.0) as usize).min(HORIZON_STEPS),
+            None => HORIZON_STEPS,
+        }
+    }
+}
+
+/// All a user fixed about one road user. The default fixes nothing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Conditions {
+    /// Another expert than the road user's own type asks for.
+    pub agent_type: Option<AgentType>,
+    /// Metres.
+    pub length_m: Option<f64>,
+    /// Metres.
+    pub width_m: Option<f64>,
+    /// Start fields.
+    pub start: Start,
+    /// Goal fields.
+    pub goal: Goal,
+}
+
+impl Conditions {
+    /// True when nothing at all is fixed.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}

@@ -1,0 +1,63 @@
+//! Futures that the generator made, as they are kept with a scene.
+
+use crate::{AgentId, State};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// One possible motion of one road user.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Future {
+    /// Share of belief among the road user's futures; they sum to one.
+    pub probability: f64,
+    /// Scene step of `states[0]`: one after the start.
+    pub first_step: usize,
+    /// One state a step, without gaps.
+    pub states: Vec<State>,
+}
+
+/// The futures of one road user in one sample.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AgentFutures {
+    /// Index into `modes` of the future that is shown and exported.
+    pub chosen: usize,
+    /// By falling probability, never empty.
+    pub modes: Vec<Future>,
+}
+
+/// One coherent answer for all regenerated road users.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Sample {
+    /// By road user.
+    pub agents: BTreeMap<AgentId, AgentFutures>,
+    /// Score object of this sample as the API gave it; carried, never read.
+    pub score: serde_json::Value,
+}
+
+/// What the generator added to a scene.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Generated {
+    /// Hash of the user part that these futures answer.
+    pub input_sha256: String,
+    /// The user part has changed since.
+    pub stale: bool,
+    /// Expert name to weights hash.
+    pub weights: BTreeMap<String, String>,
+    /// Seed that repeats the answer.
+    pub seed: u64,
+    /// The request's options as sent.
+    pub request: serde_json::Value,
+    /// RFC 3339 time.
+    pub created_at: String,
+    /// Index into `samples`.
+    pub chosen_sample: usize,
+    /// Never empty.
+    pub samples: Vec<Sample>,
+}
+
+impl Generated {
+    /// The future that is shown for `agent`, if it was regenerated.
+    pub fn chosen_future(&self, agent: &str) -> Option<&Future> {
+        let futures = self.samples.get(self.chosen_sample)?.agents.get(agent)?;
+        futures.modes.get(futures.chosen)
+    }
+}

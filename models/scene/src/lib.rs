@@ -1,0 +1,35 @@
+//! What a traffic scene *is*: lane map, signals, road users with their tracks, what the user fixed
+//! about them, and the motion each of them can make.
+//!
+//! Units and frame everywhere: metres, seconds, radians; x east, y north, heading counter-clockwise
+//! from +x, wrapped to [-pi, pi); time zero is the first step; one step is [`STEP_S`].
+//!
+//! No files, no network, no tensors. Once a value exists here it is right by its type: outside data
+//! becomes a [`Scene`] in one fallible step ([`Scene::checked`]).
+
+pub mod agent;
+pub mod condition;
+pub mod generated;
+pub mod geometry;
+pub mod hash;
+pub mod limits;
+pub mod map;
+pub mod signal;
+#[path = "scene.rs"]
+mod whole;
+
+pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
+pub use condition::{Conditions, Goal, Start};
+pub use generated::{AgentFutures, Future, Generated, Sample};
+pub use geometry::{Vec2, wrap_angle};
+pub use hash::ContentHash;
+pub use map::LaneMap;
+pub use signal::{Signal, SignalState};
+pub use whole::{Meta, Origin, Scene, SceneError, Timing};
+
+/// Length of one step in seconds, fixed for the whole product (10 Hz).
+pub const STEP_S: f64 = 0.1;
+/// Steps in one planning window (9 s).
+pub const HORIZON_STEPS: usize = 90;
+/// Control knots of a future, one a second from 0 to 9 s (`model.md` section 1: more bring nothing).
+pub const KNOTS: usize = 10;

@@ -1,0 +1,165 @@
+//! Lane maps: centre lines with their links, painted lines, edges, crosswalks and the like.
+
+use crate::{ContentHash, Vec2};
+use serde::{Deserialize, Serialize};
+
+/// A line or ring of points, metres.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Points {
+    /// Corners in order.
+    pub xy: Vec<Vec2>,
+    /// Heights beside `xy` (same length), when the source has them.
+    pub z_m: Option<Vec<f64>>,
+}
+
+impl From<Vec<Vec2>> for Points {
+    fn from(xy: Vec<Vec2>) -> Self {
+        Self { xy, z_m: None }
+    }
+}
+
+/// Kind of a lane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum LaneType {
+    #[default]
+    Undefined,
+    Freeway,
+    SurfaceStreet,
+    BikeLane,
+    BusLane,
+    Sidewalk,
+    Parking,
+}
+
+impl LaneType {
+    /// Width assumed where a lane gives none, metres.
+    pub fn assumed_width_m(self) -> f64 {
+        match self {
+            Self::BikeLane => 1.8,
+            Self::Sidewalk => 2.5,
+            _ => 3.5,
+        }
+    }
+
+    /// Motor vehicles drive here.
+    pub fn carries_vehicles(self) -> bool {
+        matches!(self, Self::Undefined | Self::Freeway | Self::SurfaceStreet | Self::BusLane)
+    }
+
+    /// Cyclists ride here.
+    pub fn carries_cyclists(self) -> bool {
+        matches!(self, Self::Undefined | Self::SurfaceStreet | Self::BikeLane | Self::BusLane)
+    }
+}
+
+/// A stretch of a lane's side that is bounded by a road line or edge.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Boundary {
+    /// Id of the road line or edge.
+    pub line: String,
+    /// First point index of the lane it bounds.
+    pub from: usize,
+    /// Last point index of the lane it bounds.
+    pub to: usize,
+    /// WOMD's boundary type number, kept for export.
+    pub kind: Option<u32>,
+}
+
+/// A lane beside this one, over point index ranges of both.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Neighbor {
+    /// Id of the other lane.
+    pub lane: String,
+    /// First and last point index on this lane.
+    pub own_range: (usize, usize),
+    /// First and last point index on the other lane.
+    pub other_range: (usize, usize),
+    /// Lines between the two, over the *other* lane's indices as in the source.
+    pub boundaries: Vec<Boundary>,
+}
+
+/// One lane.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Lane {
+    pub id: String,
+    pub lane_type: LaneType,
+    /// Centre line in driving direction, at least two points.
+    pub points: Points,
+    pub width_m: Option<f64>,
+    pub left_boundary: Vec<Boundary>,
+    pub right_boundary: Vec<Boundary>,
+    pub speed_limit_mps: Option<f64>,
+    pub predecessors: Vec<String>,
+    pub successors: Vec<String>,
+    pub left_neighbors: Vec<Neighbor>,
+    pub right_neighbors: Vec<Neighbor>,
+    /// Leads through a junction between two lanes.
+    pub interpolating: bool,
+}
+
+impl Lane {
+    /// Width, assumed from the type where the source gives none, metres.
+    pub fn width_or_assumed_m(&self) -> f64 {
+        self.width_m.unwrap_or_else(|| self.lane_type.assumed_width_m())
+    }
+}
+
+/// A line with a type in the source's words (WOMD's names in snake case).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct TypedLine {
+    pub id: String,
+    /// Such as `broken_single_white`, `boundary`, `median`, `sidewalk`.
+    pub line_type: String,
+    pub points: Points,
+}
+
+/// A closed area: crosswalk, speed bump, driveway.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Area {
+    pub id: String,
+    /// Open ring.
+    pub polygon: Points,
+    /// Holes, each an open ring; only drivable areas have them.
+    pub holes: Vec<Points>,
+}
+
+/// A stop sign and the lanes that obey it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct StopSign {
+    pub id: String,
+    pub position: Vec2,
+    pub z_m: Option<f64>,
+    pub lanes: Vec<String>,
+}
+
+/// Everything that does not move. Immutable; shared between scenes by [`LaneMap::hash`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct LaneMap {
+    pub lanes: Vec<Lane>,
+    pub road_lines: Vec<TypedLine>,
+    pub road_edges: Vec<TypedLine>,
+    pub crosswalks: Vec<Area>,
+    pub speed_bumps: Vec<Area>,
+    pub driveways: Vec<Area>,
+    pub stop_signs: Vec<StopSign>,
+    pub drivable: Vec<Area>,
+}
+
+impl LaneMap {
+    /// Content hash: equal maps have equal hashes, whatever file they came from.
+    pub fn hash(&self) -> ContentHash {
+        ContentHash::of(self)
+    }
+
+    /// Position of a lane in [`LaneMap::lanes`].
+    pub fn lane_index(&self, id: &str) -> Option<usize> {
+        self.lanes.iter().position(|l| l.id == id)
+    }
+}

@@ -1,0 +1,300 @@
+//! The whole scene and what makes one valid.
+
+use crate::{Agent, AgentId, AgentType, ContentHash, Generated, LaneMap, Signal, Vec2};
+use serde::Serialize;
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// Most agents a scene may hold.
+pub const MAX_AGENTS: usize = 256;
+/// Most steps a scene may span.
+pub const MAX_STEPS: usize = 600;
+/// Most map polylines.
+pub const MAX_POLYLINES: usize = 20_000;
+/// Most map points in all.
+pub const MAX_MAP_POINTS: usize = 400_000;
+/// Most points in one polyline.
+pub const MAX_POLYLINE_POINTS: usize = 4_096;
+/// Most signals.
+pub const MAX_SIGNALS: usize = 512;
+/// Farthest a coordinate may lie from the origin, metres.
+pub const MAX_COORDINATE_M: f64 = 10_000.0;
+
+/// Where the scene lies in its source's frame: `source = rotate(scene, rotation) + (x, y, z)`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Origin {
+    pub x_m: f64,
+    pub y_m: f64,
+    pub z_m: f64,
+    pub rotation_rad: f64,
+    /// Coordinate reference system of the source, when it has one.
+    pub crs: Option<String>,
+}
+
+/// Where a scene came from and what people say about it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Meta {
+    /// Format or tool, such as `womd`, `drawn`, `synthetic`.
+    pub source: String,
+    pub source_id: Option<String>,
+    /// Licence of the content, such as `waymo-nc` or `cc0`.
+    pub licence: Option<String>,
+    pub origin: Origin,
+    pub parent_id: Option<String>,
+    pub tags: Vec<String>,
+    pub notes: String,
+    pub created_with: Option<String>,
+    /// WOMD's `objects_of_interest`, by agent id.
+    pub objects_of_interest: Vec<AgentId>,
+    /// WOMD's `tracks_to_predict`: agent id and difficulty.
+    pub tracks_to_predict: Vec<(AgentId, u32)>,
+    /// Source times of the steps in seconds, when they are not exactly 0.1 s apart from zero.
+    pub timestamps_s: Option<Vec<f64>>,
+}
+
+/// Steps of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Timing {
+    /// How many steps the scene spans, 1 ..= [`MAX_STEPS`].
+    pub steps: usize,
+    /// The source's "current" step, kept for export.
+    pub now_step: usize,
+}
+
+/// A traffic scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Scene {
+    pub id: Option<String>,
+    pub name: String,
+    pub meta: Meta,
+    pub time: Timing,
+    pub map: Arc<LaneMap>,
+    pub signals: Vec<Signal>,
+    pub agents: Vec<Agent>,
+    pub generated: Option<Generated>,
+    /// Members under `x_` keys that writers of other tools left; kept as they are.
+    pub extra: std::collections::BTreeMap<String, serde_json::Value>,
+}
+
+/// Why a set of values is not a scene. `at` is a JSON pointer into the native form.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{at}: {reason}")]
+pub struct SceneError {
+    /// Where.
+    pub at: String,
+    /// Machine word: `out-of-range`, `duplicate`, `too-many-agents`, `map-too-large`, `invalid-field`.
+    pub code: &'static str,
+    /// What was found and what was expected.
+    pub reason: String,
+}
+
+impl SceneError {
+    /// A problem at a JSON pointer.
+    pub fn new(at: impl Into<String>, code: &'static str, reason: impl Into<String>) -> Self {
+        Self { at: at.into(), code, reason: reason.into() }
+    }
+}
+
+impl Scene {
+    /// Checks everything that the types alone cannot promise; the only way scenes enter the program.
+    ///
+    /// # Errors
+    /// Up to 32 problems, each with its place: counts over their limits, coordinates that are not
+    /// finite or out of bounds, duplicate ids, lanes with fewer than two points, tracks and runs
+    /// beyond the scene's steps.
+    pub fn checked(self) -> Result<Self, Vec<SceneError>> {
+        let mut problems = Vec::new();
+        self.check_time(&mut problems);
+        self.check_map(&mut problems);
+        self.check_signals(&mut problems);
+        self.check_agents(&mut problems);
+        problems.truncate(32);
+        if problems.is_empty() { Ok(self) } else { Err(problems) }
+    }
+
+    /// The agent with this id.
+    pub fn agent(&self, id: &str) -> Option<&Agent> {
+        self.agents.iter().find(|a| a.id == id)
+    }
+
+    /// Agents by type: vehicles, pedestrians, cyclists, others.
+    pub fn counts(&self) -> [usize; 4] {
+        let count = |t| self.agents.iter().filter(|a| a.agent_type == t).count();
+        [
+            count(AgentType::Vehicle),
+            count(AgentType::Pedestrian),
+            count(AgentType::Cyclist),
+            count(AgentType::Other),
+        ]
+    }
+
+    /// Hash of what the user made: everything that decides an answer except the generated futures,
+    /// the id and the name.
+    pub fn input_hash(&self) -> ContentHash {
+        let agents: Vec<_> = self
+            .agents
+            .iter()
+            .map(|a| (&a.id, a.agent_type, a.subtype, a.size, &a.track, &a.conditions))
+            .collect();
+        ContentHash::of(&(self.time, self.map.hash(), &self.signals, agents))
+    }
+
+    fn check_time(&self, problems: &mut Vec<SceneError>) {
+        if self.time.steps == 0 || self.time.steps > MAX_STEPS {
+            let reason = format!("{} steps; a scene has 1 to {MAX_STEPS}", self.time.steps);
+            problems.push(SceneError::new("/time/steps", "out-of-range", reason));
+        }
+        if self.time.now_step >= self.time.steps.max(1) {
+            let reason = format!("step {} of {}", self.time.now_step, self.time.steps);
+            problems.push(SceneError::new("/time/now_step", "out-of-range", reason));
+        }
+    }
+
+    fn check_map(&self, problems: &mut Vec<SceneError>) {
+        let map = &*self.map;
+        let lines = [("road_lines", &map.road_lines), ("road_edges", &map.road_edges)];
+        let areas = [
+            ("crosswalks", &map.crosswalks),
+            ("speed_bumps", &map.speed_bumps),
+            ("driveways", &map.driveways),
+            ("drivable", &map.drivable),
+        ];
+        let mut total = (0usize, 0usize);
+        let mut polyline = |at: String, points: &[Vec2], least: usize, problems: &mut Vec<SceneError>| {
+            total = (total.0 + 1, total.1 + points.len());
+            check_points(&at, points, least, problems);
+        };
+        for (i, lane) in map.lanes.iter().enumerate() {
+            polyline(format!("/map/lanes/{i}/points_m"), &lane.points.xy, 2, problems);
+            let bad_width = lane.width_m.is_some_and(|w| !(0.1..=50.0).contains(&w));
+            let bad_limit = lane.speed_limit_mps.is_some_and(|v| !(0.0..=100.0).contains(&v));
+            if bad_width || bad_limit {
+                let reason = "width 0.1 to 50 m and speed limit 0 to 100 m/s expected";
+                problems.push(SceneError::new(format!("/map/lanes/{i}"), "out-of-range", reason));
+            }
+        }
+        for (kind, list) in lines {
+            for (i, line) in list.iter().enumerate() {
+                polyline(format!("/map/{kind}/{i}/points_m"), &line.points.xy, 1, problems);
+            }
+        }
+        for (kind, list) in areas {
+            for (i, area) in list.iter().enumerate() {
+                polyline(format!("/map/{kind}/{i}/polygon_m"), &area.polygon.xy, 1, problems);
+                for (h, hole) in area.holes.iter().enumerate() {
+                    polyline(format!("/map/{kind}/{i}/holes_m/{h}"), &hole.xy, 1, problems);
+                }
+            }
+        }
+        for (i, sign) in map.stop_signs.iter().enumerate() {
+            check_points(&format!("/map/stop_signs/{i}/position_m"), &[sign.position], 1, problems);
+        }
+        if total.0 > MAX_POLYLINES || total.1 > MAX_MAP_POINTS {
+            let reason = format!(
+                "{} polylines with {} points; at most {MAX_POLYLINES} with {MAX_MAP_POINTS}",
+                total.0, total.1
+            );
+            problems.push(SceneError::new("/map", "map-too-large", reason));
+        }
+        let lane_ids = map.lanes.iter().map(|l| &l.id);
+        check_ids("/map/lanes", lane_ids, problems);
+        for (kind, list) in lines {
+            check_ids(&format!("/map/{kind}"), list.iter().map(|l| &l.id), problems);
+        }
+        for (kind, list) in areas {
+            check_ids(&format!("/map/{kind}"), list.iter().map(|a| &a.id), problems);
+        }
+    }
+
+    fn check_signals(&self, problems: &mut Vec<SceneError>) {
+        if self.signals.len() > MAX_SIGNALS {
+            let reason = format!("{} signals; at most {MAX_SIGNALS}", self.signals.len());
+            problems.push(SceneError::new("/signals", "map-too-large", reason));
+        }
+        for (i, signal) in self.signals.iter().enumerate() {
+            let rising = signal.runs.windows(2).all(|w| w[0].0 < w[1].0);
+            let inside = signal.runs.last().is_some_and(|r| r.0 < self.time.steps);
+            if !rising || !inside {
+                let reason = "first steps must rise and lie within the scene; at least one run";
+                problems.push(SceneError::new(format!("/signals/{i}/states"), "invalid-field", reason));
+            }
+            if let Some(stop) = signal.stop {
+                check_points(&format!("/signals/{i}/stop_m"), &[stop], 1, problems);
+            }
+        }
+    }
+
+    fn check_agents(&self, problems: &mut Vec<SceneError>) {
+        if self.agents.len() > MAX_AGENTS {
+            let reason = format!("{} agents; at most {MAX_AGENTS}", self.agents.len());
+            problems.push(SceneError::new("/agents", "too-many-agents", reason));
+        }
+        check_ids("/agents", self.agents.iter().map(|a| &a.id), problems);
+        for (i, agent) in self.agents.iter().enumerate() {
+            let size = [agent.size.length_m, agent.size.width_m];
+            if size.iter().any(|v| !(0.05..=60.0).contains(v)) {
+                let reason = format!("size {} x {} m; 0.05 to 60 m expected", size[0], size[1]);
+                problems.push(SceneError::new(format!("/agents/{i}/length_m"), "out-of-range", reason));
+            }
+            let track = &agent.track;
+            if track.first_step + track.states.len() > self.time.steps {
+                let reason = format!(
+                    "track ends after step {}, the scene has {}",
+                    track.first_step + track.states.len(),
+                    self.time.steps
+                );
+                problems.push(SceneError::new(format!("/agents/{i}/track"), "invalid-field", reason));
+            }
+            if track.z_m.as_ref().is_some_and(|z| z.len() != track.states.len()) {
+                let reason = "z_m must be as long as x_m";
+                problems.push(SceneError::new(format!("/agents/{i}/track/z_m"), "invalid-field", reason));
+            }
+            let bad = track.states.iter().flatten().position(|s| {
+                let far = s.x_m.abs() > MAX_COORDINATE_M || s.y_m.abs() > MAX_COORDINATE_M;
+                let values = [s.x_m, s.y_m, s.heading_rad, s.vx_mps, s.vy_mps];
+                far || values.iter().any(|v| !v.is_finite()) || s.velocity().norm() > 150.0
+            });
+            if let Some(step) = bad {
+                let reason =
+                    format!("state {step}: finite numbers within {MAX_COORDINATE_M} m and 150 m/s expected");
+                problems.push(SceneError::new(format!("/agents/{i}/track"), "out-of-range", reason));
+            }
+        }
+    }
+}
+
+fn check_points(at: &str, points: &[Vec2], least: usize, problems: &mut Vec<SceneError>) {
+    if points.len() < least || points.len() > MAX_POLYLINE_POINTS {
+        let reason = format!("{} points; {least} to {MAX_POLYLINE_POINTS} expected", points.len());
+        let code = if points.len() < least { "invalid-field" } else { "map-too-large" };
+        problems.push(SceneError::new(at, code, reason));
+    }
+    let out = |p: &Vec2| !(p.x.abs() <= MAX_COORDINATE_M && p.y.abs() <= MAX_COORDINATE_M);
+    if let Some(i) = points.iter().position(out) {
+        let reason = format!(
+            "point {i} is ({}, {}); finite and within {MAX_COORDINATE_M} m expected",
+            points[i].x, points[i].y
+        );
+        problems.push(SceneError::new(format!("{at}/{i}"), "out-of-range", reason));
+    }
+}
+
+fn check_ids<'a>(at: &str, ids: impl Iterator<Item = &'a String>, problems: &mut Vec<SceneError>) {
+    let mut seen = HashSet::new();
+    for (i, id) in ids.enumerate() {
+        let legal = |c: char| c.is_ascii_alphanumeric() || "_.:-".contains(c);
+        if id.is_empty() || id.len() > 64 || !id.chars().all(legal) {
+            let reason = "1 to 64 of A-Z a-z 0-9 _ . : - expected";
+            problems.push(SceneError::new(format!("{at}/{i}/id"), "invalid-field", reason));
+        } else if !seen.insert(id) {
+            let reason = format!("id \"{id}\" appears twice");
+            problems.push(SceneError::new(format!("{at}/{i}/id"), "duplicate", reason));
+        }
+        if problems.len() > 64 {
+            return;
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Traffic signals: one state a step for each controlled lane.
+
+use crate::Vec2;
+use serde::{Deserialize, Serialize};
+
+/// State of a signal head, the nine states of WOMD's `TrafficSignalLaneState`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum SignalState {
+    #[default]
+    Unknown,
+    ArrowStop,
+    ArrowCaution,
+    ArrowGo,
+    Stop,
+    Caution,
+    Go,
+    FlashingStop,
+    FlashingCaution,
+}
+
+impl SignalState {
+    /// Traffic on this lane must stop if it can.
+    pub fn is_stop(self) -> bool {
+        matches!(self, Self::Stop | Self::ArrowStop | Self::FlashingStop)
+    }
+
+    /// Traffic on this lane should stop when it can do so comfortably.
+    pub fn is_caution(self) -> bool {
+        matches!(self, Self::Caution | Self::ArrowCaution)
+    }
+}
+
+/// The signal of one lane (or signalled crosswalk) over the scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Signal {
+    /// Lane (or crosswalk) that obeys it.
+    pub lane: String,
+    /// Where to stop, when the source says it.
+    pub stop: Option<Vec2>,
+    /// Height of the stop point, when the source has heights.
+    pub stop_z_m: Option<f64>,
+    /// Run-length: from this step on, this state. First steps rise; never empty.
+    pub runs: Vec<(usize, SignalState)>,
+}
+
+impl Signal {
+    /// State at a step; unknown before the first run.
+    pub fn at(&self, step: usize) -> SignalState {
+        self.runs.iter().rev().find(|(first, _)| *first <= step).map_or(SignalState::Unknown, |r| r.1)
+    }
+
+    /// Steps since the state at `step` began.
+    pub fn age_steps(&self, step: usize) -> usize {
+        self.runs.iter().rev().find(|(first, _)| *first <= step).map_or(0, |r| step - r.0)
+    }
+}
