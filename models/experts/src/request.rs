@@ -1,0 +1,275 @@
+//! What is asked of the generator, and the events it answers with.
+
+use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Which of the road users that are not regenerated answer to those that are.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum React {
+    /// Nobody: the rest keep their log or chosen future.
+    #[default]
+    Nobody,
+    /// Everyone whose motion comes near the regenerated ones.
+    Everyone,
+    /// These alone.
+    Only(BTreeSet<AgentId>),
+}
+
+/// One call of the generator. The scene's agents carry the conditions that hold for this call.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Map, signals, road users with their conditions, and futures that kept road users follow.
+    pub scene: Arc<Scene>,
+    /// Road users to regenerate; `None` means all that can be.
+    pub agents: Option<BTreeSet<AgentId>>,
+    /// Who else answers.
+    pub react: React,
+    /// Scene step at which the window starts.
+    pub start_step: usize,
+    /// Steps to generate; more than 90 needs re-planning.
+    pub horizon_steps: usize,
+    /// Plan anew after so many steps; `None` plans once per 90.
+    pub replan_steps: Option<usize>,
+    /// Repeats the answer.
+    pub seed: u64,
+    /// Independent joint scenes, 1..=32.
+    pub samples: usize,
+    /// Alternatives kept per road user, 1..=6.
+    pub modes: usize,
+    /// Scale of the draw's noise, 0..=2; 0 uses the initializer's modes as they are.
+    pub diversity: f64,
+    /// Denoising steps, 0..=100; 0 returns the initializer's modes.
+    pub steps: usize,
+    /// Futures the user picked: kept as chosen (index into last answer's modes cannot be trusted,
+    /// so the picked motion itself is given).
+    pub pinned: BTreeMap<AgentId, Vec<State>>,
+}
+
+impl Request {
+    /// The defaults of `POST /v1/generate` for a scene.
+    pub fn new(scene: Arc<Scene>) -> Self {
+        Self {
+            scene,
+            agents: None,
+            react: React::Nobody,
+            start_step: 0,
+            horizon_steps: scene::HORIZON_STEPS,
+            replan_steps: None,
+            seed: 0,
+            samples: 1,
+            modes: 6,
+            diversity: 1.0,
+            steps: 5,
+            pinned: BTreeMap::new(),
+        }
+    }
+}
+
+/// Where the value of a field came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// Fixed by the user.
+    User,
+    /// From the recording.
+    Log,
+    /// The kind's default.
+    Default,
+    /// Chosen by the generator.
+    Model,
+}
+
+/// A value and where it came from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Field {
+    /// In the unit of the field's name.
+    pub value: f64,
+    /// Origin.
+    pub from: Source,
+}
+
+/// Whether a goal was met, and what would have been needed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "status", rename_all = "snake_case")]
+pub enum ReachReport {
+    /// Nothing was asked, or all fixed fields are met.
+    Reached {
+        /// Distance to the goal position, metres.
+        position_m: f64,
+        /// Radians.
+        heading_rad: f64,
+        /// m/s.
+        speed_mps: f64,
+    },
+    /// No future within the limits meets it.
+    Unreachable {
+        /// State at the goal time that comes nearest.
+        nearest: NearestState,
+        /// Limit that binds: `acceleration`, `braking`, `lateral`, `curvature`, `speed`.
+        limiting: String,
+        /// What it would take, in that limit's unit, when it can be told.
+        needs: Option<f64>,
+        /// One sentence for people.
+        words: String,
+    },
+}
+
+/// A pose and speed, scene frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct NearestState {
+    pub x_m: f64,
+    pub y_m: f64,
+    pub heading_rad: f64,
+    pub speed_mps: f64,
+}
+
+impl NearestState {
+    /// Position.
+    pub fn position(&self) -> Vec2 {
+        Vec2::new(self.x_m, self.y_m)
+    }
+}
+
+/// Every condition field of one road user as it was used.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Resolved {
+    /// Expert that ran.
+    #[serde(rename = "type")]
+    pub agent_type: AgentType,
+    /// `start.x_m`, `goal.speed_mps`, `length_m` and so on.
+    pub fields: BTreeMap<String, Field>,
+    /// Verdict on the goal.
+    pub reach: ReachReport,
+}
+
+/// Something unlikely that was done anyway.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Warning {
+    /// `goal-unreachable`, `start-off-road`, `start-overlaps`, `goal-off-road`, `extrapolated`.
+    pub code: String,
+    /// Whom it concerns.
+    pub agent: Option<AgentId>,
+    /// One sentence.
+    pub detail: String,
+}
+
+/// First event: what will be done.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Accepted {
+    pub seed: u64,
+    pub regenerated: Vec<AgentId>,
+    pub reacting: Vec<AgentId>,
+    pub fixed: Vec<AgentId>,
+    pub steps: usize,
+    pub windows: usize,
+    pub warnings: Vec<Warning>,
+}
+
+/// Futures that are not settled yet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Draft {
+    /// Planning window, from 0.
+    pub window: usize,
+    /// Joint sample, from 0.
+    pub sample: usize,
+    /// 0 for the initializer's modes, then the denoising step.
+    pub step: usize,
+    /// Denoising steps in all.
+    pub steps: usize,
+    /// Chosen and alternatives; `score` is empty.
+    pub futures: Sample,
+}
+
+/// Milliseconds spent.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Timings {
+    pub encode_ms: f64,
+    pub initial_ms: f64,
+    pub step_ms: Vec<f64>,
+    pub choice_ms: f64,
+}
+
+/// Last event of a call that succeeded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// One coherent scene each.
+    pub samples: Vec<Sample>,
+    /// By regenerated or reacting road user.
+    pub resolved: BTreeMap<AgentId, Resolved>,
+    /// Unlikely things.
+    pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub timings: Timings,
+}
+
+/// What [`crate::Generator::start`] yields, in order: accepted, then per window the drafts, then one answer.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "few exist at a time")]
+pub enum Event {
+    /// First.
+    Accepted(Accepted),
+    /// Initial modes and each refinement step.
+    Draft(Draft),
+    /// Last.
+    Final(Answer),
+}
+
+/// Why a call cannot be answered.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GenerateError {
+    /// No road user has this id.
+    #[error("no road user \"{0}\"")]
+    UnknownAgent(AgentId),
+    /// A start field is free and neither log nor default fills it.
+    #[error("{agent}: start field {field} is free and nothing fills it")]
+    StartMissing {
+        /// Whose.
+        agent: AgentId,
+        /// Which.
+        field: &'static str,
+    },
+    /// More than 128 road users to regenerate.
+    #[error("{found} road users to regenerate; at most {most}")]
+    TooManyAgents {
+        /// Asked.
+        found: usize,
+        /// Allowed.
+        most: usize,
+    },
+    /// A network gave a number that is not finite.
+    #[error("step {step}: the expert gave a number that is not finite for {agent}")]
+    NonFinite {
+        /// 0 for the initializer.
+        step: usize,
+        /// Whose.
+        agent: AgentId,
+    },
+    /// The caller cancelled.
+    #[error("cancelled")]
+    Cancelled,
+    /// Anything the tensor library reports; a defect of the program or its weights.
+    #[error("expert failed: {0}")]
+    Expert(String),
+}
+
+/// Shared flag that stops a call between steps.
+#[derive(Clone, Debug, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// Asks the call to stop.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// True once asked.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
