@@ -1,5 +1,8 @@
 //! Plane geometry of traffic: angles, oriented boxes, polylines.
 
+pub mod obb;
+pub mod ttc;
+
 pub use nalgebra::Vector2;
 
 /// A point or vector in the plane, metres (or m/s), scene frame.

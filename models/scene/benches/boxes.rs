@@ -1,0 +1,3 @@
+//! Cost of box gaps, overlap tables and whole-scene scores.
+
+fn main() {}

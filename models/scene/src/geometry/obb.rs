@@ -1,0 +1,1 @@
+//! Oriented boxes: the outlines of road users.

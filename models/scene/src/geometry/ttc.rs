@@ -1,0 +1,1 @@
+//! Time to collision of two boxes at constant velocity.

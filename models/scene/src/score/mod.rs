@@ -1,0 +1,1 @@
+//! Scores of whole scenes: collisions, near misses, off-road driving, kinematics, goals.
