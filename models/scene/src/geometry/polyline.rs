@@ -1,0 +1,289 @@
+//! Polylines by arc length: sampling, projection, slices, curvature.
+
+use super::{Vec2, cross, direction, wrap_angle};
+
+/// Points closer than this to the one before are the same point, metres.
+const SAME_POINT_M: f64 = 0.01;
+
+/// A place and a direction, metres and radians, scene frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Where.
+    pub position: Vec2,
+    /// Counter-clockwise from +x.
+    pub heading_rad: f64,
+}
+
+impl Pose {
+    /// Pose at `position` that looks along `heading_rad`.
+    pub fn new(position: Vec2, heading_rad: f64) -> Self {
+        Self { position, heading_rad }
+    }
+
+    /// Pose from the three numbers.
+    pub fn xyh(x_m: f64, y_m: f64, heading_rad: f64) -> Self {
+        Self::new(Vec2::new(x_m, y_m), heading_rad)
+    }
+
+    /// Unit vector along the heading.
+    pub fn direction(&self) -> Vec2 {
+        direction(self.heading_rad)
+    }
+}
+
+/// Foot of a point on a [`Polyline`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Projection {
+    /// Arc length of the foot, metres.
+    pub s_m: f64,
+    /// Signed offset, positive to the left of the line, metres. Before the start and beyond the end it
+    /// is measured from the straight continuation, so it may be smaller than the distance.
+    pub lateral_m: f64,
+    /// Distance to the foot, metres.
+    pub distance_m: f64,
+    /// Heading of the line at the foot, radians.
+    pub heading_rad: f64,
+}
+
+/// A line of points with its cumulative arc length and a heading that is continuous along it.
+///
+/// Repeated points are dropped, so every piece has a length; a line of one point has length zero and
+/// heading zero. Never empty: no points at all become the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polyline {
+    points: Vec<Vec2>,
+    /// Arc length of each point, metres.
+    arc: Vec<f64>,
+    /// Heading at each point, unwrapped (neighbours differ by less than pi), radians.
+    headings: Vec<f64>,
+}
+
+impl Default for Polyline {
+    fn default() -> Self {
+        Self::new([])
+    }
+}
+
+impl Polyline {
+    /// Line through `points`. Points that are not finite or repeat the one before are dropped; the last
+    /// point is kept exactly.
+    pub fn new(points: impl IntoIterator<Item = Vec2>) -> Self {
+        let mut kept: Vec<Vec2> = Vec::new();
+        for p in points.into_iter().filter(|p| p.x.is_finite() && p.y.is_finite()) {
+            match kept.last() {
+                Some(last) if (p - last).norm_squared() < SAME_POINT_M * SAME_POINT_M => {
+                    // Keeping the newer of two close points keeps the end exact.
+                    if let (2.., Some(last)) = (kept.len(), kept.last_mut()) {
+                        *last = p;
+                    }
+                }
+                _ => kept.push(p),
+            }
+        }
+        if kept.is_empty() {
+            kept.push(Vec2::zeros());
+        }
+        Self::from_distinct(kept)
+    }
+
+    fn from_distinct(points: Vec<Vec2>) -> Self {
+        let n = points.len();
+        let mut arc = Vec::with_capacity(n);
+        let mut headings = Vec::with_capacity(n);
+        let (mut s, mut last_length, mut last_heading) = (0.0, 0.0, 0.0);
+        arc.push(0.0);
+        for (i, pair) in points.windows(2).enumerate() {
+            let step = pair[1] - pair[0];
+            let length = step.norm();
+            let mut heading = step.y.atan2(step.x);
+            if i == 0 {
+                headings.push(heading);
+            } else {
+                heading = last_heading + wrap_angle(heading - last_heading);
+                // Tangent of the circle through three points.
+                let weight = last_length / (last_length + length);
+                headings.push(last_heading + weight * (heading - last_heading));
+            }
+            s += length;
+            arc.push(s);
+            (last_length, last_heading) = (length, heading);
+        }
+        headings.push(last_heading);
+        Self { points, arc, headings }
+    }
+
+    /// The points.
+    pub fn points(&self) -> &[Vec2] {
+        &self.points
+    }
+
+    /// Arc length of each point, rising from zero, metres.
+    pub fn arc_m(&self) -> &[f64] {
+        &self.arc
+    }
+
+    /// Heading at each point, unwrapped, radians.
+    pub fn headings_rad(&self) -> &[f64] {
+        &self.headings
+    }
+
+    /// Whole length, metres.
+    pub fn length_m(&self) -> f64 {
+        self.arc.last().copied().unwrap_or(0.0)
+    }
+
+    /// First point.
+    pub fn first(&self) -> Pose {
+        self.sample(0.0)
+    }
+
+    /// Last point.
+    pub fn last(&self) -> Pose {
+        self.sample(self.length_m())
+    }
+
+    /// Index of the piece that holds arc length `s`, and the share of it before `s` (0 to 1).
+    fn locate(&self, s: f64) -> (usize, f64) {
+        if self.points.len() < 2 || s.is_nan() {
+            return (0, 0.0);
+        }
+        let i = self.arc.partition_point(|a| *a <= s).clamp(1, self.points.len() - 1) - 1;
+        (i, ((s - self.arc[i]) / (self.arc[i + 1] - self.arc[i])).clamp(0.0, 1.0))
+    }
+
+    /// Pose at arc length `s_m`, held at the ends.
+    pub fn sample(&self, s_m: f64) -> Pose {
+        let (i, t) = self.locate(s_m);
+        let j = (i + 1).min(self.points.len() - 1);
+        let heading = self.headings[i] + t * (self.headings[j] - self.headings[i]);
+        Pose::new(self.points[i] + t * (self.points[j] - self.points[i]), wrap_angle(heading))
+    }
+
+    /// Pose at arc length `s_m`; before the start and beyond the end the line goes on straight.
+    pub fn extrapolate(&self, s_m: f64) -> Pose {
+        let pose = self.sample(s_m);
+        let beyond = s_m - s_m.clamp(0.0, self.length_m());
+        Pose::new(pose.position + beyond * pose.direction(), pose.heading_rad)
+    }
+
+    /// Unwrapped heading at arc length `s_m`, held at the ends, radians.
+    pub fn heading_at(&self, s_m: f64) -> f64 {
+        let (i, t) = self.locate(s_m);
+        let j = (i + 1).min(self.points.len() - 1);
+        self.headings[i] + t * (self.headings[j] - self.headings[i])
+    }
+
+    /// Curvature at arc length `s_m` as the change of heading over `window_m` around it, 1/m, positive
+    /// to the left. Near the ends the window is cut.
+    pub fn curvature_at(&self, s_m: f64, window_m: f64) -> f64 {
+        let from = (s_m - 0.5 * window_m).max(0.0);
+        let to = (s_m + 0.5 * window_m).min(self.length_m());
+        if to - from < 1e-6 { 0.0 } else { (self.heading_at(to) - self.heading_at(from)) / (to - from) }
+    }
+
+    /// Curvature at every point, see [`Polyline::curvature_at`].
+    pub fn curvatures(&self, window_m: f64) -> Vec<f64> {
+        self.arc.iter().map(|s| self.curvature_at(*s, window_m)).collect()
+    }
+
+    /// Greatest absolute curvature at the points from `from_m` to `to_m`.
+    pub fn max_curvature(&self, from_m: f64, to_m: f64, window_m: f64) -> f64 {
+        let inside = self.arc.iter().filter(|s| (from_m..=to_m).contains(*s));
+        inside.map(|s| self.curvature_at(*s, window_m).abs()).fold(0.0, f64::max)
+    }
+
+    /// Foot of `point` on the whole line.
+    pub fn project(&self, point: Vec2) -> Projection {
+        self.project_between(point, 0.0, f64::INFINITY)
+    }
+
+    /// Foot of `point` on the part from `from_m` to `to_m`; for lines that come near themselves again.
+    pub fn project_between(&self, point: Vec2, from_m: f64, to_m: f64) -> Projection {
+        let (mut best, mut best_d2, mut foot_s) = (0, f64::INFINITY, 0.0);
+        for i in 0..self.points.len().saturating_sub(1) {
+            if self.arc[i + 1] < from_m || self.arc[i] > to_m {
+                continue;
+            }
+            let (t, d2) = foot_on_piece(self.points[i], self.points[i + 1], point);
+            if d2 < best_d2 {
+                let length = self.arc[i + 1] - self.arc[i];
+                (best, best_d2, foot_s) = (i, d2, self.arc[i] + t * length);
+            }
+        }
+        if best_d2.is_infinite() {
+            return self.projection_at(self.locate(from_m).0, from_m.clamp(0.0, self.length_m()), point);
+        }
+        self.projection_at(best, foot_s.clamp(from_m, to_m.max(from_m)), point)
+    }
+
+    /// Projection of `point` whose foot lies on piece `piece` at arc length `s_m`.
+    pub(crate) fn projection_at(&self, piece: usize, s_m: f64, point: Vec2) -> Projection {
+        let Pose { position: foot, heading_rad } = self.sample(s_m);
+        let away = point - foot;
+        let distance_m = away.norm();
+        let along = match (self.points.get(piece), self.points.get(piece + 1)) {
+            (Some(a), Some(b)) => (b - a).normalize(),
+            _ => direction(heading_rad),
+        };
+        let side = cross(along, away);
+        let inside = s_m > 0.0 && s_m < self.length_m();
+        let lateral_m = if inside { distance_m.copysign(side) } else { side };
+        Projection { s_m, lateral_m, distance_m, heading_rad }
+    }
+
+    /// Foot of `point` on piece `piece`: arc length and squared distance.
+    pub(crate) fn foot_on(&self, piece: usize, point: Vec2) -> (f64, f64) {
+        let (Some(a), Some(b)) = (self.points.get(piece), self.points.get(piece + 1)) else {
+            return (0.0, f64::INFINITY);
+        };
+        let (t, d2) = foot_on_piece(*a, *b, point);
+        (self.arc[piece] + t * (self.arc[piece + 1] - self.arc[piece]), d2)
+    }
+
+    /// The part from `from_m` to `to_m` (held at the ends), with exact end points.
+    pub fn slice(&self, from_m: f64, to_m: f64) -> Self {
+        let (from, to) = (from_m.clamp(0.0, self.length_m()), to_m.clamp(0.0, self.length_m()));
+        let inner = self.arc.iter().zip(&self.points).filter(|(s, _)| **s > from && **s < to);
+        let inner = inner.map(|(_, p)| *p);
+        let ends = (self.sample(from).position, self.sample(to.max(from)).position);
+        Self::new([ends.0].into_iter().chain(inner).chain([ends.1]))
+    }
+
+    /// Points at equal distances of at most `step_m`; both ends stay exact.
+    pub fn resample(&self, step_m: f64) -> Self {
+        let length = self.length_m();
+        if length < SAME_POINT_M {
+            return self.clone();
+        }
+        let pieces = (length / step_m.max(SAME_POINT_M) - 1e-9).ceil().clamp(1.0, 1e6) as usize;
+        Self::new((0..=pieces).map(|i| self.sample(length * i as f64 / pieces as f64).position))
+    }
+
+    /// Mean over a window of `2 half_m` around each point, the window narrowing towards the ends so that
+    /// these stay: rounds off the kinks where lanes meet. Meant for evenly spaced lines.
+    pub fn smoothed(&self, half_m: f64) -> Self {
+        let n = self.points.len();
+        let spacing = self.length_m() / n.saturating_sub(1).max(1) as f64;
+        let half = if spacing > 0.0 { (half_m / spacing).round() as usize } else { 0 };
+        if half == 0 || n < 3 {
+            return self.clone();
+        }
+        let mean = |i: usize| {
+            let h = half.min(i).min(n - 1 - i);
+            self.points[i - h..=i + h].iter().sum::<Vec2>() / (2 * h + 1) as f64
+        };
+        Self::new((0..n).map(mean))
+    }
+
+    /// The line in the other direction.
+    pub fn reversed(&self) -> Self {
+        Self::new(self.points.iter().rev().copied())
+    }
+}
+
+/// Foot of `point` on the piece from `a` to `b`: share of the piece (0 to 1) and squared distance.
+fn foot_on_piece(a: Vec2, b: Vec2, point: Vec2) -> (f64, f64) {
+    let piece = b - a;
+    let t = ((point - a).dot(&piece) / piece.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+    (t, (point - a - t * piece).norm_squared())
+}

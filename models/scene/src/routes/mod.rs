@@ -1,0 +1,48 @@
+//! Routes along the lane graph: where a road user may go, and the paths that lead to a goal.
+//!
+//! [`LaneGraph`] is built once a map and shared. [`routes_ahead`] and [`routes_to_goal`] list paths,
+//! [`base_path`] bends one so that it starts (and ends) exactly where the road user does, and
+//! [`speed`] says how fast it can be driven and what stands in the way.
+
+pub mod ahead;
+pub mod blend;
+pub mod graph;
+pub mod speed;
+pub mod to_goal;
+
+pub use crate::geometry::polyline::{Polyline, Pose, Projection};
+pub use ahead::{MAX_ROUTES, route_length_m, routes_ahead};
+pub use blend::{EndPose, base_path};
+pub use graph::{GraphLane, LaneGraph, LaneHit};
+pub use speed::{Leader, Obstacle, SignalAhead, SpeedRules};
+pub use to_goal::{GoalQuery, GoalRoute, RouteKind, routes_to_goal};
+
+/// A stretch of one lane on a route.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// Index into [`LaneGraph::lanes`].
+    pub lane: usize,
+    /// Arc length on the lane where the leg begins, metres.
+    pub from_m: f64,
+    /// Arc length on the lane where the leg ends, metres.
+    pub to_m: f64,
+    /// Arc length on [`Route::path`] where the leg begins, metres.
+    pub path_from_m: f64,
+}
+
+/// A path along lanes, from where the road user stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Route {
+    /// Lanes in driving order.
+    pub legs: Vec<Leg>,
+    /// Lane centres, points about 1 m apart; begins at the road user's foot on the first lane.
+    pub path: Polyline,
+    /// Speed limit at every point of `path`, m/s; assumed by lane type where the map gives none.
+    pub limits_mps: Vec<f64>,
+    /// The road user's offset from the path, positive to the left, metres.
+    pub lateral_m: f64,
+    /// The road user's heading minus the path's, wrapped, radians.
+    pub heading_error_rad: f64,
+    /// The graph ends where the path does: nobody knows how it goes on.
+    pub terminal: bool,
+}
