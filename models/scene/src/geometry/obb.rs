@@ -1,1 +1,413 @@
-//! Oriented boxes: the outlines of road users.
+//! Oriented boxes: the outlines of road users, the gap between two of them, their overlap, and a
+//! smooth energy that pushes them apart.
+
+use super::Vec2;
+use crate::{Size, State};
+
+/// A rectangle in the plane: the outline of a road user seen from above. Immutable, so that the
+/// cached direction always fits the heading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrientedBox {
+    center: Vec2,
+    half_length_m: f64,
+    half_width_m: f64,
+    heading_rad: f64,
+    forward: Vec2,
+    radius_m: f64,
+}
+
+impl OrientedBox {
+    /// Box about `center` (metres) with half its length along `heading_rad` and half its width across.
+    /// Negative half sizes count as zero.
+    pub fn new(center: Vec2, half_length_m: f64, half_width_m: f64, heading_rad: f64) -> Self {
+        let (half_length_m, half_width_m) = (half_length_m.max(0.0), half_width_m.max(0.0));
+        let (sin, cos) = heading_rad.sin_cos();
+        let forward = Vec2::new(cos, sin);
+        let radius_m = half_length_m.hypot(half_width_m);
+        Self { center, half_length_m, half_width_m, heading_rad, forward, radius_m }
+    }
+
+    /// Box of a road user of this size in this state.
+    pub fn of_state(state: &State, size: &Size) -> Self {
+        Self::new(state.position(), 0.5 * size.length_m, 0.5 * size.width_m, state.heading_rad)
+    }
+
+    /// Centre, metres.
+    pub fn center(&self) -> Vec2 {
+        self.center
+    }
+
+    /// Half the extent along the heading, metres.
+    pub fn half_length_m(&self) -> f64 {
+        self.half_length_m
+    }
+
+    /// Half the extent across the heading, metres.
+    pub fn half_width_m(&self) -> f64 {
+        self.half_width_m
+    }
+
+    /// Heading as given, radians.
+    pub fn heading_rad(&self) -> f64 {
+        self.heading_rad
+    }
+
+    /// Unit vector along the heading.
+    pub fn forward(&self) -> Vec2 {
+        self.forward
+    }
+
+    /// Unit vector to the left of the heading.
+    pub fn left(&self) -> Vec2 {
+        Vec2::new(-self.forward.y, self.forward.x)
+    }
+
+    /// Radius of the circle about the centre that holds the box, metres.
+    pub fn radius_m(&self) -> f64 {
+        self.radius_m
+    }
+
+    /// Area, m2.
+    pub fn area_m2(&self) -> f64 {
+        4.0 * self.half_length_m * self.half_width_m
+    }
+
+    /// The box with every side moved outwards by `margin_m` (inwards when negative, to a line at most).
+    pub fn grown(&self, margin_m: f64) -> Self {
+        let (length, width) = (self.half_length_m + margin_m, self.half_width_m + margin_m);
+        Self::new(self.center, length, width, self.heading_rad)
+    }
+
+    /// Corners counter-clockwise from the front left: front left, rear left, rear right, front right.
+    pub fn corners(&self) -> [Vec2; 4] {
+        let (along, across) = (self.forward * self.half_length_m, self.left() * self.half_width_m);
+        [
+            self.center + along + across,
+            self.center - along + across,
+            self.center - along - across,
+            self.center + along - across,
+        ]
+    }
+
+    /// `point` in the frame of the box: x ahead of the centre, y to its left, metres.
+    pub fn local(&self, point: Vec2) -> Vec2 {
+        self.local_vector(point - self.center)
+    }
+
+    fn local_vector(&self, v: Vec2) -> Vec2 {
+        Vec2::new(v.dot(&self.forward), v.dot(&self.left()))
+    }
+
+    fn world_vector(&self, v: Vec2) -> Vec2 {
+        self.forward * v.x + self.left() * v.y
+    }
+
+    /// Half extents along x and y of the upright rectangle that holds the box, metres.
+    pub fn upright_half_extents(&self) -> Vec2 {
+        let (c, s) = (self.forward.x.abs(), self.forward.y.abs());
+        let (l, w) = (self.half_length_m, self.half_width_m);
+        Vec2::new(c * l + s * w, s * l + c * w)
+    }
+
+    /// Signed distance from the box to a point (negative inside, metres) and its gradient in the
+    /// frame of the box (a unit vector that points outwards).
+    fn distance_local(&self, p: Vec2) -> (f64, Vec2) {
+        let (sx, sy) = (1f64.copysign(p.x), 1f64.copysign(p.y));
+        let (dx, dy) = (p.x.abs() - self.half_length_m, p.y.abs() - self.half_width_m);
+        if dx > 0.0 && dy > 0.0 {
+            let d = dx.hypot(dy);
+            (d, Vec2::new(sx * dx / d, sy * dy / d))
+        } else if dx > dy {
+            (dx, Vec2::new(sx, 0.0))
+        } else {
+            (dy, Vec2::new(0.0, sy))
+        }
+    }
+}
+
+/// Gap between two boxes and the unit vector along which it is least, from `a` towards `b`.
+///
+/// Positive: the distance between the nearest points. Negative: the depth, which is how far one box
+/// must move to free them. Zero: they touch. Exact for boxes (separating axes for the depth, corners
+/// against sides for the distance). Constant cost, some 60 flops when overlapping or far apart.
+pub fn gap_and_direction(a: &OrientedBox, b: &OrientedBox) -> (f64, Vec2) {
+    let between = b.center - a.center;
+    let (in_a, in_b) = (a.local_vector(between), b.local_vector(between));
+    let turn = a.local_vector(b.forward);
+    let (c, s) = (turn.x.abs(), turn.y.abs());
+    let axes = [
+        (in_a.x, a.forward, a.half_length_m + b.half_length_m * c + b.half_width_m * s),
+        (in_a.y, a.left(), a.half_width_m + b.half_length_m * s + b.half_width_m * c),
+        (in_b.x, b.forward, b.half_length_m + a.half_length_m * c + a.half_width_m * s),
+        (in_b.y, b.left(), b.half_width_m + a.half_length_m * s + a.half_width_m * c),
+    ];
+    let mut best = (f64::NEG_INFINITY, a.forward);
+    for (offset, axis, reach) in axes {
+        let separation = offset.abs() - reach;
+        if separation > best.0 {
+            best = (separation, axis * 1f64.copysign(offset));
+        }
+    }
+    if best.0 <= 0.0 { best } else { nearest_corner(a, b) }
+}
+
+/// Distance of two boxes that are apart: in the plane the nearest points always include a corner.
+fn nearest_corner(a: &OrientedBox, b: &OrientedBox) -> (f64, Vec2) {
+    let mut best = (f64::INFINITY, Vec2::zeros());
+    for (holder, other, sign) in [(a, b, 1.0), (b, a, -1.0)] {
+        for corner in other.corners() {
+            let (distance, outwards) = holder.distance_local(holder.local(corner));
+            if distance < best.0 {
+                best = (distance, holder.world_vector(outwards) * sign);
+            }
+        }
+    }
+    best
+}
+
+/// Gap between two boxes, metres: separation when positive, depth when negative, zero at touch.
+///
+/// ```
+/// use scene::geometry::{Vec2, obb::{OrientedBox, signed_gap}};
+/// let car = OrientedBox::new(Vec2::new(0.0, 0.0), 2.0, 1.0, 0.0);
+/// let beside = OrientedBox::new(Vec2::new(0.0, 3.5), 2.0, 1.0, 0.0);
+/// assert_eq!(signed_gap(&car, &beside), 1.5);
+/// let across = OrientedBox::new(Vec2::new(2.5, 0.0), 2.0, 1.0, std::f64::consts::FRAC_PI_2);
+/// assert!((signed_gap(&car, &across) + 0.5).abs() < 1e-12); // half a metre deep
+/// ```
+pub fn signed_gap(a: &OrientedBox, b: &OrientedBox) -> f64 {
+    gap_and_direction(a, b).0
+}
+
+/// Distance between the bounding circles, metres: never more than [`signed_gap`] for boxes apart.
+pub fn circle_gap(a: &OrientedBox, b: &OrientedBox) -> f64 {
+    (b.center - a.center).norm() - a.radius_m - b.radius_m
+}
+
+/// True when the gap is less than `margin_m`: with zero, the boxes share area (touching does not
+/// count); with 0.5, they come closer than half a metre. Far boxes cost one distance.
+///
+/// ```
+/// use scene::geometry::{Vec2, obb::{OrientedBox, overlaps}};
+/// let a = OrientedBox::new(Vec2::new(0.0, 0.0), 2.0, 1.0, 0.0);
+/// let b = OrientedBox::new(Vec2::new(4.0, 0.0), 2.0, 1.0, 0.0);
+/// assert!(!overlaps(&a, &b, 0.0));
+/// assert!(overlaps(&a, &b, 0.5));
+/// ```
+pub fn overlaps(a: &OrientedBox, b: &OrientedBox, margin_m: f64) -> bool {
+    let reach = a.radius_m + b.radius_m + margin_m;
+    reach > 0.0 && (b.center - a.center).norm_squared() < reach * reach && signed_gap(a, b) < margin_m
+}
+
+/// Area that two boxes share, m2: `a` clipped by the four sides of `b` (Sutherland and Hodgman 1974).
+pub fn shared_area_m2(a: &OrientedBox, b: &OrientedBox) -> f64 {
+    if !overlaps(a, b, 0.0) {
+        return 0.0;
+    }
+    // A quadrangle gains at most one corner at each of four cuts.
+    let mut ring = [Vec2::zeros(); 8];
+    let mut len = 4;
+    for (slot, corner) in ring.iter_mut().zip(a.corners()) {
+        *slot = b.local(corner);
+    }
+    let (l, w) = (b.half_length_m, b.half_width_m);
+    for (normal, reach) in [(Vec2::x(), l), (-Vec2::x(), l), (Vec2::y(), w), (-Vec2::y(), w)] {
+        (ring, len) = clip(&ring[..len], normal, reach);
+    }
+    let doubled: f64 = (0..len).map(|i| super::cross(ring[i], ring[(i + 1) % len])).sum();
+    (0.5 * doubled).max(0.0)
+}
+
+/// Keeps the part of a convex ring where `normal . p <= reach`.
+fn clip(ring: &[Vec2], normal: Vec2, reach: f64) -> ([Vec2; 8], usize) {
+    let (mut kept, mut len) = ([Vec2::zeros(); 8], 0);
+    let mut push = |p| {
+        if len < kept.len() {
+            kept[len] = p;
+            len += 1;
+        }
+    };
+    for (i, &p) in ring.iter().enumerate() {
+        let q = ring[(i + 1) % ring.len()];
+        let (over_p, over_q) = (normal.dot(&p) - reach, normal.dot(&q) - reach);
+        if over_p <= 0.0 {
+            push(p);
+        }
+        if (over_p < 0.0 && over_q > 0.0) || (over_p > 0.0 && over_q < 0.0) {
+            push(p + (q - p) * (over_p / (over_p - over_q)));
+        }
+    }
+    (kept, len)
+}
+
+/// Shared area over joint area (intersection over union), 0 to 1.
+///
+/// ```
+/// use scene::geometry::{Vec2, obb::{OrientedBox, iou}};
+/// let a = OrientedBox::new(Vec2::new(0.0, 0.0), 2.0, 1.0, 0.0);
+/// let b = OrientedBox::new(Vec2::new(2.0, 0.0), 2.0, 1.0, 0.0);
+/// assert!((iou(&a, &b) - 1.0 / 3.0).abs() < 1e-12);
+/// ```
+pub fn iou(a: &OrientedBox, b: &OrientedBox) -> f64 {
+    let shared = shared_area_m2(a, b);
+    if shared > 0.0 { shared / (a.area_m2() + b.area_m2() - shared) } else { 0.0 }
+}
+
+/// Discs along the longer axis of a box, as wide as the box: offsets of their centres along
+/// `axis`, and their radius. One disc for a square, three for a car, more for a bus.
+fn discs(of: &OrientedBox) -> (impl Iterator<Item = f64> + use<>, Vec2, f64) {
+    let along = of.half_length_m >= of.half_width_m;
+    let (half_long, radius) =
+        if along { (of.half_length_m, of.half_width_m) } else { (of.half_width_m, of.half_length_m) };
+    let axis = if along { of.forward } else { of.left() };
+    let span = half_long - radius;
+    let wanted = (2.0 * span / (1.5 * radius).max(0.05) - 1e-9).ceil().clamp(0.0, 15.0);
+    let pitch = if wanted > 0.0 { 2.0 * span / wanted } else { 0.0 };
+    ((0..=wanted as usize).map(move |i| i as f64 * pitch - span), axis, radius)
+}
+
+/// Energy of two boxes that come closer than `reach_m`, in m2, and its gradient with respect to the
+/// pose of `a`: `[d/dx, d/dy, d/dheading]`.
+///
+/// Sum of relu(reach - gap)^2 over the discs along `a` against box `b` and the discs along `b` against
+/// box `a` (`refinement.md` section 3). Symmetric: swap the boxes for the gradient of the other pose.
+/// Zero with a zero gradient when they are farther apart; continuous, and smooth but for the lines
+/// where the nearest side of a box changes. Far boxes cost one distance.
+///
+/// ```
+/// use scene::geometry::{Vec2, obb::{OrientedBox, overlap_energy}};
+/// let a = OrientedBox::new(Vec2::new(0.0, 0.0), 0.4, 0.4, 0.0);
+/// let b = OrientedBox::new(Vec2::new(1.0, 0.0), 0.4, 0.4, 0.0);
+/// let (energy, gradient) = overlap_energy(&a, &b, 0.5); // the gap is 0.2, counted from both sides
+/// assert!((energy - 2.0 * 0.3f64.powi(2)).abs() < 1e-12);
+/// assert!((gradient[0] - 2.0 * 2.0 * 0.3).abs() < 1e-12); // towards b it rises
+/// ```
+pub fn overlap_energy(a: &OrientedBox, b: &OrientedBox, reach_m: f64) -> (f64, [f64; 3]) {
+    let far = a.radius_m + b.radius_m + reach_m;
+    if far <= 0.0 || (b.center - a.center).norm_squared() >= far * far {
+        return (0.0, [0.0; 3]);
+    }
+    let (mut energy, mut gradient) = (0.0, [0.0; 3]);
+    let mut add = |short: f64, d_position: Vec2, d_heading: f64| {
+        energy += short * short;
+        gradient[0] -= 2.0 * short * d_position.x;
+        gradient[1] -= 2.0 * short * d_position.y;
+        gradient[2] -= 2.0 * short * d_heading;
+    };
+    let (offsets, axis, radius) = discs(a);
+    for offset in offsets {
+        let arm = axis * offset;
+        let (distance, outwards) = b.distance_local(b.local(a.center + arm));
+        let short = reach_m - (distance - radius);
+        if short > 0.0 {
+            let away = b.world_vector(outwards);
+            add(short, away, super::cross(arm, away));
+        }
+    }
+    let (offsets, axis, radius) = discs(b);
+    for offset in offsets {
+        let local = a.local(b.center + axis * offset);
+        let (distance, outwards) = a.distance_local(local);
+        let short = reach_m - (distance - radius);
+        if short > 0.0 {
+            // Turning the box by +h turns the point by -h in its frame.
+            add(short, -a.world_vector(outwards), -super::cross(local, outwards));
+        }
+    }
+    (energy, gradient)
+}
+
+/// The box moved by `shift` after turning it about the origin by `angle_rad`.
+#[cfg(test)]
+pub(crate) fn moved(of: &OrientedBox, angle_rad: f64, shift: Vec2) -> OrientedBox {
+    let center = super::rotate(of.center, angle_rad) + shift;
+    OrientedBox::new(center, of.half_length_m, of.half_width_m, of.heading_rad + angle_rad)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
+
+    fn car(x: f64, y: f64, heading: f64) -> OrientedBox {
+        OrientedBox::new(Vec2::new(x, y), 2.0, 1.0, heading)
+    }
+
+    fn any_box() -> impl Strategy<Value = OrientedBox> {
+        (-6.0..6.0, -6.0..6.0, 0.2..6.0, 0.2..2.0, -4.0..4.0)
+            .prop_map(|(x, y, l, w, h)| OrientedBox::new(Vec2::new(x, y), l, w, h))
+    }
+
+    #[test]
+    fn known_gaps() {
+        let a = car(0.0, 0.0, 0.0);
+        assert_eq!(signed_gap(&a, &car(4.0, 0.0, 0.0)), 0.0);
+        assert!(!overlaps(&a, &car(4.0, 0.0, 0.0), 0.0));
+        assert_eq!(signed_gap(&a, &car(7.0, 6.0, 0.0)), 5.0); // corner to corner: 3, 4, 5
+        assert!((signed_gap(&a, &a) + 2.0).abs() < 1e-12);
+        let diamond = OrientedBox::new(Vec2::new(2.0 + SQRT_2 + 0.25, 0.0), 1.0, 1.0, FRAC_PI_4);
+        assert!((signed_gap(&a, &diamond) - 0.25).abs() < 1e-12);
+        let (gap, towards) = gap_and_direction(&a, &car(0.0, -3.0, FRAC_PI_2 * 2.0));
+        assert!((gap - 1.0).abs() < 1e-12 && (towards - Vec2::new(0.0, -1.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn known_overlap_areas() {
+        let square = |x, h| OrientedBox::new(Vec2::new(x, 0.0), 1.0, 1.0, h);
+        assert!((iou(&square(0.0, 0.0), &square(0.0, 0.0)) - 1.0).abs() < 1e-12);
+        // A square and the same square turned by 45 degrees share a regular octagon.
+        let octagon = 8.0 * (SQRT_2 - 1.0);
+        assert!((shared_area_m2(&square(0.0, 0.0), &square(0.0, FRAC_PI_4)) - octagon).abs() < 1e-12);
+        assert_eq!(iou(&square(0.0, 0.0), &square(2.0, 0.0)), 0.0);
+    }
+
+    #[test]
+    fn disc_counts() {
+        let count = |l, w| discs(&OrientedBox::new(Vec2::zeros(), l, w, 0.0)).0.count();
+        assert_eq!([count(0.4, 0.4), count(2.35, 1.0), count(6.0, 1.3), count(0.2, 0.5)], [1, 3, 6, 3]);
+    }
+
+    proptest! {
+        #[test]
+        fn symmetric_and_invariant(a in any_box(), b in any_box(), turn in -4.0..4.0, x in -50.0..50.0) {
+            let gap = signed_gap(&a, &b);
+            let (am, bm) = (moved(&a, turn, Vec2::new(x, -x)), moved(&b, turn, Vec2::new(x, -x)));
+            prop_assert!((gap - signed_gap(&b, &a)).abs() < 1e-9);
+            prop_assert!((gap - signed_gap(&am, &bm)).abs() < 1e-9);
+            prop_assert!((iou(&a, &b) - iou(&b, &a)).abs() < 1e-9);
+            prop_assert!((iou(&a, &b) - iou(&am, &bm)).abs() < 1e-9);
+            prop_assert!((overlap_energy(&a, &b, 0.5).0 - overlap_energy(&bm, &am, 0.5).0).abs() < 1e-7);
+            prop_assert!(circle_gap(&a, &b) <= gap.max(0.0) + 1e-9);
+        }
+
+        #[test]
+        fn overlap_is_negative_gap(a in any_box(), b in any_box()) {
+            let (gap, towards) = gap_and_direction(&a, &b);
+            prop_assume!(gap.abs() > 1e-6);
+            prop_assert_eq!(overlaps(&a, &b, 0.0), gap < 0.0);
+            prop_assert_eq!(iou(&a, &b) > 0.0, gap < 0.0);
+            // Moving b by the gap along the direction brings the two to a touch.
+            let touching = moved(&b, 0.0, -towards * gap);
+            prop_assert!(signed_gap(&a, &touching).abs() < 1e-6);
+        }
+
+        #[test]
+        fn energy_gradient_matches_differences(a in any_box(), b in any_box()) {
+            let at = |dx: f64, dy: f64, dh: f64| {
+                let shifted = OrientedBox::new(
+                    a.center + Vec2::new(dx, dy), a.half_length_m, a.half_width_m, a.heading_rad + dh);
+                overlap_energy(&shifted, &b, 0.5).0
+            };
+            let (_, gradient) = overlap_energy(&a, &b, 0.5);
+            for (axis, value) in gradient.into_iter().enumerate() {
+                let d = |h: f64| at(
+                    if axis == 0 { h } else { 0.0 }, if axis == 1 { h } else { 0.0 }, if axis == 2 { h } else { 0.0 });
+                let (left, right) = ((d(0.0) - d(-1e-6)) / 1e-6, (d(1e-6) - d(0.0)) / 1e-6);
+                // Where the nearest side changes the two one-sided slopes differ: no gradient there.
+                prop_assume!((left - right).abs() < 1e-3);
+                prop_assert!((0.5 * (left + right) - value).abs() < 2e-3 * (1.0 + value.abs()));
+            }
+        }
+    }
+}
