@@ -1,0 +1,51 @@
+//! Files of the traffic simulator SUMO: road networks (`net.xml`), floating-car data (FCD) and recorded
+//! signal states. The program itself is never linked.
+
+pub mod fcd;
+pub mod kerb;
+pub mod map;
+pub mod net;
+pub mod polyline;
+pub mod signals;
+
+/// Why a SUMO file could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum SumoError {
+    /// Not well-formed XML (a document type definition is refused too).
+    #[error("not readable as XML: {0}")]
+    Xml(#[from] roxmltree::Error),
+    /// A required attribute is not there.
+    #[error("line {line}: <{element}> has no attribute \"{attribute}\"")]
+    Missing {
+        /// Element name.
+        element: String,
+        /// Attribute that was expected.
+        attribute: &'static str,
+        /// Line in the file, from 1.
+        line: u32,
+    },
+    /// An attribute or a field is no number or no list of points.
+    #[error("line {line}: \"{found}\" found where {expected} was expected")]
+    Value {
+        /// What stands there, shortened.
+        found: String,
+        /// What should.
+        expected: &'static str,
+        /// Line in the file, from 1.
+        line: u32,
+    },
+    /// The file holds something else.
+    #[error("expected {expected}, found {found}")]
+    Content {
+        /// What should be there.
+        expected: &'static str,
+        /// What is.
+        found: String,
+    },
+}
+
+impl SumoError {
+    fn value(found: &str, expected: &'static str, line: u32) -> Self {
+        Self::Value { found: found.chars().take(40).collect(), expected, line }
+    }
+}
