@@ -1,15 +1,59 @@
 //! The lane graph: lanes as polylines with links, neighbours and a spatial index.
 
+use super::grid::Grid;
+use super::links;
+use super::walks;
 use crate::geometry::polyline::Polyline;
-use crate::map::LaneType;
+use crate::map::{Lane, LaneType};
 use crate::{AgentType, LaneMap, Vec2};
+use std::collections::HashMap;
+
+/// What a lane of the graph was made from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LaneSource {
+    /// This lane of the map, in its direction.
+    Lane(usize),
+    /// This sidewalk of the map, against its direction.
+    Reversed(usize),
+    /// This crosswalk, along its longer axis, one way or the other.
+    Crosswalk(usize),
+}
+
+/// A lane beside another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beside {
+    /// The other lane.
+    pub lane: usize,
+    /// Arc lengths on the own lane between which the two lie side by side, metres.
+    pub own_m: (f64, f64),
+    /// The same on the other lane, metres; falling when it runs the other way.
+    pub other_m: (f64, f64),
+    /// Both run the same way.
+    pub same_direction: bool,
+}
+
+impl Beside {
+    /// Arc length on the other lane beside `s_m` on the own one; `None` outside the common part.
+    pub fn across(&self, s_m: f64) -> Option<f64> {
+        let (from, to) = self.own_m;
+        if s_m < from || s_m > to {
+            return None;
+        }
+        let share = if to - from > 1e-6 { (s_m - from) / (to - from) } else { 0.0 };
+        Some(self.other_m.0 + share * (self.other_m.1 - self.other_m.0))
+    }
+}
 
 /// One lane of the graph.
 #[derive(Clone, Debug)]
 pub struct GraphLane {
-    /// Lane type.
+    /// Where it comes from.
+    pub source: LaneSource,
+    /// Lane type; sidewalk for crosswalks.
     pub lane_type: LaneType,
-    /// Centre line.
+    /// Leads through a junction between two lanes.
+    pub interpolating: bool,
+    /// Centre line; of zero length where the map's lane is.
     pub path: Polyline,
     /// Width, assumed from the type where the map gives none, metres.
     pub width_m: f64,
@@ -19,12 +63,76 @@ pub struct GraphLane {
     pub successors: Vec<usize>,
     /// Lanes that lead here.
     pub predecessors: Vec<usize>,
+    /// Lanes to the left.
+    pub left: Vec<Beside>,
+    /// Lanes to the right.
+    pub right: Vec<Beside>,
+    /// Arc length of the place beside this lane's stop sign, metres.
+    pub stop_sign_m: Option<f64>,
 }
 
-/// Lanes, links and spatial index of one map.
+impl GraphLane {
+    /// Road users of this type use the lane: motor vehicles what carries vehicles, cyclists bike lanes and
+    /// streets, people on foot sidewalks and crosswalks, others nothing.
+    pub fn carries(&self, agent_type: AgentType) -> bool {
+        match agent_type {
+            AgentType::Vehicle => self.lane_type.carries_vehicles(),
+            AgentType::Cyclist => self.lane_type.carries_cyclists(),
+            AgentType::Pedestrian => self.lane_type == LaneType::Sidewalk,
+            AgentType::Other => false,
+        }
+    }
+
+    /// Lanes on both sides.
+    pub fn beside(&self) -> impl Iterator<Item = &Beside> {
+        self.left.iter().chain(&self.right)
+    }
+
+    pub(super) fn new(source: LaneSource, lane_type: LaneType, path: Polyline) -> Self {
+        Self {
+            source,
+            lane_type,
+            interpolating: false,
+            path,
+            width_m: lane_type.assumed_width_m(),
+            speed_limit_mps: assumed_speed_limit_mps(lane_type),
+            successors: Vec::new(),
+            predecessors: Vec::new(),
+            left: Vec::new(),
+            right: Vec::new(),
+            stop_sign_m: None,
+        }
+    }
+
+    fn of_map(index: usize, lane: &Lane) -> Self {
+        let path = Polyline::new(lane.points.xy.iter().copied());
+        let assumed = Self::new(LaneSource::Lane(index), lane.lane_type, path);
+        Self {
+            interpolating: lane.interpolating,
+            width_m: lane.width_or_assumed_m(),
+            speed_limit_mps: lane.speed_limit_mps.filter(|v| *v > 0.0).unwrap_or(assumed.speed_limit_mps),
+            ..assumed
+        }
+    }
+}
+
+/// Speed limit where the map gives none: 30 mph in streets, 65 mph on freeways (WOMD's most frequent).
+pub fn assumed_speed_limit_mps(lane_type: LaneType) -> f64 {
+    match lane_type {
+        LaneType::Freeway => 29.0,
+        LaneType::Undefined | LaneType::SurfaceStreet | LaneType::BusLane => 13.4,
+        LaneType::BikeLane => 8.0,
+        LaneType::Parking => 4.0,
+        LaneType::Sidewalk => 2.0,
+    }
+}
+
+/// Lanes, links and spatial index of one map. Immutable; build it once a map and share it.
 #[derive(Clone, Debug, Default)]
 pub struct LaneGraph {
     lanes: Vec<GraphLane>,
+    by_id: HashMap<String, usize>,
+    grid: Grid,
 }
 
 /// A lane near a point.
@@ -34,7 +142,7 @@ pub struct LaneHit {
     pub lane: usize,
     /// Arc length of the foot, metres.
     pub s_m: f64,
-    /// Signed offset of the point, positive left, metres.
+    /// Signed offset of the point, positive left, metres; beyond the lane's ends from its continuation.
     pub lateral_m: f64,
     /// Distance to the foot, metres.
     pub distance_m: f64,
@@ -43,9 +151,27 @@ pub struct LaneHit {
 }
 
 impl LaneGraph {
-    /// Graph of a map.
-    pub fn new(_map: &LaneMap) -> Self {
-        Self::default()
+    /// Graph of a map: recorded links resolved and made mutual, missing ones rebuilt where a lane ends
+    /// within 0.6 m and 30 degrees of another's start, sides as recorded or, where the map has none at
+    /// all, from the geometry.
+    pub fn new(map: &LaneMap) -> Self {
+        let by_id: HashMap<&str, usize> =
+            map.lanes.iter().enumerate().rev().map(|(i, lane)| (lane.id.as_str(), i)).collect();
+        let mut lanes: Vec<_> = map.lanes.iter().enumerate().map(|(i, l)| GraphLane::of_map(i, l)).collect();
+        links::record(map, &by_id, &mut lanes);
+        links::rebuild(&mut lanes);
+        walks::append(map, &mut lanes);
+        for sign in &map.stop_signs {
+            for lane in sign.lanes.iter().filter_map(|id| by_id.get(id.as_str())) {
+                let s = lanes[*lane].path.project(sign.position).s_m;
+                lanes[*lane].stop_sign_m = Some(s);
+            }
+        }
+        let by_id = by_id.into_iter().map(|(id, i)| (id.to_owned(), i)).collect();
+        let grid = Grid::new(lanes.iter().map(|lane| &lane.path));
+        let mut graph = Self { lanes, by_id, grid };
+        links::sides(map, &mut graph);
+        graph
     }
 
     /// All lanes; the first are [`LaneMap::lanes`] in order, then paths for people on foot.
@@ -53,8 +179,48 @@ impl LaneGraph {
         &self.lanes
     }
 
-    /// Lanes within `radius_m` that `agent_type` may use, nearest first.
-    pub fn nearest_lanes(&self, _point: Vec2, _radius_m: f64, _agent_type: AgentType) -> Vec<LaneHit> {
-        Vec::new()
+    pub(super) fn lanes_mut(&mut self) -> &mut [GraphLane] {
+        &mut self.lanes
+    }
+
+    /// Position in [`LaneGraph::lanes`] of the map's lane with this id.
+    pub fn lane_index(&self, id: &str) -> Option<usize> {
+        self.by_id.get(id).copied()
+    }
+
+    /// Lanes within `radius_m` of `point` for which `keep` holds, nearest first, each once.
+    pub fn nearest_lanes(
+        &self,
+        point: Vec2,
+        radius_m: f64,
+        keep: impl Fn(usize, &GraphLane) -> bool,
+    ) -> Vec<LaneHit> {
+        let mut feet: Vec<(usize, f64, usize, f64)> = Vec::new();
+        self.grid.visit(point, radius_m, |lane, piece| {
+            let (s, d2) = self.lanes[lane].path.foot_on(piece, point);
+            if d2 <= radius_m * radius_m && keep(lane, &self.lanes[lane]) {
+                feet.push((lane, d2, piece, s));
+            }
+        });
+        feet.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        feet.dedup_by_key(|foot| foot.0);
+        let hit = |(lane, _, piece, s): (usize, f64, usize, f64)| {
+            let foot = self.lanes[lane].path.projection_at(piece, s, point);
+            LaneHit {
+                lane,
+                s_m: s,
+                lateral_m: foot.lateral_m,
+                distance_m: foot.distance_m,
+                heading_rad: foot.heading_rad,
+            }
+        };
+        let mut hits: Vec<LaneHit> = feet.into_iter().map(hit).collect();
+        hits.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.lane.cmp(&b.lane)));
+        hits
+    }
+
+    /// Lanes within `radius_m` of `point` that `agent_type` may use, nearest first.
+    pub fn nearest_for(&self, point: Vec2, radius_m: f64, agent_type: AgentType) -> Vec<LaneHit> {
+        self.nearest_lanes(point, radius_m, |_, lane| lane.carries(agent_type))
     }
 }

@@ -5,15 +5,20 @@
 //! [`speed`] says how fast it can be driven and what stands in the way.
 
 pub mod ahead;
+mod assemble;
 pub mod blend;
 pub mod graph;
+mod grid;
+mod links;
 pub mod speed;
+mod start;
 pub mod to_goal;
+mod walks;
 
 pub use crate::geometry::polyline::{Polyline, Pose, Projection};
 pub use ahead::{MAX_ROUTES, route_length_m, routes_ahead};
 pub use blend::{EndPose, base_path};
-pub use graph::{GraphLane, LaneGraph, LaneHit};
+pub use graph::{Beside, GraphLane, LaneGraph, LaneHit, LaneSource};
 pub use speed::{Leader, Obstacle, SignalAhead, SpeedRules};
 pub use to_goal::{GoalQuery, GoalRoute, RouteKind, routes_to_goal};
 
@@ -46,3 +51,8 @@ pub struct Route {
     /// The graph ends where the path does: nobody knows how it goes on.
     pub terminal: bool,
 }
+
+#[cfg(test)]
+mod sample_maps;
+#[cfg(test)]
+mod tests;

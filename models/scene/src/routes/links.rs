@@ -1,0 +1,180 @@
+//! Links and sides of lanes: as recorded, and rebuilt from the geometry where the record is silent.
+
+use super::graph::{Beside, GraphLane, LaneGraph};
+use crate::map::{Lane, LaneType, Neighbor};
+use crate::{LaneMap, Vec2, wrap_angle};
+use std::collections::HashMap;
+
+/// Greatest gap over which a missing link is rebuilt, metres.
+const LINK_GAP_M: f64 = 0.6;
+/// Greatest change of heading over a rebuilt link.
+const LINK_TURN_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
+/// Greatest difference of heading between lanes side by side.
+const SIDE_TURN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
+/// Distance between the places at which sides are looked for, metres.
+const SIDE_STEP_M: f64 = 10.0;
+
+/// Adds the link from lane `from` to lane `to` once.
+pub(super) fn connect(lanes: &mut [GraphLane], from: usize, to: usize) {
+    if !lanes[from].successors.contains(&to) {
+        lanes[from].successors.push(to);
+    }
+    if !lanes[to].predecessors.contains(&from) {
+        lanes[to].predecessors.push(from);
+    }
+}
+
+/// Links of the map; what one of two lanes says holds for both, unknown ids are ignored.
+pub(super) fn record(map: &LaneMap, by_id: &HashMap<&str, usize>, lanes: &mut [GraphLane]) {
+    for (i, lane) in map.lanes.iter().enumerate() {
+        for next in lane.successors.iter().filter_map(|id| by_id.get(id.as_str())) {
+            connect(lanes, i, *next);
+        }
+        for before in lane.predecessors.iter().filter_map(|id| by_id.get(id.as_str())) {
+            connect(lanes, *before, i);
+        }
+    }
+}
+
+/// Joins lanes without any successor to the starts at their end, and lanes without any predecessor to the
+/// ends at their start.
+pub(super) fn rebuild(lanes: &mut [GraphLane]) {
+    let usable: Vec<usize> = (0..lanes.len()).filter(|i| lanes[*i].path.length_m() > 0.0).collect();
+    let starts = ByX::new(usable.iter().map(|i| (*i, lanes[*i].path.first().position)));
+    let open_ends: Vec<usize> = usable.iter().copied().filter(|i| lanes[*i].successors.is_empty()).collect();
+    let open_starts: Vec<usize> =
+        usable.iter().copied().filter(|i| lanes[*i].predecessors.is_empty()).collect();
+    let ends = ByX::new(usable.iter().map(|i| (*i, lanes[*i].path.last().position)));
+    for from in open_ends {
+        for to in starts.near(lanes[from].path.last().position, LINK_GAP_M) {
+            connect_if_smooth(lanes, from, to);
+        }
+    }
+    for to in open_starts {
+        for from in ends.near(lanes[to].path.first().position, LINK_GAP_M) {
+            connect_if_smooth(lanes, from, to);
+        }
+    }
+}
+
+fn connect_if_smooth(lanes: &mut [GraphLane], from: usize, to: usize) {
+    let turn = wrap_angle(lanes[to].path.first().heading_rad - lanes[from].path.last().heading_rad);
+    if from != to && turn.abs() <= LINK_TURN_RAD && same_users(&lanes[from], &lanes[to]) {
+        connect(lanes, from, to);
+    }
+}
+
+/// Some type of road user may use both.
+fn same_users(a: &GraphLane, b: &GraphLane) -> bool {
+    let vehicles = a.lane_type.carries_vehicles() && b.lane_type.carries_vehicles();
+    let cyclists = a.lane_type.carries_cyclists() && b.lane_type.carries_cyclists();
+    vehicles || cyclists || a.lane_type == b.lane_type
+}
+
+/// Points sorted by x, to find those near a place.
+pub(super) struct ByX(Vec<(f64, f64, usize)>);
+
+impl ByX {
+    pub(super) fn new(points: impl Iterator<Item = (usize, Vec2)>) -> Self {
+        let mut sorted: Vec<_> = points.map(|(i, p)| (p.x, p.y, i)).collect();
+        sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+        Self(sorted)
+    }
+
+    /// Those within `radius_m` of `point`, by rising x.
+    pub(super) fn near(&self, point: Vec2, radius_m: f64) -> Vec<usize> {
+        let first = self.0.partition_point(|p| p.0 < point.x - radius_m);
+        let close = self.0[first..].iter().take_while(|p| p.0 <= point.x + radius_m);
+        close.filter(|p| (p.0 - point.x).hypot(p.1 - point.y) <= radius_m).map(|p| p.2).collect()
+    }
+}
+
+/// Fills in left and right of all lanes: as recorded, or from the geometry where the map records none.
+pub(super) fn sides(map: &LaneMap, graph: &mut LaneGraph) {
+    if map.lanes.iter().all(|l| l.left_neighbors.is_empty() && l.right_neighbors.is_empty()) {
+        rebuild_sides(graph);
+        return;
+    }
+    let arcs: Vec<Vec<f64>> = map.lanes.iter().map(point_arcs).collect();
+    for (i, lane) in map.lanes.iter().enumerate() {
+        let left = lane.left_neighbors.iter().filter_map(|n| recorded(graph, &arcs, i, n)).collect();
+        let right = lane.right_neighbors.iter().filter_map(|n| recorded(graph, &arcs, i, n)).collect();
+        let lane = &mut graph.lanes_mut()[i];
+        (lane.left, lane.right) = (left, right);
+    }
+}
+
+/// Arc length of each recorded point of a lane; neighbours are recorded by point index.
+fn point_arcs(lane: &Lane) -> Vec<f64> {
+    let mut s = 0.0;
+    let steps = lane.points.xy.windows(2).map(|p| (p[1] - p[0]).norm());
+    let after = steps.map(|step| {
+        s += step;
+        s
+    });
+    std::iter::once(0.0).chain(after).collect()
+}
+
+fn recorded(graph: &LaneGraph, arcs: &[Vec<f64>], own: usize, neighbor: &Neighbor) -> Option<Beside> {
+    let other = graph.lane_index(&neighbor.lane).filter(|other| *other != own)?;
+    let lengths = |lane: usize, range: (usize, usize)| {
+        let arc = arcs.get(lane)?;
+        let last = *arc.last()?;
+        let at = |i: usize| arc.get(i).copied().unwrap_or(last);
+        Some((at(range.0), at(range.1)))
+    };
+    let (own_m, other_m) = (lengths(own, neighbor.own_range)?, lengths(other, neighbor.other_range)?);
+    let own_m = (own_m.0.min(own_m.1), own_m.0.max(own_m.1));
+    let here = graph.lanes()[own].path.sample(0.5 * (own_m.0 + own_m.1));
+    let there = graph.lanes()[other].path.project(here.position);
+    let same_direction = wrap_angle(there.heading_rad - here.heading_rad).abs() < 1.0;
+    let (low, high) = (other_m.0.min(other_m.1), other_m.0.max(other_m.1));
+    let other_m = if same_direction { (low, high) } else { (high, low) };
+    Some(Beside { lane: other, own_m, other_m, same_direction })
+}
+
+/// Lanes a lane's width apart with the same heading lie side by side.
+fn rebuild_sides(graph: &mut LaneGraph) {
+    for i in 0..graph.lanes().len() {
+        if graph.lanes()[i].lane_type == LaneType::Sidewalk {
+            continue;
+        }
+        let (left, right) = sides_of(graph, i);
+        let lane = &mut graph.lanes_mut()[i];
+        (lane.left, lane.right) = (left, right);
+    }
+}
+
+fn sides_of(graph: &LaneGraph, own: usize) -> (Vec<Beside>, Vec<Beside>) {
+    let lane = &graph.lanes()[own];
+    let (mut left, mut right): (Vec<Beside>, Vec<Beside>) = (Vec::new(), Vec::new());
+    let pieces = (lane.path.length_m() / SIDE_STEP_M).ceil().clamp(1.0, 1e4) as usize;
+    for k in 0..=pieces {
+        let s = lane.path.length_m() * k as f64 / pieces as f64;
+        let here = lane.path.sample(s);
+        let radius = 0.7 * (lane.width_m + 3.5);
+        for hit in graph.nearest_lanes(here.position, radius, |i, l| i != own && same_users(lane, l)) {
+            let apart = hit.lateral_m.abs() / (0.5 * (lane.width_m + graph.lanes()[hit.lane].width_m));
+            let turn = wrap_angle(hit.heading_rad - here.heading_rad).abs();
+            let abreast = (hit.distance_m - hit.lateral_m.abs()).abs() < 0.5;
+            if !(0.6..=1.4).contains(&apart) || turn > SIDE_TURN_RAD || !abreast {
+                continue;
+            }
+            // The point lies right of a lane that is on our left.
+            let side = if hit.lateral_m < 0.0 { &mut left } else { &mut right };
+            match side.iter_mut().find(|b| b.lane == hit.lane) {
+                Some(b) => (b.own_m.1, b.other_m.1) = (s, hit.s_m.max(b.other_m.1)),
+                None => side.push(Beside {
+                    lane: hit.lane,
+                    own_m: (s, s),
+                    other_m: (hit.s_m, hit.s_m),
+                    same_direction: true,
+                }),
+            }
+        }
+    }
+    for side in [&mut left, &mut right] {
+        side.retain(|b| b.own_m.1 > b.own_m.0);
+    }
+    (left, right)
+}

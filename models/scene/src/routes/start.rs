@@ -1,0 +1,84 @@
+//! The lanes under a road user, from which its routes begin.
+
+use super::{LaneGraph, LaneHit, Pose};
+use crate::geometry::cross;
+use crate::{AgentType, wrap_angle};
+
+/// Farthest from a lane's centre that still counts as on it, if half its width is less, metres.
+const ON_LANE_M: f64 = 2.0;
+/// Greatest difference of heading on a lane.
+const ON_LANE_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
+/// Farthest from a lane when none is under the road user (`routes.md` section 3: relaxed start), metres.
+const RELAXED_M: f64 = 6.0;
+/// Greatest difference of heading then.
+const RELAXED_TURN_RAD: f64 = 75.0 * std::f64::consts::PI / 180.0;
+/// Metres of distance that a radian of heading difference is worth.
+pub(super) const METRES_PER_RAD: f64 = 3.0;
+/// Most start lanes, without those beside them.
+const MAX_STARTS: usize = 4;
+/// Added to the score of a lane beside, metres.
+const CHANGE_SCORE: f64 = 4.0;
+
+/// A place on a lane from which a route may begin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct StartLane {
+    pub lane: usize,
+    pub s_m: f64,
+    /// Smaller is better: distance and heading difference, metres.
+    pub score: f64,
+    /// Not under the road user but beside a lane that is.
+    pub beside: bool,
+}
+
+/// Start lanes by rising score, nearest and straightest first.
+pub(super) fn start_lanes(graph: &LaneGraph, pose: Pose, agent_type: AgentType) -> Vec<StartLane> {
+    let near = graph.nearest_for(pose.position, RELAXED_M, agent_type);
+    let turn = |hit: &LaneHit| wrap_angle(hit.heading_rad - pose.heading_rad).abs();
+    let pick = |on: &dyn Fn(&LaneHit) -> bool| {
+        let starts = near.iter().filter(|h| on(h)).map(|h| StartLane {
+            lane: h.lane,
+            s_m: h.s_m,
+            score: h.distance_m + METRES_PER_RAD * turn(h),
+            beside: false,
+        });
+        let mut starts: Vec<StartLane> = starts.filter(|s| leads_on(graph, s)).collect();
+        starts.sort_by(|a, b| a.score.total_cmp(&b.score).then(a.lane.cmp(&b.lane)));
+        starts.truncate(MAX_STARTS);
+        starts
+    };
+    let half_width = |hit: &LaneHit| ON_LANE_M.max(0.5 * graph.lanes()[hit.lane].width_m);
+    let strict = pick(&|h| h.distance_m <= half_width(h) && turn(h) <= ON_LANE_TURN_RAD);
+    if strict.is_empty() { pick(&|h| turn(h) <= RELAXED_TURN_RAD) } else { strict }
+}
+
+/// Something lies ahead of the start.
+fn leads_on(graph: &LaneGraph, start: &StartLane) -> bool {
+    let lane = &graph.lanes()[start.lane];
+    lane.path.length_m() - start.s_m > 0.5 || !lane.successors.is_empty()
+}
+
+/// Adds the lanes directly beside the start lanes that run the same way.
+pub(super) fn with_lanes_beside(
+    graph: &LaneGraph,
+    mut starts: Vec<StartLane>,
+    agent_type: AgentType,
+) -> Vec<StartLane> {
+    for i in 0..starts.len() {
+        let from = starts[i];
+        for beside in graph.lanes()[from.lane].beside().filter(|b| b.same_direction) {
+            let Some(s_m) = beside.across(from.s_m) else { continue };
+            let known = starts.iter().any(|s| s.lane == beside.lane);
+            let start = StartLane { lane: beside.lane, s_m, score: from.score + CHANGE_SCORE, beside: true };
+            if !known && graph.lanes()[beside.lane].carries(agent_type) && leads_on(graph, &start) {
+                starts.push(start);
+            }
+        }
+    }
+    starts
+}
+
+/// Offset (positive left, metres) and heading difference (radians) of a pose from the start of a path.
+pub(super) fn errors_at(pose: Pose, path_start: Pose) -> (f64, f64) {
+    let lateral_m = cross(path_start.direction(), pose.position - path_start.position);
+    (lateral_m, wrap_angle(pose.heading_rad - path_start.heading_rad))
+}

@@ -1,0 +1,119 @@
+//! Tests over synthetic maps.
+
+use super::sample_maps::{crossing, crosswalk, lane, line, map, ring, two_lanes};
+use super::*;
+use crate::map::LaneType;
+use crate::{AgentType, LaneMap, Vec2};
+
+fn v(x: f64, y: f64) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+fn ids(map: &LaneMap, route: &Route) -> Vec<String> {
+    route.legs.iter().map(|leg| map.lanes[leg.lane].id.clone()).collect()
+}
+
+fn assert_continuous(path: &Polyline) {
+    for pair in path.points().windows(2) {
+        assert!((pair[1] - pair[0]).norm() <= 1.5, "jump from {:?} to {:?}", pair[0], pair[1]);
+    }
+}
+
+#[test]
+fn links_are_mutual_and_rebuilt_where_missing() {
+    let graph = LaneGraph::new(&crossing());
+    let into = graph.lane_index("w_in").unwrap();
+    assert_eq!(graph.lanes()[into].successors.len(), 3);
+    for next in &graph.lanes()[into].successors {
+        assert_eq!(graph.lanes()[*next].predecessors, [into]);
+    }
+    let bare = map(vec![
+        lane("a", line(v(0.0, 0.0), v(20.0, 0.0))),
+        lane("b", line(v(20.3, 0.2), v(40.0, 2.0))),
+        lane("c", line(v(20.0, 0.0), v(20.0, 30.0))),
+    ]);
+    let graph = LaneGraph::new(&bare);
+    assert_eq!(graph.lanes()[0].successors, [1], "b goes on, c turns too sharply");
+    assert_eq!(graph.lanes()[1].predecessors, [0]);
+}
+
+#[test]
+fn sides_come_from_the_geometry_when_none_are_recorded() {
+    let graph = LaneGraph::new(&two_lanes());
+    let right = &graph.lanes()[0];
+    assert!(right.right.is_empty());
+    assert_eq!(right.left.len(), 1);
+    assert_eq!(right.left[0].lane, 1);
+    assert!((right.left[0].across(150.0).unwrap() - 150.0).abs() < 0.5);
+    assert_eq!(graph.lanes()[1].right[0].lane, 0);
+}
+
+#[test]
+fn nearest_lanes_are_exact() {
+    let graph = LaneGraph::new(&crossing());
+    let hits = graph.nearest_for(v(-50.0, -1.0), 4.0, AgentType::Vehicle);
+    assert_eq!(hits[0].lane, graph.lane_index("w_in").unwrap());
+    assert!((hits[0].lateral_m - 0.75).abs() < 1e-9 && (hits[0].s_m - 62.0).abs() < 1e-9);
+    assert_eq!(hits[1].lane, graph.lane_index("w_out").unwrap());
+    assert!(graph.nearest_for(v(-50.0, -1.0), 4.0, AgentType::Pedestrian).is_empty());
+}
+
+#[test]
+fn crossing_gives_three_ways() {
+    let map = crossing();
+    let graph = LaneGraph::new(&map);
+    let pose = Pose::xyh(-40.0, -1.5, 0.05);
+    let routes = routes_ahead(&graph, pose, AgentType::Vehicle, route_length_m(8.0));
+    assert_eq!(routes.len(), 3);
+    assert_eq!(ids(&map, &routes[0]), ["w_in", "w_in>e", "e_out"], "straight on is the best start");
+    for route in &routes {
+        assert_continuous(&route.path);
+        assert!((route.path.length_m() - route_length_m(8.0)).abs() < 3.0);
+        assert!((route.lateral_m - 0.25).abs() < 1e-6 && (route.heading_error_rad - 0.05).abs() < 1e-6);
+        assert_eq!(route.limits_mps.len(), route.path.points().len());
+        assert!(!route.terminal);
+    }
+}
+
+#[test]
+fn a_lane_beside_is_a_route_and_the_end_is_known() {
+    let graph = LaneGraph::new(&two_lanes());
+    let routes = routes_ahead(&graph, Pose::xyh(150.0, 0.3, 0.0), AgentType::Vehicle, 100.0);
+    assert_eq!(routes.len(), 2);
+    assert!((routes[1].lateral_m + 3.2).abs() < 0.1);
+    assert!(routes.iter().all(|r| r.terminal && (r.path.length_m() - 50.0).abs() < 1.0));
+}
+
+#[test]
+fn relaxed_start_off_the_lane() {
+    let graph = LaneGraph::new(&two_lanes());
+    let off = Pose::xyh(0.0, -5.0, 1.0);
+    assert!(!routes_ahead(&graph, off, AgentType::Vehicle, 60.0).is_empty());
+    assert!(routes_ahead(&graph, Pose::xyh(0.0, -8.0, 1.0), AgentType::Vehicle, 60.0).is_empty());
+    assert!(routes_ahead(&graph, Pose::xyh(0.0, 0.0, 3.0), AgentType::Vehicle, 60.0).is_empty());
+}
+
+#[test]
+fn rings_end_and_go_round() {
+    let graph = LaneGraph::new(&ring());
+    let start = graph.lane_index("e0").unwrap();
+    let pose = graph.lanes()[start].path.sample(40.0);
+    let routes = routes_ahead(&graph, pose, AgentType::Vehicle, 100.0);
+    assert!(routes.len() >= 3, "an exit at each quarter: {}", routes.len());
+    let mut circle = lane("o", ring().lanes[0].points.xy.clone());
+    circle.successors = vec!["o".into()];
+    let graph = LaneGraph::new(&map(vec![circle]));
+    let pose = graph.lanes()[0].path.sample(1.0);
+    assert!(routes_ahead(&graph, pose, AgentType::Vehicle, 200.0).len() <= 1);
+}
+
+#[test]
+fn people_walk_over_crosswalks_both_ways() {
+    let graph = LaneGraph::new(&crosswalk());
+    let east = routes_ahead(&graph, Pose::xyh(2.0, 0.5, 0.0), AgentType::Pedestrian, 40.0);
+    assert_eq!(east.len(), 1);
+    assert!((east[0].path.length_m() - 40.0).abs() < 2.0 && (east[0].lateral_m - 0.5).abs() < 1e-6);
+    let west = routes_ahead(&graph, Pose::xyh(20.0, 0.0, 3.1), AgentType::Pedestrian, 40.0);
+    assert!(west[0].path.last().position.x.abs() < 1.0 && west[0].terminal);
+    assert_eq!(graph.lanes().iter().filter(|l| l.lane_type == LaneType::Sidewalk).count(), 4);
+}
