@@ -1,6 +1,8 @@
 //! Scene and conditions to futures: features, the three experts behind their gate, refinement,
 //! projection and choice.
 
+pub mod features;
+pub mod net;
 pub mod request;
 
 pub use request::{

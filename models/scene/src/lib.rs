@@ -14,6 +14,7 @@ pub mod geometry;
 pub mod hash;
 pub mod limits;
 pub mod map;
+pub mod motion;
 pub mod routes;
 pub mod score;
 pub mod signal;

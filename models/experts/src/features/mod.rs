@@ -1,0 +1,167 @@
+//! What the experts see and what they say, as plain numbers: one [`AgentFeatures`] per road user,
+//! one [`MapFeatures`] per map. The tensors of `net` are these arrays stacked.
+//!
+//! Futures are spoken of relative to *anchors*. An anchor is a path (a route along the lane graph, or
+//! a straight line on foot) with a base progress along it; a future is the anchor plus
+//! * `KNOTS` longitudinal acceleration residuals, one a second (integrated twice to metres along), and
+//! * `KNOTS` lateral offsets, one a second (metres to the left of the path, the first always zero).
+//!
+//! In these route coordinates a fixed goal is linear in the knots, so it is kept by a constant
+//! projection ([`AgentFeatures::tangent`]), in training and at each refinement step alike.
+
+use scene::KNOTS;
+
+/// Modes of an answer, one anchor slot each.
+pub const MODES: usize = 6;
+/// Instants at which route coordinates are compared: 0.5, 1.0, .. 9.0 s.
+pub const INSTANTS: usize = 18;
+/// Numbers of one future in route coordinates: along knots, then across knots.
+pub const RESIDUAL: usize = 2 * KNOTS;
+/// Numbers about the road user itself and its condition.
+pub const OWN: usize = 48;
+/// Most map pieces seen.
+pub const PIECES: usize = 48;
+/// Numbers of a map piece in its own frame.
+pub const PIECE: usize = 60;
+/// Numbers of a map piece relative to the road user (pose, distance, signal state, time in state).
+pub const PIECE_POSE: usize = 14;
+/// Most other road users seen.
+pub const NEIGHBOURS: usize = 16;
+/// Numbers of another road user.
+pub const NEIGHBOUR: usize = 24;
+/// Numbers of an anchor.
+pub const ANCHOR: usize = 112;
+
+/// Scale of the along knots, m/s2: residuals are divided by it before they enter a network.
+pub const ALONG_SCALE: f32 = 1.0;
+/// Scale of the across knots, metres.
+pub const ACROSS_SCALE: f32 = 1.0;
+
+/// All pieces of one map, encoded once and kept by the map's hash.
+#[derive(Clone, Debug, Default)]
+pub struct MapFeatures {
+    /// `PIECE` numbers each.
+    pub pieces: Vec<[f32; PIECE]>,
+}
+
+/// One map piece as a road user sees it.
+#[derive(Clone, Debug)]
+pub struct SeenPiece {
+    /// Index into [`MapFeatures::pieces`].
+    pub piece: usize,
+    /// Relative pose and present signal.
+    pub pose: [f32; PIECE_POSE],
+}
+
+/// What an expert sees of one road user.
+#[derive(Clone, Debug)]
+pub struct AgentFeatures {
+    /// State, size, kind, condition values with their masks.
+    pub own: [f32; OWN],
+    /// At most [`PIECES`], nearest first.
+    pub pieces: Vec<SeenPiece>,
+    /// At most [`NEIGHBOURS`], nearest first.
+    pub neighbours: Vec<[f32; NEIGHBOUR]>,
+    /// One slot a mode.
+    pub anchors: Box<[[f32; ANCHOR]; MODES]>,
+    /// Projections that keep fixed goal fields: along knots, then across knots. `r' = P r`.
+    pub tangent: Box<[[[f32; KNOTS]; KNOTS]; 2]>,
+}
+
+/// What really happened, in each anchor's route coordinates; only training has it.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// Base progress of each anchor at the instants, metres.
+    pub base_along: [[f32; INSTANTS]; MODES],
+    /// Recorded progress, metres.
+    pub along: [[f32; INSTANTS]; MODES],
+    /// Recorded lateral offset, metres.
+    pub across: [[f32; INSTANTS]; MODES],
+    /// 1 where the recording is valid, else 0.
+    pub valid: [f32; INSTANTS],
+    /// 1 when the road user keeps its place for the whole window.
+    pub stays: f32,
+}
+
+/// Basis of the route coordinates: metres at the instants per knot.
+#[derive(Clone, Debug)]
+pub struct Basis {
+    /// Along: twice integrated hats, `[INSTANTS][KNOTS]`.
+    pub along: [[f32; KNOTS]; INSTANTS],
+    /// Across: hats, the first knot's column zero.
+    pub across: [[f32; KNOTS]; INSTANTS],
+}
+
+impl Basis {
+    /// The one basis.
+    pub fn new() -> Self {
+        let mut basis = Self { along: [[0.0; KNOTS]; INSTANTS], across: [[0.0; KNOTS]; INSTANTS] };
+        for instant in 0..INSTANTS {
+            let t = 0.5 * (instant + 1) as f64;
+            for knot in 0..KNOTS {
+                basis.along[instant][knot] = twice_integrated_hat(knot, t) as f32;
+                if knot > 0 {
+                    basis.across[instant][knot] = hat(knot, t) as f32;
+                }
+            }
+        }
+        basis
+    }
+}
+
+impl Default for Basis {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Hat function of a knot (one a second) at time `t`, seconds.
+pub fn hat(knot: usize, t: f64) -> f64 {
+    (1.0 - (t - knot as f64).abs()).max(0.0)
+}
+
+/// Integral of [`hat`] from 0 to `t`.
+pub fn integrated_hat(knot: usize, t: f64) -> f64 {
+    let primitive = |x: f64| match x {
+        x if x <= -1.0 => 0.0,
+        x if x <= 0.0 => 0.5 * (x + 1.0) * (x + 1.0),
+        x if x <= 1.0 => 1.0 - 0.5 * (1.0 - x) * (1.0 - x),
+        _ => 1.0,
+    };
+    primitive(t - knot as f64) - primitive(-(knot as f64))
+}
+
+/// Integral of [`integrated_hat`] from 0 to `t`.
+pub fn twice_integrated_hat(knot: usize, t: f64) -> f64 {
+    let primitive = |x: f64| match x {
+        x if x <= -1.0 => 0.0,
+        x if x <= 0.0 => (x + 1.0).powi(3) / 6.0,
+        x if x <= 1.0 => x + (1.0 - x).powi(3) / 6.0,
+        _ => x,
+    };
+    let slope_at_start = match -(knot as f64) {
+        x if x <= -1.0 => 0.0,
+        x => 0.5 * (x + 1.0) * (x + 1.0),
+    };
+    primitive(t - knot as f64) - primitive(-(knot as f64)) - slope_at_start * t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integrals_match_sums() {
+        for knot in 0..KNOTS {
+            let (mut once, mut twice) = (0.0, 0.0);
+            let dt = 1e-4;
+            for i in 0..90_000 {
+                let t = (i as f64 + 0.5) * dt;
+                once += hat(knot, t) * dt;
+                twice += integrated_hat(knot, t) * dt;
+            }
+            assert!((once - integrated_hat(knot, 9.0)).abs() < 1e-6);
+            assert!((twice - twice_integrated_hat(knot, 9.0)).abs() < 1e-4);
+        }
+    }
+}

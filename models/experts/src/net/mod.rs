@@ -1,0 +1,5 @@
+//! The networks: arrays of `features` in, residuals and probabilities out.
+
+mod error;
+
+pub use error::NetError;

@@ -1,0 +1,192 @@
+//! Knots from positions: least squares of a logged track, or of a path with a speed profile.
+//!
+//! Two linear problems give a start (arc length to acceleration, heading to curvature); three
+//! Gauss-Newton steps on the positions finish it (`prototype.md` Q1). A straight start would leave
+//! 10 to 20 % of turning cars unfitted.
+
+use super::drive::{rollout, sensitivities};
+use super::walk::position_row;
+use super::{CONTROLS, Gear, Kind, Knots, MotionModel};
+use crate::{KNOTS, STEP_S, Vec2, wrap_angle};
+use nalgebra::{SMatrix, SVector};
+
+/// One wanted state of the box centre, scene frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampled {
+    /// 1 ..= [`crate::HORIZON_STEPS`], rising over a list.
+    pub step: usize,
+    /// Metres.
+    pub position: Vec2,
+    /// Radians; for a path its tangent does.
+    pub heading_rad: f64,
+}
+
+/// Weight of the knots' second differences: keeps them smooth where few samples speak.
+const ROUGHNESS: [f64; 2] = [0.02, 2.0];
+/// Weight of the knots themselves.
+const SIZE: [f64; 2] = [1e-3, 2e-2];
+const GAUSS_NEWTON_STEPS: usize = 3;
+
+type Square<const N: usize> = SMatrix<f64, N, N>;
+
+/// Knots whose rollout passes the samples as closely as the limits allow. Samples every 0.5 s are
+/// enough. An empty list gives the coasting knots.
+pub fn fit(model: &MotionModel, samples: &[Sampled]) -> Knots {
+    if samples.is_empty() {
+        return model.coasting();
+    }
+    match model.kind {
+        Kind::Drive => fit_drive(model, samples),
+        Kind::Walk => fit_walk(model, samples),
+    }
+}
+
+/// `weight` times the second-difference penalty plus `size` on the diagonal.
+fn smoothness(weight: f64, size: f64) -> Square<KNOTS> {
+    let mut out = Square::<KNOTS>::identity() * size;
+    for i in 1..KNOTS - 1 {
+        for (a, ca) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
+            for (b, cb) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
+                out[(a, b)] += weight * ca * cb;
+            }
+        }
+    }
+    out
+}
+
+/// Ridge least squares of `rows u = wanted`.
+fn ridge(rows: &[[f64; KNOTS]], wanted: &[f64], penalty: &Square<KNOTS>) -> [f64; KNOTS] {
+    let mut normal = *penalty;
+    let mut right = SVector::<f64, KNOTS>::zeros();
+    for (row, w) in rows.iter().zip(wanted) {
+        for i in 0..KNOTS {
+            right[i] += row[i] * w;
+            for j in 0..KNOTS {
+                normal[(i, j)] += row[i] * row[j];
+            }
+        }
+    }
+    normal.cholesky().map_or([0.0; KNOTS], |c| c.solve(&right).into())
+}
+
+fn fit_drive(model: &MotionModel, samples: &[Sampled]) -> Knots {
+    let first = fit_progress(model, samples);
+    let mut knots = model.legal(&Knots { first, second: [0.0; KNOTS] });
+    knots.second = fit_headings(model, samples, &knots);
+    knots = model.legal(&knots);
+    refine_positions(model, samples, knots)
+}
+
+/// Acceleration knots from the distance travelled.
+fn fit_progress(model: &MotionModel, samples: &[Sampled]) -> [f64; KNOTS] {
+    let v0 = model.start_speed_mps();
+    let (mut rows, mut wanted) = (Vec::with_capacity(samples.len()), Vec::with_capacity(samples.len()));
+    let (mut last, mut travelled) = (model.start.position(), 0.0);
+    let mut speed_row = [0.0; KNOTS];
+    let mut distance_row = [0.0; KNOTS];
+    let mut step = 0;
+    for sample in samples {
+        travelled += (sample.position - last).norm();
+        last = sample.position;
+        while step < sample.step {
+            let (j, w0, w1) = Knots::mid_weights(step);
+            let before = speed_row;
+            speed_row[j] += w0 * STEP_S;
+            speed_row[j + 1] += w1 * STEP_S;
+            for c in 0..KNOTS {
+                distance_row[c] += 0.5 * (before[c] + speed_row[c]) * STEP_S;
+            }
+            step += 1;
+        }
+        rows.push(distance_row);
+        wanted.push(travelled - v0 * step as f64 * STEP_S);
+    }
+    ridge(&rows, &wanted, &smoothness(ROUGHNESS[0], SIZE[0]))
+}
+
+/// Curvature knots from the headings, along the distances that the acceleration knots give.
+fn fit_headings(model: &MotionModel, samples: &[Sampled], knots: &Knots) -> [f64; KNOTS] {
+    let straight = rollout(model, knots);
+    let sign = if model.gear == Gear::Reverse { -1.0 } else { 1.0 };
+    let (mut rows, mut wanted) = (Vec::with_capacity(samples.len()), Vec::with_capacity(samples.len()));
+    let mut row = [0.0; KNOTS];
+    let (mut heading, mut last, mut step) = (0.0, model.start.heading_rad, 0);
+    for sample in samples {
+        heading += wrap_angle(sample.heading_rad - last);
+        last = sample.heading_rad;
+        while step < sample.step {
+            let (j, w0, w1) = Knots::mid_weights(step);
+            let ds = sign * (straight[step + 1].position - straight[step].position).norm();
+            row[j] += w0 * ds;
+            row[j + 1] += w1 * ds;
+            step += 1;
+        }
+        rows.push(row);
+        wanted.push(heading);
+    }
+    ridge(&rows, &wanted, &smoothness(ROUGHNESS[1], SIZE[1]))
+}
+
+fn refine_positions(model: &MotionModel, samples: &[Sampled], mut knots: Knots) -> Knots {
+    let steps: Vec<usize> = samples.iter().map(|s| s.step).collect();
+    let goals: Vec<Vec2> = samples.iter().map(|s| model.to_local(s.position)).collect();
+    let mut penalty = Square::<CONTROLS>::zeros();
+    for channel in 0..2 {
+        let block = smoothness(ROUGHNESS[channel], SIZE[channel]);
+        penalty.fixed_view_mut::<KNOTS, KNOTS>(channel * KNOTS, channel * KNOTS).copy_from(&block);
+    }
+    let mut best = (f64::INFINITY, knots);
+    for iteration in 0..=GAUSS_NEWTON_STEPS {
+        let points = sensitivities(model, &knots, &steps);
+        let u = SVector::<f64, CONTROLS>::from_fn(|i, _| {
+            if i < KNOTS { knots.first[i] } else { knots.second[i - KNOTS] }
+        });
+        let (mut normal, mut right) = (penalty, -(penalty * u));
+        let mut cost = u.dot(&(penalty * u));
+        for (point, goal) in points.iter().zip(&goals) {
+            let difference = [goal.x - point.value[0], goal.y - point.value[1]];
+            for (row, r) in point.jacobian[..2].iter().zip(difference) {
+                cost += r * r;
+                let row = SVector::<f64, CONTROLS>::from_column_slice(row);
+                right += row * r;
+                normal.ger(1.0, &row, &row, 1.0);
+            }
+        }
+        if cost < best.0 {
+            best = (cost, knots);
+        }
+        if iteration == GAUSS_NEWTON_STEPS {
+            break;
+        }
+        let Some(change) = normal.cholesky().map(|c| c.solve(&right)) else { break };
+        let next = u + change;
+        for i in 0..KNOTS {
+            knots.first[i] = next[i];
+            knots.second[i] = next[KNOTS + i];
+        }
+        knots = model.legal(&knots);
+        if change.amax() < 1e-6 {
+            break;
+        }
+    }
+    best.1
+}
+
+fn fit_walk(model: &MotionModel, samples: &[Sampled]) -> Knots {
+    let start = model.coasting();
+    let mut rows = Vec::with_capacity(samples.len());
+    let (mut ahead, mut left) = (Vec::with_capacity(samples.len()), Vec::with_capacity(samples.len()));
+    for sample in samples {
+        let mut row = position_row(sample.step);
+        let goal = model.to_local(sample.position);
+        // The first knot is the start velocity and not free.
+        ahead.push(goal.x - row[0] * start.first[0]);
+        left.push(goal.y - row[0] * start.second[0]);
+        row[0] = 0.0;
+        rows.push(row);
+    }
+    let penalty = smoothness(0.01, 1e-4);
+    let mut knots = Knots { first: ridge(&rows, &ahead, &penalty), second: ridge(&rows, &left, &penalty) };
+    (knots.first[0], knots.second[0]) = (start.first[0], start.second[0]);
+    model.legal(&knots)
+}

@@ -1,0 +1,191 @@
+//! Motion in control space: what a road user does is a set of [`Knots`], and every rollout of any knots
+//! obeys the limits of its kind (`model.md` section 1).
+//!
+//! Vehicles and cyclists are driven by acceleration and curvature of a reference point near the rear
+//! axle ([`drive`]); people on foot by their velocity ([`walk`]).
+
+pub mod drive;
+pub mod fit;
+pub mod project;
+pub mod walk;
+mod whiten;
+
+pub use fit::{Sampled, fit};
+pub use project::{Limiting, Projection, Reach, Residuals, Target, project};
+
+use crate::geometry::{direction, rotate};
+use crate::limits::Limits;
+use crate::{AgentType, HORIZON_STEPS, KNOTS, Size, State, Subtype, Vec2, wrap_angle};
+
+/// Number of control values of one future.
+pub const CONTROLS: usize = 2 * KNOTS;
+
+/// Two channels of control values, one a second from 0 to 9 s, piecewise linear between.
+///
+/// Drive: acceleration (m/s2) and curvature (1/m). Walk: velocity along and left of the start heading (m/s).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Knots {
+    /// Acceleration, or velocity ahead.
+    pub first: [f64; KNOTS],
+    /// Curvature, or velocity to the left.
+    pub second: [f64; KNOTS],
+}
+
+impl Knots {
+    /// Value of a channel in the middle of step `i`: left knot, its weight, right weight.
+    pub(crate) fn mid_weights(step: usize) -> (usize, f64, f64) {
+        let per_knot = HORIZON_STEPS / (KNOTS - 1);
+        let f = ((step % per_knot) as f64 + 0.5) / per_knot as f64;
+        (step / per_knot, 1.0 - f, f)
+    }
+
+    /// All values are finite.
+    pub fn is_finite(&self) -> bool {
+        self.first.iter().chain(&self.second).all(|v| v.is_finite())
+    }
+}
+
+/// Pose and speed at one step of a rollout. The position is the box centre.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotionState {
+    /// Metres.
+    pub position: Vec2,
+    /// Radians, unwrapped along the rollout.
+    pub heading_rad: f64,
+    /// Velocity of the box centre, m/s.
+    pub velocity: Vec2,
+}
+
+impl MotionState {
+    /// Speed of the box centre, m/s.
+    pub fn speed_mps(&self) -> f64 {
+        self.velocity.norm()
+    }
+}
+
+impl From<&MotionState> for State {
+    fn from(s: &MotionState) -> Self {
+        Self {
+            x_m: s.position.x,
+            y_m: s.position.y,
+            heading_rad: wrap_angle(s.heading_rad),
+            vx_mps: s.velocity.x,
+            vy_mps: s.velocity.y,
+        }
+    }
+}
+
+/// `HORIZON_STEPS + 1` states, the start first.
+pub type Trajectory = Vec<MotionState>;
+
+/// Which way a vehicle moves for the whole window; a future never mixes the two.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gear {
+    /// Forwards.
+    #[default]
+    Forward,
+    /// Backwards, at most 4 m/s.
+    Reverse,
+}
+
+/// How a road user moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Wheels: acceleration and curvature.
+    Drive,
+    /// Feet: velocity.
+    Walk,
+}
+
+/// The motion model of one road user from one start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionModel {
+    /// Wheels or feet.
+    pub kind: Kind,
+    /// Bounds that no rollout breaks.
+    pub limits: Limits,
+    /// Start of the box centre, scene frame.
+    pub start: State,
+    /// Reference point behind the box centre, metres.
+    pub offset_m: f64,
+    /// Direction of travel on wheels.
+    pub gear: Gear,
+    /// On foot: heading to turn to when standing at this step.
+    pub turn_to: Option<(usize, f64)>,
+}
+
+/// Greatest speed in reverse, m/s.
+pub const REVERSE_SPEED_MPS: f64 = 4.0;
+
+impl MotionModel {
+    /// The model of a road user of this kind and size from this start.
+    pub fn new(agent_type: AgentType, subtype: Subtype, size: Size, start: State) -> Self {
+        let limits = Limits::of(agent_type, subtype, size.length_m);
+        let kind = if agent_type == AgentType::Pedestrian { Kind::Walk } else { Kind::Drive };
+        let offset_m = limits.reference_offset * size.length_m;
+        Self { kind, limits, start, offset_m, gear: Gear::Forward, turn_to: None }
+    }
+
+    /// The same model in another gear.
+    pub fn in_gear(self, gear: Gear) -> Self {
+        Self { gear, ..self }
+    }
+
+    /// Speed at the start in the direction of travel, m/s, not negative.
+    pub fn start_speed_mps(&self) -> f64 {
+        let along = self.start.velocity().dot(&direction(self.start.heading_rad));
+        match (self.kind, self.gear) {
+            (Kind::Walk, _) => self.start.speed_mps(),
+            // A logged velocity has a sideways part from turning; the norm is the better speed.
+            (Kind::Drive, Gear::Forward) if along > 0.0 => self.start.speed_mps(),
+            (Kind::Drive, Gear::Forward) => 0.0,
+            (Kind::Drive, Gear::Reverse) => (-along).max(0.0),
+        }
+    }
+
+    /// A point of the scene in the start's frame (x ahead, y left).
+    pub fn to_local(&self, point: Vec2) -> Vec2 {
+        rotate(point - self.start.position(), -self.start.heading_rad)
+    }
+
+    /// A point of the start's frame in the scene.
+    pub fn to_scene(&self, point: Vec2) -> Vec2 {
+        self.start.position() + rotate(point, self.start.heading_rad)
+    }
+
+    /// The knots of staying put or moving on unchanged: no acceleration, no turning.
+    pub fn coasting(&self) -> Knots {
+        match self.kind {
+            Kind::Drive => Knots::default(),
+            Kind::Walk => {
+                let v = rotate(self.start.velocity(), -self.start.heading_rad);
+                Knots { first: [v.x; KNOTS], second: [v.y; KNOTS] }
+            }
+        }
+    }
+
+    /// The nearest knots within the limits.
+    pub fn legal(&self, knots: &Knots) -> Knots {
+        match self.kind {
+            Kind::Drive => drive::legal(self, knots),
+            Kind::Walk => walk::legal(self, knots),
+        }
+    }
+
+    /// Motion of these knots from the start, scene frame. Never breaks a limit, whatever the knots.
+    pub fn rollout(&self, knots: &Knots) -> Trajectory {
+        let mut local = match self.kind {
+            Kind::Drive => drive::rollout(self, knots),
+            Kind::Walk => walk::rollout(self, knots),
+        };
+        for state in &mut local {
+            state.position = self.to_scene(state.position);
+            state.velocity = rotate(state.velocity, self.start.heading_rad);
+            state.heading_rad += self.start.heading_rad;
+        }
+        local
+    }
+}
+
+#[cfg(test)]
+mod tests;
