@@ -1,0 +1,109 @@
+//! Records of a toy world for tests: straight paths, an acceleration and a lateral wish that can be
+//! read off the features, and recorded neighbours beside the path.
+
+use std::path::Path;
+
+use experts::features::{
+    ANCHOR, AgentFeatures, INSTANTS, MODES, MapFeatures, NEIGHBOUR, OWN, PIECE, PIECE_POSE, SeenPiece, Target,
+};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::{AnchorPath, LoggedBox, Record, Writer};
+
+/// Key, map and records of a scene.
+pub(crate) type ToyScene = (u64, MapFeatures, Vec<Record>);
+
+/// Seeded scenes with some records each.
+pub(crate) fn scenes(count: usize, records: usize, seed: u64) -> Vec<ToyScene> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    (0..count)
+        .map(|scene| {
+            let mut map = MapFeatures::default();
+            for _ in 0..7 {
+                map.pieces.push(std::array::from_fn::<f32, PIECE, _>(|_| between(&mut rng, -1.0, 1.0)));
+            }
+            let records = (0..records).map(|_| record(&mut rng, map.pieces.len())).collect();
+            (scene as u64, map, records)
+        })
+        .collect()
+}
+
+/// Writes scenes to a file.
+pub(crate) fn write(path: &Path, scenes: &[ToyScene]) {
+    let mut writer = Writer::create(path).unwrap();
+    for (key, map, records) in scenes {
+        writer.scene(*key, map, records).unwrap();
+    }
+    writer.finish().unwrap();
+}
+
+fn between(rng: &mut ChaCha8Rng, low: f32, high: f32) -> f32 {
+    low + (high - low) * (rng.next_u32() >> 8) as f32 / (1 << 24) as f32
+}
+
+fn record(rng: &mut ChaCha8Rng, pieces: usize) -> Record {
+    let (speed, accel, aside) = (between(rng, 2.0, 10.0), between(rng, -0.5, 0.5), between(rng, -1.0, 1.0));
+    let mut own = [0.0; OWN];
+    own[..3].copy_from_slice(&[speed / 10.0, accel, aside]);
+    let pieces = (0..1 + rng.next_u32() as usize % pieces)
+        .map(|piece| SeenPiece {
+            piece,
+            pose: std::array::from_fn::<f32, PIECE_POSE, _>(|_| between(rng, -1.0, 1.0)),
+        })
+        .collect();
+    let neighbours = (0..rng.next_u32() % 4)
+        .map(|_| std::array::from_fn::<f32, NEIGHBOUR, _>(|_| between(rng, -1.0, 1.0)))
+        .collect();
+    let mut anchors = Box::new([[0.0; ANCHOR]; MODES]);
+    for (mode, anchor) in anchors.iter_mut().enumerate() {
+        anchor[..2].copy_from_slice(&[mode as f32 / 6.0, speed / 10.0]);
+    }
+    let identity = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }));
+    let agent = AgentFeatures { own, pieces, neighbours, anchors, tangent: Box::new([identity, identity]) };
+    let path = AnchorPath { start: -2.0, points: (0..150).map(|i| [i as f32 - 2.0, 0.0]).collect() };
+    Record {
+        agent,
+        target: target(speed, accel, aside),
+        boxes: vec![crossing(speed, between(rng, 4.0, 8.0)), parked(between(rng, 5.0, 60.0))],
+        half: [2.2, 0.9],
+        centre_ahead: 1.3,
+        paths: Box::new(std::array::from_fn(|_| path.clone())),
+        weight: 1.0,
+    }
+}
+
+fn target(speed: f32, accel: f32, aside: f32) -> Target {
+    let mut target = Target {
+        base_along: [[0.0; INSTANTS]; MODES],
+        along: [[0.0; INSTANTS]; MODES],
+        across: [[0.0; INSTANTS]; MODES],
+        valid: [1.0; INSTANTS],
+        stays: if speed < 2.5 { 1.0 } else { 0.0 },
+    };
+    for instant in 0..INSTANTS {
+        let t = 0.5 * (instant + 1) as f32;
+        for mode in 0..MODES {
+            target.base_along[mode][instant] = speed * t * (0.7 + 0.12 * mode as f32);
+            target.along[mode][instant] = speed * t + 0.5 * accel * t * t;
+            target.across[mode][instant] = aside * (t / 4.0).min(1.0);
+        }
+    }
+    target.valid[INSTANTS - 1] = if aside > 0.0 { 1.0 } else { 0.0 };
+    target
+}
+
+/// A car that crosses the path from the right at a time.
+fn crossing(speed: f32, when: f32) -> LoggedBox {
+    let mut poses = [[0.0; 4]; INSTANTS];
+    for (instant, pose) in poses.iter_mut().enumerate() {
+        let t = 0.5 * (instant + 1) as f32;
+        *pose = [speed * 4.0, 6.0 * (t - when), 0.0, 1.0];
+    }
+    poses[INSTANTS - 1] = [0.0; 4];
+    LoggedBox { poses, half: [2.2, 0.9] }
+}
+
+fn parked(x: f32) -> LoggedBox {
+    LoggedBox { poses: [[x, 2.4, 1.0, 0.0]; INSTANTS], half: [2.4, 1.0] }
+}
