@@ -5,6 +5,9 @@ use super::{Vec2, cross, direction, wrap_angle};
 /// Points closer than this to the one before are the same point, metres.
 const SAME_POINT_M: f64 = 0.01;
 
+/// Greatest turn between the middle of an end piece and its inner vertex on a smooth line, radians.
+const MAX_SMOOTH_TURN_RAD: f64 = 0.15;
+
 /// A place and a direction, metres and radians, scene frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
@@ -109,7 +112,28 @@ impl Polyline {
             (last_length, last_heading) = (length, heading);
         }
         headings.push(last_heading);
-        Self { points, arc, headings }
+        let mut line = Self { points, arc, headings };
+        line.turn_ends();
+        line
+    }
+
+    /// Continues the bend of smooth, evenly spaced lines to their ends, where the first and last piece alone
+    /// are off by half the turn of one piece.
+    fn turn_ends(&mut self) {
+        let n = self.points.len();
+        if n < 4 {
+            return;
+        }
+        let even = |s: &[f64]| s[1] - s[0] < 1.5 * (s[2] - s[1]) && s[2] - s[1] < 3.0;
+        let start = self.headings[0] - self.headings[1];
+        if even(&self.arc[..3]) && start.abs() < MAX_SMOOTH_TURN_RAD {
+            self.headings[0] += start;
+        }
+        let end = self.headings[n - 1] - self.headings[n - 2];
+        let back = [0.0, self.arc[n - 1] - self.arc[n - 2], self.arc[n - 1] - self.arc[n - 3]];
+        if even(&back) && end.abs() < MAX_SMOOTH_TURN_RAD {
+            self.headings[n - 1] += end;
+        }
     }
 
     /// The points.
@@ -156,7 +180,11 @@ impl Polyline {
         let (i, t) = self.locate(s_m);
         let j = (i + 1).min(self.points.len() - 1);
         let heading = self.headings[i] + t * (self.headings[j] - self.headings[i]);
-        Pose::new(self.points[i] + t * (self.points[j] - self.points[i]), wrap_angle(heading))
+        // Vertices are met to the last bit.
+        let ahead = t >= 1.0;
+        let position =
+            if ahead { self.points[j] } else { self.points[i] + t * (self.points[j] - self.points[i]) };
+        Pose::new(position, wrap_angle(heading))
     }
 
     /// Pose at arc length `s_m`; before the start and beyond the end the line goes on straight.

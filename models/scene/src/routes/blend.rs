@@ -1,7 +1,23 @@
 //! Paths that start and end exactly where a road user does.
 
+use super::assemble::smooth;
+use super::cubic::{self, CURVATURE_WINDOW_M};
 use super::{Polyline, Pose};
-use crate::Vec2;
+use crate::geometry::cross;
+use crate::{AgentType, Vec2, wrap_angle};
+
+/// Distance between the points of a base path, metres.
+const STEP_M: f64 = 1.0;
+/// Travel over which an offset is blended away: this time at the present speed, seconds.
+const BLEND_S: f64 = 3.0;
+/// Longest blend, metres.
+const MAX_BLEND_M: f64 = 40.0;
+/// Greatest heading difference that a blend across the path can take.
+const BLEND_TURN_RAD: f64 = 0.7;
+/// Share of the comfortable curvature that a blend may add before a cubic is tried instead.
+const BLEND_CURVATURE: f64 = 0.7;
+/// The road user's foot is looked for on this much of the path's beginning, metres.
+const START_SEARCH_M: f64 = 15.0;
 
 /// Where a path should end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +28,174 @@ pub struct EndPose {
     pub heading_rad: Option<f64>,
 }
 
-/// `path` bent so that it begins at `start` and, with a goal, ends there.
-pub fn base_path(path: &Polyline, _start: Pose, _speed_mps: f64, _goal: Option<EndPose>) -> Polyline {
-    path.clone()
+/// Offset across a path that fades out over a length, with its slope, as a quintic.
+#[derive(Clone, Copy, Debug)]
+struct Fade {
+    offset_m: f64,
+    slope: f64,
+    length_m: f64,
+}
+
+impl Fade {
+    /// Offset at `s_m` from where it is `offset_m`.
+    fn at(&self, s_m: f64) -> f64 {
+        if s_m >= self.length_m {
+            return 0.0;
+        }
+        let t = (s_m / self.length_m).max(0.0);
+        // Quintic that begins with slope one and no curvature and ends with none of all.
+        let ramp = t - t * t * t * (6.0 - t * (8.0 - 3.0 * t));
+        self.offset_m * (1.0 - smooth(t)) + self.slope * self.length_m * ramp
+    }
+}
+
+/// How a road user takes to a path.
+#[derive(Clone, Copy, Debug)]
+struct Manner {
+    /// Length of a fade where there is room, metres.
+    blend_m: f64,
+    /// Shortest fade, metres.
+    min_blend_m: f64,
+    /// Comfortable curvature, 1/m.
+    curvature: f64,
+}
+
+impl Manner {
+    fn of(agent_type: AgentType, speed_mps: f64) -> Self {
+        let min_blend_m = if agent_type == AgentType::Pedestrian { 3.0 } else { 8.0 };
+        let blend_m = (BLEND_S * speed_mps).clamp(min_blend_m, MAX_BLEND_M);
+        Self { blend_m, min_blend_m, curvature: cubic::comfortable_curvature(agent_type) }
+    }
+}
+
+/// `path` (a route's, or any lane centre) bent so that it begins exactly at `start` and, with a goal, ends
+/// exactly there.
+///
+/// The road user's offset and heading fade onto the path over about 3 s of travel, and the goal's fade in
+/// over the last part, both as quintics across the path, so that curvature stays continuous. Where an
+/// offset is too large for that (a heading far off the path's, a tight bend on the inner side), a cubic
+/// leads onto the path or off it. A goal beyond the path's end extends it straight on; a goal that is
+/// behind is met by one cubic. Points are at most 1 m apart.
+pub fn base_path(
+    path: &Polyline,
+    start: Pose,
+    speed_mps: f64,
+    agent_type: AgentType,
+    goal: Option<EndPose>,
+) -> Polyline {
+    let manner = Manner::of(agent_type, speed_mps);
+    let foot = path.project_between(start.position, 0.0, START_SEARCH_M);
+    let Some(goal) = goal else {
+        let rest = path.slice(foot.s_m, path.length_m());
+        return onto(&rest, start, manner, path.length_m());
+    };
+    let (extended, goal_s) = reach(path, foot.s_m, goal.position);
+    if goal_s - foot.s_m < 1.0 {
+        return direct(start, goal, manner.curvature);
+    }
+    let between = extended.slice(foot.s_m, goal_s);
+    // Both fades share the way where it is short.
+    let half = 0.5 * between.length_m();
+    let entered = onto(&between, start, manner, half.max(manner.min_blend_m));
+    let end_heading = goal.heading_rad.unwrap_or(between.last().heading_rad);
+    let room = (entered.length_m() - manner.min_blend_m.min(half)).max(half);
+    let backwards = Pose::new(goal.position, wrap_angle(end_heading + std::f64::consts::PI));
+    let bent = onto(&entered.reversed(), backwards, manner, room).reversed();
+    let met = (bent.first().position - start.position).norm() < 1e-6;
+    if met { bent } else { direct(start, goal, manner.curvature) }
+}
+
+/// The path, extended straight on where the goal lies beyond its end, and the goal's arc length on it.
+fn reach(path: &Polyline, from_m: f64, goal: Vec2) -> (Polyline, f64) {
+    let end = path.last();
+    let beyond = (goal - end.position).dot(&end.direction());
+    let foot = path.project_between(goal, from_m, f64::INFINITY);
+    if beyond > 0.0 && foot.s_m > path.length_m() - 0.1 && path.length_m() > 0.1 {
+        let far = path.extrapolate(path.length_m() + beyond).position;
+        let extended = Polyline::new(path.points().iter().copied().chain([far]));
+        let s = extended.length_m();
+        return (extended, s);
+    }
+    (path.clone(), foot.s_m)
+}
+
+/// One cubic from start to goal; with a free heading it ends as a circle through both would.
+fn direct(start: Pose, goal: EndPose, limit: f64) -> Polyline {
+    let chord = goal.position - start.position;
+    if chord.norm() < 0.05 {
+        return Polyline::new([start.position, goal.position]);
+    }
+    let turn = wrap_angle(chord.y.atan2(chord.x) - start.heading_rad);
+    let end = Pose::new(goal.position, goal.heading_rad.unwrap_or(start.heading_rad + 2.0 * turn));
+    let join = cubic::best(start, end, limit);
+    join.map_or_else(|| Polyline::new([start.position, goal.position]), |j| j.path.resample(STEP_M))
+}
+
+/// `path` entered from `start`, whose foot is near its beginning; the bent part is at most `room_m` long.
+fn onto(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Polyline {
+    let room_m = room_m.min(path.length_m());
+    let straight = || Polyline::new([start.position, path.last().position]);
+    if room_m < 0.1 {
+        return straight();
+    }
+    let faded = faded(path, start, manner.blend_m.min(room_m));
+    let bend = |p: &Polyline| p.max_curvature(0.0, room_m, CURVATURE_WINDOW_M);
+    match &faded {
+        Some(line) if bend(line) <= bend(path) + BLEND_CURVATURE * manner.curvature => {}
+        _ => {
+            let joined = joined(path, start, manner.curvature, room_m);
+            let worse = |line: &Polyline| joined.as_ref().is_some_and(|j| bend(j) < bend(line));
+            if faded.as_ref().is_none_or(worse) {
+                return joined.unwrap_or_else(straight);
+            }
+        }
+    }
+    faded.unwrap_or_else(straight)
+}
+
+/// `path` with the start's place and slope fading out over `length_m`; `None` where it stands too far off
+/// for that.
+fn faded(path: &Polyline, start: Pose, length_m: f64) -> Option<Polyline> {
+    let begin = path.first();
+    let away = start.position - begin.position;
+    let (along, across) = (away.dot(&begin.direction()), cross(begin.direction(), away));
+    let turn = wrap_angle(start.heading_rad - begin.heading_rad);
+    if turn.abs() > BLEND_TURN_RAD || along.abs() > 0.25 * length_m {
+        return None;
+    }
+    // Moving along an offset line covers less (more) of the path on the inner (outer) side of a bend.
+    let squeeze = 1.0 - across * path.curvature_at(0.0, 2.0 * CURVATURE_WINDOW_M);
+    let sideways = Fade { offset_m: across, slope: squeeze.max(0.2) * turn.tan(), length_m };
+    let lengthways = Fade { offset_m: along, slope: 0.0, length_m };
+    let dense = path.resample(STEP_M);
+    let points = dense.arc_m().iter().skip(1).map(|s| {
+        let pose = dense.sample(*s);
+        let forward = pose.direction();
+        let left = Vec2::new(-forward.y, forward.x);
+        pose.position + lengthways.at(*s) * forward + sideways.at(*s) * left
+    });
+    Some(Polyline::new([start.position].into_iter().chain(points)))
+}
+
+/// `path` entered by the cheapest of a few cubics.
+fn joined(path: &Polyline, start: Pose, limit: f64, room_m: f64) -> Option<Polyline> {
+    let mut best: Option<(f64, Polyline)> = None;
+    let mut s = 4.0_f64.min(room_m);
+    loop {
+        let to = path.sample(s);
+        if (to.position - start.position).norm() > 0.5 {
+            if let Some(join) = cubic::best(start, to, limit) {
+                let cost = cubic::cost(&join, limit) + path.length_m() - s;
+                if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                    let rest = path.slice(s, path.length_m());
+                    let points = join.path.points().iter().chain(rest.points().iter().skip(1)).copied();
+                    best = Some((cost, Polyline::new(points)));
+                }
+            }
+        }
+        if s >= room_m.min(MAX_BLEND_M) {
+            return best.map(|(_, path)| path.resample(STEP_M));
+        }
+        s = (s + 2.0).min(room_m);
+    }
 }

@@ -7,6 +7,7 @@
 pub mod ahead;
 mod assemble;
 pub mod blend;
+mod cubic;
 pub mod graph;
 mod grid;
 mod links;

@@ -117,3 +117,26 @@ fn people_walk_over_crosswalks_both_ways() {
     assert!(west[0].path.last().position.x.abs() < 1.0 && west[0].terminal);
     assert_eq!(graph.lanes().iter().filter(|l| l.lane_type == LaneType::Sidewalk).count(), 4);
 }
+
+#[test]
+fn base_paths_begin_and_end_where_asked() {
+    let graph = LaneGraph::new(&crossing());
+    let pose = Pose::xyh(-40.0, -1.0, 0.1);
+    for route in routes_ahead(&graph, pose, AgentType::Vehicle, route_length_m(8.0)) {
+        let path = base_path(&route.path, pose, 8.0, AgentType::Vehicle, None);
+        assert_continuous(&path);
+        assert_eq!(path.first().position, pose.position);
+        assert!((path.first().heading_rad - 0.1).abs() < 0.02, "{}", path.first().heading_rad);
+        assert!((path.last().position - route.path.last().position).norm() < 1e-6);
+        assert!(path.max_curvature(0.0, 1e3, 2.0) < 0.2, "{}", path.max_curvature(0.0, 1e3, 2.0));
+        let aim = route.path.sample(50.0);
+        let left = Vec2::new(-aim.direction().y, aim.direction().x);
+        let goal = EndPose { position: aim.position + 1.2 * left, heading_rad: Some(aim.heading_rad - 0.1) };
+        let path = base_path(&route.path, pose, 8.0, AgentType::Vehicle, Some(goal));
+        assert_continuous(&path);
+        assert!((path.first().position - pose.position).norm() < 1e-9);
+        assert!((path.last().position - goal.position).norm() < 1e-9);
+        assert!(crate::wrap_angle(path.last().heading_rad - aim.heading_rad + 0.1).abs() < 0.03);
+        assert!(path.max_curvature(0.0, 1e3, 2.0) < 0.3, "{}", path.max_curvature(0.0, 1e3, 2.0));
+    }
+}
