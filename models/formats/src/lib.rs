@@ -1,2 +1,12 @@
-//! Placeholder.
+//! Files to and from scenes.
+//!
+//! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
+//! record; [`sumo`] reads what the traffic simulator writes. No format knows another. Readers are
+//! bounded in time and memory, never follow references, never panic, and say where a fault lies.
+
+pub mod limits;
+pub mod native;
+pub mod problem;
 pub mod sumo;
+
+pub use problem::{FieldProblem, Kind, ReadError, Warning};

@@ -1,0 +1,197 @@
+//! The generator's part of a scene document.
+
+use super::value::{AnyDoc, Members, check_integer, round_m, round_rad};
+use crate::problem::Problems;
+use scene::{AgentFutures, Future, Generated, Sample, State};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// One possible motion as columns, one value a step from `first_step`, without gaps. Rounded to
+/// 0.001 m, 0.0001 rad and 0.001 m/s.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FutureDoc {
+    /// Share of belief among the road user's futures.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub probability: f64,
+    /// Scene step of the first value: one after the start.
+    pub first_step: u64,
+    /// Box centre, metres.
+    pub x_m: Vec<f64>,
+    /// Box centre, metres.
+    pub y_m: Vec<f64>,
+    /// Radians.
+    pub heading_rad: Vec<f64>,
+    /// m/s.
+    pub vx_mps: Vec<f64>,
+    /// m/s.
+    pub vy_mps: Vec<f64>,
+}
+
+/// The futures of one road user.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AgentFuturesDoc {
+    /// Index into `modes` of the one that is shown and exported.
+    pub chosen: u64,
+    /// By falling probability.
+    pub modes: Vec<FutureDoc>,
+}
+
+/// One coherent answer for all regenerated road users.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SampleDoc {
+    /// Road user's id to its futures.
+    pub agents: Members<AgentFuturesDoc>,
+    /// Score as the API gave it.
+    #[serde(default)]
+    pub score: AnyDoc,
+}
+
+/// What the generator added to a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GeneratedDoc {
+    /// Hash of the user's part that these futures answer.
+    pub input_sha256: String,
+    /// The user's part has changed since.
+    #[serde(default)]
+    pub stale: bool,
+    /// Expert's name to the hash of its weights.
+    #[serde(default)]
+    pub weights: Members<String>,
+    /// Seed that repeats the answer, 0 to 2^53 - 1.
+    #[serde(default)]
+    #[schemars(range(max = 9007199254740991u64))]
+    pub seed: u64,
+    /// The request's options as sent.
+    #[serde(default)]
+    pub request: AnyDoc,
+    /// RFC 3339 time.
+    #[serde(default)]
+    pub created_at: String,
+    /// Index into `samples`.
+    #[serde(default)]
+    pub chosen_sample: u64,
+    /// Independent answers.
+    pub samples: Vec<SampleDoc>,
+}
+
+impl FutureDoc {
+    /// The document of a future, rounded.
+    pub fn from_future(future: &Future) -> Self {
+        let column = |f: fn(&State) -> f64| future.states.iter().map(f).collect();
+        Self {
+            probability: future.probability,
+            first_step: future.first_step as u64,
+            x_m: column(|s| round_m(s.x_m)),
+            y_m: column(|s| round_m(s.y_m)),
+            heading_rad: column(|s| round_rad(s.heading_rad)),
+            vx_mps: column(|s| round_m(s.vx_mps)),
+            vy_mps: column(|s| round_m(s.vy_mps)),
+        }
+    }
+
+    fn into_future(self, pointer: &str, problems: &mut Problems) -> Future {
+        let steps = self.x_m.len();
+        let columns = [
+            ("y_m", self.y_m.len()),
+            ("heading_rad", self.heading_rad.len()),
+            ("vx_mps", self.vx_mps.len()),
+            ("vy_mps", self.vy_mps.len()),
+        ];
+        for (name, length) in columns.into_iter().filter(|c| c.1 != steps) {
+            let detail = format!("{length} values, as many as x_m ({steps}) expected");
+            problems.invalid(format!("{pointer}/{name}"), detail);
+        }
+        problems.range(&format!("{pointer}/probability"), (0.0, 1.0), self.probability);
+        let last_step = 100_000;
+        problems.range(&format!("{pointer}/first_step"), (0.0, f64::from(last_step)), self.first_step as f64);
+        let values =
+            self.x_m.iter().zip(&self.y_m).zip(&self.heading_rad).zip(&self.vx_mps).zip(&self.vy_mps);
+        let states = values
+            .map(|((((x_m, y_m), heading_rad), vx_mps), vy_mps)| State {
+                x_m: *x_m,
+                y_m: *y_m,
+                heading_rad: *heading_rad,
+                vx_mps: *vx_mps,
+                vy_mps: *vy_mps,
+            })
+            .collect();
+        Future { probability: self.probability, first_step: self.first_step as usize, states }
+    }
+}
+
+impl AgentFuturesDoc {
+    /// The document of one road user's futures.
+    pub fn from_futures(futures: &AgentFutures) -> Self {
+        Self {
+            chosen: futures.chosen as u64,
+            modes: futures.modes.iter().map(FutureDoc::from_future).collect(),
+        }
+    }
+}
+
+impl SampleDoc {
+    /// The document of one sample.
+    pub fn from_sample(sample: &Sample) -> Self {
+        let agents =
+            sample.agents.iter().map(|(id, f)| (id.clone(), AgentFuturesDoc::from_futures(f))).collect();
+        Self { agents: Members(agents), score: AnyDoc(sample.score.clone()) }
+    }
+}
+
+impl GeneratedDoc {
+    /// The document of what the generator added.
+    pub fn from_generated(generated: &Generated) -> Self {
+        Self {
+            input_sha256: generated.input_sha256.clone(),
+            stale: generated.stale,
+            weights: Members(generated.weights.clone()),
+            seed: generated.seed,
+            request: AnyDoc(generated.request.clone()),
+            created_at: generated.created_at.clone(),
+            chosen_sample: generated.chosen_sample as u64,
+            samples: generated.samples.iter().map(SampleDoc::from_sample).collect(),
+        }
+    }
+
+    pub(crate) fn into_generated(self, pointer: &str, problems: &mut Problems) -> Generated {
+        if let Err(problem) = check_integer(&format!("{pointer}/seed"), self.seed) {
+            problems.push(problem);
+        }
+        if self.chosen_sample >= self.samples.len() as u64 {
+            let detail = format!("{} of {} samples", self.chosen_sample, self.samples.len());
+            problems.invalid(format!("{pointer}/chosen_sample"), detail);
+        }
+        let mut samples = Vec::new();
+        for (s, sample) in self.samples.into_iter().enumerate() {
+            let mut agents = BTreeMap::new();
+            for (id, futures) in sample.agents.0 {
+                let at = format!("{pointer}/samples/{s}/agents/{}", super::json::escape(&id));
+                if futures.chosen >= futures.modes.len() as u64 {
+                    let detail = format!("{} of {} modes", futures.chosen, futures.modes.len());
+                    problems.invalid(format!("{at}/chosen"), detail);
+                }
+                let mut modes = Vec::new();
+                for (m, mode) in futures.modes.into_iter().enumerate() {
+                    modes.push(mode.into_future(&format!("{at}/modes/{m}"), problems));
+                }
+                agents.insert(id, AgentFutures { chosen: futures.chosen as usize, modes });
+            }
+            samples.push(Sample { agents, score: sample.score.0 });
+        }
+        Generated {
+            input_sha256: self.input_sha256,
+            stale: self.stale,
+            weights: self.weights.0,
+            seed: self.seed,
+            request: self.request.0,
+            created_at: self.created_at,
+            chosen_sample: self.chosen_sample as usize,
+            samples,
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Native scene JSON, version 1 (`api.md` section 4): the form that scenes are stored and sent in.
+//!
+//! The `*Doc` types are the document; other crates may embed them in their own requests. A document
+//! becomes a [`Scene`] in one step, [`SceneDoc::into_scene`].
+
+mod agent;
+pub mod conditions;
+mod document;
+mod generated;
+mod json;
+mod map;
+mod value;
+
+pub use agent::{AgentDoc, TrackDoc};
+pub use conditions::{ConditionsDoc, Context, Frame, GoalDoc, Ranges, StartDoc, VelocityDoc, Window};
+pub use document::{FORMAT, MapForm, MetaDoc, OriginDoc, RunDoc, SceneDoc, SignalDoc, TimeDoc, VERSION};
+pub use generated::{AgentFuturesDoc, FutureDoc, GeneratedDoc, SampleDoc};
+pub use json::from_json;
+pub use map::{
+    AreaDoc, BoundaryDoc, DrivableDoc, LaneDoc, MapDoc, MapField, MapRef, NeighborDoc, ROAD_EDGE_TYPES,
+    ROAD_LINE_TYPES, RoadEdgeDoc, RoadLineDoc, StopSignDoc,
+};
+pub use value::{AnyDoc, MAX_SAFE_INTEGER, Members, PointDoc, PointsDoc, round_m, round_rad};
+
+use crate::problem::{Kind, ReadError};
+use scene::Scene;
+use serde::Deserialize;
+
+/// Media type of the document.
+pub const MEDIA_TYPE: &str = "application/vnd.dragtraffic.scene+json";
+
+/// Reads a scene document whose map is inline.
+///
+/// # Errors
+/// Every fault of `api.md` section 8 that a scene can have; a map given by hash is `unknown-map`.
+pub fn read(bytes: &[u8]) -> Result<Scene, ReadError> {
+    read_doc(bytes)?.into_scene(|_| None)
+}
+
+/// Reads a scene document without turning it into a scene yet.
+///
+/// # Errors
+/// `malformed-json`, `invalid-field`, or `unsupported-version` when members are unknown because the
+/// document is of a later version.
+pub fn read_doc(bytes: &[u8]) -> Result<SceneDoc, ReadError> {
+    #[derive(Deserialize)]
+    struct Head {
+        version: u64,
+    }
+    from_json::<SceneDoc>(bytes).map_err(|error| {
+        if error.kind != Kind::Invalid {
+            return error;
+        }
+        let head = serde_json::from_slice::<Head>(bytes).ok();
+        head.and_then(|head| document::check_version(head.version).err()).unwrap_or(error)
+    })
+}
+
+/// Writes a scene document with its map inline. Equal scenes give equal bytes.
+pub fn write(scene: &Scene) -> Vec<u8> {
+    write_doc(&SceneDoc::from_scene(scene, MapForm::Inline))
+}
+
+/// Writes a document. Equal documents give equal bytes.
+pub fn write_doc(doc: &SceneDoc) -> Vec<u8> {
+    // Documents have string keys and plain values; serde_json writes those without fail.
+    serde_json::to_vec(doc).unwrap_or_default()
+}
+
+/// JSON Schema (2020-12) of the document. It can say types, ranges of numbers and member names;
+/// uniqueness of ids, equal column lengths and the like are left to the reader.
+pub fn schema() -> schemars::Schema {
+    let mut generator = schemars::generate::SchemaSettings::draft2020_12().into_generator();
+    generator.root_schema_for::<SceneDoc>()
+}

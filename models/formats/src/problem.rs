@@ -1,0 +1,223 @@
+//! What can be wrong with outside data, in one shape for every format.
+
+use scene::SceneError;
+use serde::Serialize;
+use std::fmt;
+
+/// Most faults that one refusal lists.
+pub const MAX_PROBLEMS: usize = 32;
+
+/// The codes of `api.md` section 8 that a reader can give. They never change.
+pub mod code {
+    #![allow(missing_docs, reason = "the names say it")]
+    pub const MALFORMED_JSON: &str = "malformed-json";
+    pub const MALFORMED_FILE: &str = "malformed-file";
+    pub const DECODED_TOO_LARGE: &str = "decoded-too-large";
+    pub const EXPANSION_TOO_HIGH: &str = "expansion-too-high";
+    pub const INVALID_FIELD: &str = "invalid-field";
+    pub const OUT_OF_RANGE: &str = "out-of-range";
+    pub const HALF_POSITION: &str = "half-position";
+    pub const START_MISSING: &str = "start-missing";
+    pub const DUPLICATE: &str = "duplicate";
+    pub const UNKNOWN_AGENT: &str = "unknown-agent";
+    pub const UNKNOWN_MAP: &str = "unknown-map";
+    pub const TOO_MANY_AGENTS: &str = "too-many-agents";
+    pub const MAP_TOO_LARGE: &str = "map-too-large";
+    pub const UNSUPPORTED_VERSION: &str = "unsupported-version";
+    pub const FORMAT_UNKNOWN: &str = "format-unknown";
+    pub const CANNOT_REPRESENT: &str = "cannot-represent";
+}
+
+/// One fault and its place.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FieldProblem {
+    /// JSON pointer into the document; empty for the whole of it.
+    pub pointer: String,
+    /// One of [`code`].
+    pub code: &'static str,
+    /// What was found and what was expected, for people.
+    pub detail: String,
+    /// Least value allowed, where that is the fault.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min: Option<f64>,
+    /// Greatest value allowed, where that is the fault.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max: Option<f64>,
+    /// The value found, where it is a number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub got: Option<f64>,
+}
+
+impl FieldProblem {
+    /// A fault without a range.
+    pub fn new(pointer: impl Into<String>, code: &'static str, detail: impl Into<String>) -> Self {
+        Self { pointer: pointer.into(), code, detail: detail.into(), min: None, max: None, got: None }
+    }
+
+    /// A number outside `min..=max`.
+    pub fn range(pointer: impl Into<String>, min: f64, max: f64, got: f64) -> Self {
+        let detail = format!("{got} found, {min} to {max} expected");
+        Self {
+            pointer: pointer.into(),
+            code: code::OUT_OF_RANGE,
+            detail,
+            min: Some(min),
+            max: Some(max),
+            got: Some(got),
+        }
+    }
+}
+
+impl fmt::Display for FieldProblem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} at \"{}\": {}", self.code, self.pointer, self.detail)
+    }
+}
+
+impl From<SceneError> for FieldProblem {
+    fn from(error: SceneError) -> Self {
+        Self::new(error.at, error.code, error.reason)
+    }
+}
+
+/// What sort of refusal it is; decides the HTTP status.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The text is not JSON (400). Both count from one.
+    MalformedJson {
+        /// Line of the fault.
+        line: usize,
+        /// Column of the fault, in bytes.
+        column: usize,
+    },
+    /// A binary file is broken at this byte of its decoded form (400).
+    MalformedFile {
+        /// Where.
+        offset: u64,
+    },
+    /// The decoded form is larger than allowed (413).
+    TooLarge {
+        /// The bound that was met, bytes or a ratio.
+        limit: u64,
+    },
+    /// Readable, but not what a scene can be (422).
+    Invalid,
+}
+
+/// Why outside data was refused. Never empty: `problems` has 1 to [`MAX_PROBLEMS`] entries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadError {
+    /// The sort of refusal.
+    pub kind: Kind,
+    /// All faults found, the first one first.
+    pub problems: Vec<FieldProblem>,
+}
+
+impl ReadError {
+    /// A refusal of readable data.
+    pub fn invalid(mut problems: Vec<FieldProblem>) -> Self {
+        if problems.is_empty() {
+            problems.push(FieldProblem::new("", code::INVALID_FIELD, "not a scene"));
+        }
+        problems.truncate(MAX_PROBLEMS);
+        Self { kind: Kind::Invalid, problems }
+    }
+
+    /// A broken binary file.
+    pub fn malformed(offset: u64, detail: impl Into<String>) -> Self {
+        let problem = FieldProblem::new("", code::MALFORMED_FILE, detail);
+        Self { kind: Kind::MalformedFile { offset }, problems: vec![problem] }
+    }
+
+    /// Text that is not JSON.
+    pub fn malformed_json(line: usize, column: usize, detail: impl Into<String>) -> Self {
+        let problem = FieldProblem::new("", code::MALFORMED_JSON, detail);
+        Self { kind: Kind::MalformedJson { line, column }, problems: vec![problem] }
+    }
+
+    /// A decoded form over its bound; `code` is `decoded-too-large` or `expansion-too-high`.
+    pub fn too_large(code: &'static str, limit: u64, detail: impl Into<String>) -> Self {
+        Self { kind: Kind::TooLarge { limit }, problems: vec![FieldProblem::new("", code, detail)] }
+    }
+
+    /// The code that names the whole refusal: that of the first fault.
+    pub fn code(&self) -> &'static str {
+        self.problems.first().map_or(code::INVALID_FIELD, |p| p.code)
+    }
+
+    /// The same refusal of a document that lies at `prefix` (a JSON pointer) of a larger one.
+    #[must_use]
+    pub fn under(mut self, prefix: &str) -> Self {
+        for problem in &mut self.problems {
+            problem.pointer.insert_str(0, prefix);
+        }
+        self
+    }
+}
+
+impl From<FieldProblem> for ReadError {
+    fn from(problem: FieldProblem) -> Self {
+        Self::invalid(vec![problem])
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.kind {
+            Kind::MalformedJson { line, column } => write!(f, "line {line}, column {column}: ")?,
+            Kind::MalformedFile { offset } => write!(f, "byte {offset}: ")?,
+            Kind::TooLarge { .. } | Kind::Invalid => {}
+        }
+        let Some(first) = self.problems.first() else { return f.write_str("invalid") };
+        first.fmt(f)?;
+        match self.problems.len() {
+            1 => Ok(()),
+            n => write!(f, " (and {} more)", n - 1),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// Something a reader changed or left out without refusing.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Warning {
+    /// A word that programs can switch on.
+    pub code: &'static str,
+    /// For people.
+    pub detail: String,
+}
+
+impl Warning {
+    /// A warning.
+    pub fn new(code: &'static str, detail: impl Into<String>) -> Self {
+        Self { code, detail: detail.into() }
+    }
+}
+
+/// Faults collected while reading one document.
+#[derive(Debug, Default)]
+pub(crate) struct Problems(pub Vec<FieldProblem>);
+
+impl Problems {
+    /// Keeps a fault, unless there are enough already.
+    pub fn push(&mut self, problem: FieldProblem) {
+        if self.0.len() < MAX_PROBLEMS {
+            self.0.push(problem);
+        }
+    }
+
+    /// Keeps an `invalid-field` fault.
+    pub fn invalid(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
+        self.push(FieldProblem::new(pointer, code::INVALID_FIELD, detail));
+    }
+
+    /// Checks a number against its range; anything not within it (NaN too) is a fault.
+    pub fn range(&mut self, pointer: &str, range: (f64, f64), value: f64) -> bool {
+        let inside = value >= range.0 && value <= range.1;
+        if !inside {
+            self.push(FieldProblem::range(pointer, range.0, range.1, value));
+        }
+        inside
+    }
+}
