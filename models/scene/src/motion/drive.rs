@@ -123,7 +123,8 @@ pub(crate) fn sensitivities(model: &MotionModel, knots: &Knots, at: &[usize]) ->
         let (j, w0, w1) = Knots::mid_weights(i);
         let turn = s.curvature * s.ds;
         let (sin, cos) = (heading + 0.5 * turn).sin_cos();
-        let chord = s.ds * chord_ratio(turn);
+        let ratio = chord_ratio(turn);
+        let (chord, bend) = (s.ds * ratio, -s.ds * turn / 12.0);
         let mean = 0.5 * (speed + s.speed_next);
         let grip_slope =
             if s.bound == CurvatureBound::Grip && mean > 1e-3 { -2.0 * s.curvature / mean } else { 0.0 };
@@ -137,9 +138,10 @@ pub(crate) fn sensitivities(model: &MotionModel, knots: &Knots, at: &[usize]) ->
             let dmean = 0.5 * (before + after);
             let dds = gear * STEP_S * dmean;
             let dturn = s.curvature * dds + s.ds * grip_slope * dmean;
+            let dchord = ratio * dds + bend * dturn;
             let dmid = dh[c] + 0.5 * dturn;
-            dx[c] += cos * dds - chord * sin * dmid;
-            dy[c] += sin * dds + chord * cos * dmid;
+            dx[c] += cos * dchord - chord * sin * dmid;
+            dy[c] += sin * dchord + chord * cos * dmid;
             dh[c] += dturn;
         }
         for c in 0..reach {
@@ -147,8 +149,8 @@ pub(crate) fn sensitivities(model: &MotionModel, knots: &Knots, at: &[usize]) ->
             let dturn = if s.bound == CurvatureBound::Free { s.ds * psi } else { 0.0 };
             let k = KNOTS + c;
             let dmid = dh[k] + 0.5 * dturn;
-            dx[k] -= chord * sin * dmid;
-            dy[k] += chord * cos * dmid;
+            dx[k] += cos * bend * dturn - chord * sin * dmid;
+            dy[k] += sin * bend * dturn + chord * cos * dmid;
             dh[k] += dturn;
         }
         x += chord * cos;

@@ -66,7 +66,7 @@ proptest! {
         let model = model(kind, v);
         let trajectory = model.rollout(&u);
         prop_assert!(breach(&model, &trajectory) <= 0.0, "breach {}", breach(&model, &trajectory));
-        prop_assert_eq!(trajectory.len(), crate::HORIZON_STEPS + 1);
+        prop_assert_eq!(trajectory.len(), HORIZON_STEPS + 1);
     }
 
     #[test]
@@ -96,7 +96,7 @@ fn jacobian_matches_finite_differences() {
             let h = 1e-6;
             let nudge = |sign: f64| {
                 let mut k = u;
-                if c < crate::KNOTS { k.first[c] += sign * h } else { k.second[c - crate::KNOTS] += sign * h }
+                if c < KNOTS { k.first[c] += sign * h } else { k.second[c - KNOTS] += sign * h }
                 drive::sensitivities(&model, &k, &at)
             };
             let (plus, minus) = (nudge(1.0), nudge(-1.0));

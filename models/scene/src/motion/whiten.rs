@@ -56,7 +56,7 @@ impl Whitening {
 
     /// `J S` of a Jacobian by knots.
     pub(crate) fn whitened(&self, jacobian: &SMatrix<f64, 4, CONTROLS>) -> SMatrix<f64, 4, CONTROLS> {
-        let mut out = SMatrix::zeros();
+        let mut out = SMatrix::<f64, 4, CONTROLS>::zeros();
         let first = jacobian.fixed_columns::<KNOTS>(0) * self.first;
         let second = jacobian.fixed_columns::<KNOTS>(KNOTS) * self.second;
         out.fixed_columns_mut::<KNOTS>(0).copy_from(&first);
@@ -66,7 +66,7 @@ impl Whitening {
 
     /// `S z`.
     pub(crate) fn colour(&self, z: &SMatrix<f64, CONTROLS, 1>) -> SMatrix<f64, CONTROLS, 1> {
-        let mut out = SMatrix::zeros();
+        let mut out = SMatrix::<f64, CONTROLS, 1>::zeros();
         let first = self.first * z.fixed_rows::<KNOTS>(0);
         let second = self.second * z.fixed_rows::<KNOTS>(KNOTS);
         out.fixed_rows_mut::<KNOTS>(0).copy_from(&first);
