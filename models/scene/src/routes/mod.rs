@@ -10,7 +10,9 @@ pub mod blend;
 mod cubic;
 pub mod graph;
 mod grid;
+mod join;
 mod links;
+mod search;
 pub mod speed;
 mod start;
 pub mod to_goal;
@@ -21,7 +23,7 @@ pub use ahead::{MAX_ROUTES, route_length_m, routes_ahead};
 pub use blend::{EndPose, base_path};
 pub use graph::{Beside, GraphLane, LaneGraph, LaneHit, LaneSource};
 pub use speed::{Leader, Obstacle, SignalAhead, SpeedRules};
-pub use to_goal::{GoalQuery, GoalRoute, RouteKind, routes_to_goal};
+pub use to_goal::{GoalQuery, GoalRoute, MAX_GOAL_ROUTES, RouteKind, routes_to_goal};
 
 /// A stretch of one lane on a route.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -140,3 +140,78 @@ fn base_paths_begin_and_end_where_asked() {
         assert!(path.max_curvature(0.0, 1e3, 2.0) < 0.3, "{}", path.max_curvature(0.0, 1e3, 2.0));
     }
 }
+
+fn query(pose: Pose, goal: Vec2, heading: Option<f64>) -> GoalQuery {
+    GoalQuery {
+        pose,
+        speed_mps: 8.0,
+        agent_type: AgentType::Vehicle,
+        goal,
+        goal_heading_rad: heading,
+        least_effort_m: None,
+    }
+}
+
+fn assert_reached(route: &GoalRoute, query: &GoalQuery) {
+    assert_continuous(&route.route.path);
+    let end = EndPose { position: query.goal, heading_rad: query.goal_heading_rad };
+    let path = base_path(&route.route.path, query.pose, query.speed_mps, query.agent_type, Some(end));
+    assert_continuous(&path);
+    assert!((path.first().position - query.pose.position).norm() < 1e-9);
+    assert!((path.last().position - query.goal).norm() < 1e-9);
+}
+
+#[test]
+fn forward_routes_reach_each_arm() {
+    let map = crossing();
+    let graph = LaneGraph::new(&map);
+    let pose = Pose::xyh(-40.0, -1.5, 0.0);
+    for (goal, way) in [(v(40.0, -1.0), "w_in>e"), (v(-2.5, -50.0), "w_in>s"), (v(2.0, 50.0), "w_in>n")] {
+        let query = query(pose, goal, None);
+        let routes = routes_to_goal(&graph, &query);
+        assert_eq!(routes[0].kind, RouteKind::Forward);
+        assert_eq!(ids(&map, &routes[0].route)[1], way);
+        assert!(routes[0].goal_lateral_m.abs() < 1.0);
+        assert_reached(&routes[0], &query);
+    }
+}
+
+#[test]
+fn u_turns_are_joined_from_behind() {
+    let graph = LaneGraph::new(&crossing());
+    let back = query(Pose::xyh(-40.0, -1.5, 0.0), v(-60.0, 1.75), None);
+    let routes = routes_to_goal(&graph, &back);
+    assert_eq!(routes.len(), 1);
+    assert_eq!(routes[0].kind, RouteKind::Joined);
+    assert_reached(&routes[0], &back);
+    let strict = GoalQuery { least_effort_m: Some(10.0), ..back };
+    assert!(routes_to_goal(&graph, &strict).is_empty(), "longer than 1.25 of least effort");
+    // Pulling out of a driveway, across the lanes.
+    let out = query(Pose::xyh(-60.0, -12.0, 1.57), v(-20.0, -1.75), Some(0.0));
+    let routes = routes_to_goal(&graph, &out);
+    assert_eq!(routes[0].kind, RouteKind::Joined);
+    assert_reached(&routes[0], &out);
+}
+
+#[test]
+fn goals_beside_the_road_are_met() {
+    let graph = LaneGraph::new(&two_lanes());
+    let off = query(Pose::xyh(-50.0, 0.0, 0.0), v(0.0, -9.0), None);
+    let routes = routes_to_goal(&graph, &off);
+    assert_eq!(routes[0].kind, RouteKind::OffLane);
+    assert!((routes[0].route.path.last().position - off.goal).norm() < 1e-9);
+    assert_reached(&routes[0], &off);
+    assert!(routes_to_goal(&graph, &query(off.pose, v(0.0, -90.0), None)).is_empty());
+}
+
+#[test]
+fn lane_changes_lead_to_the_lane_beside() {
+    let graph = LaneGraph::new(&two_lanes());
+    for x in [-20.0, 0.0, 40.0, 150.0] {
+        let beside = query(Pose::xyh(-50.0, 0.1, 0.0), v(x, 3.4), Some(0.0));
+        let routes = routes_to_goal(&graph, &beside);
+        assert_eq!(routes[0].kind, RouteKind::Forward);
+        assert_reached(&routes[0], &beside);
+        assert!(routes[0].goal_lateral_m.abs() < 0.2);
+    }
+}

@@ -1,7 +1,27 @@
-//! Routes to a goal.
+//! Routes to a goal: forward along lanes, else joined from behind the goal, else off the lanes at the end.
 
-use super::{LaneGraph, Pose, Route};
-use crate::{AgentType, Vec2};
+use super::ahead::{DISTINCT_M, TRACE_STEP_M};
+use super::assemble::{self, Hop};
+use super::start::{METRES_PER_RAD, StartLane, errors_at, start_lanes, with_lanes_beside};
+use super::{LaneGraph, LaneHit, Pose, Route, join, search};
+use crate::{AgentType, Vec2, wrap_angle};
+
+/// Most routes that are given.
+pub const MAX_GOAL_ROUTES: usize = 3;
+/// Farthest of a goal from a lane that it lies on, metres.
+const ON_LANE_M: f64 = 3.0;
+/// Farthest of a goal from the lane that it is reached from, metres.
+const OFF_LANE_M: f64 = 25.0;
+/// Greatest difference between a lane's heading and the goal's.
+pub(super) const GOAL_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
+/// A forward route that ends within this of the goal needs no join beside it, metres.
+const CLOSE_M: f64 = 1.5;
+/// Nearer goals are not worth a join, metres.
+const NO_JOIN_M: f64 = 5.0;
+/// Most goal lanes looked at.
+const MAX_GOAL_LANES: usize = 6;
+/// Metres of path that a metre of offset between lane and goal is worth (`lanes.py`: 1 to 0.05).
+const COST_PER_OFFSET: f64 = 20.0;
 
 /// What to look for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +36,25 @@ pub struct GoalQuery {
     pub goal: Vec2,
     /// Heading asked for at the goal, radians.
     pub goal_heading_rad: Option<f64>,
-    /// Length of the least-effort motion to the goal, metres: joins much longer than it are dropped.
+    /// Length of the least-effort motion to the goal, metres: joins longer than 1.25 of it are dropped.
     pub least_effort_m: Option<f64>,
+}
+
+impl GoalQuery {
+    /// Straight distance to the goal, metres.
+    pub fn distance_m(&self) -> f64 {
+        (self.goal - self.pose.position).norm()
+    }
+
+    /// How far a lane's heading is from the one asked for; zero when none is.
+    pub(super) fn goal_turn_rad(&self, heading_rad: f64) -> f64 {
+        self.goal_heading_rad.map_or(0.0, |asked| wrap_angle(heading_rad - asked).abs())
+    }
+
+    /// Longest route worth finding, metres.
+    fn longest_m(&self) -> f64 {
+        1.5 * self.distance_m() + 30.0
+    }
 }
 
 /// How a route reaches the goal.
@@ -34,7 +71,7 @@ pub enum RouteKind {
 /// A route and how it meets the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GoalRoute {
-    /// The route; its path ends at the goal's foot (or at the goal itself, off lane).
+    /// The route; its path ends beside the goal, or at the goal itself when that is off lane.
     pub route: Route,
     /// How it gets there.
     pub kind: RouteKind,
@@ -44,7 +81,81 @@ pub struct GoalRoute {
     pub cost: f64,
 }
 
-/// Up to three distinct routes to the goal, best first; none where no sensible way is known.
-pub fn routes_to_goal(_graph: &LaneGraph, _query: &GoalQuery) -> Vec<GoalRoute> {
-    Vec::new()
+/// Up to [`MAX_GOAL_ROUTES`] distinct routes to the goal, best first; empty where no sensible way is known
+/// and least effort has to do.
+///
+/// Forward routes come first unless all of them end more than 1.5 m beside the goal and a join does
+/// better (`routes.md` 2b). Goals more than 3 m off every lane are reached from the nearest lane.
+pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
+    let starts = start_lanes(graph, query.pose, query.agent_type);
+    let starts = with_lanes_beside(graph, starts, query.agent_type);
+    let goals = goal_lanes(graph, query, ON_LANE_M);
+    let mut routes = forward(graph, query, &starts, &goals);
+    let close = |r: &GoalRoute| r.goal_lateral_m.abs() < CLOSE_M;
+    if !routes.iter().any(close) && query.distance_m() >= NO_JOIN_M {
+        if let Some(joined) = join::joined(graph, query, &goals) {
+            routes.insert(0, joined);
+        }
+    }
+    if routes.is_empty() && goals.is_empty() {
+        let near = goal_lanes(graph, query, OFF_LANE_M);
+        let lead_in = forward(graph, query, &starts, &near);
+        routes = lead_in.into_iter().filter_map(|r| join::leaving(r, query)).collect();
+    }
+    routes.truncate(MAX_GOAL_ROUTES);
+    routes
+}
+
+/// Lanes beside the goal, best first. A lane that only comes near with its end is passed over when the
+/// goal lies well beyond that end.
+fn goal_lanes(graph: &LaneGraph, query: &GoalQuery, radius_m: f64) -> Vec<LaneHit> {
+    let mut hits = graph.nearest_for(query.goal, radius_m, query.agent_type);
+    hits.retain(|hit| query.goal_turn_rad(hit.heading_rad) <= GOAL_TURN_RAD);
+    let score = |hit: &LaneHit| hit.distance_m + METRES_PER_RAD * query.goal_turn_rad(hit.heading_rad);
+    hits.sort_by(|a, b| score(a).total_cmp(&score(b)).then(a.lane.cmp(&b.lane)));
+    hits.truncate(MAX_GOAL_LANES);
+    hits
+}
+
+/// A forward chain with its rank.
+struct Candidate {
+    hops: Vec<Hop>,
+    cost: f64,
+    goal: LaneHit,
+    trace: Vec<Vec2>,
+}
+
+/// Distinct forward routes from the starts to the goal lanes, best first.
+fn forward(graph: &LaneGraph, query: &GoalQuery, starts: &[StartLane], goals: &[LaneHit]) -> Vec<GoalRoute> {
+    if goals.is_empty() {
+        return Vec::new();
+    }
+    let mut candidates = Vec::new();
+    for start in starts {
+        let found =
+            search::shortest(graph, start, goals, query.speed_mps, query.agent_type, query.longest_m());
+        candidates.extend(found.into_iter().map(|chain| {
+            let goal = goals[chain.goal];
+            let turn = METRES_PER_RAD * query.goal_turn_rad(goal.heading_rad);
+            let cost = chain.cost + COST_PER_OFFSET * (goal.distance_m + turn) + 2.0 * start.score;
+            let trace = assemble::trace(graph, &chain.hops, TRACE_STEP_M);
+            Candidate { hops: chain.hops, cost, goal, trace }
+        }));
+    }
+    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let mut kept: Vec<&Candidate> = Vec::new();
+    let mut routes = Vec::new();
+    for candidate in &candidates {
+        let same = |k: &&Candidate| assemble::mean_distance_m(&k.trace, &candidate.trace) < DISTINCT_M;
+        if routes.len() >= MAX_GOAL_ROUTES || kept.iter().any(same) {
+            continue;
+        }
+        if let Some(route) = assemble::route(graph, &candidate.hops, query.pose, false) {
+            kept.push(candidate);
+            let goal_lateral_m = errors_at(Pose::new(query.goal, 0.0), route.path.last()).0;
+            let goal_lateral_m = candidate.goal.distance_m.copysign(goal_lateral_m);
+            routes.push(GoalRoute { route, kind: RouteKind::Forward, goal_lateral_m, cost: candidate.cost });
+        }
+    }
+    routes
 }

@@ -1,0 +1,143 @@
+//! Shortest chains of lanes between places on lanes.
+
+use super::assemble::Hop;
+use super::graph::Beside;
+use super::start::StartLane;
+use super::{LaneGraph, LaneHit};
+use crate::AgentType;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Cost of a lane change beyond its length, metres.
+const CHANGE_COST_M: f64 = 8.0;
+/// Shortest lane change, metres, and the time one takes, seconds.
+const CHANGE_M: f64 = 10.0;
+const CHANGE_S: f64 = 2.5;
+/// Most lanes settled in one search.
+const MAX_SETTLED: usize = 4_096;
+
+/// One lane as it is entered: at its beginning, or somewhere on it (by a start or a change).
+#[derive(Clone, Copy, Debug)]
+struct Entered {
+    hop: Hop,
+    /// Length so far and penalties up to `hop.from_m`, metres.
+    cost: f64,
+    /// Index of the state before among the settled ones, and where its lane is left.
+    before: Option<(usize, f64)>,
+}
+
+/// Heap entry: cheapest first, then lowest lane, so that equal costs are settled in one order.
+#[derive(Clone, Copy, Debug)]
+struct Open(Entered);
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let (a, b) = (&self.0, &other.0);
+        b.cost
+            .total_cmp(&a.cost)
+            .then(b.hop.lane.cmp(&a.hop.lane))
+            .then(b.hop.from_m.total_cmp(&a.hop.from_m))
+    }
+}
+
+/// A chain that reaches a goal lane.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub hops: Vec<Hop>,
+    /// Length and penalties of lane changes, metres.
+    pub cost: f64,
+    /// Index among the goals.
+    pub goal: usize,
+}
+
+/// Cheapest chain from `start` to each of `goals` that is reached within `limit_m`, by Dijkstra's search
+/// over lanes with lane changes.
+pub(super) fn shortest(
+    graph: &LaneGraph,
+    start: &StartLane,
+    goals: &[LaneHit],
+    speed_mps: f64,
+    agent_type: AgentType,
+    limit_m: f64,
+) -> Vec<Found> {
+    let lanes = graph.lanes();
+    let change_m = (CHANGE_S * speed_mps).max(CHANGE_M);
+    let first = Hop::along(start.lane, start.s_m, lanes[start.lane].path.length_m());
+    let mut heap = BinaryHeap::from([Open(Entered { hop: first, cost: 0.0, before: None })]);
+    let mut settled: Vec<Entered> = Vec::new();
+    let mut done = vec![[false; 2]; lanes.len()];
+    let mut best: Vec<Option<(f64, usize)>> = vec![None; goals.len()];
+    while let Some(Open(state)) = heap.pop() {
+        let Hop { lane, from_m, to_m, .. } = state.hop;
+        if state.cost > limit_m || settled.len() >= MAX_SETTLED {
+            break;
+        }
+        // The start's own lane may be entered again from its beginning.
+        let inside = usize::from(from_m > 0.0);
+        if std::mem::replace(&mut done[lane][inside], true) {
+            continue;
+        }
+        let at = settled.len();
+        settled.push(state);
+        for (goal, slot) in goals.iter().zip(&mut best) {
+            let cost = state.cost + goal.s_m - from_m;
+            let ahead = goal.lane == lane && goal.s_m >= from_m + state.hop.change_m;
+            if ahead && cost <= limit_m && slot.is_none_or(|(least, _)| cost < least) {
+                *slot = Some((cost, at));
+            }
+        }
+        let (length, cost) = (to_m - from_m, state.cost);
+        for next in lanes[lane].successors.iter().filter(|n| lanes[**n].carries(agent_type)) {
+            let hop = Hop::along(*next, 0.0, lanes[*next].path.length_m());
+            heap.push(Open(Entered { hop, cost: cost + length, before: Some((at, to_m)) }));
+        }
+        for beside in lanes[lane].beside().filter(|b| b.same_direction && lanes[b.lane].carries(agent_type)) {
+            if let Some((left_m, hop)) = change(graph, &state.hop, beside, change_m) {
+                let cost = cost + left_m - from_m + CHANGE_COST_M;
+                heap.push(Open(Entered { hop, cost, before: Some((at, left_m)) }));
+            }
+        }
+    }
+    let found = best.iter().enumerate().filter_map(|(goal, reached)| {
+        let (cost, at) = (*reached)?;
+        Some(Found { hops: chain(&settled, at, goals[goal].s_m), cost, goal })
+    });
+    found.collect()
+}
+
+/// Change from a lane to the one beside as soon as the two lie side by side: where the lane is left, and
+/// the hop that follows.
+fn change(graph: &LaneGraph, hop: &Hop, beside: &Beside, change_m: f64) -> Option<(f64, Hop)> {
+    let left_m = (hop.from_m + hop.change_m).max(beside.own_m.0);
+    let from_m = beside.across(left_m)?;
+    let to_m = graph.lanes()[beside.lane].path.length_m();
+    let room = (beside.own_m.1 - left_m).min(to_m - from_m);
+    let hop = Hop { lane: beside.lane, from_m, to_m, change_m: change_m.min(room) };
+    (room >= 0.5 * change_m).then_some((left_m, hop))
+}
+
+/// Hops from the start to settled state `at`, ending at `goal_s_m` of its lane.
+fn chain(settled: &[Entered], at: usize, goal_s_m: f64) -> Vec<Hop> {
+    let (mut hops, mut next) = (Vec::new(), Some((at, goal_s_m)));
+    while let Some((at, to_m)) = next {
+        let Some(state) = settled.get(at) else { break };
+        hops.push(Hop { to_m, ..state.hop });
+        next = state.before;
+    }
+    hops.reverse();
+    hops
+}
