@@ -1,9 +1,24 @@
 //! How fast a path can be driven and what stands in the way.
 
-use super::{LaneGraph, Polyline, Route};
+use super::{LaneGraph, Leg, Polyline, Route};
+use crate::geometry::direction;
+use crate::geometry::obb::OrientedBox;
 use crate::{SignalState, Vec2};
 
-/// Comfort that limits speed in bends.
+/// Window over which the curvature of a path is measured, metres (`routes.md` section 3).
+const CURVATURE_WINDOW_M: f64 = 3.0;
+/// No bend asks for a cap above this, m/s.
+const TOP_SPEED_MPS: f64 = 35.0;
+/// A road user whose centre is farther from the path is not in the way, metres.
+const IN_THE_WAY_M: f64 = 1.6;
+/// Nearer centres are beside or behind us, metres.
+const AHEAD_M: f64 = 2.0;
+/// Cosine below which another's direction counts as across or against ours.
+const SAME_WAY: f64 = 0.3;
+/// A stop line this little behind still counts as here, metres.
+const PASSED_M: f64 = 1.0;
+
+/// Comfort that limits speed in bends (`routes.md` section 3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedRules {
     /// Sideways acceleration v^2 k, m/s2.
@@ -18,14 +33,12 @@ impl Default for SpeedRules {
     }
 }
 
-/// Another road user's box and speed.
+/// Another road user's outline and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the names say it")]
 pub struct Obstacle {
-    pub position: Vec2,
-    pub heading_rad: f64,
-    pub length_m: f64,
-    pub width_m: f64,
+    /// Its box.
+    pub outline: OrientedBox,
+    /// Along its heading, m/s.
     pub speed_mps: f64,
 }
 
@@ -51,26 +64,155 @@ pub struct SignalAhead {
     pub distance_m: f64,
 }
 
-/// Speed cap at every point of `path`, m/s.
-pub fn speed_caps(_path: &Polyline, limits_mps: &[f64], _rules: SpeedRules) -> Vec<f64> {
-    limits_mps.to_vec()
+/// A signal as routes need it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaneSignal {
+    /// Lane that obeys it, index into [`LaneGraph::lanes`].
+    pub lane: usize,
+    /// State now.
+    pub state: SignalState,
+    /// Where to stop; the lane's beginning when unknown.
+    pub stop: Option<Vec2>,
 }
 
-/// Nearest obstacle ahead whose centre lies within 1.6 m of the path. The path begins at the road user's centre.
-pub fn leader(_path: &Polyline, _own_length_m: f64, _others: &[Obstacle]) -> Option<Leader> {
+/// Speed cap at every point of `path`, m/s: the limit there, sqrt(lateral / curvature) in bends, and
+/// braking looked back from everything slower ahead. Points beyond the end of `limits_mps` have its last
+/// value, without any they have no limit.
+///
+/// Look-back holds for the limits too: a cap can be met from the cap before it by braking comfortably.
+pub fn speed_caps(path: &Polyline, limits_mps: &[f64], rules: SpeedRules) -> Vec<f64> {
+    let last = limits_mps.last().copied().unwrap_or(TOP_SPEED_MPS);
+    let arc = path.arc_m();
+    let in_bend = |s: f64| {
+        let curvature = path.curvature_at(s, CURVATURE_WINDOW_M).abs();
+        (rules.lateral_mps2 / curvature.max(1e-6)).sqrt().min(TOP_SPEED_MPS)
+    };
+    let cap = |(i, s): (usize, &f64)| in_bend(*s).min(limits_mps.get(i).copied().unwrap_or(last));
+    let mut caps: Vec<f64> = arc.iter().enumerate().map(cap).collect();
+    for i in (1..caps.len()).rev() {
+        let reachable = (caps[i] * caps[i] + 2.0 * rules.brake_mps2 * (arc[i] - arc[i - 1])).sqrt();
+        caps[i - 1] = caps[i - 1].min(reachable);
+    }
+    caps
+}
+
+/// Speed caps of a route with comfortable bends.
+pub fn route_speed_caps(route: &Route) -> Vec<f64> {
+    speed_caps(&route.path, &route.limits_mps, SpeedRules::default())
+}
+
+/// Nearest obstacle ahead whose centre lies within 1.6 m of the path. The path begins at the centre of the
+/// own box, which is `own_length_m` long and not among `others`.
+pub fn leader(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Option<Leader> {
+    let mut nearest: Option<(f64, Leader)> = None;
+    for (index, other) in others.iter().enumerate() {
+        let foot = path.project(other.outline.center());
+        if foot.distance_m > IN_THE_WAY_M || foot.s_m < AHEAD_M || foot.s_m >= path.length_m() {
+            continue;
+        }
+        if nearest.as_ref().is_some_and(|(s, _)| foot.s_m >= *s) {
+            continue;
+        }
+        let along = other.outline.forward().dot(&direction(foot.heading_rad));
+        let across = (1.0 - along * along).max(0.0).sqrt();
+        let half_extent = other.outline.half_length_m() * along.abs() + other.outline.half_width_m() * across;
+        let gap_m = foot.s_m - half_extent - 0.5 * own_length_m;
+        let speed_mps = if along > SAME_WAY { other.speed_mps } else { 0.0 };
+        nearest = Some((foot.s_m, Leader { index, gap_m, speed_mps }));
+    }
+    nearest.map(|(_, leader)| leader)
+}
+
+/// Path arc length of the place at `s_m` of the leg's lane; `None` when the leg does not pass it.
+fn on_path(leg: &Leg, s_m: f64) -> Option<f64> {
+    let passes = s_m >= leg.from_m - PASSED_M && s_m <= leg.to_m + 1e-6;
+    passes.then(|| leg.path_from_m + (s_m - leg.from_m).max(0.0))
+}
+
+/// First signal that the route meets. A lane that the route is already on beyond its stop line is passed.
+pub fn first_signal(route: &Route, graph: &LaneGraph, signals: &[LaneSignal]) -> Option<SignalAhead> {
+    for leg in &route.legs {
+        let here = signals.iter().enumerate().filter(|(_, signal)| signal.lane == leg.lane);
+        let met = here.filter_map(|(index, signal)| {
+            let path = &graph.lanes().get(signal.lane)?.path;
+            let s = signal.stop.map_or(0.0, |stop| path.project(stop).s_m);
+            Some(SignalAhead { index, state: signal.state, distance_m: on_path(leg, s)? })
+        });
+        let first = met.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.index.cmp(&b.index)));
+        if first.is_some() {
+            return first;
+        }
+    }
     None
 }
 
-/// First signal on the route. Signals: lane (index into the graph), state, stop point if known.
-pub fn first_signal(
-    _route: &Route,
-    _graph: &LaneGraph,
-    _signals: &[(usize, SignalState, Option<Vec2>)],
-) -> Option<SignalAhead> {
-    None
+/// Distance along the route's path to the place beside its first stop sign, metres.
+pub fn stop_sign_distance_m(route: &Route, graph: &LaneGraph) -> Option<f64> {
+    route.legs.iter().find_map(|leg| on_path(leg, graph.lanes().get(leg.lane)?.stop_sign_m?))
 }
 
-/// Distance along the route's path to the first stop sign, metres.
-pub fn stop_sign_distance_m(_route: &Route, _graph: &LaneGraph) -> Option<f64> {
-    None
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::routes::sample_maps::crossing;
+    use crate::routes::{Pose, routes_ahead};
+    use crate::{AgentType, LaneMap, map::StopSign};
+
+    fn route(map: &LaneMap, x: f64) -> (LaneGraph, Route) {
+        let graph = LaneGraph::new(map);
+        let routes = routes_ahead(&graph, Pose::xyh(x, -1.75, 0.0), AgentType::Vehicle, 100.0);
+        let left = graph.lane_index("w_in>n").unwrap();
+        let turning = routes.into_iter().find(|r| r.legs.iter().any(|l| l.lane == left)).unwrap();
+        (graph, turning)
+    }
+
+    #[test]
+    fn bends_are_slow_and_braked_for() {
+        let (_, route) = route(&crossing(), -60.0);
+        let caps = route_speed_caps(&route);
+        let slowest = caps.iter().copied().fold(f64::INFINITY, f64::min);
+        let expected = (2.2_f64 * 13.75).sqrt();
+        assert!((slowest - expected).abs() < 0.3, "{slowest} for {expected}");
+        assert_eq!(caps[0], 13.4);
+        let arc = route.path.arc_m();
+        for i in 1..caps.len() {
+            let braking = (caps[i - 1].powi(2) - caps[i].powi(2)) / (2.0 * (arc[i] - arc[i - 1]));
+            assert!(braking <= 2.2 + 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_nearest_ahead_leads() {
+        let path = Polyline::new([Vec2::zeros(), Vec2::new(100.0, 0.0)]);
+        let at = |x: f64, y: f64, heading_rad: f64| Obstacle {
+            outline: OrientedBox::new(Vec2::new(x, y), 2.0, 1.0, heading_rad),
+            speed_mps: 7.0,
+        };
+        let others = [at(-10.0, 0.0, 0.0), at(40.0, 0.5, 0.0), at(20.0, 3.0, 0.0), at(60.0, 0.0, 0.0)];
+        let found = leader(&path, 5.0, &others).unwrap();
+        assert_eq!(found, Leader { index: 1, gap_m: 35.5, speed_mps: 7.0 });
+        let crossing = leader(&path, 5.0, &[at(30.0, 1.0, 1.5707963)]).unwrap();
+        assert!((crossing.gap_m - 26.5).abs() < 1e-3 && crossing.speed_mps == 0.0);
+        assert_eq!(leader(&path, 5.0, &[]), None);
+    }
+
+    #[test]
+    fn signals_and_stop_signs_on_the_route() {
+        let mut map = crossing();
+        let sign = StopSign {
+            id: "s".into(),
+            position: Vec2::new(-13.0, -4.0),
+            z_m: None,
+            lanes: vec!["w_in".into(), "nowhere".into()],
+        };
+        map.stop_signs.push(sign);
+        let (graph, route) = route(&map, -50.0);
+        assert!((stop_sign_distance_m(&route, &graph).unwrap() - 37.0).abs() < 0.1);
+        let signal = |id: &str, state| LaneSignal { lane: graph.lane_index(id).unwrap(), state, stop: None };
+        let signals = [signal("w_in>e", SignalState::Go), signal("w_in>n", SignalState::Stop)];
+        let found = first_signal(&route, &graph, &signals).unwrap();
+        assert_eq!((found.index, found.state), (1, SignalState::Stop));
+        assert!((found.distance_m - 38.0).abs() < 0.2);
+        assert_eq!(first_signal(&route, &graph, &signals[..1]), None);
+    }
 }
