@@ -1,0 +1,275 @@
+//! Where vehicles may drive and in which direction: an index of a map, built once and shared.
+
+use super::segments::{Segment, Segments, pieces};
+use crate::geometry::Vec2;
+use crate::geometry::obb::OrientedBox;
+use crate::map::{Area, LaneMap, LaneType};
+
+/// Distances off the road are not told apart beyond this, metres.
+pub const FAR_M: f64 = 50.0;
+/// A lane farther away than this says nothing about a place, metres.
+const LANE_REACH_M: f64 = 30.0;
+/// Height of the rows that polygon sides are sorted into, metres.
+const ROW_M: f64 = 4.0;
+
+/// What a lane contributes.
+#[derive(Clone, Copy, Debug)]
+struct Band {
+    half_width_m: f64,
+    carries_vehicles: bool,
+}
+
+/// Index of the ground that vehicles may use. Immutable, so any number of threads may read one, and a
+/// cache may keep it by the map's hash.
+///
+/// Which rule holds depends on what the map has:
+/// - drivable areas: the ground inside any of them;
+/// - else road edges: ground from which a straight line to the nearest lane centre crosses no edge;
+/// - else the lanes' own widths, assumed by type where the source gives none;
+/// - driveways count as drivable under the last two. Sidewalk lanes never do.
+#[derive(Clone, Debug, Default)]
+pub struct Drivable {
+    areas: Polygons,
+    driveways: Polygons,
+    area_sides: Segments,
+    edges: Segments,
+    centers: Segments,
+    bands: Vec<Band>,
+    assumed_width: bool,
+}
+
+impl Drivable {
+    /// Index of a map. Some milliseconds for a map of ten thousand points.
+    pub fn new(map: &LaneMap) -> Self {
+        let lanes = || map.lanes.iter().enumerate().filter(|(_, l)| l.lane_type != LaneType::Sidewalk);
+        let centers = lanes().flat_map(|(i, l)| pieces(&l.points.xy, false, i as u32)).collect();
+        let edges = map.road_edges.iter().flat_map(|e| pieces(&e.points.xy, false, 0)).collect();
+        let has_areas = map.drivable.iter().any(|a| a.polygon.xy.len() >= 3);
+        let band = |lane: &crate::map::Lane| Band {
+            half_width_m: 0.5 * lane.width_or_assumed_m(),
+            carries_vehicles: lane.lane_type.carries_vehicles(),
+        };
+        let edges = Segments::new(edges);
+        Self {
+            areas: Polygons::new(&map.drivable),
+            driveways: Polygons::new(&map.driveways),
+            area_sides: Segments::new(sides(&map.drivable).collect()),
+            centers: Segments::new(centers),
+            bands: map.lanes.iter().map(band).collect(),
+            assumed_width: !has_areas && edges.is_empty() && lanes().any(|(_, l)| l.width_m.is_none()),
+            edges,
+        }
+    }
+
+    /// Off-road figures rest on lane widths that were assumed by type.
+    pub fn assumed_width(&self) -> bool {
+        self.assumed_width
+    }
+
+    /// The map says nothing about where to drive.
+    pub fn is_unknown(&self) -> bool {
+        self.area_sides.is_empty() && self.centers.is_empty()
+    }
+
+    /// How far a point lies off the road, metres: zero on it, at most [`FAR_M`]; `None` when the map
+    /// does not say.
+    pub fn outside_m(&self, point: Vec2) -> Option<f64> {
+        if !self.area_sides.is_empty() {
+            let inside = self.areas.contain(point);
+            return Some(if inside { 0.0 } else { distance(&self.area_sides, point) });
+        }
+        if self.centers.is_empty() {
+            return None;
+        }
+        if self.driveways.contain(point) {
+            return Some(0.0);
+        }
+        Some(if self.edges.is_empty() { self.beside_lanes_m(point) } else { self.beyond_edges_m(point) })
+    }
+
+    /// How far the farthest corner of a box lies off the road, metres; `None` when the map does not say.
+    pub fn box_outside_m(&self, outline: &OrientedBox) -> Option<f64> {
+        let center = self.outside_m(outline.center())?;
+        let bounds = if self.area_sides.is_empty() { &self.edges } else { &self.area_sides };
+        let clear = !bounds.is_empty() && bounds.nearest(outline.center(), outline.radius_m()).is_none();
+        if center == 0.0 && clear {
+            return Some(0.0);
+        }
+        let corners = outline.corners().map(|c| self.outside_m(c).unwrap_or(0.0));
+        Some(corners.into_iter().fold(0.0, f64::max))
+    }
+
+    /// Distance beyond the nearest lane's own side.
+    fn beside_lanes_m(&self, point: Vec2) -> f64 {
+        let mut least = FAR_M;
+        for radius in [4.0, FAR_M] {
+            for lane in self.centers.near(point, radius) {
+                let half = self.bands.get(lane.owner as usize).map_or(0.0, |b| b.half_width_m);
+                least = least.min((lane.foot(point) - point).norm() - half);
+            }
+            if least <= 0.0 {
+                return 0.0;
+            }
+        }
+        least
+    }
+
+    /// Distance beyond the road edge that lies between a point and its nearest lane.
+    fn beyond_edges_m(&self, point: Vec2) -> f64 {
+        let Some((_, foot, away)) = self.centers.nearest(point, LANE_REACH_M) else {
+            return distance(&self.edges, point);
+        };
+        let middle = 0.5 * (point + foot);
+        let crossed = self.edges.near(middle, 0.5 * away).any(|edge| edge.crosses(point, foot));
+        if crossed { distance(&self.edges, point) } else { 0.0 }
+    }
+
+    /// Against the traffic: there are vehicle lanes at `point`, and `forward` (a unit vector) is more
+    /// than 120 degrees off the direction of every one of them. `None` off the lanes.
+    pub fn is_wrong_way(&self, point: Vec2, forward: Vec2) -> Option<bool> {
+        let mut on_lane = false;
+        for lane in self.centers.near(point, 4.0) {
+            let Some(band) = self.bands.get(lane.owner as usize).filter(|b| b.carries_vehicles) else {
+                continue;
+            };
+            if (lane.foot(point) - point).norm() > band.half_width_m {
+                continue;
+            }
+            on_lane = true;
+            let along = lane.to - lane.from;
+            if along.dot(&forward) >= -0.5 * along.norm() {
+                return Some(false);
+            }
+        }
+        on_lane.then_some(true)
+    }
+}
+
+fn distance(to: &Segments, point: Vec2) -> f64 {
+    to.nearest(point, FAR_M).map_or(FAR_M, |found| found.2)
+}
+
+fn sides(areas: &[Area]) -> impl Iterator<Item = Segment> + '_ {
+    let rings = |area: &Area| {
+        let outer = std::iter::once(&area.polygon);
+        outer.chain(&area.holes).map(|r| r.xy.clone()).collect::<Vec<_>>()
+    };
+    areas.iter().enumerate().flat_map(move |(i, area)| {
+        rings(area).into_iter().flat_map(move |ring| pieces(&ring, true, i as u32))
+    })
+}
+
+/// Sides of polygons sorted into rows by y, so that a point is tested against few of them.
+#[derive(Clone, Debug, Default)]
+struct Polygons {
+    low_y: f64,
+    /// By row: sides with the polygon they belong to, by polygon.
+    rows: Vec<Vec<Segment>>,
+}
+
+impl Polygons {
+    fn new(areas: &[Area]) -> Self {
+        let all: Vec<Segment> = sides(areas).collect();
+        let ys = || all.iter().flat_map(|s| [s.from.y, s.to.y]);
+        let (low_y, high_y) = (ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max));
+        if all.is_empty() {
+            return Self::default();
+        }
+        let row = |y: f64| ((y - low_y) / ROW_M) as usize;
+        let mut rows = vec![Vec::new(); row(high_y) + 1];
+        for side in &all {
+            for slot in &mut rows[row(side.from.y.min(side.to.y))..=row(side.from.y.max(side.to.y))] {
+                slot.push(*side);
+            }
+        }
+        Self { low_y, rows }
+    }
+
+    /// Any polygon holds the point: even-odd rule, so a hole is outside its polygon.
+    fn contain(&self, p: Vec2) -> bool {
+        let row = (p.y - self.low_y) / ROW_M;
+        if row < 0.0 {
+            return false;
+        }
+        let Some(sides) = self.rows.get(row as usize) else { return false };
+        let to_the_right = |s: &Segment| {
+            let spans = (s.from.y > p.y) != (s.to.y > p.y);
+            spans && p.x < s.from.x + (s.to.x - s.from.x) * (p.y - s.from.y) / (s.to.y - s.from.y)
+        };
+        sides
+            .chunk_by(|a, b| a.owner == b.owner)
+            .any(|polygon| polygon.iter().filter(|s| to_the_right(s)).count() % 2 == 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{area, edge, lane};
+    use super::*;
+
+    fn at(x: f64, y: f64) -> Vec2 {
+        Vec2::new(x, y)
+    }
+
+    #[test]
+    fn may_be_shared() {
+        fn shared<T: Send + Sync>() {}
+        shared::<Drivable>();
+        assert!(Drivable::default().is_unknown());
+        assert_eq!(Drivable::default().outside_m(at(0.0, 0.0)), None);
+    }
+
+    #[test]
+    fn areas_with_holes() {
+        let mut square = area(&[(0.0, 0.0), (40.0, 0.0), (40.0, 40.0), (0.0, 40.0)]);
+        square.holes = vec![area(&[(10.0, 10.0), (20.0, 10.0), (20.0, 20.0), (10.0, 20.0)]).polygon];
+        let next = area(&[(40.0, 0.0), (60.0, 0.0), (60.0, 40.0), (40.0, 40.0)]);
+        let index = Drivable::new(&LaneMap { drivable: vec![square, next], ..LaneMap::default() });
+        assert_eq!(index.outside_m(at(5.0, 5.0)), Some(0.0));
+        assert_eq!(index.outside_m(at(12.0, 15.0)), Some(2.0));
+        assert_eq!(index.outside_m(at(-3.0, 44.0)), Some(5.0));
+        // A box over the seam of two areas is on the road.
+        assert_eq!(index.box_outside_m(&OrientedBox::new(at(40.0, 30.0), 2.0, 1.0, 0.3)), Some(0.0));
+        let over = OrientedBox::new(at(59.0, 30.0), 2.0, 1.0, 0.0);
+        assert!((index.box_outside_m(&over).unwrap() - 1.0).abs() < 1e-9);
+        assert!(!index.assumed_width());
+    }
+
+    #[test]
+    fn lane_widths_and_directions() {
+        let mut east = lane("east", &[(0.0, 0.0), (50.0, 0.0), (100.0, 0.0)]);
+        let west = lane("west", &[(100.0, 3.5), (0.0, 3.5)]);
+        let index = Drivable::new(&LaneMap { lanes: vec![east.clone(), west], ..LaneMap::default() });
+        assert!(index.assumed_width());
+        assert_eq!(index.outside_m(at(50.0, -1.7)), Some(0.0));
+        assert!((index.outside_m(at(50.0, -3.75)).unwrap() - 2.0).abs() < 1e-9);
+        assert!((index.outside_m(at(50.0, 25.25)).unwrap() - 20.0).abs() < 1e-9);
+        assert_eq!(index.outside_m(at(50.0, 500.0)), Some(FAR_M));
+        assert_eq!(index.is_wrong_way(at(20.0, 0.0), at(1.0, 0.0)), Some(false));
+        assert_eq!(index.is_wrong_way(at(20.0, 0.0), at(-1.0, 0.0)), Some(true));
+        assert_eq!(index.is_wrong_way(at(20.0, 3.5), at(-1.0, 0.0)), Some(false));
+        assert_eq!(index.is_wrong_way(at(20.0, 0.0), at(0.0, 1.0)), Some(false));
+        assert_eq!(index.is_wrong_way(at(20.0, -9.0), at(1.0, 0.0)), None);
+        east.width_m = Some(3.0);
+        let index = Drivable::new(&LaneMap { lanes: vec![east], ..LaneMap::default() });
+        assert!(!index.assumed_width());
+        assert!((index.outside_m(at(50.0, 1.7)).unwrap() - 0.2).abs() < 1e-9);
+    }
+
+    #[test]
+    fn road_edges_beat_lane_widths() {
+        let map = LaneMap {
+            lanes: vec![lane("east", &[(0.0, 0.0), (100.0, 0.0)])],
+            road_edges: vec![edge(&[(0.0, -6.0), (100.0, -6.0)]), edge(&[(0.0, 2.0), (100.0, 2.0)])],
+            driveways: vec![area(&[(40.0, -12.0), (50.0, -12.0), (50.0, -5.0), (40.0, -5.0)])],
+            ..LaneMap::default()
+        };
+        let index = Drivable::new(&map);
+        // The wide shoulder is road, the ground behind the edge is not, the driveway is.
+        assert_eq!(index.outside_m(at(20.0, -5.0)), Some(0.0));
+        assert_eq!(index.outside_m(at(20.0, -8.0)), Some(2.0));
+        assert_eq!(index.outside_m(at(45.0, -8.0)), Some(0.0));
+        assert_eq!(index.outside_m(at(20.0, 5.0)), Some(3.0));
+        assert!(!index.assumed_width());
+    }
+}

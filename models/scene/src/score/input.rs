@@ -1,0 +1,261 @@
+//! What is scored: the road users with their motion, the map index, signals and thresholds.
+
+use super::drivable::Drivable;
+use crate::geometry::obb::OrientedBox;
+use crate::{Agent, AgentType, Future, Goal, LaneMap, Scene, Signal, Size, State, Subtype, Track};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// Numbers that decide what counts. Defaults are those of `api.md` section 7 and `editor.md` item 21.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Thresholds {
+    /// Boxes collide when their intersection over union is above this.
+    pub iou: f64,
+    /// ... or when more than this share of the smaller box is covered: a child under a bus has a
+    /// tiny intersection over union. Above 1 turns the rule off (the paper's form).
+    pub covered_share: f64,
+    /// Near miss: time to collision below this, seconds.
+    pub ttc_s: f64,
+    /// Near miss: gap below this, metres.
+    pub gap_m: f64,
+    /// Near miss: only when the gap shrinks faster than this, m/s.
+    pub closing_speed_mps: f64,
+    /// Near miss of one that follows another: only when avoiding the collision needs more braking
+    /// than this, m/s2 (deceleration rate to avoid a crash, 3.35 in Archer 2005).
+    pub follow_brake_mps2: f64,
+    /// Slower than this counts as standing, m/s.
+    pub moving_mps: f64,
+    /// Braking above this is harsh, m/s2.
+    pub harsh_brake_mps2: f64,
+    /// A corner farther outside than this is off the road, metres.
+    pub offroad_m: f64,
+    /// Goal position met within this, metres.
+    pub goal_position_m: f64,
+    /// Goal heading met within this, radians.
+    pub goal_heading_rad: f64,
+    /// Goal speed met within this, m/s.
+    pub goal_speed_mps: f64,
+    /// Turning right at red after a stop is allowed.
+    pub right_on_red: bool,
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self {
+            iou: 0.02,
+            covered_share: 0.5,
+            ttc_s: 1.5,
+            gap_m: 1.0,
+            closing_speed_mps: 1.0,
+            follow_brake_mps2: 3.35,
+            moving_mps: 0.5,
+            harsh_brake_mps2: 4.0,
+            offroad_m: 0.1,
+            goal_position_m: 0.05,
+            goal_heading_rad: 0.02,
+            goal_speed_mps: 0.05,
+            right_on_red: true,
+        }
+    }
+}
+
+/// Which pairs are looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PairChoice {
+    /// Every pair.
+    #[default]
+    All,
+    /// Pairs with at least one generated road user.
+    Regenerated,
+}
+
+/// Which pairs are left out because the recording itself shows them overlapping (detector boxes of
+/// neighbours often touch).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Exclude {
+    /// None.
+    Nothing,
+    /// Pairs that overlap at the first scored step that both logs have.
+    #[default]
+    OverlapAtStart,
+    /// Pairs that overlap at any scored step of the log (the evaluation's rule).
+    OverlapInLog,
+}
+
+/// One road user with the motion to score.
+#[derive(Clone, Debug)]
+pub struct Actor<'a> {
+    /// Id in the scene.
+    pub id: &'a str,
+    /// Type.
+    pub agent_type: AgentType,
+    /// Finer type.
+    pub subtype: Subtype,
+    /// Box.
+    pub size: Size,
+    /// Motion by scene step: history from the log, then what is scored.
+    pub track: Cow<'a, Track>,
+    /// Recorded motion, if any: for pairs to leave out.
+    pub log: Option<&'a Track>,
+    /// The motion was made, not recorded: kinematic limits apply.
+    pub generated: bool,
+    /// Goal that was asked for; free for recorded motion.
+    pub goal: Goal,
+    /// Motion to compare with, if any.
+    pub reference: Option<&'a Track>,
+    /// All futures, for the best of them against the reference; empty: the track alone.
+    pub modes: &'a [Future],
+}
+
+impl<'a> Actor<'a> {
+    /// A road user as it was recorded.
+    pub fn of_log(agent: &'a Agent) -> Self {
+        Self {
+            id: &agent.id,
+            agent_type: agent.agent_type,
+            subtype: agent.subtype,
+            size: agent.size,
+            track: Cow::Borrowed(&agent.track),
+            log: Some(&agent.track),
+            generated: false,
+            goal: Goal::default(),
+            reference: None,
+            modes: &[],
+        }
+    }
+
+    /// A road user that takes one of its futures after its history. The state before the future's
+    /// first step is the log's with the start fields of its conditions in place; the log is the
+    /// reference.
+    pub fn of_future(agent: &'a Agent, chosen: &Future, modes: &'a [Future]) -> Self {
+        let conditions = &agent.conditions;
+        let mut size = agent.size;
+        size.length_m = conditions.length_m.unwrap_or(size.length_m);
+        size.width_m = conditions.width_m.unwrap_or(size.width_m);
+        Self {
+            size,
+            agent_type: conditions.agent_type.unwrap_or(agent.agent_type),
+            track: Cow::Owned(joined(agent, chosen)),
+            generated: true,
+            goal: conditions.goal,
+            reference: Some(&agent.track),
+            modes,
+            ..Self::of_log(agent)
+        }
+    }
+
+    /// State at a scene step.
+    pub fn state(&self, step: usize) -> Option<&State> {
+        self.track.at(step)
+    }
+
+    /// Box at a scene step.
+    pub fn outline(&self, step: usize) -> Option<OrientedBox> {
+        self.state(step).map(|s| OrientedBox::of_state(s, &self.size))
+    }
+
+    /// Greatest distance from its first place within `steps`, metres.
+    pub fn travel_m(&self, steps: Range<usize>) -> f64 {
+        let mut places = steps.filter_map(|i| self.state(i)).map(State::position);
+        let Some(first) = places.next() else { return 0.0 };
+        places.map(|p| (p - first).norm()).fold(0.0, f64::max)
+    }
+}
+
+/// The log up to the step before the future, then the future.
+fn joined(agent: &Agent, chosen: &Future) -> Track {
+    let start_step = chosen.first_step.saturating_sub(1);
+    let first_step = agent.track.first_step.min(start_step);
+    let mut states: Vec<Option<State>> =
+        (first_step..chosen.first_step).map(|i| agent.track.at(i).copied()).collect();
+    if let Some(slot) = states.last_mut() {
+        *slot = start_state(agent, *slot);
+    }
+    states.extend(chosen.states.iter().copied().map(Some));
+    Track { first_step, states, z_m: None }
+}
+
+/// Logged state with the fixed start fields in place; `None` when neither gives a position.
+fn start_state(agent: &Agent, logged: Option<State>) -> Option<State> {
+    let start = &agent.conditions.start;
+    let mut state = match (logged, start.position) {
+        (Some(state), _) => state,
+        (None, Some(_)) => State::default(),
+        (None, None) => return None,
+    };
+    if let Some(p) = start.position {
+        (state.x_m, state.y_m) = (p.x, p.y);
+    }
+    if start.heading_rad.is_some() || start.speed_mps.is_some() {
+        let speed = start.speed_mps.unwrap_or(state.speed_mps());
+        state.heading_rad = start.heading_rad.unwrap_or(state.heading_rad);
+        let velocity = crate::geometry::direction(state.heading_rad) * speed;
+        (state.vx_mps, state.vy_mps) = (velocity.x, velocity.y);
+    }
+    Some(state)
+}
+
+/// Everything a score needs.
+#[derive(Clone, Debug)]
+pub struct ScoreInput<'a> {
+    /// Road users, in the order of the answer's pairs.
+    pub actors: Vec<Actor<'a>>,
+    /// Map of the scene: where the signals' lanes run.
+    pub map: &'a LaneMap,
+    /// Signals of the scene.
+    pub signals: &'a [Signal],
+    /// Index of the map, built once a map.
+    pub drivable: &'a Drivable,
+    /// Scene steps that are scored.
+    pub steps: Range<usize>,
+    /// Pairs to look at.
+    pub pairs: PairChoice,
+    /// Pairs to leave out.
+    pub exclude: Exclude,
+    /// Numbers that decide what counts.
+    pub thresholds: Thresholds,
+}
+
+impl<'a> ScoreInput<'a> {
+    /// The scene as it is shown: chosen futures, and for the rest the log. Scored from the step
+    /// before the first future (from the first step without futures) to the end of the longest
+    /// motion.
+    pub fn of_scene(scene: &'a Scene, drivable: &'a Drivable) -> Self {
+        let sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
+        Self::of_sample(scene, sample, drivable)
+    }
+
+    /// As [`ScoreInput::of_scene`] for one sample of futures, or the log alone for `None`.
+    pub fn of_sample(scene: &'a Scene, sample: Option<&'a crate::Sample>, drivable: &'a Drivable) -> Self {
+        let mut first_future: Option<usize> = None;
+        let mut actors = Vec::with_capacity(scene.agents.len());
+        for agent in &scene.agents {
+            let futures = sample.and_then(|s| s.agents.get(&agent.id));
+            let actor = match futures.and_then(|f| Some((f, f.modes.get(f.chosen)?))) {
+                Some((futures, chosen)) => {
+                    let earlier = first_future.unwrap_or(usize::MAX).min(chosen.first_step);
+                    first_future = Some(earlier);
+                    Actor::of_future(agent, chosen, &futures.modes)
+                }
+                None => Actor::of_log(agent),
+            };
+            actors.push(actor);
+        }
+        let first = first_future.map_or(0, |f| f.saturating_sub(1));
+        let end = actors.iter().map(|a| a.track.first_step + a.track.states.len()).max().unwrap_or(0);
+        Self {
+            actors,
+            map: &scene.map,
+            signals: &scene.signals,
+            drivable,
+            steps: first..end.max(first),
+            pairs: PairChoice::default(),
+            exclude: Exclude::default(),
+            thresholds: Thresholds::default(),
+        }
+    }
+}

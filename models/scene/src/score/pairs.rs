@@ -1,0 +1,324 @@
+//! What happens between two road users: collisions, near misses, least gap, least time to collision.
+
+use super::input::{Exclude, PairChoice, ScoreInput};
+use super::pet::post_encroachment_s;
+use super::report::{Collision, NearMiss, time_of};
+use crate::AgentType;
+use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
+use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
+use crate::geometry::{Vec2, wrap_angle};
+use std::f64::consts::FRAC_PI_6;
+
+/// Moments looked at between two steps, the step itself counted (`api.md` section 7).
+pub const SUBSTEPS: usize = 4;
+
+/// A road user that stays within this of its first place all the time is parked, metres.
+const PARKED_M: f64 = 1.0;
+
+/// What the pairs of one road user come to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PairTotals {
+    /// Collisions it is part of.
+    pub collisions: usize,
+    /// Near misses it is part of.
+    pub near_misses: usize,
+    /// Its box overlaps another's at a step, however little.
+    pub overlaps: bool,
+    /// Least time to collision, seconds.
+    pub min_ttc_s: Option<f64>,
+    /// Least gap, metres.
+    pub min_distance_m: Option<f64>,
+    /// Least post-encroachment time, seconds.
+    pub pet_s: Option<f64>,
+}
+
+/// What all pairs come to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PairScores {
+    /// One a pair, in pair order.
+    pub collisions: Vec<Collision>,
+    /// One a pair, in pair order.
+    pub near_misses: Vec<NearMiss>,
+    /// By road user, in input order.
+    pub agents: Vec<PairTotals>,
+}
+
+/// One road user made ready for many pairs: its boxes and velocities over the scored steps.
+#[derive(Debug)]
+pub(super) struct Mover {
+    /// Box and velocity a scored step.
+    pub moments: Vec<Option<Moment>>,
+    /// Greatest distance from its first place, metres.
+    pub travel_m: f64,
+    /// Holds its boxes at all steps.
+    pub places: Option<Rectangle>,
+    /// Holds all it can touch within the look-ahead at constant velocity.
+    reach: Option<Rectangle>,
+    pub agent_type: AgentType,
+}
+
+/// Centre and half extents of an upright rectangle, metres.
+pub(super) type Rectangle = (Vec2, Vec2);
+
+/// Box and velocity (m/s) at one step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
+    pub outline: OrientedBox,
+    pub velocity: Vec2,
+    pub speed_mps: f64,
+}
+
+impl Mover {
+    pub(super) fn new(input: &ScoreInput<'_>, index: usize) -> Self {
+        let actor = &input.actors[index];
+        let moment = |step| {
+            let state = actor.state(step)?;
+            let outline = OrientedBox::of_state(state, &actor.size);
+            Some(Moment { outline, velocity: state.velocity(), speed_mps: state.speed_mps() })
+        };
+        let moments: Vec<Option<Moment>> = input.steps.clone().map(moment).collect();
+        let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
+        let reach = rectangle(moments.iter().flatten().map(|m| (m.outline, m.velocity * LOOK_AHEAD_S)));
+        let travel_m = actor.travel_m(input.steps.clone());
+        Self { moments, travel_m, places, reach, agent_type: actor.agent_type }
+    }
+
+    /// Box between two steps, `part` from 0 to 1 of the way; places and headings change evenly.
+    fn between(&self, step: usize, part: f64) -> Option<OrientedBox> {
+        let from = self.moments.get(step)?.as_ref()?.outline;
+        if part == 0.0 {
+            return Some(from);
+        }
+        let to = self.moments.get(step + 1)?.as_ref()?.outline;
+        let center = from.center() + (to.center() - from.center()) * part;
+        let heading = from.heading_rad() + wrap_angle(to.heading_rad() - from.heading_rad()) * part;
+        Some(OrientedBox::new(center, from.half_length_m(), from.half_width_m(), heading))
+    }
+
+    /// Bound on how far any point of the box moves from this step to the next, metres.
+    fn stir_m(&self, step: usize) -> Option<f64> {
+        let from = self.moments.get(step)?.as_ref()?.outline;
+        let to = self.moments.get(step + 1)?.as_ref()?.outline;
+        let turn = wrap_angle(to.heading_rad() - from.heading_rad()).abs();
+        Some((to.center() - from.center()).norm() + turn * from.radius_m())
+    }
+}
+
+/// Upright rectangle about boxes, each with its bounding circle moved from here to there.
+fn rectangle(moved: impl Iterator<Item = (OrientedBox, Vec2)>) -> Option<Rectangle> {
+    let mut low = Vec2::repeat(f64::INFINITY);
+    let mut high = -low;
+    for (outline, shift) in moved {
+        let (p, r) = (outline.center(), Vec2::repeat(outline.radius_m()));
+        low = low.inf(&(p.inf(&(p + shift)) - r));
+        high = high.sup(&(p.sup(&(p + shift)) + r));
+    }
+    (low.x <= high.x).then(|| (0.5 * (low + high), 0.5 * (high - low)))
+}
+
+/// What one pair comes to.
+#[derive(Debug, Default)]
+struct Pair {
+    min_ttc_s: Option<f64>,
+    min_distance_m: Option<f64>,
+    overlaps: bool,
+    /// First moment of a collision in steps, closing speed there, greatest IoU.
+    collision: Option<(f64, f64, f64)>,
+    /// Worst qualifying moment: step, gap, time to collision, closing speed.
+    near: Option<(usize, f64, Option<f64>, f64)>,
+}
+
+/// The larger of two road users' least gaps: a gap above it changes neither.
+fn known_least(a: &PairTotals, b: &PairTotals) -> f64 {
+    let known = |t: &PairTotals| t.min_distance_m.unwrap_or(f64::INFINITY);
+    known(a).max(known(b))
+}
+
+/// Looks at all pairs that the input asks for.
+pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
+    let movers: Vec<Mover> = (0..input.actors.len()).map(|i| Mover::new(input, i)).collect();
+    let mut scores = PairScores { agents: vec![PairTotals::default(); movers.len()], ..Default::default() };
+    let pairs = (0..movers.len()).flat_map(|i| (i + 1..movers.len()).map(move |j| (i, j)));
+    for (i, j) in pairs {
+        let known_m = known_least(&scores.agents[i], &scores.agents[j]).max(input.thresholds.gap_m);
+        if stay_apart(&movers[i], &movers[j], known_m) {
+            continue;
+        }
+        let (a, b) = (&input.actors[i], &input.actors[j]);
+        let asked = input.pairs == PairChoice::All || a.generated || b.generated;
+        if !asked || is_excluded(input, i, j) {
+            continue;
+        }
+        let pair = look_at(input, &movers[i], &movers[j], known_m);
+        let pet_s = post_encroachment_s(&movers[i], &movers[j]);
+        let ids = (a.id.to_owned(), b.id.to_owned());
+        for k in [i, j] {
+            let totals = &mut scores.agents[k];
+            totals.collisions += usize::from(pair.collision.is_some());
+            totals.near_misses += usize::from(pair.near.is_some());
+            totals.overlaps |= pair.overlaps;
+            totals.min_ttc_s = least(totals.min_ttc_s, pair.min_ttc_s);
+            totals.min_distance_m = least(totals.min_distance_m, pair.min_distance_m);
+            totals.pet_s = least(totals.pet_s, pet_s);
+        }
+        let scene_time = |step: f64| time_of(input.steps.start as f64 + step);
+        if let Some((at, closing_speed_mps, iou)) = pair.collision {
+            let (a, b) = ids;
+            scores.collisions.push(Collision { a, b, time_s: scene_time(at), iou, closing_speed_mps });
+        } else if let Some((step, distance_m, ttc_s, closing_speed_mps)) = pair.near {
+            let ((a, b), time_s) = (ids, scene_time(step as f64));
+            scores.near_misses.push(NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps });
+        }
+    }
+    scores
+}
+
+/// Nothing this pair does can change a score: neither reaches the other within the look-ahead, and
+/// their places stay farther apart than the least gaps already known.
+fn stay_apart(a: &Mover, b: &Mover, known_m: f64) -> bool {
+    let clear = |p: Option<Rectangle>, q: Option<Rectangle>| match (p, q) {
+        (Some((cp, hp)), Some((cq, hq))) => {
+            let apart = (cp - cq).abs() - hp - hq;
+            Vec2::new(apart.x.max(0.0), apart.y.max(0.0)).norm()
+        }
+        _ => f64::INFINITY,
+    };
+    clear(a.reach, b.reach) > 0.0 && clear(a.places, b.places) > known_m
+}
+
+/// The log itself shows this pair overlapping.
+fn is_excluded(input: &ScoreInput<'_>, i: usize, j: usize) -> bool {
+    let (a, b) = (&input.actors[i], &input.actors[j]);
+    let (Some(log_a), Some(log_b)) = (a.log, b.log) else { return false };
+    let mut logged = input.steps.clone().filter_map(|step| {
+        let boxes = (log_a.at(step)?, log_b.at(step)?);
+        Some((OrientedBox::of_state(boxes.0, &a.size), OrientedBox::of_state(boxes.1, &b.size)))
+    });
+    match input.exclude {
+        Exclude::Nothing => false,
+        Exclude::OverlapAtStart => logged.next().is_some_and(|(p, q)| overlaps(&p, &q, 0.0)),
+        Exclude::OverlapInLog => logged.any(|(p, q)| overlaps(&p, &q, 0.0)),
+    }
+}
+
+/// Goes through the steps of a pair.
+fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known_m: f64) -> Pair {
+    let limits = &input.thresholds;
+    let mut pair = Pair::default();
+    let travels = a.travel_m >= PARKED_M || b.travel_m >= PARKED_M;
+    for (step, (p, q)) in a.moments.iter().zip(&b.moments).enumerate() {
+        let (Some(p), Some(q)) = (p, q) else { continue };
+        let moving = p.speed_mps > limits.moving_mps || q.speed_mps > limits.moving_mps;
+        let apart = circle_gap(&p.outline, &q.outline);
+        // The gap matters where it can be a new least, a near miss, or a collision before the next step.
+        let matters = apart < pair.min_distance_m.unwrap_or(known_m).max(limits.gap_m)
+            || apart < a.stir_m(step).unwrap_or(0.0) + b.stir_m(step).unwrap_or(0.0);
+        let (gap, towards) =
+            if matters { gap_and_direction(&p.outline, &q.outline) } else { (apart, Vec2::zeros()) };
+        let ttc_s = if moving { ttc(p, q) } else { None };
+        if matters {
+            if travels || gap < 0.0 {
+                pair.min_distance_m = least(pair.min_distance_m, Some(gap));
+            }
+            pair.overlaps |= gap < 0.0;
+            collide(&mut pair, input, (a, b), step, gap);
+        }
+        pair.min_ttc_s = least(pair.min_ttc_s, ttc_s);
+        if ttc_s.is_some_and(|t| t < limits.ttc_s) || (matters && gap < limits.gap_m) {
+            let (gap, towards) =
+                if matters { (gap, towards) } else { gap_and_direction(&p.outline, &q.outline) };
+            let closing = (p.velocity - q.velocity).dot(&towards);
+            if is_near_miss(input, (a, p), (b, q), (gap, towards), ttc_s, closing) {
+                keep_worst(&mut pair, step, gap, ttc_s, closing);
+            }
+        }
+    }
+    pair
+}
+
+fn ttc(p: &Moment, q: &Moment) -> Option<f64> {
+    time_to_collision(&p.outline, p.velocity, &q.outline, q.velocity, LOOK_AHEAD_S)
+}
+
+/// Looks for collisions from this step to just before the next.
+fn collide(pair: &mut Pair, input: &ScoreInput<'_>, (a, b): (&Mover, &Mover), step: usize, gap: f64) {
+    let stir = a.stir_m(step).zip(b.stir_m(step)).map(|(p, q)| p + q);
+    let moments = if gap > stir.unwrap_or(0.0) {
+        return;
+    } else if stir.is_some() {
+        SUBSTEPS
+    } else {
+        1
+    };
+    for sub in 0..moments {
+        let part = sub as f64 / SUBSTEPS as f64;
+        let (Some(p), Some(q)) = (a.between(step, part), b.between(step, part)) else { return };
+        let shared = shared_area_m2(&p, &q);
+        if shared <= 0.0 {
+            continue;
+        }
+        let share = iou(&p, &q);
+        let covered = shared / p.area_m2().min(q.area_m2()).max(1e-9);
+        if let Some((_, _, worst)) = &mut pair.collision {
+            *worst = worst.max(share);
+        } else if share > input.thresholds.iou || covered > input.thresholds.covered_share {
+            pair.collision = Some((step as f64 + part, impact_mps(a, b, step), share));
+        }
+    }
+}
+
+/// Relative speed at a step, m/s.
+fn impact_mps(a: &Mover, b: &Mover, step: usize) -> f64 {
+    match (a.moments.get(step), b.moments.get(step)) {
+        (Some(Some(p)), Some(Some(q))) => (p.velocity - q.velocity).norm(),
+        _ => 0.0,
+    }
+}
+
+/// Both move (or one stands in the way for a while), the gap shrinks fast, and it is neither two
+/// walkers passing nor one that brakes normally behind another.
+fn is_near_miss(
+    input: &ScoreInput<'_>,
+    (a, p): (&Mover, &Moment),
+    (b, q): (&Mover, &Moment),
+    (gap, towards): (f64, Vec2),
+    ttc_s: Option<f64>,
+    closing: f64,
+) -> bool {
+    let limits = &input.thresholds;
+    let parked = a.travel_m < PARKED_M || b.travel_m < PARKED_M;
+    let walkers = a.agent_type == AgentType::Pedestrian && b.agent_type == AgentType::Pedestrian;
+    if parked || walkers || closing <= limits.closing_speed_mps {
+        return false;
+    }
+    let by_time = ttc_s.is_some_and(|t| t < limits.ttc_s);
+    let both_move = p.speed_mps > limits.moving_mps && q.speed_mps > limits.moving_mps;
+    let by_gap = gap < limits.gap_m && both_move;
+    if !by_time && !by_gap {
+        return false;
+    }
+    let turn = wrap_angle(p.outline.heading_rad() - q.outline.heading_rad()).abs();
+    let needed_mps2 = closing * closing / (2.0 * gap.max(0.05));
+    let follows = turn < FRAC_PI_6 && towards.dot(&p.outline.forward()).abs() > 0.7;
+    !follows || needed_mps2 > limits.follow_brake_mps2
+}
+
+/// Keeps the moment with the least time to collision, then the least gap.
+fn keep_worst(pair: &mut Pair, step: usize, gap: f64, ttc_s: Option<f64>, closing: f64) {
+    let key = |ttc: Option<f64>, gap: f64| (ttc.unwrap_or(f64::INFINITY), gap);
+    let worse = pair.near.is_none_or(|(_, g, t, _)| key(ttc_s, gap) < key(t, g));
+    if worse {
+        pair.near = Some((step, gap, ttc_s, closing));
+    }
+}
+
+fn least(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+#[cfg(test)]
+#[path = "pairs_test.rs"]
+mod tests;

@@ -1,0 +1,179 @@
+use super::super::tests::{input_of, straight, track_of};
+use super::super::{Actor, Drivable, Exclude, PairChoice, ScoreInput};
+use super::*;
+use crate::AgentType::{Pedestrian, Vehicle};
+use crate::{STEP_S, State, Track};
+use std::borrow::Cow;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+fn scored(actors: Vec<Actor<'_>>, change: impl Fn(&mut ScoreInput<'_>)) -> PairScores {
+    let drivable = Drivable::default();
+    let mut input = input_of(actors, &drivable);
+    change(&mut input);
+    score_pairs(&input)
+}
+
+fn plain(actors: Vec<Actor<'_>>) -> PairScores {
+    scored(actors, |_| ())
+}
+
+fn car(id: &'static str, x: f64, y: f64, heading: f64, speed: f64) -> Actor<'static> {
+    straight(id, Vehicle, (x, y), heading, speed)
+}
+
+/// Parked: same place all the time.
+fn parked(id: &'static str, x: f64, y: f64) -> Actor<'static> {
+    car(id, x, y, 0.0, 0.0)
+}
+
+#[test]
+fn rear_end_collision() {
+    let found = plain(vec![car("a", 0.0, 0.0, 0.0, 15.0), car("b", 24.0, 0.0, 0.0, 5.0)]);
+    // 20 m between the bumpers, 10 m/s: contact after 2 s; IoU over 0.02 needs 0.157 m, and the first
+    // quarter step with it is at 2.025 s.
+    assert_eq!(found.collisions.len(), 1);
+    let crash = &found.collisions[0];
+    assert_eq!((crash.a.as_str(), crash.b.as_str(), crash.time_s), ("a", "b", 2.025));
+    assert!((crash.iou - 1.0).abs() < 1e-9 && (crash.closing_speed_mps - 10.0).abs() < 1e-9);
+    assert!(found.near_misses.is_empty());
+    assert_eq!(found.agents[0].min_ttc_s, Some(0.0));
+    assert!((found.agents[1].min_distance_m.unwrap() + 2.0).abs() < 1e-9);
+}
+
+#[test]
+fn collision_between_two_steps() {
+    // Two walkers' boxes pass through a corner of each other between steps: only the substep sees it.
+    let fast = |id, x: f64, y: f64, h| straight(id, Pedestrian, (x, y), h, 40.0);
+    let found = plain(vec![fast("a", -2.0, 0.0, 0.0), fast("b", 0.0, -2.0, FRAC_PI_2)]);
+    assert_eq!(found.collisions.len(), 1);
+    assert_eq!(found.collisions[0].time_s, 0.05);
+}
+
+#[test]
+fn small_under_large() {
+    let mut bus = parked("a", 0.0, 0.0);
+    (bus.size.length_m, bus.size.width_m) = (12.0, 2.6);
+    let mut child = straight("b", Pedestrian, (0.0, -9.0), FRAC_PI_2, 2.0);
+    (child.size.length_m, child.size.width_m) = (0.4, 0.4);
+    let found = plain(vec![bus.clone(), child.clone()]);
+    assert_eq!(found.collisions.len(), 1);
+    let paper = scored(vec![bus, child], |input| input.thresholds.covered_share = 2.0);
+    assert!(paper.collisions.is_empty() && paper.agents[0].overlaps);
+}
+
+#[test]
+fn log_overlaps_are_left_out() {
+    let log = track_of(|_| State::default());
+    let apart = track_of(|i| State { x_m: if i == 50 { 1.0 } else { 9.0 }, ..State::default() });
+    let beside = track_of(|_| State { y_m: 1.5, ..State::default() });
+    let pair = |second: &'static Track, first: &'static Track| {
+        let with = |id, y, log: &'static Track| Actor { log: Some(log), ..parked(id, 0.0, y) };
+        vec![with("a", 0.0, first), with("b", 1.5, second)]
+    };
+    let leaked = |track: Track| -> &'static Track { Box::leak(Box::new(track)) };
+    let (log, apart, beside) = (leaked(log), leaked(apart), leaked(beside));
+    let count = |second, rule| scored(pair(second, log), |input| input.exclude = rule).collisions.len();
+    assert_eq!(count(beside, Exclude::Nothing), 1);
+    assert_eq!(count(beside, Exclude::OverlapAtStart), 0);
+    assert_eq!(count(apart, Exclude::OverlapAtStart), 1);
+    assert_eq!(count(apart, Exclude::OverlapInLog), 0);
+}
+
+#[test]
+fn only_regenerated_pairs() {
+    let mut actors = vec![car("a", 0.0, 0.0, 0.0, 15.0), parked("b", 24.0, 0.0), parked("c", 24.0, 0.5)];
+    for actor in &mut actors {
+        actor.generated = actor.id == "a";
+    }
+    assert_eq!(plain(actors.clone()).collisions.len(), 3);
+    let found = scored(actors, |input| input.pairs = PairChoice::Regenerated);
+    let ids: Vec<_> = found.collisions.iter().map(|c| c.b.as_str()).collect();
+    assert_eq!(ids, ["b", "c"]);
+}
+
+#[test]
+fn crossing_near_miss_at_its_worst_moment() {
+    // b crosses 0.5 m behind a's rear: front at y = -1 when a's rear is at x = 41.5.
+    let found = plain(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, -46.6, FRAC_PI_2, 10.0)]);
+    assert!(found.collisions.is_empty());
+    assert_eq!(found.near_misses.len(), 1);
+    let miss = &found.near_misses[0];
+    assert!(miss.distance_m < 1.5 && miss.closing_speed_mps > 1.0, "{miss:?}");
+    assert!((4.0..4.7).contains(&miss.time_s), "{miss:?}");
+    assert_eq!((found.agents[0].near_misses, found.agents[1].near_misses), (1, 1));
+}
+
+#[test]
+fn head_on_turned_away_is_a_near_miss() {
+    // Both stop 1 m apart after closing at 20 m/s: no collision, but time to collision was short.
+    let stop = |from: f64, way: f64| {
+        move |i: usize| {
+            let t = (i as f64 * STEP_S).min(4.0);
+            State {
+                x_m: from + way * (10.0 * t - 1.25 * t * t),
+                vx_mps: way * (10.0 - 2.5 * t),
+                ..State::default()
+            }
+        }
+    };
+    let mut a = car("a", 0.0, 0.0, 0.0, 10.0);
+    let mut b = car("b", 45.0, 0.0, PI, 10.0);
+    a.track = Cow::Owned(track_of(stop(0.0, 1.0)));
+    let facing = move |i| State { heading_rad: -PI, ..stop(45.0, -1.0)(i) };
+    b.track = Cow::Owned(track_of(facing));
+    let found = plain(vec![a, b]);
+    assert!(found.collisions.is_empty());
+    assert_eq!(found.near_misses.len(), 1);
+    let miss = &found.near_misses[0];
+    assert!(miss.ttc_s.unwrap() < 1.5 && miss.closing_speed_mps > 1.0, "{miss:?}");
+    assert!((found.agents[0].min_distance_m.unwrap() - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn no_near_miss_for_ordinary_neighbours() {
+    let none = |actors| assert_eq!(plain(actors).near_misses, []);
+    // Parked cars door to door; driving past a parked car with 0.6 m; side by side in step.
+    none(vec![parked("a", 0.0, 0.0), parked("b", 0.0, 2.3)]);
+    none(vec![car("a", -40.0, 0.0, 0.0, 10.0), parked("b", 0.0, 2.6)]);
+    none(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 0.0, 2.5, 0.0, 10.0)]);
+    // Oncoming one lane over.
+    none(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 80.0, 3.5, PI, 10.0)]);
+    // Walkers who pass each other.
+    let walk = |id, x, y, h| straight(id, Pedestrian, (x, y), h, 1.4);
+    none(vec![walk("a", 0.0, 0.0, 0.0), walk("b", 10.0, 1.0, PI)]);
+    // Stopping behind a queue at 2 m/s2 with half a metre left: time to collision falls below 1.5 s.
+    let queue = |i: usize| {
+        let t = (i as f64 * STEP_S).min(5.0);
+        State { x_m: 10.0 * t - t * t, vx_mps: 10.0 - 2.0 * t, ..State::default() }
+    };
+    let mut a = car("a", 0.0, 0.0, 0.0, 10.0);
+    a.track = Cow::Owned(track_of(queue));
+    let mut b = car("b", 29.5, 0.0, 0.0, 0.0);
+    let creep = |i: usize| State { x_m: 29.5 + 0.05 * (i as f64 - 60.0).max(0.0), ..State::default() };
+    b.track = Cow::Owned(track_of(creep));
+    none(vec![a, b]);
+}
+
+#[test]
+fn least_times_and_distances() {
+    let found =
+        plain(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 500.0, 30.0, 0.0, 10.0), parked("c", 0.0, 6.0)]);
+    // a passes c with 4 m between the sides and never meets b.
+    assert!((found.agents[0].min_distance_m.unwrap() - 4.0).abs() < 1e-9);
+    assert_eq!(found.agents[0].min_ttc_s, None);
+    // b is nearest to a at the start or the end alike: 496 m ahead, 28 m beside.
+    assert!((found.agents[1].min_distance_m.unwrap() - 496f64.hypot(28.0)).abs() < 0.1 + 90.0);
+    assert!(found.agents[1].min_distance_m.unwrap() > 400.0);
+}
+
+#[test]
+fn gaps_in_a_track_are_skipped() {
+    let mut a = car("a", 0.0, 0.0, 0.0, 15.0);
+    let hidden = a.track.to_mut();
+    for slot in &mut hidden.states[10..80] {
+        *slot = None;
+    }
+    let found = plain(vec![a, parked("b", 60.0, 0.0)]);
+    assert!(found.collisions.is_empty());
+    assert!(found.agents[0].min_ttc_s.unwrap() > 2.5);
+}

@@ -1,0 +1,244 @@
+//! The score as it is answered: member names are those of `api.md` section 7.
+
+use super::accuracy::Accuracy;
+use super::goal::GoalError;
+use super::input::{ScoreInput, Thresholds};
+use super::kinematic::Kinematic;
+use super::pairs::PairScores;
+use crate::AgentId;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Answer to a score request.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Score {
+    /// The scene as a whole.
+    pub scene: SceneScore,
+    /// Each road user, by id.
+    pub agents: BTreeMap<AgentId, AgentScore>,
+    /// The thresholds that were used.
+    pub thresholds: Thresholds,
+}
+
+/// Two road users overlap. One entry a pair.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Collision {
+    /// The one listed first.
+    pub a: AgentId,
+    /// The other.
+    pub b: AgentId,
+    /// Scene time of the first moment over the threshold, seconds.
+    pub time_s: f64,
+    /// Greatest intersection over union of the whole encounter, 0 to 1.
+    pub iou: f64,
+    /// Speed at which the two closed in at the first moment, m/s (their relative speed when they
+    /// already overlap).
+    pub closing_speed_mps: f64,
+}
+
+/// Two moving road users nearly collide. One entry a pair, at its worst moment.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NearMiss {
+    /// The one listed first.
+    pub a: AgentId,
+    /// The other.
+    pub b: AgentId,
+    /// Scene time, seconds.
+    pub time_s: f64,
+    /// Gap between the boxes then, metres.
+    pub distance_m: f64,
+    /// Time to collision at constant velocity then, seconds, if there is one.
+    pub ttc_s: Option<f64>,
+    /// Rate at which the gap shrank then, m/s.
+    pub closing_speed_mps: f64,
+}
+
+/// Something one road user does over a stretch of time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stretch {
+    /// Who.
+    pub agent: AgentId,
+    /// Scene time of the first step, seconds.
+    pub time_s: f64,
+    /// Scene time of the last step, seconds.
+    pub until_s: f64,
+    /// The worst of it: metres off the road, m/s2 of braking, share of the limit for turns; none for
+    /// wrong-way driving.
+    pub worst: Option<f64>,
+}
+
+/// A stop line is crossed while its signal says stop.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RedLight {
+    /// Who.
+    pub agent: AgentId,
+    /// Lane whose signal says stop.
+    pub lane: String,
+    /// Scene time at which the front crosses, seconds.
+    pub time_s: f64,
+    /// Speed then, m/s.
+    pub speed_mps: f64,
+}
+
+/// Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct SceneScore {
+    /// By time, then by pair.
+    pub collisions: Vec<Collision>,
+    /// Share of road users in any collision (the paper's scenario collision rate).
+    pub collision_rate: f64,
+    /// Share of road users whose box overlaps another's at all, however little.
+    pub overlap_rate: f64,
+    /// By time, then by pair.
+    pub near_misses: Vec<NearMiss>,
+    /// Least time to collision of any pair, seconds; none within the look-ahead.
+    pub min_ttc_s: Option<f64>,
+    /// Least gap of any pair that is not parked, metres; negative for depth.
+    pub min_distance_m: Option<f64>,
+    /// Least post-encroachment time of crossing paths, seconds.
+    pub pet_s: Option<f64>,
+    /// Share of vehicle steps with a corner off the road.
+    pub offroad_share: Option<f64>,
+    /// Farthest a vehicle's corner goes off the road, metres.
+    pub offroad_max_m: Option<f64>,
+    /// The map has no drivable areas, and some lane widths were assumed by type.
+    pub assumed_width: bool,
+    /// Share of moving vehicle steps against the direction of every lane there.
+    pub wrong_way_share: Option<f64>,
+    /// Greatest values of all generated road users, and their violations together.
+    pub kinematic: Option<Kinematic>,
+    /// Same as `kinematic.violations`: steps over a limit.
+    pub violations: usize,
+    /// Means over the road users with fixed goal fields.
+    pub goal_error: Option<GoalError>,
+    /// Share of road users with fixed goal fields that meet them all.
+    pub goals_reached: Option<f64>,
+    /// Means over the road users with a reference.
+    #[serde(flatten)]
+    pub accuracy: Option<Accuracy>,
+    /// Vehicles off the road.
+    pub off_road: Vec<Stretch>,
+    /// Vehicles against the traffic.
+    pub wrong_way: Vec<Stretch>,
+    /// Braking harder than the threshold; `worst` in m/s2.
+    pub harsh_braking: Vec<Stretch>,
+    /// Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only).
+    pub implausible_turns: Vec<Stretch>,
+    /// Stop lines crossed at red.
+    pub red_lights: Vec<RedLight>,
+    #[serde(skip)]
+    pub(super) offroad_steps: usize,
+    #[serde(skip)]
+    pub(super) road_steps: usize,
+    #[serde(skip)]
+    pub(super) wrong_way_steps: usize,
+    #[serde(skip)]
+    pub(super) moving_steps: usize,
+}
+
+/// Score of one road user.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct AgentScore {
+    /// Collisions it is part of.
+    pub collisions: usize,
+    /// Near misses it is part of.
+    pub near_misses: usize,
+    /// As in [`SceneScore`].
+    pub min_ttc_s: Option<f64>,
+    /// As in [`SceneScore`].
+    pub min_distance_m: Option<f64>,
+    /// As in [`SceneScore`].
+    pub pet_s: Option<f64>,
+    /// Vehicles only.
+    pub offroad_share: Option<f64>,
+    /// Vehicles only.
+    pub offroad_max_m: Option<f64>,
+    /// Vehicles only.
+    pub wrong_way_share: Option<f64>,
+    /// Generated motion only.
+    pub kinematic: Option<Kinematic>,
+    /// Only when a goal field is fixed.
+    pub goal_error: Option<GoalError>,
+    /// Only with a reference.
+    #[serde(flatten)]
+    pub accuracy: Option<Accuracy>,
+}
+
+impl SceneScore {
+    /// Fills in what follows from the pairs and the single road users.
+    pub(super) fn finish(&mut self, input: &ScoreInput<'_>, pairs: PairScores, agents: &[AgentScore]) {
+        self.min_ttc_s = minimum(agents.iter().map(|a| a.min_ttc_s));
+        self.min_distance_m = minimum(agents.iter().map(|a| a.min_distance_m));
+        self.pet_s = minimum(agents.iter().map(|a| a.pet_s));
+        let of_all = |count: usize| count as f64 / agents.len().max(1) as f64;
+        self.collision_rate = of_all(agents.iter().filter(|a| a.collisions > 0).count());
+        self.overlap_rate = of_all(pairs.agents.iter().filter(|a| a.overlaps).count());
+        self.collisions = pairs.collisions;
+        self.near_misses = pairs.near_misses;
+        self.collisions.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        self.near_misses.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        self.offroad_share = share(self.offroad_steps, self.road_steps);
+        self.offroad_max_m = maximum(agents.iter().map(|a| a.offroad_max_m));
+        self.assumed_width = input.drivable.assumed_width();
+        self.wrong_way_share = share(self.wrong_way_steps, self.moving_steps);
+        self.kinematic = Kinematic::over_all(agents.iter().filter_map(|a| a.kinematic.as_ref()));
+        self.violations = self.kinematic.as_ref().map_or(0, |k| k.violations);
+        self.goal_error = GoalError::mean(agents.iter().filter_map(|a| a.goal_error.as_ref()));
+        let goals = agents.iter().filter_map(|a| a.goal_error.as_ref());
+        let reached = goals.clone().filter(|g| g.is_reached(&input.thresholds)).count();
+        self.goals_reached = share(reached, goals.count());
+        self.accuracy = Accuracy::mean(agents.iter().filter_map(|a| a.accuracy.as_ref()));
+        for list in
+            [&mut self.off_road, &mut self.wrong_way, &mut self.harsh_braking, &mut self.implausible_turns]
+        {
+            list.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        }
+    }
+}
+
+/// Least of the known values.
+pub(super) fn minimum(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    values.flatten().reduce(f64::min)
+}
+
+/// Greatest of the known values.
+pub(super) fn maximum(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    values.flatten().reduce(f64::max)
+}
+
+/// Mean of the known values.
+pub(super) fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let (sum, count) = values.flatten().fold((0.0, 0usize), |(s, n), v| (s + v, n + 1));
+    (count > 0).then(|| sum / count as f64)
+}
+
+/// `part` of `whole`, none of nothing.
+pub(super) fn share(part: usize, whole: usize) -> Option<f64> {
+    (whole > 0).then(|| part as f64 / whole as f64)
+}
+
+/// Scene time of a step, seconds, rounded to a hundredth so that 3 x 0.1 reads 0.3.
+pub(super) fn time_of(step: f64) -> f64 {
+    (step * crate::STEP_S * 1000.0).round() / 1000.0
+}
+
+/// Cuts flagged steps (rising) into stretches; `worst` keeps the greatest value.
+pub(super) fn stretches(agent: &str, flagged: &[(usize, f64)], with_worst: bool) -> Vec<Stretch> {
+    let mut found: Vec<(usize, usize, f64)> = Vec::new();
+    for &(step, value) in flagged {
+        match found.last_mut() {
+            Some((_, last, worst)) if step <= *last + 2 => {
+                *last = step;
+                *worst = worst.max(value);
+            }
+            _ => found.push((step, step, value)),
+        }
+    }
+    let to_stretch = |(first, last, worst): (usize, usize, f64)| Stretch {
+        agent: agent.to_owned(),
+        time_s: time_of(first as f64),
+        until_s: time_of(last as f64),
+        worst: with_worst.then_some(worst),
+    };
+    found.into_iter().map(to_stretch).collect()
+}

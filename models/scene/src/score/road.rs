@@ -1,0 +1,104 @@
+//! Off the road and against the traffic, vehicles only.
+
+use super::input::{Actor, ScoreInput};
+use super::report::{Stretch, share, stretches};
+use crate::geometry::direction;
+use crate::{AgentType, Subtype};
+
+/// What a vehicle's motion comes to on the map.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RoadScore {
+    /// Share of its steps with a corner off the road.
+    pub offroad_share: Option<f64>,
+    /// Farthest a corner goes off the road, metres.
+    pub offroad_max_m: Option<f64>,
+    /// Share of its moving steps against the traffic.
+    pub wrong_way_share: Option<f64>,
+    /// Stretches off the road; `worst` in metres.
+    pub off_road: Vec<Stretch>,
+    /// Stretches against the traffic.
+    pub wrong_way: Vec<Stretch>,
+    pub(super) offroad_steps: usize,
+    pub(super) road_steps: usize,
+    pub(super) wrong_way_steps: usize,
+    pub(super) moving_steps: usize,
+}
+
+/// Looks at a vehicle's steps; nothing for other types, on maps that do not say where to drive, and
+/// for recorded vehicles that stay parked (they often stand across the kerb).
+pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
+    let drives = actor.agent_type == AgentType::Vehicle && actor.subtype != Subtype::Trailer;
+    let parked = !actor.generated && actor.travel_m(input.steps.clone()) < 1.0;
+    if !drives || parked || input.drivable.is_unknown() {
+        return RoadScore::default();
+    }
+    let limits = &input.thresholds;
+    let (mut off, mut wrong) = (Vec::new(), Vec::new());
+    let mut score = RoadScore::default();
+    let mut farthest: Option<f64> = None;
+    for step in input.steps.clone() {
+        let (Some(state), Some(outline)) = (actor.state(step), actor.outline(step)) else { continue };
+        if let Some(outside_m) = input.drivable.box_outside_m(&outline) {
+            score.road_steps += 1;
+            farthest = Some(farthest.unwrap_or(0.0).max(outside_m));
+            if outside_m > limits.offroad_m {
+                off.push((step, outside_m));
+            }
+        }
+        if state.speed_mps() > limits.moving_mps {
+            score.moving_steps += 1;
+            let forward = direction(state.heading_rad);
+            if input.drivable.is_wrong_way(state.position(), forward) == Some(true) {
+                wrong.push((step, 0.0));
+            }
+        }
+    }
+    score.offroad_steps = off.len();
+    score.wrong_way_steps = wrong.len();
+    score.offroad_max_m = farthest;
+    score.offroad_share = share(off.len(), score.road_steps);
+    score.wrong_way_share = share(wrong.len(), score.moving_steps);
+    score.off_road = stretches(actor.id, &off, true);
+    score.wrong_way = stretches(actor.id, &wrong, false);
+    score
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{area, input_of, lane, straight};
+    use super::*;
+    use crate::LaneMap;
+    use crate::score::Drivable;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn leaves_the_road_half_way() {
+        let road = area(&[(-10.0, -4.0), (45.0, -4.0), (45.0, 4.0), (-10.0, 4.0)]);
+        let drivable = Drivable::new(&LaneMap { drivable: vec![road], ..LaneMap::default() });
+        let car = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+        let walker = straight("b", AgentType::Pedestrian, (0.0, 0.0), 0.0, 10.0);
+        let input = input_of(vec![car, walker], &drivable);
+        let score = score_road(&input, &input.actors[0]);
+        // The front is at x + 2; more than 0.1 m outside from step 44 (x = 44, front 46) to 90.
+        assert_eq!((score.offroad_steps, score.road_steps), (47, 91));
+        // At the end the front is at 92, 47 m outside.
+        assert!((score.offroad_max_m.unwrap() - 47.0).abs() < 1e-9);
+        assert_eq!(score.off_road.len(), 1);
+        assert_eq!((score.off_road[0].time_s, score.off_road[0].until_s), (4.4, 9.0));
+        assert_eq!(score_road(&input, &input.actors[1]), RoadScore::default());
+    }
+
+    #[test]
+    fn against_the_traffic() {
+        let map = LaneMap { lanes: vec![lane("east", &[(-10.0, 0.0), (45.5, 0.0)])], ..LaneMap::default() };
+        let drivable = Drivable::new(&map);
+        let with = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+        let against = straight("b", AgentType::Vehicle, (90.0, 0.0), PI, 10.0);
+        let input = input_of(vec![with, against], &drivable);
+        assert_eq!(score_road(&input, &input.actors[0]).wrong_way_share, Some(0.0));
+        let score = score_road(&input, &input.actors[1]);
+        // On the lane (or within half a lane of its end) from x = 47 to 0: 48 of 91 steps.
+        assert_eq!((score.wrong_way_steps, score.moving_steps), (48, 91));
+        assert_eq!(score.wrong_way[0].time_s, 4.3);
+    }
+}

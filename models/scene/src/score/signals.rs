@@ -1,0 +1,204 @@
+//! Red lights: a front that crosses the stop line while the signal of its lane says stop.
+
+use super::input::{Actor, ScoreInput};
+use super::report::{RedLight, time_of};
+use crate::geometry::polyline::{Polyline, Pose};
+use crate::geometry::{Vec2, cross, wrap_angle};
+use crate::{AgentType, Signal, SignalState};
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_4;
+
+/// A lane is taken by a road user that stays within this of its centre on average, metres.
+const ON_LANE_M: f64 = 1.5;
+/// Lanes this close to equally near cannot be told apart, metres.
+const SAME_LANE_M: f64 = 0.3;
+/// Length of path after (or before) the line that tells which lane is taken, metres.
+const TELLING_M: f64 = 20.0;
+
+/// Stop line of a signal.
+struct StopLine<'a> {
+    signal: &'a Signal,
+    line: Polyline,
+    at: Pose,
+    half_width_m: f64,
+    /// The signal's lane goes on behind the stop line (it leads through the junction); else it ends there.
+    goes_on: bool,
+}
+
+/// All crossings at red by vehicles and cyclists, by time.
+///
+/// Where several lanes part at one line, the lane that the road user takes decides; flashing red counts
+/// as a stop sign and is left out; a right turn after a stop is allowed when the thresholds say so.
+pub fn red_lights(input: &ScoreInput<'_>) -> Vec<RedLight> {
+    let lines = stop_lines(input);
+    let mut found: Vec<RedLight> = Vec::new();
+    for actor in &input.actors {
+        let rides = matches!(actor.agent_type, AgentType::Vehicle | AgentType::Cyclist);
+        if !lines.is_empty() && rides && actor.travel_m(input.steps.clone()) > 1.0 {
+            found.extend(crossed_at_red(input, actor, &lines));
+        }
+    }
+    found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    found
+}
+
+fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
+    if input.signals.is_empty() {
+        return Vec::new();
+    }
+    let lanes: HashMap<&str, &crate::map::Lane> =
+        input.map.lanes.iter().map(|l| (l.id.as_str(), l)).collect();
+    let stop_line = |signal: &'a Signal| {
+        let lane = lanes.get(signal.lane.as_str())?;
+        let line = Polyline::new(lane.points.xy.iter().copied());
+        // Without a stop point: lanes through a junction are controlled at their start, others at their end.
+        let default_m = if lane.interpolating { 0.0 } else { line.length_m() };
+        let s_m = signal.stop.map_or(default_m, |p| line.project(p).s_m);
+        let mut at = line.sample(s_m);
+        at.position = signal.stop.unwrap_or(at.position);
+        let goes_on = line.length_m() - s_m > 5.0;
+        Some(StopLine { signal, at, goes_on, half_width_m: 0.5 * lane.width_or_assumed_m() + 0.25, line })
+    };
+    input.signals.iter().filter_map(stop_line).collect()
+}
+
+/// One crossing of one line.
+struct Crossing<'a, 'b> {
+    line: &'b StopLine<'a>,
+    step: usize,
+    part: f64,
+    /// Mean distance from the signal's lane, metres.
+    off_lane_m: f64,
+}
+
+fn crossed_at_red(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[StopLine<'_>]) -> Vec<RedLight> {
+    let mut crossings: Vec<Crossing<'_, '_>> = Vec::new();
+    for line in lines {
+        for step in input.steps.clone() {
+            if let Some(part) = crosses(actor, line, step) {
+                let off_lane_m = off_lane_m(actor, line, step, input.steps.end);
+                crossings.push(Crossing { line, step, part, off_lane_m });
+            }
+        }
+    }
+    crossings.retain(|c| c.off_lane_m < ON_LANE_M);
+    crossings.sort_by_key(|c| c.step);
+    let mut found = Vec::new();
+    // Crossings within a second are of one junction: the nearest lane counts, and only if no lane that is
+    // as near lets go.
+    for group in crossings.chunk_by(|a, b| b.step - a.step < 10) {
+        let least = group.iter().map(|c| c.off_lane_m).fold(f64::INFINITY, f64::min);
+        let taken = || group.iter().filter(|c| c.off_lane_m <= least + SAME_LANE_M);
+        let allowed = input.thresholds.right_on_red && turns_right_after_stop(actor, group[0].step);
+        if allowed || !taken().all(|c| must_stop(c.line.signal.at(c.step))) {
+            continue;
+        }
+        if let (Some(c), Some(state)) = (taken().next(), actor.state(group[0].step)) {
+            found.push(RedLight {
+                agent: actor.id.to_owned(),
+                lane: c.line.signal.lane.clone(),
+                time_s: time_of(c.step as f64 + c.part),
+                speed_mps: state.speed_mps(),
+            });
+        }
+    }
+    found
+}
+
+fn must_stop(state: SignalState) -> bool {
+    state.is_stop() && state != SignalState::FlashingStop
+}
+
+/// The front crosses the line between this step and the next, in the lane's direction: how far along
+/// the step, 0 to 1.
+fn crosses(actor: &Actor<'_>, line: &StopLine<'_>, step: usize) -> Option<f64> {
+    let (from, to) = (actor.state(step)?, actor.state(step + 1)?);
+    let (ahead, reach) = (line.at.direction(), 0.5 * actor.size.length_m);
+    if (to.position() - line.at.position).norm_squared() > (reach + 30.0).powi(2) {
+        return None;
+    }
+    let front = |s: &crate::State| {
+        let forward = crate::geometry::direction(s.heading_rad);
+        (s.position() + forward * reach - line.at.position, forward)
+    };
+    let ((before, forward), (after, _)) = (front(from), front(to));
+    let (u0, u1) = (before.dot(&ahead), after.dot(&ahead));
+    let in_lane = cross(ahead, after).abs() <= line.half_width_m;
+    (u0 <= 0.0 && u1 > 0.0 && in_lane && forward.dot(&ahead) > 0.5).then(|| -u0 / (u1 - u0))
+}
+
+/// Mean distance of the centre from the signal's lane on the stretch that tells.
+fn off_lane_m(actor: &Actor<'_>, line: &StopLine<'_>, step: usize, end: usize) -> f64 {
+    let Some(here) = actor.state(step).map(crate::State::position) else { return f64::INFINITY };
+    let within = |p: &Vec2| (p - here).norm() <= TELLING_M;
+    let place = |i: usize| actor.state(i).map(crate::State::position);
+    let places: Vec<Vec2> = if line.goes_on {
+        // From where the centre is on the lane.
+        let past = |p: &Vec2| (p - line.at.position).dot(&line.at.direction()) >= 0.0;
+        (step..end).map_while(place).skip_while(|p| !past(p)).take_while(within).collect()
+    } else {
+        (0..=step).rev().map_while(place).take_while(within).collect()
+    };
+    if places.is_empty() {
+        return cross(line.at.direction(), here - line.at.position).abs();
+    }
+    places.iter().map(|p| line.line.project(*p).lateral_m.abs()).sum::<f64>() / places.len() as f64
+}
+
+/// Turns right by more than 45 degrees in the six seconds after the line, having stood in the three
+/// seconds before it.
+fn turns_right_after_stop(actor: &Actor<'_>, step: usize) -> bool {
+    let stood = (step.saturating_sub(30)..=step).filter_map(|i| actor.state(i)).any(|s| s.speed_mps() < 1.0);
+    let later = (step..=step + 60).rev().find_map(|i| actor.state(i));
+    let turn = actor.state(step).zip(later).map_or(0.0, |(a, b)| wrap_angle(b.heading_rad - a.heading_rad));
+    stood && turn < -FRAC_PI_4
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{input_of, lane, straight};
+    use super::*;
+    use crate::LaneMap;
+    use crate::score::Drivable;
+
+    fn signal(lane: &str, runs: &[(usize, SignalState)]) -> Signal {
+        Signal { lane: lane.into(), stop: Some(Vec2::new(40.0, 0.0)), stop_z_m: None, runs: runs.to_vec() }
+    }
+
+    /// East at 10 m/s from x = 0, front at x + 2, over a line at x = 40: crosses after 3.8 s.
+    fn run(signals: &[Signal]) -> Vec<(String, f64)> {
+        let left: Vec<(f64, f64)> = (0..=9)
+            .map(|i| f64::from(i) * 0.17)
+            .map(|h| (40.0 + 20.0 * h.sin(), 20.0 - 20.0 * h.cos()))
+            .collect();
+        let map = LaneMap {
+            lanes: vec![lane("through", &[(40.0, 0.0), (100.0, 0.0)]), lane("left", &left)],
+            ..LaneMap::default()
+        };
+        let drivable = Drivable::default();
+        let mut input = input_of(vec![straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0)], &drivable);
+        (input.map, input.signals) = (&map, signals);
+        red_lights(&input).into_iter().map(|r| (r.lane, r.time_s)).collect()
+    }
+
+    #[test]
+    fn only_at_red() {
+        use SignalState::{Caution, FlashingStop, Go, Stop};
+        assert_eq!(run(&[signal("through", &[(0, Stop)])]), [("through".to_owned(), 3.8)]);
+        assert_eq!(run(&[signal("through", &[(0, Go), (37, Stop)])]), [("through".to_owned(), 3.8)]);
+        assert!(run(&[signal("through", &[(0, Stop), (37, Go)])]).is_empty());
+        assert!(run(&[signal("through", &[(0, Caution), (60, Stop)])]).is_empty());
+        assert!(run(&[signal("through", &[(0, FlashingStop)])]).is_empty());
+        assert!(run(&[]).is_empty() && run(&[signal("unknown", &[(0, Stop)])]).is_empty());
+    }
+
+    #[test]
+    fn the_lane_taken_decides() {
+        use SignalState::{ArrowStop, Go, Stop};
+        let (left_red, through_green) = (signal("left", &[(0, ArrowStop)]), signal("through", &[(0, Go)]));
+        assert!(run(&[left_red.clone(), through_green]).is_empty());
+        let left_green = signal("left", &[(0, Go)]);
+        assert_eq!(run(&[left_green, signal("through", &[(0, Stop)])]).len(), 1);
+        assert!(run(&[left_red]).is_empty());
+    }
+}
