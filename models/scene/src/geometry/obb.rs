@@ -131,6 +131,13 @@ impl OrientedBox {
 /// must move to free them. Zero: they touch. Exact for boxes (separating axes for the depth, corners
 /// against sides for the distance). Constant cost, some 60 flops when overlapping or far apart.
 pub fn gap_and_direction(a: &OrientedBox, b: &OrientedBox) -> (f64, Vec2) {
+    let widest = widest_side(a, b);
+    if widest.0 <= 0.0 { widest } else { nearest_corner(a, b) }
+}
+
+/// Greatest separation over the four side directions and that direction, from `a` towards `b`: the
+/// gap itself when not positive, else a lower bound of it.
+fn widest_side(a: &OrientedBox, b: &OrientedBox) -> (f64, Vec2) {
     let between = b.center - a.center;
     let (in_a, in_b) = (a.local_vector(between), b.local_vector(between));
     let turn = a.local_vector(b.forward);
@@ -148,7 +155,7 @@ pub fn gap_and_direction(a: &OrientedBox, b: &OrientedBox) -> (f64, Vec2) {
             best = (separation, axis * 1f64.copysign(offset));
         }
     }
-    if best.0 <= 0.0 { best } else { nearest_corner(a, b) }
+    best
 }
 
 /// Distance of two boxes that are apart: in the plane the nearest points always include a corner.
@@ -196,7 +203,11 @@ pub fn circle_gap(a: &OrientedBox, b: &OrientedBox) -> f64 {
 /// ```
 pub fn overlaps(a: &OrientedBox, b: &OrientedBox, margin_m: f64) -> bool {
     let reach = a.radius_m + b.radius_m + margin_m;
-    reach > 0.0 && (b.center - a.center).norm_squared() < reach * reach && signed_gap(a, b) < margin_m
+    if reach <= 0.0 || (b.center - a.center).norm_squared() >= reach * reach {
+        return false;
+    }
+    let bound = widest_side(a, b).0;
+    bound < margin_m && (bound <= 0.0 || nearest_corner(a, b).0 < margin_m)
 }
 
 /// Area that two boxes share, m2: `a` clipped by the four sides of `b` (Sutherland and Hodgman 1974).

@@ -1,7 +1,7 @@
 //! Do two motions overlap? The quick answer that the choice of futures asks for thousands of pairs.
 
 use crate::geometry::Vec2;
-use crate::geometry::obb::{OrientedBox, circle_gap, signed_gap};
+use crate::geometry::obb::{OrientedBox, overlaps};
 use crate::{Size, State};
 
 /// "Close" boxes come nearer than this, metres (`model.md` section 5).
@@ -112,14 +112,10 @@ pub fn overlap(a: &SweptBoxes, b: &SweptBoxes) -> Overlap {
         let moments = chunk * CHUNK..((chunk + 1) * CHUNK).min(a.len()).min(b.len());
         for (p, q) in a.boxes[moments.clone()].iter().zip(&b.boxes[moments]) {
             let (Some(p), Some(q)) = (p, q) else { continue };
-            if circle_gap(p, q) >= CLOSE_M {
-                continue;
-            }
-            let gap = signed_gap(p, q);
-            found.close |= gap < CLOSE_M;
-            if gap < 0.0 {
+            if overlaps(p, q, 0.0) {
                 return Overlap { overlaps: true, close: true };
             }
+            found.close = found.close || overlaps(p, q, CLOSE_M);
         }
     }
     found

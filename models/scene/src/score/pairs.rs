@@ -66,6 +66,8 @@ pub(super) struct Moment {
     pub outline: OrientedBox,
     pub velocity: Vec2,
     pub speed_mps: f64,
+    /// Bound on how far any point of the box moves to the next step, metres; none without one.
+    stir_m: Option<f64>,
 }
 
 impl Mover {
@@ -74,9 +76,14 @@ impl Mover {
         let moment = |step| {
             let state = actor.state(step)?;
             let outline = OrientedBox::of_state(state, &actor.size);
-            Some(Moment { outline, velocity: state.velocity(), speed_mps: state.speed_mps() })
+            Some(Moment { outline, velocity: state.velocity(), speed_mps: state.speed_mps(), stir_m: None })
         };
-        let moments: Vec<Option<Moment>> = input.steps.clone().map(moment).collect();
+        let mut moments: Vec<Option<Moment>> = input.steps.clone().map(moment).collect();
+        for step in 1..moments.len() {
+            if let [Some(from), Some(to)] = &mut moments[step - 1..=step] {
+                from.stir_m = Some(stir(from, to));
+            }
+        }
         let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
         let reach = rectangle(moments.iter().flatten().map(|m| (m.outline, m.velocity * LOOK_AHEAD_S)));
         let travel_m = actor.travel_m(input.steps.clone());
@@ -94,14 +101,12 @@ impl Mover {
         let heading = from.heading_rad() + wrap_angle(to.heading_rad() - from.heading_rad()) * part;
         Some(OrientedBox::new(center, from.half_length_m(), from.half_width_m(), heading))
     }
+}
 
-    /// Bound on how far any point of the box moves from this step to the next, metres.
-    fn stir_m(&self, step: usize) -> Option<f64> {
-        let from = self.moments.get(step)?.as_ref()?.outline;
-        let to = self.moments.get(step + 1)?.as_ref()?.outline;
-        let turn = wrap_angle(to.heading_rad() - from.heading_rad()).abs();
-        Some((to.center() - from.center()).norm() + turn * from.radius_m())
-    }
+/// Bound on how far any point of the box moves from the first moment to the second, metres.
+fn stir(from: &Moment, to: &Moment) -> f64 {
+    let turn = wrap_angle(to.outline.heading_rad() - from.outline.heading_rad()).abs();
+    (to.outline.center() - from.outline.center()).norm() + turn * from.outline.radius_m()
 }
 
 /// Upright rectangle about boxes, each with its bounding circle moved from here to there.
@@ -128,10 +133,21 @@ struct Pair {
     near: Option<(usize, f64, Option<f64>, f64)>,
 }
 
-/// The larger of two road users' least gaps: a gap above it changes neither.
-fn known_least(a: &PairTotals, b: &PairTotals) -> f64 {
-    let known = |t: &PairTotals| t.min_distance_m.unwrap_or(f64::INFINITY);
-    known(a).max(known(b))
+/// What cannot change a score of a pair any more: gaps and times above both road users' least ones.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    gap_m: f64,
+    ttc_s: f64,
+}
+
+impl Known {
+    fn of(a: &PairTotals, b: &PairTotals) -> Self {
+        let larger = |p: Option<f64>, q: Option<f64>, most: f64| p.unwrap_or(most).max(q.unwrap_or(most));
+        Self {
+            gap_m: larger(a.min_distance_m, b.min_distance_m, f64::INFINITY),
+            ttc_s: larger(a.min_ttc_s, b.min_ttc_s, LOOK_AHEAD_S),
+        }
+    }
 }
 
 /// Looks at all pairs that the input asks for.
@@ -140,8 +156,8 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
     let mut scores = PairScores { agents: vec![PairTotals::default(); movers.len()], ..Default::default() };
     let pairs = (0..movers.len()).flat_map(|i| (i + 1..movers.len()).map(move |j| (i, j)));
     for (i, j) in pairs {
-        let known_m = known_least(&scores.agents[i], &scores.agents[j]).max(input.thresholds.gap_m);
-        if stay_apart(&movers[i], &movers[j], known_m) {
+        let known = Known::of(&scores.agents[i], &scores.agents[j]);
+        if stay_apart(&movers[i], &movers[j], known.gap_m.max(input.thresholds.gap_m)) {
             continue;
         }
         let (a, b) = (&input.actors[i], &input.actors[j]);
@@ -149,7 +165,7 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
         if !asked || is_excluded(input, i, j) {
             continue;
         }
-        let pair = look_at(input, &movers[i], &movers[j], known_m);
+        let pair = look_at(input, &movers[i], &movers[j], known);
         let pet_s = post_encroachment_s(&movers[i], &movers[j]);
         let ids = (a.id.to_owned(), b.id.to_owned());
         for k in [i, j] {
@@ -202,7 +218,7 @@ fn is_excluded(input: &ScoreInput<'_>, i: usize, j: usize) -> bool {
 }
 
 /// Goes through the steps of a pair.
-fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known_m: f64) -> Pair {
+fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
     let limits = &input.thresholds;
     let mut pair = Pair::default();
     let travels = a.travel_m >= PARKED_M || b.travel_m >= PARKED_M;
@@ -211,11 +227,12 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known_m: f64) -> Pair {
         let moving = p.speed_mps > limits.moving_mps || q.speed_mps > limits.moving_mps;
         let apart = circle_gap(&p.outline, &q.outline);
         // The gap matters where it can be a new least, a near miss, or a collision before the next step.
-        let matters = apart < pair.min_distance_m.unwrap_or(known_m).max(limits.gap_m)
-            || apart < a.stir_m(step).unwrap_or(0.0) + b.stir_m(step).unwrap_or(0.0);
+        let matters = apart < pair.min_distance_m.unwrap_or(known.gap_m).max(limits.gap_m)
+            || apart < p.stir_m.unwrap_or(0.0) + q.stir_m.unwrap_or(0.0);
         let (gap, towards) =
             if matters { gap_and_direction(&p.outline, &q.outline) } else { (apart, Vec2::zeros()) };
-        let ttc_s = if moving { ttc(p, q) } else { None };
+        let horizon_s = pair.min_ttc_s.unwrap_or(known.ttc_s).max(limits.ttc_s);
+        let ttc_s = if moving { ttc(p, q, horizon_s) } else { None };
         if matters {
             if travels || gap < 0.0 {
                 pair.min_distance_m = least(pair.min_distance_m, Some(gap));
@@ -228,6 +245,7 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known_m: f64) -> Pair {
             let (gap, towards) =
                 if matters { (gap, towards) } else { gap_and_direction(&p.outline, &q.outline) };
             let closing = (p.velocity - q.velocity).dot(&towards);
+            let ttc_s = if moving { ttc(p, q, LOOK_AHEAD_S) } else { None };
             if is_near_miss(input, (a, p), (b, q), (gap, towards), ttc_s, closing) {
                 keep_worst(&mut pair, step, gap, ttc_s, closing);
             }
@@ -236,13 +254,14 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known_m: f64) -> Pair {
     pair
 }
 
-fn ttc(p: &Moment, q: &Moment) -> Option<f64> {
-    time_to_collision(&p.outline, p.velocity, &q.outline, q.velocity, LOOK_AHEAD_S)
+fn ttc(p: &Moment, q: &Moment, horizon_s: f64) -> Option<f64> {
+    time_to_collision(&p.outline, p.velocity, &q.outline, q.velocity, horizon_s)
 }
 
 /// Looks for collisions from this step to just before the next.
 fn collide(pair: &mut Pair, input: &ScoreInput<'_>, (a, b): (&Mover, &Mover), step: usize, gap: f64) {
-    let stir = a.stir_m(step).zip(b.stir_m(step)).map(|(p, q)| p + q);
+    let stir_m = |m: &Mover| m.moments.get(step)?.as_ref()?.stir_m;
+    let stir = stir_m(a).zip(stir_m(b)).map(|(p, q)| p + q);
     let moments = if gap > stir.unwrap_or(0.0) {
         return;
     } else if stir.is_some() {
