@@ -87,7 +87,7 @@ pub fn base_path(
     let foot = path.project_between(start.position, 0.0, START_SEARCH_M);
     let Some(goal) = goal else {
         let rest = path.slice(foot.s_m, path.length_m());
-        return onto(&rest, start, manner, path.length_m());
+        return onto(&rest, start, manner, path.length_m()).resample(STEP_M);
     };
     let (extended, goal_s) = reach(path, foot.s_m, goal.position);
     if goal_s - foot.s_m < 1.0 {
@@ -102,7 +102,7 @@ pub fn base_path(
     let backwards = Pose::new(goal.position, wrap_angle(end_heading + std::f64::consts::PI));
     let bent = onto(&entered.reversed(), backwards, manner, room).reversed();
     let met = (bent.first().position - start.position).norm() < 1e-6;
-    if met { bent } else { direct(start, goal, manner.curvature) }
+    if met { bent.resample(STEP_M) } else { direct(start, goal, manner.curvature) }
 }
 
 /// The path, extended straight on where the goal lies beyond its end, and the goal's arc length on it.
