@@ -13,7 +13,11 @@ fn motion(c: &mut Criterion) {
     let u = Knots { first: [0.4; 10], second: [0.02; 10] };
     let truth = model.rollout(&u);
     let samples: Vec<_> = (1..=18)
-        .map(|i| Sampled { step: 5 * i, position: truth[5 * i].position, heading_rad: truth[5 * i].heading_rad })
+        .map(|i| Sampled {
+            step: 5 * i,
+            position: truth[5 * i].position,
+            heading_rad: truth[5 * i].heading_rad,
+        })
         .collect();
     let end = truth[90];
     let target = Target {

@@ -9,6 +9,12 @@
 //! In these route coordinates a fixed goal is linear in the knots, so it is kept by a constant
 //! projection ([`AgentFeatures::tangent`]), in training and at each refinement step alike.
 
+pub mod agent;
+pub mod anchors;
+pub mod map;
+pub mod profile;
+pub mod world;
+
 use scene::KNOTS;
 
 /// Modes of an answer, one anchor slot each.

@@ -181,12 +181,10 @@ fn attempts(
     let mut out: Vec<(MotionModel, FirstGuess)> = Vec::with_capacity(6);
     match model.kind {
         Kind::Walk => {
-            let standing = MotionModel {
-                turn_to: target.heading_rad.map(|h| (target.step, h)),
-                ..*model
-            };
+            let standing = MotionModel { turn_to: target.heading_rad.map(|h| (target.step, h)), ..*model };
             let may_stand = target.heading_rad.is_some() && target.speed_mps.is_none_or(|v| v < STANDING_MPS);
-            let must_stand = target.heading_rad.is_some() && target.speed_mps.is_some_and(|v| v < STANDING_MPS);
+            let must_stand =
+                target.heading_rad.is_some() && target.speed_mps.is_some_and(|v| v < STANDING_MPS);
             if warm.is_some() {
                 out.push((*model, from_warm));
             }
@@ -360,8 +358,8 @@ fn solve(model: &MotionModel, near: &Knots, first_guess: Knots, target: &Target)
     let mut knots = model.legal(&first_guess);
     let whitening = Whitening::new(model, typical_speed(model, target));
     let everything = [true; CONTROLS];
+    let mut linear = linearise(model, &knots, target);
     for iteration in 0..ITERATIONS {
-        let linear = linearise(model, &knots, target);
         let norm = linear.norm();
         if norm < TOLERANCE {
             break;
@@ -380,27 +378,25 @@ fn solve(model: &MotionModel, near: &Knots, first_guess: Knots, target: &Target)
             let residual = linear.residual - linear.jacobian * (held - u);
             held + gauss_newton_step(&linear, &residual, &((near - held) * pull), &free, &whitening)
         };
-        let mut best = (norm, knots);
+        let mut best: Option<(Knots, Linear)> = None;
         for length in [1.0, 0.4, 0.1] {
             let trial = model.legal(&unpack(&(u + (full - u) * length)));
-            let trial_norm = linearise_norm(model, &trial, target);
-            if trial_norm < best.0 {
-                best = (trial_norm, trial);
+            let trial_linear = linearise(model, &trial, target);
+            let trial_norm = trial_linear.norm();
+            if trial_norm < best.as_ref().map_or(norm, |b| b.1.norm()) {
+                best = Some((trial, trial_linear));
             }
             if trial_norm < 0.8 * norm || trial_norm < 2e-2 {
                 break;
             }
         }
-        if best.0 >= norm && pull == 0.0 {
-            break;
+        match best {
+            Some(better) => (knots, linear) = better,
+            None if pull == 0.0 => break,
+            None => {}
         }
-        knots = best.1;
     }
     knots
-}
-
-fn linearise_norm(model: &MotionModel, knots: &Knots, target: &Target) -> f64 {
-    linearise(model, knots, target).norm()
 }
 
 /// Speed that sets how much a curvature change counts, m/s.
@@ -484,8 +480,8 @@ fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Op
             Kind::Walk => local.norm(),
         };
         let to_top = ((l.speed_mps - v0) / l.accel_mps2).clamp(0.0, seconds);
-        let farthest = v0 * seconds + 0.5 * l.accel_mps2 * to_top * to_top
-            + (seconds - to_top) * l.accel_mps2 * to_top;
+        let farthest =
+            v0 * seconds + 0.5 * l.accel_mps2 * to_top * to_top + (seconds - to_top) * l.accel_mps2 * to_top;
         let to_rest = (v0 / l.brake_mps2).min(seconds);
         let shortest = v0 * to_rest - 0.5 * l.brake_mps2 * to_rest * to_rest;
         if distance > farthest {

@@ -1,7 +1,7 @@
 use super::*;
-use proptest::strategy::ValueTree;
 use crate::{AgentType, STEP_S, Size, State, Subtype};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
 
 fn model(agent_type: AgentType, speed: f64) -> MotionModel {
     let start = State { x_m: 3.0, y_m: -2.0, heading_rad: 0.7, ..State::default() };
@@ -96,7 +96,11 @@ fn jacobian_matches_finite_differences() {
             let h = 1e-6;
             let nudge = |sign: f64| {
                 let mut k = u;
-                if c < KNOTS { k.first[c] += sign * h } else { k.second[c - KNOTS] += sign * h }
+                if c < KNOTS {
+                    k.first[c] += sign * h
+                } else {
+                    k.second[c - KNOTS] += sign * h
+                }
                 drive::sensitivities(&model, &k, &at)
             };
             let (plus, minus) = (nudge(1.0), nudge(-1.0));
@@ -104,7 +108,11 @@ fn jacobian_matches_finite_differences() {
                 for row in 0..3 {
                     let numeric = (plus[i].value[row] - minus[i].value[row]) / (2.0 * h);
                     let error = (numeric - e.jacobian[row][c]).abs();
-                    assert!(error < 1e-4 * (1.0 + numeric.abs()), "{row} {c}: {numeric} {}", e.jacobian[row][c]);
+                    assert!(
+                        error < 1e-4 * (1.0 + numeric.abs()),
+                        "{row} {c}: {numeric} {}",
+                        e.jacobian[row][c]
+                    );
                 }
             }
         }

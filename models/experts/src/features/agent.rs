@@ -1,0 +1,396 @@
+//! What an expert sees of one road user: its own state and condition, the others, the map pieces that
+//! matter, its anchors, and the projections that keep a fixed goal.
+
+use super::anchors::{Anchor, PathKind, anchors};
+use super::profile::speed_at;
+use super::world::{Present, World};
+use super::{
+    ANCHOR, AgentFeatures, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE_POSE, PIECES, SeenPiece, hat,
+    integrated_hat, twice_integrated_hat,
+};
+use nalgebra::DMatrix;
+use scene::geometry::{direction, rotate};
+use scene::motion::{MotionModel, Target};
+use scene::routes::speed;
+use scene::{AgentType, KNOTS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
+
+/// A road user ready for its expert.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// Who and where.
+    pub present: Present,
+    /// How it can move.
+    pub model: MotionModel,
+    /// What it must meet.
+    pub target: Target,
+    /// [`MODES`] of them.
+    pub anchors: Vec<Anchor>,
+    /// For the networks.
+    pub features: AgentFeatures,
+}
+
+/// Farthest map piece that is seen, metres.
+const SIGHT_M: f64 = 90.0;
+
+/// Works out anchors and features of one road user.
+pub fn plan(world: &World<'_>, who: &Present) -> Planned {
+    let model = world.model(who);
+    let target = world.target(who);
+    let anchors = anchors(world, who, &model, &target);
+    let frame = Frame::of(who);
+    let mut encoded = Box::new([[0.0; ANCHOR]; MODES]);
+    let obstacles = world.obstacles(who.index);
+    let mut last: Option<(u64, PathFacts)> = None;
+    for (slot, anchor) in anchors.iter().enumerate() {
+        let path_identity = anchor.identity / 8;
+        // Slots of one path share what can be said of the path.
+        let facts = match last.take() {
+            Some((identity, facts)) if identity == path_identity => facts,
+            _ => PathFacts::of(world, who, anchor, &obstacles),
+        };
+        encoded[slot] = encode_anchor(&frame, anchor, &facts, slot);
+        last = Some((path_identity, facts));
+    }
+    let features = AgentFeatures {
+        own: encode_own(world, who, &model, &target, &frame),
+        pieces: seen_pieces(world, &frame, &target),
+        neighbours: neighbours(world, who, &frame),
+        anchors: encoded,
+        tangent: Box::new(tangent(&target)),
+    };
+    Planned { present: who.clone(), model, target, anchors, features }
+}
+
+/// The road user's frame: x ahead, y left.
+struct Frame {
+    origin: Vec2,
+    heading_rad: f64,
+}
+
+impl Frame {
+    fn of(who: &Present) -> Self {
+        Self { origin: who.start.position(), heading_rad: who.start.heading_rad }
+    }
+
+    fn point(&self, p: Vec2) -> Vec2 {
+        rotate(p - self.origin, -self.heading_rad)
+    }
+
+    fn vector(&self, v: Vec2) -> Vec2 {
+        rotate(v, -self.heading_rad)
+    }
+
+    fn heading(&self, h: f64) -> Vec2 {
+        direction(h - self.heading_rad)
+    }
+}
+
+/// Fills an array of numbers from the left; what does not fit is a defect that tests catch.
+struct Filler<const N: usize> {
+    values: [f32; N],
+    at: usize,
+}
+
+impl<const N: usize> Filler<N> {
+    fn new() -> Self {
+        Self { values: [0.0; N], at: 0 }
+    }
+
+    fn push(&mut self, value: f64) {
+        debug_assert!(self.at < N, "more than {N} numbers");
+        if let Some(slot) = self.values.get_mut(self.at) {
+            // Bounded so that a far goal or a wild log cannot drown everything else.
+            *slot = if value.is_finite() { value.clamp(-20.0, 20.0) as f32 } else { 0.0 };
+        }
+        self.at += 1;
+    }
+
+    fn flag(&mut self, value: bool) {
+        self.push(f64::from(u8::from(value)));
+    }
+
+    fn vector(&mut self, v: Vec2, scale: f64) {
+        self.push(v.x / scale);
+        self.push(v.y / scale);
+    }
+}
+
+fn type_flags<const N: usize>(out: &mut Filler<N>, agent_type: AgentType, subtype: Subtype) {
+    out.flag(agent_type == AgentType::Vehicle);
+    out.flag(agent_type == AgentType::Pedestrian);
+    out.flag(agent_type == AgentType::Cyclist);
+    out.flag(matches!(subtype, Subtype::Truck | Subtype::Bus | Subtype::Trailer));
+}
+
+fn encode_own(
+    world: &World<'_>,
+    who: &Present,
+    model: &MotionModel,
+    target: &Target,
+    frame: &Frame,
+) -> [f32; OWN] {
+    let mut out = Filler::<OWN>::new();
+    let v0 = model.start_speed_mps();
+    let subtype = world.agent(who).subtype;
+    type_flags(&mut out, who.agent_type, subtype);
+    out.flag(subtype == Subtype::Motorcycle);
+    out.push(v0 / 10.0);
+    out.flag(v0 < 0.3);
+    out.vector(frame.vector(who.start.velocity()), 10.0);
+    out.push(who.size.length_m / 5.0);
+    out.push(who.size.width_m / 2.0);
+    let seconds = target.step as f64 * STEP_S;
+    out.push(seconds / 9.0);
+    out.flag(target.position.is_some());
+    out.flag(target.heading_rad.is_some());
+    out.flag(target.speed_mps.is_some());
+    let goal = target.position.map(|p| frame.point(p));
+    let local = goal.unwrap_or_default();
+    out.vector(local, 50.0);
+    out.push(local.norm() / 50.0);
+    let bearing = if local.norm() > 0.1 { local.normalize() } else { Vec2::zeros() };
+    out.vector(bearing, 1.0);
+    // How much faster or slower than now the goal asks to be on average.
+    out.push(if goal.is_some() { (local.norm() / seconds - v0) / 5.0 } else { 0.0 });
+    let heading = target.heading_rad.map_or(Vec2::zeros(), |h| frame.heading(h));
+    out.vector(heading, 1.0);
+    out.push(target.speed_mps.unwrap_or(0.0) / 10.0);
+    out.push(target.speed_mps.map_or(0.0, |v| (v - v0) / 5.0));
+    let lanes = world.map.graph.nearest_for(who.start.position(), 6.0, who.agent_type);
+    let nearest = lanes.first();
+    out.flag(nearest.is_some());
+    out.push(nearest.map_or(3.0, |l| l.lateral_m) / 3.0);
+    let off = nearest.map_or(0.0, |l| wrap_angle(who.start.heading_rad - l.heading_rad));
+    out.push(off.cos());
+    out.push(off.sin());
+    let near = |reach: f64| {
+        let close = |p: &&Present| (p.start.position() - who.start.position()).norm() < reach;
+        world.present.iter().filter(close).count() as f64 - 1.0
+    };
+    out.push(near(10.0) / 5.0);
+    out.push(near(30.0) / 15.0);
+    out.values
+}
+
+fn neighbours(world: &World<'_>, who: &Present, frame: &Frame) -> Vec<[f32; NEIGHBOUR]> {
+    let mut order: Vec<(f64, &Present)> = world
+        .present
+        .iter()
+        .filter(|p| p.index != who.index)
+        .map(|p| {
+            let local = frame.point(p.start.position());
+            let parked = if p.start.speed_mps() < 0.1 { 6.0 } else { 0.0 };
+            (local.norm() - 0.3 * local.x.clamp(-30.0, 30.0) + parked, p)
+        })
+        .filter(|(rank, _)| *rank < 100.0)
+        .collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.index.cmp(&b.1.index)));
+    order.truncate(NEIGHBOURS);
+    order.into_iter().map(|(_, p)| encode_neighbour(world, p, frame)).collect()
+}
+
+fn encode_neighbour(world: &World<'_>, other: &Present, frame: &Frame) -> [f32; NEIGHBOUR] {
+    let mut out = Filler::<NEIGHBOUR>::new();
+    let agent = world.agent(other);
+    let local = frame.point(other.start.position());
+    out.vector(local, 30.0);
+    out.push(local.norm() / 30.0);
+    out.vector(frame.heading(other.start.heading_rad), 1.0);
+    out.vector(frame.vector(other.start.velocity()), 10.0);
+    out.push(other.start.speed_mps() / 10.0);
+    out.flag(other.start.speed_mps() < 0.1);
+    type_flags(&mut out, other.agent_type, agent.subtype);
+    out.push(other.size.length_m / 5.0);
+    out.push(other.size.width_m / 2.0);
+    let goal = &world.conditions[other.index].goal;
+    out.flag(goal.position.is_some());
+    let fixed = goal.position.map_or(Vec2::zeros(), |p| frame.point(p));
+    out.vector(fixed, 50.0);
+    out.push(goal.speed_mps.unwrap_or(-1.0) / 10.0);
+    out.values
+}
+
+fn seen_pieces(world: &World<'_>, frame: &Frame, target: &Target) -> Vec<SeenPiece> {
+    let pieces = &world.map.pieces;
+    let goal = target.position.map(|p| frame.point(p));
+    let mut order: Vec<(f64, usize, Vec2)> = pieces
+        .poses
+        .iter()
+        .enumerate()
+        .filter_map(|(i, pose)| {
+            let local = frame.point(pose.position);
+            let distance = local.norm();
+            if distance > SIGHT_M {
+                return None;
+            }
+            let to_goal = goal.map_or(f64::INFINITY, |g| (g - local).norm() + 10.0);
+            Some(((distance - 0.35 * local.x).min(to_goal), i, local))
+        })
+        .collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    order.truncate(PIECES);
+    order.into_iter().map(|(_, i, local)| seen_piece(world, frame, i, local)).collect()
+}
+
+fn seen_piece(world: &World<'_>, frame: &Frame, piece: usize, local: Vec2) -> SeenPiece {
+    let mut out = Filler::<PIECE_POSE>::new();
+    let pieces = &world.map.pieces;
+    out.vector(local, 30.0);
+    out.push(local.norm() / 30.0);
+    out.vector(frame.heading(pieces.poses[piece].heading_rad), 1.0);
+    out.flag(local.x > 0.0);
+    out.flag(local.norm() < 8.0);
+    let lane = pieces.lanes[piece].as_deref().and_then(|id| world.map.graph.lane_index(id));
+    let signal = lane.and_then(|lane| world.signals.iter().position(|s| s.lane == lane));
+    let state = signal.map(|i| world.signals[i].state);
+    signal_flags(&mut out, state);
+    out.push(signal.map_or(0.0, |i| world.signal_ages_s[i] / 10.0));
+    SeenPiece { piece, pose: out.values }
+}
+
+fn signal_flags<const N: usize>(out: &mut Filler<N>, state: Option<SignalState>) {
+    out.flag(state.is_some());
+    out.flag(state.is_some_and(SignalState::is_stop));
+    out.flag(state.is_some_and(SignalState::is_caution));
+    out.flag(matches!(state, Some(SignalState::Go | SignalState::ArrowGo)));
+}
+
+/// What can be said of a path whatever the timing on it.
+struct PathFacts {
+    leader: Option<speed::Leader>,
+    light: Option<(SignalState, f64, f64)>,
+    stop_sign_m: Option<f64>,
+    /// Nearest crossing road user: distance along the path, its time to get there, its speed.
+    crossing: Option<(f64, f64, f64)>,
+}
+
+impl PathFacts {
+    fn of(world: &World<'_>, who: &Present, anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Self {
+        let light = anchor.route.as_ref().and_then(|route| {
+            let ahead = speed::first_signal(route, &world.map.graph, &world.signals)?;
+            Some((ahead.state, ahead.distance_m, world.signal_ages_s.get(ahead.index).copied()?))
+        });
+        let stop_sign_m =
+            anchor.route.as_ref().and_then(|route| speed::stop_sign_distance_m(route, &world.map.graph));
+        Self {
+            leader: speed::leader(&anchor.path, who.size.length_m, obstacles),
+            light,
+            stop_sign_m,
+            crossing: crossing(anchor, obstacles),
+        }
+    }
+}
+
+/// The road user whose straight way on meets the path soonest.
+fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<(f64, f64, f64)> {
+    let mut soonest: Option<(f64, f64, f64)> = None;
+    for other in obstacles.iter().filter(|o| o.speed_mps > 0.5) {
+        let (from, ahead) = (other.outline.center(), other.outline.forward());
+        for seconds in [1.0, 2.0, 3.0, 4.5, 6.0] {
+            let there = from + ahead * (other.speed_mps * seconds);
+            let foot = anchor.path.project(there);
+            let across = direction(foot.heading_rad).dot(&ahead).abs() < 0.75;
+            if foot.distance_m < 3.0 && foot.s_m > 3.0 && across {
+                if soonest.is_none_or(|s| seconds < s.1) {
+                    soonest = Some((foot.s_m, seconds, other.speed_mps));
+                }
+                break;
+            }
+        }
+    }
+    soonest
+}
+
+fn encode_anchor(frame: &Frame, anchor: &Anchor, facts: &PathFacts, slot: usize) -> [f32; ANCHOR] {
+    let mut out = Filler::<ANCHOR>::new();
+    let reach = anchor.base[90].max(12.0);
+    for i in 1..=8 {
+        let s = reach * 1.3 * f64::from(i) / 8.0;
+        let pose = anchor.path.extrapolate(s);
+        out.vector(frame.point(pose.position), 30.0);
+        out.vector(frame.heading(pose.heading_rad), 1.0);
+        let at = anchor.path.arc_m().partition_point(|a| *a < s).min(anchor.caps_mps.len().saturating_sub(1));
+        out.push(anchor.caps_mps.get(at).copied().unwrap_or(15.0).min(40.0) / 10.0);
+    }
+    for step in [10, 20, 35, 50, 70, 90] {
+        out.push(anchor.base[step] / 30.0);
+        out.push(speed_at(&anchor.base, step) / 10.0);
+    }
+    out.push(anchor.path.length_m() / 100.0);
+    out.flag(facts.leader.is_some());
+    let (gap, leader_speed) = facts.leader.map_or((100.0, 0.0), |l| (l.gap_m, l.speed_mps));
+    out.push(gap / 30.0);
+    out.push((30.0 / gap.max(1.0)).ln());
+    out.push(leader_speed / 10.0);
+    signal_flags(&mut out, facts.light.map(|l| l.0));
+    out.push(facts.light.map_or(100.0, |l| l.1) / 30.0);
+    out.push(facts.light.map_or(0.0, |l| l.2) / 10.0);
+    out.flag(facts.stop_sign_m.is_some());
+    out.push(facts.stop_sign_m.unwrap_or(100.0) / 30.0);
+    out.flag(facts.crossing.is_some());
+    let (where_m, when_s, speed) = facts.crossing.unwrap_or((100.0, 9.0, 0.0));
+    out.push(where_m / 30.0);
+    out.push(when_s / 9.0);
+    out.push(speed / 10.0);
+    let route = anchor.route.as_ref();
+    out.push(route.and_then(|r| r.limits_mps.first().copied()).unwrap_or(0.0) / 15.0);
+    out.push(route.map_or(0.0, |r| r.lateral_m) / 3.0);
+    out.push(route.map_or(0.0, |r| r.heading_error_rad));
+    out.flag(route.is_some_and(|r| r.terminal));
+    for kind in [PathKind::Route, PathKind::Joined, PathKind::LeastEffort, PathKind::Straight] {
+        out.flag(anchor.kind == kind);
+    }
+    for i in 0..MODES {
+        out.flag(i == slot);
+    }
+    let (timing, count) = anchor.timing;
+    out.push((timing as f64 + 0.5) / count as f64);
+    out.push(count as f64 / 6.0);
+    out.values
+}
+
+/// Projections of the residual knots onto those that leave the fixed goal fields alone. The base meets
+/// the goal already: along, position and speed at the goal's step; across, offset and drift.
+fn tangent(target: &Target) -> [[[f32; KNOTS]; KNOTS]; 2] {
+    let t = target.step as f64 * STEP_S;
+    let row = |f: fn(usize, f64) -> f64| (0..KNOTS).map(|k| f(k, t)).collect::<Vec<_>>();
+    let mut along = Vec::new();
+    if target.position.is_some() {
+        along.push(row(twice_integrated_hat));
+    }
+    if target.speed_mps.is_some() {
+        along.push(row(integrated_hat));
+    }
+    // The first offset is zero by definition.
+    let mut across = vec![(0..KNOTS).map(|k| if k == 0 { 1.0 } else { 0.0 }).collect::<Vec<_>>()];
+    if target.position.is_some() {
+        across.push(row(hat));
+        let last = (t - 1e-9).floor() as usize;
+        let drift = (0..KNOTS).map(|k| match k {
+            k if k == last => -1.0,
+            k if k == last + 1 => 1.0,
+            _ => 0.0,
+        });
+        across.push(drift.collect());
+    }
+    [null_space_projection(&along), null_space_projection(&across)]
+}
+
+/// `I - A' (A A')^-1 A` of the rows of A.
+fn null_space_projection(rows: &[Vec<f64>]) -> [[f32; KNOTS]; KNOTS] {
+    let mut projection = DMatrix::<f64>::identity(KNOTS, KNOTS);
+    if !rows.is_empty() {
+        let a = DMatrix::from_fn(rows.len(), KNOTS, |i, j| rows[i][j]);
+        let gram = &a * a.transpose() + DMatrix::identity(rows.len(), rows.len()) * 1e-9;
+        if let Some(inverse) = gram.try_inverse() {
+            projection -= a.transpose() * inverse * &a;
+        }
+    }
+    let mut out = [[0.0; KNOTS]; KNOTS];
+    for i in 0..KNOTS {
+        for j in 0..KNOTS {
+            out[i][j] = projection[(i, j)] as f32;
+        }
+    }
+    out
+}

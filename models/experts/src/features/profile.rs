@@ -1,0 +1,127 @@
+//! Progress along a path over time: the base of an anchor.
+
+use scene::{HORIZON_STEPS, STEP_S};
+
+/// Metres along a path at every step, the first zero.
+pub type Progress = [f64; HORIZON_STEPS + 1];
+
+/// Speed caps at points one metre apart along a path.
+#[derive(Clone, Debug)]
+pub struct Caps<'a> {
+    arc_m: &'a [f64],
+    caps_mps: &'a [f64],
+}
+
+impl<'a> Caps<'a> {
+    /// Caps at the arc lengths `arc_m` (rising).
+    pub fn new(arc_m: &'a [f64], caps_mps: &'a [f64]) -> Self {
+        Self { arc_m, caps_mps }
+    }
+
+    /// Cap at `s_m`; the last one beyond the end.
+    pub fn at(&self, s_m: f64) -> f64 {
+        let i = self.arc_m.partition_point(|a| *a < s_m);
+        self.caps_mps.get(i.min(self.caps_mps.len().saturating_sub(1))).copied().unwrap_or(f64::INFINITY)
+    }
+}
+
+/// Integrates a speed wish under the caps; slowing for a cap takes at most `brake` m/s2.
+fn integrate(v0: f64, caps: &Caps<'_>, brake: f64, wish: impl Fn(f64) -> f64) -> Progress {
+    let mut out = [0.0; HORIZON_STEPS + 1];
+    let mut speed = v0;
+    for i in 0..HORIZON_STEPS {
+        let t = (i + 1) as f64 * STEP_S;
+        let capped = wish(t).min(caps.at(out[i])).max(0.0);
+        let next = capped.max(speed - brake * STEP_S);
+        out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
+        speed = next;
+    }
+    out
+}
+
+/// Approaches `speed_mps` by at most 1.5 m/s2 up and 2.5 down and keeps it, under the caps.
+pub fn cruising(v0: f64, speed_mps: f64, caps: &Caps<'_>) -> Progress {
+    let wish =
+        |t: f64| if speed_mps > v0 { (v0 + 1.5 * t).min(speed_mps) } else { (v0 - 2.5 * t).max(speed_mps) };
+    integrate(v0, caps, 4.0, wish)
+}
+
+/// Reaches `speed_mps` at `seconds` by constant acceleration; `sag` bends the way there (m/s at half time).
+pub fn reaching_speed(v0: f64, speed_mps: f64, seconds: f64, sag: f64, caps: &Caps<'_>) -> Progress {
+    let wish = |t: f64| {
+        let f = (t / seconds).min(1.0);
+        v0 + (speed_mps - v0) * f + 4.0 * sag * f * (1.0 - f)
+    };
+    integrate(v0, caps, 8.0, wish)
+}
+
+/// Covers `length_m` in `seconds`, ending at `end_mps` when that is given, with the smoothest speed of a
+/// one-parameter family (linear acceleration that fades out, or a parabola through both speeds).
+/// The caps give way when the length cannot be covered under them.
+pub fn arriving(v0: f64, length_m: f64, seconds: f64, end_mps: Option<f64>, caps: &Caps<'_>) -> Progress {
+    let step = (seconds / STEP_S).round().clamp(1.0, HORIZON_STEPS as f64) as usize;
+    let wish = |shape: f64| {
+        move |t: f64| {
+            let t = t.min(seconds);
+            match end_mps {
+                Some(end) => v0 + (end - v0) * t / seconds + shape * t * (seconds - t),
+                None => v0 + shape * (t - t * t / (2.0 * seconds)),
+            }
+        }
+    };
+    let solve = |caps: &Caps<'_>| {
+        let (mut low, mut high) = (-30.0, 30.0);
+        for _ in 0..26 {
+            let middle = 0.5 * (low + high);
+            if integrate(v0, caps, 8.0, wish(middle))[step] < length_m { low = middle } else { high = middle }
+        }
+        integrate(v0, caps, 8.0, wish(high))
+    };
+    let under_caps = solve(caps);
+    if (under_caps[step] - length_m).abs() < 0.5 {
+        return under_caps;
+    }
+    solve(&Caps::new(&[0.0], &[f64::INFINITY]))
+}
+
+/// Speed of a progress at a step, m/s.
+pub fn speed_at(progress: &Progress, step: usize) -> f64 {
+    let i = step.clamp(1, HORIZON_STEPS);
+    (progress[i] - progress[i - 1]) / STEP_S
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrives_where_and_when_asked() {
+        let caps = Caps::new(&[0.0], &[f64::INFINITY]);
+        for (v0, length, seconds, end) in [
+            (8.0, 60.0, 9.0, None),
+            (8.0, 20.0, 9.0, Some(0.0)),
+            (0.0, 30.0, 6.0, Some(8.0)),
+            (10.0, 90.0, 9.0, Some(10.0)),
+        ] {
+            let p = arriving(v0, length, seconds, end, &caps);
+            let step = (seconds / STEP_S).round() as usize;
+            assert!((p[step] - length).abs() < 0.1, "{} for {length}", p[step]);
+            assert!(p.windows(2).all(|w| w[1] >= w[0]));
+            if let Some(end) = end {
+                assert!((speed_at(&p, step) - end).abs() < 0.6);
+            }
+        }
+    }
+
+    #[test]
+    fn caps_hold_while_cruising() {
+        let arc: Vec<f64> = (0..100).map(f64::from).collect();
+        let caps: Vec<f64> = arc.iter().map(|s| if (20.0..40.0).contains(s) { 5.0 } else { 15.0 }).collect();
+        let p = cruising(5.0, 15.0, &Caps::new(&arc, &caps));
+        for i in 1..p.len() {
+            if (21.0..39.0).contains(&p[i]) {
+                assert!(speed_at(&p, i) < 8.0);
+            }
+        }
+    }
+}

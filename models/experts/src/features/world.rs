@@ -1,0 +1,150 @@
+//! One moment of a scene as the experts read it: who stands where at the start, on which lane graph.
+
+use super::map::MapPieces;
+use scene::geometry::obb::OrientedBox;
+use scene::motion::{MotionModel, Target};
+use scene::routes::speed::{LaneSignal, Obstacle};
+use scene::routes::{LaneGraph, Pose};
+use scene::{Agent, AgentType, Conditions, HORIZON_STEPS, LaneMap, Scene, Size, State, Vec2};
+use std::sync::Arc;
+
+/// Everything about a map that is worked out once.
+#[derive(Debug)]
+pub struct MapIndex {
+    /// Lanes with links.
+    pub graph: LaneGraph,
+    /// Pieces for the map encoder.
+    pub pieces: MapPieces,
+}
+
+impl MapIndex {
+    /// Works out graph and pieces.
+    pub fn new(map: &LaneMap) -> Self {
+        Self { graph: LaneGraph::new(map), pieces: MapPieces::new(map) }
+    }
+}
+
+/// A road user at the start of a window.
+#[derive(Clone, Debug)]
+pub struct Present {
+    /// Index into the scene's agents.
+    pub index: usize,
+    /// Type that selects the expert (a condition may override the agent's own).
+    pub agent_type: AgentType,
+    /// Box, with conditions applied.
+    pub size: Size,
+    /// Pose and velocity at the start, with conditions applied.
+    pub start: State,
+}
+
+/// A scene at one step. Nothing later than this step enters, except what the user fixed.
+pub struct World<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its map's index.
+    pub map: Arc<MapIndex>,
+    /// Start of the window, scene step.
+    pub step: usize,
+    /// Road users present at the start, in scene order.
+    pub present: Vec<Present>,
+    /// What the user fixed, one entry an agent of the scene.
+    pub conditions: Vec<Conditions>,
+    /// Signals of lanes in the graph.
+    pub signals: Vec<LaneSignal>,
+    /// Seconds each signal has been in its state.
+    pub signal_ages_s: Vec<f64>,
+}
+
+impl<'a> World<'a> {
+    /// The scene at `step` with the conditions' start fields applied.
+    pub fn new(scene: &'a Scene, map: Arc<MapIndex>, step: usize) -> Self {
+        let conditions = scene.agents.iter().map(|a| a.conditions.clone()).collect();
+        Self::with_conditions(scene, map, step, conditions)
+    }
+
+    /// The scene at `step` under other conditions than its own, one entry an agent.
+    pub fn with_conditions(
+        scene: &'a Scene,
+        map: Arc<MapIndex>,
+        step: usize,
+        conditions: Vec<Conditions>,
+    ) -> Self {
+        let agents = scene.agents.iter().zip(&conditions).enumerate();
+        let present = agents.filter_map(|(index, (agent, c))| present(index, agent, c, step)).collect();
+        let mut signals = Vec::new();
+        let mut signal_ages_s = Vec::new();
+        for signal in &scene.signals {
+            if let Some(lane) = map.graph.lane_index(&signal.lane) {
+                signals.push(LaneSignal { lane, state: signal.at(step), stop: signal.stop });
+                signal_ages_s.push(signal.age_steps(step) as f64 * scene::STEP_S);
+            }
+        }
+        Self { scene, map, step, present, conditions, signals, signal_ages_s }
+    }
+
+    /// The scene's agent behind a present road user.
+    pub fn agent(&self, present: &Present) -> &'a Agent {
+        &self.scene.agents[present.index]
+    }
+
+    /// Motion model of a present road user.
+    pub fn model(&self, present: &Present) -> MotionModel {
+        let subtype = self.agent(present).subtype;
+        MotionModel::new(present.agent_type, subtype, present.size, present.start)
+    }
+
+    /// What the user fixed about a road user's goal, as a target of the window.
+    pub fn target(&self, present: &Present) -> Target {
+        let goal = &self.conditions[present.index].goal;
+        let step = goal.step_in_window(self.step as f64 * scene::STEP_S);
+        Target {
+            step: step.min(HORIZON_STEPS),
+            position: goal.position,
+            heading_rad: goal.heading_rad,
+            speed_mps: goal.speed_mps,
+        }
+    }
+
+    /// All others as obstacles of a route.
+    pub fn obstacles(&self, but: usize) -> Vec<Obstacle> {
+        let others = self.present.iter().filter(|p| p.index != but);
+        others
+            .map(|p| Obstacle {
+                outline: OrientedBox::of_state(&p.start, &p.size),
+                speed_mps: p.start.speed_mps(),
+            })
+            .collect()
+    }
+}
+
+impl Present {
+    /// Pose at the start.
+    pub fn pose(&self) -> Pose {
+        Pose::new(self.start.position(), self.start.heading_rad)
+    }
+}
+
+/// The road user at `step` with its conditions applied; `None` when nothing says where it is.
+fn present(index: usize, agent: &Agent, conditions: &Conditions, step: usize) -> Option<Present> {
+    let logged = agent.state_at(step);
+    let fixed = &conditions.start;
+    let position = fixed.position.or(logged.map(|s| s.position()))?;
+    let heading_rad = fixed.heading_rad.or(logged.map(|s| s.heading_rad)).unwrap_or(0.0);
+    let velocity = match (fixed.speed_mps, logged) {
+        (Some(speed), _) => scene::geometry::direction(heading_rad) * speed,
+        // A turned start takes its speed with it.
+        (None, Some(s)) if fixed.heading_rad.is_some() => {
+            scene::geometry::direction(heading_rad) * s.speed_mps()
+        }
+        (None, Some(s)) => s.velocity(),
+        (None, None) => Vec2::zeros(),
+    };
+    let size = Size {
+        length_m: conditions.length_m.unwrap_or(agent.size.length_m),
+        width_m: conditions.width_m.unwrap_or(agent.size.width_m),
+        ..agent.size
+    };
+    let start =
+        State { x_m: position.x, y_m: position.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y };
+    Some(Present { index, agent_type: conditions.agent_type.unwrap_or(agent.agent_type), size, start })
+}
