@@ -1,0 +1,208 @@
+// The handles of a selected road user: ring, heading tiller behind, speed arrow ahead, goal flag. Filled is
+// fixed, hollow is free. Constant size on screen at every zoom.
+import type { OnLine, Pose, Vec } from '../model/geometry';
+import type { AgentType } from '../model/scene';
+import { outline, roundRect, sizeOnScreen, type Sized } from './sprites';
+import { colours } from './theme';
+import type { Labels } from './labels';
+import type { View } from './view';
+
+/** Seconds of travel the speed arrow shows, in map metres. */
+export const arrowSeconds = (type: AgentType): number => (type === 'pedestrian' ? 5 : type === 'cyclist' ? 2 : 1);
+export const STALK = 24;
+const GAP = 5;
+const SHORTEST_ARROW = 10;
+
+export interface HandlePoints { tip: Vec; knob: Vec; centre: Vec; nose: Vec }
+
+/** Where the handles of a pose lie on screen. */
+export function handlePoints(v: View, a: Sized, p: Pose, scale = 1): HandlePoints {
+  const c = Math.cos(p.heading), s = Math.sin(p.heading);
+  const half = sizeOnScreen(a, v.z)[0] / 2;
+  const [x, y] = v.to(p.x, p.y);
+  const at = (d: number): Vec => [x + c * d, y - s * d];
+  const arrow = Math.max(SHORTEST_ARROW, p.speed * arrowSeconds(a.type) * v.z);
+  return { centre: [x, y], knob: at(-(half + STALK * scale)), nose: at(half + GAP), tip: at(half + GAP + arrow) };
+}
+
+/** Speed that puts the arrow tip on a world point; negative behind the bumper. */
+export function speedForTip(v: View, a: Sized, p: OnLine, wx: number, wy: number): number {
+  const half = sizeOnScreen(a, v.z)[0] / 2 / v.z;
+  const ahead = (wx - p.x) * Math.cos(p.heading) + (wy - p.y) * Math.sin(p.heading) - half - GAP / v.z;
+  return ahead / arrowSeconds(a.type);
+}
+
+export interface HandleStyle { colour: string; freeHeading?: boolean; freeSpeed?: boolean; scale?: number; tick: number }
+
+export function paintHandles(g: CanvasRenderingContext2D, labels: Labels, v: View, a: Sized, p: Pose, s: HandleStyle): HandlePoints {
+  const k = s.scale ?? 1;
+  const h = handlePoints(v, a, p, k);
+  const c = Math.cos(p.heading), n = Math.sin(p.heading);
+  const half = sizeOnScreen(a, v.z)[0] / 2;
+  const rear: Vec = [h.centre[0] - c * (half + GAP), h.centre[1] + n * (half + GAP)];
+  haloLine(g, rear, h.knob, s.colour, 2, s.freeHeading);
+  knob(g, h.knob, s.colour, s.freeHeading ?? false, 6 * k);
+  haloLine(g, h.nose, h.tip, s.colour, 2.5, s.freeSpeed);
+  ticks(g, h, p, s, v.z * arrowSeconds(a.type));
+  arrowHead(g, h.tip, p.heading, s, k);
+  labels.block(h.tip[0] - 10, h.tip[1] - 10, 20, 20);
+  labels.block(h.knob[0] - 8, h.knob[1] - 8, 16, 16);
+  labels.block(Math.min(h.nose[0], h.tip[0]) - 4, Math.min(h.nose[1], h.tip[1]) - 4, Math.abs(h.nose[0] - h.tip[0]) + 8, Math.abs(h.nose[1] - h.tip[1]) + 8);
+  return h;
+}
+
+function haloLine(g: CanvasRenderingContext2D, a: Vec, b: Vec, colour: string, width: number, free?: boolean): void {
+  g.beginPath();
+  g.moveTo(a[0], a[1]);
+  g.lineTo(b[0], b[1]);
+  g.lineCap = 'round';
+  g.strokeStyle = colours().halo;
+  g.lineWidth = width + 2.6;
+  g.stroke();
+  g.strokeStyle = colour;
+  g.lineWidth = width;
+  g.setLineDash(free ? [3, 3.5] : []);
+  g.stroke();
+  g.setLineDash([]);
+}
+
+function knob(g: CanvasRenderingContext2D, [x, y]: Vec, colour: string, free: boolean, r: number): void {
+  const c = colours();
+  const ring = (radius: number) => { g.beginPath(); g.arc(x, y, radius, 0, Math.PI * 2); };
+  ring(r + 1.6);
+  g.fillStyle = c.halo;
+  g.fill();
+  ring(r);
+  g.fillStyle = c.surface;
+  g.fill();
+  g.lineWidth = 2;
+  g.strokeStyle = colour;
+  g.setLineDash(free ? [2.6, 2.4] : []);
+  g.stroke();
+  g.setLineDash([]);
+  if (free) return;
+  ring(r - 3);
+  g.fillStyle = colour;
+  g.fill();
+}
+
+/** Marks along the arrow, so that its length can be read as a speed. */
+function ticks(g: CanvasRenderingContext2D, h: HandlePoints, p: Pose, s: HandleStyle, pxPerMps: number): void {
+  const c = Math.cos(p.heading), n = Math.sin(p.heading);
+  const length = Math.hypot(h.tip[0] - h.nose[0], h.tip[1] - h.nose[1]);
+  g.strokeStyle = s.colour;
+  g.lineWidth = 1.5;
+  for (let d = s.tick * pxPerMps, i = 0; d < length - 6 && i < 60; d += s.tick * pxPerMps, i++) {
+    const x = h.nose[0] + c * d, y = h.nose[1] - n * d;
+    g.beginPath();
+    g.moveTo(x + n * 3.2, y + c * 3.2);
+    g.lineTo(x - n * 3.2, y - c * 3.2);
+    g.stroke();
+  }
+}
+
+function arrowHead(g: CanvasRenderingContext2D, [x, y]: Vec, heading: number, s: HandleStyle, k: number): void {
+  const c = colours();
+  g.save();
+  g.translate(x, y);
+  g.rotate(-heading);
+  g.beginPath();
+  g.moveTo(9 * k, 0);
+  g.lineTo(-4 * k, 7 * k);
+  g.lineTo(-4 * k, -7 * k);
+  g.closePath();
+  g.lineJoin = 'round';
+  g.strokeStyle = c.halo;
+  g.lineWidth = 5;
+  g.stroke();
+  g.fillStyle = s.freeSpeed ? c.surface : s.colour;
+  g.fill();
+  g.strokeStyle = s.colour;
+  g.lineWidth = 2;
+  g.setLineDash(s.freeSpeed ? [2.6, 2.4] : []);
+  g.stroke();
+  g.setLineDash([]);
+  g.restore();
+}
+
+export const FLAG_HEIGHT = 36;
+
+export function paintFlag(g: CanvasRenderingContext2D, labels: Labels, x: number, y: number, colour: string, free: boolean): void {
+  const c = colours();
+  g.save();
+  g.lineCap = g.lineJoin = 'round';
+  g.beginPath();
+  g.ellipse(x, y, 5, 2.6, 0, 0, Math.PI * 2);
+  g.fillStyle = c.halo;
+  g.fill();
+  g.beginPath();
+  g.ellipse(x, y, 3.6, 1.8, 0, 0, Math.PI * 2);
+  g.fillStyle = colour;
+  g.fill();
+  const pole = () => { g.beginPath(); g.moveTo(x, y); g.lineTo(x, y - FLAG_HEIGHT); };
+  pole();
+  g.strokeStyle = c.halo;
+  g.lineWidth = 5.4;
+  g.stroke();
+  const top = y - FLAG_HEIGHT;
+  g.beginPath();
+  g.moveTo(x, top);
+  g.lineTo(x + 22, top + 4);
+  g.lineTo(x + 16, top + 9);
+  g.lineTo(x + 22, top + 15);
+  g.lineTo(x, top + 17);
+  g.closePath();
+  g.lineWidth = 4;
+  g.stroke();
+  g.fillStyle = free ? c.surface : colour;
+  g.fill();
+  g.strokeStyle = colour;
+  g.lineWidth = 2;
+  g.setLineDash(free ? [3, 2.6] : []);
+  g.stroke();
+  g.setLineDash([]);
+  pole();
+  g.lineWidth = 2.2;
+  g.stroke();
+  g.restore();
+  labels.block(x - 4, y - FLAG_HEIGHT, 28, FLAG_HEIGHT);
+}
+
+/** Ring around a box: selection, collision. */
+export function paintRing(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine, colour: string, width = 2, gap = 4, dash: number[] = []): void {
+  const [l, w] = sizeOnScreen(a, v.z);
+  g.save();
+  g.translate(v.x(p.x), v.y(p.y));
+  g.rotate(-p.heading);
+  roundRect(g, -l / 2 - gap, -w / 2 - gap, l + 2 * gap, w + 2 * gap, 6);
+  g.strokeStyle = colours().halo;
+  g.lineWidth = width + 2.5;
+  g.stroke();
+  g.strokeStyle = colour;
+  g.lineWidth = width;
+  g.setLineDash(dash);
+  g.stroke();
+  g.restore();
+}
+
+/** A box in outline: goals, ghosts, "before". An arrow inside tells the front. */
+export function paintGhost(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine, colour: string, fill: string | null, dash: number[] = [], width = 1.75): void {
+  const [l, w] = sizeOnScreen(a, v.z);
+  g.save();
+  g.translate(v.x(p.x), v.y(p.y));
+  g.rotate(-p.heading);
+  outline(g, a.kind, l, w);
+  if (fill) { g.fillStyle = fill; g.fill(); }
+  g.strokeStyle = colour;
+  g.lineWidth = width;
+  g.setLineDash(dash);
+  g.stroke();
+  g.setLineDash([]);
+  g.beginPath();
+  g.moveTo(l * 0.14, -w * 0.26);
+  g.lineTo(l * 0.32, 0);
+  g.lineTo(l * 0.14, w * 0.26);
+  g.lineJoin = 'round';
+  g.stroke();
+  g.restore();
+}

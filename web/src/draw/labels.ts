@@ -1,0 +1,128 @@
+// Labels on pills. Each takes the first free place around its object; those that find none are left out,
+// except the ones that must be read.
+import { clamp } from '../model/geometry';
+import { colours, font } from './theme';
+import { roundRect } from './sprites';
+
+export interface Rect { x: number; y: number; w: number; h: number }
+export type Offset = readonly [number, number];
+
+export class Labels {
+  private used: Rect[] = [];
+  constructor(private w = 0, private h = 0, private inset = { left: 0, right: 0, top: 0, bottom: 0 }) {}
+
+  reset(w: number, h: number, inset = this.inset): void {
+    this.w = w;
+    this.h = h;
+    this.inset = inset;
+    this.used = [];
+  }
+
+  block(x: number, y: number, w: number, h: number): void { this.used.push({ x, y, w, h }); }
+
+  place(x: number, y: number, w: number, h: number, tries: readonly Offset[], must: boolean): Rect | null {
+    const at = (o: Offset): Rect => ({
+      x: clamp(x + o[0], 6 + this.inset.left, Math.max(6, this.w - w - 6 - this.inset.right)), y: clamp(y + o[1], 6, this.h - h - 6), w, h,
+    });
+    for (const o of tries) {
+      const r = at(o);
+      if (!this.used.some((u) => r.x < u.x + u.w && r.x + w > u.x && r.y < u.y + u.h && r.y + h > u.y)) {
+        this.used.push(r);
+        return r;
+      }
+    }
+    if (!must) return null;
+    const r = at(tries[0]);
+    this.used.push(r);
+    return r;
+  }
+}
+
+/** Eight directions at six distances, nearest first. */
+function around(w: number, h: number, radii: readonly number[]): Offset[] {
+  const out: Offset[] = [];
+  for (const r of radii)
+    for (const d of [-45, 45, -135, 135, -90, 90, 0, 180]) {
+      const x = Math.cos((d * Math.PI) / 180) * r, y = Math.sin((d * Math.PI) / 180) * r;
+      out.push([x + (x > 8 ? 0 : x < -8 ? -w : -w / 2), y - h / 2]);
+    }
+  return out;
+}
+
+export interface PillStyle {
+  fg?: string; bg?: string; border?: string; weight?: number; height?: number; icon?: 'cross' | 'triangle'; leader?: string;
+  tries?: readonly Offset[]; radii?: readonly number[]; must?: boolean;
+}
+
+const widths = new Map<string, number>();
+function textWidth(g: CanvasRenderingContext2D, f: string, text: string): number {
+  const key = f + text;
+  let w = widths.get(key);
+  if (w === undefined) {
+    if (widths.size > 2000) widths.clear();
+    g.font = f;
+    widths.set(key, (w = Math.ceil(g.measureText(text).width)));
+  }
+  return w;
+}
+
+export function pill(g: CanvasRenderingContext2D, labels: Labels, x: number, y: number, text: string, s: PillStyle = {}): Rect | null {
+  const c = colours();
+  const f = font(s.weight ?? 600, 11);
+  const h = s.height ?? 20, icon = s.icon ? 15 : 0;
+  const w = textWidth(g, f, text) + 14 + icon;
+  const r = labels.place(x, y, w, h, s.tries ?? around(w, h, s.radii ?? [24, 36, 52, 72, 96, 124]), s.must ?? true);
+  if (!r) return null;
+  if (s.leader) leaderLine(g, x, y, r, s.leader);
+  roundRect(g, r.x, r.y, w, h, h / 2);
+  g.save();
+  g.shadowColor = 'rgba(16,20,26,.22)';
+  g.shadowBlur = 4;
+  g.shadowOffsetY = 1;
+  g.fillStyle = s.bg ?? c.surface;
+  g.fill();
+  g.restore();
+  if (s.border) {
+    g.strokeStyle = s.border;
+    g.lineWidth = 1.25;
+    g.stroke();
+  }
+  if (s.icon) paintIcon(g, s.icon, r.x + 12, r.y + h / 2, s.fg ?? c.ink);
+  g.font = f;
+  g.fillStyle = s.fg ?? c.ink;
+  g.textBaseline = 'middle';
+  g.textAlign = 'left';
+  g.fillText(text, r.x + 7 + icon, r.y + h / 2 + 0.5);
+  return r;
+}
+
+function leaderLine(g: CanvasRenderingContext2D, x: number, y: number, r: Rect, colour: string): void {
+  g.beginPath();
+  g.moveTo(x, y);
+  g.lineTo(clamp(x, r.x + 6, r.x + r.w - 6), clamp(y, r.y, r.y + r.h));
+  g.strokeStyle = colours().halo;
+  g.lineWidth = 3.5;
+  g.stroke();
+  g.strokeStyle = colour;
+  g.lineWidth = 1.25;
+  g.stroke();
+}
+
+export function paintIcon(g: CanvasRenderingContext2D, kind: 'cross' | 'triangle', x: number, y: number, colour: string): void {
+  g.beginPath();
+  if (kind === 'cross') {
+    g.moveTo(x - 3.2, y - 3.2); g.lineTo(x + 3.2, y + 3.2);
+    g.moveTo(x + 3.2, y - 3.2); g.lineTo(x - 3.2, y + 3.2);
+    g.strokeStyle = colour;
+    g.lineWidth = 1.9;
+    g.lineCap = 'round';
+    g.stroke();
+    return;
+  }
+  g.moveTo(x, y - 4.4);
+  g.lineTo(x + 4.6, y + 3.6);
+  g.lineTo(x - 4.6, y + 3.6);
+  g.closePath();
+  g.fillStyle = colour;
+  g.fill();
+}

@@ -1,0 +1,247 @@
+// The road: ground, kerbs, asphalt, bike lanes, crosswalks, lines, arrows. Drawn in metres under one transform.
+import { wrapAngle, type Box, type Vec } from '../model/geometry';
+import { turnOf, type Lane, type LaneMap } from '../model/lanemap';
+import { Layer } from './tiles';
+import { colours } from './theme';
+import type { View } from './view';
+
+interface Stripe { readonly a: Vec; readonly b: Vec; readonly width: number }
+interface Arrow { readonly x: number; readonly y: number; readonly heading: number; readonly ways: string }
+
+/** Recorded maps know lanes but no road surface; wide bands close the gaps between neighbours. */
+const BAND_M = 5.2;
+
+export class MapPicture {
+  private readonly roads = new Map<number, Layer>();
+  private readonly drivable = new Layer();
+  private readonly bike = new Map<number, Layer>();
+  private readonly walks = new Layer();
+  private readonly driveways = new Layer();
+  private readonly bumps = new Layer();
+  private readonly kerbs = new Layer();
+  private readonly lines = new Map<string, Layer>();
+  private readonly outlines = new Layer();
+  private readonly stripes: Stripe[];
+  private readonly arrows: Arrow[];
+
+  constructor(private readonly map: LaneMap, private readonly recorded: boolean) {
+    for (const lane of map.lanes.values()) this.addLane(lane);
+    for (const d of map.drivable) {
+      this.drivable.add(d.outer, true);
+      for (const h of d.holes) this.drivable.add(h, true);
+    }
+    for (const p of map.driveways) this.driveways.add(p, true);
+    for (const p of map.bumps) this.bumps.add(p, true);
+    for (const e of map.edges) this.kerbs.add(e.line.pts);
+    for (const l of map.lines) layerOf(this.lines, lineStyle(l.type)).add(l.line.pts);
+    this.stripes = map.crosswalks.map(stripeOf);
+    this.arrows = findArrows(map);
+  }
+
+  private addLane(lane: Lane): void {
+    const { pts } = lane.line;
+    if (lane.kind === 'walk') this.walks.add(pts);
+    else if (lane.kind === 'bike') { layerOf(this.bike, Math.min(2.4, lane.width)).add(pts); this.outlines.add(pts); }
+    else { layerOf(this.roads, this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2)).add(pts); this.outlines.add(pts); }
+  }
+
+  paint(g: CanvasRenderingContext2D, v: View, showLanes: boolean): void {
+    const c = colours();
+    const box = v.box(8);
+    const px = 1 / v.z;
+    g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    g.fillStyle = this.recorded ? c['map-paved'] : c['map-ground'];
+    g.fillRect(0, 0, v.w, v.h);
+    g.setTransform(v.dpr * v.z, 0, 0, -v.dpr * v.z, v.dpr * v.x(0), v.dpr * v.y(0));
+    g.lineJoin = 'round';
+    g.lineCap = 'round';
+    if (!this.recorded) this.paintSidewalk(g, box, px);
+    this.paintSurface(g, box, px);
+    this.paintBikeLanes(g, box);
+    g.lineCap = 'butt';
+    if (v.z > 1.2) this.paintCrosswalks(g, v);
+    this.strokeAll(g, this.kerbs, box, c['map-kerb'], Math.max(1.4 * px, 0.24));
+    if (v.z >= 2) this.paintLines(g, box, px);
+    if (v.z >= 5) this.paintArrows(g, box);
+    if (showLanes) this.paintLaneCentres(g, box, px);
+  }
+
+  private strokeAll(g: CanvasRenderingContext2D, layer: Layer, box: Box, colour: string, width: number, dash: number[] = []): void {
+    g.strokeStyle = colour;
+    g.lineWidth = width;
+    g.setLineDash(dash);
+    layer.stroke(g, box);
+    if (dash.length) g.setLineDash([]);
+  }
+
+  /** Nobody draws pavements in a lane map; a broad band beside the carriageway stands for them. */
+  private paintSidewalk(g: CanvasRenderingContext2D, box: Box, px: number): void {
+    const c = colours();
+    const wide = 3.4;
+    for (const [extra, colour] of [[wide * 2 + 2.4 * px, c['map-grid']], [wide * 2, c['map-sidewalk']]] as const) {
+      for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, colour, w + extra);
+      for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, colour, w + extra);
+      this.strokeAll(g, this.walks, box, colour, 3 + extra - wide * 2);
+      if (!this.drivable.empty) this.strokeAll(g, this.drivable, box, colour, extra);
+    }
+  }
+
+  private paintSurface(g: CanvasRenderingContext2D, box: Box, px: number): void {
+    const c = colours();
+    // Without kerb lines in the map, the rim of a slightly wider band is the kerb.
+    if (this.kerbs.empty) {
+      const rim = Math.max(2.6 * px, 0.4);
+      for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, c['map-kerb'], w + rim);
+      for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, c['map-kerb'], w + rim);
+      if (!this.drivable.empty) this.strokeAll(g, this.drivable, box, c['map-kerb'], rim);
+    }
+    g.fillStyle = c['map-asphalt'];
+    this.drivable.fill(g, box, 'evenodd');
+    for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, c['map-asphalt'], w);
+    g.fillStyle = c['map-lot'];
+    this.driveways.fill(g, box);
+    this.bumps.fill(g, box);
+  }
+
+  private paintBikeLanes(g: CanvasRenderingContext2D, box: Box): void {
+    for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, colours()['map-bike'], w);
+  }
+
+  private paintCrosswalks(g: CanvasRenderingContext2D, v: View): void {
+    const c = colours();
+    for (const s of this.stripes) {
+      const length = Math.hypot(s.b[0] - s.a[0], s.b[1] - s.a[1]);
+      const n = Math.max(3, Math.round(length / 1.1));
+      g.setLineDash(v.z < 4 ? [] : [length / (2 * n - 1), length / (2 * n - 1)]);
+      g.globalAlpha = v.z < 4 ? 0.55 : 1;
+      g.strokeStyle = c['map-crosswalk'];
+      g.lineWidth = s.width;
+      g.beginPath();
+      g.moveTo(s.a[0], s.a[1]);
+      g.lineTo(s.b[0], s.b[1]);
+      g.stroke();
+    }
+    g.setLineDash([]);
+    g.globalAlpha = 1;
+  }
+
+  private paintLines(g: CanvasRenderingContext2D, box: Box, px: number): void {
+    const c = colours();
+    for (const [style, layer] of this.lines) {
+      const yellow = style.includes('y');
+      const one = Math.max(1 * px, 0.14);
+      this.strokeAll(g, layer, box, yellow ? c['map-yellow'] : c['map-line'], style.includes('2') ? one * 3 : one, style.includes('-') ? [3, 4.5] : []);
+      // A double line is a broad one with its middle painted back.
+      if (style.includes('2')) this.strokeAll(g, layer, box, c['map-asphalt'], one);
+    }
+  }
+
+  private paintArrows(g: CanvasRenderingContext2D, box: Box): void {
+    const c = colours();
+    g.strokeStyle = g.fillStyle = c['map-line'];
+    g.lineWidth = 0.16;
+    for (const a of this.arrows) {
+      if (a.x < box.x0 || a.x > box.x1 || a.y < box.y0 || a.y > box.y1) continue;
+      g.save();
+      g.translate(a.x, a.y);
+      g.rotate(a.heading);
+      paintArrow(g, a.ways);
+      g.restore();
+    }
+  }
+
+  private paintLaneCentres(g: CanvasRenderingContext2D, box: Box, px: number): void {
+    const c = colours();
+    g.globalAlpha = 0.75;
+    this.strokeAll(g, this.outlines, box, c['line-strong'], 1.1 * px, [6 * px, 5 * px]);
+    g.globalAlpha = 1;
+  }
+
+  /** True when the map itself has nothing to show. */
+  get empty(): boolean { return this.map.lanes.size === 0 && this.map.drivable.length === 0; }
+}
+
+function layerOf<K>(layers: Map<K, Layer>, key: K): Layer {
+  let l = layers.get(key);
+  if (!l) layers.set(key, (l = new Layer()));
+  return l;
+}
+
+/** "y" yellow, "w" white, "2" double, "-" broken. */
+function lineStyle(type: string): string {
+  return (type.includes('yellow') ? 'y' : 'w') + (type.includes('double') ? '2' : '') + (type.startsWith('broken') || type.startsWith('passing') ? '-' : '');
+}
+
+/** A crosswalk as one broad dashed stroke along its longest side. */
+export function stripeOf(poly: readonly Vec[]): Stripe {
+  let best = 0, heading = 0;
+  for (let i = 0; i < poly.length; i++) {
+    const a = poly[i], b = poly[(i + 1) % poly.length];
+    const d = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    if (d > best) { best = d; heading = Math.atan2(b[1] - a[1], b[0] - a[0]); }
+  }
+  const c = Math.cos(heading), s = Math.sin(heading);
+  let u0 = Infinity, u1 = -Infinity, v0 = Infinity, v1 = -Infinity;
+  for (const [x, y] of poly) {
+    const u = x * c + y * s, v = -x * s + y * c;
+    u0 = Math.min(u0, u); u1 = Math.max(u1, u);
+    v0 = Math.min(v0, v); v1 = Math.max(v1, v);
+  }
+  const m = (v0 + v1) / 2;
+  const at = (u: number): Vec => [u * c - m * s, u * s + m * c];
+  return { a: at(u0), b: at(u1), width: v1 - v0 };
+}
+
+/** Turn arrows before a crossing, from where the lane's successors lead. */
+function findArrows(map: LaneMap): Arrow[] {
+  const out: Arrow[] = [];
+  for (const lane of map.lanes.values()) {
+    if (lane.kind !== 'road' || lane.line.length < 18 || lane.type === 'freeway') continue;
+    const ways = new Set<string>();
+    let junction = lane.next.length > 1;
+    for (const id of lane.next) {
+      const n = map.lanes.get(id);
+      if (!n || n.kind !== 'road') continue;
+      const t = wrapAngle(turnOf(n.line));
+      if (Math.abs(t) > 0.5) junction = true;
+      if (n.inside || n.line.length < 45) ways.add(t > 0.5 ? 'L' : t < -0.5 ? 'R' : 'S');
+    }
+    // A lane that only goes straight on carries an arrow when a neighbour at the same crossing turns.
+    if (!junction || !ways.size) continue;
+    for (const back of lane.line.length > 40 ? [6, 24] : [6]) {
+      const s = lane.line.length - back;
+      const p = lane.line.pts, S = lane.line.s;
+      let i = 1;
+      while (i < p.length - 1 && S[i] < s) i++;
+      const a = p[i - 1], b = p[i], k = (s - S[i - 1]) / Math.max(1e-9, S[i] - S[i - 1]);
+      out.push({ x: a[0] + (b[0] - a[0]) * k, y: a[1] + (b[1] - a[1]) * k, heading: Math.atan2(b[1] - a[1], b[0] - a[0]), ways: [...ways].sort().join('') });
+    }
+  }
+  return out;
+}
+
+function paintArrow(g: CanvasRenderingContext2D, ways: string): void {
+  const head = (x: number, y: number, turn: number) => {
+    g.save();
+    g.translate(x, y);
+    g.rotate(turn);
+    g.beginPath();
+    g.moveTo(0.85, 0);
+    g.lineTo(0, 0.42);
+    g.lineTo(0, -0.42);
+    g.fill();
+    g.restore();
+  };
+  g.beginPath();
+  g.moveTo(-1.7, 0);
+  g.lineTo(ways.includes('S') ? 0.7 : -0.4, 0);
+  for (const [way, side] of [['L', 1], ['R', -1]] as const) {
+    if (!ways.includes(way)) continue;
+    g.moveTo(-0.9, 0);
+    g.quadraticCurveTo(0.2, 0, 0.3, 0.55 * side);
+  }
+  g.stroke();
+  if (ways.includes('S')) head(0.7, 0, 0);
+  if (ways.includes('L')) head(0.3, 0.5, Math.PI / 2);
+  if (ways.includes('R')) head(0.3, -0.5, -Math.PI / 2);
+}

@@ -1,0 +1,56 @@
+// Traffic signals at the stop line. Red is a solid bar, green a row of dots, so that colour is not needed.
+import { pointAt } from '../model/geometry';
+import { STEP_S } from '../model/motion';
+import type { Scene, Signal } from '../model/scene';
+import { colours } from './theme';
+import type { View } from './view';
+
+type Light = 'stop' | 'caution' | 'go' | 'unknown';
+
+export function stateAt(s: Signal, t: number): Light {
+  const step = Math.floor(t / STEP_S + 1e-6);
+  let state = 'unknown';
+  for (const [first, name] of s.states) if (first <= step) state = name;
+  return state.includes('stop') ? 'stop' : state.includes('caution') ? 'caution' : state.includes('go') ? 'go' : 'unknown';
+}
+
+export function paintSignals(g: CanvasRenderingContext2D, v: View, scene: Scene, t: number): void {
+  if (v.z < 3) return;
+  const c = colours();
+  const paint: Record<Light, string> = { stop: c.collision, caution: c.near, go: c.ok, unknown: c['ink-3'] };
+  const done = new Set<string>();
+  for (const s of scene.signals) {
+    const lane = scene.map.lanes.get(s.lane);
+    const entry = lane ? pointAt(lane.line, 0) : null;
+    const at = s.stop ?? (entry ? ([entry.x, entry.y] as const) : null);
+    if (!at || (lane && lane.kind === 'walk')) continue;
+    // Several turns leave from one stop line; one bar a lane is enough.
+    const key = `${Math.round(at[0] * 2)},${Math.round(at[1] * 2)}`;
+    if (done.has(key)) continue;
+    done.add(key);
+    const light = stateAt(s, t);
+    const nearStart = lane && entry && Math.hypot(entry.x - at[0], entry.y - at[1]) < lane.line.length / 2;
+    const heading = lane ? pointAt(lane.line, nearStart ? 0 : lane.line.length).heading : 0;
+    bar(g, v.x(at[0]), v.y(at[1]), heading, Math.max(9, Math.min(2.5, (lane?.width ?? 3) - 0.7) * v.z), Math.max(3, 0.32 * v.z), light, paint[light]);
+  }
+}
+
+function bar(g: CanvasRenderingContext2D, x: number, y: number, heading: number, length: number, thick: number, light: Light, colour: string): void {
+  // Across the lane, in screen directions.
+  const dx = (Math.sin(heading) * length) / 2, dy = (Math.cos(heading) * length) / 2;
+  g.beginPath();
+  g.moveTo(x - dx, y - dy);
+  g.lineTo(x + dx, y + dy);
+  g.lineCap = 'round';
+  g.strokeStyle = colours()['map-asphalt'];
+  g.lineWidth = thick + 2;
+  g.setLineDash([]);
+  if (light !== 'go') g.stroke();
+  g.strokeStyle = colour;
+  g.lineWidth = thick;
+  if (light === 'go') g.setLineDash([0.01, thick * 1.75]);
+  if (light === 'unknown') { g.setLineDash([thick, thick * 1.4]); g.globalAlpha = 0.7; }
+  g.stroke();
+  g.setLineDash([]);
+  g.globalAlpha = 1;
+}

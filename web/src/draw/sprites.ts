@@ -1,0 +1,113 @@
+// Road users as small pictures, painted once per kind, size and zoom step and then only stamped.
+import type { Agent, Kind } from '../model/scene';
+import type { OnLine } from '../model/geometry';
+import { colours, paletteStamp, type ColourName } from './theme';
+import type { View } from './view';
+
+/** Least size on screen in pixels: what is small stays visible. */
+const LEAST: Partial<Record<Kind, readonly [number, number]>> = { pedestrian: [11, 11], cyclist: [17, 8], motorcycle: [18, 8] };
+
+export const colourKey = (a: Pick<Agent, 'type' | 'parked'>): 'vehicle' | 'cyclist' | 'pedestrian' | 'parked' | 'log' =>
+  a.type === 'other' ? 'log' : a.parked ? 'parked' : a.type;
+
+export type Sized = Pick<Agent, 'kind' | 'type' | 'length' | 'width' | 'parked'>;
+
+export function sizeOnScreen(a: Sized, z: number): [number, number] {
+  const least = LEAST[a.kind] ?? [5, 3.5];
+  return [Math.max(a.length * z, least[0]), Math.max(a.width * z, least[1])];
+}
+
+const cache = new Map<string, HTMLCanvasElement>();
+const PAD = 3;
+
+export function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLCanvasElement {
+  const [l, w] = sizeOnScreen(a, z);
+  const L = Math.round(l * 2) / 2, W = Math.round(w * 2) / 2;
+  const colour = active && a.parked ? 'vehicle' : colourKey(a);
+  const key = `${a.kind}|${colour}|${L}|${W}|${dpr}|${paletteStamp()}`;
+  let s = cache.get(key);
+  if (s) return s;
+  if (cache.size > 400) cache.clear();
+  s = document.createElement('canvas');
+  s.width = Math.ceil((L + PAD * 2) * dpr);
+  s.height = Math.ceil((W + PAD * 2) * dpr);
+  const g = s.getContext('2d')!;
+  g.setTransform(dpr, 0, 0, dpr, s.width / 2, s.height / 2);
+  paintBody(g, a.kind, L, W, colour);
+  cache.set(key, s);
+  return s;
+}
+
+export function stamp(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine, active = false): void {
+  const s = sprite(a, v.z, v.dpr, active);
+  const w = s.width / v.dpr, h = s.height / v.dpr;
+  const c = Math.cos(p.heading), n = Math.sin(p.heading);
+  // Screen y points down, so the rotation is the other way round.
+  g.setTransform(v.dpr * c, -v.dpr * n, v.dpr * n, v.dpr * c, v.dpr * v.x(p.x), v.dpr * v.y(p.y));
+  g.drawImage(s, -w / 2, -h / 2, w, h);
+}
+
+export function roundRect(g: CanvasRenderingContext2D, x: number, y: number, w: number, h: number, r: number): void {
+  g.beginPath();
+  g.roundRect(x, y, w, h, Math.max(0, Math.min(r, w / 2, h / 2)));
+}
+
+export function outline(g: CanvasRenderingContext2D, kind: Kind, L: number, W: number): void {
+  const soft = kind === 'pedestrian' ? W * 0.42 : kind === 'cyclist' || kind === 'motorcycle' ? W * 0.48 : kind === 'car' ? Math.min(W * 0.28, 6) : Math.min(W * 0.14, 4);
+  roundRect(g, -L / 2, -W / 2, L, W, soft);
+}
+
+function paintBody(g: CanvasRenderingContext2D, kind: Kind, L: number, W: number, colour: ReturnType<typeof colourKey>): void {
+  const c = colours();
+  g.lineJoin = 'round';
+  outline(g, kind, L, W);
+  g.strokeStyle = c.halo;
+  g.lineWidth = 2.4;
+  g.stroke();
+  g.fillStyle = c[colour];
+  g.fill();
+  g.fillStyle = colour === 'log' ? c['parked-glass'] : c[`${colour}-glass` as ColourName];
+  if (W < 6 && kind !== 'pedestrian' && kind !== 'cyclist' && kind !== 'motorcycle') return;
+  PARTS[kind](g, L, W);
+}
+
+const disc = (g: CanvasRenderingContext2D, x: number, y: number, r: number): void => {
+  g.beginPath();
+  g.arc(x, y, r, 0, Math.PI * 2);
+  g.fill();
+};
+const pane = (g: CanvasRenderingContext2D, x: number, y: number, w: number, h: number, r = 1): void => {
+  roundRect(g, x, y, w, h, r);
+  g.fill();
+};
+const rider = (g: CanvasRenderingContext2D, L: number, W: number): void => {
+  disc(g, -L * 0.05, 0, Math.max(1.9, W * 0.33));
+  g.fillRect(L * 0.2, -W / 2, Math.max(1.4, L * 0.08), W);
+};
+
+/** What tells the front from the rear: head, handlebar, windscreen, cab. */
+const PARTS: Record<Kind, (g: CanvasRenderingContext2D, L: number, W: number) => void> = {
+  pedestrian: (g, L, W) => disc(g, L * 0.17, 0, W * 0.2),
+  cyclist: rider,
+  motorcycle: rider,
+  bus(g, L, W) {
+    pane(g, L / 2 - L * 0.085, -W * 0.4, L * 0.055, W * 0.8, 1.5);
+    g.globalAlpha = 0.5;
+    for (let i = 0; i < 3; i++) pane(g, -L * 0.34 + i * L * 0.22, -W * 0.2, L * 0.13, W * 0.4, 2);
+  },
+  truck(g, L, W) {
+    g.fillRect(L * 0.235, -W / 2, Math.max(1.2, L * 0.018), W);
+    pane(g, L * 0.36, -W * 0.38, L * 0.065, W * 0.76, 1.5);
+  },
+  car(g, L, W) {
+    g.beginPath();
+    g.moveTo(L * 0.06, -W * 0.36);
+    g.lineTo(L * 0.24, -W * 0.42);
+    g.lineTo(L * 0.24, W * 0.42);
+    g.lineTo(L * 0.06, W * 0.36);
+    g.fill();
+    g.globalAlpha = 0.55;
+    pane(g, -L * 0.36, -W * 0.34, L * 0.09, W * 0.68);
+  },
+  other: (g, L, W) => pane(g, -L * 0.2, -W * 0.2, L * 0.4, W * 0.4),
+};

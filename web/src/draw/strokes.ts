@@ -1,0 +1,162 @@
+// Lines on the map: every one has a halo, one dot per second, and a dash that says how sure it is.
+import { isValidAt, type Motion } from '../model/motion';
+import type { Futures } from '../model/futures';
+import { LETTERS } from '../model/futures';
+import type { Vec } from '../model/geometry';
+import { colours, font, modeColour, modeOnColour } from './theme';
+import type { Labels, Offset } from './labels';
+import type { View } from './view';
+
+export interface TrailStyle {
+  colour: string; width: number; alpha?: number; halo?: boolean; dash?: number[]; dots?: boolean; from?: number; to?: number; cap?: CanvasLineCap;
+}
+
+function tracePath(g: CanvasRenderingContext2D, v: View, m: Motion, i0: number, i1: number): void {
+  g.beginPath();
+  let pen = false;
+  for (let i = Math.max(0, i0); i <= i1 && i < m.x.length; i++) {
+    if (!isValidAt(m, m.first + i)) { pen = false; continue; }
+    const x = v.x(m.x[i]), y = v.y(m.y[i]);
+    if (pen) g.lineTo(x, y); else g.moveTo(x, y);
+    pen = true;
+  }
+}
+
+export function trail(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailStyle): void {
+  const i0 = Math.round((s.from ?? 0) * 10) - m.first, i1 = Math.round((s.to ?? 99) * 10) - m.first;
+  const alpha = s.alpha ?? 1;
+  tracePath(g, v, m, i0, i1);
+  g.lineCap = s.cap ?? 'round';
+  g.lineJoin = 'round';
+  if (s.halo) {
+    g.globalAlpha = alpha * 0.75;
+    g.strokeStyle = colours().halo;
+    g.lineWidth = s.width + 2.5;
+    g.stroke();
+  }
+  g.globalAlpha = alpha;
+  g.setLineDash(s.dash ?? []);
+  g.strokeStyle = s.colour;
+  g.lineWidth = s.width;
+  g.stroke();
+  g.setLineDash([]);
+  if (s.dots) secondDots(g, v, m, s, Math.max(0, i0), i1);
+  g.globalAlpha = 1;
+}
+
+function secondDots(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailStyle, i0: number, i1: number): void {
+  const every = v.z > 12 ? 5 : 10;
+  g.fillStyle = s.colour;
+  g.strokeStyle = colours().halo;
+  g.lineWidth = 1.2;
+  for (let i = Math.max(1, i0); i <= i1 && i < m.x.length; i++) {
+    const step = m.first + i;
+    if (step % every || !isValidAt(m, step)) continue;
+    const r = step % 10 ? s.width * 0.35 + 0.6 : s.width * 0.5 + 1.2;
+    g.beginPath();
+    g.arc(v.x(m.x[i]), v.y(m.y[i]), r, 0, Math.PI * 2);
+    if (s.halo) g.stroke();
+    g.fill();
+  }
+}
+
+export function polyline(g: CanvasRenderingContext2D, v: View, pts: readonly Vec[], colour: string, width: number, alpha = 1, dash: number[] = [], cap: CanvasLineCap = 'butt'): void {
+  g.beginPath();
+  pts.forEach((p, i) => (i ? g.lineTo(v.x(p[0]), v.y(p[1])) : g.moveTo(v.x(p[0]), v.y(p[1]))));
+  g.strokeStyle = colour;
+  g.lineWidth = width;
+  g.lineCap = cap;
+  g.lineJoin = 'round';
+  g.globalAlpha = alpha;
+  g.setLineDash(dash);
+  g.stroke();
+  g.setLineDash([]);
+  g.globalAlpha = 1;
+}
+
+/** Rank is strength: likely futures are darker and wider. */
+export function modeStyle(p: number, max: number): { alpha: number; width: number } {
+  const r = Math.sqrt(max > 0 ? p / max : 1);
+  return { alpha: 0.35 + 0.65 * r, width: 1.5 + 2.5 * r };
+}
+
+export interface FuturesStyle { only?: number | null; chosen: number; alpha?: number; outdated?: boolean; onlyChosen?: boolean }
+
+/** Dotted, then dashed, then solid: how settled the six are. */
+function settledDash(f: Futures, outdated: boolean): number[] {
+  if (f.sketch || outdated) return [2, 5];
+  const left = f.steps - f.step;
+  return left <= 0 ? [] : left >= f.steps * 0.5 ? [2, 5] : [8, 4];
+}
+
+export function paintFutures(g: CanvasRenderingContext2D, v: View, f: Futures, s: FuturesStyle): void {
+  const max = Math.max(...f.modes.map((m) => m.probability));
+  const dash = settledDash(f, s.outdated ?? false);
+  for (const i of drawOrder(f.modes.length, s.chosen)) {
+    if (s.onlyChosen && i !== s.chosen) continue;
+    const m = f.modes[i];
+    const { alpha, width } = modeStyle(m.probability, max);
+    const lit = s.only == null || s.only === i;
+    const isChosen = i === s.chosen;
+    trail(g, v, m.motion, {
+      colour: f.sketch ? colours()['ink-3'] : modeColour(i), width: isChosen ? Math.max(width, 3.2) : width,
+      alpha: (lit ? (isChosen ? Math.max(alpha, 0.9) : alpha) : 0.14) * (s.alpha ?? 1), halo: lit, dots: lit, dash,
+    });
+  }
+}
+
+/** F first, A over it, the chosen one on top. */
+const drawOrder = (n: number, chosen: number): number[] => [...Array(n).keys()].filter((i) => i !== chosen).reverse().concat(chosen < n ? [chosen] : []);
+
+export interface Chip { readonly index: number; readonly x: number; readonly y: number }
+
+const CHIP_TRIES: readonly Offset[] = [[0, 0], [22, 0], [0, -24], [-22, 0], [0, 24], [20, -20], [-20, -20], [20, 20], [-20, 20], [0, -44], [42, 0], [-42, 0], [0, 44]];
+
+/** Letters at the ends of the futures; returns where they are, for clicks. */
+export function paintChips(g: CanvasRenderingContext2D, labels: Labels, v: View, f: Futures, which: readonly number[], chosen: number): Chip[] {
+  const out: Chip[] = [];
+  const R = 8.5;
+  for (const i of which) {
+    const m = f.modes[i].motion;
+    const n = m.x.length - 1;
+    const ex = v.x(m.x[n]), ey = v.y(m.y[n]);
+    const r = labels.place(ex, ey, 2 * R + 2, 2 * R + 2, CHIP_TRIES.map(([a, b]): Offset => [a - R - 1, b - R - 1]), true)!;
+    const cx = r.x + R + 1, cy = r.y + R + 1;
+    if (Math.hypot(cx - ex, cy - ey) > 4) {
+      g.beginPath();
+      g.moveTo(ex, ey);
+      g.lineTo(cx, cy);
+      g.strokeStyle = modeColour(i);
+      g.lineWidth = 1;
+      g.globalAlpha = 0.7;
+      g.stroke();
+      g.globalAlpha = 1;
+    }
+    letterDisc(g, cx, cy, R, i, i === chosen);
+    out.push({ index: i, x: cx, y: cy });
+  }
+  return out;
+}
+
+function letterDisc(g: CanvasRenderingContext2D, x: number, y: number, r: number, i: number, chosen: boolean): void {
+  g.beginPath();
+  g.arc(x, y, r, 0, Math.PI * 2);
+  g.fillStyle = modeColour(i);
+  g.strokeStyle = colours().halo;
+  g.lineWidth = chosen ? 3.4 : 2;
+  g.stroke();
+  g.fill();
+  if (chosen) {
+    g.beginPath();
+    g.arc(x, y, r + 2.2, 0, Math.PI * 2);
+    g.strokeStyle = colours().select;
+    g.lineWidth = 1.4;
+    g.stroke();
+  }
+  g.fillStyle = modeOnColour(i);
+  g.font = font(700, 10.5);
+  g.textAlign = 'center';
+  g.textBaseline = 'middle';
+  g.fillText(LETTERS[i] ?? '?', x, y + 0.5);
+  g.textAlign = 'left';
+}

@@ -1,0 +1,388 @@
+// From the document to the generator and back: what is asked when, and what becomes of the answers.
+import { batch } from '@preact/signals-core';
+import type { Editor } from './editor';
+import type { Library } from './library';
+import { Generator, type Handlers } from '../net/generator';
+import type { DraftEvent, FinalEvent, Problem, ResolvedJson, ScoreJson } from '../net/api';
+import { Away, type Client } from '../net/client';
+import type { ConditionJson, SceneJson } from '../model/json';
+import { conditionOf, generatedJson, isEmptyCondition, stillAgents, trackJson } from '../model/write';
+import { readFutures, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
+import { canChange, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { motionOf } from '../model/changes';
+import { summary, readEvents } from '../model/events';
+import { sketchFutures } from './sketch';
+
+const RETRY_S = [1, 2, 4, 6];
+const STEPS = 5;
+/** A key held down sends one request when it rests. */
+const REST_MS = 80;
+
+interface Wanted { agents: string[] | 'all'; react: boolean | string[]; commit: { name: string; agent: string | null; undo: boolean } | null; kept?: ReadonlySet<string> }
+
+export class Asking {
+  readonly generator: Generator;
+  private restTimer = 0;
+  private retryTimer = 0;
+  private tries = 0;
+  private missed = 0;
+  private scoreAbort: AbortController | null = null;
+  private partCache: { set: MotionSet; others: string; text: string } | null = null;
+
+  constructor(private readonly editor: Editor, private readonly library: Library, private readonly client: Client, base = '') {
+    this.generator = new Generator(base);
+    editor.onCommit = (scene, step) => this.committed(scene, step);
+    editor.onSelect = (id) => this.selected(id);
+  }
+
+  /** A road user was selected: its six futures, nobody else moves. */
+  private selected(id: string | null): void {
+    const { editor } = this;
+    if (!id) {
+      // A running answer to a commit must still arrive; only a look at futures is dropped.
+      if (!editor.motion.peek().stale) this.generator.cancel();
+      if (editor.status.peek().kind === 'refining') editor.status.value = { kind: 'ready' };
+      return;
+    }
+    const a = editor.agent.peek();
+    if (!a || !canChange(a) || editor.motion.peek().futures.has(id) || editor.motion.peek().stale) return;
+    this.send({ agents: [id], react: false, commit: null }, true);
+  }
+
+  /** A drag frame: the newest pose, one request on the way and one waiting. */
+  preview(id: string): void {
+    const { editor } = this;
+    if (editor.away.peek()) {
+      const s = editor.scene.peek(), a = s?.agents.get(id);
+      const f = s && a ? sketchFutures(s, a) : null;
+      if (f) editor.draft.value = { id, futures: f, earlier: [] };
+      return;
+    }
+    this.send({ agents: [id], react: false, commit: null }, true);
+  }
+
+  /** Drops the previews of a drag that was put back. */
+  cancelPreviews(): void { this.generator.cancel(); }
+
+  private committed(scene: Scene, step: { name: string; agent: string | null; undo: boolean }): void {
+    const { editor } = this;
+    this.library.changed(scene);
+    clearTimeout(this.restTimer);
+    if (!editor.motion.peek().stale) {
+      this.generator.cancel();
+      editor.status.value = { kind: 'ready' };
+      return;
+    }
+    if (editor.away.peek()) {
+      this.missed++;
+      editor.away.value = { ...editor.away.peek()!, waiting: this.missed };
+      if (step.agent) this.sketch(step.agent);
+      return;
+    }
+    this.restTimer = setTimeout(() => this.workOut(step), REST_MS) as unknown as number;
+  }
+
+  /** Release, typed value, undo to an unknown state: the others are asked too. */
+  private workOut(step: { name: string; agent: string | null; undo: boolean }): void {
+    const scene = this.editor.scene.peek();
+    if (!scene) return;
+    const mine = this.editor.touchedIds(scene);
+    if (!mine.length) return this.pristine(scene, step);
+    const chosen = [...scene.agents.values()].filter((a) => a.chosen !== null);
+    if (scene.others !== 'react') return this.workOutAlone(scene, mine, step);
+    const subject = step.agent && scene.agents.get(step.agent);
+    if (subject && subject.chosen !== null && this.editor.motion.peek().futures.has(subject.id)) {
+      // A picked future is kept as it is; everybody else answers it.
+      const rest = [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
+      if (rest.length) this.send({ agents: rest, react: false, commit: step, kept: new Set(chosen.map((a) => a.id)) }, false);
+      else void this.rescore(step);
+      return;
+    }
+    const first = subject && touched(subject) ? subject.id : mine[0];
+    const react = chosen.length ? [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null && a.id !== first).map((a) => a.id) : true;
+    this.send({ agents: [first], react, commit: step, kept: new Set(chosen.filter((a) => a.id !== first).map((a) => a.id)) }, false);
+  }
+
+  private workOutAlone(scene: Scene, mine: string[], step: Wanted['commit']): void {
+    const known = this.editor.motion.peek().futures;
+    const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
+    if (open.length) this.send({ agents: open, react: false, commit: step, kept: new Set(mine.filter((id) => !open.includes(id))) }, false);
+    else void this.rescore(step);
+  }
+
+  /** Nobody is asked anything: everybody follows the log again. */
+  private pristine(scene: Scene, step: Wanted['commit']): void {
+    const set: MotionSet = { key: sceneKey(scene), futures: new Map(), driving: new Set(), score: null, reach: new Map(), stale: false };
+    this.editor.settle(set, null);
+    void this.rescore(step);
+    if (this.editor.selection.peek()) this.selected(this.editor.selection.peek());
+  }
+
+  /** The Generate button: everybody anew. */
+  generateAll(): void {
+    const scene = this.editor.scene.peek();
+    if (!scene) return;
+    this.editor.motion.value = { ...this.editor.motion.peek(), stale: true };
+    this.send({ agents: 'all', react: false, commit: { name: 'Everybody worked out anew', agent: null, undo: false } }, false);
+  }
+
+  private send(w: Wanted, preview: boolean): void {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    if (!scene || editor.away.peek()) return;
+    const before = editor.motion.peek();
+    const conditions: Record<string, ConditionJson> = {};
+    for (const a of scene.agents.values()) {
+      const c = conditionOf(a);
+      if (!isEmptyCondition(c) || this.library.hadConditions(a.id)) conditions[a.id] = c;
+    }
+    const inline = before.driving.size > 0 || scene.others === 'still' || !this.library.stored;
+    const part = (): string => (inline ? this.inlinePart(scene, before, w) : `"scene_id":${JSON.stringify(scene.id)}`);
+    this.generator.ask({
+      preview, scenePart: part, fullPart: async () => this.fullPart(scene, before, w),
+      options: { agents: w.agents, react: w.react, conditions, seed: scene.seed, diversity: scene.diversity, steps: STEPS, stream_modes: 'all', score: w.commit !== null },
+      on: this.handlers(scene, w),
+    });
+    if (!preview) editor.status.value = { kind: 'refining', step: 0, steps: STEPS, ms: 0 };
+  }
+
+  private inlinePart(scene: Scene, set: MotionSet, w: Wanted): string {
+    const hit = this.partCache;
+    // A drag asks sixty times a second about the same surroundings; they are written once.
+    if (!w.commit && hit && hit.set === set && hit.others === scene.others) return hit.text;
+    const text = `"scene":${JSON.stringify(this.sceneJson(scene, set, w, this.library.mapRef ? { ref: this.library.mapRef } : this.library.mapJson!))}`;
+    if (!w.commit) this.partCache = { set, others: scene.others, text };
+    return text;
+  }
+
+  private fullPart(scene: Scene, set: MotionSet, w: Wanted): string {
+    return `"scene":${JSON.stringify(this.sceneJson(scene, set, w, this.library.mapJson!))}`;
+  }
+
+  private sceneJson(scene: Scene, set: MotionSet, w: Wanted, map: SceneJson['map']): SceneJson {
+    const raw = this.library.raw!;
+    const kept = [...set.futures].filter(([id]) => set.driving.has(id) || w.kept?.has(id));
+    const moving = new Set(this.editor.touchedIds(scene));
+    return { ...raw, map, agents: scene.others === 'still' ? stillAgents(raw, scene, moving) : raw.agents, generated: generatedJson(scene, kept) };
+  }
+
+  private handlers(scene: Scene, w: Wanted): Handlers {
+    const { editor } = this;
+    const subject = w.commit ? w.commit.agent ?? editor.selection.peek() : (w.agents as string[])[0];
+    return {
+      draft: (e, step, steps, ms) => {
+        this.answered();
+        const id = subject && e.agents[subject] ? subject : null;
+        batch(() => {
+          if (id && editor.selection.peek() === id) this.draw(id, e, step, steps);
+          editor.status.value = { kind: 'refining', step, steps, ms };
+        });
+      },
+      final: (e, ms) => {
+        this.answered();
+        if (w.commit) this.finalOfCommit(scene, e, w, ms); else this.finalOfPreview(scene, e, w, ms);
+      },
+      refused: (p) => this.refused(p),
+      away: () => this.wentAway(w),
+    };
+  }
+
+  private draw(id: string, e: DraftEvent, step: number, steps: number): void {
+    const { editor } = this;
+    const a = editor.scene.peek()?.agents.get(id);
+    const start = a && startPose(a);
+    if (!a || !start) return;
+    const f = readFutures(e.agents[id], start, step, steps, a.type === 'pedestrian');
+    const old = editor.draft.peek();
+    const earlier = step > 0 && old?.id === id && !old.futures.sketch ? [old.futures, ...old.earlier].slice(0, 3) : [];
+    editor.draft.value = { id, futures: f, earlier };
+  }
+
+  private finalOfPreview(scene: Scene, e: FinalEvent, w: Wanted, ms: number): void {
+    const { editor } = this;
+    const id = (w.agents as string[])[0];
+    const f = this.readAll(scene, e).get(id);
+    if (!f) return;
+    const reach = readReach(e.resolved?.[id]);
+    batch(() => {
+      editor.status.value = { kind: 'settled', ms, adapted: null };
+      if (reach) editor.liveReach.value = { id, reach };
+      if (editor.drag.peek() || editor.motion.peek().stale) {
+        if (editor.selection.peek() === id) editor.draft.value = { id, futures: f, earlier: [] };
+        return;
+      }
+      // A look at six futures: kept beside the others, nobody follows them yet.
+      const m = editor.motion.peek();
+      editor.motion.value = { ...m, futures: new Map(m.futures).set(id, f), reach: reach ? new Map(m.reach).set(id, reach) : m.reach };
+      editor.cache.put(editor.motion.peek());
+      if (editor.draft.peek()?.id === id) editor.draft.value = null;
+    });
+    const best = f.modes[f.chosen];
+    if (best && !editor.drag.peek()) editor.say(`Six futures. Most likely: ${best.name}, ${Math.round(best.probability * 100)} percent.`);
+  }
+
+  private finalOfCommit(scene: Scene, e: FinalEvent, w: Wanted, ms: number): void {
+    const { editor } = this;
+    if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
+    const before = editor.motion.peek();
+    const answers = this.readAll(scene, e);
+    const futures = new Map(before.futures);
+    for (const [id, f] of answers) futures.set(id, f);
+    const all = w.agents === 'all';
+    const driving = scene.others === 'react' || all ? new Set([...before.driving, ...answers.keys()]) : new Set<string>();
+    for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
+    const reach = new Map(before.reach);
+    for (const [id, r] of Object.entries(e.resolved ?? {})) { const v = readReach(r); if (v) reach.set(id, v); else reach.delete(id); }
+    const set: MotionSet = { key: sceneKey(scene), futures, driving, score: readScore(e.scores), reach, stale: false };
+    editor.liveReach.value = null;
+    editor.settle(set, { except: w.commit!.agent });
+    this.afterCommit(w.commit!, ms);
+    if (!set.score) void this.rescore(w.commit, true);
+  }
+
+  private afterCommit(step: { name: string; agent: string | null; undo: boolean }, ms: number): void {
+    const { editor } = this;
+    const n = editor.changes.peek().length;
+    editor.status.value = { kind: 'settled', ms, adapted: step.agent ? n : null };
+    if (step.undo) return;
+    const scene = editor.scene.peek()!;
+    const tail = !step.agent ? '' : scene.others !== 'react' ? '' : n === 0 ? ' Nobody else had to change.' : n === 1 ? ' 1 other changed.' : ` ${n} others changed.`;
+    editor.notify({ text: `${step.name}.${tail}`, undo: true });
+    const first = editor.changes.peek()[0];
+    editor.say(`${step.name}.${tail}${first ? ` ${first.name} ${first.words}.` : ''}`);
+    const hit = editor.events.peek().find((v) => v.kind === 'collision');
+    if (hit) editor.say(`Collision, ${hit.a.name} and ${hit.b.name}, ${hit.time.toFixed(1)} seconds.`, true);
+  }
+
+  private readAll(scene: Scene, e: FinalEvent): Map<string, Futures> {
+    const out = new Map<string, Futures>();
+    for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
+      const a = scene.agents.get(id), start = a && startPose(a);
+      if (a && start && json.modes?.length) out.set(id, readFutures(json, start, STEPS, STEPS, a.type === 'pedestrian'));
+    }
+    return out;
+  }
+
+  /** Events for motions that are known already: after a pick among futures, and for the log at the start. */
+  async rescore(step: Wanted['commit'] = null, quiet = false): Promise<void> {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    if (!scene || !this.library.raw) return;
+    const set = editor.motion.peek();
+    this.scoreAbort?.abort();
+    const abort = (this.scoreAbort = new AbortController());
+    const trajectories: Record<string, unknown> = {};
+    const driving = new Set(set.driving);
+    for (const id of editor.touchedIds(scene)) if (set.futures.has(id)) driving.add(id);
+    const shown: MotionSet = { ...set, key: sceneKey(scene), driving, stale: false };
+    for (const a of scene.agents.values()) if (driving.has(a.id) || (scene.others === 'still' && canChange(a))) trajectories[a.id] = trackJson(motionOf(scene, shown, a));
+    if (set.stale) editor.settle(shown, null);
+    const ref = this.library.stored ? { scene_id: scene.id } : { scene: { ...this.library.raw, map: this.library.mapJson, generated: null } };
+    try {
+      const reply = await this.client.score({ ...ref, ...(Object.keys(trajectories).length ? { trajectories } : {}) }, abort.signal);
+      if (editor.scene.peek() !== scene) return;
+      const now = { ...editor.motion.peek(), score: readScore(reply) };
+      editor.motion.value = now;
+      editor.cache.put(now);
+      if (step && !quiet) this.afterCommit(step, 0);
+    } catch (e) {
+      // Without a score there are no events to show; the motions stand.
+      if (e instanceof Away && step) this.wentAway({ agents: [], react: false, commit: step });
+    }
+    if (step && !quiet && editor.status.peek().kind === 'refining') editor.status.value = { kind: 'ready' };
+  }
+
+  private refused(p: Problem): void {
+    const first = p.errors?.[0];
+    const words = first?.detail ?? (first?.min !== undefined ? `A value is outside ${first.min} to ${first.max}.` : p.detail ?? p.title);
+    this.editor.status.value = { kind: 'refused', words };
+    this.editor.say(words);
+  }
+
+  private sketch(id: string): void {
+    const scene = this.editor.scene.peek(), a = scene?.agents.get(id);
+    const f = scene && a ? sketchFutures(scene, a) : null;
+    if (f && this.editor.selection.peek() === id) this.editor.draft.value = { id, futures: f, earlier: [] };
+  }
+
+  private wentAway(w: Wanted): void {
+    const { editor } = this;
+    if (w.commit) this.missed = Math.max(1, this.missed + 1);
+    if (!editor.away.peek()) {
+      this.tries = 0;
+      editor.say('Generator away. Nothing is lost.', true);
+    }
+    editor.status.value = { kind: 'away' };
+    const id = w.commit?.agent ?? (Array.isArray(w.agents) ? w.agents[0] : null);
+    if (id) this.sketch(id);
+    this.countDown();
+  }
+
+  private countDown(): void {
+    const { editor } = this;
+    clearInterval(this.retryTimer);
+    let left = RETRY_S[Math.min(this.tries, RETRY_S.length - 1)];
+    this.tries++;
+    editor.away.value = { retryIn: left, waiting: this.missed };
+    this.retryTimer = setInterval(() => {
+      left--;
+      if (left > 0) editor.away.value = { retryIn: left, waiting: this.missed };
+      else void this.tryNow();
+    }, 1000) as unknown as number;
+  }
+
+  async tryNow(): Promise<void> {
+    clearInterval(this.retryTimer);
+    if (!(await this.client.answers())) return this.countDown();
+    this.back();
+  }
+
+  private back(): void {
+    const { editor } = this;
+    const n = this.missed;
+    this.missed = 0;
+    clearInterval(this.retryTimer);
+    editor.away.value = null;
+    editor.draft.value = null;
+    this.library.retry();
+    editor.notify({ text: n ? `The generator is back. ${n} change${n > 1 ? 's' : ''} worked out.` : 'The generator is back.' });
+    if (editor.motion.peek().stale) this.workOut({ name: 'Waiting changes', agent: editor.selection.peek(), undo: true });
+    else this.selected(editor.selection.peek());
+  }
+
+  private answered(): void {
+    if (this.editor.away.peek()) this.back();
+  }
+
+  /** One line for the status chip when nothing is going on. */
+  eventLine(): string {
+    const s = this.editor.scene.peek();
+    return s ? summary(readEvents(s, this.editor.motion.peek())) : '';
+  }
+}
+
+export function readReach(r: ResolvedJson | undefined): Reach | null {
+  const j = r?.reach;
+  if (!j) return null;
+  const n = j.nearest;
+  return {
+    status: j.status === 'unreachable' ? 'unreachable' : 'reached',
+    nearest: n ? { x: n.x_m, y: n.y_m, heading: n.heading_rad ?? 0, speed: n.speed_mps ?? 0 } : null,
+    limiting: j.limiting ?? null, needs: j.needs ?? null, words: j.words ?? null,
+  };
+}
+
+/** The score of the scene, wherever the reply carries it. */
+export function readScore(json: unknown): Score | null {
+  const one = (Array.isArray(json) ? json[0] : json) as { scene?: ScoreJson; samples?: { scene?: ScoreJson }[] } | null | undefined;
+  const s = one?.scene ?? one?.samples?.[0]?.scene ?? (one && 'collisions' in one ? (one as ScoreJson) : undefined);
+  if (!s) return null;
+  return {
+    collisions: (s.collisions ?? []).map((c) => ({ a: String(c.a), b: String(c.b), time: c.time_s })),
+    nearMisses: (s.near_misses ?? []).map((c) => ({ a: String(c.a), b: String(c.b), time: c.time_s, distance: c.distance_m ?? null, ttc: c.ttc_s ?? null })),
+    minTtc: s.min_ttc_s ?? null, offroadShare: s.offroad_share ?? null,
+  };
+}
+
+/** For tests and panels: is this road user one the generator can be asked about? */
+export const askable = (a: Agent | null): boolean => !!a && canChange(a);

@@ -1,0 +1,32 @@
+// Saves an export of what is on screen to a file.
+import { Refused, type Client } from '../net/client';
+import type { Editor } from './editor';
+import type { Library } from './library';
+
+const ENDING: Record<string, string> = { dragtraffic: 'json', womd: 'tfrecord' };
+
+export async function download(c: { editor: Editor; library: Library; client: Client }, format: string): Promise<void> {
+  const json = c.library.complete();
+  if (!json) return;
+  try {
+    const { blob, name, loss } = await c.client.exportScene(json, format);
+    const file = /\./.test(name) && !name.startsWith('scene.') ? name : `${slug(json.name ?? 'scene')}.${ENDING[format] ?? format}`;
+    offer(blob, file);
+    c.editor.notify({ text: loss ? `${file} saved. Not carried: ${loss}.` : `${file} saved.` });
+  } catch (e) {
+    c.editor.notify({ text: e instanceof Refused ? `Not exported: ${e.message}` : 'Not exported: the server is not answering.' });
+  }
+}
+
+const slug = (s: string): string => s.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '') || 'scene';
+
+function offer(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  const a = document.createElement('a');
+  a.href = url;
+  a.download = name;
+  document.body.append(a);
+  a.click();
+  a.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

@@ -1,0 +1,92 @@
+// What lies under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
+import { insideBox } from '../model/geometry';
+import { poseAt } from '../model/motion';
+import { canChange, startPose, type Agent } from '../model/scene';
+import { FLAG_HEIGHT, handlePoints } from '../draw/handles';
+import { sizeOnScreen } from '../draw/sprites';
+import type { Chip } from '../draw/strokes';
+import type { View } from '../draw/view';
+import type { Editor, Grip } from './editor';
+
+export type Hit =
+  | { kind: 'grip'; grip: Grip } | { kind: 'future'; index: number } | { kind: 'agent'; id: string; pile: string[] } | { kind: 'none' };
+
+const near = (p: readonly [number, number], x: number, y: number, r: number): boolean => Math.hypot(p[0] - x, p[1] - y) <= r;
+
+export interface HitContext { editor: Editor; view: View; chips: readonly Chip[]; timeTag: { x: number; y: number; w: number; h: number } | null; touch: boolean }
+
+export function hitTest(c: HitContext, x: number, y: number): Hit {
+  const a = c.editor.agent.value;
+  if (a && canChange(a)) {
+    const grip = gripAt(c, a, x, y);
+    if (grip) return { kind: 'grip', grip };
+    for (const chip of c.chips) if (near([chip.x, chip.y], x, y, c.touch ? 22 : 11)) return { kind: 'future', index: chip.index };
+    if (c.editor.layers.value.futures && futureAt(c, c.editor.chosen.value, x, y)) return { kind: 'future', index: c.editor.chosen.value };
+  }
+  const pile = agentsAt(c, x, y);
+  if (pile.length) return { kind: 'agent', id: pile[0], pile };
+  const f = c.editor.futures.value;
+  if (a && f && c.editor.layers.value.futures)
+    for (let i = 0; i < f.modes.length; i++) if (futureAt(c, i, x, y)) return { kind: 'future', index: i };
+  return { kind: 'none' };
+}
+
+function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
+  const { view: v, editor } = c;
+  const r = c.touch ? 22 : 11;
+  const goal = editor.goalPose(a);
+  if (goal) {
+    const g = handlePoints(v, a, goal);
+    const t = c.timeTag;
+    if (t && x >= t.x && x <= t.x + t.w && y >= t.y && y <= t.y + t.h) return { part: 'goal', handle: 'time' };
+    if (goal.set && near(g.tip, x, y, r)) return { part: 'goal', handle: 'speed' };
+    if (goal.set && near(g.knob, x, y, r)) return { part: 'goal', handle: 'heading' };
+    const [gx, gy] = g.centre;
+    if (x > gx - 6 && x < gx + 26 && y > gy - FLAG_HEIGHT - 2 && y < gy + 5) return { part: 'goal', handle: 'body' };
+    if (onBox(v, a, goal, x, y)) return { part: 'goal', handle: 'body' };
+  }
+  const start = startPose(a);
+  if (!start || editor.time.value > 0.05) return null;
+  const s = handlePoints(v, a, start);
+  if (near(s.tip, x, y, r)) return { part: 'start', handle: 'speed' };
+  if (near(s.knob, x, y, r)) return { part: 'start', handle: 'heading' };
+  return onBox(v, a, start, x, y) ? { part: 'start', handle: 'body' } : null;
+}
+
+function onBox(v: View, a: Agent, p: { x: number; y: number; heading: number }, x: number, y: number): boolean {
+  const [l, w] = sizeOnScreen(a, v.z);
+  const [wx, wy] = v.from(x, y);
+  return insideBox(p, Math.max(l, 16) / v.z, Math.max(w, 16) / v.z, wx, wy, 4 / v.z);
+}
+
+/** Everybody under the pointer, moving before parked, small before large. */
+export function agentsAt(c: HitContext, x: number, y: number): string[] {
+  const scene = c.editor.scene.value;
+  if (!scene) return [];
+  const [wx, wy] = c.view.from(x, y);
+  const t = c.editor.time.value;
+  const found: Agent[] = [];
+  for (const a of scene.agents.values()) {
+    const p = t < 0.05 ? startPose(a) ?? poseAt(c.editor.motionFor(a), t) : poseAt(c.editor.motionFor(a), t);
+    if (!p || Math.abs(p.x - wx) > 20 + a.length || Math.abs(p.y - wy) > 20 + a.length) continue;
+    if (onBox(c.view, a, p, x, y)) found.push(a);
+  }
+  found.sort((p, q) => Number(p.parked) - Number(q.parked) || p.length * p.width - q.length * q.width);
+  return found.map((a) => a.id);
+}
+
+function futureAt(c: HitContext, index: number, x: number, y: number): boolean {
+  const m = c.editor.futures.value?.modes[index]?.motion;
+  if (!m) return false;
+  const reach = c.touch ? 14 : 5;
+  let px = c.view.x(m.x[0]), py = c.view.y(m.y[0]);
+  for (let i = 1; i < m.x.length; i++) {
+    const qx = c.view.x(m.x[i]), qy = c.view.y(m.y[i]);
+    const dx = qx - px, dy = qy - py, len2 = dx * dx + dy * dy;
+    const k = len2 > 0 ? Math.max(0, Math.min(1, ((x - px) * dx + (y - py) * dy) / len2)) : 0;
+    if (Math.hypot(x - px - dx * k, y - py - dy * k) <= reach) return true;
+    px = qx;
+    py = qy;
+  }
+  return false;
+}

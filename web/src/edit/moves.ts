@@ -1,0 +1,139 @@
+// Changes of start and goal, said once and used by handles, keys and typed values alike.
+import { deg, rad, wrapAngle, type Pose, type Vec } from '../model/geometry';
+import { nearestLanes } from '../model/lanemap';
+import { choose, clearGoal, setBoth, setGoal, setSize, setStart, type Command } from '../model/commands';
+import { LETTERS } from '../model/futures';
+import { limitsOf, localReach } from '../model/reach';
+import { GOAL_TIME, startPose, type Agent, type GoalSpec, type StartSpec } from '../model/scene';
+import type { Editor, Part } from './editor';
+import { lanesFor } from './snap';
+
+export type Field = 'pos' | 'heading' | 'speed';
+
+export const SPEED_LIMIT = { vehicle: 45, cyclist: 15, pedestrian: 5, other: 45 } as const;
+export const TIME_RANGE = [1, GOAL_TIME] as const;
+const FIELD_WORDS = { pos: 'Position', heading: 'Heading', speed: 'Speed' } as const;
+
+const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
+
+/** The pose of a part as shown: fixed values, and for free ones what the generator chose. */
+export const shownPose = (e: Editor, a: Agent, part: Part): Pose | null => (part === 'start' ? startPose(a) : e.goalPose(a));
+
+export function withField(a: Agent, part: Part, patch: Partial<GoalSpec>, fold = false): Command {
+  const words = 'pos' in patch ? (part === 'goal' ? 'Goal' : 'Start') : 'heading' in patch ? `${part === 'goal' ? 'Goal heading' : 'Heading'}` : 'speed' in patch ? `${part === 'goal' ? 'Goal speed' : 'Speed'}` : 'Goal time';
+  const done = 'pos' in patch ? 'moved' : 'changed';
+  const c = part === 'goal' ? setGoal(a, { ...a.goal, ...patch }) : setStart(a, { pos: a.start.pos, heading: a.start.heading, speed: a.start.speed, ...patch } as StartSpec);
+  const field = Object.keys(patch)[0];
+  return { ...c, name: `${words} of ${a.name} ${done}`, fold: fold ? `${part}:${field}:${a.id}` : undefined };
+}
+
+/** Switches one field between Fixed, at the value shown, and Free. */
+export function toggleField(e: Editor, a: Agent, part: Part, field: Field): Command | null {
+  const spec = part === 'goal' ? a.goal : a.start;
+  const shown = shownPose(e, a, part);
+  e.lastField.value = { part, field };
+  const free = spec[field] !== null;
+  const value = free ? null : !shown ? null : field === 'pos' ? freeze([shown.x, shown.y]) : field === 'heading' ? shown.heading : shown.speed;
+  if (!free && value === null) return null;
+  const c = withField(a, part, { [field]: value } as Partial<GoalSpec>);
+  return { ...c, name: `${part === 'goal' ? 'Goal ' : 'Start '}${FIELD_WORDS[field].toLowerCase()} of ${a.name} ${free ? 'free' : 'fixed'}` };
+}
+
+/** A goal where the chosen future ends: the keyboard's way to take the flag. */
+export function goalHere(e: Editor, a: Agent): Command | null {
+  const p = e.goalPose(a);
+  return p ? { ...setGoal(a, { ...a.goal, pos: freeze([p.x, p.y]) }), name: `Goal of ${a.name} set` } : null;
+}
+
+export function nudge(e: Editor, a: Agent, part: Part, dx: number, dy: number): Command | null {
+  const p = shownPose(e, a, part);
+  return p ? withField(a, part, { pos: freeze([p.x + dx, p.y + dy]) }, true) : null;
+}
+
+export function nudgeAlong(e: Editor, a: Agent, part: Part, metres: number): Command | null {
+  const p = shownPose(e, a, part);
+  const fits = lanesFor(a);
+  const map = e.scene.peek()!.map;
+  if (!p) return null;
+  const hit = fits ? nearestLanes(map, p.x, p.y, p.heading, 4, fits)[0] : undefined;
+  const h = hit?.heading ?? p.heading;
+  const x = p.x + Math.cos(h) * metres, y = p.y + Math.sin(h) * metres;
+  const on = hit && nearestLanes(map, x, y, h, 4, (l) => l === hit.lane || hit.lane.next.includes(l.id) || hit.lane.prev.includes(l.id))[0];
+  return withField(a, part, on ? { pos: freeze([on.x, on.y]), heading: on.heading } : { pos: freeze([x, y]) }, true);
+}
+
+/** To the lane beside this one, on the left or on the right. */
+export function toNextLane(e: Editor, a: Agent, part: Part, side: 1 | -1): Command | null {
+  const p = shownPose(e, a, part), fits = lanesFor(a);
+  if (!p || !fits) return null;
+  const hits = nearestLanes(e.scene.peek()!.map, p.x, p.y, p.heading, 7, fits)
+    .map((h) => ({ h, left: -(h.x - p.x) * Math.sin(p.heading) + (h.y - p.y) * Math.cos(p.heading) }))
+    .filter((c) => c.left * side > 1.2 && Math.abs(wrapAngle(c.h.heading - p.heading)) < 0.8)
+    .sort((m, n) => Math.abs(m.left) - Math.abs(n.left));
+  const to = hits[0]?.h;
+  return to ? withField(a, part, { pos: freeze([to.x, to.y]), heading: to.heading }) : null;
+}
+
+export function turn(e: Editor, a: Agent, part: Part, degrees: number): Command | null {
+  const p = shownPose(e, a, part);
+  return p ? withField(a, part, { heading: wrapAngle(rad(Math.round(deg(p.heading) + degrees))) }, true) : null;
+}
+
+export function snapToNearest(e: Editor, a: Agent, part: Part): Command | null {
+  const p = shownPose(e, a, part), fits = lanesFor(a);
+  const hit = p && fits ? nearestLanes(e.scene.peek()!.map, p.x, p.y, p.heading, 25, fits)[0] : undefined;
+  return hit ? withField(a, part, { pos: freeze([hit.x, hit.y]), heading: hit.heading }) : null;
+}
+
+export function faster(e: Editor, a: Agent, part: Part, steps: number): Command | null {
+  const p = shownPose(e, a, part);
+  if (!p) return null;
+  const step = a.type === 'pedestrian' ? 0.1 : 1 / 3.6;
+  const v = Math.min(SPEED_LIMIT[a.type], Math.max(0, (Math.round(p.speed / step) + steps) * step));
+  return withField(a, part, { speed: v }, true);
+}
+
+export function later(a: Agent, seconds: number): Command {
+  const t = Math.round(Math.min(TIME_RANGE[1], Math.max(TIME_RANGE[0], a.goal.time + seconds)) * 10) / 10;
+  return withField(a, 'goal', { time: t }, true);
+}
+
+export function pickFuture(e: Editor, a: Agent, index: number | null): Command | null {
+  const f = e.futures.peek();
+  if (!f || f.sketch || (index !== null && index >= f.modes.length)) return null;
+  return choose(a, index, LETTERS[index ?? 0]);
+}
+
+export const resize = (a: Agent, length: number, width: number): Command => setSize(a, length, width);
+
+/** The three ways out of a goal that cannot be reached. */
+export interface Remedy { readonly label: string; readonly note: string; readonly icon: string; readonly primary: boolean; readonly command: Command }
+
+export function remedies(e: Editor, a: Agent): Remedy[] {
+  const scene = e.scene.value, start = startPose(a);
+  if (!scene || !start || !a.goal.pos) return [];
+  const unit = e.unitOf(a) === 'm/s' ? 'm/s' as const : 'km/h' as const;
+  const local = localReach(scene.map, a, start, a.goal, unit);
+  const verdict = e.liveReach.value?.id === a.id ? e.liveReach.value.reach : e.motion.value.reach.get(a.id);
+  const out: Remedy[] = [];
+  const nearest = (verdict?.status === 'unreachable' ? verdict.nearest : null) ?? local?.nearest ?? null;
+  if (nearest) {
+    const along = Math.hypot(nearest.x - start.x, nearest.y - start.y);
+    const heading = a.goal.heading === null ? null : nearest.heading;
+    const speed = a.goal.speed === null ? null : nearest.speed;
+    out.push({
+      label: 'Use nearest reachable', note: `${(local?.kind === 'far' ? local.max : along).toFixed(0)} m`, icon: 'flag', primary: true,
+      command: { ...setGoal(a, { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed }), name: `Goal of ${a.name} moved to the nearest reachable point` },
+    });
+  }
+  if (local?.time && local.time > a.goal.time) out.push({ label: 'Give it more time', note: `${local.time.toFixed(1)} s`, icon: 'clock', primary: false, command: withField(a, 'goal', { time: local.time }) });
+  if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
+    const faster = local.kind === 'far';
+    const v = Math.min(limitsOf(a).top, local.speed);
+    const note = unit === 'm/s' ? `${v.toFixed(1)} m/s` : `${Math.ceil(v * 3.6)} km/h`;
+    out.push({ label: faster ? 'Start faster' : 'Start slower', note, icon: 'play', primary: false, command: withField(a, 'start', { speed: faster && unit === 'km/h' ? Math.ceil(v * 3.6) / 3.6 : v }) });
+  }
+  return out;
+}
+
+export { clearGoal, setBoth };

@@ -1,0 +1,71 @@
+// Snapping to lanes and angles. It shows itself and lets go with Alt.
+import { deg, rad, wrapAngle } from '../model/geometry';
+import { nearestLanes, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
+import type { Agent } from '../model/scene';
+
+export interface Snapped { x: number; y: number; laneHeading: number | null; lane: Lane | null }
+
+const RADIUS_M = 1.8;
+const RADIUS_PX = 14;
+/** The lane one is on already is preferred by this much, so that the box does not flicker between two. */
+const STAY_BONUS_M = 0.6;
+
+export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null {
+  if (a.type === 'vehicle') return (l) => l.kind === 'road';
+  if (a.type === 'cyclist') return (l) => l.kind === 'bike' || l.kind === 'road';
+  return null;
+}
+
+export function snapToLane(map: LaneMap, a: Agent, x: number, y: number, heading: number | null, zoom: number, stay: string | null): Snapped {
+  const fits = lanesFor(a);
+  const free: Snapped = { x, y, laneHeading: null, lane: null };
+  if (!fits) return free;
+  const radius = Math.max(RADIUS_M, RADIUS_PX / zoom);
+  const hits = nearestLanes(map, x, y, heading, radius, fits);
+  let best: LaneHit | null = null, score = Infinity;
+  for (const h of hits) {
+    const bike = a.type === 'cyclist' && h.lane.kind === 'bike' ? 0.8 : 0;
+    const s = h.score - (h.lane.id === stay ? STAY_BONUS_M : 0) - bike;
+    if (s < score) { score = s; best = h; }
+  }
+  return best ? { x: best.x, y: best.y, laneHeading: best.heading, lane: best.lane } : free;
+}
+
+/** Along one lane only: the nearest point of it, however far the pointer strays. */
+export function alongLane(map: LaneMap, laneId: string | null, x: number, y: number): Snapped | null {
+  const lane = laneId ? map.lanes.get(laneId) : undefined;
+  if (!lane) return null;
+  const hit = nearestLanes(map, x, y, null, 60, (l) => l === lane || lane.next.includes(l.id) || lane.prev.includes(l.id)).sort((p, q) => p.d - q.d)[0];
+  return hit ? { x: hit.x, y: hit.y, laneHeading: hit.heading, lane: hit.lane } : null;
+}
+
+/** Heading under the tiller: lane tangent and normal within 4 degrees, else whole degrees; Shift gives 15. */
+export function snapHeading(map: LaneMap, a: Agent, x: number, y: number, heading: number, mode: 'fine' | 'steps' | 'lane'): number {
+  if (mode === 'fine') return rad(Math.round(deg(heading) * 10) / 10);
+  if (mode === 'steps') return wrapAngle(rad(Math.round(deg(heading) / 15) * 15));
+  const fits = lanesFor(a);
+  const lane = fits ? nearestLanes(map, x, y, heading, 3, fits)[0] : undefined;
+  if (lane) {
+    for (const turn of [0, Math.PI / 2, -Math.PI / 2, Math.PI]) {
+      const target = wrapAngle(lane.heading + turn);
+      if (Math.abs(wrapAngle(heading - target)) < rad(4)) return target;
+    }
+  }
+  return wrapAngle(rad(Math.round(deg(heading))));
+}
+
+/** Words for the lane under a point. */
+export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
+  const hits = nearestLanes(map, x, y, heading, 2.6, () => true);
+  const fits = lanesFor(a);
+  const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
+  if (!hit) return a.type === 'pedestrian' ? 'on foot' : 'off the lanes';
+  const way = compass(hit.heading);
+  const what = hit.lane.kind === 'bike' ? 'bike lane' : hit.lane.kind === 'walk' ? 'pavement' : hit.lane.inside ? 'inside the crossing' : hit.lane.type === 'freeway' ? 'motorway lane' : hit.lane.type === 'bus_lane' ? 'bus lane' : 'lane';
+  return hit.lane.inside ? `${what}, ${way}bound` : `${way}bound ${what}`;
+}
+
+function compass(heading: number): string {
+  const names = ['east', 'north-east', 'north', 'north-west', 'west', 'south-west', 'south', 'south-east'];
+  return names[((Math.round(deg(heading) / 45) % 8) + 8) % 8];
+}

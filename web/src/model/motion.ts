@@ -1,0 +1,118 @@
+// Motion over time: recorded tracks and generated futures share this one shape.
+import { clamp, lerp, lerpAngle, type Pose } from './geometry';
+
+export const STEP_S = 0.1;
+
+/** Columns of states, one every 0.1 s. `valid` lists half-open ranges of scene steps. */
+export interface Motion {
+  readonly first: number;
+  readonly x: Float64Array;
+  readonly y: Float64Array;
+  readonly heading: Float64Array;
+  readonly speed: Float64Array;
+  readonly valid: readonly (readonly [number, number])[];
+}
+
+export interface Columns {
+  first_step?: number;
+  valid?: [number, number][];
+  x_m: ArrayLike<number>;
+  y_m: ArrayLike<number>;
+  heading_rad: ArrayLike<number>;
+  vx_mps?: ArrayLike<number> | null;
+  vy_mps?: ArrayLike<number> | null;
+}
+
+/** Builds a motion from API columns; `start`, when given, becomes the state before the first column. */
+export function motionFrom(c: Columns, start?: Pose): Motion {
+  const pad = start ? 1 : 0;
+  const n = c.x_m.length + pad;
+  const x = new Float64Array(n), y = new Float64Array(n), heading = new Float64Array(n), speed = new Float64Array(n);
+  if (start) { x[0] = start.x; y[0] = start.y; heading[0] = start.heading; speed[0] = start.speed; }
+  for (let i = 0; i < c.x_m.length; i++) {
+    const k = i + pad;
+    x[k] = c.x_m[i];
+    y[k] = c.y_m[i];
+    heading[k] = c.heading_rad[i] ?? 0;
+    speed[k] = c.vx_mps && c.vy_mps ? signedSpeed(c.vx_mps[i], c.vy_mps[i], heading[k]) : 0;
+  }
+  const first = (c.first_step ?? 0) - pad;
+  return { first, x, y, heading, speed, valid: c.valid ?? [[first, first + n]] };
+}
+
+/** Velocity against the heading reads as a negative speed, so that reversing is visible. */
+function signedSpeed(vx: number, vy: number, heading: number): number {
+  const v = Math.hypot(vx, vy);
+  return vx * Math.cos(heading) + vy * Math.sin(heading) < -0.2 * v ? -v : v;
+}
+
+export const isValidAt = (m: Motion, step: number): boolean => m.valid.some(([a, b]) => step >= a && step < b);
+export const firstValid = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
+export const lastStep = (m: Motion): number => m.valid.length ? m.valid[m.valid.length - 1][1] - 1 : m.first - 1;
+
+export function poseAtStep(m: Motion, step: number): Pose | null {
+  const i = step - m.first;
+  if (i < 0 || i >= m.x.length || !isValidAt(m, step)) return null;
+  return { x: m.x[i], y: m.y[i], heading: m.heading[i], speed: m.speed[i] };
+}
+
+/** State at a time in seconds; null where the motion does not exist. */
+export function poseAt(m: Motion, t: number): Pose | null {
+  const f = t / STEP_S;
+  const a = Math.floor(f + 1e-6);
+  const k = clamp(f - a, 0, 1);
+  if (!isValidAt(m, a)) return null;
+  const i = a - m.first;
+  if (i < 0 || i >= m.x.length) return null;
+  if (k < 1e-6 || !isValidAt(m, a + 1) || i + 1 >= m.x.length) return poseAtStep(m, a);
+  return {
+    x: lerp(m.x[i], m.x[i + 1], k), y: lerp(m.y[i], m.y[i + 1], k),
+    heading: lerpAngle(m.heading[i], m.heading[i + 1], k), speed: lerp(m.speed[i], m.speed[i + 1], k),
+  };
+}
+
+export function endPose(m: Motion): Pose {
+  const last = lastStep(m);
+  return poseAtStep(m, last) ?? { x: m.x[m.x.length - 1] ?? 0, y: m.y[m.y.length - 1] ?? 0, heading: 0, speed: 0 };
+}
+
+/** Distance travelled up to each state. */
+export function distances(m: Motion): Float64Array {
+  const s = new Float64Array(m.x.length);
+  for (let i = 1; i < s.length; i++) s[i] = s[i - 1] + Math.hypot(m.x[i] - m.x[i - 1], m.y[i] - m.y[i - 1]);
+  return s;
+}
+
+export const pathLength = (m: Motion): number => distances(m)[m.x.length - 1] ?? 0;
+
+/** Recorded speeds jitter; the curve on the timeline shows their mean over 0.8 s. */
+export function smoothSpeed(m: Motion, halfWindow = 4): Float64Array {
+  const out = new Float64Array(m.speed.length);
+  for (let i = 0; i < out.length; i++) {
+    let sum = 0, n = 0;
+    for (let j = Math.max(0, i - halfWindow); j <= Math.min(out.length - 1, i + halfWindow); j++) {
+      if (!isValidAt(m, m.first + j)) continue;
+      sum += m.speed[j];
+      n++;
+    }
+    out[i] = n ? sum / n : 0;
+  }
+  return out;
+}
+
+/** True when nothing moves further than a hand's breadth in the whole record. */
+export function isStill(m: Motion): boolean {
+  let x0 = Infinity, x1 = -Infinity, y0 = Infinity, y1 = -Infinity;
+  for (let i = 0; i < m.x.length; i++) {
+    if (!isValidAt(m, m.first + i)) continue;
+    x0 = Math.min(x0, m.x[i]); x1 = Math.max(x1, m.x[i]);
+    y0 = Math.min(y0, m.y[i]); y1 = Math.max(y1, m.y[i]);
+  }
+  return x1 - x0 < 0.6 && y1 - y0 < 0.6;
+}
+
+/** The same place for the whole time: what "Hold still" makes of a road user. */
+export function heldStill(p: Pose, steps: number): Motion {
+  const fill = (v: number) => new Float64Array(steps).fill(v);
+  return { first: 0, x: fill(p.x), y: fill(p.y), heading: fill(p.heading), speed: fill(0), valid: [[0, steps]] };
+}

@@ -1,0 +1,81 @@
+// The document: what the user made. Frozen and structurally shared; motion that the generator worked out
+// is not part of it, it is looked up by the document's key (see futures.ts).
+import type { LaneMap } from './lanemap';
+import type { Pose, Vec } from './geometry';
+import type { Motion } from './motion';
+
+export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
+export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';
+export type Others = 'react' | 'log' | 'still';
+
+/** A field that is null is Free: the generator decides it. Position counts as one field. */
+export interface StartSpec { readonly pos: Vec | null; readonly heading: number | null; readonly speed: number | null }
+export interface GoalSpec extends StartSpec { readonly time: number }
+
+export interface Agent {
+  readonly id: string; readonly type: AgentType; readonly kind: Kind; readonly name: string;
+  readonly length: number; readonly width: number;
+  readonly logSize: readonly [number, number];
+  readonly log: Motion;
+  /** State at 0 s in the log; null when the road user appears later. */
+  readonly logStart: Pose | null;
+  readonly parked: boolean;
+  readonly ego: boolean;
+  readonly start: StartSpec;
+  readonly goal: GoalSpec;
+  /** Index of the future the user picked; null leaves the choice to the generator. */
+  readonly chosen: number | null;
+}
+
+export interface Signal { readonly lane: string; readonly stop: Vec | null; readonly states: readonly (readonly [number, string])[] }
+
+export interface Scene {
+  readonly id: string; readonly name: string; readonly source: string; readonly licence: string;
+  readonly steps: number; readonly duration: number;
+  readonly map: LaneMap; readonly signals: readonly Signal[];
+  readonly agents: ReadonlyMap<string, Agent>;
+  readonly seed: number; readonly diversity: number; readonly others: Others;
+}
+
+export const GOAL_TIME = 9;
+export const freeGoal = (time = GOAL_TIME): GoalSpec => Object.freeze({ pos: null, heading: null, speed: null, time });
+
+export function logStartSpec(p: Pose | null): StartSpec {
+  return Object.freeze(p ? { pos: Object.freeze([p.x, p.y]) as Vec, heading: p.heading, speed: Math.abs(p.speed) } : { pos: null, heading: null, speed: null });
+}
+
+/** The start pose in force: fixed fields from the document, free ones from the log. */
+export function startPose(a: Agent): Pose | null {
+  const l = a.logStart;
+  if (!l) return null;
+  const [x, y] = a.start.pos ?? [l.x, l.y];
+  return { x, y, heading: a.start.heading ?? l.heading, speed: a.start.speed ?? Math.abs(l.speed) };
+}
+
+export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !== null || g.speed !== null;
+
+const samePos = (a: Vec | null, b: Vec | null): boolean => a === b || (!!a && !!b && a[0] === b[0] && a[1] === b[1]);
+export const sameSpec = (a: StartSpec, b: StartSpec): boolean => samePos(a.pos, b.pos) && a.heading === b.heading && a.speed === b.speed;
+export const sameGoal = (a: GoalSpec, b: GoalSpec): boolean => sameSpec(a, b) && a.time === b.time;
+
+export const startChanged = (a: Agent): boolean => !sameSpec(a.start, logStartSpec(a.logStart));
+export const sizeChanged = (a: Agent): boolean => a.length !== a.logSize[0] || a.width !== a.logSize[1];
+
+/** Has the user asked anything of this road user? */
+export const touched = (a: Agent): boolean => hasGoal(a.goal) || a.chosen !== null || startChanged(a) || sizeChanged(a);
+
+export function withAgents(scene: Scene, changes: Iterable<Agent>): Scene {
+  const agents = new Map(scene.agents);
+  for (const a of changes) agents.set(a.id, Object.freeze(a));
+  return Object.freeze({ ...scene, agents });
+}
+
+/** Text that names everything the generator's answer depends on; equal keys, equal answers. */
+export function sceneKey(scene: Scene): string {
+  const parts: unknown[] = [scene.id, scene.seed, scene.diversity, scene.others];
+  for (const a of scene.agents.values()) if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
+  return JSON.stringify(parts);
+}
+
+export const isWheeled = (a: Agent): boolean => a.type !== 'pedestrian';
+export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;

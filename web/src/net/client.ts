@@ -1,0 +1,114 @@
+// Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
+// answer at all (`Away`).
+import type { ImportReply, Problem, SceneJson, SceneList, ScoreReply } from './api';
+import type { MapJson } from '../model/json';
+
+export class Away extends Error {}
+
+export class Refused extends Error {
+  constructor(readonly status: number, readonly problem: Problem) {
+    super(problem.detail ?? problem.title);
+  }
+}
+
+export async function problemOf(reply: Response): Promise<Problem> {
+  const fallback: Problem = { code: `http-${reply.status}`, title: reply.statusText || 'Refused', status: reply.status };
+  try {
+    const body = (await reply.json()) as Partial<Problem>;
+    return body && typeof body === 'object' ? { ...fallback, ...body } : fallback;
+  } catch {
+    return fallback;
+  }
+}
+
+/** Gateway errors and "shutting down" mean the generator is away; "busy" passes and is tried again the same way. */
+const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
+
+export class Client {
+  constructor(private readonly base = '', private readonly fetcher: typeof fetch = (...a) => fetch(...a)) {}
+
+  async request(path: string, init?: RequestInit): Promise<Response> {
+    let reply: Response;
+    try {
+      reply = await this.fetcher(this.base + path, init);
+    } catch (e) {
+      if ((e as Error).name === 'AbortError') throw e;
+      throw new Away('The server did not answer.');
+    }
+    if (reply.ok || reply.status === 304) return reply;
+    const problem = await problemOf(reply);
+    if (isAway(reply.status)) throw new Away(problem.detail ?? problem.title);
+    throw new Refused(reply.status, problem);
+  }
+
+  async scenes(query = ''): Promise<SceneList> {
+    const all: SceneList = { scenes: [] };
+    let after: string | null | undefined;
+    do {
+      const p = new URLSearchParams({ limit: '200', ...(query ? { q: query } : {}), ...(after ? { after } : {}) });
+      const page = (await (await this.request(`/v1/scenes?${p}`)).json()) as SceneList;
+      all.scenes.push(...page.scenes);
+      after = page.next;
+    } while (after && all.scenes.length < 2000);
+    return all;
+  }
+
+  async scene(id: string): Promise<{ json: SceneJson; etag: string | null }> {
+    const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}`);
+    return { json: (await reply.json()) as SceneJson, etag: reply.headers.get('etag') };
+  }
+
+  async mapRef(id: string): Promise<string | null> {
+    const json = (await (await this.request(`/v1/scenes/${encodeURIComponent(id)}?map=ref`)).json()) as { map?: { ref?: string } };
+    return json.map?.ref ?? null;
+  }
+
+  async map(ref: string): Promise<MapJson> {
+    return (await (await this.request(`/v1/maps/${ref.replace(/^sha256:/, '')}`)).json()) as MapJson;
+  }
+
+  async save(id: string, body: SceneJson, etag: string | null): Promise<string | null> {
+    const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}`, {
+      method: 'PUT', body: JSON.stringify(body),
+      headers: { 'Content-Type': 'application/json', ...(etag ? { 'If-Match': etag } : { 'If-None-Match': '*' }) },
+    });
+    return reply.headers.get('etag');
+  }
+
+  async create(body: SceneJson): Promise<{ id: string; etag: string | null }> {
+    const reply = await this.request('/v1/scenes', { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' } });
+    const at = reply.headers.get('location')?.split('/').pop();
+    const json = (await reply.json().catch(() => null)) as { id?: string } | null;
+    return { id: json?.id ?? at ?? '', etag: reply.headers.get('etag') };
+  }
+
+  async remove(id: string, etag: string): Promise<void> {
+    await this.request(`/v1/scenes/${encodeURIComponent(id)}`, { method: 'DELETE', headers: { 'If-Match': etag } });
+  }
+
+  async importFile(name: string, body: Blob): Promise<ImportReply> {
+    const isJson = /\.json$/i.test(name);
+    const reply = await this.request('/v1/import', { method: 'POST', body, headers: { 'Content-Type': isJson ? 'application/json' : 'application/octet-stream' } });
+    return (await reply.json()) as ImportReply;
+  }
+
+  async score(body: unknown, signal?: AbortSignal): Promise<ScoreReply> {
+    const reply = await this.request('/v1/score', { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' }, signal });
+    return (await reply.json()) as ScoreReply;
+  }
+
+  async exportScene(body: SceneJson, format: string): Promise<{ blob: Blob; name: string; loss: string | null }> {
+    const reply = await this.request(`/v1/export?format=${format}`, { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' } });
+    const name = /filename="?([^";]+)/.exec(reply.headers.get('content-disposition') ?? '')?.[1] ?? `scene.${format}`;
+    return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-loss') };
+  }
+
+  async answers(): Promise<boolean> {
+    try {
+      await this.request('/healthz');
+      return true;
+    } catch (e) {
+      return !(e instanceof Away);
+    }
+  }
+}

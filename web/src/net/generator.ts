@@ -1,0 +1,146 @@
+// One conversation with the generator: one request on the way, one waiting, the newest wins.
+import type { AcceptedEvent, DraftEvent, FinalEvent, GenerateOptions, Problem } from './api';
+import { problemOf } from './client';
+import { readEvents } from './stream';
+
+export interface Ask {
+  /** Ready-made JSON of the scene part: `"scene":{…}` or `"scene_id":"…"`. */
+  scenePart: () => string;
+  /** The same with the map inline, for a server that does not know the map yet. */
+  fullPart: () => Promise<string>;
+  options: Omit<GenerateOptions, 'client' | 'revision'>;
+  /** A preview may be dropped for a newer one; a commit is sent at once. */
+  preview: boolean;
+  on: Handlers;
+}
+
+export interface Handlers {
+  accepted?(e: AcceptedEvent): void;
+  draft(e: DraftEvent, step: number, steps: number, ms: number): void;
+  final(e: FinalEvent, ms: number): void;
+  refused(p: Problem): void;
+  away(): void;
+  /** The request ended without an answer because a newer one took its place. */
+  dropped?(): void;
+}
+
+interface Running { ask: Ask; revision: number; abort: AbortController; drawn: boolean }
+
+const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
+
+export class Generator {
+  private running: Running | null = null;
+  private waiting: Ask | null = null;
+  private revision = 0;
+  readonly client: string;
+
+  constructor(private readonly base = '', private readonly fetcher: typeof fetch = (...a) => fetch(...a), private readonly now = () => performance.now()) {
+    this.client = `editor-${Math.random().toString(36).slice(2, 10)}`;
+  }
+
+  get busy(): boolean { return this.running !== null; }
+
+  ask(ask: Ask): void {
+    // While a preview has shown nothing yet it is left to finish its first guess: aborting it on every
+    // pointer move would mean that nothing is ever drawn during a drag.
+    if (this.running && ask.preview && this.running.ask.preview && !this.running.drawn) {
+      this.waiting?.on.dropped?.();
+      this.waiting = ask;
+      return;
+    }
+    this.waiting?.on.dropped?.();
+    this.waiting = null;
+    this.stopRunning();
+    void this.run(ask);
+  }
+
+  /** Drops everything on the way. */
+  cancel(): void {
+    this.waiting?.on.dropped?.();
+    this.waiting = null;
+    this.stopRunning();
+  }
+
+  private stopRunning(): void {
+    const r = this.running;
+    this.running = null;
+    r?.abort.abort();
+    r?.ask.on.dropped?.();
+  }
+
+  private async run(ask: Ask): Promise<void> {
+    const me: Running = { ask, revision: ++this.revision, abort: new AbortController(), drawn: false };
+    this.running = me;
+    const mine = () => this.running === me;
+    const began = this.now();
+    try {
+      let reply = await this.post(ask.scenePart(), me);
+      if (reply.status === 422 || reply.status === 412 || reply.status === 404) {
+        const p = await problemOf(reply);
+        const badMap = RETRY_IN_PLACE.has(p.code) || p.errors?.some((e) => e.code === 'unknown-map');
+        if (!badMap) { if (mine()) ask.on.refused(p); return; }
+        me.revision = ++this.revision;
+        reply = await this.post(await ask.fullPart(), me);
+      }
+      if (!reply.ok) {
+        const p = await problemOf(reply);
+        if (!mine()) return;
+        if (reply.status === 409) ask.on.dropped?.();
+        else if (reply.status >= 502 && reply.status <= 504) ask.on.away();
+        else ask.on.refused(p);
+        return;
+      }
+      await this.read(reply, me, began);
+    } catch (e) {
+      if (!mine()) return;
+      if ((e as Error).name === 'AbortError') ask.on.dropped?.(); else ask.on.away();
+    } finally {
+      if (mine()) {
+        this.running = null;
+        this.next();
+      }
+    }
+  }
+
+  private post(part: string, me: Running): Promise<Response> {
+    const rest = JSON.stringify({ client: this.client, revision: me.revision, ...me.ask.options });
+    return this.fetcher(`${this.base}/v1/generate`, {
+      method: 'POST', body: `{${part},${rest.slice(1)}`, signal: me.abort.signal,
+      headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
+    });
+  }
+
+  private async read(reply: Response, me: Running, began: number): Promise<void> {
+    const { on, options } = me.ask;
+    let shown = -1;
+    let ended = false;
+    for await (const e of readEvents(reply.body!)) {
+      if (this.running !== me) return;
+      // An answer to an older question is dropped without a flash.
+      if (e.revision !== undefined && e.revision !== me.revision) continue;
+      const ms = this.now() - began;
+      if (e.event === 'accepted') on.accepted?.(e);
+      else if (e.event === 'initial' || e.event === 'step') {
+        const step = e.event === 'initial' ? 0 : e.step ?? shown + 1;
+        if (step <= shown) continue;
+        shown = step;
+        me.drawn = true;
+        on.draft(e, step, e.steps ?? options.steps, ms);
+        if (this.waiting) {
+          this.stopRunning();
+          this.next();
+          return;
+        }
+      } else if (e.event === 'final') { ended = true; on.final(e, ms); }
+      else if (e.event === 'error') { ended = true; on.refused(e.problem); }
+      else if (e.event === 'superseded') { ended = true; on.dropped?.(); }
+    }
+    if (!ended && this.running === me) on.away();
+  }
+
+  private next(): void {
+    const ask = this.waiting;
+    this.waiting = null;
+    if (ask) void this.run(ask);
+  }
+}
