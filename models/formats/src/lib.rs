@@ -5,8 +5,13 @@
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 
 pub mod limits;
+pub mod loss;
 pub mod native;
 pub mod problem;
+pub mod registry;
 pub mod sumo;
+pub mod womd;
 
+pub use loss::Loss;
 pub use problem::{FieldProblem, Kind, ReadError, Warning};
+pub use registry::Format;

@@ -5,6 +5,9 @@ use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
 
+/// Longest message: it may quote the document.
+const MAX_DETAIL: usize = 300;
+
 /// Parses JSON into any document type.
 ///
 /// # Errors
@@ -25,8 +28,8 @@ fn locate<T: DeserializeOwned>(bytes: &[u8], error: &serde_json::Error) -> ReadE
     }
     let mut parser = serde_json::Deserializer::from_slice(bytes);
     let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(&mut parser) {
-        Err(error) => (pointer_of(error.path()), error.inner().to_string()),
-        Ok(_) => (String::new(), error.to_string()),
+        Err(error) => (pointer_of(error.path()), plain_words(error.inner())),
+        Ok(_) => (String::new(), plain_words(error)),
     };
     FieldProblem::new(pointer, code::INVALID_FIELD, detail).into()
 }
@@ -37,6 +40,30 @@ fn reason(error: &serde_json::Error) -> String {
     match text.rfind(" at line ") {
         Some(at) => text.get(..at).unwrap_or(&text).to_owned(),
         None => text,
+    }
+}
+
+/// The message in words of the document instead of Rust's, at most 300 characters long.
+fn plain_words(error: &serde_json::Error) -> String {
+    let text = reason(error);
+    let words = [
+        ("expected f64", "expected a number"),
+        ("expected u64", "expected a whole number from 0"),
+        ("expected u32", "expected a whole number from 0"),
+        ("floating point", "number"),
+    ];
+    let text = words.iter().fold(text, |text, (from, to)| text.replace(from, to));
+    let text = match text.find("expected struct ") {
+        Some(at) => format!("{}expected an object", text.get(..at).unwrap_or_default()),
+        None => text,
+    };
+    let mut end = text.len().min(MAX_DETAIL);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    match text.get(..end) {
+        Some(start) if end < text.len() => format!("{start}…"),
+        _ => text,
     }
 }
 

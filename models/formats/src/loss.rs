@@ -1,0 +1,43 @@
+//! What a writer cannot carry.
+
+use serde::Serialize;
+
+/// One kind of loss in an exported file. Programs switch on `code`.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Loss {
+    /// Such as `no-conditions`; see the constants of [`code`].
+    pub code: &'static str,
+    /// For people.
+    pub detail: String,
+}
+
+impl Loss {
+    /// A loss.
+    pub fn new(code: &'static str, detail: impl Into<String>) -> Self {
+        Self { code, detail: detail.into() }
+    }
+}
+
+/// The codes of `formats.md` and those that its formats add.
+pub mod code {
+    /// What the user fixed.
+    pub const NO_CONDITIONS: &str = "no-conditions";
+    /// Futures other than the exported one.
+    pub const NO_MODES: &str = "no-modes";
+    /// Finer kinds of road user.
+    pub const NO_SUBTYPE: &str = "no-subtype";
+    /// Roles other than the ego.
+    pub const NO_ROLES: &str = "no-roles";
+    /// Licence.
+    pub const NO_LICENCE: &str = "no-licence";
+    /// Name, tags, notes and the like.
+    pub const NO_NOTES: &str = "no-notes";
+    /// Drivable areas.
+    pub const NO_DRIVABLE: &str = "no-drivable";
+    /// Widths of lanes.
+    pub const NO_LANE_WIDTH: &str = "no-lane-width";
+    /// Types of lanes or edges that the format has no word for.
+    pub const NO_LANE_TYPE: &str = "no-lane-type";
+    /// Ids that the format cannot hold.
+    pub const IDS_RENUMBERED: &str = "ids-renumbered";
+}

@@ -1,0 +1,265 @@
+//! From a scene to a Scenario message and its file.
+
+use super::export_map::{MapIds, features};
+use super::import::{EGO, SIGNAL_STATES};
+use super::proto::{
+    DynamicMapState, MapPoint, ObjectState, RequiredPrediction, Scenario, Track, TrafficSignalLaneState,
+};
+use super::record::write_record;
+use crate::loss::{Loss, code};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use prost::Message;
+use scene::geometry::rotate;
+use scene::{Agent, AgentType, Origin, STEP_S, Scene, Signal, State, Subtype, Vec2};
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::io::{self, Write};
+
+/// Which motion of a road user is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// What was recorded.
+    Log,
+    /// The chosen future where there is one, after the log up to its first step.
+    #[default]
+    Chosen,
+}
+
+/// Writes one record a scene.
+///
+/// # Errors
+/// Those of the writer. Losses are not errors: each kind is listed once.
+pub fn write(scenes: &[&Scene], out: impl Write, gzip: bool, mode: Mode) -> io::Result<Vec<Loss>> {
+    let mut losses = BTreeSet::new();
+    if gzip {
+        let mut encoder = GzEncoder::new(out, Compression::default());
+        write_records(scenes, &mut encoder, mode, &mut losses)?;
+        encoder.finish()?.flush()?;
+    } else {
+        let mut out = out;
+        write_records(scenes, &mut out, mode, &mut losses)?;
+        out.flush()?;
+    }
+    Ok(losses.into_iter().collect())
+}
+
+fn write_records(
+    scenes: &[&Scene],
+    out: &mut impl Write,
+    mode: Mode,
+    losses: &mut BTreeSet<Loss>,
+) -> io::Result<()> {
+    for scene in scenes {
+        let (message, lost) = scenario(scene, mode);
+        losses.extend(lost);
+        write_record(out, &message.encode_to_vec())?;
+    }
+    Ok(())
+}
+
+/// Turns positions and directions of the scene into those of its source.
+#[derive(Clone, Copy)]
+pub(super) struct Frame {
+    rotation_rad: f64,
+    shift: Vec2,
+    up_m: f64,
+}
+
+impl Frame {
+    fn of(origin: &Origin) -> Self {
+        let shift = Vec2::new(origin.x_m, origin.y_m);
+        Self { rotation_rad: origin.rotation_rad, shift, up_m: origin.z_m }
+    }
+
+    fn turn(self, v: Vec2) -> Vec2 {
+        // Turning by zero would be exact too, but for the sign of zeros.
+        if self.rotation_rad == 0.0 { v } else { rotate(v, self.rotation_rad) }
+    }
+
+    fn place(self, p: Vec2) -> Vec2 {
+        self.turn(p) + self.shift
+    }
+
+    fn height(self, z_m: f64) -> f64 {
+        if self.up_m == 0.0 { z_m } else { z_m + self.up_m }
+    }
+
+    pub(super) fn point(self, p: Vec2, z_m: Option<f64>) -> MapPoint {
+        let p = self.place(p);
+        MapPoint { x: Some(p.x), y: Some(p.y), z: z_m.map(|z| self.height(z)) }
+    }
+}
+
+/// The message of a scene, and what it leaves out.
+pub fn scenario(scene: &Scene, mode: Mode) -> (Scenario, Vec<Loss>) {
+    let frame = Frame::of(&scene.meta.origin);
+    let mut losses = Vec::new();
+    let ids = agent_ids(&scene.agents, &mut losses);
+    let map_ids = MapIds::new(&scene.map, &mut losses);
+    let chosen = |agent: &Agent| match (mode, &scene.generated) {
+        (Mode::Chosen, Some(generated)) => generated.chosen_future(&agent.id),
+        _ => None,
+    };
+    let ends = scene.agents.iter().filter_map(chosen).map(|f| f.first_step + f.states.len());
+    let steps = ends.fold(scene.time.steps, usize::max);
+    let tracks: Vec<Track> = scene
+        .agents
+        .iter()
+        .zip(&ids)
+        .map(|(agent, id)| Track {
+            id: Some(*id),
+            object_type: Some(type_number(agent.agent_type)),
+            states: states(agent, chosen(agent), steps, frame),
+        })
+        .collect();
+    let index: HashMap<&str, usize> =
+        scene.agents.iter().enumerate().map(|(i, a)| (a.id.as_str(), i)).collect();
+    let number = |id: &String| index.get(id.as_str()).and_then(|i| ids.get(*i)).copied();
+    let predict = |(id, difficulty): &(String, u32)| {
+        let track_index = i32::try_from(*index.get(id.as_str())?).ok();
+        Some(RequiredPrediction { track_index, difficulty: i32::try_from(*difficulty).ok() })
+    };
+    let ego = scene.agents.iter().position(|a| a.role.as_deref() == Some(EGO));
+    let id = scene.meta.source_id.as_ref().or(scene.id.as_ref()).unwrap_or(&scene.name);
+    let message = Scenario {
+        timestamps_seconds: timestamps(scene.meta.timestamps_s.as_deref(), steps),
+        tracks,
+        objects_of_interest: scene.meta.objects_of_interest.iter().filter_map(number).collect(),
+        scenario_id: Some(id.clone()),
+        sdc_track_index: ego.and_then(|i| i32::try_from(i).ok()),
+        dynamic_map_states: signal_rows(&scene.signals, steps, frame, &map_ids),
+        map_features: features(&scene.map, frame, &map_ids, &mut losses),
+        current_time_index: i32::try_from(scene.time.now_step).ok(),
+        tracks_to_predict: scene.meta.tracks_to_predict.iter().filter_map(predict).collect(),
+    };
+    scene_losses(scene, mode, id, &mut losses);
+    (message, losses)
+}
+
+fn type_number(agent_type: AgentType) -> i32 {
+    match agent_type {
+        AgentType::Vehicle => 1,
+        AgentType::Pedestrian => 2,
+        AgentType::Cyclist => 3,
+        AgentType::Other => 4,
+    }
+}
+
+/// Track ids: the road user's own where it is a number, else the next free ones.
+fn agent_ids(agents: &[Agent], losses: &mut Vec<Loss>) -> Vec<i32> {
+    let own = |agent: &Agent| agent.id.parse::<i32>().ok().filter(|n| n.to_string() == agent.id);
+    let taken: HashSet<i32> = agents.iter().filter_map(own).collect();
+    let mut free = (1_000_000..i32::MAX).filter(|n| !taken.contains(n));
+    let ids: Vec<i32> = agents.iter().map(|a| own(a).or_else(|| free.next()).unwrap_or(0)).collect();
+    if taken.len() < agents.len() {
+        losses.push(Loss::new(code::IDS_RENUMBERED, "road users' ids that are no numbers got new ones"));
+    }
+    ids
+}
+
+fn states(agent: &Agent, future: Option<&scene::Future>, steps: usize, frame: Frame) -> Vec<ObjectState> {
+    let mut height = None;
+    (0..steps)
+        .map(|step| {
+            let slot = step.checked_sub(agent.track.first_step);
+            let logged = agent.track.at(step);
+            if logged.is_some() {
+                height = agent.track.z_m.as_ref().zip(slot).and_then(|(z, slot)| z.get(slot)).copied();
+            }
+            let state = match future {
+                Some(f) if step >= f.first_step => f.states.get(step - f.first_step),
+                _ => logged,
+            };
+            state.map_or_else(absent, |state| present(agent, state, height, frame))
+        })
+        .collect()
+}
+
+/// A step at which the road user was not seen: zeros that mean nothing, as in Waymo's own files.
+fn absent() -> ObjectState {
+    ObjectState {
+        center_x: Some(0.0),
+        center_y: Some(0.0),
+        center_z: Some(0.0),
+        length: Some(0.0),
+        width: Some(0.0),
+        height: Some(0.0),
+        heading: Some(0.0),
+        velocity_x: Some(0.0),
+        velocity_y: Some(0.0),
+        valid: Some(false),
+    }
+}
+
+fn present(agent: &Agent, state: &State, z_m: Option<f64>, frame: Frame) -> ObjectState {
+    let at = frame.place(state.position());
+    let velocity = frame.turn(state.velocity());
+    ObjectState {
+        center_x: Some(at.x),
+        center_y: Some(at.y),
+        center_z: z_m.map(|z| frame.height(z)),
+        length: Some(agent.size.length_m as f32),
+        width: Some(agent.size.width_m as f32),
+        height: agent.size.height_m.map(|h| h as f32),
+        heading: Some((state.heading_rad + frame.rotation_rad) as f32),
+        velocity_x: Some(velocity.x as f32),
+        velocity_y: Some(velocity.y as f32),
+        valid: Some(true),
+    }
+}
+
+/// The source's own times, continued in 0.1 s steps where a future is longer.
+fn timestamps(times: Option<&[f64]>, steps: usize) -> Vec<f64> {
+    let own = times.unwrap_or_default();
+    let last = own.last().copied();
+    let continued = |step: usize| match last {
+        Some(last) => last + (step + 1 - own.len()) as f64 * STEP_S,
+        None => step as f64 * STEP_S,
+    };
+    (0..steps).map(|step| own.get(step).copied().unwrap_or_else(|| continued(step))).collect()
+}
+
+fn signal_rows(signals: &[Signal], steps: usize, frame: Frame, ids: &MapIds) -> Vec<DynamicMapState> {
+    let row = |step: usize| {
+        let shown = signals.iter().filter(|s| s.runs.first().is_some_and(|run| run.0 <= step));
+        let lane_state = |signal: &Signal| {
+            let state = signal.at(step);
+            let number = SIGNAL_STATES.iter().position(|s| *s == state).unwrap_or(0);
+            TrafficSignalLaneState {
+                lane: Some(ids.lane(&signal.lane)),
+                state: i32::try_from(number).ok(),
+                stop_point: signal.stop.map(|p| frame.point(p, signal.stop_z_m)),
+            }
+        };
+        DynamicMapState { lane_states: shown.map(lane_state).collect() }
+    };
+    (0..steps).map(row).collect()
+}
+
+fn scene_losses(scene: &Scene, mode: Mode, id: &str, losses: &mut Vec<Loss>) {
+    let agents = &scene.agents;
+    if agents.iter().any(|a| !a.conditions.is_empty()) {
+        losses.push(Loss::new(code::NO_CONDITIONS, "starts and goals that the user fixed"));
+    }
+    if let Some(generated) = &scene.generated {
+        let futures = || generated.samples.iter().flat_map(|s| s.agents.values());
+        if mode == Mode::Log || generated.samples.len() > 1 || futures().any(|f| f.modes.len() > 1) {
+            losses.push(Loss::new(code::NO_MODES, "generated futures other than the exported one"));
+        }
+    }
+    if agents.iter().any(|a| a.subtype != Subtype::Unknown) {
+        losses.push(Loss::new(code::NO_SUBTYPE, "finer kinds such as truck or child"));
+    }
+    let egos = agents.iter().filter(|a| a.role.as_deref() == Some(EGO)).count();
+    if egos > 1 || agents.iter().any(|a| a.role.as_deref().is_some_and(|r| r != EGO)) {
+        losses.push(Loss::new(code::NO_ROLES, "roles other than the ego's"));
+    }
+    if scene.meta.licence.is_some() {
+        losses.push(Loss::new(code::NO_LICENCE, "the file has no place for a licence"));
+    }
+    let meta = &scene.meta;
+    let noted = !meta.tags.is_empty() || !meta.notes.is_empty() || meta.parent_id.is_some();
+    if noted || scene.name != id || !scene.extra.is_empty() {
+        losses.push(Loss::new(code::NO_NOTES, "name, tags, notes and members of other tools"));
+    }
+}

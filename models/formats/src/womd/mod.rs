@@ -1,0 +1,127 @@
+//! Waymo Open Motion Dataset: Scenario messages in TFRecord files, plain or gzip, both ways.
+//!
+//! Import moves the origin to the ego (kept in `meta.origin`), turns miles an hour into m/s and ids
+//! into strings, and keeps heights. Export adds the origin back; reading what was written gives the
+//! same scene, minus the [`crate::Loss`]es that the writer lists.
+
+mod export;
+mod export_map;
+mod import;
+mod import_map;
+pub mod proto;
+mod record;
+mod wire;
+
+pub use export::{Mode, scenario, write};
+pub use import::scene;
+pub use record::{MAX_RECORD_BYTES, Record, RecordReader, looks_like, masked_crc, write_record};
+pub use wire::MAX_TRACKS;
+
+use crate::limits::{MAX_DECODED_BYTES, MAX_EXPANSION, MAX_SCENES};
+use crate::problem::{FieldProblem, ReadError, Warning, code};
+use prost::Message;
+use scene::Scene;
+use std::io::Read;
+
+/// Licence of scenes from Waymo.
+pub const LICENCE_WAYMO: &str = "waymo-nc";
+/// Licence of our own synthetic scenes.
+pub const LICENCE_OWN: &str = "cc0";
+/// Scenario ids of our own synthetic scenes begin so.
+pub const SYNTHETIC_PREFIX: &str = "synth-";
+
+/// How to read a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Records to pass over.
+    pub skip: usize,
+    /// Most scenes to give; later records are not read.
+    pub max_scenes: usize,
+    /// Most bytes once decompressed.
+    pub max_decoded_bytes: u64,
+    /// Greatest ratio of decompressed to compressed bytes, after the first MiB.
+    pub max_expansion: u64,
+    /// Check the CRCs.
+    pub verify_crc: bool,
+    /// Licence of the scenes; by default Waymo's, and cc0 for ids that begin with `synth-`.
+    pub licence: Option<String>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            skip: 0,
+            max_scenes: MAX_SCENES,
+            max_decoded_bytes: MAX_DECODED_BYTES,
+            max_expansion: MAX_EXPANSION,
+            verify_crc: true,
+            licence: None,
+        }
+    }
+}
+
+/// A scene and what its reader changed or left out.
+pub type Imported = (Scene, Vec<Warning>);
+
+/// Reads scenes one by one from a stream of any length.
+pub struct Records<R: Read> {
+    reader: RecordReader<R>,
+    options: Options,
+    given: usize,
+}
+
+impl<R: Read> Records<R> {
+    /// Opens a plain or gzip TFRecord stream.
+    ///
+    /// # Errors
+    /// `malformed-file` when the reader fails.
+    pub fn new(input: R, options: Options) -> Result<Self, ReadError> {
+        let reader = RecordReader::new(input, options.clone())?;
+        Ok(Self { reader, options, given: 0 })
+    }
+}
+
+impl<R: Read> Iterator for Records<R> {
+    type Item = Result<Imported, ReadError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while self.options.skip > 0 {
+            self.options.skip -= 1;
+            if let Err(error) = self.reader.next()? {
+                // A fault in what is passed over matters only when nothing can follow it.
+                if self.reader.has_ended() {
+                    return Some(Err(error));
+                }
+            }
+        }
+        if self.given >= self.options.max_scenes {
+            return None;
+        }
+        let record = self.reader.next()?;
+        self.given += 1;
+        Some(record.and_then(|record| read_record(&record, &self.options)))
+    }
+}
+
+/// Reads a whole file in memory. One entry a record; a broken record does not stop the others.
+pub fn read_all(bytes: &[u8], options: &Options) -> Vec<Result<Imported, ReadError>> {
+    match Records::new(bytes, options.clone()) {
+        Ok(records) => records.collect(),
+        Err(error) => vec![Err(error)],
+    }
+}
+
+/// Reads one record's message.
+///
+/// # Errors
+/// `malformed-file` with the byte for broken protobuf; the faults of a scene otherwise.
+pub fn read_record(record: &Record, options: &Options) -> Result<Imported, ReadError> {
+    wire::check(&record.data, record.offset)?;
+    let scenario = proto::Scenario::decode(record.data.as_slice())
+        .map_err(|error| ReadError::malformed(record.offset, error.to_string()))?;
+    if scenario.tracks.is_empty() && scenario.map_features.is_empty() {
+        let detail = "a record without tracks and map: another message than Scenario, such as tf.Example";
+        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+    }
+    scene(scenario, options)
+}

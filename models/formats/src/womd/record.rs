@@ -1,0 +1,253 @@
+//! TFRecord framing, plain or gzip: `u64 length, u32 masked CRC-32C of it, data, u32 masked CRC-32C
+//! of the data`, all little-endian. Nothing is reserved from a declared length, and the decompressed
+//! stream is bounded in size and in ratio.
+
+use super::Options;
+use crate::problem::{ReadError, code};
+use flate2::read::MultiGzDecoder;
+use std::io::{self, BufReader, Read, Write};
+
+/// Most bytes of one record.
+pub const MAX_RECORD_BYTES: u64 = 128 << 20;
+/// The expansion ratio is looked at after this many decoded bytes.
+const RATIO_FROM: u64 = 1 << 20;
+
+/// CRC-32C, rotated and offset as TFRecord does, so that the CRC of data that holds CRCs is useful.
+pub fn masked_crc(bytes: &[u8]) -> u32 {
+    crc32c::crc32c(bytes).rotate_right(15).wrapping_add(0xa282_ead8)
+}
+
+/// Writes one record with its frame.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_record(out: &mut impl Write, data: &[u8]) -> io::Result<()> {
+    let length = (data.len() as u64).to_le_bytes();
+    out.write_all(&length)?;
+    out.write_all(&masked_crc(&length).to_le_bytes())?;
+    out.write_all(data)?;
+    out.write_all(&masked_crc(data).to_le_bytes())
+}
+
+/// True when these first bytes of a file are a TFRecord frame, plain or in gzip.
+pub fn looks_like(head: &[u8]) -> bool {
+    let framed = |head: &[u8]| match head.split_first_chunk::<8>() {
+        Some((length, rest)) => {
+            rest.first_chunk::<4>().is_some_and(|crc| masked_crc(length) == u32::from_le_bytes(*crc))
+        }
+        None => false,
+    };
+    if !is_gzip(head) {
+        return framed(head);
+    }
+    let mut decoded = Vec::new();
+    // A cut-off head ends in an error after the bytes that could be decoded.
+    let _ = MultiGzDecoder::new(head).take(12).read_to_end(&mut decoded);
+    framed(&decoded)
+}
+
+fn is_gzip(head: &[u8]) -> bool {
+    head.starts_with(&[0x1f, 0x8b])
+}
+
+/// Counts what goes through.
+struct Counted<R> {
+    inner: R,
+    count: u64,
+}
+
+impl<R: Read> Read for Counted<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let n = self.inner.read(buffer)?;
+        self.count += n as u64;
+        Ok(n)
+    }
+}
+
+type Head<R> = io::Chain<io::Cursor<Vec<u8>>, R>;
+
+enum Source<R: Read> {
+    Plain(BufReader<Counted<Head<R>>>),
+    Gzip(Box<MultiGzDecoder<Counted<Head<R>>>>),
+}
+
+/// One record's data and where its frame begins in the decoded stream.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// Offset of `data` in the decoded stream.
+    pub offset: u64,
+    /// The message.
+    pub data: Vec<u8>,
+}
+
+/// Reads records one by one from a plain or gzip stream.
+pub struct RecordReader<R: Read> {
+    source: Source<R>,
+    offset: u64,
+    options: Options,
+    ended: bool,
+}
+
+/// Why a read stopped short.
+enum Stop {
+    End,
+    Fault(ReadError),
+}
+
+impl<R: Read> RecordReader<R> {
+    /// Looks at the first bytes to tell gzip from plain.
+    ///
+    /// # Errors
+    /// `malformed-file` when the reader fails.
+    pub fn new(mut input: R, options: Options) -> Result<Self, ReadError> {
+        let mut head = Vec::new();
+        let read = input.by_ref().take(2).read_to_end(&mut head);
+        read.map_err(|error| ReadError::malformed(0, format!("cannot read: {error}")))?;
+        let gzip = is_gzip(&head);
+        let input = Counted { inner: io::Cursor::new(head).chain(input), count: 0 };
+        let source = if gzip {
+            Source::Gzip(Box::new(MultiGzDecoder::new(input)))
+        } else {
+            Source::Plain(BufReader::new(input))
+        };
+        Ok(Self { source, offset: 0, options, ended: false })
+    }
+
+    /// True when nothing can follow: the end, or a fault in the framing.
+    pub fn has_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Appends up to `wanted` bytes; fewer only at the end of the stream.
+    fn fill(&mut self, buffer: &mut Vec<u8>, wanted: u64) -> Result<(), ReadError> {
+        let mut left = wanted;
+        while left > 0 {
+            // In pieces, so that bounds are looked at while a bomb unfolds.
+            let piece = left.min(RATIO_FROM);
+            let before = buffer.len();
+            let result = match &mut self.source {
+                Source::Plain(source) => source.take(piece).read_to_end(buffer),
+                Source::Gzip(source) => source.take(piece).read_to_end(buffer),
+            };
+            let got = (buffer.len() - before) as u64;
+            self.offset += got;
+            result.map_err(|error| {
+                self.ended = true;
+                ReadError::malformed(self.offset, format!("cannot decompress or read: {error}"))
+            })?;
+            self.check_bounds()?;
+            if got < piece {
+                return Ok(());
+            }
+            left -= piece;
+        }
+        Ok(())
+    }
+
+    fn check_bounds(&mut self) -> Result<(), ReadError> {
+        let limit = self.options.max_decoded_bytes;
+        if self.offset > limit {
+            self.ended = true;
+            let detail = format!("more than {limit} bytes once decompressed");
+            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, limit, detail));
+        }
+        let Source::Gzip(source) = &self.source else { return Ok(()) };
+        let encoded = source.get_ref().count.max(1);
+        let limit = self.options.max_expansion;
+        if self.offset > RATIO_FROM && self.offset / encoded > limit {
+            self.ended = true;
+            let detail = format!("decompresses to more than {limit} times its size");
+            return Err(ReadError::too_large(code::EXPANSION_TOO_HIGH, limit, detail));
+        }
+        Ok(())
+    }
+
+    fn exactly(&mut self, wanted: u64, what: &str) -> Result<Vec<u8>, Stop> {
+        let start = self.offset;
+        let mut buffer = Vec::new();
+        self.fill(&mut buffer, wanted).map_err(Stop::Fault)?;
+        let got = buffer.len() as u64;
+        if got == wanted {
+            return Ok(buffer);
+        }
+        self.ended = true;
+        if got == 0 && what == "length" {
+            return Err(Stop::End);
+        }
+        let detail = format!("the file ends after {got} of the {wanted} bytes of a record's {what}");
+        Err(Stop::Fault(ReadError::malformed(start, detail)))
+    }
+
+    fn record(&mut self) -> Result<Record, Stop> {
+        let start = self.offset;
+        let head = self.exactly(8, "length")?;
+        let crc = self.exactly(4, "length checksum")?;
+        if self.options.verify_crc && masked_crc(&head).to_le_bytes() != crc[..] {
+            self.ended = true;
+            let detail = "the checksum of a record's length does not match: broken, or not a TFRecord file";
+            return Err(Stop::Fault(ReadError::malformed(start, detail)));
+        }
+        let length = head.iter().rev().fold(0u64, |length, byte| length << 8 | u64::from(*byte));
+        if length > MAX_RECORD_BYTES {
+            self.ended = true;
+            let detail = format!("a record of {length} bytes, at most {MAX_RECORD_BYTES} expected");
+            return Err(Stop::Fault(ReadError::malformed(start, detail)));
+        }
+        let offset = self.offset;
+        let data = self.exactly(length, "data")?;
+        let crc = self.exactly(4, "data checksum")?;
+        if self.options.verify_crc && masked_crc(&data).to_le_bytes() != crc[..] {
+            let detail = format!("the checksum of a record of {length} bytes does not match");
+            return Err(Stop::Fault(ReadError::malformed(offset, detail)));
+        }
+        Ok(Record { offset, data })
+    }
+}
+
+impl<R: Read> Iterator for RecordReader<R> {
+    type Item = Result<Record, ReadError>;
+
+    /// After a fault in a record's data the next record follows; after one in the framing nothing.
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.ended {
+            return None;
+        }
+        match self.record() {
+            Ok(record) => Some(Ok(record)),
+            Err(Stop::Fault(error)) => Some(Err(error)),
+            Err(Stop::End) if self.offset == 0 => {
+                Some(Err(ReadError::malformed(0, "the file holds no record")))
+            }
+            Err(Stop::End) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{looks_like, masked_crc, write_record};
+
+    #[test]
+    fn crc_of_known_vectors() {
+        // RFC 3720 B.4.
+        assert_eq!(crc32c::crc32c(&[0; 32]), 0x8a91_36aa);
+        assert_eq!(crc32c::crc32c(&[0xff; 32]), 0x62a8_ab43);
+        let rising: Vec<u8> = (0..32).collect();
+        assert_eq!(crc32c::crc32c(&rising), 0x46dd_794e);
+        let falling: Vec<u8> = (0..32).rev().collect();
+        assert_eq!(crc32c::crc32c(&falling), 0x113f_db5c);
+        assert_eq!(crc32c::crc32c(b"123456789"), 0xe306_9283);
+        // Mask of 0 and of a value whose rotation and sum are easily done by hand.
+        assert_eq!(masked_crc(b""), 0xa282_ead8);
+        assert_eq!(masked_crc(b"123456789"), 0xe306_9283_u32.rotate_right(15).wrapping_add(0xa282_ead8));
+    }
+
+    #[test]
+    fn a_frame_is_recognised() {
+        let mut file = Vec::new();
+        write_record(&mut file, b"data").expect("a vector takes all");
+        assert_eq!(file.len(), 20);
+        assert!(looks_like(&file));
+        assert!(!looks_like(&file[..11]) && !looks_like(b"{\"format\":\"dragtraffic.scene\"}"));
+    }
+}

@@ -1,0 +1,84 @@
+//! Real files beside the checkout, when they are there: all are read, and what is written reads back
+//! equal. Nothing of them is in the repository.
+
+use formats::womd::{self, Mode, Options};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Files of `../shared/data/FOLDER`, sorted; empty with a printed reason when the folder is absent.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(folder);
+    let Ok(entries) = std::fs::read_dir(&shared) else {
+        println!("skipped: no folder {}", shared.display());
+        return Vec::new();
+    };
+    let mut list: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    list.retain(|path| path.to_string_lossy().contains(".tfrecord"));
+    list.sort();
+    list
+}
+
+#[test]
+fn every_real_file_is_read_and_comes_back_equal() {
+    let mut count = 0;
+    let mut warned: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut slowest = (0.0f64, PathBuf::new());
+    for path in ["womd/train", "womd/val", "formats/waymo"].into_iter().flat_map(files) {
+        let bytes = std::fs::read(&path).unwrap();
+        assert!(womd::looks_like(&bytes), "{}", path.display());
+        let start = Instant::now();
+        let scenes = womd::read_all(&bytes, &Options::default());
+        let took = start.elapsed().as_secs_f64();
+        if took > slowest.0 {
+            slowest = (took, path.clone());
+        }
+        for scene in scenes {
+            let (scene, warnings) = scene.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            warnings.iter().for_each(|w| *warned.entry(w.code).or_default() += 1);
+            assert_eq!(scene.meta.licence.as_deref(), Some("waymo-nc"));
+            assert!(!scene.agents.is_empty() && !scene.map.lanes.is_empty());
+            if let Some(ego) = scene.agents.iter().find(|a| a.role.as_deref() == Some("ego")) {
+                let at = ego.track.at(scene.time.now_step).unwrap();
+                assert_eq!((at.x_m, at.y_m), (0.0, 0.0));
+            }
+            let mut written = Vec::new();
+            let losses = womd::write(&[&scene], &mut written, count % 2 == 0, Mode::Log).unwrap();
+            assert_eq!(losses.iter().map(|l| l.code).collect::<Vec<_>>(), ["no-licence"]);
+            let (again, _) = womd::read_all(&written, &Options::default()).remove(0).unwrap();
+            assert!(scene == again, "{}: another scene after a round trip", path.display());
+            let json = formats::native::write(&scene);
+            assert!(formats::native::read(&json).unwrap() == scene, "{}: native", path.display());
+            count += 1;
+        }
+    }
+    println!(
+        "{count} scenes, warnings {warned:?}, slowest {:.1} ms {}",
+        slowest.0 * 1e3,
+        slowest.1.display()
+    );
+}
+
+#[test]
+fn truncated_and_flipped_real_files_never_panic() {
+    let Some(path) = files("womd/val").into_iter().next() else { return };
+    let bytes = std::fs::read(&path).unwrap();
+    let (scene, _) = womd::read_all(&bytes, &Options::default()).remove(0).unwrap();
+    let mut plain = Vec::new();
+    womd::write(&[&scene], &mut plain, false, Mode::Log).unwrap();
+    let options = Options { verify_crc: false, ..Options::default() };
+    let mut read = 0;
+    for i in 0..300 {
+        let at = 12 + (i * 7_919) % (plain.len() - 16);
+        let mut flipped = plain.clone();
+        flipped[at] ^= 1 << (i % 8);
+        let error = womd::read_all(&flipped, &Options::default()).remove(0).unwrap_err();
+        assert_eq!(error.code(), "malformed-file");
+        read += usize::from(womd::read_all(&flipped, &options).remove(0).is_ok());
+    }
+    println!("{read} of 300 records with one flipped bit are read without their checksum");
+    for i in 0..100 {
+        let end = (i * 104_729) % bytes.len();
+        assert!(womd::read_all(&bytes[..end], &Options::default()).iter().any(Result::is_err));
+    }
+}
