@@ -47,6 +47,15 @@ function agentAction(id: string, label: string, group: Group, keys: string[], he
 }
 
 // ---- Select and look
+const tool = (name: 'select' | 'pan' | 'measure', label: string, key: string, icon: string, help: string): Action => ({
+  id: `tool-${name}`, label, group: 'Select and look', keys: [key], icon, help, undo: 'none', checked: (c) => c.editor.tool.value === name,
+  run: (c) => { c.editor.tool.value = name; c.editor.measure.value = null; },
+});
+add(
+  tool('select', 'Select and drag', 'V', 'select', 'Click a road user, drag its handles'),
+  tool('pan', 'Move the picture', 'H', 'hand', 'Dragging moves the picture wherever it starts'),
+  tool('measure', 'Measure', 'M', 'ruler', 'Drag a line to read its length'),
+);
 const byDistance = (c: Context): string[] => {
   const v = c.stage.view, s = c.editor.scene.value;
   if (!s) return [];
@@ -83,6 +92,7 @@ add(
       if (c.ui.dialog.value || c.ui.menu.value) { c.ui.dialog.value = null; c.ui.menu.value = null; return; }
       if (c.library.imports.value) { c.library.imports.value = null; return; }
       if (c.ui.eventsPanel.value) { c.ui.eventsPanel.value = false; c.editor.selectedEvent.value = null; return; }
+      if (c.editor.tool.value !== 'select') { c.editor.tool.value = 'select'; c.editor.measure.value = null; return; }
       c.editor.select(null);
     } },
   { id: 'fit', label: 'Fit the scene', group: 'Select and look', keys: ['0'], icon: 'fit', help: 'The whole map in view', undo: 'none', when: hasScene, run: (c) => c.fit() },

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals-core';
 import type { Context } from '../actions/context';
 import { HOME_ZOOM } from '../draw/view';
 import type { Picture } from '../edit/picture';
+import { actionOf } from '../actions/registry';
 import { summary } from '../model/events';
 import { touched } from '../model/scene';
 import { actionButton, iconButton, keyCaps } from './buttons';
@@ -13,11 +14,11 @@ export function hud(c: Context, picture: Picture): HTMLElement {
   const { editor, ui } = c;
   const shift = () => (ui.drawer.value ? 'shift' : '');
   return h('div', { class: 'hud' },
-    h('nav', { class: 'rail', 'aria-label': 'View' }, ['fit', 'zoom-in', 'zoom-out', 'zoom-selection'].map((id) => iconButton(c, id, { size: 20 }))),
+    h('nav', { class: 'rail', 'aria-label': 'Tools' }, ['select', 'pan', 'measure'].map((t) => actionButton(c, `tool-${t}`, { size: 20, label: h('em', null, actionOf(`tool-${t}`).keys![0]) }))),
     h('div', { class: 'tr' }, h('div', { class: 'card chipbar', role: 'group', 'aria-label': 'Layers' }, ['futures', 'log', 'lanes', 'labels'].map((l) => actionButton(c, `layer-${l}`, { icon: 'check', size: 14 })))),
     h('div', { class: () => `bl ${shift()}` }, h('div', { class: 'card status', role: 'status' }, swap(() => statusKey(c), () => status(c))), scaleBar(c)),
     swap(() => editor.drag.value !== null, () => (editor.drag.peek() ? dragHelp(c) : zoomBar(c))),
-    swap(() => (editor.drag.value ? 0 : ui.coach.value), () => (ui.coach.peek() && !editor.drag.peek() && editor.scene.peek() ? coach(c) : null)),
+    swap(() => coachShown(c), () => (coachShown(c) ? coach(c) : null)),
     swap(() => editor.toast.value, () => toast(c)),
     swap(() => bannerKey(c), () => banner(c)),
     hoverCard(c, picture));
@@ -84,7 +85,13 @@ export function watchView(c: Context): void {
     old?.();
     if (queued) return;
     queued = true;
-    requestAnimationFrame(() => { queued = false; viewTick.value++; });
+    requestAnimationFrame(() => {
+      queued = false;
+      viewTick.value++;
+      // Lets scripts that drive the page find world points on the screen.
+      const { cx, cy, z } = c.stage.view;
+      c.stage.element.dataset.view = [cx, cy, z].map((v) => v.toFixed(4)).join(' ');
+    });
   };
 }
 
@@ -111,6 +118,8 @@ function dragHelp(c: Context): HTMLElement {
 }
 
 // ---------------------------------------------------------------- messages
+
+const coachShown = (c: Context): boolean => c.ui.coach.value > 0 && !c.editor.drag.value && !c.editor.toast.value && c.editor.scene.value !== null;
 
 function coach(c: Context): HTMLElement {
   const step = (n: number, text: string) => h('div', { class: () => `st ${c.ui.coach.value === n ? 'now' : ''}` }, h('span', { class: 'n' }, String(n)), text);

@@ -72,7 +72,7 @@ function fit(c: Context, opening = false): void {
   const scene = c.editor.scene.peek();
   if (!scene) return;
   c.stage.resize();
-  if (opening) c.stage.view.fit(busyBox(scene), 9.5, 5.2);
+  if (opening) c.stage.view.fit(busyBox(scene), 9.5, 6.8);
   else c.stage.view.fit(scene.map.box);
   if (opening) c.stage.view.centre(...centreOf(scene));
   c.stage.invalidate('map');

@@ -59,7 +59,7 @@ function paint(canvas: HTMLCanvasElement, k: Kept, w: number, ht: number): void 
   k.map.paint(g, v, false);
   for (const a of k.scene.agents.values()) {
     const p = startPose(a);
-    if (p) stamp(g, v, { ...a, length: a.length * 1.25, width: a.width * 1.25 }, p);
+    if (p) stamp(g, v, { ...a, mini: true, length: Math.max(1.6, a.length * 1.25), width: Math.max(1.6, a.width * 1.25) }, p);
   }
   g.setTransform(1, 0, 0, 1, 0, 0);
   canvas.dataset.done = String(paletteStamp());

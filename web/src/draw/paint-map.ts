@@ -41,7 +41,8 @@ export class MapPicture {
   private addLane(lane: Lane): void {
     const { pts } = lane.line;
     if (lane.kind === 'walk') this.walks.add(pts);
-    else if (lane.kind === 'bike') { layerOf(this.bike, Math.min(2.4, lane.width)).add(pts); this.outlines.add(pts); }
+    else if (lane.kind === 'bike' && !lane.inside) { layerOf(this.bike, Math.min(2.4, lane.width)).add(pts); this.outlines.add(pts); }
+    else if (lane.kind === 'bike') layerOf(this.roads, 2.4).add(pts);
     else { layerOf(this.roads, this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2)).add(pts); this.outlines.add(pts); }
   }
 

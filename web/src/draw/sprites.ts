@@ -10,10 +10,10 @@ const LEAST: Partial<Record<Kind, readonly [number, number]>> = { pedestrian: [1
 export const colourKey = (a: Pick<Agent, 'type' | 'parked'>): 'vehicle' | 'cyclist' | 'pedestrian' | 'parked' | 'log' =>
   a.type === 'other' ? 'log' : a.parked ? 'parked' : a.type;
 
-export type Sized = Pick<Agent, 'kind' | 'type' | 'length' | 'width' | 'parked'>;
+export type Sized = Pick<Agent, 'kind' | 'type' | 'length' | 'width' | 'parked'> & { readonly mini?: boolean };
 
 export function sizeOnScreen(a: Sized, z: number): [number, number] {
-  const least = LEAST[a.kind] ?? [5, 3.5];
+  const least = a.mini ? [2, 2] : LEAST[a.kind] ?? [5, 3.5];
   return [Math.max(a.length * z, least[0]), Math.max(a.width * z, least[1])];
 }
 
@@ -24,7 +24,7 @@ export function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLC
   const [l, w] = sizeOnScreen(a, z);
   const L = Math.round(l * 2) / 2, W = Math.round(w * 2) / 2;
   const colour = active && a.parked ? 'vehicle' : colourKey(a);
-  const key = `${a.kind}|${colour}|${L}|${W}|${dpr}|${paletteStamp()}`;
+  const key = `${a.kind}|${colour}|${L}|${W}|${dpr}|${a.mini ? 'm' : ''}${paletteStamp()}`;
   let s = cache.get(key);
   if (s) return s;
   if (cache.size > 400) cache.clear();
@@ -33,7 +33,7 @@ export function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLC
   s.height = Math.ceil((W + PAD * 2) * dpr);
   const g = s.getContext('2d')!;
   g.setTransform(dpr, 0, 0, dpr, s.width / 2, s.height / 2);
-  paintBody(g, a.kind, L, W, colour);
+  paintBody(g, a.kind, L, W, colour, a.mini ? 1 : 2.4);
   cache.set(key, s);
   return s;
 }
@@ -57,12 +57,12 @@ export function outline(g: CanvasRenderingContext2D, kind: Kind, L: number, W: n
   roundRect(g, -L / 2, -W / 2, L, W, soft);
 }
 
-function paintBody(g: CanvasRenderingContext2D, kind: Kind, L: number, W: number, colour: ReturnType<typeof colourKey>): void {
+function paintBody(g: CanvasRenderingContext2D, kind: Kind, L: number, W: number, colour: ReturnType<typeof colourKey>, halo: number): void {
   const c = colours();
   g.lineJoin = 'round';
   outline(g, kind, L, W);
   g.strokeStyle = c.halo;
-  g.lineWidth = 2.4;
+  g.lineWidth = halo;
   g.stroke();
   g.fillStyle = c[colour];
   g.fill();

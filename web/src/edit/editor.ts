@@ -8,7 +8,7 @@ import { emptyMotion, MotionCache, type Futures, type MotionSet, type Reach } fr
 import { findChanges, motionOf, type Change } from '../model/changes';
 import { readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
-import type { Pose } from '../model/geometry';
+import type { Pose, Vec } from '../model/geometry';
 import type { LocalReach } from '../model/reach';
 import type { SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
@@ -17,6 +17,7 @@ export type Part = 'start' | 'goal';
 export type HandleName = 'body' | 'heading' | 'speed' | 'time';
 export interface Grip { readonly part: Part; readonly handle: HandleName }
 export interface Layers { readonly futures: boolean; readonly log: boolean; readonly lanes: boolean; readonly labels: boolean }
+export type Tool = 'select' | 'pan' | 'measure';
 export interface Toast { readonly text: string; readonly undo?: boolean; readonly action?: { label: string; run: () => void } }
 
 export type Status =
@@ -38,6 +39,9 @@ export class Editor {
   readonly lastField = signal<{ part: Part; field: 'pos' | 'heading' | 'speed' }>({ part: 'goal', field: 'speed' });
   readonly layers = signal<Layers>({ futures: true, log: false, lanes: false, labels: false });
   readonly follow = signal(false);
+  readonly tool = signal<Tool>('select');
+  /** Ends of the measuring line, in metres. */
+  readonly measure = signal<{ a: Vec; b: Vec } | null>(null);
 
   readonly motion = signal<MotionSet>(emptyMotion(''));
   readonly draft = signal<Draft | null>(null);

@@ -68,8 +68,9 @@ export class Gestures {
     if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
     try { this.stage.element.setPointerCapture(e.pointerId); } catch { /* the pointer may be gone already */ }
     const touch = e.pointerType === 'touch';
-    const pan = e.button === 1 || this.spaceHeld;
-    const hit: Hit = pan || e.button === 2 ? { kind: 'none' } : hitTest(this.context(touch), p.x, p.y);
+    const tool = this.editor.tool.peek();
+    const pan = e.button === 1 || this.spaceHeld || tool === 'pan';
+    const hit: Hit = pan || e.button === 2 || tool === 'measure' ? { kind: 'none' } : hitTest(this.context(touch), p.x, p.y);
     const v = this.stage.view;
     this.at = p;
     this.press = { id: e.pointerId, ...p, hit, moved: false, pan, touch, cx: v.cx, cy: v.cy };
@@ -110,7 +111,7 @@ export class Gestures {
     this.pending = false;
     const press = this.press;
     if (!press) {
-      this.setHover(hitTest(this.context(), this.at.x, this.at.y));
+      this.setHover(this.editor.tool.peek() === 'select' ? hitTest(this.context(), this.at.x, this.at.y) : { kind: 'none' });
       return;
     }
     if (!press.moved && Math.hypot(this.at.x - press.x, this.at.y - press.y) >= (press.touch ? START_PX_TOUCH : START_PX)) {
@@ -119,7 +120,10 @@ export class Gestures {
     }
     if (!press.moved) return;
     if (this.drag) this.dragTo(this.drag);
-    else if (press.pan) {
+    else if (this.editor.tool.peek() === 'measure' && !press.pan) {
+      const v = this.stage.view;
+      this.editor.measure.value = { a: v.from(press.x, press.y), b: v.from(this.at.x, this.at.y) };
+    } else if (press.pan) {
       const v = this.stage.view;
       v.cx = press.cx - (this.at.x - press.x) / v.z;
       v.cy = press.cy + (this.at.y - press.y) / v.z;
@@ -130,6 +134,7 @@ export class Gestures {
   private begin(press: Press): void {
     const { editor } = this;
     let hit = press.hit;
+    if (editor.tool.peek() === 'measure' && !press.pan) return;
     if (hit.kind === 'agent' && editor.time.peek() < 0.05) {
       editor.select(hit.id);
       hit = { kind: 'grip', grip: { part: 'start', handle: 'body' } };
@@ -298,7 +303,7 @@ export class Gestures {
 
   private click(press: Press, e: PointerEvent): void {
     const { editor } = this;
-    if (press.pan) return;
+    if (press.pan || editor.tool.peek() !== 'select') { editor.measure.value = null; return; }
     const hit = press.hit;
     const a = editor.agent.peek();
     if (hit.kind === 'agent') {
@@ -386,7 +391,7 @@ export class Gestures {
     editor.hoverGrip.value = hit.kind === 'grip' ? hit.grip : null;
     const style = this.stage.element.dataset;
     const cursor = hit.kind === 'grip' ? (hit.grip.handle === 'body' ? 'grab' : hit.grip.handle === 'heading' ? 'crosshair' : 'resize')
-      : hit.kind === 'agent' ? (editor.time.peek() < 0.05 ? 'grab' : 'pointer') : hit.kind === 'future' ? 'pointer' : '';
+      : hit.kind === 'agent' ? (editor.time.peek() < 0.05 ? 'grab' : 'pointer') : hit.kind === 'future' ? 'pointer' : { select: '', pan: 'grab', measure: 'crosshair' }[editor.tool.peek()];
     if (style.cursor !== cursor) style.cursor = cursor;
     this.stage.invalidate('overlay');
   }

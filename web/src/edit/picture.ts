@@ -64,7 +64,7 @@ export class Picture {
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
-      void [e.draft.value, e.changes.value, e.showBefore.value, e.hover.value, e.hoverFuture.value, e.hoverGrip.value, e.localReach.value, e.liveReach.value];
+      void [e.draft.value, e.changes.value, e.showBefore.value, e.hover.value, e.hoverFuture.value, e.hoverGrip.value, e.localReach.value, e.liveReach.value, e.measure.value];
       stage.invalidate('overlay');
     });
   }
@@ -146,6 +146,16 @@ export class Picture {
     if (a) this.paintSelected(g, v, a);
     this.paintEvents(g, v);
     this.paintChangeLabels(g, v);
+    this.paintMeasure(g, v);
+  }
+
+  private paintMeasure(g: G, v: View): void {
+    const m = this.editor.measure.value;
+    if (!m) return;
+    const c = colours();
+    polyline(g, v, [m.a, m.b], c.halo, 5, 1, [], 'round');
+    polyline(g, v, [m.a, m.b], c.ink, 2, 1, [], 'round');
+    this.tag(g, v.to((m.a[0] + m.b[0]) / 2, (m.a[1] + m.b[1]) / 2), metres(Math.hypot(m.a[0] - m.b[0], m.a[1] - m.b[1]), 1), { tries: [[-24, -28], [-24, 10]] });
   }
 
   private paintHover(g: G, v: View): void {

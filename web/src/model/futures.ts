@@ -77,8 +77,8 @@ function distinct(modes: Future[]): Future[] {
     if (!n) return m;
     const first = modes.find((o) => o.name === m.name)!;
     const d = pathLength(m.motion) - pathLength(first.motion);
-    const tail = Math.abs(d) < 0.5 ? 'another line' : `${Math.abs(d).toFixed(0)} m ${d > 0 ? 'further' : 'shorter'}`;
-    return { ...m, name: `${m.name}, ${tail}` };
+    const base = m.name.split(',')[0];
+    return { ...m, name: Math.abs(d) < 1 ? `${base}, another line` : `${base}, ${Math.abs(d).toFixed(0)} m ${d > 0 ? 'further' : 'less'}` };
   });
 }
 
