@@ -50,6 +50,10 @@ pub(super) struct Mover {
     pub moments: Vec<Option<Moment>>,
     /// Greatest distance from its first place, metres.
     pub travel_m: f64,
+    /// Farthest any point of its box moves from one seen step to the next, metres.
+    most_stir_m: f64,
+    /// Greatest speed, m/s.
+    top_mps: f64,
     /// Holds its boxes at all steps.
     pub places: Option<Rectangle>,
     /// Holds all it can touch within the look-ahead at constant velocity.
@@ -84,10 +88,13 @@ impl Mover {
                 from.stir_m = Some(stir(from, to));
             }
         }
+        let seen: Vec<&Moment> = moments.iter().flatten().collect();
+        let most_stir_m = seen.windows(2).map(|w| stir(w[0], w[1])).fold(0.0, f64::max);
+        let top_mps = seen.iter().map(|m| m.speed_mps).fold(0.0, f64::max);
         let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
         let reach = rectangle(moments.iter().flatten().map(|m| (m.outline, m.velocity * LOOK_AHEAD_S)));
         let travel_m = actor.travel_m(input.steps.clone());
-        Self { moments, travel_m, places, reach, agent_type: actor.agent_type }
+        Self { moments, travel_m, most_stir_m, top_mps, places, reach, agent_type: actor.agent_type }
     }
 
     /// Box between two steps, `part` from 0 to 1 of the way; places and headings change evenly.
@@ -222,16 +229,27 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
     let limits = &input.thresholds;
     let mut pair = Pair::default();
     let travels = a.travel_m >= PARKED_M || b.travel_m >= PARKED_M;
+    let mut next = 0;
     for (step, (p, q)) in a.moments.iter().zip(&b.moments).enumerate() {
         let (Some(p), Some(q)) = (p, q) else { continue };
+        if step < next {
+            continue;
+        }
         let moving = p.speed_mps > limits.moving_mps || q.speed_mps > limits.moving_mps;
         let apart = circle_gap(&p.outline, &q.outline);
         // The gap matters where it can be a new least, a near miss, or a collision before the next step.
-        let matters = apart < pair.min_distance_m.unwrap_or(known.gap_m).max(limits.gap_m)
-            || apart < p.stir_m.unwrap_or(0.0) + q.stir_m.unwrap_or(0.0);
+        let gap_m = known.gap_m.min(pair.min_distance_m.unwrap_or(f64::INFINITY)).max(limits.gap_m);
+        let horizon_s = known.ttc_s.min(pair.min_ttc_s.unwrap_or(LOOK_AHEAD_S)).max(limits.ttc_s);
+        let stir_m = a.most_stir_m + b.most_stir_m;
+        let matter_m = gap_m.max(stir_m).max((a.top_mps + b.top_mps) * horizon_s);
+        if apart > matter_m + stir_m {
+            // Nothing matters until the two have come that near.
+            next = step + ((apart - matter_m) / stir_m) as usize;
+            continue;
+        }
+        let matters = apart < gap_m.max(p.stir_m.unwrap_or(0.0) + q.stir_m.unwrap_or(0.0));
         let (gap, towards) =
             if matters { gap_and_direction(&p.outline, &q.outline) } else { (apart, Vec2::zeros()) };
-        let horizon_s = pair.min_ttc_s.unwrap_or(known.ttc_s).max(limits.ttc_s);
         let ttc_s = if moving { ttc(p, q, horizon_s) } else { None };
         if matters {
             if travels || gap < 0.0 {

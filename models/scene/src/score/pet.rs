@@ -114,14 +114,17 @@ fn least_shift(a: &Mover, b: &Mover, crossing: &Crossing, bound: usize) -> Optio
     let reach = 2.0 * (radius(a, crossing.step_a) + radius(b, crossing.step_b));
     let near_a = near(a, crossing.step_a, crossing.point, reach);
     let near_b = near(b, crossing.step_b, crossing.point, reach);
+    let (first_a, last_a) = (near_a.first()?.0, near_a.last()?.0);
     let (first_b, last_b) = (near_b.first()?.0, near_b.last()?.0);
-    let longest = near_a.last()?.0.max(last_b);
+    // Differences of steps that any two of these moments have.
+    let shortest = first_b.saturating_sub(last_a).max(first_a.saturating_sub(last_b));
+    let longest = last_b.saturating_sub(first_a).max(last_a.saturating_sub(first_b));
     let hit = |p: &Moment, step_b: Option<usize>| {
         let index = step_b.and_then(|j| j.checked_sub(first_b));
         let q = index.and_then(|k| near_b.get(k));
         q.is_some_and(|(_, q)| overlaps(&p.outline, &q.outline, 0.0))
     };
-    (0..=longest.min(bound.saturating_sub(1))).find(|shift| {
+    (shortest..=longest.min(bound.saturating_sub(1))).find(|shift| {
         near_a.iter().any(|(i, p)| hit(p, i.checked_sub(*shift)) || hit(p, i.checked_add(*shift)))
     })
 }
