@@ -284,7 +284,7 @@ impl Polyline {
             return self.clone();
         }
         let pieces = (length / step_m.max(SAME_POINT_M) - 1e-9).ceil().clamp(1.0, 1e6) as usize;
-        Self::new((0..=pieces).map(|i| self.sample(length * i as f64 / pieces as f64).position))
+        Self::new((0..=pieces).map(|i| self.sample(length * (i as f64 / pieces as f64)).position))
     }
 
     /// Mean over a window of `2 half_m` around each point, the window narrowing towards the ends so that
@@ -314,4 +314,103 @@ fn foot_on_piece(a: Vec2, b: Vec2, point: Vec2) -> (f64, f64) {
     let piece = b - a;
     let t = ((point - a).dot(&piece) / piece.norm_squared().max(1e-12)).clamp(0.0, 1.0);
     (t, (point - a - t * piece).norm_squared())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn v(x: f64, y: f64) -> Vec2 {
+        Vec2::new(x, y)
+    }
+
+    fn circle(radius: f64) -> Polyline {
+        Polyline::new((0..=60).map(|i| radius * direction(0.05 * f64::from(i))))
+    }
+
+    #[test]
+    fn samples_and_projects() {
+        let line = Polyline::new([v(0.0, 0.0), v(10.0, 0.0), v(10.0, 0.0), v(10.0, 10.0)]);
+        assert_eq!(line.points().len(), 3);
+        assert_eq!(line.length_m(), 20.0);
+        assert_eq!(line.sample(15.0).position, v(10.0, 5.0));
+        assert_eq!(line.sample(99.0).position, v(10.0, 10.0));
+        assert!((line.extrapolate(23.0).position - v(10.0, 13.0)).norm() < 1e-9);
+        let foot = line.project(v(4.0, -2.0));
+        assert_eq!((foot.s_m, foot.lateral_m, foot.distance_m), (4.0, -2.0, 2.0));
+        assert_eq!(line.project(v(8.0, 6.0)).lateral_m, 2.0);
+        let beyond = line.project(v(9.0, 14.0));
+        assert!((beyond.lateral_m - 1.0).abs() < 1e-9 && beyond.distance_m > 4.0 && beyond.s_m == 20.0);
+        assert_eq!(line.project_between(v(4.0, -2.0), 10.0, 20.0).s_m, 10.0);
+    }
+
+    #[test]
+    fn circles_have_their_curvature_and_tangents() {
+        let line = circle(20.0);
+        for s in [0.5, 10.0, 30.0, line.length_m() - 0.5] {
+            assert!((line.curvature_at(s, 3.0) - 0.05).abs() < 1e-3);
+        }
+        assert!((line.first().heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-6);
+        assert!((line.max_curvature(0.0, 1e3, 2.0) - 0.05).abs() < 1e-3);
+        assert!((line.reversed().curvature_at(10.0, 3.0) + 0.05).abs() < 1e-3);
+    }
+
+    #[test]
+    fn cuts_and_resamples_exactly() {
+        let line = circle(20.0);
+        let part = line.slice(3.3, 17.7);
+        assert!((part.length_m() - 14.4).abs() < 1e-6);
+        assert_eq!(part.first().position, line.sample(3.3).position);
+        let even = line.resample(1.0);
+        assert_eq!(even.last().position, line.last().position);
+        let steps = even.points().windows(2).map(|p| (p[1] - p[0]).norm());
+        assert!(steps.into_iter().all(|d| d <= 1.0 && d > 0.9));
+        assert_eq!(even.smoothed(2.0).first().position, line.first().position);
+    }
+
+    #[test]
+    fn nothing_and_one_point_are_lines_too() {
+        for line in [Polyline::default(), Polyline::new([v(3.0, 4.0); 5]), Polyline::new([v(f64::NAN, 0.0)])]
+        {
+            assert_eq!((line.points().len(), line.length_m()), (1, 0.0));
+            assert_eq!(line.sample(5.0).position, line.points()[0]);
+            assert!(line.project(v(1.0, 1.0)).distance_m.is_finite());
+            assert_eq!(line.curvatures(2.0), [0.0]);
+            assert_eq!(line.resample(1.0), line);
+            assert_eq!(line.slice(-1.0, 3.0).length_m(), 0.0);
+            assert_eq!(line.smoothed(2.0), line.reversed());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_foot_is_the_nearest_point(
+            corners in prop::collection::vec((-50.0..50.0_f64, -50.0..50.0_f64), 1..12),
+            x in -60.0..60.0_f64, y in -60.0..60.0_f64, share in 0.0..1.0_f64,
+        ) {
+            let line = Polyline::new(corners.into_iter().map(|(x, y)| v(x, y)));
+            let foot = line.project(v(x, y));
+            prop_assert!((line.sample(foot.s_m).position - v(x, y)).norm() - foot.distance_m < 1e-6);
+            let other = line.sample(share * line.length_m()).position;
+            prop_assert!((other - v(x, y)).norm() >= foot.distance_m - 1e-6);
+            prop_assert!(foot.lateral_m.abs() <= foot.distance_m + 1e-9);
+        }
+
+        #[test]
+        fn samples_lie_on_the_line_in_order(
+            corners in prop::collection::vec((-50.0..50.0_f64, -50.0..50.0_f64), 2..12),
+            step in 0.3..5.0_f64,
+        ) {
+            let line = Polyline::new(corners.into_iter().map(|(x, y)| v(x, y)));
+            let even = line.resample(step);
+            prop_assert_eq!(even.last().position, line.last().position);
+            prop_assert!(even.length_m() <= line.length_m() + 1e-6);
+            for pair in even.points().windows(2) {
+                prop_assert!((pair[1] - pair[0]).norm() <= step + 1e-9);
+            }
+            prop_assert!(line.arc_m().windows(2).all(|s| s[1] > s[0]));
+            prop_assert!(line.headings_rad().windows(2).all(|h| (h[1] - h[0]).abs() < 2.0 * std::f64::consts::PI));
+        }
+    }
 }

@@ -97,12 +97,22 @@ pub fn base_path(
     // Both fades share the way where it is short.
     let half = 0.5 * between.length_m();
     let entered = onto(&between, start, manner, half.max(manner.min_blend_m));
-    let end_heading = goal.heading_rad.unwrap_or(between.last().heading_rad);
     let room = (entered.length_m() - manner.min_blend_m.min(half)).max(half);
-    let backwards = Pose::new(goal.position, wrap_angle(end_heading + std::f64::consts::PI));
-    let bent = onto(&entered.reversed(), backwards, manner, room).reversed();
+    let bent = ended(&entered, goal, manner, room);
     let met = (bent.first().position - start.position).norm() < 1e-6;
     if met { bent.resample(STEP_M) } else { direct(start, goal, manner.curvature) }
+}
+
+/// `path`, whose end is beside `goal`, bent over at most `room_m` so that it ends there.
+fn ended(path: &Polyline, goal: EndPose, manner: Manner, room_m: f64) -> Polyline {
+    let heading = goal.heading_rad.unwrap_or(path.last().heading_rad);
+    let backwards = Pose::new(goal.position, wrap_angle(heading + std::f64::consts::PI));
+    onto(&path.reversed(), backwards, manner, room_m).reversed()
+}
+
+/// A lane path that ends beside `goal`, bent so that it ends there, as [`base_path`] does.
+pub(super) fn ending_at(path: &Polyline, goal: EndPose, speed_mps: f64, agent_type: AgentType) -> Polyline {
+    ended(path, goal, Manner::of(agent_type, speed_mps), path.length_m()).resample(STEP_M)
 }
 
 /// The path, extended straight on where the goal lies beyond its end, and the goal's arc length on it.

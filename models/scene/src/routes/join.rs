@@ -3,7 +3,7 @@
 use super::cubic::{self, Cubic, comfortable_curvature};
 use super::start::errors_at;
 use super::to_goal::{GoalQuery, GoalRoute, RouteKind};
-use super::{LaneGraph, LaneHit, Leg, Polyline, Pose, Route, assemble};
+use super::{EndPose, LaneGraph, LaneHit, Leg, Polyline, Pose, Route, assemble, blend};
 use crate::wrap_angle;
 
 /// A join may be longer than least effort by this factor.
@@ -17,8 +17,11 @@ const MAX_PATHS: usize = 8;
 const MAX_LANES: usize = 9;
 /// Goal lanes from which paths are walked back.
 const MAX_GOAL_LANES: usize = 4;
+/// Sharpest curvature of a join, in comfortable ones: tight U-turns still say where to turn, and knots and
+/// projection widen them.
+const SHARPEST_JOIN: f64 = 6.0;
 /// Sharpest curvature with which a goal off the lanes is met, in comfortable ones.
-const LEAVING_CURVATURE: f64 = 2.0;
+const SHARPEST_LEAVING: f64 = 2.0;
 
 /// A path that ends at the goal: lanes in driving order with where each begins on it.
 struct LeadIn {
@@ -37,7 +40,8 @@ pub(super) fn joined(graph: &LaneGraph, query: &GoalQuery, goals: &[LaneHit]) ->
             best = Some((cost, s, cubic, lead_in));
         }
     }
-    let (cost, s, cubic, lead_in) = best?;
+    let (cost, s, cubic, lead_in) =
+        best.filter(|(_, _, cubic, _)| cubic.max_curvature <= SHARPEST_JOIN * limit)?;
     let rest = lead_in.path.slice(s, lead_in.path.length_m());
     let joined_m = cubic.path.length_m();
     let length_m = joined_m + rest.length_m();
@@ -49,9 +53,8 @@ pub(super) fn joined(graph: &LaneGraph, query: &GoalQuery, goals: &[LaneHit]) ->
     let legs = cut_legs(&lead_in.legs, s, joined_m);
     let limits_mps = assemble::limits(graph, &legs, &path);
     let (lateral_m, heading_error_rad) = errors_at(query.pose, path.first());
-    let goal_lateral_m = errors_at(Pose::new(query.goal, 0.0), path.last()).0;
     let route = Route { legs, path, limits_mps, lateral_m, heading_error_rad, terminal: false };
-    Some(GoalRoute { route, kind: RouteKind::Joined, goal_lateral_m, cost })
+    Some(GoalRoute { route, kind: RouteKind::Joined, goal_lateral_m: 0.0, cost })
 }
 
 /// Legs of the part of a path beyond `s_m`, which now begins `joined_m` along another.
@@ -80,7 +83,7 @@ fn lead_ins(graph: &LaneGraph, query: &GoalQuery, goals: &[LaneHit], far_m: f64)
             };
             let before: Vec<usize> = lanes[lane].predecessors.iter().filter(usable).copied().collect();
             if length >= far_m || before.is_empty() || chain.len() >= MAX_LANES {
-                found.push(lead_in(graph, &chain));
+                found.push(lead_in(graph, query, &chain));
                 if found.len() >= MAX_PATHS {
                     return found;
                 }
@@ -96,14 +99,18 @@ fn lead_ins(graph: &LaneGraph, query: &GoalQuery, goals: &[LaneHit], far_m: f64)
     found
 }
 
-fn lead_in(graph: &LaneGraph, backwards: &[(usize, f64)]) -> LeadIn {
+/// Lanes in driving order as a path that ends exactly at the goal.
+fn lead_in(graph: &LaneGraph, query: &GoalQuery, backwards: &[(usize, f64)]) -> LeadIn {
     let (mut points, mut legs, mut length) = (Vec::new(), Vec::new(), 0.0);
     for (lane, to_m) in backwards.iter().rev().copied() {
         legs.push(Leg { lane, from_m: 0.0, to_m, path_from_m: length });
         points.extend(graph.lanes()[lane].path.slice(0.0, to_m).points().iter().copied());
         length += to_m;
     }
-    LeadIn { legs, path: Polyline::new(points).resample(1.0).smoothed(2.0) }
+    let centre = Polyline::new(points).resample(1.0).smoothed(2.0);
+    let goal = EndPose { position: query.goal, heading_rad: query.goal_heading_rad };
+    // Leads in at walking pace: the shortest bend that is comfortable leaves most room for the join.
+    LeadIn { legs, path: blend::ending_at(&centre, goal, 0.0, query.agent_type) }
 }
 
 /// Cheapest cubic onto `path`: cost with the rest of the path, arc length where it joins, the cubic.
@@ -154,7 +161,7 @@ pub(super) fn leaving(to_lane: GoalRoute, query: &GoalQuery) -> Option<GoalRoute
         }
         lead += 2.0;
     }
-    let (cost, s, join) = best.filter(|(.., join)| join.max_curvature <= LEAVING_CURVATURE * limit)?;
+    let (cost, s, join) = best.filter(|(.., join)| join.max_curvature <= SHARPEST_LEAVING * limit)?;
     let points =
         route.path.slice(0.0, s).points().iter().chain(join.path.points()).copied().collect::<Vec<_>>();
     let longest = route.limits_mps.last().copied().unwrap_or(f64::INFINITY);

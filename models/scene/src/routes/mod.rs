@@ -56,6 +56,8 @@ pub struct Route {
 }
 
 #[cfg(test)]
+mod property_tests;
+#[cfg(test)]
 mod sample_maps;
 #[cfg(test)]
 mod tests;

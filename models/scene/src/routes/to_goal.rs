@@ -71,7 +71,7 @@ pub enum RouteKind {
 /// A route and how it meets the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GoalRoute {
-    /// The route; its path ends beside the goal, or at the goal itself when that is off lane.
+    /// The route; a forward one's path ends beside the goal, the others' at it.
     pub route: Route,
     /// How it gets there.
     pub kind: RouteKind,
