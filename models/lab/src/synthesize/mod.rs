@@ -1,0 +1,278 @@
+//! Synthetic traffic: procedural road networks and demand, driven by the traffic simulator SUMO (a
+//! separate program), cleaned until it looks recorded, and cut into windows of 9 seconds.
+//!
+//! One seed decides everything about one network and its traffic; the same seed gives the same file.
+
+mod demand;
+mod filters;
+mod fleet;
+mod network;
+mod parked;
+mod programs;
+mod random;
+mod recording;
+mod streets;
+mod tracks;
+mod ways;
+mod windows;
+
+pub use programs::ProgramError;
+pub use recording::RecordError;
+pub use windows::{NOW, STEPS};
+
+use formats::womd;
+use network::Network;
+use programs::Sumo;
+use random::{Draw, Purpose};
+use scene::map::LaneType;
+use scene::{AgentType, STEP_S, Scene};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+
+/// Simulated seconds before recording begins.
+const WARM_UP_S: f64 = 90.0;
+/// Recorded seconds.
+const RECORDED_S: f64 = 120.0;
+/// Step of the simulation, seconds.
+const DT_S: f64 = STEP_S;
+
+/// Kind of network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Template {
+    /// One crossing with its arms and side streets.
+    Crossing,
+    /// Grid of homes, or a town's centre.
+    Grid,
+    /// Arterial with signals.
+    Arterial,
+    /// Parking lot beside a street.
+    Lot,
+    /// Roundabout.
+    Roundabout,
+    /// Motorway with ramps.
+    Motorway,
+}
+
+impl Template {
+    /// All of them, with the share of seeds that gets each when none is asked for.
+    pub const SHARES: [(Self, f64); 6] = [
+        (Self::Crossing, 0.34),
+        (Self::Grid, 0.24),
+        (Self::Arterial, 0.17),
+        (Self::Lot, 0.10),
+        (Self::Roundabout, 0.07),
+        (Self::Motorway, 0.08),
+    ];
+
+    fn build(self, draw: &mut Draw) -> Network {
+        let mut network = match self {
+            Self::Crossing => streets::crossing(draw),
+            Self::Grid => streets::grid(draw),
+            Self::Arterial => streets::arterial(draw),
+            Self::Lot => streets::parking_lot(draw),
+            Self::Roundabout => ways::roundabout(draw),
+            Self::Motorway => ways::motorway(draw),
+        };
+        network.expand(draw);
+        network
+    }
+}
+
+/// What to make, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// One file is made for each seed.
+    pub seeds: Range<u64>,
+    /// Folder of the files; made if missing.
+    pub out_dir: PathBuf,
+    /// Seeds worked on at the same time; 0: one for each core.
+    pub threads: usize,
+    /// SUMO's folder, with `bin/` in it. Else `SUMO_HOME`, else `PATH`.
+    pub sumo_home: Option<PathBuf>,
+    /// Windows cut from each seed's two minutes.
+    pub per_seed: usize,
+    /// Kind of all networks; drawn by [`Template::SHARES`] when free.
+    pub template: Option<Template>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seeds: 0..1,
+            out_dir: PathBuf::new(),
+            threads: 0,
+            sumo_home: None,
+            per_seed: 28,
+            template: None,
+        }
+    }
+}
+
+/// One finished seed.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// Which.
+    pub seed: u64,
+    /// Windows in its file; `None` when the file was there already.
+    pub windows: Option<usize>,
+    /// Seeds finished so far, this one included, and in all.
+    pub finished: (u64, u64),
+}
+
+/// What a run made.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Files written.
+    pub written: u64,
+    /// Files that were there already.
+    pub skipped: u64,
+    /// Windows in the files written.
+    pub windows: u64,
+    /// Vehicles, pedestrians and cyclists in those windows.
+    pub agents: [u64; 3],
+    /// Seeds that gave no file, and why.
+    pub failed: Vec<(u64, String)>,
+}
+
+/// Why a run could not be done at all. Single seeds that fail are in the [`Report`].
+#[derive(Debug, thiserror::Error)]
+pub enum SynthesizeError {
+    /// SUMO is not there.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
+    /// The folder cannot be made.
+    #[error("{path}: {source}")]
+    Folder {
+        /// Which folder.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+}
+
+/// The windows of one seed.
+///
+/// # Errors
+/// When SUMO is missing or fails.
+pub fn windows_of(
+    seed: u64,
+    template: Option<Template>,
+    count: usize,
+    sumo_home: Option<&Path>,
+) -> Result<Vec<Scene>, RecordError> {
+    let sumo = Sumo::find(sumo_home)?;
+    make(&sumo, seed, template, count)
+}
+
+fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Result<Vec<Scene>, RecordError> {
+    let mut draw = Draw::new(seed, Purpose::Network);
+    let shares = Template::SHARES.map(|s| s.1);
+    let drawn = Template::SHARES[draw.weighted(&shares)].0;
+    let network = template.unwrap_or(drawn).build(&mut draw);
+    let recording = recording::record(sumo, network, None, seed)?;
+    let (scenes, _) = windows::cut(&recording, seed, count, &mut Draw::new(seed, Purpose::Windows));
+    Ok(scenes)
+}
+
+/// Makes one file of windows for each seed. A seed whose file is there is skipped, so that an
+/// interrupted run goes on where it stopped.
+///
+/// # Errors
+/// When SUMO is missing or the folder cannot be made. A seed that fails does not stop the others.
+pub fn run(options: &Options, progress: &(dyn Fn(Progress) + Sync)) -> Result<Report, SynthesizeError> {
+    let sumo = Sumo::find(options.sumo_home.as_deref())?;
+    std::fs::create_dir_all(&options.out_dir)
+        .map_err(|source| SynthesizeError::Folder { path: options.out_dir.clone(), source })?;
+    let total = options.seeds.end.saturating_sub(options.seeds.start);
+    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let threads = if options.threads == 0 { cores } else { options.threads };
+    let (next, finished) = (AtomicU64::new(options.seeds.start), AtomicU64::new(0));
+    let report = Mutex::new(Report::default());
+    let work = || {
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed >= options.seeds.end {
+                return;
+            }
+            let result = one(&sumo, options, seed);
+            let mut report = report.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            let windows = report.add(seed, result);
+            let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
+            progress(Progress { seed, windows, finished: (done, total) });
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..threads.min(total.max(1) as usize) {
+            scope.spawn(work);
+        }
+    });
+    let mut report = report.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    report.failed.sort();
+    Ok(report)
+}
+
+/// What became of one seed.
+enum Outcome {
+    Skipped,
+    Written(Vec<Scene>),
+}
+
+fn one(sumo: &Sumo, options: &Options, seed: u64) -> Result<Outcome, String> {
+    let path = options.out_dir.join(format!("{seed:06}.tfrecord.gz"));
+    if path.exists() {
+        return Ok(Outcome::Skipped);
+    }
+    let scenes = make(sumo, seed, options.template, options.per_seed).map_err(|e| e.to_string())?;
+    if scenes.is_empty() {
+        return Err("no window could be cut".to_owned());
+    }
+    write(&path, &scenes).map_err(|e| e.to_string())?;
+    Ok(Outcome::Written(scenes))
+}
+
+/// Writes windows to a file of its own, then gives it its name: a file with the name is whole.
+fn write(path: &Path, scenes: &[Scene]) -> std::io::Result<()> {
+    let partial = path.with_extension(format!("tmp{}", std::process::id()));
+    let plain: Vec<Scene> = scenes.iter().map(without_footways).collect();
+    let file = std::io::BufWriter::new(std::fs::File::create(&partial)?);
+    womd::write(&plain.iter().collect::<Vec<_>>(), file, true, womd::Mode::Log)?;
+    std::fs::rename(&partial, path)
+}
+
+/// The scene without lanes that the format cannot name: it would make untyped lanes of them, on which
+/// readers let cars drive.
+fn without_footways(scene: &Scene) -> Scene {
+    let mut map = (*scene.map).clone();
+    map.lanes.retain(|l| !matches!(l.lane_type, LaneType::Sidewalk | LaneType::Parking));
+    Scene { map: Arc::new(map), ..scene.clone() }
+}
+
+impl Report {
+    fn add(&mut self, seed: u64, result: Result<Outcome, String>) -> Option<usize> {
+        match result {
+            Ok(Outcome::Skipped) => {
+                self.skipped += 1;
+                None
+            }
+            Ok(Outcome::Written(scenes)) => {
+                self.written += 1;
+                self.windows += scenes.len() as u64;
+                for agent in scenes.iter().flat_map(|s| &s.agents) {
+                    match agent.agent_type {
+                        AgentType::Vehicle => self.agents[0] += 1,
+                        AgentType::Pedestrian => self.agents[1] += 1,
+                        AgentType::Cyclist => self.agents[2] += 1,
+                        AgentType::Other => {}
+                    }
+                }
+                Some(scenes.len())
+            }
+            Err(reason) => {
+                self.failed.push((seed, reason));
+                Some(0)
+            }
+        }
+    }
+}

@@ -1,0 +1,347 @@
+//! Networks of streets: one crossing with its arms, a grid, an arterial, a parking lot.
+
+use super::network::{Character, MPH, Network, Rank, Section, hermite, left_of, unit};
+use super::random::Draw;
+use formats::sumo::polyline::{arc_lengths, length, part, point_at};
+use scene::Vec2;
+use scene::geometry::{direction, rotate};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Draws a cross-section for a street of this rank.
+pub fn section(draw: &mut Draw, rank: Rank) -> Section {
+    let yes = |draw: &mut Draw, p: f64, width: f64| if draw.chance(p) { width } else { 0.0 };
+    match rank {
+        Rank::Arterial => {
+            let lanes = draw.one_of([2, 2, 3]);
+            let bike = draw.uniform(1.5, 1.9);
+            Section {
+                forward: lanes,
+                backward: lanes,
+                speed: draw.one_of([35.0, 35.0, 40.0, 45.0]) * MPH,
+                lane: draw.uniform(3.2, 3.6),
+                priority: 8,
+                sidewalk: draw.uniform(1.8, 3.0),
+                bike: yes(draw, 0.6, bike),
+                parking: yes(draw, 0.25, 2.7),
+                median: draw.uniform(3.3, 4.5),
+                rank,
+            }
+        }
+        Rank::Collector => {
+            let bike = draw.uniform(1.4, 1.8);
+            Section {
+                forward: 1,
+                backward: 1,
+                speed: draw.one_of([25.0, 30.0, 35.0]) * MPH,
+                lane: draw.uniform(3.1, 3.6),
+                priority: 4,
+                sidewalk: draw.uniform(1.8, 2.6),
+                bike: yes(draw, 0.65, bike),
+                parking: yes(draw, 0.55, 2.6),
+                median: yes(draw, 0.5, 3.3),
+                rank,
+            }
+        }
+        _ => Section {
+            forward: 1,
+            backward: 1,
+            speed: 25.0 * MPH,
+            lane: draw.uniform(2.9, 3.6),
+            priority: 2,
+            sidewalk: draw.uniform(1.5, 2.2),
+            bike: 0.0,
+            parking: yes(draw, 0.8, 2.6),
+            median: 0.0,
+            rank,
+        },
+    }
+}
+
+/// A street between two points that swings a little.
+fn bent(draw: &mut Draw, p: Vec2, q: Vec2, swing: f64) -> Vec<Vec2> {
+    let way = unit(q - p);
+    let mut lean = || unit(way + left_of(way) * draw.normal(0.0, swing).tan());
+    let (a, b) = (lean(), lean());
+    hermite(p, a, q, b)
+}
+
+const UNSIGNALLED: [&str; 3] = ["priority", "priority_stop", "allway_stop"];
+const QUIET: [&str; 4] = ["priority", "priority_stop", "allway_stop", "right_before_left"];
+
+fn control<const N: usize>(draw: &mut Draw, signals: f64, others: [&'static str; N]) -> &'static str {
+    if draw.chance(signals) { "traffic_light" } else { draw.one_of(others) }
+}
+
+/// What every template decides about its signals.
+pub fn character(draw: &mut Draw, name: &str, reach: f64) -> Character {
+    Character {
+        name: name.to_owned(),
+        actuated: draw.chance(0.5),
+        opposites: draw.chance(0.67),
+        cycle_s: 45 + draw.below(50) as u32,
+        crosswalk: draw.uniform(3.0, 4.5),
+        reach,
+    }
+}
+
+/// One crossing of 3 to 5 arms, skewed and curved, with side streets half-way along the arms.
+pub fn crossing(draw: &mut Draw) -> Network {
+    let arms = [3, 4, 5][draw.weighted(&[0.22, 0.70, 0.08])];
+    let main_rank = [Rank::Arterial, Rank::Collector, Rank::Residential][draw.weighted(&[0.45, 0.4, 0.15])];
+    let side_rank = match main_rank {
+        Rank::Arterial => draw.one_of([Rank::Arterial, Rank::Collector]),
+        Rank::Collector => draw.one_of([Rank::Collector, Rank::Residential]),
+        other => other,
+    };
+    let kind = match main_rank {
+        Rank::Arterial => control(draw, 0.95, UNSIGNALLED),
+        Rank::Collector => control(draw, 0.6, UNSIGNALLED),
+        _ => control(draw, 0.05, QUIET),
+    };
+    let mut net = Network::new(character(draw, &format!("cross{arms}_{}", main_rank.name()), 140.0));
+    net.node("c", Vec2::zeros(), kind, Some(draw.uniform(3.5, 9.0)));
+    let skew = draw.normal(0.0, 0.18);
+    let angles = match arms {
+        3 => vec![0.0, PI, FRAC_PI_2 + draw.normal(0.0, 0.2)],
+        4 => {
+            let straight = [draw.normal(0.0, 0.06), draw.normal(0.0, 0.06)];
+            vec![0.0, FRAC_PI_2 + skew, PI + straight[0], 1.5 * PI + skew + straight[1]]
+        }
+        _ => vec![0.0, 1.25, 2.5, 3.75, 5.0],
+    };
+    let base = draw.uniform(0.0, TAU);
+    let (main, side) = (section(draw, main_rank), section(draw, side_rank));
+    for (i, angle) in angles.into_iter().enumerate() {
+        let is_main = if arms == 4 { i % 2 == 0 } else { i < 2 };
+        arm(draw, &mut net, i, base + angle, if is_main { main } else { side });
+    }
+    net
+}
+
+fn arm(draw: &mut Draw, net: &mut Network, i: usize, angle: f64, section_: Section) {
+    let (way, across) = (direction(angle), left_of(direction(angle)));
+    let drift = if section_.rank == Rank::Arterial { 12.0 } else { 27.0 };
+    let end = way * draw.uniform(210.0, 290.0) + across * draw.normal(0.0, drift);
+    let line = hermite(Vec2::zeros(), way, end, unit(way + across * draw.normal(0.0, 0.4)));
+    let turn = section_.median > 3.0 && draw.chance(0.85);
+    let fringe = format!("f{i}");
+    net.end(&fringe, end);
+    if !draw.chance(0.6) {
+        net.road("c", &fringe, line, section_, (turn, false));
+        return;
+    }
+    let (total, lengths, at) = (length(&line), arc_lengths(&line), draw.uniform(95.0, 150.0));
+    let place = point_at(&line, &lengths, at);
+    let along = unit(point_at(&line, &lengths, at + 1.0) - place);
+    let middle = format!("s{i}");
+    net.node(
+        &middle,
+        place,
+        if draw.chance(0.6) { "priority" } else { "priority_stop" },
+        Some(draw.uniform(4.0, 7.0)),
+    );
+    net.road("c", &middle, part(&line, 0.0, at), section_, (turn, false));
+    net.road(&middle, &fringe, part(&line, at, total), section_, (false, false));
+    let sides: &[f64] = if draw.chance(0.3) { &[1.0, -1.0] } else { &[draw.one_of([1.0, -1.0])] };
+    for (k, side) in sides.iter().enumerate() {
+        let street = section(draw, Rank::Residential);
+        let out = unit(left_of(along) * *side + along * draw.normal(0.0, 0.15));
+        let end = place + out * draw.uniform(80.0, 120.0);
+        let id = format!("g{i}_{k}");
+        net.end(&id, end);
+        let line = bent(draw, place, end, 0.12);
+        net.road(&middle, &id, line, street, (false, false));
+    }
+}
+
+/// A warped grid of homes, or of a town's centre with one-way streets.
+pub fn grid(draw: &mut Draw) -> Network {
+    let town = draw.chance(0.45);
+    let mut net =
+        Network::new(character(draw, if town { "grid_downtown" } else { "grid_residential" }, 150.0));
+    let size = [3 + draw.below(2) as i32, 3 + draw.below(2) as i32];
+    let pitch = [draw.uniform(75.0, 120.0), draw.uniform(70.0, 120.0)];
+    let turn = draw.uniform(0.0, TAU);
+    let phase = [draw.uniform(0.0, TAU), draw.uniform(0.0, TAU)];
+    let warp = if town { 0.0 } else { draw.uniform(0.0, 12.0) };
+    let street = |draw: &mut Draw, busy: f64| {
+        let rank = if draw.chance(busy) { Rank::Collector } else { Rank::Residential };
+        Section { median: 0.0, ..section(draw, rank) }
+    };
+    let columns: Vec<Section> = (0..size[0]).map(|_| street(draw, if town { 1.0 } else { 0.3 })).collect();
+    let rows: Vec<Section> = (0..size[1]).map(|_| street(draw, if town { 0.7 } else { 0.0 })).collect();
+    let one_way: Vec<bool> = (0..size[0]).map(|_| town && draw.chance(0.35)).collect();
+    let name = |i: i32, j: i32| format!("n{}_{}", i + 1, j + 1);
+    for i in -1..=size[0] {
+        for j in -1..=size[1] {
+            let (in_x, in_y) = ((0..size[0]).contains(&i), (0..size[1]).contains(&j));
+            if !in_x && !in_y {
+                continue;
+            }
+            let flat = Vec2::new(
+                (f64::from(i) - f64::from(size[0] - 1) / 2.0) * pitch[0],
+                (f64::from(j) - f64::from(size[1] - 1) / 2.0) * pitch[1],
+            );
+            let wave = Vec2::new((flat.y / 60.0 + phase[0]).sin(), (flat.x / 60.0 + phase[1]).sin());
+            let place = rotate(flat + wave * warp + draw.gauss_point(2.5), turn);
+            if in_x && in_y {
+                let busy =
+                    columns[i as usize].rank == Rank::Collector || rows[j as usize].rank == Rank::Collector;
+                let signals = if town {
+                    0.75
+                } else if busy {
+                    0.25
+                } else {
+                    0.0
+                };
+                let kind = control(draw, signals, QUIET);
+                net.node(&name(i, j), place, kind, Some(draw.uniform(4.0, 8.0)));
+            } else {
+                net.end(&name(i, j), place);
+            }
+        }
+    }
+    let missing = if town { 0.04 } else { 0.12 };
+    let swing = if town { 0.01 } else { 0.1 };
+    for (count, other, down) in [(size[0], size[1], true), (size[1], size[0], false)] {
+        for line in 0..count {
+            for k in -1..other {
+                if (0..other - 1).contains(&k) && draw.chance(missing) {
+                    continue;
+                }
+                let (a, b) = if down {
+                    (name(line, k), name(line, k + 1))
+                } else {
+                    (name(k, line), name(k + 1, line))
+                };
+                let mut s = if down { columns[line as usize] } else { rows[line as usize] };
+                if down && one_way[line as usize] {
+                    (s.forward, s.backward) = if line % 2 == 0 { (2, 0) } else { (0, 2) };
+                }
+                let line = bent(draw, net.position(&a), net.position(&b), swing);
+                net.road(&a, &b, line, s, (false, false));
+            }
+        }
+    }
+    net
+}
+
+/// An arterial with signalised crossings, side streets and sometimes a parking lot.
+pub fn arterial(draw: &mut Draw) -> Network {
+    let mut net = Network::new(character(draw, "arterial", 180.0));
+    let mut main = section(draw, Rank::Arterial);
+    main.median = main.median.max(main.lane);
+    let (turn, wave, phase) = (draw.uniform(0.0, TAU), draw.uniform(0.0, 30.0), draw.uniform(0.0, TAU));
+    let place = |x: f64| rotate(Vec2::new(x, wave * (x / 110.0 + phase).sin()), turn);
+    let mut xs = vec![-300.0];
+    let mut x = -150.0 + draw.uniform(-20.0, 20.0);
+    while x < 175.0 {
+        xs.push(x);
+        x += draw.uniform(90.0, 170.0);
+    }
+    xs.push(310.0);
+    let last = xs.len() - 1;
+    let name = |k: usize| format!("a{k}");
+    for (k, &x) in xs.iter().enumerate() {
+        if k == 0 || k == last {
+            net.end(&name(k), place(x));
+        } else {
+            let kind = control(draw, 0.7, ["priority_stop"]);
+            net.node(&name(k), place(x), kind, Some(draw.uniform(5.0, 10.0)));
+        }
+    }
+    let mut lots = 0;
+    for k in 0..last {
+        let line = (0..24).map(|i| place(xs[k] + (xs[k + 1] - xs[k]) * f64::from(i) / 23.0)).collect();
+        net.road(&name(k), &name(k + 1), line, main, (k > 0, k + 1 < last));
+        if k == 0 {
+            continue;
+        }
+        let here = place(xs[k]);
+        let across = left_of(unit(place(xs[k] + 1.0) - here));
+        for side in [1.0, -1.0] {
+            let choice = draw.unit();
+            if choice < 0.15 {
+                continue;
+            }
+            if choice < 0.35 && lots == 0 {
+                lots += 1;
+                lot_branch(draw, &mut net, &name(k), across * side);
+                continue;
+            }
+            let rank = if draw.chance(0.5) { Rank::Collector } else { Rank::Residential };
+            let street = section(draw, rank);
+            let out = unit(across * side + left_of(across) * draw.normal(0.0, 0.1));
+            let end = here + out * draw.uniform(120.0, 170.0);
+            let id = format!("b{k}_{}", if side > 0.0 { "l" } else { "r" });
+            net.end(&id, end);
+            net.road(&name(k), &id, hermite(here, out, end, out), street, (street.median > 3.0, false));
+        }
+    }
+    net
+}
+
+/// A parking lot behind a junction: an entry, then aisles with perpendicular stalls on both sides.
+fn lot_branch(draw: &mut Draw, net: &mut Network, at: &str, way: Vec2) {
+    let (origin, across) = (net.position(at), left_of(way));
+    let aisle = Section {
+        forward: 1,
+        backward: 1,
+        speed: 10.0 * MPH,
+        lane: 3.2,
+        priority: 1,
+        sidewalk: 0.0,
+        bike: 0.0,
+        parking: 0.0,
+        median: 0.0,
+        rank: Rank::Lot,
+    };
+    let (pitch, half, count) = (17.5, draw.uniform(35.0, 60.0), 1 + draw.below(3));
+    let mut previous = at.to_owned();
+    for k in 0..count {
+        let base = origin + way * (38.0 + pitch * k as f64);
+        let id = format!("l{k}_{at}");
+        net.node(&id, base, "priority", Some(if k == 0 { 4.0 } else { 3.0 }));
+        net.straight(&previous, &id, Section { speed: if k == 0 { 15.0 } else { 10.0 } * MPH, ..aisle });
+        for (name, side) in [("l", 1.0), ("r", -1.0)] {
+            let end = base + across * (side * half);
+            let end_id = format!("{id}_{name}");
+            net.end(&end_id, end);
+            net.straight(&id, &end_id, aisle);
+            for row in [1.0, -1.0] {
+                let shift = way * (row * 6.0);
+                let line = vec![base + across * (side * 8.0) + shift, end + shift];
+                let nose = way * row;
+                net.stalls.push((line, nose.y.atan2(nose.x)));
+            }
+        }
+        previous = id;
+    }
+    let (near, far) = (38.0 - 9.0, 38.0 + pitch * (count - 1) as f64 + 9.0);
+    let corner = |along: f64, side: f64| origin + way * along + across * (side * (half + 3.0));
+    net.paved.push(vec![corner(near, 1.0), corner(near, -1.0), corner(far, -1.0), corner(far, 1.0)]);
+}
+
+/// A street with the entry of a parking lot.
+pub fn parking_lot(draw: &mut Draw) -> Network {
+    let mut net = Network::new(character(draw, "lot", 130.0));
+    let main = section(draw, Rank::Collector);
+    let (west, east) = (Vec2::new(-220.0, draw.normal(0.0, 30.0)), Vec2::new(220.0, draw.normal(0.0, 30.0)));
+    net.end("w", west);
+    net.end("e", east);
+    let kind = control(draw, 0.25, ["priority", "priority_stop"]);
+    net.node("c", Vec2::zeros(), kind, Some(6.0));
+    let turn = main.median > 3.0;
+    let x = Vec2::new(1.0, 0.0);
+    net.road("w", "c", hermite(west, x, Vec2::zeros(), x), main, (false, turn));
+    net.road("c", "e", hermite(Vec2::zeros(), x, east, unit(Vec2::new(1.0, 0.1))), main, (turn, false));
+    lot_branch(draw, &mut net, "c", Vec2::new(0.0, 1.0));
+    if draw.chance(0.6) {
+        let street = section(draw, Rank::Residential);
+        let south = Vec2::new(draw.normal(0.0, 20.0), -150.0);
+        net.end("s", south);
+        let down = Vec2::new(0.0, -1.0);
+        net.road("c", "s", hermite(Vec2::zeros(), down, south, down), street, (false, false));
+    }
+    net
+}
