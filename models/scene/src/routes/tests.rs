@@ -215,3 +215,44 @@ fn lane_changes_lead_to_the_lane_beside() {
         assert!(routes[0].goal_lateral_m.abs() < 0.2);
     }
 }
+
+#[test]
+fn graphs_are_shared_between_threads() {
+    fn shared<T: Send + Sync>(_: &T) {}
+    shared(&LaneGraph::new(&crossing()));
+}
+
+#[test]
+fn recorded_sides_hold_over_their_ranges() {
+    let mut map = two_lanes();
+    let beside = crate::map::Neighbor {
+        lane: "left".into(),
+        own_range: (50, 100),
+        other_range: (60, 110),
+        boundaries: Vec::new(),
+    };
+    map.lanes[0].left_neighbors = vec![beside];
+    let graph = LaneGraph::new(&map);
+    let side = &graph.lanes()[0].left[0];
+    assert!(side.same_direction && side.across(99.0).is_none());
+    assert!((side.across(150.0).unwrap() - 170.0).abs() < 1e-6);
+    assert!(graph.lanes()[1].right.is_empty(), "sides are as recorded once some are");
+}
+
+#[test]
+fn a_goal_beyond_the_last_lane_is_met_straight_on() {
+    let path = Polyline::new(line(v(0.0, 0.0), v(30.0, 0.0)));
+    let goal = EndPose { position: v(45.0, 1.0), heading_rad: None };
+    let bent = base_path(&path, Pose::xyh(2.0, 0.5, 0.0), 5.0, AgentType::Vehicle, Some(goal));
+    assert_eq!(bent.last().position, goal.position);
+    assert!(bent.last().heading_rad.abs() < 0.02 && bent.max_curvature(0.0, 99.0, 2.0) < 0.05);
+}
+
+#[test]
+fn a_goal_behind_is_met_by_one_cubic() {
+    let path = Polyline::new(line(v(0.0, 0.0), v(30.0, 0.0)));
+    let goal = EndPose { position: v(-12.0, 6.0), heading_rad: Some(3.0) };
+    let bent = base_path(&path, Pose::xyh(2.0, 0.0, 0.0), 5.0, AgentType::Vehicle, Some(goal));
+    assert!((bent.last().position - goal.position).norm() < 1e-9);
+    assert!((bent.first().heading_rad).abs() < 0.1);
+}
