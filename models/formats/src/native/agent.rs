@@ -1,6 +1,7 @@
 //! Road users in a scene document.
 
-use super::conditions::{ConditionsDoc, Context, Window};
+use super::conditions::ConditionsDoc;
+use super::resolve::{Context, Window};
 use super::value::words;
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, Problems};

@@ -1,9 +1,12 @@
 //! The whole scene document.
 
 use super::agent::AgentDoc;
+use super::any::AnyDoc;
 use super::generated::GeneratedDoc;
+use super::lists::{bounded, capped};
 use super::map::{MapDoc, MapField, MapRef};
-use super::value::{AnyDoc, Members, PointDoc};
+use super::value::{Members, PointDoc};
+use crate::limits::{MAX_AGENTS, MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, Problems, ReadError, code};
 use scene::{Agent, ContentHash, LaneMap, Meta, Origin, STEP_S, Scene, Signal, SignalState, Timing};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -42,16 +45,17 @@ pub struct MetaDoc {
     /// Scene that this one is a variant of.
     pub parent_id: Option<String>,
     /// Words to find it by.
+    #[serde(deserialize_with = "bounded::<_, _, 256>")]
     pub tags: Vec<String>,
     /// Free text.
     pub notes: String,
     /// Version of the program that made it.
     pub created_with: Option<String>,
     /// WOMD's objects of interest, by road user's id.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, MAX_AGENTS>")]
     pub objects_of_interest: Vec<String>,
     /// WOMD's tracks to predict: road user's id and difficulty.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, MAX_AGENTS>")]
     pub tracks_to_predict: Vec<(String, u32)>,
     /// The source's times of the steps, seconds, when they are not exactly 0.1 s apart from zero.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -114,6 +118,7 @@ pub struct SignalDoc {
     pub stop_m: Option<PointDoc>,
     /// Run-length states; first steps rise.
     #[schemars(length(min = 1))]
+    #[serde(deserialize_with = "bounded::<_, _, MAX_STEPS>")]
     pub states: Vec<RunDoc>,
 }
 
@@ -150,11 +155,11 @@ pub struct SceneDoc {
     /// Map, or its hash.
     pub map: MapField,
     /// Traffic signals.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "capped::<_, _, { MAX_SIGNALS + 1 }>")]
     #[schemars(length(max = 512))]
     pub signals: Vec<SignalDoc>,
     /// Road users.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "capped::<_, _, { MAX_AGENTS + 1 }>")]
     #[schemars(length(max = 256))]
     pub agents: Vec<AgentDoc>,
     /// What the generator added.

@@ -1,6 +1,8 @@
 //! The generator's part of a scene document.
 
-use super::value::{AnyDoc, Members, check_integer, round_m, round_rad};
+use super::any::AnyDoc;
+use super::lists::bounded;
+use super::value::{Members, check_integer, round_m, round_rad};
 use crate::problem::Problems;
 use scene::{AgentFutures, Future, Generated, Sample, State};
 use schemars::JsonSchema;
@@ -36,6 +38,7 @@ pub struct AgentFuturesDoc {
     /// Index into `modes` of the one that is shown and exported.
     pub chosen: u64,
     /// By falling probability.
+    #[serde(deserialize_with = "bounded::<_, _, 64>")]
     pub modes: Vec<FutureDoc>,
 }
 
@@ -76,6 +79,7 @@ pub struct GeneratedDoc {
     #[serde(default)]
     pub chosen_sample: u64,
     /// Independent answers.
+    #[serde(deserialize_with = "bounded::<_, _, 256>")]
     pub samples: Vec<SampleDoc>,
 }
 

@@ -4,15 +4,20 @@
 //! becomes a [`Scene`] in one step, [`SceneDoc::into_scene`].
 
 mod agent;
-pub mod conditions;
+mod any;
+mod conditions;
 mod document;
 mod generated;
 mod json;
+mod lists;
 mod map;
+mod map_domain;
+mod resolve;
 mod value;
 
 pub use agent::{AgentDoc, TrackDoc};
-pub use conditions::{ConditionsDoc, Context, Frame, GoalDoc, Ranges, StartDoc, VelocityDoc, Window};
+pub use any::{AnyDoc, MAX_VALUES};
+pub use conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc};
 pub use document::{FORMAT, MapForm, MetaDoc, OriginDoc, RunDoc, SceneDoc, SignalDoc, TimeDoc, VERSION};
 pub use generated::{AgentFuturesDoc, FutureDoc, GeneratedDoc, SampleDoc};
 pub use json::from_json;
@@ -20,7 +25,8 @@ pub use map::{
     AreaDoc, BoundaryDoc, DrivableDoc, LaneDoc, MapDoc, MapField, MapRef, NeighborDoc, ROAD_EDGE_TYPES,
     ROAD_LINE_TYPES, RoadEdgeDoc, RoadLineDoc, StopSignDoc,
 };
-pub use value::{AnyDoc, MAX_SAFE_INTEGER, Members, PointDoc, PointsDoc, round_m, round_rad};
+pub use resolve::{Context, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, Ranges, Window, check_goal_time};
+pub use value::{MAX_MEMBERS, MAX_SAFE_INTEGER, Members, PointDoc, PointsDoc, round_m, round_rad};
 
 use crate::problem::{Kind, ReadError};
 use scene::Scene;

@@ -4,10 +4,9 @@ use crate::problem::{FieldProblem, code};
 use scene::Vec2;
 use scene::map::Points;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::ser::{SerializeSeq, Serializer};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -16,6 +15,9 @@ use std::marker::PhantomData;
 
 /// Greatest integer that JavaScript holds exactly.
 pub const MAX_SAFE_INTEGER: u64 = (1 << 53) - 1;
+
+/// Most members of an object that is keyed by names.
+pub const MAX_MEMBERS: usize = 256;
 
 /// One `[x, y]` or `[x, y, z]`, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +56,7 @@ impl<'de> Deserialize<'de> for PointDoc {
                 let x = seq.next_element()?.ok_or_else(|| A::Error::invalid_length(0, &self))?;
                 let y = seq.next_element()?.ok_or_else(|| A::Error::invalid_length(1, &self))?;
                 let z = seq.next_element()?;
-                if seq.next_element::<serde::de::IgnoredAny>()?.is_some() {
+                if seq.next_element::<IgnoredAny>()?.is_some() {
                     return Err(A::Error::invalid_length(4, &self));
                 }
                 Ok(PointDoc { x, y, z })
@@ -151,7 +153,7 @@ impl JsonSchema for PointsDoc {
     }
 }
 
-/// A JSON object whose member names may not repeat.
+/// A JSON object of at most [`MAX_MEMBERS`] members whose names may not repeat.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Members<T>(pub BTreeMap<String, T>);
@@ -175,6 +177,9 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Members<T> {
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Members<T>, A::Error> {
                 let mut members = BTreeMap::new();
                 while let Some(key) = map.next_key::<String>()? {
+                    if members.len() >= MAX_MEMBERS {
+                        return Err(A::Error::custom(format_args!("more than {MAX_MEMBERS} members")));
+                    }
                     match members.entry(key) {
                         Entry::Vacant(slot) => {
                             slot.insert(map.next_value()?);
@@ -199,81 +204,6 @@ impl<T: JsonSchema> JsonSchema for Members<T> {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let value = generator.subschema_for::<T>();
         json_schema!({"type": "object", "additionalProperties": value})
-    }
-
-    fn inline_schema() -> bool {
-        true
-    }
-}
-
-/// Any JSON, kept as it is; repeated member names are refused.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-#[serde(transparent)]
-pub struct AnyDoc(pub Value);
-
-impl<'de> Deserialize<'de> for AnyDoc {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct AnyVisitor;
-        impl<'de> Visitor<'de> for AnyVisitor {
-            type Value = AnyDoc;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("any JSON value")
-            }
-
-            fn visit_unit<E: Error>(self) -> Result<AnyDoc, E> {
-                Ok(AnyDoc(Value::Null))
-            }
-
-            fn visit_bool<E: Error>(self, v: bool) -> Result<AnyDoc, E> {
-                Ok(AnyDoc(v.into()))
-            }
-
-            fn visit_i64<E: Error>(self, v: i64) -> Result<AnyDoc, E> {
-                Ok(AnyDoc(v.into()))
-            }
-
-            fn visit_u64<E: Error>(self, v: u64) -> Result<AnyDoc, E> {
-                Ok(AnyDoc(v.into()))
-            }
-
-            fn visit_f64<E: Error>(self, v: f64) -> Result<AnyDoc, E> {
-                Ok(AnyDoc(v.into()))
-            }
-
-            fn visit_str<E: Error>(self, v: &str) -> Result<AnyDoc, E> {
-                Ok(AnyDoc(v.into()))
-            }
-
-            fn visit_string<E: Error>(self, v: String) -> Result<AnyDoc, E> {
-                Ok(AnyDoc(v.into()))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<AnyDoc, A::Error> {
-                let mut list = Vec::new();
-                while let Some(AnyDoc(value)) = seq.next_element()? {
-                    list.push(value);
-                }
-                Ok(AnyDoc(Value::Array(list)))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<AnyDoc, A::Error> {
-                let deserializer = serde::de::value::MapAccessDeserializer::new(map);
-                let Members(members) = Members::<AnyDoc>::deserialize(deserializer)?;
-                Ok(AnyDoc(Value::Object(members.into_iter().map(|(k, v)| (k, v.0)).collect())))
-            }
-        }
-        deserializer.deserialize_any(AnyVisitor)
-    }
-}
-
-impl JsonSchema for AnyDoc {
-    fn schema_name() -> Cow<'static, str> {
-        "Any".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!(true)
     }
 
     fn inline_schema() -> bool {

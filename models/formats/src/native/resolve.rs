@@ -1,0 +1,313 @@
+//! Conditions from document to domain: every field checked, goals turned into the scene frame.
+
+use super::conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc};
+use crate::problem::{FieldProblem, Problems, code};
+use scene::geometry::rotate;
+use scene::{AgentType, Conditions, Goal, STEP_S, Start, State, Vec2, wrap_angle};
+use serde::Serialize;
+
+/// Farthest a goal may lie from the start, metres.
+pub const MAX_GOAL_DISTANCE_M: f64 = 1_500.0;
+/// Farthest a coordinate may lie from the scene's origin, metres.
+pub const MAX_COORDINATE_M: f64 = 10_000.0;
+/// Below this speed a velocity gives no heading, m/s.
+const HEADING_SPEED_MPS: f64 = 0.05;
+const ANGLE_RAD: (f64, f64) = (-1_000.0, 1_000.0);
+const COORDINATE_M: (f64, f64) = (-MAX_COORDINATE_M, MAX_COORDINATE_M);
+
+/// Allowed sizes and speeds of one agent type; both ends are allowed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Ranges {
+    /// Metres.
+    pub length_m: (f64, f64),
+    /// Metres.
+    pub width_m: (f64, f64),
+    /// m/s; also the norm of a velocity.
+    pub speed_mps: (f64, f64),
+}
+
+impl Ranges {
+    /// The table's column for a type; `other` is held to the vehicle's.
+    pub fn of(agent_type: AgentType) -> Self {
+        match agent_type {
+            AgentType::Vehicle | AgentType::Other => {
+                Self { length_m: (1.5, 25.0), width_m: (0.5, 4.0), speed_mps: (0.0, 60.0) }
+            }
+            AgentType::Pedestrian => {
+                Self { length_m: (0.2, 2.0), width_m: (0.2, 2.0), speed_mps: (0.0, 12.0) }
+            }
+            AgentType::Cyclist => Self { length_m: (0.5, 3.5), width_m: (0.2, 1.5), speed_mps: (0.0, 25.0) },
+        }
+    }
+}
+
+/// The window that a goal's time must lie in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Scene time of the start, seconds.
+    pub start_s: f64,
+    /// Length, seconds.
+    pub horizon_s: f64,
+}
+
+impl Default for Window {
+    /// As wide as any window of any scene: for conditions that are stored, not yet asked for.
+    fn default() -> Self {
+        Self { start_s: 0.0, horizon_s: 80.0 }
+    }
+}
+
+/// What conditions are read against.
+#[derive(Clone, Copy, Debug)]
+pub struct Context {
+    /// The road user's own type.
+    pub agent_type: AgentType,
+    /// Its logged state at the window's start, when there is one.
+    pub start: Option<State>,
+    /// Bounds of the goal's time.
+    pub window: Window,
+}
+
+impl ConditionsDoc {
+    /// Checks every field and turns the goal into the scene frame. `pointer` is where this document
+    /// lies in the request, such as `/conditions/12`.
+    ///
+    /// # Errors
+    /// All faults: `half-position`, `out-of-range`, `invalid-field`, and `start-missing` when a goal
+    /// of frame `agent` has no start pose to be measured from.
+    pub fn resolve(&self, pointer: &str, context: &Context) -> Result<Conditions, Vec<FieldProblem>> {
+        let mut problems = Problems::default();
+        if self.agent_type == Some(AgentType::Other) {
+            problems.invalid(format!("{pointer}/type"), "vehicle, pedestrian or cyclist expected");
+        }
+        let reader = Reader { ranges: Ranges::of(self.agent_type.unwrap_or(context.agent_type)) };
+        let size = |name: &str, value: Option<f64>, range, problems: &mut Problems| {
+            value.filter(|v| problems.range(&format!("{pointer}/{name}"), range, *v))
+        };
+        let length_m = size("length_m", self.length_m, reader.ranges.length_m, &mut problems);
+        let width_m = size("width_m", self.width_m, reader.ranges.width_m, &mut problems);
+        let start = match &self.start {
+            Some(doc) => reader.start(&format!("{pointer}/start"), doc, &mut problems),
+            None => Start::default(),
+        };
+        let origin = Pose {
+            position: start.position.or(context.start.map(|s| s.position())),
+            heading_rad: start.heading_rad.or(context.start.map(|s| s.heading_rad)),
+        };
+        let goal = match &self.goal {
+            Some(doc) => {
+                let pointer = format!("{pointer}/goal");
+                let agent_frame = self.frame == Some(Frame::Agent);
+                let goal = if agent_frame {
+                    reader.agent_goal(&pointer, doc, &origin, &mut problems)
+                } else {
+                    reader.scene_goal(&pointer, doc, &origin, &mut problems)
+                };
+                let time_s = doc.time_s.and_then(|t| goal_time(&pointer, t, context.window, &mut problems));
+                Goal { time_s, ..goal }
+            }
+            None => Goal::default(),
+        };
+        if problems.0.is_empty() {
+            Ok(Conditions { agent_type: self.agent_type, length_m, width_m, start, goal })
+        } else {
+            Err(problems.0)
+        }
+    }
+
+    /// The document of domain conditions, in the scene frame.
+    pub fn from_conditions(conditions: &Conditions) -> Self {
+        let Conditions { agent_type, length_m, width_m, start, goal } = conditions;
+        let start_doc = StartDoc {
+            x_m: start.position.map(|p| p.x),
+            y_m: start.position.map(|p| p.y),
+            heading_rad: start.heading_rad,
+            speed_mps: start.speed_mps,
+            velocity: None,
+        };
+        let goal_doc = GoalDoc {
+            x_m: goal.position.map(|p| p.x),
+            y_m: goal.position.map(|p| p.y),
+            heading_rad: goal.heading_rad,
+            speed_mps: goal.speed_mps,
+            time_s: goal.time_s,
+            ..GoalDoc::default()
+        };
+        Self {
+            agent_type: *agent_type,
+            length_m: *length_m,
+            width_m: *width_m,
+            start: (start_doc != StartDoc::default()).then_some(start_doc),
+            goal: (goal_doc != GoalDoc::default()).then_some(goal_doc),
+            frame: None,
+        }
+    }
+}
+
+/// Checks a goal's time against a window and snaps it to the step.
+pub fn check_goal_time(pointer: &str, time_s: f64, window: Window) -> Result<f64, FieldProblem> {
+    let snapped = (time_s / STEP_S).round() / (1.0 / STEP_S).round();
+    let (min, max) = (window.start_s + 0.5, window.start_s + window.horizon_s);
+    if snapped >= min - 1e-6 && snapped <= max + 1e-6 {
+        Ok(snapped)
+    } else {
+        Err(FieldProblem::range(pointer, round_s(min), round_s(max), time_s))
+    }
+}
+
+fn round_s(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}
+
+fn goal_time(pointer: &str, time_s: f64, window: Window, problems: &mut Problems) -> Option<f64> {
+    check_goal_time(&format!("{pointer}/time_s"), time_s, window).map_err(|p| problems.push(p)).ok()
+}
+
+/// Start pose as far as it is known.
+struct Pose {
+    position: Option<Vec2>,
+    heading_rad: Option<f64>,
+}
+
+struct Reader {
+    ranges: Ranges,
+}
+
+impl Reader {
+    fn start(&self, pointer: &str, doc: &StartDoc, problems: &mut Problems) -> Start {
+        let names = ("x_m", "y_m", COORDINATE_M);
+        let position = pair(pointer, names, (doc.x_m, doc.y_m), problems);
+        let heading = angle(&format!("{pointer}/heading_rad"), doc.heading_rad, problems);
+        let (speed_mps, course) =
+            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), Frame::Scene, problems);
+        Start { position, heading_rad: heading.or(course), speed_mps }
+    }
+
+    fn scene_goal(&self, pointer: &str, doc: &GoalDoc, origin: &Pose, problems: &mut Problems) -> Goal {
+        let foreign = [("ahead_m", doc.ahead_m), ("left_m", doc.left_m), ("turn_rad", doc.turn_rad)];
+        refuse(pointer, &foreign, "needs \"frame\": \"agent\"", problems);
+        let position = pair(pointer, ("x_m", "y_m", COORDINATE_M), (doc.x_m, doc.y_m), problems);
+        if let (Some(goal), Some(start)) = (position, origin.position) {
+            check_distance(&format!("{pointer}/x_m"), (goal - start).norm(), problems);
+        }
+        let heading = angle(&format!("{pointer}/heading_rad"), doc.heading_rad, problems);
+        let (speed_mps, course) =
+            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), Frame::Scene, problems);
+        Goal { position, heading_rad: heading.or(course), speed_mps, time_s: None }
+    }
+
+    fn agent_goal(&self, pointer: &str, doc: &GoalDoc, origin: &Pose, problems: &mut Problems) -> Goal {
+        let foreign = [("x_m", doc.x_m), ("y_m", doc.y_m), ("heading_rad", doc.heading_rad)];
+        refuse(pointer, &foreign, "needs \"frame\": \"scene\"", problems);
+        let range = (-MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M);
+        let offset = pair(pointer, ("ahead_m", "left_m", range), (doc.ahead_m, doc.left_m), problems);
+        let turn = angle(&format!("{pointer}/turn_rad"), doc.turn_rad, problems);
+        let (speed_mps, course) =
+            self.speed(pointer, doc.speed_mps, doc.velocity.as_ref(), Frame::Agent, problems);
+        let turn = turn.or(course);
+        let needs_pose = offset.is_some() || turn.is_some();
+        let missing = origin.heading_rad.is_none() || (offset.is_some() && origin.position.is_none());
+        if needs_pose && missing {
+            let detail = "frame \"agent\" needs a start pose, from the log or from \"start\"";
+            problems.push(FieldProblem::new(pointer, code::START_MISSING, detail));
+        }
+        let heading = origin.heading_rad.unwrap_or(0.0);
+        let position = match (offset, origin.position) {
+            (Some(offset), Some(start)) => {
+                check_distance(&format!("{pointer}/ahead_m"), offset.norm(), problems);
+                let goal = start + rotate(offset, heading);
+                let far = goal.x.abs().max(goal.y.abs());
+                problems.range(&format!("{pointer}/ahead_m"), COORDINATE_M, far).then_some(goal)
+            }
+            _ => None,
+        };
+        Goal { position, heading_rad: turn.map(|t| wrap(heading + t)), speed_mps, time_s: None }
+    }
+
+    /// Speed, and the direction of a velocity that is fast enough to have one.
+    fn speed(
+        &self,
+        pointer: &str,
+        speed: Option<f64>,
+        velocity: Option<&VelocityDoc>,
+        frame: Frame,
+        problems: &mut Problems,
+    ) -> (Option<f64>, Option<f64>) {
+        let Some(velocity) = velocity else {
+            let speed =
+                speed.filter(|v| problems.range(&format!("{pointer}/speed_mps"), self.ranges.speed_mps, *v));
+            return (speed.map(|v| v + 0.0), None);
+        };
+        let pointer_v = format!("{pointer}/velocity");
+        if speed.is_some() {
+            problems.invalid(&pointer_v, "give either speed_mps or velocity, not both");
+        }
+        let scene = [("x_mps", velocity.x_mps), ("y_mps", velocity.y_mps)];
+        let agent = [("ahead_mps", velocity.ahead_mps), ("left_mps", velocity.left_mps)];
+        let (own, foreign, hint) = match frame {
+            Frame::Scene => (scene, agent, "only in a goal of frame \"agent\""),
+            Frame::Agent => (agent, scene, "only in frame \"scene\""),
+        };
+        refuse(&pointer_v, &foreign, hint, problems);
+        let [(first, a), (second, b)] = own;
+        let (Some(a), Some(b)) = (a, b) else {
+            if a.is_some() || b.is_some() || foreign.iter().all(|f| f.1.is_none()) {
+                problems.invalid(&pointer_v, format!("{first} and {second} are given together"));
+            }
+            return (None, None);
+        };
+        let norm = a.hypot(b);
+        if !problems.range(&pointer_v, self.ranges.speed_mps, norm) {
+            return (None, None);
+        }
+        (Some(norm), (norm >= HEADING_SPEED_MPS).then(|| wrap(b.atan2(a))))
+    }
+}
+
+fn refuse(pointer: &str, members: &[(&str, Option<f64>)], why: &str, problems: &mut Problems) {
+    for (name, _) in members.iter().filter(|m| m.1.is_some()) {
+        problems.invalid(format!("{pointer}/{name}"), format!("{name} {why}"));
+    }
+}
+
+fn pair(
+    pointer: &str,
+    (first, second, range): (&str, &str, (f64, f64)),
+    values: (Option<f64>, Option<f64>),
+    problems: &mut Problems,
+) -> Option<Vec2> {
+    match values {
+        (Some(a), Some(b)) => {
+            let a_fits = problems.range(&format!("{pointer}/{first}"), range, a);
+            let b_fits = problems.range(&format!("{pointer}/{second}"), range, b);
+            // Adding zero turns -0.0 into 0.0.
+            (a_fits && b_fits).then(|| Vec2::new(a + 0.0, b + 0.0))
+        }
+        (None, None) => None,
+        (given, _) => {
+            let (has, lacks) = if given.is_some() { (first, second) } else { (second, first) };
+            let detail = format!("{has} is fixed, {lacks} is not; fix both or neither");
+            problems.push(FieldProblem::new(format!("{pointer}/{has}"), code::HALF_POSITION, detail));
+            None
+        }
+    }
+}
+
+fn angle(pointer: &str, value: Option<f64>, problems: &mut Problems) -> Option<f64> {
+    value.filter(|v| problems.range(pointer, ANGLE_RAD, *v)).map(wrap)
+}
+
+/// Wraps an angle, leaving those within [-pi, pi) bit for bit.
+fn wrap(value: f64) -> f64 {
+    let inside = (-std::f64::consts::PI..std::f64::consts::PI).contains(&value);
+    if inside { value + 0.0 } else { wrap_angle(value) }
+}
+
+fn check_distance(pointer: &str, distance_m: f64, problems: &mut Problems) {
+    if distance_m > MAX_GOAL_DISTANCE_M {
+        let mut problem = FieldProblem::range(pointer, 0.0, MAX_GOAL_DISTANCE_M, distance_m);
+        problem.detail =
+            format!("the goal is {distance_m:.1} m from the start, at most {MAX_GOAL_DISTANCE_M} m expected");
+        problems.push(problem);
+    }
+}
