@@ -18,7 +18,7 @@ const layerRules = LAYERS.map((layer, i) => ({
 export default tseslint.config(
   { ignores: ['dist', 'node_modules'] },
   ...tseslint.configs.recommended,
-  { rules: { '@typescript-eslint/no-non-null-assertion': 'off', eqeqeq: 'error', 'no-console': 'error' } },
+  { rules: { '@typescript-eslint/no-non-null-assertion': 'off', eqeqeq: ['error', 'always', { null: 'ignore' }], 'no-console': 'error' } },
   { files: ['test/**'], rules: { 'no-console': 'off' } },
   { files: ['src/model/**/*.ts'], rules: { 'no-restricted-globals': ['error', 'document', 'window', 'fetch', 'localStorage'] } },
   ...layerRules,

@@ -72,11 +72,12 @@ function find(c: Context, raw: string): Entry[] {
   const forAgent: Group[] = ['Goal and futures', 'Move'];
   for (const a of ACTIONS) {
     if (a.id === 'palette' || (!q && a.group === 'Move')) continue;
-    if (q && !`${a.label} ${a.help} ${a.group}`.toLowerCase().includes(q)) continue;
+    if (q && !(a.group === 'Move' ? a.label : `${a.label} ${a.help}`).toLowerCase().includes(q)) continue;
     const can = possible(c, a);
     out.push({ label: a.label, note: can === true ? a.help : can, group: agent && forAgent.includes(a.group) ? `For ${agent.name}` : a.group, icon: a.icon ?? 'key', keys: a.keys ?? [], off: can !== true, run: () => perform(c, a.id) });
   }
-  out.sort((x, y) => Number(x.off) - Number(y.off) || Number(!x.group.startsWith('For')) - Number(!y.group.startsWith('For')) || x.group.localeCompare(y.group));
+  const rank = (e: Entry): number => (q && e.label.toLowerCase().includes(q) ? 0 : 1);
+  out.sort((x, y) => Number(x.off) - Number(y.off) || Number(!x.group.startsWith('For')) - Number(!y.group.startsWith('For')) || x.group.localeCompare(y.group) || rank(x) - rank(y));
   if (q) out.push(...roadUsers(c, q), ...scenes(c, q), ...jump(c, q));
   return out.slice(0, 60);
 }

@@ -13,6 +13,7 @@ const BAND_M = 5.2;
 
 export class MapPicture {
   private readonly roads = new Map<number, Layer>();
+  private readonly openRoads = new Map<number, Layer>();
   private readonly drivable = new Layer();
   private readonly bike = new Map<number, Layer>();
   private readonly walks = new Layer();
@@ -43,7 +44,12 @@ export class MapPicture {
     if (lane.kind === 'walk') this.walks.add(pts);
     else if (lane.kind === 'bike' && !lane.inside) { layerOf(this.bike, Math.min(2.4, lane.width)).add(pts); this.outlines.add(pts); }
     else if (lane.kind === 'bike') layerOf(this.roads, 2.4).add(pts);
-    else { layerOf(this.roads, this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2)).add(pts); this.outlines.add(pts); }
+    else {
+      // A lane that ends at the rim of the map is cut square; where lanes meet, round ends close the gap.
+      const open = !lane.next.length || !lane.prev.length;
+      layerOf(open ? this.openRoads : this.roads, this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2)).add(pts);
+      this.outlines.add(pts);
+    }
   }
 
   paint(g: CanvasRenderingContext2D, v: View, showLanes: boolean): void {
@@ -67,6 +73,14 @@ export class MapPicture {
     if (showLanes) this.paintLaneCentres(g, box, px);
   }
 
+  private strokeBands(g: CanvasRenderingContext2D, box: Box, colour: string, extra: number, withBikes = true): void {
+    g.lineCap = 'butt';
+    for (const [w, layer] of this.openRoads) this.strokeAll(g, layer, box, colour, w + extra);
+    if (withBikes) for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, colour, w + extra);
+    g.lineCap = 'round';
+    for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, colour, w + extra);
+  }
+
   private strokeAll(g: CanvasRenderingContext2D, layer: Layer, box: Box, colour: string, width: number, dash: number[] = []): void {
     g.strokeStyle = colour;
     g.lineWidth = width;
@@ -80,8 +94,7 @@ export class MapPicture {
     const c = colours();
     const wide = 3.4;
     for (const [extra, colour] of [[wide * 2 + 2.4 * px, c['map-grid']], [wide * 2, c['map-sidewalk']]] as const) {
-      for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, colour, w + extra);
-      for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, colour, w + extra);
+      this.strokeBands(g, box, colour, extra);
       this.strokeAll(g, this.walks, box, colour, 3 + extra - wide * 2);
       if (!this.drivable.empty) this.strokeAll(g, this.drivable, box, colour, extra);
     }
@@ -92,20 +105,21 @@ export class MapPicture {
     // Without kerb lines in the map, the rim of a slightly wider band is the kerb.
     if (this.kerbs.empty) {
       const rim = Math.max(2.6 * px, 0.4);
-      for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, c['map-kerb'], w + rim);
-      for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, c['map-kerb'], w + rim);
+      this.strokeBands(g, box, c['map-kerb'], rim);
       if (!this.drivable.empty) this.strokeAll(g, this.drivable, box, c['map-kerb'], rim);
     }
     g.fillStyle = c['map-asphalt'];
     this.drivable.fill(g, box, 'evenodd');
-    for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, c['map-asphalt'], w);
+    this.strokeBands(g, box, c['map-asphalt'], 0, false);
     g.fillStyle = c['map-lot'];
     this.driveways.fill(g, box);
     this.bumps.fill(g, box);
   }
 
   private paintBikeLanes(g: CanvasRenderingContext2D, box: Box): void {
+    g.lineCap = 'butt';
     for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, colours()['map-bike'], w);
+    g.lineCap = 'round';
   }
 
   private paintCrosswalks(g: CanvasRenderingContext2D, v: View): void {

@@ -9,7 +9,7 @@ import { findChanges, motionOf, type Change } from '../model/changes';
 import { readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
 import type { Pose, Vec } from '../model/geometry';
-import type { LocalReach } from '../model/reach';
+import { localReach, type LocalReach } from '../model/reach';
 import type { SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 
@@ -48,7 +48,6 @@ export class Editor {
   readonly changes = signal<readonly Change[]>([]);
   readonly showBefore = signal(true);
   readonly drag = signal<DragInfo | null>(null);
-  readonly localReach = signal<LocalReach | null>(null);
   readonly liveReach = signal<{ id: string; reach: Reach } | null>(null);
   readonly selectedEvent = signal<TrafficEvent | null>(null);
 
@@ -84,6 +83,13 @@ export class Editor {
     const d = this.draft.value;
     return d && d.id === id ? d.futures : this.motion.value.futures.get(id) ?? null;
   });
+  /** The quick verdict on the goal of the selected road user, worked out here without asking anybody. */
+  readonly localReach = computed<LocalReach | null>(() => {
+    const a = this.agent.value, s = this.scene.value;
+    const start = a && startPose(a);
+    if (!a || !s || !start || !a.goal.pos) return null;
+    return localReach(s.map, a, start, a.goal, this.unitOf(a));
+  });
   /** Index of the future in force for the selected road user. */
   readonly chosen = computed<number>(() => {
     const f = this.futures.value, a = this.agent.value;
@@ -115,7 +121,6 @@ export class Editor {
       this.draft.value = null;
       this.changes.value = [];
       this.drag.value = null;
-      this.localReach.value = null;
       this.liveReach.value = null;
       this.selectedEvent.value = null;
       this.motion.value = emptyMotion(sceneKey(scene));
@@ -132,7 +137,6 @@ export class Editor {
     batch(() => {
       this.selection.value = id;
       this.draft.value = null;
-      this.localReach.value = null;
       this.liveReach.value = null;
       this.hoverFuture.value = null;
       this.selectedEvent.value = null;

@@ -1,7 +1,6 @@
 // The pointer: hover, select, drag a handle, pan, zoom. Pointer moves are gathered and worked off once a frame.
 import { clamp, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { setBoth, setGoal, setStart, type Command } from '../model/commands';
-import { localReach } from '../model/reach';
 import { canChange, startPose, type Agent, type GoalSpec, type StartSpec } from '../model/scene';
 import { speedForTip } from '../draw/handles';
 import type { Stage } from '../draw/stage';
@@ -170,8 +169,7 @@ export class Gestures {
     if (!command) return;
     d.command = command;
     editor.preview(command);
-    const a = editor.agent.peek();
-    if (a) this.afterPreview(a);
+    editor.liveReach.value = null;
     this.asking.preview(d.agent.id);
     this.stage.invalidate('overlay');
   }
@@ -259,15 +257,6 @@ export class Gestures {
     return clamp(v, 0, SPEED_LIMIT[a.type]);
   }
 
-  private afterPreview(a: Agent): void {
-    const { editor } = this;
-    const start = startPose(a);
-    const scene = editor.scene.peek();
-    if (!start || !scene) return;
-    editor.liveReach.value = null;
-    editor.localReach.value = localReach(scene.map, a, start, a.goal, editor.unitOf(a) === 'm/s' ? 'm/s' : 'km/h');
-  }
-
   private edgeScroll(dt: number): boolean {
     if (!this.press?.moved || matchMedia('(prefers-reduced-motion: reduce)').matches) return false;
     const v = this.stage.view;
@@ -349,7 +338,6 @@ export class Gestures {
     editor.drag.value = null;
     editor.cancelPreview();
     editor.draft.value = null;
-    editor.localReach.value = null;
     editor.liveReach.value = null;
     this.asking.cancelPreviews();
     editor.status.value = { kind: 'ready' };

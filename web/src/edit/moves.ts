@@ -5,6 +5,7 @@ import { choose, clearGoal, setBoth, setGoal, setSize, setStart, type Command } 
 import { LETTERS } from '../model/futures';
 import { limitsOf, localReach } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type StartSpec } from '../model/scene';
+import { toUnit } from '../model/units';
 import type { Editor, Part } from './editor';
 import { lanesFor } from './snap';
 
@@ -112,7 +113,7 @@ export interface Remedy { readonly label: string; readonly note: string; readonl
 export function remedies(e: Editor, a: Agent): Remedy[] {
   const scene = e.scene.value, start = startPose(a);
   if (!scene || !start || !a.goal.pos) return [];
-  const unit = e.unitOf(a) === 'm/s' ? 'm/s' as const : 'km/h' as const;
+  const unit = e.unitOf(a);
   const local = localReach(scene.map, a, start, a.goal, unit);
   const verdict = e.liveReach.value?.id === a.id ? e.liveReach.value.reach : e.motion.value.reach.get(a.id);
   const out: Remedy[] = [];
@@ -130,8 +131,8 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
   if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
     const faster = local.kind === 'far';
     const v = Math.min(limitsOf(a).top, local.speed);
-    const note = unit === 'm/s' ? `${v.toFixed(1)} m/s` : `${Math.ceil(v * 3.6)} km/h`;
-    out.push({ label: faster ? 'Start faster' : 'Start slower', note, icon: 'play', primary: false, command: withField(a, 'start', { speed: faster && unit === 'km/h' ? Math.ceil(v * 3.6) / 3.6 : v }) });
+    const note = unit === 'm/s' ? `${v.toFixed(1)} m/s` : `${Math.ceil(toUnit(v, unit))} ${unit}`;
+    out.push({ label: faster ? 'Start faster' : 'Start slower', note, icon: 'play', primary: false, command: withField(a, 'start', { speed: faster && unit !== 'm/s' ? Math.ceil(v * 3.6) / 3.6 : v }) });
   }
   return out;
 }

@@ -214,7 +214,7 @@ export class Picture {
   private paintReach(g: G, v: View, a: Agent): void {
     const { editor: e } = this;
     const r = e.localReach.value;
-    if (!r || r.kind === 'ok' || !a.goal.pos) return;
+    if (!r || r.kind === 'ok' || !a.goal.pos || !this.unreachable(a)) return;
     const c = colours();
     const w = Math.max(4, a.width * 1.5 * v.z);
     const cut = r.kind === 'far' ? r.max : r.along;

@@ -1,5 +1,5 @@
 // Snapping to lanes and angles. It shows itself and lets go with Alt.
-import { deg, rad, wrapAngle } from '../model/geometry';
+import { deg, insidePolygon, rad, wrapAngle } from '../model/geometry';
 import { nearestLanes, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
 import type { Agent } from '../model/scene';
 
@@ -56,13 +56,20 @@ export function snapHeading(map: LaneMap, a: Agent, x: number, y: number, headin
 
 /** Words for the lane under a point. */
 export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: number, heading: number | null): string {
+  if (a.type === 'pedestrian') return onFoot(map, x, y);
   const hits = nearestLanes(map, x, y, heading, 2.6, () => true);
   const fits = lanesFor(a);
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
-  if (!hit) return a.type === 'pedestrian' ? 'on foot' : 'off the lanes';
+  if (!hit) return 'off the lanes';
   const way = compass(hit.heading);
   const what = hit.lane.kind === 'bike' ? 'bike lane' : hit.lane.kind === 'walk' ? 'pavement' : hit.lane.inside ? 'inside the crossing' : hit.lane.type === 'freeway' ? 'motorway lane' : hit.lane.type === 'bus_lane' ? 'bus lane' : 'lane';
   return hit.lane.inside ? `${what}, ${way}bound` : `${way}bound ${what}`;
+}
+
+function onFoot(map: LaneMap, x: number, y: number): string {
+  if (map.crosswalks.some((p) => insidePolygon(x, y, p))) return 'on a crosswalk';
+  const lane = nearestLanes(map, x, y, null, 1.9, () => true)[0];
+  return !lane || lane.lane.kind === 'walk' ? 'beside the road' : lane.lane.kind === 'bike' ? 'on a bike lane' : 'on the road';
 }
 
 function compass(heading: number): string {

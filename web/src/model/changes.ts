@@ -59,7 +59,8 @@ function sentence(a: Agent, before: Motion, after: Motion, duration: number): { 
   if (end1 < end0 - 1) {
     const late = delay(s0, s1, duration);
     const tail = late !== null ? `, passes ${num(late, 1)} s later` : '';
-    return { words: `slows to ${speedText(low, unit)} ${unit}${tail}`, short: late !== null ? `gives way, ${num(late, 1)} s later` : 'slows' };
+    const slows = low < (ped ? 0.2 : 0.6) ? 'stops briefly' : `slows to ${speedText(low, unit)} ${unit}`;
+    return { words: `${slows}${tail}`, short: late !== null ? `gives way, ${num(late, 1)} s later` : 'slows' };
   }
   if (end1 > end0 + 1) {
     const early = delay(s1, s0, duration);

@@ -2,7 +2,7 @@
 // replaces it when it arrives.
 import { curveBetween, makeLine, pointAt, type Line, type Pose } from './geometry';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from './lanemap';
-import { metres, seconds, speedLabel } from './units';
+import { metres, seconds, speedLabel, type SpeedUnit } from './units';
 import type { Agent, GoalSpec } from './scene';
 
 export interface Limits { readonly accel: number; readonly top: number; readonly brake: number; readonly lateral: number }
@@ -53,7 +53,7 @@ export function pathTo(map: LaneMap, a: Pick<Agent, 'type'>, start: Pose, goal: 
   return { line: makeLine(curveBetween(start, goal)), onLanes: false };
 }
 
-export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, unit: 'km/h' | 'm/s'): LocalReach | null {
+export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, unit: SpeedUnit): LocalReach | null {
   if (!goal.pos) return null;
   const l = limitsOf(a), t = goal.time, v = start.speed;
   const heading = goal.heading ?? Math.atan2(goal.pos[1] - start.y, goal.pos[0] - start.x);
