@@ -6,8 +6,10 @@ use super::{Polyline, Pose};
 use crate::geometry::cross;
 use crate::{AgentType, Vec2, wrap_angle};
 
-/// Distance between the points of a base path, metres.
+/// Greatest distance between the points of a base path: of motor vehicles, and of others, which turn more
+/// sharply, metres.
 const STEP_M: f64 = 1.0;
+const FINE_STEP_M: f64 = 0.4;
 /// Travel over which an offset is blended away: this time at the present speed, seconds.
 const BLEND_S: f64 = 3.0;
 /// Longest blend, metres.
@@ -58,13 +60,17 @@ struct Manner {
     min_blend_m: f64,
     /// Comfortable curvature, 1/m.
     curvature: f64,
+    /// Greatest distance between points, metres.
+    step_m: f64,
 }
 
 impl Manner {
     fn of(agent_type: AgentType, speed_mps: f64) -> Self {
         let min_blend_m = if agent_type == AgentType::Pedestrian { 3.0 } else { 8.0 };
         let blend_m = (BLEND_S * speed_mps).clamp(min_blend_m, MAX_BLEND_M);
-        Self { blend_m, min_blend_m, curvature: cubic::comfortable_curvature(agent_type) }
+        let fine = matches!(agent_type, AgentType::Pedestrian | AgentType::Cyclist);
+        let step_m = if fine { FINE_STEP_M } else { STEP_M };
+        Self { blend_m, min_blend_m, curvature: cubic::comfortable_curvature(agent_type), step_m }
     }
 }
 
@@ -87,11 +93,11 @@ pub fn base_path(
     let foot = path.project_between(start.position, 0.0, START_SEARCH_M);
     let Some(goal) = goal else {
         let rest = path.slice(foot.s_m, path.length_m());
-        return onto(&rest, start, manner, path.length_m()).resample(STEP_M);
+        return onto(&rest, start, manner, path.length_m()).resample(manner.step_m);
     };
     let (extended, goal_s) = reach(path, foot.s_m, goal.position);
     if goal_s - foot.s_m < 1.0 {
-        return direct(start, goal, manner.curvature);
+        return direct(start, goal, manner);
     }
     let between = extended.slice(foot.s_m, goal_s);
     // Both fades share the way where it is short.
@@ -100,7 +106,7 @@ pub fn base_path(
     let room = (entered.length_m() - manner.min_blend_m.min(half)).max(half);
     let bent = ended(&entered, goal, manner, room);
     let met = (bent.first().position - start.position).norm() < 1e-6;
-    if met { bent.resample(STEP_M) } else { direct(start, goal, manner.curvature) }
+    if met { bent.resample(manner.step_m) } else { direct(start, goal, manner) }
 }
 
 /// `path`, whose end is beside `goal`, bent over at most `room_m` so that it ends there.
@@ -112,7 +118,8 @@ fn ended(path: &Polyline, goal: EndPose, manner: Manner, room_m: f64) -> Polylin
 
 /// A lane path that ends beside `goal`, bent so that it ends there, as [`base_path`] does.
 pub(super) fn ending_at(path: &Polyline, goal: EndPose, speed_mps: f64, agent_type: AgentType) -> Polyline {
-    ended(path, goal, Manner::of(agent_type, speed_mps), path.length_m()).resample(STEP_M)
+    let manner = Manner::of(agent_type, speed_mps);
+    ended(path, goal, manner, path.length_m()).resample(manner.step_m)
 }
 
 /// The path, extended straight on where the goal lies beyond its end, and the goal's arc length on it.
@@ -130,15 +137,16 @@ fn reach(path: &Polyline, from_m: f64, goal: Vec2) -> (Polyline, f64) {
 }
 
 /// One cubic from start to goal; with a free heading it ends as a circle through both would.
-fn direct(start: Pose, goal: EndPose, limit: f64) -> Polyline {
+fn direct(start: Pose, goal: EndPose, manner: Manner) -> Polyline {
     let chord = goal.position - start.position;
     if chord.norm() < 0.05 {
         return Polyline::new([start.position, goal.position]);
     }
     let turn = wrap_angle(chord.y.atan2(chord.x) - start.heading_rad);
     let end = Pose::new(goal.position, goal.heading_rad.unwrap_or(start.heading_rad + 2.0 * turn));
-    let join = cubic::best(start, end, limit);
-    join.map_or_else(|| Polyline::new([start.position, goal.position]), |j| j.path.resample(STEP_M))
+    let join = cubic::best(start, end, manner.curvature);
+    let straight = || Polyline::new([start.position, goal.position]);
+    join.map_or_else(straight, |join| join.path.resample(manner.step_m))
 }
 
 /// `path` entered from `start`, whose foot is near its beginning; the bent part is at most `room_m` long.
@@ -148,12 +156,12 @@ fn onto(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Polyline {
     if room_m < 0.1 {
         return straight();
     }
-    let faded = faded(path, start, manner.blend_m.min(room_m));
+    let faded = faded(path, start, manner.blend_m.min(room_m), manner.step_m);
     let bend = |p: &Polyline| p.max_curvature(0.0, room_m, CURVATURE_WINDOW_M);
     match &faded {
         Some(line) if bend(line) <= bend(path) + BLEND_CURVATURE * manner.curvature => {}
         _ => {
-            let joined = joined(path, start, manner.curvature, room_m);
+            let joined = joined(path, start, manner, room_m);
             let worse = |line: &Polyline| joined.as_ref().is_some_and(|j| bend(j) < bend(line));
             if faded.as_ref().is_none_or(worse) {
                 return joined.unwrap_or_else(straight);
@@ -165,7 +173,7 @@ fn onto(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Polyline {
 
 /// `path` with the start's place and slope fading out over `length_m`; `None` where it stands too far off
 /// for that.
-fn faded(path: &Polyline, start: Pose, length_m: f64) -> Option<Polyline> {
+fn faded(path: &Polyline, start: Pose, length_m: f64, step_m: f64) -> Option<Polyline> {
     let begin = path.first();
     let away = start.position - begin.position;
     let (along, across) = (away.dot(&begin.direction()), cross(begin.direction(), away));
@@ -177,7 +185,7 @@ fn faded(path: &Polyline, start: Pose, length_m: f64) -> Option<Polyline> {
     let squeeze = 1.0 - across * path.curvature_at(0.0, 2.0 * CURVATURE_WINDOW_M);
     let sideways = Fade { offset_m: across, slope: squeeze.max(0.2) * turn.tan(), length_m };
     let lengthways = Fade { offset_m: along, slope: 0.0, length_m };
-    let dense = path.resample(STEP_M);
+    let dense = path.resample(step_m);
     let points = dense.arc_m().iter().skip(1).map(|s| {
         let pose = dense.sample(*s);
         let forward = pose.direction();
@@ -188,14 +196,14 @@ fn faded(path: &Polyline, start: Pose, length_m: f64) -> Option<Polyline> {
 }
 
 /// `path` entered by the cheapest of a few cubics.
-fn joined(path: &Polyline, start: Pose, limit: f64, room_m: f64) -> Option<Polyline> {
+fn joined(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Option<Polyline> {
     let mut best: Option<(f64, Polyline)> = None;
     let mut s = 4.0_f64.min(room_m);
     loop {
         let to = path.sample(s);
         if (to.position - start.position).norm() > 0.5 {
-            if let Some(join) = cubic::best(start, to, limit) {
-                let cost = cubic::cost(&join, limit) + path.length_m() - s;
+            if let Some(join) = cubic::best(start, to, manner.curvature) {
+                let cost = cubic::cost(&join, manner.curvature) + path.length_m() - s;
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                     let rest = path.slice(s, path.length_m());
                     let points = join.path.points().iter().chain(rest.points().iter().skip(1)).copied();
@@ -204,7 +212,7 @@ fn joined(path: &Polyline, start: Pose, limit: f64, room_m: f64) -> Option<Polyl
             }
         }
         if s >= room_m.min(MAX_BLEND_M) {
-            return best.map(|(_, path)| path.resample(STEP_M));
+            return best.map(|(_, path)| path.resample(manner.step_m));
         }
         s = (s + 2.0).min(room_m);
     }
