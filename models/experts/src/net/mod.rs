@@ -1,5 +1,35 @@
 //! The networks: arrays of `features` in, residuals and probabilities out.
+//!
+//! ```text
+//! MapFeatures -> MapEncoder -> encodings (kept by the map's hash)
+//! encodings, AgentFeatures -> ContextEncoder -> Context -> Initializer -> six first futures
+//!                                                       -> Refiner, five steps -> six better ones
+//! ```
+//!
+//! Each call runs on the thread that makes it; the environment variables `CANDLE_NUM_THREADS` and
+//! `RAYON_NUM_THREADS` should be 1, and cut the work over threads outside.
 
+mod architecture;
+mod encoder;
 mod error;
+mod expert;
+mod initializer;
+pub mod inputs;
+mod layers;
+pub mod ops;
+pub mod overlap;
+mod params;
+mod refiner;
+pub mod schedule;
+pub mod smooth;
 
+pub use architecture::{Architecture, FeatureSizes, TOKENS};
+pub use encoder::{Context, ContextEncoder, MapEncoder};
 pub use error::NetError;
+pub use expert::{Card, Expert, InitialOutput};
+pub use initializer::{Initial, Initializer};
+pub use params::{Init, Params};
+pub use refiner::{Prepared, Refiner};
+
+#[cfg(test)]
+mod tests;

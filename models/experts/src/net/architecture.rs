@@ -1,0 +1,103 @@
+//! Sizes of an expert, kept in the header of its weights.
+
+use serde::{Deserialize, Serialize};
+
+use super::NetError;
+use crate::features::{
+    ANCHOR, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE, PIECES, RESIDUAL,
+};
+
+/// Tokens of a context: map pieces, neighbours, anchors.
+pub const TOKENS: usize = PIECES + NEIGHBOURS + MODES;
+
+/// Everything that decides the shapes of an expert's tensors and what they mean.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Architecture {
+    /// Generation of the networks' code; another number means other arithmetic.
+    pub version: u32,
+    /// Width of tokens and of the context vector.
+    pub width: usize,
+    /// Width of a map piece's encoding.
+    pub piece_width: usize,
+    /// Multi-context-gating blocks.
+    pub gating_blocks: usize,
+    /// Cross-attention blocks of the refiner.
+    pub refiner_blocks: usize,
+    /// Heads of every attention.
+    pub heads: usize,
+    /// Sizes of the features the expert was trained on.
+    pub features: FeatureSizes,
+}
+
+/// Sizes of features.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs, reason = "the constants of `features` by their names")]
+pub struct FeatureSizes {
+    pub own: usize,
+    pub pieces: usize,
+    pub piece: usize,
+    pub piece_pose: usize,
+    pub neighbours: usize,
+    pub neighbour: usize,
+    pub anchor: usize,
+    pub modes: usize,
+    pub instants: usize,
+    pub residual: usize,
+}
+
+impl FeatureSizes {
+    /// Those of this program.
+    pub const CURRENT: Self = Self {
+        own: OWN,
+        pieces: PIECES,
+        piece: PIECE,
+        piece_pose: PIECE_POSE,
+        neighbours: NEIGHBOURS,
+        neighbour: NEIGHBOUR,
+        anchor: ANCHOR,
+        modes: MODES,
+        instants: INSTANTS,
+        residual: RESIDUAL,
+    };
+}
+
+impl Default for Architecture {
+    fn default() -> Self {
+        Self {
+            version: 1,
+            width: 128,
+            piece_width: 64,
+            gating_blocks: 4,
+            refiner_blocks: 2,
+            heads: 4,
+            features: FeatureSizes::CURRENT,
+        }
+    }
+}
+
+impl Architecture {
+    /// Whether this program can run it.
+    ///
+    /// # Errors
+    /// When the version, the features or the sizes do not fit.
+    pub fn check(&self) -> Result<(), NetError> {
+        let refuse = |reason: String| Err(NetError::Header { member: "architecture", reason });
+        if self.version != 1 {
+            return refuse(format!("version {}, this program runs version 1", self.version));
+        }
+        if self.features != FeatureSizes::CURRENT {
+            return refuse(format!(
+                "features {:?}, this program has {:?}",
+                self.features,
+                FeatureSizes::CURRENT
+            ));
+        }
+        let sizes = [self.width, self.piece_width, self.gating_blocks, self.refiner_blocks, self.heads];
+        if sizes.iter().any(|&size| size == 0 || size > 4096) || self.width % self.heads != 0 {
+            return refuse(format!("sizes {sizes:?} (width, piece width, blocks, heads) cannot be"));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,145 @@
+//! What a road user sees, as one vector and a set of tokens (multi-context gating: Varadarajan et al.,
+//! "MultiPath++", 2021, section 3.2).
+
+use candle_core::{Result, Tensor};
+
+use super::NetError;
+use super::architecture::Architecture;
+use super::inputs::Inputs;
+use super::layers::{Linear, Mlp, Norm, RELU_GAIN};
+use super::ops;
+use super::params::Params;
+use crate::features::{ANCHOR, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE, PIECES};
+
+/// Map pieces in their own frames to encodings that any road user can use.
+#[derive(Clone, Debug)]
+pub struct MapEncoder {
+    mlp: Mlp,
+}
+
+impl MapEncoder {
+    /// Puts the encoder together.
+    ///
+    /// # Errors
+    /// When the parameters cannot be had.
+    pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
+        Ok(Self { mlp: Mlp::new(p, "map", [PIECE, a.piece_width, a.piece_width], RELU_GAIN)?.relu() })
+    }
+
+    /// [N, PIECE] to [N, piece width].
+    ///
+    /// # Errors
+    /// When the shape does not fit.
+    pub fn forward(&self, pieces: &Tensor) -> Result<Tensor> {
+        self.mlp.forward(pieces)
+    }
+}
+
+/// What the initializer and the refiner know about a batch of road users.
+#[derive(Clone, Debug)]
+pub struct Context {
+    /// Context vector [batch, width].
+    pub vector: Tensor,
+    /// Tokens [batch, 1 + TOKENS, width]: the context vector, map pieces, neighbours, anchors.
+    pub tokens: Tensor,
+    /// Additive mask [batch, 1 + TOKENS].
+    pub mask: Tensor,
+    /// Anchor tokens after gating [batch, MODES, width].
+    pub anchors: Tensor,
+    /// Anchor tokens before gating [batch, MODES, width].
+    pub plain_anchors: Tensor,
+    /// Goal projections [batch, 2, KNOTS, KNOTS].
+    pub tangent: Tensor,
+}
+
+impl Context {
+    /// Number of road users.
+    pub fn batch(&self) -> usize {
+        self.vector.dims()[0]
+    }
+}
+
+#[derive(Clone, Debug)]
+struct GatingBlock {
+    token: Linear,
+    gate: Linear,
+    pooled: Linear,
+}
+
+/// Embeds all tokens, then gates them by a context that is the maximum over each kind of token.
+#[derive(Clone, Debug)]
+pub struct ContextEncoder {
+    own: Mlp,
+    piece: Mlp,
+    neighbour: Mlp,
+    anchor: Mlp,
+    blocks: Vec<GatingBlock>,
+    mix: Mlp,
+    context_norm: Norm,
+    token_norm: Norm,
+}
+
+impl ContextEncoder {
+    /// Puts the encoder together.
+    ///
+    /// # Errors
+    /// When the parameters cannot be had.
+    pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
+        let d = a.width;
+        let blocks = (0..a.gating_blocks)
+            .map(|block| {
+                let name = |part: &str| format!("context.blocks.{block}.{part}");
+                Ok(GatingBlock {
+                    token: Linear::new(p, &name("token"), d, d, RELU_GAIN)?.relu(),
+                    gate: Linear::new(p, &name("gate"), d, d, 0.5)?,
+                    pooled: Linear::new(p, &name("pooled"), 3 * d, d, RELU_GAIN)?.relu(),
+                })
+            })
+            .collect::<std::result::Result<_, NetError>>()?;
+        Ok(Self {
+            own: Mlp::new(p, "context.own", [OWN, d, d], RELU_GAIN)?.relu(),
+            piece: Mlp::new(p, "context.piece", [a.piece_width + PIECE_POSE, d, d], RELU_GAIN)?.relu(),
+            neighbour: Mlp::new(p, "context.neighbour", [NEIGHBOUR, d, d], RELU_GAIN)?.relu(),
+            anchor: Mlp::new(p, "context.anchor", [ANCHOR, d, d], RELU_GAIN)?.relu(),
+            blocks,
+            mix: Mlp::new(p, "context.mix", [2 * d, d, d], 1.0)?,
+            context_norm: Norm::new(p, "context.norm", d)?,
+            token_norm: Norm::new(p, "context.token_norm", d)?,
+        })
+    }
+
+    /// Encodes a batch; `map` [N, piece width] comes from [`MapEncoder::forward`].
+    ///
+    /// # Errors
+    /// When the shapes do not fit.
+    pub fn forward(&self, map: &Tensor, inputs: &Inputs) -> Result<Context> {
+        let batch = inputs.own.dim(0)?;
+        let own = self.own.forward(&inputs.own)?;
+        let seen = Tensor::cat(&[&map.index_select(&inputs.piece, 0)?, &inputs.pose], 1)?;
+        let pieces = self.piece.forward(&seen)?.reshape((batch, PIECES, ()))?;
+        let plain_anchors = self.anchor.forward(&inputs.anchors)?;
+        let mut tokens =
+            Tensor::cat(&[&pieces, &self.neighbour.forward(&inputs.neighbours)?, &plain_anchors], 1)?;
+        let mut context = own.clone();
+        for (index, block) in self.blocks.iter().enumerate() {
+            // Running means over the blocks so far, as in the paper.
+            let keep = (index + 1) as f64 / (index + 2) as f64;
+            let gate = (candle_nn::ops::sigmoid(&block.gate.forward(&context)?)? * 2.0)?;
+            tokens = ops::gate_mix(&tokens, &block.token.forward(&tokens)?, &gate, keep)?;
+            let pooled = ops::segment_max(&tokens, &inputs.mask, &[PIECES, NEIGHBOURS, MODES])?;
+            context = ((context * keep)? + (block.pooled.forward(&pooled)? * (1.0 - keep))?)?;
+        }
+        let vector = self.context_norm.forward(&self.mix.forward(&Tensor::cat(&[&own, &context], 1)?)?)?;
+        let tokens = self.token_norm.forward(&tokens)?;
+        let anchors = tokens.narrow(1, PIECES + NEIGHBOURS, MODES)?.contiguous()?;
+        let seen_by_all = Tensor::zeros((batch, 1), inputs.mask.dtype(), inputs.mask.device())?;
+        Ok(Context {
+            tokens: Tensor::cat(&[&vector.unsqueeze(1)?, &tokens], 1)?,
+            mask: Tensor::cat(&[&seen_by_all, &inputs.mask], 1)?,
+            vector,
+            anchors,
+            plain_anchors,
+            tangent: inputs.tangent.clone(),
+        })
+    }
+}

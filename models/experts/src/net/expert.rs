@@ -1,0 +1,274 @@
+//! One expert: four networks and what their file says about them.
+
+use std::collections::{BTreeMap, HashMap};
+
+use candle_core::{Device, Tensor, Var};
+use serde::{Deserialize, Serialize};
+
+use super::NetError;
+use super::architecture::Architecture;
+use super::encoder::{Context, ContextEncoder, MapEncoder};
+use super::initializer::{Initial, Initializer};
+use super::inputs::{self, Inputs};
+use super::params::Params;
+use super::refiner::{Prepared, Refiner};
+use crate::features::{AgentFeatures, MODES, MapFeatures, RESIDUAL};
+
+/// The one member of the file's metadata. One, because the order of several would be by chance and the
+/// file's hash is its name.
+const HEADER: &str = "dragtraffic";
+
+/// What the file says about the weights.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Card {
+    /// Which expert: vehicle, pedestrian or cyclist.
+    pub expert: String,
+    /// Licence of the weights.
+    pub licence: String,
+    /// What data they were trained on.
+    pub trained_on: String,
+    /// Random weights, for tests.
+    pub untrained: bool,
+    /// Anything else: hash of the records, steps, figures.
+    #[serde(default)]
+    pub notes: BTreeMap<String, String>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Header {
+    architecture: Architecture,
+    card: Card,
+}
+
+/// A batch's first futures as plain numbers, one entry a road user.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InitialOutput {
+    /// Normalised residuals, tangent to the goal.
+    pub residual: Vec<[[f32; RESIDUAL]; MODES]>,
+    /// Scale (spread) of each number of a residual.
+    pub scale: Vec<[[f32; RESIDUAL]; MODES]>,
+    /// Logarithms of the modes' probabilities.
+    pub log_prob: Vec<[f32; MODES]>,
+    /// Probability that the road user keeps its place.
+    pub stays: Vec<f32>,
+}
+
+/// The networks of one expert. Cheap to share between threads.
+#[derive(Clone, Debug)]
+pub struct Expert {
+    /// Sizes.
+    pub architecture: Architecture,
+    /// What the file says.
+    pub card: Card,
+    /// Map pieces to encodings.
+    pub map: MapEncoder,
+    /// What a road user sees to a context.
+    pub context: ContextEncoder,
+    /// Context to first futures.
+    pub initializer: Initializer,
+    /// Drafts to better drafts.
+    pub refiner: Refiner,
+    device: Device,
+    tensors: BTreeMap<String, Tensor>,
+    vars: BTreeMap<String, Var>,
+}
+
+impl Expert {
+    /// Random weights from a seed, as plain tensors, for tests.
+    ///
+    /// # Errors
+    /// When memory for them cannot be had.
+    pub fn random(seed: u64) -> Result<Self, NetError> {
+        let card = Card {
+            expert: "random".into(),
+            licence: "MIT OR Apache-2.0".into(),
+            trained_on: "nothing".into(),
+            untrained: true,
+            notes: BTreeMap::new(),
+        };
+        Self::build(Architecture::default(), card, Params::random(seed, false, &Device::Cpu))
+    }
+
+    /// Random weights from a seed that can be trained.
+    ///
+    /// # Errors
+    /// When the architecture is not one this program runs.
+    pub fn trainable(
+        architecture: Architecture,
+        card: Card,
+        seed: u64,
+        device: &Device,
+    ) -> Result<Self, NetError> {
+        Self::build(architecture, card, Params::random(seed, true, device))
+    }
+
+    /// Reads a weights file as plain tensors, which record no graph.
+    ///
+    /// # Errors
+    /// When the bytes are no such file or of another architecture.
+    pub fn load(bytes: &[u8]) -> Result<Self, NetError> {
+        Self::read(bytes, false, &Device::Cpu)
+    }
+
+    /// Reads a weights file to train it further.
+    ///
+    /// # Errors
+    /// As [`Expert::load`].
+    pub fn load_trainable(bytes: &[u8], device: &Device) -> Result<Self, NetError> {
+        Self::read(bytes, true, device)
+    }
+
+    fn read(bytes: &[u8], trainable: bool, device: &Device) -> Result<Self, NetError> {
+        let format = |error: safetensors::SafeTensorError| NetError::Format(error.to_string());
+        let (_, metadata) = safetensors::SafeTensors::read_metadata(bytes).map_err(format)?;
+        let text = metadata.metadata().as_ref().and_then(|m| m.get(HEADER)).ok_or_else(|| {
+            NetError::Header { member: HEADER, reason: "absent: these are not an expert's weights".into() }
+        })?;
+        let header: Header = serde_json::from_str(text)
+            .map_err(|error| NetError::Header { member: HEADER, reason: error.to_string() })?;
+        let tensors = candle_core::safetensors::load_buffer(bytes, &Device::Cpu)?.into_iter().collect();
+        Self::build(header.architecture, header.card, Params::given(tensors, trainable, device))
+    }
+
+    fn build(architecture: Architecture, card: Card, mut p: Params) -> Result<Self, NetError> {
+        architecture.check()?;
+        let device = p.device().clone();
+        let map = MapEncoder::new(&mut p, &architecture)?;
+        let context = ContextEncoder::new(&mut p, &architecture)?;
+        let initializer = Initializer::new(&mut p, &architecture)?;
+        let refiner = Refiner::new(&mut p, &architecture)?;
+        let (tensors, vars) = p.finish()?;
+        Ok(Self { architecture, card, map, context, initializer, refiner, device, tensors, vars })
+    }
+
+    /// The bytes of a weights file: the same bytes for the same weights and card.
+    ///
+    /// # Errors
+    /// When a tensor cannot be read back.
+    pub fn save(&self) -> Result<Vec<u8>, NetError> {
+        let header = Header { architecture: self.architecture.clone(), card: self.card.clone() };
+        let text = serde_json::to_string(&header).map_err(|error| NetError::Format(error.to_string()))?;
+        let tensors = self.tensors.iter().map(|(name, tensor)| (name.as_str(), tensor));
+        safetensors::serialize(tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
+            .map_err(|error| NetError::Format(error.to_string()))
+    }
+
+    /// Number of trained numbers.
+    pub fn parameters(&self) -> usize {
+        self.tensors.values().map(Tensor::elem_count).sum()
+    }
+
+    /// All tensors by name.
+    pub fn tensors(&self) -> &BTreeMap<String, Tensor> {
+        &self.tensors
+    }
+
+    /// The variables by name; none unless the expert was made to be trained.
+    pub fn vars(&self) -> &BTreeMap<String, Var> {
+        &self.vars
+    }
+
+    /// Where the weights are.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// Encodings [N, piece width] of a map's pieces, to be kept by the map's hash. A map without pieces
+    /// gives one row that nobody sees.
+    ///
+    /// # Errors
+    /// When the tensor library fails.
+    pub fn encode_map(&self, map: &MapFeatures) -> Result<Tensor, NetError> {
+        Ok(self.map.forward(&inputs::pieces(&map.pieces, &self.device)?)?)
+    }
+
+    /// Contexts of a batch of road users on one encoded map. A road user's context is the same, bit for
+    /// bit, alone and in a batch.
+    ///
+    /// # Errors
+    /// When a road user sees a piece that the map does not have.
+    pub fn encode(&self, map: &Tensor, agents: &[&AgentFeatures]) -> Result<Context, NetError> {
+        let inputs = Inputs::stack(agents, map.dim(0)?, &self.device)?;
+        Ok(self.context.forward(map, &inputs)?)
+    }
+
+    /// First futures of a batch as tensors.
+    ///
+    /// # Errors
+    /// When the tensor library fails.
+    pub fn initial(&self, context: &Context) -> Result<Initial, NetError> {
+        Ok(self.initializer.forward(context)?)
+    }
+
+    /// First futures of a batch.
+    ///
+    /// # Errors
+    /// When the tensor library fails.
+    pub fn initialize(&self, context: &Context) -> Result<InitialOutput, NetError> {
+        let initial = self.initial(context)?;
+        let rows =
+            |tensor: &Tensor| -> Result<Vec<f32>, NetError> { Ok(tensor.flatten_all()?.to_vec1::<f32>()?) };
+        Ok(InitialOutput {
+            residual: blocks(&rows(&initial.residual)?),
+            scale: blocks(&rows(&initial.log_scale.exp()?)?),
+            log_prob: rows(&initial.log_prob()?)?.as_chunks::<MODES>().0.to_vec(),
+            stays: rows(&candle_nn::ops::sigmoid(&initial.stays)?)?,
+        })
+    }
+
+    /// Keys and values for any number of [`Expert::refine_step`] calls.
+    ///
+    /// # Errors
+    /// When the tensor library fails.
+    pub fn prepare_refine(&self, context: &Context) -> Result<Prepared, NetError> {
+        Ok(self.refiner.prepare(context)?)
+    }
+
+    /// Drafts with noise of a level, to start refinement from.
+    ///
+    /// # Errors
+    /// When the counts differ from the batch's.
+    pub fn add_noise(
+        &self,
+        prepared: &Prepared,
+        residual: &[[[f32; RESIDUAL]; MODES]],
+        noise: &[[[f32; RESIDUAL]; MODES]],
+        level: usize,
+    ) -> Result<Vec<[[f32; RESIDUAL]; MODES]>, NetError> {
+        let levels = vec![level; residual.len()];
+        let noisy =
+            self.refiner.add_noise(prepared, &self.tensor(residual)?, &self.tensor(noise)?, &levels)?;
+        Ok(blocks(&noisy.flatten_all()?.to_vec1::<f32>()?))
+    }
+
+    /// One refinement step from level `t` to `t_next`, levels as given by [`super::schedule::ddim`].
+    /// `push` is made by [`super::overlap::Pullback::push`] at the drafts; `noise` are standard normal
+    /// numbers, or nothing for a step without chance. One entry a road user in each.
+    ///
+    /// # Errors
+    /// When the counts differ from the batch's.
+    pub fn refine_step(
+        &self,
+        prepared: &Prepared,
+        residual: &[[[f32; RESIDUAL]; MODES]],
+        push: &[[[f32; RESIDUAL]; MODES]],
+        levels: (usize, usize),
+        noise: Option<&[[[f32; RESIDUAL]; MODES]]>,
+    ) -> Result<Vec<[[f32; RESIDUAL]; MODES]>, NetError> {
+        let noise = noise.map(|noise| self.tensor(noise)).transpose()?;
+        let (residual, push) = (self.tensor(residual)?, self.tensor(push)?);
+        let next = self.refiner.step(prepared, &residual, &push, levels, noise.as_ref())?;
+        Ok(blocks(&next.flatten_all()?.to_vec1::<f32>()?))
+    }
+
+    fn tensor(&self, values: &[[[f32; RESIDUAL]; MODES]]) -> Result<Tensor, NetError> {
+        let flat = values.as_flattened().as_flattened();
+        Ok(Tensor::from_slice(flat, (values.len(), MODES, RESIDUAL), &self.device)?)
+    }
+}
+
+fn blocks(values: &[f32]) -> Vec<[[f32; RESIDUAL]; MODES]> {
+    values.as_chunks::<RESIDUAL>().0.as_chunks::<MODES>().0.to_vec()
+}

@@ -1,0 +1,23 @@
+//! Tensor operations with a backward pass of our own, for f32 on the CPU.
+//!
+//! candle's own fused norm and softmax have no gradient, its broadcasts are slow backwards, and its
+//! maximum gives tied elements the full gradient each. On another device, or for another type, each
+//! function here is made of stock operations instead; both forms are tested against each other.
+
+mod attention;
+mod gate;
+mod linear;
+mod norm;
+mod pool;
+mod project;
+mod raw;
+
+pub use attention::attention;
+pub use gate::gate_mix;
+pub use linear::linear;
+pub use norm::layer_norm;
+pub use pool::segment_max;
+pub use project::project;
+
+#[cfg(test)]
+pub(crate) mod check;

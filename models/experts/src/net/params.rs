@@ -1,0 +1,115 @@
+//! Where a network's numbers come from: seeded random draws or a file.
+
+use std::collections::BTreeMap;
+
+use candle_core::{DType, Device, Tensor, Var};
+use rand_chacha::ChaCha12Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::NetError;
+
+/// First value of a parameter.
+#[derive(Clone, Copy, Debug)]
+pub enum Init {
+    /// All the same.
+    Constant(f64),
+    /// Normal with this deviation.
+    Normal(f64),
+}
+
+enum Source {
+    Random(ChaCha12Rng),
+    Given(BTreeMap<String, Tensor>),
+}
+
+/// Hands out parameters by name while a network is put together.
+pub struct Params {
+    source: Source,
+    device: Device,
+    trainable: bool,
+    made: BTreeMap<String, Tensor>,
+    vars: BTreeMap<String, Var>,
+}
+
+impl Params {
+    /// Parameters drawn from a seed, the same on every machine.
+    pub fn random(seed: u64, trainable: bool, device: &Device) -> Self {
+        Self::new(Source::Random(ChaCha12Rng::seed_from_u64(seed)), trainable, device)
+    }
+
+    /// Parameters of a file.
+    pub fn given(tensors: BTreeMap<String, Tensor>, trainable: bool, device: &Device) -> Self {
+        Self::new(Source::Given(tensors), trainable, device)
+    }
+
+    fn new(source: Source, trainable: bool, device: &Device) -> Self {
+        Self { source, device: device.clone(), trainable, made: BTreeMap::new(), vars: BTreeMap::new() }
+    }
+
+    /// The parameter `name` of a shape; contiguous.
+    ///
+    /// # Errors
+    /// When a file lacks it or has it in another shape.
+    pub fn get(&mut self, name: &str, shape: &[usize], init: Init) -> Result<Tensor, NetError> {
+        let tensor = match &mut self.source {
+            Source::Random(rng) => {
+                let count = shape.iter().product::<usize>();
+                let values: Vec<f32> = match init {
+                    Init::Constant(value) => vec![value as f32; count],
+                    Init::Normal(deviation) => (0..count).map(|_| (deviation * normal(rng)) as f32).collect(),
+                };
+                Tensor::from_vec(values, shape, &self.device)?
+            }
+            Source::Given(tensors) => {
+                let tensor = tensors.remove(name).ok_or_else(|| NetError::Missing(name.into()))?;
+                if tensor.dims() != shape || tensor.dtype() != DType::F32 {
+                    return Err(NetError::Shape {
+                        name: name.into(),
+                        found: format!("{:?} {:?}", tensor.dtype(), tensor.dims()),
+                        expected: format!("F32 {shape:?}"),
+                    });
+                }
+                tensor.to_device(&self.device)?.contiguous()?
+            }
+        };
+        let tensor = if self.trainable {
+            let var = Var::from_tensor(&tensor)?;
+            let tensor = var.as_tensor().clone();
+            self.vars.insert(name.into(), var);
+            tensor
+        } else {
+            tensor
+        };
+        self.made.insert(name.into(), tensor.clone());
+        Ok(tensor)
+    }
+
+    /// Where the parameters live.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// All parameters handed out, and their variables where they are trainable.
+    ///
+    /// # Errors
+    /// When a file has tensors that no part of the network asked for.
+    pub fn finish(self) -> Result<(BTreeMap<String, Tensor>, BTreeMap<String, Var>), NetError> {
+        if let Source::Given(left) = &self.source
+            && let Some((name, tensor)) = left.first_key_value()
+        {
+            return Err(NetError::Shape {
+                name: name.clone(),
+                found: format!("{:?} {:?}", tensor.dtype(), tensor.dims()),
+                expected: "absent: the architecture has no such tensor".into(),
+            });
+        }
+        Ok((self.made, self.vars))
+    }
+}
+
+/// A standard normal draw (Box and Muller's formula).
+pub(crate) fn normal(rng: &mut ChaCha12Rng) -> f64 {
+    let uniform = |bits: u64| ((bits >> 11) as f64 + 0.5) / (1u64 << 53) as f64;
+    let (a, b) = (uniform(rng.next_u64()), uniform(rng.next_u64()));
+    (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+}

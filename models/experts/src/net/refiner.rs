@@ -1,0 +1,196 @@
+//! The conditional diffusion model that makes drafts coherent.
+//!
+//! Each step sees, besides the draft itself, the way downhill in the overlap energy at that draft, and
+//! takes a learned share of it: plain denoising did not learn coherence, this did.
+
+use candle_core::{Result, Tensor};
+
+use super::NetError;
+use super::architecture::Architecture;
+use super::encoder::Context;
+use super::layers::{CrossBlock, Linear, Mlp, Norm, RELU_GAIN};
+use super::params::Params;
+use super::{ops, schedule, smooth};
+use crate::features::{MODES, RESIDUAL};
+
+/// Numbers that say the noise level.
+const LEVEL: usize = 8;
+/// Spread of a correction when the last layer says 1.
+const SPREAD: f64 = 1.5;
+
+/// What a call needs at every step, made once.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// Anchors and context, [batch, MODES, width].
+    base: Tensor,
+    keys_values: Vec<Tensor>,
+    mask: Tensor,
+    tangent: Tensor,
+}
+
+impl Prepared {
+    /// The same numbers without their history, so that nothing flows back through them.
+    pub fn detach(&self) -> Self {
+        Self {
+            base: self.base.detach(),
+            keys_values: self.keys_values.iter().map(Tensor::detach).collect(),
+            mask: self.mask.clone(),
+            tangent: self.tangent.clone(),
+        }
+    }
+}
+
+/// Denoises residuals by cross-attention to condition, map, neighbours and anchors.
+#[derive(Clone, Debug)]
+pub struct Refiner {
+    draft: Linear,
+    anchor: Linear,
+    context: Linear,
+    blocks: Vec<CrossBlock>,
+    norm: Norm,
+    head: Mlp,
+    smooth: Tensor,
+}
+
+impl Refiner {
+    /// Puts the refiner together.
+    ///
+    /// # Errors
+    /// When the parameters cannot be had.
+    pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
+        let d = a.width;
+        let blocks = (0..a.refiner_blocks)
+            .map(|block| CrossBlock::new(p, &format!("refiner.blocks.{block}"), d, a.heads))
+            .collect::<std::result::Result<_, _>>()?;
+        let draft = Linear::new(p, "refiner.draft", 2 * RESIDUAL + LEVEL, d, RELU_GAIN)?;
+        let head = Mlp::new(p, "refiner.head", [d, d, RESIDUAL + 2], 0.1)?;
+        let norm = Norm::new(p, "refiner.norm", d)?;
+        Ok(Self {
+            draft,
+            anchor: Linear::new(p, "refiner.anchor", 2 * d, d, 1.0)?,
+            context: Linear::new(p, "refiner.context", d, d, 1.0)?,
+            blocks,
+            norm,
+            head,
+            smooth: smooth::matrix(p.device())?,
+        })
+    }
+
+    /// Keys, values and what else does not change between steps.
+    ///
+    /// # Errors
+    /// When the shapes do not fit.
+    pub fn prepare(&self, context: &Context) -> Result<Prepared> {
+        let anchors = Tensor::cat(&[&context.anchors, &context.plain_anchors], 2)?;
+        let known = self.context.forward(&context.vector)?.unsqueeze(1)?;
+        Ok(Prepared {
+            base: self.anchor.forward(&anchors)?.broadcast_add(&known)?,
+            keys_values: self.blocks.iter().map(|b| b.keys_values(&context.tokens)).collect::<Result<_>>()?,
+            mask: context.mask.clone(),
+            tangent: context.tangent.clone(),
+        })
+    }
+
+    /// Residuals [batch, MODES, RESIDUAL] with noise of `levels`, one a road user. `noise` are standard
+    /// normal numbers of the same shape; they are smoothed and made tangent to the goal here.
+    ///
+    /// # Errors
+    /// When the shapes do not fit.
+    pub fn add_noise(
+        &self,
+        prepared: &Prepared,
+        residual: &Tensor,
+        noise: &Tensor,
+        levels: &[usize],
+    ) -> Result<Tensor> {
+        let noise = self.shape_noise(prepared, noise)?;
+        let kept = shares(levels, schedule::signal, residual)?;
+        let added = shares(levels, |level| 1.0 - schedule::signal(level), residual)?;
+        residual.broadcast_mul(&kept)? + noise.broadcast_mul(&added)?
+    }
+
+    fn shape_noise(&self, prepared: &Prepared, noise: &Tensor) -> Result<Tensor> {
+        ops::project(&self.smoothed(noise)?, &prepared.tangent)
+    }
+
+    fn smoothed(&self, z: &Tensor) -> Result<Tensor> {
+        let dims = z.dims3()?;
+        z.contiguous()?.reshape((dims.0 * dims.1, RESIDUAL))?.matmul(&self.smooth)?.reshape(dims)
+    }
+
+    /// The denoised residual (x0 form). `residual` has noise of `levels` (one a road user); `push` is
+    /// the way downhill at it, from [`super::overlap`]. Both [batch, MODES, RESIDUAL].
+    ///
+    /// # Errors
+    /// When the shapes do not fit.
+    pub fn denoise(
+        &self,
+        prepared: &Prepared,
+        residual: &Tensor,
+        push: &Tensor,
+        levels: &[usize],
+    ) -> Result<Tensor> {
+        let (batch, modes, _) = residual.dims3()?;
+        if levels.len() != batch || modes != MODES {
+            candle_core::bail!("{} levels for residuals {:?}", levels.len(), residual.shape());
+        }
+        let device = residual.device();
+        let times: Vec<f32> =
+            levels.iter().flat_map(|&level| std::iter::repeat_n(embed(level), modes)).flatten().collect();
+        let times = Tensor::from_vec(times, (batch, modes, LEVEL), device)?;
+        let mut x = (self.draft.forward(&Tensor::cat(&[residual, push, &times], 2)?)? + &prepared.base)?;
+        for (block, keys_values) in self.blocks.iter().zip(&prepared.keys_values) {
+            x = block.forward(&x, keys_values, &prepared.mask)?;
+        }
+        let said = self.head.forward(&self.norm.forward(&x)?)?;
+        let correction = (self.smoothed(&said.narrow(2, 0, RESIDUAL)?)? * SPREAD)?;
+        let taken = (gates(&said.narrow(2, RESIDUAL, 2)?.contiguous()?)? * push)?;
+        let kept = residual.broadcast_mul(&shares(levels, schedule::signal, residual)?)?;
+        ops::project(&((kept + correction)? + taken)?, &prepared.tangent)
+    }
+
+    /// One DDIM step from level `t` to `t_next`; `noise` (standard normal) makes it a random one.
+    ///
+    /// # Errors
+    /// When the shapes do not fit.
+    pub fn step(
+        &self,
+        prepared: &Prepared,
+        residual: &Tensor,
+        push: &Tensor,
+        (t, t_next): (usize, usize),
+        noise: Option<&Tensor>,
+    ) -> Result<Tensor> {
+        let denoised = self.denoise(prepared, residual, push, &vec![t; residual.dim(0)?])?;
+        let step = schedule::step(t, t_next, if noise.is_some() { 1.0 } else { 0.0 });
+        let next = ((denoised * step.denoised)? + (residual * step.residual)?)?;
+        match noise {
+            Some(noise) => next + (self.shape_noise(prepared, noise)? * step.noise)?,
+            None => Ok(next),
+        }
+    }
+}
+
+/// Square roots of shares of power as [batch, 1, 1].
+fn shares(levels: &[usize], power: impl Fn(usize) -> f64, like: &Tensor) -> Result<Tensor> {
+    let values: Vec<f32> = levels.iter().map(|&level| power(level).sqrt() as f32).collect();
+    Tensor::from_vec(values, (levels.len(), 1, 1), like.device())
+}
+
+/// Shares of the push for the two halves of a residual: softplus of [.., 2], each repeated.
+fn gates(said: &Tensor) -> Result<Tensor> {
+    let (batch, modes, _) = said.dims3()?;
+    // softplus(x) = relu(x) + log(1 + exp(-|x|)), which cannot overflow.
+    let soft = (said.relu()? + (said.abs()?.neg()?.exp()? + 1.0)?.log()?)?;
+    soft.reshape((batch, modes, 2, 1))?
+        .broadcast_as((batch, modes, 2, RESIDUAL / 2))?
+        .contiguous()?
+        .reshape((batch, modes, RESIDUAL))
+}
+
+fn embed(level: usize) -> [f32; LEVEL] {
+    std::array::from_fn(|i| {
+        let angle = (1 << (i / 2)) as f64 * std::f64::consts::PI * level as f64 / schedule::LEVELS as f64;
+        (if i % 2 == 0 { angle.sin() } else { angle.cos() }) as f32
+    })
+}

@@ -1,0 +1,189 @@
+//! The networks as a whole: gradients, files, and the same bits alone and in a batch.
+
+use candle_core::{DType, Device, Tensor};
+use rand_chacha::ChaCha12Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::inputs::Inputs;
+use super::params::normal;
+use super::*;
+use crate::features::{AgentFeatures, MODES, MapFeatures, NEIGHBOURS, PIECES, RESIDUAL, SeenPiece};
+
+fn map(pieces: usize, seed: u64) -> MapFeatures {
+    let mut rng = ChaCha12Rng::seed_from_u64(seed);
+    MapFeatures { pieces: (0..pieces).map(|_| std::array::from_fn(|_| normal(&mut rng) as f32)).collect() }
+}
+
+/// A road user that sees `pieces` and `neighbours`, whose last along knot is held by a goal.
+fn agent(pieces: usize, neighbours: usize, seed: u64) -> AgentFeatures {
+    let mut rng = ChaCha12Rng::seed_from_u64(seed);
+    let mut draw = || normal(&mut rng) as f32;
+    let mut tangent = Box::new([[[0.0; scene::KNOTS]; scene::KNOTS]; 2]);
+    for knot in 0..scene::KNOTS {
+        tangent[0][knot][knot] = if knot == scene::KNOTS - 1 { 0.0 } else { 1.0 };
+        tangent[1][knot][knot] = if knot == 0 { 0.0 } else { 1.0 };
+    }
+    AgentFeatures {
+        own: std::array::from_fn(|_| draw()),
+        pieces: (0..pieces).map(|piece| SeenPiece { piece, pose: std::array::from_fn(|_| draw()) }).collect(),
+        neighbours: (0..neighbours).map(|_| std::array::from_fn(|_| draw())).collect(),
+        anchors: Box::new(std::array::from_fn(|_| std::array::from_fn(|_| draw()))),
+        tangent,
+    }
+}
+
+fn agents() -> Vec<AgentFeatures> {
+    let sizes = [(5, 2), (PIECES, NEIGHBOURS), (0, 0), (PIECES - 1, 1), (1, NEIGHBOURS)];
+    sizes.iter().enumerate().map(|(i, &(pieces, others))| agent(pieces, others, i as u64)).collect()
+}
+
+fn drafts(batch: usize, seed: u64) -> Vec<[[f32; RESIDUAL]; MODES]> {
+    let mut rng = ChaCha12Rng::seed_from_u64(seed);
+    (0..batch).map(|_| std::array::from_fn(|_| std::array::from_fn(|_| normal(&mut rng) as f32))).collect()
+}
+
+/// All that inference gives, for some of the road users.
+fn answers(
+    expert: &Expert,
+    agents: &[&AgentFeatures],
+    noise: &[[[f32; RESIDUAL]; MODES]],
+) -> (InitialOutput, Vec<[[f32; RESIDUAL]; MODES]>) {
+    let map = expert.encode_map(&map(PIECES, 77)).unwrap();
+    let context = expert.encode(&map, agents).unwrap();
+    let initial = expert.initialize(&context).unwrap();
+    let prepared = expert.prepare_refine(&context).unwrap();
+    let mut draft = expert.add_noise(&prepared, &initial.residual, noise, 20).unwrap();
+    for levels in schedule::ddim(20, 3) {
+        draft = expert.refine_step(&prepared, &draft, noise, levels, Some(noise)).unwrap();
+    }
+    (initial, draft)
+}
+
+#[test]
+fn alone_and_in_a_batch_bits_are_equal() {
+    let expert = Expert::random(3).unwrap();
+    let agents = agents();
+    let all: Vec<&AgentFeatures> = (0..17).map(|i| &agents[i % agents.len()]).collect();
+    let noise = drafts(all.len(), 5);
+    let (initial, refined) = answers(&expert, &all, &noise);
+    for i in 0..agents.len() {
+        let (one, draft) = answers(&expert, &all[i..i + 1], &noise[i..i + 1]);
+        assert_eq!(one.residual[0], initial.residual[i], "residual of {i}");
+        assert_eq!(one.scale[0], initial.scale[i], "scale of {i}");
+        assert_eq!(one.log_prob[0], initial.log_prob[i], "probability of {i}");
+        assert_eq!(one.stays[0], initial.stays[i], "stays of {i}");
+        assert_eq!(draft[0], refined[i], "refined draft of {i}");
+    }
+    let (again, draft) = answers(&expert, &all, &noise);
+    assert_eq!((again, draft), (initial, refined));
+}
+
+#[test]
+fn answers_keep_the_goal() {
+    let expert = Expert::random(4).unwrap();
+    let agents = agents();
+    let all: Vec<&AgentFeatures> = agents.iter().collect();
+    let (initial, refined) = answers(&expert, &all, &drafts(all.len(), 5));
+    for residual in initial.residual.iter().chain(&refined).flatten() {
+        assert_eq!((residual[scene::KNOTS - 1], residual[scene::KNOTS]), (0.0, 0.0));
+        assert!(residual.iter().all(|r| r.is_finite()) && residual.iter().any(|r| *r != 0.0));
+    }
+}
+
+#[test]
+fn a_file_gives_the_same_expert() {
+    let expert = Expert::random(3).unwrap();
+    let bytes = expert.save().unwrap();
+    let loaded = Expert::load(&bytes).unwrap();
+    assert_eq!(loaded.card, expert.card);
+    assert_eq!(loaded.save().unwrap(), bytes);
+    let agents = agents();
+    let all: Vec<&AgentFeatures> = agents.iter().collect();
+    let noise = drafts(all.len(), 5);
+    assert_eq!(answers(&loaded, &all, &noise), answers(&expert, &all, &noise));
+    assert!((500_000..2_000_000).contains(&expert.parameters()), "{} parameters", expert.parameters());
+    assert!(loaded.vars().is_empty());
+}
+
+#[test]
+fn wrong_files_are_refused_with_the_reason() {
+    let reason = |bytes: &[u8]| Expert::load(bytes).unwrap_err().to_string();
+    assert!(reason(b"nothing").contains("not a safetensors file"));
+    let expert = Expert::random(3).unwrap();
+    let tensor = Tensor::zeros((2, 3), DType::F32, &Device::Cpu).unwrap();
+    let alone = |header: Option<&str>| {
+        let header = header.map(|text| [("dragtraffic".to_owned(), text.to_owned())].into());
+        safetensors::serialize([("map.0.weight", &tensor)], header).unwrap()
+    };
+    assert!(reason(&alone(None)).contains("not an expert's weights"));
+    assert!(reason(&alone(Some("{}"))).contains("architecture"));
+    let card = serde_json::to_value(&expert.card).unwrap();
+    let mut architecture = serde_json::to_value(&expert.architecture).unwrap();
+    let header = serde_json::json!({ "architecture": architecture, "card": card }).to_string();
+    let message = reason(&alone(Some(&header)));
+    assert!(message.contains("map.0.weight") && message.contains("[2, 3]"), "{message}");
+    architecture["version"] = 9.into();
+    let header = serde_json::json!({ "architecture": architecture, "card": card }).to_string();
+    assert!(reason(&alone(Some(&header))).contains("version 9"));
+}
+
+/// A scalar that depends on everything an expert says.
+fn probe(expert: &Expert, agents: &[&AgentFeatures], map: &MapFeatures) -> Tensor {
+    let pieces = expert.encode_map(map).unwrap();
+    let inputs = Inputs::stack(agents, pieces.dim(0).unwrap(), expert.device()).unwrap();
+    let context = expert.context.forward(&pieces, &inputs).unwrap();
+    let initial = expert.initializer.forward(&context).unwrap();
+    let prepared = expert.refiner.prepare(&context).unwrap();
+    let weigh = |tensor: &Tensor, seed: u64| {
+        let weights = ops::check::random(tensor.dims(), seed);
+        (tensor * weights).unwrap().sum_all().unwrap()
+    };
+    let push = ops::check::random(initial.residual.dims(), 8);
+    let levels: Vec<usize> = (0..agents.len()).map(|i| 7 * i).collect();
+    let refined = expert.refiner.denoise(&prepared, &initial.residual, &push, &levels).unwrap();
+    let parts = [
+        weigh(&refined, 1),
+        weigh(&initial.residual, 2),
+        weigh(&initial.log_scale, 3),
+        weigh(&initial.log_prob().unwrap(), 4),
+        weigh(&initial.stays, 5),
+    ];
+    parts.into_iter().reduce(|a, b| (a + b).unwrap()).unwrap()
+}
+
+fn small() -> Architecture {
+    Architecture { width: 16, piece_width: 8, gating_blocks: 2, heads: 2, ..Architecture::default() }
+}
+
+#[test]
+fn every_variable_has_a_gradient_that_matches_differences() {
+    let expert = Expert::trainable(small(), Expert::random(1).unwrap().card, 11, &Device::Cpu).unwrap();
+    let agents = agents();
+    let all: Vec<&AgentFeatures> = agents.iter().take(3).collect();
+    let map = map(PIECES, 7);
+    let value = || f64::from(probe(&expert, &all, &map).to_scalar::<f32>().unwrap());
+    let grads = probe(&expert, &all, &map).backward().unwrap();
+    let mut rng = ChaCha12Rng::seed_from_u64(2);
+    for (name, var) in expert.vars() {
+        let grad = grads.get(var.as_tensor()).unwrap_or_else(|| panic!("{name} has no gradient"));
+        let norm = grad.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();
+        assert!(norm > 0.0 && norm.is_finite(), "{name} has gradient norm {norm}");
+        // Along the gradient and a random direction: the slope must be the inner product.
+        let before = var.as_tensor().copy().unwrap();
+        let random: Vec<f32> = (0..before.elem_count()).map(|_| normal(&mut rng) as f32).collect();
+        let random = Tensor::from_vec(random, before.shape(), &Device::Cpu).unwrap();
+        let unit = (grad / f64::from(norm)).unwrap();
+        let length = random.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();
+        let direction = (unit + (random / f64::from(length)).unwrap()).unwrap();
+        let expected = f64::from((&direction * grad).unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap());
+        let step = 2e-3 / f64::from(norm).sqrt().max(1.0);
+        let at = |delta: f64| {
+            var.set(&(&before + (&direction * delta).unwrap()).unwrap()).unwrap();
+            value()
+        };
+        let slope = (at(step) - at(-step)) / (2.0 * step);
+        var.set(&before).unwrap();
+        let tolerance = 0.05 * expected.abs() + 0.02;
+        assert!((slope - expected).abs() < tolerance, "{name}: slope {slope}, gradient says {expected}");
+    }
+}
