@@ -4,6 +4,7 @@
 //! record; [`sumo`] reads what the traffic simulator writes. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 
+pub mod checks;
 pub mod limits;
 pub mod loss;
 pub mod native;

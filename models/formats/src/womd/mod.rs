@@ -111,16 +111,28 @@ pub fn read_all(bytes: &[u8], options: &Options) -> Vec<Result<Imported, ReadErr
     }
 }
 
+/// True for a tf.Example: field 1 holds a message whose members are messages under field 1, where a
+/// Scenario has a list of doubles, the first of which is near zero.
+fn is_example(data: &[u8]) -> bool {
+    let Some(rest) = data.strip_prefix(&[0x0a]) else { return false };
+    let length = rest.iter().position(|byte| byte & 0x80 == 0).map_or(0, |last| last + 1);
+    matches!(rest.get(length), None | Some(0x0a))
+}
+
 /// Reads one record's message.
 ///
 /// # Errors
 /// `malformed-file` with the byte for broken protobuf; the faults of a scene otherwise.
 pub fn read_record(record: &Record, options: &Options) -> Result<Imported, ReadError> {
+    if is_example(&record.data) {
+        let detail = "a tf.Example record; Scenario records are read (the dataset has both forms)";
+        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+    }
     wire::check(&record.data, record.offset)?;
     let scenario = proto::Scenario::decode(record.data.as_slice())
         .map_err(|error| ReadError::malformed(record.offset, error.to_string()))?;
     if scenario.tracks.is_empty() && scenario.map_features.is_empty() {
-        let detail = "a record without tracks and map: another message than Scenario, such as tf.Example";
+        let detail = "a record without tracks and map: no Scenario, or an empty one";
         return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
     }
     scene(scenario, options)

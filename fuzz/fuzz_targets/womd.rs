@@ -1,0 +1,6 @@
+//! Any bytes as a record file, checksums aside: no panic, and what is read writes back equal.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| formats::checks::womd(bytes));
