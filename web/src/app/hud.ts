@@ -17,7 +17,7 @@ export function hud(c: Context, picture: Picture): HTMLElement {
     h('nav', { class: 'rail', 'aria-label': 'Tools' }, ['select', 'pan', 'measure'].map((t) => actionButton(c, `tool-${t}`, { size: 20, label: h('em', null, actionOf(`tool-${t}`).keys![0]) }))),
     h('div', { class: 'tr' }, h('div', { class: 'card chipbar', role: 'group', 'aria-label': 'Layers' }, ['futures', 'log', 'lanes', 'labels'].map((l) => actionButton(c, `layer-${l}`, { icon: 'check', size: 14 })))),
     h('div', { class: () => `bl ${shift()}` }, h('div', { class: 'card status', role: 'status' }, swap(() => statusKey(c), () => status(c))), scaleBar(c)),
-    swap(() => editor.drag.value !== null, () => (editor.drag.peek() ? dragHelp(c) : zoomBar(c))),
+    swap(() => editor.dragging.value, () => (editor.drag.peek() ? dragHelp(c) : zoomBar(c))),
     swap(() => coachShown(c), () => (coachShown(c) ? coach(c) : null)),
     swap(() => editor.toast.value, () => toast(c)),
     swap(() => bannerKey(c), () => banner(c)),
@@ -119,7 +119,7 @@ function dragHelp(c: Context): HTMLElement {
 
 // ---------------------------------------------------------------- messages
 
-const coachShown = (c: Context): boolean => c.ui.coach.value > 0 && !c.editor.drag.value && !c.editor.toast.value && c.editor.scene.value !== null;
+const coachShown = (c: Context): boolean => c.ui.coach.value > 0 && !c.editor.dragging.value && !c.editor.toast.value && c.editor.scene.value !== null;
 
 function coach(c: Context): HTMLElement {
   const step = (n: number, text: string) => h('div', { class: () => `st ${c.ui.coach.value === n ? 'now' : ''}` }, h('span', { class: 'n' }, String(n)), text);

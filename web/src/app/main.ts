@@ -25,7 +25,7 @@ import { agentPanel } from './inspector';
 import { eventsPanel, scenePanel } from './scenepanel';
 import { timeline } from './timeline';
 import { dialogs } from './dialogs';
-import { liveRegion, roadUserList } from './access';
+import { handleSliders, liveRegion, roadUserList } from './access';
 import { emptyState } from './empty';
 import { busyBox } from './thumbs';
 
@@ -56,7 +56,7 @@ function build(): Context {
   const insp = h('aside', { class: 'insp', 'aria-label': 'Inspector', 'data-group': 'inspector' }, swap(
     () => (ui.eventsPanel.value && editor.events.value.length ? 'events' : editor.selection.value ? `agent:${editor.selection.value}` : `scene:${editor.scene.value?.id}`),
     () => (ui.eventsPanel.peek() && editor.events.peek().length ? eventsPanel(c) : editor.selection.peek() ? agentPanel(c, editor.selection.peek()!) : scenePanel(c))));
-  main.append(roadUserList(c), hud(c, picture), swap(() => ui.drawer.value && editor.scene.value !== null, () => (ui.drawer.peek() && editor.scene.peek() ? drawer(c) : null)) as HTMLElement, emptyState(c));
+  main.append(roadUserList(c), handleSliders(c), hud(c, picture), swap(() => ui.drawer.value && editor.scene.value !== null, () => (ui.drawer.peek() && editor.scene.peek() ? drawer(c) : null)) as HTMLElement, emptyState(c));
   root.prepend(topBar(c));
   root.append(insp, timeline(c), h('div', { class: 'swap' }, dialogs(c), liveRegion(c), files));
   stage.onFrame = (now) => { gestures.frame(now); playback.frame(now); if (editor.follow.peek() && editor.playing.peek()) follow(c); };
@@ -100,11 +100,11 @@ function focusField(part: 'start' | 'goal', field: string): void {
 
 function focusGroup(step: 1 | -1): void {
   const groups = [...document.querySelectorAll<HTMLElement>('[data-group]')];
-  const order = ['top', 'scenes', 'users', 'inspector', 'timeline'];
+  const order = ['top', 'scenes', 'users', 'handles', 'inspector', 'timeline'];
   groups.sort((a, b) => order.indexOf(a.dataset.group!) - order.indexOf(b.dataset.group!));
   const at = groups.findIndex((g) => g.contains(document.activeElement));
   const next = groups[(at + step + groups.length) % groups.length];
-  next?.querySelector<HTMLElement>('[aria-pressed="true"][data-agent], button:not([tabindex="-1"]), input')?.focus();
+  next?.querySelector<HTMLElement>('[aria-pressed="true"][data-agent], button:not([tabindex="-1"]), input, [tabindex="0"]')?.focus();
 }
 
 function keys(c: Context): void {

@@ -136,7 +136,7 @@ export class Asking {
       const c = conditionOf(a);
       if (!isEmptyCondition(c) || this.library.hadConditions(a.id)) conditions[a.id] = c;
     }
-    const inline = before.driving.size > 0 || scene.others === 'still' || !this.library.stored;
+    const inline = before.driving.size > 0 || (w.kept?.size ?? 0) > 0 || scene.others === 'still' || !this.library.stored;
     const part = (): string => (inline ? this.inlinePart(scene, before, w) : `"scene_id":${JSON.stringify(scene.id)}`);
     this.generator.ask({
       preview, scenePart: part, fullPart: async () => this.fullPart(scene, before, w),

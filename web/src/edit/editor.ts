@@ -100,6 +100,8 @@ export class Editor {
     const s = this.scene.value;
     return s && !this.drag.value ? readEvents(s, this.motion.value) : [];
   });
+  /** Changes only when a drag begins or ends. */
+  readonly dragging = computed(() => this.drag.value !== null);
   readonly undoName = computed(() => (this.historyTick.value, this.history?.undoName ?? null));
   readonly redoName = computed(() => (this.historyTick.value, this.history?.redoName ?? null));
 

@@ -54,7 +54,7 @@ export class Gestures {
   }
 
   private context(touch = false): HitContext {
-    return { editor: this.editor, view: this.stage.view, chips: this.picture.chips, timeTag: this.picture.timeTag, touch };
+    return { editor: this.editor, view: this.stage.view, chips: this.picture.overlay.chips, timeTag: this.picture.overlay.timeTag, touch };
   }
 
   private onCanvas = (e: Event): boolean => e.target instanceof HTMLCanvasElement || e.target === this.stage.element;

@@ -7,7 +7,7 @@ import type { SceneListItem } from '../net/api';
 import { forget, keep, recall } from '../net/storage';
 import { isMapRef, type MapJson, type SceneJson } from '../model/json';
 import { readScene, SceneError } from '../model/read';
-import { writeScene, generatedJson } from '../model/write';
+import { generatedJson, writeScene } from '../model/write';
 import { sceneKey, touched, withAgents, type Agent, type Scene } from '../model/scene';
 
 export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full';

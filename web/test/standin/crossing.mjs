@@ -6,7 +6,7 @@ const ARMS = [0, 90, 180, 270].map((d) => (d * Math.PI) / 180);
 const STOP = 16, FAR = 110;
 
 const at = (arm, along, left) => [along * Math.cos(arm) - left * Math.sin(arm), along * Math.sin(arm) + left * Math.cos(arm)];
-const r3 = (v) => Math.round(v * 1000) / 1000;
+const r3 = (v) => Math.round(v * 1000) / 1000 || 0;
 const pt = (p) => [r3(p[0]), r3(p[1])];
 
 function straight(a, b, n) {

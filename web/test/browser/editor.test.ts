@@ -1,0 +1,263 @@
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import type { Browser } from 'playwright-core';
+import { buildPage, chromiumPath, Driver, launch } from './driver';
+import { buildCrossing } from '../standin/crossing.mjs';
+
+let browser: Browser;
+let d: Driver;
+
+describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
+  beforeAll(async () => { await buildPage(); browser = await launch(); }, 60_000);
+  afterAll(() => browser?.close());
+  afterEach(async () => { expect(d.errors).toEqual([]); await d.close(); });
+
+  it('opens the example, ready to drag, under the security policy', async () => {
+    d = await (await Driver.open(browser)).ready();
+    expect(await d.text('.status')).toContain('29 road users');
+    expect(await d.page.locator('.scn').count()).toBe(2);
+    expect(await d.text('.coach')).toContain('Click a car');
+  });
+
+  it('drags a goal: six live futures, others asked on release, undo and redo', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    expect(await d.page.locator('.fu').count()).toBe(6);
+    const before = await d.goal();
+    const [x, y] = await d.at(...before);
+    await d.drag([x + 8, y - 26], [x + 8, y - 120]);
+    await d.page.waitForTimeout(150);
+    const previews = d.server.log.filter((l) => l.react === false && l.conditions['1']?.goal);
+    expect(previews.length).toBeGreaterThan(2);
+    expect(await d.text('.helpbar')).toContain('Others react when you let go');
+    await d.release();
+    expect(d.last().react).toBe(true);
+    expect(d.last().agents).toEqual(['1']);
+    expect(await d.text('.toast')).toMatch(/Goal of Car 1 moved\. \d others changed\./);
+    expect(await d.page.locator('.ch').count()).toBeGreaterThan(0);
+    const moved = await d.goal();
+    expect(moved[1]).toBeGreaterThan(before[1] + 5);
+    const asked = d.server.log.length;
+    await d.key('Control+z');
+    expect(await d.text('.goalsec h3')).toContain('free');
+    await d.key('Control+Shift+z');
+    await d.page.waitForTimeout(200);
+    expect(await d.goal()).toEqual(moved);
+    // Undo and redo show what was worked out before; nobody is asked again.
+    expect(d.server.log.slice(asked).filter((l) => l.react)).toEqual([]);
+  });
+
+  it('puts everything back on Esc, without an undo step', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    const [x, y] = await d.at(...(await d.goal()));
+    await d.drag([x + 8, y - 26], [x + 60, y - 90]);
+    await d.key('Escape');
+    await d.page.mouse.up();
+    await d.page.waitForTimeout(100);
+    expect(await d.text('.goalsec h3')).toContain('free');
+    expect(await d.page.locator('[data-action="undo"]').first().getAttribute('aria-disabled')).toBe('true');
+  });
+
+  it('touches only the overlay while a handle is dragged', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    const [x, y] = await d.at(...(await d.goal()));
+    await d.page.evaluate(() => {
+      const w = window as unknown as { cleared: Record<string, number> };
+      w.cleared = {};
+      const proto = CanvasRenderingContext2D.prototype, real = proto.clearRect;
+      proto.clearRect = function (...a) { w.cleared[this.canvas.className] = (w.cleared[this.canvas.className] ?? 0) + 1; real.apply(this, a); };
+    });
+    await d.drag([x + 8, y - 26], [x + 30, y - 140], 30);
+    const cleared = await d.page.evaluate(() => (window as unknown as { cleared: Record<string, number> }).cleared);
+    await d.release();
+    expect(cleared['layer overlay']).toBeGreaterThan(15);
+    expect(cleared['layer agents']).toBeLessThanOrEqual(2);
+  });
+
+  it('turns a cyclist by its tiller, changes its speed by the arrow, moves its start', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('14');
+    await d.key('z');
+    await d.page.waitForTimeout(300);
+    const z = await d.zoom();
+    const p: [number, number] = [await d.value('start-pos', 0), await d.value('start-pos', 1)];
+    const [x, y] = await d.at(...p);
+    const half = Math.max(1.8 * z, 17) / 2;
+    await d.drag([x - half - 24, y], [x - half - 20, y + 14]);
+    await d.release();
+    expect(Math.abs(await d.value('start-heading'))).toBeGreaterThan(8);
+    await d.key('Control+z');
+    const v = (await d.value('start-speed')) / 3.6;
+    const tip = x + half + 5 + v * 2 * z;
+    await d.drag([tip, y], [tip + 2 * z * (10 / 3.6), y]);
+    await d.release();
+    expect(await d.value('start-speed')).toBeCloseTo(Math.round(v * 3.6) + 10, -1);
+    await d.key('Control+z');
+    await d.drag([x, y], [x + 4 * z, y]);
+    await d.release();
+    expect(await d.value('start-pos', 0)).toBeCloseTo(p[0] + 4, 0);
+    expect(d.last().conditions['14'].start).toBeDefined();
+  });
+
+  it('takes typed values, frees and fixes single fields', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('17');
+    const f = d.page.locator('[data-field="goal-speed"]');
+    await f.fill('1.2+0.4');
+    await f.press('Enter');
+    await d.page.waitForTimeout(150);
+    await d.settled();
+    expect(d.last().conditions['17'].goal).toEqual({ time_s: 9, speed_mps: 1.6 });
+    await d.page.locator('[aria-label="Goal speed fixed"]').click();
+    await d.page.waitForTimeout(200);
+    expect(await d.page.locator('[aria-label="Goal speed fixed"]').getAttribute('aria-checked')).toBe('false');
+    await d.page.locator('[aria-label="Goal position fixed"]').click();
+    await d.page.waitForTimeout(150);
+    await d.settled();
+    expect(Object.keys(d.last().conditions['17'].goal!).sort()).toEqual(['time_s', 'x_m', 'y_m']);
+    await f.fill('nonsense');
+    await f.press('Enter');
+    expect(await d.page.locator('.field.bad').count()).toBe(1);
+    await f.press('Escape');
+  });
+
+  it('lets another future be chosen; the others then answer it', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    await d.key('Alt+2');
+    await d.page.waitForTimeout(150);
+    await d.settled();
+    expect(await d.page.locator('.fu[aria-checked="true"]').getAttribute('data-future')).toBe('B');
+    expect(d.last().agents).not.toContain('1');
+    expect(d.last().scene).toBe('inline');
+    await d.key('Control+z');
+    await d.page.waitForTimeout(100);
+    expect(await d.page.locator('.fu[aria-checked="true"]').getAttribute('data-future')).toBe('A');
+  });
+
+  it('says that a goal is too far, why, and offers three ways out', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    for (const [field, n, v] of [['goal-pos', 0, '1.75'], ['goal-pos', 1, '80'], ['goal-time', 0, '4']] as const) {
+      const el = d.page.locator(`[data-field="${field}"]`).nth(n);
+      await el.fill(v);
+      await el.press('Enter');
+      await d.page.waitForTimeout(150);
+      await d.settled();
+    }
+    expect(await d.text('.hint')).toContain('Too far for 4.0 s');
+    expect(await d.page.locator('.opt').allInnerTexts()).toHaveLength(3);
+    await d.page.locator('.opt').first().click();
+    await d.page.waitForTimeout(150);
+    await d.settled();
+    expect(await d.text('.toast')).toContain('nearest reachable');
+  });
+
+  it('keeps working while the generator is away and catches up', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    d.server.options.away = true;
+    const [x, y] = await d.at(...(await d.goal()));
+    await d.drag([x + 8, y - 26], [x + 8, y - 100]);
+    await d.page.mouse.up();
+    await d.page.waitForSelector('.banner');
+    expect(await d.text('.banner')).toContain('Nothing is lost');
+    expect(await d.text('.insp')).toContain('Futures are out of date');
+    d.server.options.away = false;
+    await d.page.waitForSelector('.banner', { state: 'detached', timeout: 15_000 });
+    await d.page.waitForTimeout(300);
+    await d.settled();
+    expect(d.last().react).toBe(true);
+    expect(d.last().conditions['1'].goal).toBeDefined();
+  });
+
+  it('imports files with a verdict for each', async () => {
+    d = await (await Driver.open(browser)).ready();
+    const good = { name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(buildCrossing('x', 'Mine').scene)) };
+    await d.page.setInputFiles('input[type="file"]', [good, { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') }]);
+    await d.page.waitForSelector('.dlg.import');
+    expect(await d.text('.dlg.import')).toMatch(/1 of 2 files are in, 1 could not be read/);
+    expect(await d.text('.dlg.import')).toContain('“notes.pdf” is not a scene.');
+    await d.key('Escape');
+    expect(await d.page.inputValue('.title input')).toBe('Mine');
+  });
+
+  it('saves own scenes after every step and offers both versions on a conflict', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.key('Control+s');
+    await d.page.waitForFunction(() => document.querySelector('.title small')?.textContent === 'Saved');
+    const own = [...d.server.scenes.values()].find((s) => !s.readonly)!;
+    await d.select('1');
+    await d.key('g');
+    await d.page.waitForFunction(() => document.querySelector('.title small')?.textContent === 'Saved');
+    await d.page.waitForTimeout(500);
+    const id = own.scene as unknown as { id: string };
+    const stored = d.server.scenes.get(id.id)!;
+    expect(stored.rev).toBeGreaterThan(1);
+    expect(JSON.stringify(stored.scene.agents[0].conditions)).toContain('x_m');
+    stored.etag = '"9-other"';
+    await d.key('Shift+G');
+    await d.page.waitForSelector('.banner');
+    expect(await d.text('.banner')).toContain('changed elsewhere');
+    await d.page.getByText('Keep this version').click();
+    await d.page.waitForSelector('.banner', { state: 'detached' });
+  });
+
+  it('keeps edits of examples in this browser', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    await d.key('g');
+    await d.page.waitForTimeout(200);
+    await d.page.reload();
+    await d.ready();
+    expect(await d.text('.toast')).toContain('back');
+  });
+
+  it('can be driven by keys alone', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
+    await d.key('Tab');
+    await d.page.waitForSelector('.fu');
+    await d.settled();
+    const name = await d.text('.ih h2');
+    await d.key('g');
+    for (let i = 0; i < 5; i++) await d.key('Shift+ArrowUp');
+    await d.page.waitForTimeout(200);
+    await d.settled();
+    expect(await d.text('.toast')).toContain(`Goal of ${name} moved`);
+    await d.key('Shift+f');
+    await d.page.waitForTimeout(150);
+    await d.settled();
+    const id = (d.last().agents as string[])[0];
+    expect(d.last().conditions[id].goal).toHaveProperty('speed_mps');
+    // Five repeats within a moment are one step.
+    await d.key('Control+z');
+    await d.key('Control+z');
+    expect(await d.page.locator('.goalsec [aria-checked="true"]').count()).toBe(1);
+    await d.key('Control+k');
+    await d.page.keyboard.type('loop');
+    await d.key('Enter');
+    expect(await d.page.locator('[data-action="loop"]').getAttribute('aria-pressed')).toBe('false');
+    expect(await d.page.locator('[role="slider"][aria-label="Goal time"]').getAttribute('aria-valuetext')).toBe('9.0 seconds');
+  });
+
+  it('shows collisions on the timeline and in the list', async () => {
+    d = await (await Driver.open(browser, { collision: true })).ready();
+    await d.select('1');
+    await d.key('g');
+    await d.page.waitForSelector('.badge');
+    expect(await d.page.locator('.badge').count()).toBe(2);
+    await d.key('e');
+    expect(await d.text('.insp')).toContain('Motorcycle 11, Cyclist 14');
+    await d.key('e');
+    expect(await d.text('.insp')).toContain('Collision at 5.4 s');
+    expect(await d.text('.tm')).toContain('5.4 s');
+  });
+
+  it('starts empty when there is no scene, and waits when there is no server', async () => {
+    d = await Driver.open(browser, { away: false }, '/', async (p) => { await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } })); });
+    await d.page.waitForSelector('.empty');
+    expect(await d.text('.empty')).toContain('Bring a scene');
+  });
+});

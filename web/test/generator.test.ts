@@ -1,0 +1,104 @@
+// The conversation with the generator: latest wins, late answers are dropped, losses are survived.
+import { afterEach, describe, expect, it } from 'vitest';
+import { Generator, type Ask, type Handlers } from '../src/net/generator';
+import { readEvents } from '../src/net/stream';
+import { startStandIn, type StandIn } from './standin/server.mjs';
+
+let server: StandIn | null = null;
+afterEach(async () => { await server?.close(); server = null; });
+
+interface Seen { drafts: number[]; final: number; away: number; refused: string[]; dropped: number }
+
+function ask(preview: boolean, goal: number): { ask: Ask; seen: Seen; done: Promise<void> } {
+  const seen: Seen = { drafts: [], final: 0, away: 0, refused: [], dropped: 0 };
+  let end!: () => void;
+  const done = new Promise<void>((r) => { end = r; });
+  const on: Handlers = {
+    draft: (_, step) => seen.drafts.push(step), final: () => { seen.final++; end(); }, refused: (p) => { seen.refused.push(p.code); end(); }, away: () => { seen.away++; end(); }, dropped: () => { seen.dropped++; end(); },
+  };
+  return { seen, done, ask: { preview, on, scenePart: () => '"scene_id":"demo-crossing"', fullPart: async () => '"scene_id":"demo-crossing"', options: { agents: ['1'], react: !preview, conditions: { 1: { goal: { x_m: goal, y_m: 0 } } }, seed: 0, diversity: 1, steps: 5, stream_modes: 'all', score: !preview } } };
+}
+
+describe('generator', () => {
+  it('shows six steps and a final answer', async () => {
+    server = await startStandIn({ port: 0, delay: 1 });
+    const g = new Generator(server.url), a = ask(true, 10);
+    g.ask(a.ask);
+    await a.done;
+    expect(a.seen).toEqual({ drafts: [0, 1, 2, 3, 4, 5], final: 1, away: 0, refused: [], dropped: 0 });
+  });
+
+  it('keeps one on the way and one waiting while a drag goes on', async () => {
+    server = await startStandIn({ port: 0, delay: 15 });
+    const g = new Generator(server.url);
+    const all = [];
+    for (let i = 0; i < 30; i++) { const a = ask(true, i); all.push(a); g.ask(a.ask); await new Promise((r) => setTimeout(r, 8)); }
+    await all[all.length - 1].done;
+    const last = all[all.length - 1].seen;
+    expect(last.final).toBe(1);
+    expect(all.slice(0, -1).every((a) => a.seen.final === 0)).toBe(true);
+    // Something was drawn on the way, and far fewer requests were sent than the pointer moved.
+    expect(all.filter((a) => a.seen.drafts.length).length).toBeGreaterThan(2);
+    expect(server.log.length).toBeLessThan(25);
+    expect(server.log.map((l) => l.revision)).toEqual([...server.log.map((l) => l.revision)].sort((x, y) => x - y));
+  });
+
+  it('lets a release overtake the previews at once', async () => {
+    server = await startStandIn({ port: 0, delay: 20 });
+    const g = new Generator(server.url), p = ask(true, 1), c = ask(false, 2);
+    g.ask(p.ask);
+    g.ask(c.ask);
+    await c.done;
+    expect(p.seen.dropped).toBe(1);
+    expect(p.seen.drafts).toEqual([]);
+    expect(c.seen.final).toBe(1);
+    expect(server.log.at(-1)!.react).toBe(true);
+  });
+
+  it('never goes back a step when events arrive out of order or are lost', async () => {
+    server = await startStandIn({ port: 0, delay: 1, shuffle: true, loss: 0.3 });
+    const g = new Generator(server.url);
+    for (let i = 0; i < 8; i++) {
+      const a = ask(true, i);
+      g.ask(a.ask);
+      await a.done;
+      expect(a.seen.drafts).toEqual([...a.seen.drafts].sort((x, y) => x - y));
+      expect(a.seen.final).toBe(1);
+    }
+  });
+
+  it('says when nobody answers, and when the answer is no', async () => {
+    server = await startStandIn({ port: 0, away: true });
+    const g = new Generator(server.url), a = ask(false, 1);
+    g.ask(a.ask);
+    await a.done;
+    expect(a.seen.away).toBe(1);
+    server.options.away = false;
+    const b = ask(false, 1);
+    g.ask({ ...b.ask, scenePart: () => '"scene_id":"nowhere"', fullPart: async () => '"scene_id":"nowhere"' });
+    await b.done;
+    expect(b.seen.refused).toEqual(['not-found']);
+  });
+
+  it('sends the map again when the server does not know it', async () => {
+    server = await startStandIn({ port: 0, delay: 1 });
+    const scene = [...server.scenes.values()][0].scene;
+    const g = new Generator(server.url), a = ask(false, 1);
+    g.ask({ ...a.ask, scenePart: () => `"scene":${JSON.stringify({ ...scene, map: { ref: 'sha256:unknown' } })}`, fullPart: async () => `"scene":${JSON.stringify(scene)}` });
+    await a.done;
+    expect(a.seen.final).toBe(1);
+  });
+});
+
+describe('stream', () => {
+  it('puts lines together however they are cut', async () => {
+    const text = '{"event":"heartbeat"}\n\n{"event":"step","step":1,"agents":{}}\n{"event":"superseded"}';
+    const bytes = new TextEncoder().encode(text);
+    for (const size of [1, 3, 7, 1000]) {
+      const body = new ReadableStream<Uint8Array>({ start(c) { for (let i = 0; i < bytes.length; i += size) c.enqueue(bytes.slice(i, i + size)); c.close(); } });
+      const out = [];
+      for await (const e of readEvents(body)) out.push(e.event);
+      expect(out).toEqual(['heartbeat', 'step', 'superseded']);
+    }
+  });
+});

@@ -1,0 +1,158 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/geometry';
+import { findRoute, nearestLanes } from '../src/model/lanemap';
+import { furthestReach, leastReach, limitsOf, localReach } from '../src/model/reach';
+import { parseTyped, num, speedLabel } from '../src/model/units';
+import { poseAt, motionFrom } from '../src/model/motion';
+import { readScene, SceneError } from '../src/model/read';
+import { conditionOf, writeScene } from '../src/model/write';
+import { setGoal, setStart } from '../src/model/commands';
+import { emptyMotion, readFutures, type MotionSet } from '../src/model/futures';
+import { findChanges } from '../src/model/changes';
+import { readEvents } from '../src/model/events';
+import { freeGoal, sceneKey, startPose, touched } from '../src/model/scene';
+import { giveWay, sixFutures } from './standin/futures.mjs';
+import { car, crossing, crossingJson, walker } from './helpers';
+
+describe('geometry', () => {
+  it('wraps angles into half-open pi', () => {
+    fc.assert(fc.property(fc.double({ min: -1000, max: 1000, noNaN: true }), (a) => {
+      const w = wrapAngle(a);
+      expect(w).toBeGreaterThanOrEqual(-Math.PI);
+      expect(w).toBeLessThan(Math.PI + 1e-12);
+      expect(Math.abs(Math.sin(w) - Math.sin(a))).toBeLessThan(1e-6);
+    }));
+    expect(lerpAngle(3, -3, 0.5)).toBeCloseTo(-Math.PI, 5);
+  });
+
+  it('finds points by distance and distances by point', () => {
+    const l = makeLine([[0, 0], [10, 0], [10, 10]]);
+    fc.assert(fc.property(fc.double({ min: 0, max: 20, noNaN: true }), (s) => {
+      const p = pointAt(l, s);
+      expect(project(l, p.x, p.y).s).toBeCloseTo(s, 6);
+    }));
+  });
+});
+
+describe('numbers', () => {
+  it('reads sums and units', () => {
+    expect(parseTyped('32+5', 'km/h')).toBe(37);
+    expect(parseTyped('8.9 m/s', 'km/h')).toBeCloseTo(32.04, 2);
+    expect(parseTyped('30mph', 'km/h')).toBeCloseTo(48.28, 1);
+    expect(parseTyped('(1+2)*3', 'length')).toBe(9);
+    expect(parseTyped('−4,5', 'length')).toBe(-4.5);
+    expect(parseTyped('≈ 12', 'angle')).toBe(12);
+    for (const bad of ['', 'fast', '3 s', '1+', '2 m/s m', '1..2']) expect(parseTyped(bad, 'length')).toBeNull();
+  });
+
+  it('never throws and never gives what is not a number', () => {
+    fc.assert(fc.property(fc.string(), (s) => { const v = parseTyped(s, 'length'); expect(v === null || Number.isFinite(v)).toBe(true); }));
+  });
+
+  it('writes a true minus and no negative zero', () => {
+    expect(num(-43.94, 1)).toBe('\u221243.9');
+    expect(num(-0.01, 1)).toBe('0.0');
+    expect(speedLabel(8.9, 'km/h')).toBe('32 km/h');
+  });
+});
+
+describe('scene', () => {
+  it('reads names, kinds, parked and what was asked', () => {
+    const s = crossing();
+    expect(car(s).name).toBe('Car 1');
+    expect([...s.agents.values()].filter((a) => a.parked)).toHaveLength(8);
+    expect([...s.agents.values()].filter((a) => a.kind === 'bus')).toHaveLength(1);
+    // A queue at a red light stands still for the whole scene and is not parked.
+    expect(s.agents.get('7')!.parked).toBe(false);
+  });
+
+  it('writes only what was changed, and reads it back', () => {
+    const json = crossingJson(), s = readScene(json), a = car(s);
+    let next = setGoal(a, { pos: [4, 30], heading: null, speed: 7, time: 8 }).apply(s);
+    next = setStart(next.agents.get('1')!, { ...next.agents.get('1')!.start, speed: null }).apply(next);
+    expect(conditionOf(next.agents.get('1')!)).toEqual({ goal: { x_m: 4, y_m: 30, speed_mps: 7, time_s: 8 }, start: { x_m: -60, y_m: expect.any(Number), heading_rad: expect.any(Number), speed_mps: null } });
+    const written = JSON.parse(JSON.stringify(writeScene(json, next, null)));
+    const again = readScene(written);
+    expect(sceneKey(again)).toBe(sceneKey(next));
+    expect(written.agents.slice(1).every((x: { conditions: object }) => Object.keys(x.conditions).length === 0)).toBe(true);
+    expect(written.map).toEqual(json.map);
+    expect(touched(again.agents.get('2')!)).toBe(false);
+  });
+
+  it('says what is wrong with other documents', () => {
+    expect(() => readScene({} as never)).toThrow(SceneError);
+    expect(() => readScene({ ...crossingJson(), version: 7 })).toThrow(/newer version/);
+  });
+
+  it('interpolates tracks and knows their gaps', () => {
+    const m = motionFrom({ first_step: 2, valid: [[2, 4], [5, 6]], x_m: [0, 1, 0, 9], y_m: [0, 0, 0, 0], heading_rad: [0, 0, 0, 0], vx_mps: [10, 10, 0, 10], vy_mps: [0, 0, 0, 0] });
+    expect(poseAt(m, 0.25)!.x).toBeCloseTo(0.5);
+    expect(poseAt(m, 0.1)).toBeNull();
+    expect(poseAt(m, 0.4)).toBeNull();
+    expect(poseAt(m, 0.5)!.x).toBe(9);
+  });
+});
+
+describe('lanes and reach', () => {
+  const s = crossing();
+  const road = (l: { kind: string }) => l.kind === 'road';
+
+  it('finds the way through the crossing', () => {
+    const from = nearestLanes(s.map, -60, -1.75, 0, 2, road)[0], to = nearestLanes(s.map, 1.75, 40, Math.PI / 2, 2, road)[0];
+    const r = findRoute(s.map, from, to)!;
+    expect(r.lanes.map((l) => l.id)).toEqual(['in20', 'x_in20_out10', 'out10']);
+    expect(r.length).toBeGreaterThan(80);
+    expect(r.length).toBeLessThan(105);
+  });
+
+  it('bounds what can be reached', () => {
+    const l = limitsOf({ kind: 'car', type: 'vehicle' });
+    fc.assert(fc.property(fc.double({ min: 0, max: 38, noNaN: true }), fc.double({ min: 0.5, max: 9, noNaN: true }), (v, t) => {
+      expect(leastReach(l, v, t)).toBeLessThanOrEqual(v * t + 1e-9);
+      expect(furthestReach(l, v, t)).toBeGreaterThanOrEqual(v * t - 1e-9);
+    }));
+  });
+
+  it('says why not and what would do', () => {
+    const a = { ...car(s), goal: { pos: [1.75, 90] as const, heading: Math.PI / 2, speed: null, time: 4 } };
+    const r = localReach(s.map, a, startPose(a)!, a.goal, 'km/h')!;
+    expect(r.kind).toBe('far');
+    expect(r.words).toMatch(/along the lane\. In 4\.0 s from 32 km\/h this car gets \d+ m at most\./);
+    expect(r.time).toBeGreaterThan(4);
+    expect(r.nearest).not.toBeNull();
+    const near = localReach(s.map, { ...a, goal: { ...a.goal, pos: [1.75, 20], time: 9 } }, startPose(a)!, { ...a.goal, pos: [1.75, 20], time: 9 }, 'km/h')!;
+    expect(near.kind).toBe('ok');
+    expect(localReach(s.map, a, startPose(a)!, freeGoal(), 'km/h')).toBeNull();
+  });
+});
+
+describe('futures', () => {
+  const json = crossingJson(), s = readScene(json);
+  const futures = (id: string, goal?: object) => readFutures({ chosen: 0, modes: sixFutures(json.agents.find((a) => a.id === id)!, goal && { goal }, 5, 5) }, startPose(s.agents.get(id)!)!, 5, 5, false);
+
+  it('start at the start and have names of their own', () => {
+    const f = futures('1');
+    expect(f.modes).toHaveLength(6);
+    expect(f.modes[0].motion.first).toBe(0);
+    expect(f.modes[0].motion.x[0]).toBe(-60);
+    expect(f.modes.every((m) => m.name.length > 3)).toBe(true);
+    expect(f.modes[0].name).toMatch(/left/);
+  });
+
+  it('tell who changed, in a sentence', () => {
+    const before = emptyMotion('a');
+    const late = readFutures({ chosen: 0, modes: [giveWay(json.agents[1], 2.2)] }, startPose(s.agents.get('2')!)!, 5, 5, false);
+    const after: MotionSet = { ...before, key: 'b', futures: new Map([['1', futures('1')], ['2', late]]), driving: new Set(['1', '2']) };
+    const changes = findChanges(s, before, after, '1');
+    expect(changes.map((c) => c.id)).toEqual(['2']);
+    expect(changes[0].words).toMatch(/later|waits|slows|stops/);
+  });
+
+  it('become events with facts', () => {
+    const set: MotionSet = { ...emptyMotion('a'), score: { collisions: [{ a: '1', b: '2', time: 5.4 }, { a: '2', b: '1', time: 5.5 }], nearMisses: [{ a: '1', b: '2', time: 5, distance: 0.1, ttc: 0.2 }, { a: '11', b: walker(s).id, time: 3.2, distance: 0.6, ttc: null }, { a: '99', b: '1', time: 1, distance: 1, ttc: 1 }], minTtc: null, offroadShare: null } };
+    const ev = readEvents(s, set);
+    expect(ev.map((e) => e.kind)).toEqual(['near', 'collision']);
+    expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed']);
+  });
+});

@@ -1,0 +1,65 @@
+// Every button has an action, no key is used twice, no text is missing, and the layers only look down.
+import { readdirSync, readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { ACTIONS, actionForKey } from '../src/actions/registry';
+import { caps, keyOf } from '../src/actions/keys';
+
+const src = new URL('../src/', import.meta.url);
+const files = (dir: string) => readdirSync(new URL(`${dir}/`, src)).filter((f) => f.endsWith('.ts')).map((f) => ({ name: `${dir}/${f}`, text: readFileSync(new URL(`${dir}/${f}`, src), 'utf8') }));
+const app = files('app');
+
+describe('action registry', () => {
+  it('has unique ids, and texts for everything', () => {
+    expect(new Set(ACTIONS.map((a) => a.id)).size).toBe(ACTIONS.length);
+    for (const a of ACTIONS) {
+      expect(a.label.trim(), a.id).not.toBe('');
+      expect(a.help.trim(), a.id).not.toBe('');
+      expect(a.label, a.id).not.toMatch(/!|\b(agent|sample|rollout|ground truth|denoising)\b/i);
+    }
+  });
+
+  it('uses no key twice', () => {
+    const all = ACTIONS.flatMap((a) => (a.keys ?? []).map((k) => k));
+    expect(all.filter((k, i) => all.indexOf(k) !== i)).toEqual([]);
+    for (const k of all) expect(actionForKey(k)?.keys).toContain(k);
+  });
+
+  it('knows every action that a button names', () => {
+    const ids = new Set(ACTIONS.map((a) => a.id));
+    for (const f of app)
+      for (const m of f.text.matchAll(/(?:actionButton|iconButton|perform|actionOf)\(c?,? ?'([\w-]+)'|'data-action': '([\w-]+)'/g)) expect(ids, `${f.name}: ${m[0]}`).toContain(m[1] ?? m[2]);
+    expect(app.some((f) => f.text.includes("iconButton(c, 'undo')"))).toBe(true);
+  });
+
+  it('has an icon for every name used', () => {
+    const paths = readFileSync(new URL('app/icons.ts', src), 'utf8');
+    const known = new Set([...paths.matchAll(/(?:^|[\s,{])(\w+): '[Mm]/g)].map((m) => m[1]));
+    for (const a of ACTIONS) if (a.icon) expect(known, a.id).toContain(a.icon);
+    for (const f of app) for (const m of f.text.matchAll(/\bicon\('(\w+)'/g)) expect(known, f.name).toContain(m[1]);
+  });
+
+  it('draws no text as markup and no style as an attribute', () => {
+    for (const f of ['app', 'actions', 'edit', 'draw'].flatMap(files)) {
+      expect(f.text, f.name).not.toMatch(/innerHTML|outerHTML|insertAdjacentHTML|document\.write/);
+      expect(f.text, f.name).not.toMatch(/\bstyle: ['"`]|setAttribute\('style'/);
+    }
+    expect(readFileSync(new URL('../index.html', src), 'utf8')).not.toMatch(/style=|<style|<script(?![^>]*src)/);
+  });
+});
+
+describe('keys', () => {
+  const press = (key: string, mods: Partial<Record<'ctrlKey' | 'metaKey' | 'altKey' | 'shiftKey', boolean>> = {}, code = '') => keyOf({ key, code, ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...mods });
+  it('have one spelling', () => {
+    expect(press('z', { ctrlKey: true })).toBe('Ctrl+Z');
+    expect(press('Z', { metaKey: true, shiftKey: true })).toBe('Ctrl+Shift+Z');
+    expect(press('{', { shiftKey: true })).toBe('Shift+[');
+    expect(press('?', { shiftKey: true })).toBe('?');
+    expect(press('=')).toBe('+');
+    expect(press('+', { shiftKey: true }, 'Equal')).toBe('Shift++');
+    expect(press('+', {}, 'NumpadAdd')).toBe('+');
+    expect(press('¡', { altKey: true }, 'Digit1')).toBe('Alt+1');
+    expect(press(' ')).toBe('Space');
+    expect(caps('Shift++')).toEqual(['Shift', '+']);
+    expect(caps('Ctrl+Up')).toEqual(['Ctrl', '↑']);
+  });
+});

@@ -1,0 +1,1 @@
+export function buildCrossing(id?: string, name?: string): { scene: unknown; counts: Record<string, number> };
