@@ -1,7 +1,9 @@
 //! Real files beside the checkout, when they are there: all are read, and what is written reads back
 //! equal. Nothing of them is in the repository.
 
+use formats::womd::proto::{ObjectState, Scenario, Track};
 use formats::womd::{self, Mode, Options};
+use prost::Message;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -57,6 +59,61 @@ fn every_real_file_is_read_and_comes_back_equal() {
         slowest.0 * 1e3,
         slowest.1.display()
     );
+}
+
+/// Fields of two messages that may differ by the move to the ego and back: 1e-9 m.
+fn same_states(a: &Track, b: &Track, sizes_vary: bool) -> bool {
+    let close = |a: Option<f64>, b: Option<f64>| (a.unwrap_or(0.0) - b.unwrap_or(0.0)).abs() < 1e-9;
+    let pairs = || a.states.iter().zip(&b.states).filter(|(a, _)| a.valid == Some(true));
+    let sizes =
+        sizes_vary || pairs().all(|(a, b)| (a.length, a.width, a.height) == (b.length, b.width, b.height));
+    let valid = |s: &ObjectState| s.valid.unwrap_or(false);
+    (a.id, a.object_type, a.states.len()) == (b.id, b.object_type, b.states.len())
+        && a.states.iter().map(valid).eq(b.states.iter().map(valid))
+        && sizes
+        && pairs().all(|(a, b)| {
+            (a.heading, a.velocity_x, a.velocity_y) == (b.heading, b.velocity_x, b.velocity_y)
+                && a.center_z == b.center_z
+                && close(a.center_x, b.center_x)
+                && close(a.center_y, b.center_y)
+        })
+}
+
+#[test]
+fn written_messages_are_those_of_the_real_files() {
+    let mut count = 0;
+    for path in ["womd/val", "formats/waymo"].into_iter().flat_map(files) {
+        let bytes = std::fs::read(&path).unwrap();
+        for record in womd::RecordReader::new(&bytes[..], Options::default()).unwrap() {
+            let record = record.unwrap();
+            let real = Scenario::decode(&record.data[..]).unwrap();
+            let (scene, warnings) = womd::read_record(&record, &Options::default()).unwrap();
+            let (ours, _) = womd::scenario(&scene, Mode::Log);
+            let warned = |code| warnings.iter().any(|w| w.code == code);
+            if warned("agents-dropped") {
+                continue;
+            }
+            let at = path.display();
+            assert_eq!(real.scenario_id, ours.scenario_id);
+            assert_eq!(real.timestamps_seconds, ours.timestamps_seconds, "{at}");
+            assert_eq!(real.current_time_index, ours.current_time_index);
+            assert_eq!(real.sdc_track_index, ours.sdc_track_index, "{at}");
+            assert_eq!(real.objects_of_interest, ours.objects_of_interest, "{at}");
+            assert_eq!(real.tracks_to_predict, ours.tracks_to_predict, "{at}");
+            let varies = warned("sizes-vary");
+            assert!(real.tracks.iter().zip(&ours.tracks).all(|(a, b)| same_states(a, b, varies)), "{at}");
+            let known = |m: &Scenario| {
+                let mut ids: Vec<_> = m.map_features.iter().map(|f| f.id).collect();
+                ids.sort();
+                ids
+            };
+            if !warned("features-dropped") {
+                assert_eq!(known(&real), known(&ours), "{at}");
+            }
+            count += 1;
+        }
+    }
+    println!("{count} messages compared");
 }
 
 #[test]

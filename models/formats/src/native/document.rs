@@ -3,10 +3,10 @@
 use super::agent::AgentDoc;
 use super::any::AnyDoc;
 use super::generated::GeneratedDoc;
-use super::lists::{bounded, capped};
+use super::lists::bounded;
 use super::map::{MapDoc, MapField, MapRef};
 use super::value::{Members, PointDoc};
-use crate::limits::{MAX_AGENTS, MAX_SIGNALS, MAX_STEPS};
+use crate::limits::{MAX_AGENTS, MAX_STEPS};
 use crate::problem::{FieldProblem, Problems, ReadError, code};
 use scene::{Agent, ContentHash, LaneMap, Meta, Origin, STEP_S, Scene, Signal, SignalState, Timing};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -132,7 +132,7 @@ pub enum MapForm {
 }
 
 /// A scene document, version 1.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "DragTraffic scene", transform = only_x_members)]
 pub struct SceneDoc {
     /// `dragtraffic.scene`.
@@ -155,17 +155,17 @@ pub struct SceneDoc {
     /// Map, or its hash.
     pub map: MapField,
     /// Traffic signals.
-    #[serde(default, deserialize_with = "capped::<_, _, { MAX_SIGNALS + 1 }>")]
+    #[serde(default)]
     #[schemars(length(max = 512))]
     pub signals: Vec<SignalDoc>,
     /// Road users.
-    #[serde(default, deserialize_with = "capped::<_, _, { MAX_AGENTS + 1 }>")]
+    #[serde(default)]
     #[schemars(length(max = 256))]
     pub agents: Vec<AgentDoc>,
     /// What the generator added.
     #[serde(default)]
     pub generated: Option<GeneratedDoc>,
-    /// Members under `x_` keys, kept as they are; any other is refused by [`SceneDoc::into_scene`].
+    /// Members under `x_` keys, kept as they are; any other is refused.
     #[serde(flatten)]
     pub extra: Members<AnyDoc>,
 }
@@ -188,9 +188,6 @@ impl SceneDoc {
         self.check_head()?;
         let map = self.map.into_map(resolve_map)?;
         let mut problems = Problems::default();
-        if let Some(problem) = self.extra.0.keys().find_map(|key| unknown_member(key)) {
-            problems.push(problem);
-        }
         let time = self.time.into_timing(&mut problems);
         let meta = self.meta.into_meta(&mut problems);
         let signals = self.signals.into_iter().map(SignalDoc::into_signal).collect();
@@ -258,15 +255,6 @@ pub(crate) fn check_version(version: u64) -> Result<(), ReadError> {
             Err(FieldProblem::new("/version", code::UNSUPPORTED_VERSION, detail).into())
         }
     }
-}
-
-fn unknown_member(key: &str) -> Option<FieldProblem> {
-    if key.starts_with("x_") {
-        return None;
-    }
-    let shown: String = key.chars().take(40).collect();
-    let detail = format!("unknown member \"{shown}\"; own members begin with x_");
-    Some(FieldProblem::new(format!("/{}", super::json::escape(&shown)), code::INVALID_FIELD, detail))
 }
 
 impl TimeDoc {

@@ -47,3 +47,12 @@ pub(super) fn bounded<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: u
 ) -> Result<Vec<T>, D::Error> {
     deserializer.deserialize_seq(ListVisitor::<T, N> { refuse: true, item: PhantomData })
 }
+
+/// [`capped`] as a type.
+pub(super) struct Capped<T, const N: usize>(pub Vec<T>);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Capped<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        capped::<D, T, N>(deserializer).map(Self)
+    }
+}

@@ -5,9 +5,11 @@ use super::map::{
     ROAD_LINE_TYPES, RoadEdgeDoc, RoadLineDoc, StopSignDoc,
 };
 use super::value::{PointDoc, PointsDoc};
+use crate::limits::MAX_POLYLINES;
 use crate::problem::{FieldProblem, Problems, ReadError, code};
 use scene::map::{Area, Boundary, Lane, Neighbor, StopSign, TypedLine};
 use scene::{ContentHash, LaneMap};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 impl MapField {
@@ -53,6 +55,8 @@ impl MapDoc {
         for (i, edge) in self.road_edges.iter().enumerate() {
             check("road_edges", i, &edge.line_type, &ROAD_EDGE_TYPES);
         }
+        self.check_counts(&mut problems);
+        self.check_sign_ids(&mut problems);
         if !problems.0.is_empty() {
             return Err(ReadError::invalid(problems.0));
         }
@@ -92,6 +96,39 @@ impl MapDoc {
                 })
                 .collect(),
         })
+    }
+
+    /// Lists are cut one past the limit while they are parsed, so a longer one must not pass.
+    fn check_counts(&self, problems: &mut Problems) {
+        let counts = [
+            ("lanes", self.lanes.len()),
+            ("road_lines", self.road_lines.len()),
+            ("road_edges", self.road_edges.len()),
+            ("crosswalks", self.crosswalks.len()),
+            ("speed_bumps", self.speed_bumps.len()),
+            ("driveways", self.driveways.len()),
+            ("stop_signs", self.stop_signs.len()),
+            ("drivable", self.drivable.len()),
+        ];
+        for (kind, _) in counts.into_iter().filter(|(_, count)| *count > MAX_POLYLINES) {
+            let detail = format!("more than {MAX_POLYLINES} entries");
+            problems.push(FieldProblem::new(format!("/map/{kind}"), code::MAP_TOO_LARGE, detail));
+        }
+    }
+
+    /// Ids of stop signs, which `Scene::checked` does not look at.
+    fn check_sign_ids(&self, problems: &mut Problems) {
+        let mut seen = HashSet::new();
+        for (i, sign) in self.stop_signs.iter().enumerate() {
+            let legal = |c: char| c.is_ascii_alphanumeric() || "_.:-".contains(c);
+            let pointer = format!("/map/stop_signs/{i}/id");
+            if sign.id.is_empty() || sign.id.len() > 64 || !sign.id.chars().all(legal) {
+                problems.invalid(pointer, "1 to 64 of A-Z a-z 0-9 _ . : - expected");
+            } else if !seen.insert(&sign.id) {
+                let detail = format!("id \"{}\" appears twice", sign.id);
+                problems.push(FieldProblem::new(pointer, code::DUPLICATE, detail));
+            }
+        }
     }
 
     /// The document of a domain map.

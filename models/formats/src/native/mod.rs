@@ -7,6 +7,7 @@ mod agent;
 mod any;
 mod conditions;
 mod document;
+mod document_read;
 mod generated;
 mod json;
 mod lists;
