@@ -145,8 +145,7 @@ fn direct(start: Pose, goal: EndPose, manner: Manner) -> Polyline {
     let turn = wrap_angle(chord.y.atan2(chord.x) - start.heading_rad);
     let end = Pose::new(goal.position, goal.heading_rad.unwrap_or(start.heading_rad + 2.0 * turn));
     let join = cubic::best(start, end, manner.curvature);
-    let straight = || Polyline::new([start.position, goal.position]);
-    join.map_or_else(straight, |join| join.path.resample(manner.step_m))
+    join.path.resample(manner.step_m)
 }
 
 /// `path` entered from `start`, whose foot is near its beginning; the bent part is at most `room_m` long.
@@ -202,13 +201,12 @@ fn joined(path: &Polyline, start: Pose, manner: Manner, room_m: f64) -> Option<P
     loop {
         let to = path.sample(s);
         if (to.position - start.position).norm() > 0.5 {
-            if let Some(join) = cubic::best(start, to, manner.curvature) {
-                let cost = cubic::cost(&join, manner.curvature) + path.length_m() - s;
-                if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                    let rest = path.slice(s, path.length_m());
-                    let points = join.path.points().iter().chain(rest.points().iter().skip(1)).copied();
-                    best = Some((cost, Polyline::new(points)));
-                }
+            let join = cubic::best(start, to, manner.curvature);
+            let cost = cubic::cost(&join, manner.curvature) + path.length_m() - s;
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                let rest = path.slice(s, path.length_m());
+                let points = join.path.points().iter().chain(rest.points().iter().skip(1)).copied();
+                best = Some((cost, Polyline::new(points)));
             }
         }
         if s >= room_m.min(MAX_BLEND_M) {

@@ -45,18 +45,17 @@ pub(super) fn cubic(from: Pose, to: Pose, strength: f64) -> Cubic {
     Cubic { path: Polyline::new(points), max_curvature }
 }
 
-/// Tangent strengths worth trying: a turn of more than about 100 degrees needs room.
-pub(super) fn strengths(from: Pose, to: Pose) -> &'static [f64] {
-    if wrap_angle(to.heading_rad - from.heading_rad).abs() < 1.8 { &[1.0] } else { &[1.2, 2.0, 3.0] }
-}
-
 /// `routes.md` 2b: 1.6 for each metre of the cubic and 150 for each 1/m of curvature over `limit`.
 pub(super) fn cost(join: &Cubic, limit: f64) -> f64 {
     1.6 * join.path.length_m() + 150.0 * (join.max_curvature - limit).max(0.0)
 }
 
-/// Cheapest cubic between two poses.
-pub(super) fn best(from: Pose, to: Pose, limit: f64) -> Option<Cubic> {
-    let tried = strengths(from, to).iter().map(|strength| cubic(from, to, *strength));
-    tried.min_by(|a, b| cost(a, limit).total_cmp(&cost(b, limit)))
+/// Cheapest cubic between two poses: a turn of more than about 100 degrees needs room, so there several
+/// strengths are tried.
+pub(super) fn best(from: Pose, to: Pose, limit: f64) -> Cubic {
+    if wrap_angle(to.heading_rad - from.heading_rad).abs() < 1.8 {
+        return cubic(from, to, 1.0);
+    }
+    let cheaper = |a: Cubic, b: Cubic| if cost(&b, limit) < cost(&a, limit) { b } else { a };
+    [2.0, 3.0].into_iter().map(|strength| cubic(from, to, strength)).fold(cubic(from, to, 1.2), cheaper)
 }

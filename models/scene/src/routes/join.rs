@@ -129,7 +129,7 @@ fn cheapest_join(path: &Polyline, from: Pose, limit: f64) -> Option<(f64, f64, C
         if best.as_ref().is_some_and(|(least, ..)| 1.6 * distance + rest >= *least) {
             continue;
         }
-        let Some(join) = cubic::best(from, to, limit) else { continue };
+        let join = cubic::best(from, to, limit);
         let cost = cubic::cost(&join, limit) + rest;
         if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
             best = Some((cost, s, join));
@@ -152,11 +152,10 @@ pub(super) fn leaving(to_lane: GoalRoute, query: &GoalQuery) -> Option<GoalRoute
         let bend = wrap_angle(chord.y.atan2(chord.x) - from.heading_rad);
         let heading = query.goal_heading_rad.unwrap_or(from.heading_rad + 2.0 * bend);
         if chord.norm() > 1.0 && bend.abs() < std::f64::consts::FRAC_PI_2 {
-            if let Some(join) = cubic::best(from, Pose::new(query.goal, heading), limit) {
-                let cost = cubic::cost(&join, limit) + length - lead;
-                if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                    best = Some((cost, length - lead, join));
-                }
+            let join = cubic::best(from, Pose::new(query.goal, heading), limit);
+            let cost = cubic::cost(&join, limit) + length - lead;
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, length - lead, join));
             }
         }
         lead += 2.0;

@@ -191,7 +191,7 @@ mod tests {
         let others = [at(-10.0, 0.0, 0.0), at(40.0, 0.5, 0.0), at(20.0, 3.0, 0.0), at(60.0, 0.0, 0.0)];
         let found = leader(&path, 5.0, &others).unwrap();
         assert_eq!(found, Leader { index: 1, gap_m: 35.5, speed_mps: 7.0 });
-        let crossing = leader(&path, 5.0, &[at(30.0, 1.0, 1.5707963)]).unwrap();
+        let crossing = leader(&path, 5.0, &[at(30.0, 1.0, std::f64::consts::FRAC_PI_2)]).unwrap();
         assert!((crossing.gap_m - 26.5).abs() < 1e-3 && crossing.speed_mps == 0.0);
         assert_eq!(leader(&path, 5.0, &[]), None);
     }

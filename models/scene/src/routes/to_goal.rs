@@ -92,10 +92,9 @@ pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     let goals = goal_lanes(graph, query, ON_LANE_M);
     let mut routes = forward(graph, query, &starts, &goals);
     let close = |r: &GoalRoute| r.goal_lateral_m.abs() < CLOSE_M;
-    if !routes.iter().any(close) && query.distance_m() >= NO_JOIN_M {
-        if let Some(joined) = join::joined(graph, query, &goals) {
-            routes.insert(0, joined);
-        }
+    let wants_join = !routes.iter().any(close) && query.distance_m() >= NO_JOIN_M;
+    if wants_join && let Some(joined) = join::joined(graph, query, &goals) {
+        routes.insert(0, joined);
     }
     if routes.is_empty() && goals.is_empty() {
         let near = goal_lanes(graph, query, OFF_LANE_M);
