@@ -145,7 +145,7 @@ function importReport(c: Context, verdicts: readonly Verdict[]): HTMLElement {
     h('header', null, h('span', { class: bad.length ? 't-collision' : '' }, icon(bad.length ? 'warn' : 'check', 22)), h('h2', null, title)),
     h('div', { class: 'body' }, verdicts.map((v) => fileRow(v, open)), first ? explanation(first) : null),
     h('footer', null, first?.details ? h('button', { type: 'button', class: 'btn line', onclick: () => void navigator.clipboard?.writeText(first.details!) }, 'Copy details') : null, h('span', { class: 'grow' }),
-      h('button', { type: 'button', class: `btn ${bad.length && !good ? 'line' : 'pri'}`, onclick: close }, 'Close'), bad.length ? h('button', { type: 'button', class: `btn ${good ? 'line' : 'pri'}`, 'data-action': 'choose-files', onclick: () => { close(); c.chooseFiles(); } }, 'Choose another file') : null));
+      h('button', { type: 'button', class: `btn ${bad.length && !good ? 'line' : 'pri'}`, 'data-first': bad.length && !good ? null : '', onclick: close }, 'Close'), bad.length ? h('button', { type: 'button', class: `btn ${good ? 'line' : 'pri'}`, 'data-action': 'choose-files', 'data-first': good ? null : '', onclick: () => { close(); c.chooseFiles(); } }, 'Choose another file') : null));
 }
 
 function fileRow(v: Verdict, open: (id: string) => void): Child {

@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals-core';
 import type { Context } from '../actions/context';
 import type { SceneListItem } from '../net/api';
+import { isRecorded } from '../model/scene';
 import { iconButton } from './buttons';
 import { h, swap } from './dom';
 import { icon } from './icons';
@@ -34,7 +35,7 @@ export function countAll(s: SceneListItem): number { return Object.values(s.coun
 
 export function about(s: SceneListItem): string {
   const n = countAll(s);
-  const kind = s.source === 'womd' ? 'recorded' : s.readonly ? 'example' : 'own';
+  const kind = s.source && isRecorded(s.source) ? 'recorded' : s.readonly ? 'example' : 'own';
   return [n ? `${n} road users` : '', kind].filter(Boolean).join(' · ');
 }
 

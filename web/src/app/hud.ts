@@ -16,7 +16,7 @@ export function hud(c: Context, picture: Picture): HTMLElement {
   return h('div', { class: 'hud' },
     h('nav', { class: 'rail', 'aria-label': 'Tools' }, ['select', 'pan', 'measure'].map((t) => actionButton(c, `tool-${t}`, { size: 20, label: h('em', null, actionOf(`tool-${t}`).keys![0]) }))),
     h('div', { class: 'tr' }, h('div', { class: 'card chipbar', role: 'group', 'aria-label': 'Layers' }, ['futures', 'log', 'lanes', 'labels'].map((l) => actionButton(c, `layer-${l}`, { icon: 'check', size: 14 })))),
-    h('div', { class: () => `bl ${shift()}` }, h('div', { class: 'card status', role: 'status' }, swap(() => statusKey(c), () => status(c))), scaleBar(c)),
+    h('div', { class: () => `bl ${shift()}` }, h('div', { class: 'card status' }, swap(() => statusKey(c), () => status(c))), scaleBar(c)),
     swap(() => editor.dragging.value, () => (editor.drag.peek() ? dragHelp(c) : zoomBar(c))),
     swap(() => coachShown(c), () => (coachShown(c) ? coach(c) : null)),
     swap(() => editor.toast.value, () => toast(c)),

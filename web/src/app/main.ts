@@ -62,7 +62,12 @@ function build(): Context {
   stage.onFrame = (now) => { gestures.frame(now); playback.frame(now); if (editor.follow.peek() && editor.playing.peek()) follow(c); };
   effect(() => { void ui.theme.value; stage.themeChanged(); });
   effect(() => { stage.view.inset = { left: ui.drawer.value ? 324 : 68, right: 12, top: 12, bottom: 56 }; });
-  library.onOpen = () => { fit(c, true); ui.eventsPanel.value = false; };
+  library.onOpen = () => {
+    fit(c, true);
+    ui.eventsPanel.value = false;
+    // Events of the log; with changes from last time the answer to them brings its own.
+    if (!editor.motion.peek().stale) void asking.rescore();
+  };
   void document.fonts?.ready.then(() => stage.invalidate('agents', 'overlay'));
   return c;
 }
@@ -166,7 +171,6 @@ async function start(): Promise<void> {
     const id = [wanted, FIRST_SCENE, ids[0]].find((i) => i && ids.includes(i));
     if (id) {
       await c.library.open(id);
-      void c.asking.rescore();
       if (c.ui.coach.peek()) c.playback.introduce(3);
     } else c.editor.status.value = { kind: 'ready' };
   } catch {

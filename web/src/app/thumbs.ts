@@ -5,7 +5,7 @@ import type { SceneListItem } from '../net/api';
 import { boxOf, type Box, type Vec } from '../model/geometry';
 import { isMapRef } from '../model/json';
 import { readScene } from '../model/read';
-import { startPose, type Scene } from '../model/scene';
+import { isRecorded, startPose, type Scene } from '../model/scene';
 import { MapPicture } from '../draw/paint-map';
 import { stamp } from '../draw/sprites';
 import { paletteStamp } from '../draw/theme';
@@ -31,8 +31,6 @@ function load(c: Context, item: SceneListItem): Promise<Kept> {
   }
   return p;
 }
-
-export const isRecorded = (source: string): boolean => !['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'].includes(source);
 
 export function thumbnail(c: Context, item: SceneListItem, w: number, ht: number): HTMLCanvasElement {
   const canvas = h('canvas', { width: w * 2, height: ht * 2, 'aria-hidden': 'true' });

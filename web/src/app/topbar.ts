@@ -1,6 +1,7 @@
 // Top bar: scene name and saving, undo, seed, diversity, generate, export, help.
 import type { Context } from '../actions/context';
 import { rename, setDiversity, setSeed } from '../model/commands';
+import { isRecorded } from '../model/scene';
 import { actionButton, iconButton } from './buttons';
 import { h, svg, swap } from './dom';
 import { icon } from './icons';
@@ -15,7 +16,7 @@ export function topBar(c: Context): HTMLElement {
     menuButton(c, 'file', 'menu', 'File and settings'),
     iconButton(c, 'scenes'),
     h('div', { class: 'title' }, swap(() => editor.scene.value?.id, () => nameField(c)),
-      h('small', null, () => (editor.drag.value ? 'Dragging' : editor.scene.value ? (recorded(editor.scene.value.source) && library.saveState.value === 'example' ? 'Recorded scene' : SAVED[library.saveState.value]) : ''))),
+      h('small', null, () => (editor.drag.value ? 'Dragging' : editor.scene.value ? (isRecorded(editor.scene.value.source) && library.saveState.value === 'example' ? 'Recorded scene' : SAVED[library.saveState.value]) : ''))),
     swap(() => editor.scene.value !== null, () => (editor.scene.peek() ? h('div', { class: 'swap' }, h('div', { class: 'sep' }), iconButton(c, 'undo'), iconButton(c, 'redo')) : null)),
     h('div', { class: 'grow' }),
     swap(() => editor.scene.value !== null, () => (editor.scene.peek() ? controls(c) : null)),
@@ -23,8 +24,6 @@ export function topBar(c: Context): HTMLElement {
     swap(() => editor.scene.value !== null, () => (editor.scene.peek() ? h('div', { class: 'swap' }, actionButton(c, 'palette', { key: true, size: 16, label: h('span', { class: 'mut' }, 'Actions') }), exportButton(c)) : null)),
     iconButton(c, 'theme'), iconButton(c, 'shortcuts'), swap(() => ui.menu.value, () => (ui.menu.peek() ? menu(c, ui.menu.peek()!) : null)));
 }
-
-const recorded = (source: string): boolean => ['womd', 'argoverse2', 'nuplan', 'nuscenes', 'ngsim'].includes(source);
 
 function nameField(c: Context): HTMLElement {
   const { editor } = c;

@@ -71,6 +71,7 @@ export class Asking {
     if (!editor.motion.peek().stale) {
       this.generator.cancel();
       editor.status.value = { kind: 'ready' };
+      this.selected(editor.selection.peek());
       return;
     }
     if (editor.away.peek()) {
@@ -226,7 +227,8 @@ export class Asking {
     if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
     const before = editor.motion.peek();
     const answers = this.readAll(scene, e);
-    const futures = new Map(before.futures);
+    // A look at somebody's futures from before the change is no longer true.
+    const futures = new Map([...before.futures].filter(([id]) => before.driving.has(id) || w.kept?.has(id) || touched(scene.agents.get(id)!)));
     for (const [id, f] of answers) futures.set(id, f);
     const all = w.agents === 'all';
     const driving = scene.others === 'react' || all ? new Set([...before.driving, ...answers.keys()]) : new Set<string>();
@@ -237,6 +239,8 @@ export class Asking {
     editor.liveReach.value = null;
     editor.settle(set, { except: w.commit!.agent });
     this.afterCommit(w.commit!, ms);
+    const looked = editor.selection.peek();
+    if (looked && !futures.has(looked)) this.selected(looked);
     if (!set.score) void this.rescore(w.commit, true);
   }
 

@@ -33,6 +33,7 @@ export class Overlay {
     if (!scene) return;
     const { left, right } = v.inset;
     this.labels.reset(v.w, v.h, { left: left > 20 ? left - 12 : 0, right: right > 20 ? right - 12 : 0, top: 0, bottom: 0 });
+    for (const r of this.panels(v)) this.labels.block(...r);
     this.paintHover(g, v);
     const a = e.agent.value;
     if (e.showBefore.value) this.paintBefore(g, v);
@@ -40,6 +41,12 @@ export class Overlay {
     this.paintEvents(g, v);
     this.paintChangeLabels(g, v);
     this.paintMeasure(g, v);
+  }
+
+  /** Rectangles of the panels over the picture, which labels keep clear of. */
+  private panels(v: View): [number, number, number, number][] {
+    const left = v.inset.left > 100 ? v.inset.left - 12 : 0;
+    return [[left, v.h - 52, 400, 52], [v.w - 160, v.h - 52, 160, 52], [v.w - 260, 0, 260, 52], [0, 0, 62, 170], [left ? 62 : 0, 0, left, left ? v.h : 0]];
   }
 
   private paintMeasure(g: G, v: View): void {
@@ -92,6 +99,7 @@ export class Overlay {
       this.tag(g, h.tip, (a.start.speed === null ? '≈ ' : '') + speedLabel(start.speed, unit), { tries: [[-22, -32], [-22, 14], [14, -10]] });
     }
     if (!atStart && now && !e.playing.value) this.tag(g, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
+    this.paintLetters(g, v, a);
     this.dragLabels(g, v, a, goal);
   }
 
@@ -128,14 +136,24 @@ export class Overlay {
     const d = e.draft.value;
     const outdated = e.motion.value.stale && !d;
     if (d && d.id === a.id) d.earlier.forEach((old, i) => paintFutures(g, v, old, { chosen, alpha: TRAIL_ALPHA[i] ?? 0.1 }));
-    const committed = touched(a) && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
+    const committed = this.committed(a);
     paintFutures(g, v, f, { chosen, only: e.hoverFuture.value, outdated, alpha: outdated ? 0.6 : 1, onlyChosen: committed });
     if (f.sketch) {
       const m = f.modes[0].motion, i = m.x.length >> 1;
       pill(g, this.labels, v.x(m.x[i]), v.y(m.y[i]), 'sketch', { fg: colours()['ink-2'] });
       return;
     }
-    this.chips = paintChips(g, this.labels, v, f, this.chipIndexes(a, f.modes.length, committed), chosen);
+  }
+
+  /** Away from the start only the future in force is shown: it is what happens. */
+  private committed(a: Agent): boolean {
+    const { editor: e } = this;
+    return touched(a) && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
+  }
+
+  private paintLetters(g: G, v: View, a: Agent): void {
+    const f = this.editor.futures.value;
+    if (f && !f.sketch && this.editor.layers.value.futures) this.chips = paintChips(g, this.labels, v, f, this.chipIndexes(a, f.modes.length, this.committed(a)), this.editor.chosen.value);
   }
 
   /** With a goal all futures end together, so only those that miss it carry their letter. */
@@ -259,7 +277,8 @@ export class Overlay {
     for (const ch of e.changes.value.slice(0, 5)) {
       const a = e.scene.value!.agents.get(ch.id);
       const p = a && this.poseNow(a);
-      if (p) this.tag(g, [v.x(p.x), v.y(p.y)], `${ch.name} ${ch.short}`, { leader: colours().ink, radii: [44, 60, 84, 110], must: false });
+      const x = p ? v.x(p.x) : -1, y = p ? v.y(p.y) : -1;
+      if (x > 0 && x < v.w && y > 0 && y < v.h) this.tag(g, [x, y], `${ch.name} ${ch.short}`, { leader: colours().ink, radii: [44, 60, 84, 110], must: false });
     }
   }
 

@@ -3,7 +3,7 @@ import { effect } from '@preact/signals-core';
 import { mixPose, type Pose } from '../model/geometry';
 import { poseAt } from '../model/motion';
 import { motionOf } from '../model/changes';
-import { startPose, type Agent } from '../model/scene';
+import { isRecorded, startPose, type Agent } from '../model/scene';
 import { speedLabel } from '../model/units';
 import { Labels, pill } from '../draw/labels';
 import { colourKey, sizeOnScreen, stamp } from '../draw/sprites';
@@ -42,7 +42,7 @@ export class Picture {
       const s = e.scene.value;
       if (s && s.map !== mapOf) {
         mapOf = s.map;
-        this.map = new MapPicture(s.map, !['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'].includes(s.source));
+        this.map = new MapPicture(s.map, isRecorded(s.source));
         stage.invalidate('map');
       }
       stage.invalidate('overlay');

@@ -77,5 +77,9 @@ export function sceneKey(scene: Scene): string {
   return JSON.stringify(parts);
 }
 
-export const isWheeled = (a: Agent): boolean => a.type !== 'pedestrian';
+const MADE = ['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'];
+
+/** Recorded maps know nothing of what lies beside the road; made ones are drawn with grass and pavement. */
+export const isRecorded = (source: string): boolean => !MADE.includes(source);
+
 export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;
