@@ -1,10 +1,34 @@
 //! Training of one expert: records, losses of the three stages, optimiser, checkpoints.
+//!
+//! ```text
+//! Records -> Split -> batch of a step -> shards on threads -> gradients -> AdamW -> weights, checkpoint
+//! ```
+//!
+//! A run is a function of its records, options and seed: every draw comes from a stream keyed by seed
+//! and step, and sums are taken in a fixed order.
 
+mod checkpoint;
 mod codec;
 pub mod dataset;
 mod error;
+mod fit;
+mod loss;
+mod metrics;
+mod optim;
+mod route;
+mod run;
+mod sample;
+mod stages;
+mod workers;
+
+#[cfg(test)]
+mod tests;
 #[cfg(test)]
 pub(crate) mod toy;
 
 pub use dataset::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record, Records, Writer};
 pub use error::TrainError;
+pub use metrics::Metrics;
+pub use run::{Options, Progress, checkpoint_path, run};
+pub use sample::Mirror;
+pub use stages::Stage;

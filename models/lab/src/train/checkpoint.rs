@@ -1,0 +1,98 @@
+//! A training run on disk: weights, moments and running means in one safetensors file.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+
+use candle_core::{Device, Tensor};
+use experts::net::{Architecture, Card, Expert};
+use serde::{Deserialize, Serialize};
+
+use super::TrainError;
+use super::optim::{AdamW, Moments};
+use super::stages::Stage;
+
+const HEADER: &str = "dragtraffic-training";
+
+/// Where a run stands, beside its numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct State {
+    pub(super) architecture: Architecture,
+    pub(super) card: Card,
+    pub(super) stage: Stage,
+    pub(super) seed: u64,
+    pub(super) batch: usize,
+    pub(super) step: u64,
+    /// Seconds trained so far.
+    pub(super) seconds: f64,
+    /// Hash of the records.
+    pub(super) records: String,
+}
+
+/// Writes under another name, then renames, so that a stopped write leaves the file of before.
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(TrainError::io(folder))?;
+    }
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".partial");
+    let partial = Path::new(&partial);
+    std::fs::write(partial, bytes).map_err(TrainError::io(partial))?;
+    std::fs::rename(partial, path).map_err(TrainError::io(path))
+}
+
+pub(super) fn save(path: &Path, state: &State, expert: &Expert, adam: &AdamW) -> Result<(), TrainError> {
+    let mut tensors = BTreeMap::new();
+    for (name, tensor) in expert.tensors() {
+        tensors.insert(format!("weights/{name}"), tensor.clone());
+    }
+    for (name, moments) in &adam.moments {
+        for (kind, values) in [("first", &moments.first), ("second", &moments.second), ("mean", &moments.mean)] {
+            let tensor = Tensor::from_slice(values, values.len(), &Device::Cpu)?;
+            tensors.insert(format!("{kind}/{name}"), tensor);
+        }
+    }
+    let damaged = |reason: String| TrainError::damaged(path, reason);
+    let text = serde_json::to_string(state).map_err(|error| damaged(error.to_string()))?;
+    let bytes = safetensors::serialize(&tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
+        .map_err(|error| damaged(error.to_string()))?;
+    replace(path, &bytes)
+}
+
+/// A run that can go on.
+pub(super) struct Resumed {
+    pub(super) state: State,
+    pub(super) expert: Expert,
+    pub(super) adam: AdamW,
+}
+
+pub(super) fn load(path: &Path) -> Result<Resumed, TrainError> {
+    let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
+    let damaged = |reason: String| TrainError::damaged(path, reason);
+    let (_, metadata) = safetensors::SafeTensors::read_metadata(&bytes).map_err(|e| damaged(e.to_string()))?;
+    let text = metadata.metadata().as_ref().and_then(|m| m.get(HEADER));
+    let text = text.ok_or_else(|| damaged("not a checkpoint of a training run".into()))?;
+    let state: State = serde_json::from_str(text).map_err(|error| damaged(error.to_string()))?;
+    let mut tensors = candle_core::safetensors::load_buffer(&bytes, &Device::Cpu)?;
+    let expert = Expert::trainable(state.architecture.clone(), state.card.clone(), 0, &Device::Cpu)?;
+    let mut take = |kind: &str, name: &str, count: usize| -> Result<Tensor, TrainError> {
+        let tensor = tensors.remove(&format!("{kind}/{name}"));
+        let tensor = tensor.ok_or_else(|| TrainError::damaged(path, format!("{kind} of {name} is missing")))?;
+        if tensor.elem_count() != count {
+            return Err(TrainError::damaged(path, format!("{kind} of {name} has shape {:?}", tensor.shape())));
+        }
+        Ok(tensor)
+    };
+    let mut adam = AdamW::new(expert.vars(), state.stage)?;
+    adam.step = state.step;
+    for (name, var) in expert.vars() {
+        let count = var.elem_count();
+        var.set(&take("weights", name, count)?.reshape(var.shape())?)?;
+        let mut values = |kind: &str| -> Result<Vec<f32>, TrainError> {
+            Ok(take(kind, name, count)?.flatten_all()?.to_vec1::<f32>()?)
+        };
+        let moments = Moments { first: values("first")?, second: values("second")?, mean: values("mean")? };
+        adam.moments.insert(name.clone(), moments);
+    }
+    Ok(Resumed { state, expert, adam })
+}

@@ -1,0 +1,276 @@
+//! Losses with their gradients, written out: the networks' outputs are few numbers, and their loss
+//! through the tensor library would cost more than some of the networks.
+
+use experts::features::{INSTANTS, MODES, RESIDUAL, Target};
+use scene::KNOTS;
+
+use super::route::Route;
+
+/// Temperature of the soft targets of the scores, metres.
+const TEMPERATURE: f32 = 1.0;
+/// Added under the root of a distance, square metres.
+const ROUND: f32 = 0.01;
+/// Mean distance above which a losing mode is not pulled, metres.
+const FAR: f32 = 60.0;
+
+/// What the initializer said about one road user.
+#[derive(Clone, Debug)]
+pub(super) struct Said {
+    pub(super) residual: [[f32; RESIDUAL]; MODES],
+    pub(super) log_scale: [[f32; RESIDUAL]; MODES],
+    pub(super) score: [f32; MODES],
+    pub(super) stays: f32,
+}
+
+impl Said {
+    pub(super) fn zero() -> Self {
+        Self {
+            residual: [[0.0; RESIDUAL]; MODES],
+            log_scale: [[0.0; RESIDUAL]; MODES],
+            score: [0.0; MODES],
+            stays: 0.0,
+        }
+    }
+}
+
+/// Parts of the initializer's loss, for reports.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct InitialParts {
+    pub(super) total: f32,
+    pub(super) min_ade: f32,
+    pub(super) first_ade: f32,
+    pub(super) score_nll: f32,
+    pub(super) stays_bce: f32,
+    pub(super) scale_nll: f32,
+}
+
+/// Distance of a residual to the recording, mean over the valid instants, and its gradient.
+pub(super) fn distance(
+    route: &Route,
+    target: &Target,
+    mode: usize,
+    residual: &[f32; RESIDUAL],
+) -> (f32, [f32; RESIDUAL]) {
+    let coordinates = route.coordinates(&target.base_along[mode], residual);
+    let count = target.valid.iter().sum::<f32>().max(1e-3);
+    let (mut mean, mut pull) = (0.0, [[0.0; 2]; INSTANTS]);
+    for i in 0..INSTANTS {
+        if target.valid[i] == 0.0 {
+            continue;
+        }
+        let (a, b) = (coordinates[i][0] - target.along[mode][i], coordinates[i][1] - target.across[mode][i]);
+        let length = (a * a + b * b + ROUND).sqrt();
+        mean += length / count;
+        pull[i] = [a / length / count, b / length / count];
+    }
+    (mean, to_knots(route, &pull))
+}
+
+/// A gradient [along, across] at the instants as one to the normalised knots.
+pub(super) fn to_knots(route: &Route, pull: &[[f32; 2]; INSTANTS]) -> [f32; RESIDUAL] {
+    let mut knots = [0.0; RESIDUAL];
+    for half in 0..2 {
+        for (row, pull) in route.rows(half).iter().zip(pull) {
+            for (knot, basis) in knots[half * KNOTS..][..KNOTS].iter_mut().zip(row) {
+                *knot += basis * pull[half];
+            }
+        }
+    }
+    knots
+}
+
+/// Weight of a road user by its speed, so that fast ones do not drown the rest.
+pub(super) fn speed_weight(target: &Target) -> f32 {
+    let speed = target.base_along.iter().map(|base| base[0].abs()).fold(0.0, f32::max) / 0.5;
+    1.0 / (1.0 + 0.05 * speed)
+}
+
+/// The index of the least value.
+pub(super) fn least(values: &[f32]) -> usize {
+    (0..values.len()).fold(0, |best, i| if values[i] < values[best] { i } else { best })
+}
+
+/// Winner takes all on positions, soft scores, scales of the winner, and whether the road user stays.
+/// `recorded` are the residuals of [`super::fit::recorded`]. Gives the parts and the gradient.
+pub(super) fn initial(
+    route: &Route,
+    target: &Target,
+    recorded: &[[f32; RESIDUAL]; MODES],
+    said: &Said,
+) -> (InitialParts, Said) {
+    let mut grad = Said::zero();
+    let weight = speed_weight(target);
+    let distances: [(f32, [f32; RESIDUAL]); MODES] =
+        std::array::from_fn(|mode| distance(route, target, mode, &said.residual[mode]));
+    let ade = distances.map(|(ade, _)| ade);
+    let best = least(&ade);
+    let mut total = weight * ade[best];
+    for (mode, (ade, slope)) in distances.iter().enumerate() {
+        let mut pull = if mode == best { weight } else { 0.0 };
+        total += weight * 0.01 * ade.min(FAR) / MODES as f32;
+        if *ade < FAR {
+            pull += weight * 0.01 / MODES as f32;
+        }
+        let size = (said.residual[mode].iter().map(|r| r * r).sum::<f32>() + 1e-3).sqrt();
+        total += 0.004 * size / MODES as f32;
+        for i in 0..RESIDUAL {
+            grad.residual[mode][i] = pull * slope[i] + 0.004 / MODES as f32 * said.residual[mode][i] / size;
+        }
+    }
+    let score_nll = scores(&ade, &said.score, 0.5, &mut grad.score);
+    let (stays_bce, stays_grad) = binary(said.stays, target.stays);
+    grad.stays = 0.2 * stays_grad;
+    let scale_nll = scales(&recorded[best], &said.residual[best], &said.log_scale[best], 0.02, &mut grad.log_scale[best]);
+    total += 0.5 * score_nll + 0.2 * stays_bce + 0.02 * scale_nll;
+    let first_ade = ade[least(&said.score.map(|score| -score))];
+    (InitialParts { total, min_ade: ade[best], first_ade, score_nll, stays_bce, scale_nll }, grad)
+}
+
+/// Cross-entropy of the scores against soft targets from the distances.
+fn scores(ade: &[f32; MODES], score: &[f32; MODES], weight: f32, grad: &mut [f32; MODES]) -> f32 {
+    let wanted = softmax(&ade.map(|ade| -ade / TEMPERATURE));
+    let given = softmax(score);
+    let mut nll = 0.0;
+    for mode in 0..MODES {
+        nll -= wanted[mode] * given[mode].max(1e-20).ln();
+        grad[mode] += weight * (given[mode] - wanted[mode]);
+    }
+    nll
+}
+
+fn softmax(values: &[f32; MODES]) -> [f32; MODES] {
+    let top = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let parts = values.map(|value| (value - top).exp());
+    let total: f32 = parts.iter().sum();
+    parts.map(|part| part / total)
+}
+
+/// Cross-entropy of a logit and its gradient.
+fn binary(logit: f32, truth: f32) -> (f32, f32) {
+    let loss = logit.max(0.0) - logit * truth + (-logit.abs()).exp().ln_1p();
+    (loss, 1.0 / (1.0 + (-logit).exp()) - truth)
+}
+
+/// Laplace likelihood of the recorded residual; the residual itself is not moved by it.
+fn scales(
+    recorded: &[f32; RESIDUAL],
+    residual: &[f32; RESIDUAL],
+    log_scale: &[f32; RESIDUAL],
+    weight: f32,
+    grad: &mut [f32; RESIDUAL],
+) -> f32 {
+    let mut nll = 0.0;
+    for i in 0..RESIDUAL {
+        // Bounded below, so that a number that is always right (a fixed one) does not run away.
+        let log = log_scale[i].clamp(-5.0, 5.0);
+        let miss = (recorded[i] - residual[i]).abs() / log.exp();
+        nll += miss + log;
+        let free = log == log_scale[i] || (log_scale[i] > 0.0) == (miss < 1.0);
+        grad[i] += if free { weight * (1.0 - miss) } else { 0.0 };
+    }
+    nll
+}
+
+/// A denoised residual against the recording: metres at the instants and, a little, the knots.
+pub(super) fn denoised(
+    route: &Route,
+    target: &Target,
+    mode: usize,
+    recorded: &[f32; RESIDUAL],
+    residual: &[f32; RESIDUAL],
+) -> (f32, [f32; RESIDUAL]) {
+    let (mut loss, mut grad) = distance(route, target, mode, residual);
+    for i in 0..RESIDUAL {
+        let miss = residual[i] - recorded[i];
+        loss += 0.05 * miss * miss;
+        grad[i] += 0.1 * miss;
+    }
+    (loss, grad)
+}
+
+/// Distance between a refined residual and the draft it came from, over all instants.
+pub(super) fn moved(route: &Route, draft: &[f32; RESIDUAL], refined: &[f32; RESIDUAL]) -> (f32, [f32; RESIDUAL]) {
+    let difference: [f32; RESIDUAL] = std::array::from_fn(|i| refined[i] - draft[i]);
+    let steps = route.coordinates(&[0.0; INSTANTS], &difference);
+    let (mut mean, mut pull) = (0.0, [[0.0; 2]; INSTANTS]);
+    for (step, pull) in steps.iter().zip(&mut pull) {
+        let length = (step[0] * step[0] + step[1] * step[1] + ROUND).sqrt();
+        mean += length / INSTANTS as f32;
+        *pull = step.map(|s| s / length / INSTANTS as f32);
+    }
+    (mean, to_knots(route, &pull))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::train::{fit, toy};
+
+    fn said(seed: u64) -> Said {
+        let mut value = seed as f32 * 0.37;
+        let mut next = || {
+            value = (value * 1.7 + 0.31) % 1.0;
+            value - 0.5
+        };
+        let mut said = Said::zero();
+        said.residual.as_flattened_mut().iter_mut().for_each(|r| *r = next());
+        said.log_scale.as_flattened_mut().iter_mut().for_each(|r| *r = next());
+        said.score.iter_mut().for_each(|r| *r = next());
+        said.stays = next();
+        said
+    }
+
+    fn close(slope: f32, expected: f32, what: &str) {
+        assert!((slope - expected).abs() < 0.02 * expected.abs() + 0.004, "{what}: slope {slope}, gradient {expected}");
+    }
+
+    #[test]
+    fn initial_gradient_matches_differences() {
+        let route = Route::new();
+        for (seed, record) in toy::scenes(1, 5, 3)[0].2.iter().enumerate() {
+            let recorded = fit::recorded(&route, &record.agent, &record.target);
+            let said = said(seed as u64 + 1);
+            let (_, grad) = initial(&route, &record.target, &recorded, &said);
+            let slope = |change: &dyn Fn(&mut Said, f32)| {
+                let at = |delta: f32| {
+                    let mut moved = said.clone();
+                    change(&mut moved, delta);
+                    let (parts, _) = initial(&route, &record.target, &recorded, &moved);
+                    // The scale's likelihood does not move the residual: its loss is held apart.
+                    (f64::from(parts.total), f64::from(0.02 * parts.scale_nll))
+                };
+                let (up, down) = (at(2e-3), at(-2e-3));
+                (((up.0 - down.0) / 4e-3) as f32, ((up.1 - down.1) / 4e-3) as f32)
+            };
+            for mode in 0..MODES {
+                for i in (0..RESIDUAL).step_by(3) {
+                    let (all, scale) = slope(&|said, d| said.residual[mode][i] += d);
+                    close(all - scale, grad.residual[mode][i], "residual");
+                    close(slope(&|said, d| said.log_scale[mode][i] += d).0, grad.log_scale[mode][i], "scale");
+                }
+                close(slope(&|said, d| said.score[mode] += d).0, grad.score[mode], "score");
+            }
+            close(slope(&|said, d| said.stays += d).0, grad.stays, "stays");
+        }
+    }
+
+    #[test]
+    fn denoised_and_moved_gradients_match_differences() {
+        let route = Route::new();
+        let record = &toy::scenes(1, 1, 3)[0].2[0];
+        let recorded = fit::recorded(&route, &record.agent, &record.target);
+        let (a, b) = (said(1).residual, said(2).residual);
+        for i in 0..RESIDUAL {
+            let slope = |loss: &dyn Fn(&[f32; RESIDUAL]) -> f32| {
+                let (mut up, mut down) = (b[2], b[2]);
+                up[i] += 2e-3;
+                down[i] -= 2e-3;
+                ((f64::from(loss(&up)) - f64::from(loss(&down))) / 4e-3) as f32
+            };
+            let one = |r: &[f32; RESIDUAL]| denoised(&route, &record.target, 2, &recorded[2], r);
+            close(slope(&|r| one(r).0), one(&b[2]).1[i], "denoised");
+            let two = |r: &[f32; RESIDUAL]| moved(&route, &a[2], r);
+            close(slope(&|r| two(r).0), two(&b[2]).1[i], "moved");
+        }
+    }
+}

@@ -1,0 +1,328 @@
+//! A training run from records to weights.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use candle_core::Device;
+use experts::net::{Architecture, Card, Expert};
+
+use super::checkpoint::{self, Resumed, State};
+use super::metrics::Metrics;
+use super::optim::{AdamW, rate};
+use super::sample::{Mirror, Split};
+use super::stages::{Stage, Tools};
+use super::workers::Workers;
+use super::{Records, TrainError};
+
+/// Steps between two lines of a report.
+const REPORT: u64 = 100;
+/// Records held out that are used at most.
+const HELD_OUT: usize = 2048;
+
+/// What to train on, how, and where to put the result.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Files of records.
+    pub records: Vec<PathBuf>,
+    /// Name of the expert: vehicle, pedestrian or cyclist.
+    pub expert: String,
+    /// Licence that goes into the weights' header.
+    pub licence: String,
+    /// What the records were made from, for the header.
+    pub trained_on: String,
+    /// Which part is trained.
+    pub stage: Stage,
+    /// Weights to begin with; random ones without.
+    pub init: Option<PathBuf>,
+    /// Steps in all.
+    pub steps: u64,
+    /// Records a step.
+    pub batch: usize,
+    /// Top learning rate.
+    pub rate: f64,
+    /// Threads; the result does not depend on it.
+    pub threads: usize,
+    /// Where the weights go (their running mean). The checkpoint goes beside it, with `.checkpoint` added.
+    pub out: PathBuf,
+    /// Whether to go on from the checkpoint when there is one.
+    pub resume: bool,
+    /// Seed of the weights, the batches and the noise.
+    pub seed: u64,
+    /// Ends the run after this time, with the rate falling accordingly; the result then depends on the
+    /// machine's speed.
+    pub minutes: Option<f64>,
+    /// Steps between two validations, each followed by a save.
+    pub validate_every: u64,
+    /// Mirrors records by an even chance.
+    pub mirror: Option<Mirror>,
+    /// Sizes of a new expert.
+    pub architecture: Architecture,
+}
+
+impl Options {
+    /// Usual values for the three things that have none.
+    pub fn new(records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> Self {
+        Self {
+            records,
+            expert: "vehicle".into(),
+            licence: "MIT OR Apache-2.0".into(),
+            trained_on: "synthetic traffic".into(),
+            stage,
+            init: None,
+            steps: 20_000,
+            batch: 64,
+            rate: 1e-3,
+            threads: 1,
+            out,
+            resume: false,
+            seed: 1,
+            minutes: None,
+            validate_every: 1000,
+            mirror: None,
+            architecture: Architecture::default(),
+        }
+    }
+}
+
+/// Where the checkpoint of a run lies.
+pub fn checkpoint_path(out: &Path) -> PathBuf {
+    let mut path = out.as_os_str().to_owned();
+    path.push(".checkpoint");
+    path.into()
+}
+
+/// A line of a run's report.
+#[derive(Clone, Debug)]
+pub enum Progress {
+    /// The run begins or goes on.
+    Begin {
+        /// Records to train on and held out.
+        records: (usize, usize),
+        /// Trained numbers.
+        parameters: usize,
+        /// Steps already done.
+        step: u64,
+    },
+    /// Means over the steps since the line before.
+    Training {
+        /// Steps done.
+        step: u64,
+        /// Learning rate now.
+        rate: f64,
+        /// Mean length of the gradient before clipping.
+        gradient: f64,
+        /// Losses and distances.
+        metrics: Metrics,
+        /// Records a second.
+        speed: f64,
+    },
+    /// Figures of the running mean of the weights on records held out.
+    Validation {
+        /// Steps done.
+        step: u64,
+        /// Losses and distances.
+        metrics: Metrics,
+    },
+}
+
+impl fmt::Display for Progress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Begin { records, parameters, step } => write!(
+                f,
+                "{} records, {} held out, {parameters} parameters, from step {step}",
+                records.0, records.1
+            ),
+            Self::Training { step, rate, gradient, metrics, speed } => {
+                write!(f, "{step:>7}  {metrics}  gradient {gradient:.2}  rate {rate:.1e}  {speed:.0}/s")
+            }
+            Self::Validation { step, metrics } => write!(f, "{step:>7}  held out: {metrics}"),
+        }
+    }
+}
+
+/// Trains and writes the weights; `report` gets each line. Gives the last validation.
+///
+/// # Errors
+/// When files cannot be read or written, or a checkpoint belongs to another run.
+pub fn run(options: &Options, report: &mut dyn FnMut(&Progress)) -> Result<Metrics, TrainError> {
+    let records = Records::load(&options.records)?;
+    let split = Split::new(&records, HELD_OUT)?;
+    let mut run = Run::begin(options, &records)?;
+    report(&Progress::Begin {
+        records: (split.train(), split.held_out.len()),
+        parameters: run.expert.parameters(),
+        step: run.adam.step,
+    });
+    let workers = Workers {
+        records: &records,
+        tools: Tools::new(),
+        stage: options.stage,
+        seed: options.seed,
+        threads: options.threads,
+        mirror: options.mirror.as_ref(),
+    };
+    let mut since = Since::new();
+    while run.progress() < 1.0 {
+        let rate = rate(options.rate, run.adam.step, options.steps.min(200), run.progress());
+        let batch = split.batch(options.seed, run.adam.step, options.batch);
+        let (gradients, metrics) = workers.train(&run.expert, &batch, run.adam.step)?;
+        let length = run.adam.apply(run.expert.vars(), &gradients, rate)?;
+        run.adam.average(run.expert.vars())?;
+        since.add(&metrics, length);
+        let step = run.adam.step;
+        if step.is_multiple_of(REPORT) {
+            report(&since.line(step, rate));
+            since = Since::new();
+        }
+        if step.is_multiple_of(options.validate_every.max(1)) {
+            let metrics = run.validate(&workers, &split)?;
+            report(&Progress::Validation { step, metrics });
+            run.save()?;
+            since = Since::new();
+        }
+    }
+    let metrics = run.validate(&workers, &split)?;
+    report(&Progress::Validation { step: run.adam.step, metrics: metrics.clone() });
+    run.save()?;
+    Ok(metrics)
+}
+
+/// What was measured since the last line.
+struct Since {
+    metrics: Metrics,
+    lengths: f64,
+    steps: u64,
+    clock: Instant,
+}
+
+impl Since {
+    fn new() -> Self {
+        Self { metrics: Metrics::default(), lengths: 0.0, steps: 0, clock: Instant::now() }
+    }
+
+    fn add(&mut self, metrics: &Metrics, length: f64) {
+        self.metrics.merge(metrics);
+        self.lengths += length;
+        self.steps += 1;
+    }
+
+    fn line(&self, step: u64, rate: f64) -> Progress {
+        Progress::Training {
+            step,
+            rate,
+            gradient: self.lengths / self.steps.max(1) as f64,
+            metrics: self.metrics.clone(),
+            speed: self.metrics.records() as f64 / self.clock.elapsed().as_secs_f64().max(1e-9),
+        }
+    }
+}
+
+struct Run<'a> {
+    options: &'a Options,
+    /// What is trained.
+    expert: Expert,
+    /// The running mean of the weights.
+    mean: Expert,
+    adam: AdamW,
+    records: String,
+    clock: Instant,
+    seconds_before: f64,
+}
+
+impl<'a> Run<'a> {
+    fn begin(options: &'a Options, records: &Records) -> Result<Self, TrainError> {
+        let path = checkpoint_path(&options.out);
+        let hash = records.hash().to_hex().to_string();
+        let resumed = if options.resume && path.exists() { Some(checkpoint::load(&path)?) } else { None };
+        let (expert, adam, seconds_before) = match resumed {
+            Some(resumed) => {
+                same_run(&path, options, &hash, &resumed.state)?;
+                let Resumed { state, expert, adam } = resumed;
+                (expert, adam, state.seconds)
+            }
+            None => {
+                let expert = first_weights(options)?;
+                let adam = AdamW::new(expert.vars(), options.stage)?;
+                (expert, adam, 0.0)
+            }
+        };
+        let mean = Expert::trainable(expert.architecture.clone(), expert.card.clone(), 0, &Device::Cpu)?;
+        Ok(Self { options, expert, mean, adam, records: hash, clock: Instant::now(), seconds_before })
+    }
+
+    fn seconds(&self) -> f64 {
+        self.seconds_before + self.clock.elapsed().as_secs_f64()
+    }
+
+    /// Share of the run that is done.
+    fn progress(&self) -> f64 {
+        let steps = self.adam.step as f64 / self.options.steps.max(1) as f64;
+        match self.options.minutes {
+            Some(minutes) => steps.max(self.seconds() / (60.0 * minutes)),
+            None => steps,
+        }
+    }
+
+    fn validate(&self, workers: &Workers<'_>, split: &Split) -> Result<Metrics, TrainError> {
+        self.adam.write_means(self.mean.vars())?;
+        workers.validate(&self.mean, &split.held_out)
+    }
+
+    fn save(&mut self) -> Result<(), TrainError> {
+        let options = self.options;
+        let notes = &mut self.mean.card.notes;
+        notes.insert(format!("{:?} steps", options.stage).to_lowercase(), self.adam.step.to_string());
+        notes.insert("records".into(), self.records.clone());
+        self.adam.write_means(self.mean.vars())?;
+        checkpoint::replace(&options.out, &self.mean.save()?)?;
+        let state = State {
+            architecture: self.expert.architecture.clone(),
+            card: self.expert.card.clone(),
+            stage: options.stage,
+            seed: options.seed,
+            batch: options.batch,
+            step: self.adam.step,
+            seconds: self.seconds(),
+            records: self.records.clone(),
+        };
+        checkpoint::save(&checkpoint_path(&options.out), &state, &self.expert, &self.adam)
+    }
+}
+
+fn first_weights(options: &Options) -> Result<Expert, TrainError> {
+    let mut expert = match &options.init {
+        Some(path) => {
+            let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
+            Expert::load_trainable(&bytes, &Device::Cpu)?
+        }
+        None => {
+            let card = Card {
+                expert: String::new(),
+                licence: String::new(),
+                trained_on: String::new(),
+                untrained: false,
+                notes: Default::default(),
+            };
+            Expert::trainable(options.architecture.clone(), card, options.seed, &Device::Cpu)?
+        }
+    };
+    expert.card.expert.clone_from(&options.expert);
+    expert.card.licence.clone_from(&options.licence);
+    expert.card.trained_on.clone_from(&options.trained_on);
+    expert.card.untrained = false;
+    Ok(expert)
+}
+
+fn same_run(path: &Path, options: &Options, records: &str, state: &State) -> Result<(), TrainError> {
+    let differs = |what: &str| Err(TrainError::damaged(path, format!("the checkpoint is of a run with another {what}")));
+    match () {
+        () if state.records != records => differs("set of records"),
+        () if state.stage != options.stage => differs("stage"),
+        () if state.seed != options.seed => differs("seed"),
+        () if state.batch != options.batch => differs("batch"),
+        () if state.card.expert != options.expert => differs("expert"),
+        () => Ok(()),
+    }
+}

@@ -1,0 +1,119 @@
+//! Whole runs on the toy world.
+
+use std::path::{Path, PathBuf};
+
+use experts::net::{Architecture, Expert};
+
+use super::sample::{Shard, stream};
+use super::stages::{self, Tools};
+use super::*;
+
+fn small() -> Architecture {
+    Architecture { width: 32, piece_width: 16, gating_blocks: 2, ..Architecture::default() }
+}
+
+fn records(folder: &Path, scenes: usize) -> PathBuf {
+    let path = folder.join("toy.records");
+    toy::write(&path, &toy::scenes(scenes, 8, 7));
+    path
+}
+
+fn options(folder: &Path, stage: Stage, steps: u64) -> Options {
+    Options {
+        steps,
+        batch: 48,
+        rate: 3e-3,
+        architecture: small(),
+        ..Options::new(vec![folder.join("toy.records")], stage, folder.join("out.safetensors"))
+    }
+}
+
+fn trained(options: &Options) -> (Metrics, Vec<u8>) {
+    let metrics = run(options, &mut |line| eprintln!("{line}")).unwrap();
+    (metrics, std::fs::read(&options.out).unwrap())
+}
+
+#[test]
+fn stopping_and_going_on_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path(), 30);
+    for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
+        let straight = options(folder.path(), stage, 20);
+        let (_, expected) = trained(&straight);
+        let checkpoint = std::fs::read(checkpoint_path(&straight.out)).unwrap();
+        // The run is stopped after ten steps, as a killed one would be, by a save at step ten.
+        let stopped = Options { validate_every: 10, ..straight.clone() };
+        let mut at_ten = None;
+        run(&stopped, &mut |line| {
+            if let Progress::Validation { step: 20, .. } = line
+                && at_ten.is_none()
+            {
+                at_ten = Some(std::fs::read(checkpoint_path(&stopped.out)).unwrap());
+            }
+        })
+        .unwrap();
+        std::fs::write(checkpoint_path(&stopped.out), at_ten.unwrap()).unwrap();
+        let resumed = Options { resume: true, threads: 2, ..straight.clone() };
+        let mut from = 0;
+        run(&resumed, &mut |line| {
+            if let Progress::Begin { step, .. } = line {
+                from = *step;
+            }
+        })
+        .unwrap();
+        assert_eq!(from, 10);
+        assert!(std::fs::read(&resumed.out).unwrap() == expected, "{stage:?}: weights differ");
+        let again = std::fs::read(checkpoint_path(&resumed.out)).unwrap();
+        assert_eq!(again.len(), checkpoint.len());
+    }
+    let other = Options { resume: true, seed: 2, ..options(folder.path(), Stage::Joint, 20) };
+    assert!(run(&other, &mut |_| ()).unwrap_err().to_string().contains("another seed"));
+}
+
+#[test]
+fn losses_fall_on_a_toy_world() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path(), 60);
+    let first = options(folder.path(), Stage::Initializer, 1);
+    let (before, _) = trained(&first);
+    let (after, _) = trained(&Options { threads: 2, ..options(folder.path(), Stage::Initializer, 150) });
+    let mean = |metrics: &Metrics, name| metrics.mean(name).unwrap();
+    assert!(mean(&after, "min") < 0.4 * mean(&before, "min"), "{before} | {after}");
+    assert!(mean(&after, "score") < mean(&before, "score"));
+    let init = folder.path().join("initializer.safetensors");
+    std::fs::rename(&first.out, &init).unwrap();
+    let joint = Options { init: Some(init), threads: 2, ..options(folder.path(), Stage::Joint, 100) };
+    let (refined, bytes) = trained(&joint);
+    assert!(mean(&refined, "overlap'") < mean(&refined, "overlap"), "{refined}");
+    assert!(mean(&refined, "refined") < 2.0 * mean(&refined, "min"), "{refined}");
+    let expert = Expert::load(&bytes).unwrap();
+    assert!(!expert.card.untrained && expert.card.notes.contains_key("joint steps"));
+    let (denoised, _) = trained(&Options { threads: 2, ..options(folder.path(), Stage::Denoiser, 60) });
+    assert!(denoised.means().all(|(_, mean)| mean.is_finite()));
+}
+
+#[test]
+fn every_trained_variable_gets_a_gradient() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = Records::load(&[records(folder.path(), 2)]).unwrap();
+    let tools = Tools::new();
+    let indices: Vec<usize> = (0..records.len()).collect();
+    let shard = Shard::new(&records, &indices, &tools.route, None).unwrap();
+    let card = Expert::random(1).unwrap().card;
+    let expert = Expert::trainable(small(), card, 3, &candle_core::Device::Cpu).unwrap();
+    for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
+        let (loss, _) = stages::train(&expert, &tools, &shard, stage, &mut stream(1, 1, 1)).unwrap();
+        let grads = loss.backward().unwrap();
+        for (name, var) in expert.vars() {
+            let expected = match stage {
+                Stage::Denoiser => !name.starts_with("initializer."),
+                Stage::Initializer => !name.starts_with("refiner."),
+                Stage::Joint => true,
+            };
+            let norm = grads.get(var.as_tensor()).map_or(0.0, |g| {
+                g.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap()
+            });
+            assert!(norm.is_finite() && (norm > 0.0) == expected, "{stage:?}: {name} has {norm}");
+        }
+    }
+}

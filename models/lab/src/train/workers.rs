@@ -1,0 +1,115 @@
+//! Shards of a batch on several threads. A batch is cut into shards of a fixed size and their results
+//! are summed in order, so the sums do not depend on the number of threads.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use experts::net::Expert;
+
+use super::metrics::Metrics;
+use super::optim::Gradients;
+use super::sample::{Mirror, Shard, stream};
+use super::stages::{self, Stage, Tools};
+use super::{Records, TrainError};
+
+/// Records in a shard.
+const SHARD: usize = 32;
+
+/// What every shard needs.
+pub(super) struct Workers<'a> {
+    pub(super) records: &'a Records,
+    pub(super) tools: Tools,
+    pub(super) stage: Stage,
+    pub(super) seed: u64,
+    pub(super) threads: usize,
+    pub(super) mirror: Option<&'a Mirror>,
+}
+
+impl Workers<'_> {
+    /// The mean gradient of a batch, and what was measured on it.
+    pub(super) fn train(
+        &self,
+        expert: &Expert,
+        indices: &[usize],
+        step: u64,
+    ) -> Result<(Gradients, Metrics), TrainError> {
+        let results = self.each_shard(indices, |number, shard| self.shard_gradient(expert, shard, step, number))?;
+        let mut metrics = Metrics::default();
+        let mut sums: Gradients = vec![None; expert.vars().len()];
+        for (gradients, measured) in results {
+            metrics.merge(&measured);
+            for (sum, gradient) in sums.iter_mut().zip(gradients) {
+                match (sum, gradient) {
+                    (Some(sum), Some(gradient)) => sum.iter_mut().zip(gradient).for_each(|(s, g)| *s += g),
+                    (sum, Some(gradient)) => *sum = Some(gradient),
+                    (_, None) => {}
+                }
+            }
+        }
+        let share = 1.0 / indices.len().max(1) as f32;
+        sums.iter_mut().flatten().flatten().for_each(|g| *g *= share);
+        Ok((sums, metrics))
+    }
+
+    fn shard_gradient(
+        &self,
+        expert: &Expert,
+        indices: &[usize],
+        step: u64,
+        number: usize,
+    ) -> Result<(Gradients, Metrics), TrainError> {
+        let mut rng = stream(self.seed, step, 1 + number as u64);
+        let mirror = self.mirror.map(|mirror| (mirror, &mut rng));
+        let shard = Shard::new(self.records, indices, &self.tools.route, mirror)?;
+        let (loss, metrics) = stages::train(expert, &self.tools, &shard, self.stage, &mut rng)?;
+        let mut store = loss.backward()?;
+        let gradients = expert.vars().values().map(|var| match store.remove(var.as_tensor()) {
+            Some(gradient) => Ok(Some(gradient.flatten_all()?.to_vec1::<f32>()?)),
+            None => Ok(None),
+        });
+        Ok((gradients.collect::<Result<_, TrainError>>()?, metrics))
+    }
+
+    /// What is measured on records held out; the same draws every time.
+    pub(super) fn validate(&self, expert: &Expert, indices: &[usize]) -> Result<Metrics, TrainError> {
+        let results = self.each_shard(indices, |number, indices| {
+            let shard = Shard::new(self.records, indices, &self.tools.route, None)?;
+            let mut rng = stream(self.seed, u64::MAX >> 16, number as u64);
+            stages::validate(expert, &self.tools, &shard, self.stage, &mut rng)
+        })?;
+        let mut metrics = Metrics::default();
+        results.iter().for_each(|measured| metrics.merge(measured));
+        Ok(metrics)
+    }
+
+    /// Runs all shards, each thread taking the next one; gives the results in the shards' order.
+    fn each_shard<T: Send>(
+        &self,
+        indices: &[usize],
+        work: impl Fn(usize, &[usize]) -> Result<T, TrainError> + Sync,
+    ) -> Result<Vec<T>, TrainError> {
+        let shards: Vec<&[usize]> = indices.chunks(SHARD).collect();
+        let next = AtomicUsize::new(0);
+        let results: Mutex<Vec<Option<Result<T, TrainError>>>> =
+            Mutex::new(std::iter::repeat_with(|| None).take(shards.len()).collect());
+        let run = || {
+            loop {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                let Some(shard) = shards.get(number) else { break };
+                let result = work(number, shard);
+                if let Ok(mut results) = results.lock() {
+                    results[number] = Some(result);
+                }
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..self.threads.min(shards.len()) {
+                scope.spawn(run);
+            }
+            run();
+        });
+        let results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let stopped = || TrainError::Invalid("a training thread stopped".into());
+        results.into_iter().map(|result| result.unwrap_or_else(|| Err(stopped()))).collect()
+    }
+}
