@@ -16,6 +16,8 @@ export class Ui {
   readonly drawer = signal(true);
   readonly dialog = signal<Dialog>(null);
   readonly menu = signal<string | null>(null);
+  /** Id of the scene that is about to be deleted. */
+  readonly deleting = signal<string | null>(null);
   readonly eventsPanel = signal(false);
   readonly coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
   readonly theme = signal<Theme>(recall<Theme>('theme') ?? (typeof matchMedia !== 'undefined' && matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));

@@ -90,6 +90,7 @@ add(
     run(c) {
       if (c.gestures.cancel()) return;
       if (c.ui.dialog.value || c.ui.menu.value) { c.ui.dialog.value = null; c.ui.menu.value = null; return; }
+      if (c.ui.deleting.value) { c.ui.deleting.value = null; return; }
       if (c.library.imports.value) { c.library.imports.value = null; return; }
       if (c.ui.eventsPanel.value) { c.ui.eventsPanel.value = false; c.editor.selectedEvent.value = null; return; }
       if (c.editor.tool.value !== 'select') { c.editor.tool.value = 'select'; c.editor.measure.value = null; return; }
@@ -193,6 +194,7 @@ add(
   { id: 'others-react', label: 'Others react', group: 'Scene', keys: [], help: 'Everybody you gave no goal adapts when you let go', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.others === 'react', run: (c) => c.editor.run(setOthers('react')) },
   { id: 'others-log', label: 'Others replay the log', group: 'Scene', keys: [], help: 'They do what was recorded', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.others === 'log', run: (c) => c.editor.run(setOthers('log')) },
   { id: 'others-still', label: 'Others hold still', group: 'Scene', keys: [], help: 'They stay where they start', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.others === 'still', run: (c) => c.editor.run(setOthers('still')) },
+  { id: 'delete-scene', label: 'Delete this scene', group: 'Scene', keys: [], icon: 'trash', help: 'Asks first; examples stay', undo: 'none', when: (c) => (!c.editor.scene.value ? 'No scene is open.' : c.library.isOwn(c.editor.scene.value.id) ? true : 'Examples cannot be deleted.'), run: (c) => { c.ui.deleting.value = c.editor.scene.value!.id; } },
   { id: 'reset-all', label: 'Everybody back to the log', group: 'Scene', keys: [], icon: 'undo', help: 'Drops every change; can be undone', undo: 'command', when: hasScene, run: (c) => c.editor.run(resetAll(c.editor.scene.value!)) },
 );
 

@@ -10,6 +10,7 @@ import { icon } from './icons';
 export function dialogs(c: Context): Node {
   return h('div', { class: 'swap' },
     swap(() => c.ui.dialog.value, () => (c.ui.dialog.peek() === 'palette' ? palette(c) : c.ui.dialog.peek() === 'shortcuts' ? shortcuts(c) : null)),
+    swap(() => c.ui.deleting.value, () => (c.ui.deleting.peek() ? confirmDelete(c, c.ui.deleting.peek()!) : null)),
     swap(() => c.library.imports.value, () => (c.library.imports.peek() ? importReport(c, c.library.imports.peek()!) : null)));
 }
 
@@ -159,4 +160,14 @@ function fileRow(v: Verdict, open: (id: string) => void): Child {
 function explanation(v: Verdict): HTMLElement {
   const rows: [string, Child][] = [['What is wrong', h('b', null, v.wrong ?? '')], ['Where', v.where ?? ''], ['What to do', v.todo ?? '']];
   return h('dl', { class: 'wh' }, rows.filter(([, t]) => t).flatMap(([k, t]) => [h('dt', null, k), h('dd', null, t)]));
+}
+
+// ---------------------------------------------------------------- deletion
+
+function confirmDelete(c: Context, id: string): HTMLElement {
+  const close = () => { c.ui.deleting.value = null; };
+  const name = c.library.list.peek().find((s) => s.id === id)?.name ?? c.editor.scene.peek()?.name ?? id;
+  return modal('Delete the scene', 'import', close, h('header', null, h('span', { class: 't-collision' }, icon('trash', 22)), h('h2', null, `Delete “${name}”?`)),
+    h('div', { class: 'body' }, h('p', { class: 'sec' }, 'The scene and its futures are removed from this server. This cannot be undone.')),
+    h('footer', null, h('span', { class: 'grow' }), h('button', { type: 'button', class: 'btn line', 'data-first': '', onclick: close }, 'Keep it'), h('button', { type: 'button', class: 'btn danger line', onclick: () => { close(); void c.library.remove(id); } }, 'Delete')));
 }

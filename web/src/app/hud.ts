@@ -137,12 +137,14 @@ function toast(c: Context): HTMLElement | null {
 
 const bannerKey = (c: Context): string => {
   const { editor, library } = c;
-  return editor.away.value ? `away${editor.away.value.waiting}` : library.conflict.value ? 'conflict' : library.openError.value ?? '';
+  return editor.crash.value ? 'crash' : editor.away.value ? `away${editor.away.value.waiting}` : library.conflict.value ? 'conflict' : library.openError.value ?? '';
 };
 
 function banner(c: Context): HTMLElement | null {
   const { editor, library } = c;
   const box = (ic: string, title: string, words: Child, buttons: Child): HTMLElement => h('div', { class: 'banner', role: 'alert' }, icon(ic, 20), h('div', null, h('b', null, title), h('span', { class: 'sub' }, words)), buttons);
+  if (editor.crash.peek())
+    return box('warn', 'Something broke in the editor. The scene is safe.', 'Reload the page to go on.', [h('button', { type: 'button', class: 'btn', onclick: () => location.reload() }, 'Reload'), h('button', { type: 'button', class: 'btn', onclick: () => void navigator.clipboard?.writeText(editor.crash.peek()!) }, 'Copy details')]);
   if (editor.away.peek()) {
     const n = editor.away.peek()!.waiting;
     const words = n ? `Keep editing: ${n} change${n > 1 ? 's are' : ' is'} waiting and saved on this computer.` : 'Keep editing: changes will wait and are saved on this computer.';

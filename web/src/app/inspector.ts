@@ -4,9 +4,10 @@ import { canChange, hasGoal, touched, startPose, type Agent } from '../model/sce
 import { deg, rad, wrapAngle, type Vec } from '../model/geometry';
 import { LETTERS, isSettled } from '../model/futures';
 import { endPose, poseAt } from '../model/motion';
+import { nearestLanes } from '../model/lanemap';
 import { comparedWithLog } from '../model/changes';
 import { fromUnit, metres, num, seconds, speedText, toUnit } from '../model/units';
-import { pickFuture, remedies, resize, shownPose, toggleField, withField, SPEED_LIMIT, TIME_RANGE, type Field } from '../edit/moves';
+import { pickFuture, remedies, resize, shownPose, snapToNearest, toggleField, withField, SPEED_LIMIT, TIME_RANGE, type Field } from '../edit/moves';
 import { laneWords } from '../edit/snap';
 import type { Part } from '../edit/editor';
 import { actionButton, iconButton } from './buttons';
@@ -42,7 +43,7 @@ const sentenceCase = (s: string): string => s.charAt(0).toUpperCase() + s.slice(
 
 // ---------------------------------------------------------------- the verdict
 
-interface Verdict { kind: 'ok' | 'near' | 'plain'; icon: string; title: string; words: string; remedies: boolean }
+interface Verdict { kind: 'ok' | 'near' | 'plain'; icon: string; title: string; words: string; remedies: boolean; snap?: boolean }
 
 function verdict(c: Context, a: Agent): Verdict | null {
   const { editor: e } = c;
@@ -54,6 +55,8 @@ function verdict(c: Context, a: Agent): Verdict | null {
     return { kind: 'near', icon: 'warn', title: own?.title ?? `Out of reach in ${seconds(a.goal.time)}`, words: own?.words ?? sentenceCase(live?.words ?? 'The nearest reachable point is shown.'), remedies: true };
   }
   if (e.drag.value) return local && a.goal.pos ? { kind: 'ok', icon: 'check', title: local.title, words: local.words, remedies: false } : null;
+  if (a.goal.pos && a.type === 'vehicle' && !nearestLanes(e.scene.value!.map, a.goal.pos[0], a.goal.pos[1], null, 4, (l) => l.kind === 'road' || l.kind === 'other').length)
+    return { kind: 'plain', icon: 'warn', title: 'There is no lane here.', words: 'Cars may still be put here, but the futures will be rough.', remedies: false, snap: true };
   const log = e.layers.value.log ? comparedWithLog(a, e.motionFor(a), e.scene.value!.duration) : null;
   if (log) return { kind: 'plain', icon: 'eye', title: 'Compared with the log', words: `${log.words} Furthest apart: ${metres(log.d, 1)} at ${seconds(log.t)}.`, remedies: false };
   const f = e.futures.value;
@@ -86,7 +89,8 @@ function hint(c: Context, a: Agent): HTMLElement | null {
   const ways = v.remedies ? remedies(c.editor, a) : [];
   return h('div', { class: 'sect' },
     h('div', { class: `hint ${v.kind}` }, icon(v.icon, 17), h('div', null, h('b', null, v.title), h('div', { class: 'tx' }, v.words))),
-    ways.length && !c.editor.drag.peek() ? h('div', { class: 'stack' }, ways.map((r) => h('button', { type: 'button', class: `opt ${r.primary ? 'pri' : ''}`, onclick: () => c.editor.run(r.command) }, icon(r.icon, 15), r.label, h('small', null, r.note)))) : null);
+    ways.length && !c.editor.drag.peek() ? h('div', { class: 'stack' }, ways.map((r) => h('button', { type: 'button', class: `opt ${r.primary ? 'pri' : ''}`, onclick: () => c.editor.run(r.command) }, icon(r.icon, 15), r.label, h('small', null, r.note)))) : null,
+    v.snap ? h('div', { class: 'stack' }, h('button', { type: 'button', class: 'opt', onclick: () => { const to = snapToNearest(c.editor, a, 'goal'); if (to) c.editor.run(to); } }, icon('fit', 15), 'Snap to nearest lane')) : null);
 }
 
 // ---------------------------------------------------------------- start and goal

@@ -56,10 +56,11 @@ function build(): Context {
   const insp = h('aside', { class: 'insp', 'aria-label': 'Inspector', 'data-group': 'inspector' }, swap(
     () => (ui.eventsPanel.value && editor.events.value.length ? 'events' : editor.selection.value ? `agent:${editor.selection.value}` : `scene:${editor.scene.value?.id}`),
     () => (ui.eventsPanel.peek() && editor.events.peek().length ? eventsPanel(c) : editor.selection.peek() ? agentPanel(c, editor.selection.peek()!) : scenePanel(c))));
-  main.append(roadUserList(c), handleSliders(c), hud(c, picture), swap(() => ui.drawer.value && editor.scene.value !== null, () => (ui.drawer.peek() && editor.scene.peek() ? drawer(c) : null)) as HTMLElement, emptyState(c));
+  main.append(emptyState(c), roadUserList(c), handleSliders(c), hud(c, picture), swap(() => ui.drawer.value && editor.scene.value !== null, () => (ui.drawer.peek() && editor.scene.peek() ? drawer(c) : null)) as HTMLElement);
   root.prepend(topBar(c));
   root.append(insp, timeline(c), h('div', { class: 'swap' }, dialogs(c), liveRegion(c), files));
   stage.onFrame = (now) => { gestures.frame(now); playback.frame(now); if (editor.follow.peek() && editor.playing.peek()) follow(c); };
+  effect(() => { main.classList.toggle('bare', editor.scene.value === null); });
   effect(() => { void ui.theme.value; stage.themeChanged(); });
   effect(() => { stage.view.inset = { left: ui.drawer.value ? 324 : 68, right: 12, top: 12, bottom: 56 }; });
   library.onOpen = () => {
@@ -159,8 +160,16 @@ function coaching(c: Context): void {
   });
 }
 
+/** An error nobody caught is said once; what was changed is saved already. */
+function crashes(c: Context): void {
+  const say = (e: unknown): void => { c.editor.crash.value = e instanceof Error ? `${e.message}\n${e.stack ?? ''}` : String(e); };
+  addEventListener('error', (e) => { if (e.error) say(e.error); });
+  addEventListener('unhandledrejection', (e) => { if ((e.reason as Error | null)?.name !== 'AbortError') say(e.reason); });
+}
+
 async function start(): Promise<void> {
   const c = build();
+  crashes(c);
   keys(c);
   drops(c);
   coaching(c);
@@ -171,7 +180,7 @@ async function start(): Promise<void> {
     const id = [wanted, FIRST_SCENE, ids[0]].find((i) => i && ids.includes(i));
     if (id) {
       await c.library.open(id);
-      if (c.ui.coach.peek()) c.playback.introduce(3);
+      if (c.ui.coach.peek() && c.editor.scene.peek()) c.playback.introduce(3);
     } else c.editor.status.value = { kind: 'ready' };
   } catch {
     waitForServer(c);

@@ -66,7 +66,7 @@ function exportButton(c: Context): HTMLElement {
 }
 
 const MENUS: Record<string, readonly (string | null)[]> = {
-  file: ['choose-files', 'save-copy', 'export-json', 'export-womd', null, 'reset-all', null, 'theme', 'unit', 'shortcuts', 'coach'],
+  file: ['choose-files', 'save-copy', 'export-json', 'export-womd', null, 'reset-all', 'delete-scene', null, 'theme', 'unit', 'shortcuts', 'coach'],
   export: ['export-json', 'export-womd'],
 };
 

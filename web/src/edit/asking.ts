@@ -235,7 +235,7 @@ export class Asking {
     for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
     const reach = new Map(before.reach);
     for (const [id, r] of Object.entries(e.resolved ?? {})) { const v = readReach(r); if (v) reach.set(id, v); else reach.delete(id); }
-    const set: MotionSet = { key: sceneKey(scene), futures, driving, score: readScore(e.scores), reach, stale: false };
+    const set: MotionSet = { key: sceneKey(scene), futures, driving, score: readScore(e.scores), reach, stale: false, head: e.generated };
     editor.liveReach.value = null;
     editor.settle(set, { except: w.commit!.agent });
     this.afterCommit(w.commit!, ms);

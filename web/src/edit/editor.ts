@@ -58,6 +58,8 @@ export class Editor {
 
   readonly status = signal<Status>({ kind: 'loading' });
   readonly away = signal<{ retryIn: number; waiting: number } | null>(null);
+  /** Something broke: the words for the banner, and what to save for whoever mends it. */
+  readonly crash = signal<string | null>(null);
   readonly toast = signal<Toast | null>(null);
   readonly spoken = signal<{ text: string; urgent: boolean }>({ text: '', urgent: false });
   readonly historyTick = signal(0);

@@ -124,7 +124,7 @@ export class Library {
     if (!scene || !this.raw) return null;
     const m = this.editor.motion.peek();
     const driving = [...m.futures].filter(([id]) => m.driving.has(id));
-    return writeScene(this.raw, scene, m.stale ? null : generatedJson(scene, driving), this.mapRef ? { ref: this.mapRef } : this.mapJson ?? undefined);
+    return writeScene(this.raw, scene, m.stale ? null : generatedJson(scene, driving, m.head), this.mapRef ? { ref: this.mapRef } : this.mapJson ?? undefined);
   }
 
   /** The same with the map inside: for files and for servers that do not know the map. */
@@ -219,11 +219,13 @@ export class Library {
 
   async importFiles(files: readonly File[]): Promise<void> {
     const verdicts: Verdict[] = [];
+    this.editor.notify({ text: files.length === 1 ? `Reading ${files[0].name} …` : `Reading ${files.length} files …` }, 120_000);
     for (const f of files) verdicts.push(await this.importOne(f));
     await this.refresh().catch(() => undefined);
     const named = verdicts.map((v) => ({ ...v, scenes: v.scenes.map((s) => ({ ...s, count: s.count ?? countOf(this.list.peek().find((i) => i.id === s.id)) })) }));
     const good = named.flatMap((v) => v.scenes);
     const bad = named.filter((v) => !v.ok);
+    this.editor.notify(null);
     if (good.length) await this.open(good[0].id);
     if (!bad.length && good.length === 1) this.editor.notify({ text: `${good[0].name} imported.` });
     else this.imports.value = named;

@@ -103,6 +103,8 @@ export interface MotionSet {
   readonly score: Score | null;
   readonly reach: ReadonlyMap<string, Reach>;
   readonly stale: boolean;
+  /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */
+  readonly head?: Readonly<Record<string, unknown>>;
 }
 
 export const emptyMotion = (key: string): MotionSet => ({ key, futures: new Map(), driving: new Set(), score: null, reach: new Map(), stale: false });

@@ -46,7 +46,7 @@ function futuresJson(f: Futures, chosen: number): AgentFuturesJson {
 }
 
 /** Futures in the shape the server keeps beside a scene, so that the next request starts from what is on screen. */
-export function generatedJson(scene: Scene, futures: Iterable<readonly [string, Futures]>): GeneratedJson | null {
+export function generatedJson(scene: Scene, futures: Iterable<readonly [string, Futures]>, head?: Readonly<Record<string, unknown>>): GeneratedJson | null {
   const agents: Record<string, AgentFuturesJson> = {};
   for (const [id, f] of futures) {
     const a = scene.agents.get(id);
@@ -55,7 +55,7 @@ export function generatedJson(scene: Scene, futures: Iterable<readonly [string, 
   if (!Object.keys(agents).length) return null;
   return {
     input_sha256: '', stale: false, weights: {}, seed: scene.seed, request: { steps: 5, diversity: scene.diversity },
-    created_at: '1970-01-01T00:00:00Z', chosen_sample: 0, samples: [{ agents }],
+    created_at: '1970-01-01T00:00:00Z', ...head, chosen_sample: 0, samples: [{ agents }],
   };
 }
 

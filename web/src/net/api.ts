@@ -41,6 +41,7 @@ export interface ScoreReply { scene: ScoreJson; agents?: Record<string, unknown>
 export interface WarningJson { code?: string; agent?: string; detail?: string; [k: string]: unknown }
 export interface FinalEvent extends EventBase {
   event: 'final'; samples: SampleJson[]; resolved?: Record<string, ResolvedJson>; scores?: ScoreReply | ScoreReply[] | null; warnings?: WarningJson[];
+  generated?: Record<string, unknown>;
 }
 export interface ErrorEvent extends EventBase { event: 'error'; problem: Problem }
 export interface SupersededEvent extends EventBase { event: 'superseded'; by_revision?: number }

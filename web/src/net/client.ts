@@ -88,7 +88,7 @@ export class Client {
 
   async importFile(name: string, body: Blob): Promise<ImportReply> {
     const isJson = /\.json$/i.test(name);
-    const reply = await this.request('/v1/import', { method: 'POST', body, headers: { 'Content-Type': isJson ? 'application/json' : 'application/octet-stream' } });
+    const reply = await this.request(`/v1/import?name=${encodeURIComponent(name.slice(-120))}`, { method: 'POST', body, headers: { 'Content-Type': isJson ? 'application/json' : 'application/octet-stream' } });
     return (await reply.json()) as ImportReply;
   }
 
