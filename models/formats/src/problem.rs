@@ -1,6 +1,6 @@
 //! What can be wrong with outside data, in one shape for every format.
 
-use scene::SceneError;
+use scene::{Scene, SceneError};
 use serde::Serialize;
 use std::fmt;
 
@@ -194,6 +194,9 @@ impl Warning {
         Self { code, detail: detail.into() }
     }
 }
+
+/// A scene and what its reader changed or left out.
+pub type Imported = (Scene, Vec<Warning>);
 
 /// Faults collected while reading one document.
 #[derive(Debug, Default)]

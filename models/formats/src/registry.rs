@@ -2,7 +2,7 @@
 
 use crate::limits::MAX_SCENES;
 use crate::loss::{Loss, code as loss_code};
-use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::{native, womd};
 use scene::Scene;
 use serde::Serialize;
@@ -73,7 +73,7 @@ pub trait Format: Sync {
     fn sniff(&self, head: &[u8], name: &str) -> u8;
 
     /// Reads all scenes of a file; one that is broken does not stop the others. Never empty.
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<(Scene, Vec<Warning>), ReadError>>;
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>>;
 
     /// Writes scenes.
     ///
@@ -107,7 +107,7 @@ impl Format for Native {
         u8::from(object && name.to_ascii_lowercase().ends_with(".json"))
     }
 
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<(Scene, Vec<Warning>), ReadError>> {
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
         let result = native::read(bytes).map(|mut scene| {
             if let Some(licence) = &options.licence {
                 scene.meta.licence = Some(licence.clone());
@@ -147,7 +147,7 @@ impl Format for Womd {
         u8::from(name.to_ascii_lowercase().contains("tfrecord"))
     }
 
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<(Scene, Vec<Warning>), ReadError>> {
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
         let options = womd::Options {
             skip: options.skip,
             max_scenes: options.max_scenes,
@@ -188,7 +188,7 @@ pub fn import(
     name: &str,
     format: &str,
     options: &ImportOptions,
-) -> Result<Vec<Result<(Scene, Vec<Warning>), ReadError>>, ReadError> {
+) -> Result<Vec<Result<Imported, ReadError>>, ReadError> {
     let found = if format == "auto" { sniff(bytes, name) } else { by_id(format) };
     let Some(found) = found else {
         let known: Vec<&str> = FORMATS.iter().map(|f| f.info().id).collect();

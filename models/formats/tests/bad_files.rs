@@ -1,5 +1,11 @@
 //! Every file of `fixtures/bad` is refused with the code and at the place that `EXPECTED.txt` names.
 //! Run with `--nocapture` to see the table.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,4 +1,10 @@
 //! The fuzz corpus and every fixture through the checks that fuzzing runs.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
 
 use formats::checks;
 use formats::womd::{self, Mode};

@@ -1,5 +1,11 @@
 //! A document cannot make the reader use much more memory than it has bytes, or much time.
 //! One test in a process of its own, since the system counts per process.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
 
 use std::time::{Duration, Instant};
 

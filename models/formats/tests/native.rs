@@ -1,4 +1,10 @@
 //! The native document: round trips, defaults, schema, speed.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
 
 use formats::native::{self, ConditionsDoc, Context, MapForm, SceneDoc, Window};
 use scene::{AgentType, Conditions, State, Vec2};

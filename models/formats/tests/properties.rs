@@ -1,4 +1,10 @@
 //! Properties over generated scenes and mutated files.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
 
 use formats::native::{self, ConditionsDoc};
 use formats::womd::{self, Mode, Options};

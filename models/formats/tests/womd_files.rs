@@ -1,5 +1,11 @@
 //! Real files beside the checkout, when they are there: all are read, and what is written reads back
 //! equal. Nothing of them is in the repository.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
 
 use formats::womd::proto::{ObjectState, Scenario, Track};
 use formats::womd::{self, Mode, Options};

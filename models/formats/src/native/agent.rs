@@ -2,7 +2,7 @@
 
 use super::conditions::ConditionsDoc;
 use super::resolve::{Context, Window};
-use super::value::words;
+use super::value::{id, words};
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, Problems};
 use scene::{Agent, AgentType, Conditions, Size, State, Subtype, Track};
@@ -167,7 +167,7 @@ fn valid_ranges(track: &Track) -> Vec<[u64; 2]> {
 #[serde(deny_unknown_fields)]
 pub struct AgentDoc {
     /// Unique in the scene, `[A-Za-z0-9_.:-]{1,64}`.
-    #[schemars(regex(pattern = r"^[A-Za-z0-9_.:\-]{1,64}$"))]
+    #[schemars(schema_with = "id")]
     pub id: String,
     /// Selects expert and motion model; `other` is shown, never regenerated.
     #[serde(rename = "type")]
@@ -190,6 +190,7 @@ pub struct AgentDoc {
     pub width_m: Option<f64>,
     /// Metres.
     #[serde(default)]
+    #[schemars(range(min = 0.0, max = 60.0))]
     pub height_m: Option<f64>,
     /// What was recorded; empty when absent.
     #[serde(default)]

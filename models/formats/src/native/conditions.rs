@@ -4,6 +4,7 @@ use super::value::words;
 use scene::AgentType;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// Frame of a goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -24,28 +25,70 @@ fn expert_types(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({"enum": ["vehicle", "pedestrian", "cyclist", null]})
 }
 
+/// Schema of "both or neither": a number in one member needs a number in the other.
+fn together(schema: &mut Schema, pairs: &[(&str, &str)]) {
+    let needs = |has: &str, lacks: &str| {
+        json!({
+            "if": {"properties": {has: {"type": "number"}}, "required": [has]},
+            "then": {"properties": {lacks: {"type": "number"}}, "required": [lacks]}
+        })
+    };
+    let rules: Vec<_> = pairs.iter().flat_map(|(a, b)| [needs(a, b), needs(b, a)]).collect();
+    schema.insert("allOf".into(), rules.into());
+}
+
+/// Schema of "not both a speed and a velocity".
+fn one_speed(schema: &mut Schema) {
+    let both = json!({
+        "properties": {"speed_mps": {"type": "number"}, "velocity": {"type": "object"}},
+        "required": ["speed_mps", "velocity"]
+    });
+    schema.insert("not".into(), both);
+}
+
+fn start_rules(schema: &mut Schema) {
+    together(schema, &[("x_m", "y_m")]);
+    one_speed(schema);
+}
+
+fn goal_rules(schema: &mut Schema) {
+    together(schema, &[("x_m", "y_m"), ("ahead_m", "left_m")]);
+    one_speed(schema);
+}
+
+fn velocity_rules(schema: &mut Schema) {
+    together(schema, &[("x_mps", "y_mps"), ("ahead_mps", "left_mps")]);
+    schema.insert("minProperties".into(), 2.into());
+}
+
 /// A velocity in place of a speed: `x_mps` and `y_mps`, or, in a goal of frame `agent`,
 /// `ahead_mps` and `left_mps`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = velocity_rules)]
 pub struct VelocityDoc {
     /// m/s east.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -60.0, max = 60.0))]
     pub x_mps: Option<f64>,
     /// m/s north.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -60.0, max = 60.0))]
     pub y_mps: Option<f64>,
     /// m/s along the start's heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -60.0, max = 60.0))]
     pub ahead_mps: Option<f64>,
     /// m/s to the left of the start's heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -60.0, max = 60.0))]
     pub left_mps: Option<f64>,
 }
 
 /// Where a road user starts; absent or null is free.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = start_rules)]
 pub struct StartDoc {
     /// Box centre, metres; with `y_m` or not at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -71,6 +114,7 @@ pub struct StartDoc {
 /// Where a road user should be at `time_s`; absent or null is free.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = goal_rules)]
 pub struct GoalDoc {
     /// Box centre, metres; with `y_m` or not at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -105,7 +149,7 @@ pub struct GoalDoc {
     pub velocity: Option<VelocityDoc>,
     /// Scene time, seconds; the end of the window when free. Snapped to 0.1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.45, max = 80.05))]
     pub time_s: Option<f64>,
 }
 

@@ -23,9 +23,13 @@ pub const VERSION: u64 = 1;
 #[serde(deny_unknown_fields, default)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct OriginDoc {
+    #[schemars(range(min = -1e9, max = 1e9))]
     pub x_m: f64,
+    #[schemars(range(min = -1e9, max = 1e9))]
     pub y_m: f64,
+    #[schemars(range(min = -1e9, max = 1e9))]
     pub z_m: f64,
+    #[schemars(range(min = -1e9, max = 1e9))]
     pub rotation_rad: f64,
     pub crs: Option<String>,
 }
@@ -45,6 +49,7 @@ pub struct MetaDoc {
     /// Scene that this one is a variant of.
     pub parent_id: Option<String>,
     /// Words to find it by.
+    #[schemars(length(max = 256))]
     #[serde(deserialize_with = "bounded::<_, _, 256>")]
     pub tags: Vec<String>,
     /// Free text.

@@ -1,7 +1,7 @@
 //! The map part of a scene document.
 
 use super::lists::{bounded, capped};
-use super::value::{PointDoc, PointsDoc, words};
+use super::value::{PointDoc, PointsDoc, id, words};
 use crate::limits::MAX_POLYLINES;
 use scene::map::LaneType;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -76,12 +76,14 @@ pub struct NeighborDoc {
 #[serde(deny_unknown_fields)]
 pub struct LaneDoc {
     /// Unique among lanes, `[A-Za-z0-9_.:-]{1,64}`.
+    #[schemars(schema_with = "id")]
     pub id: String,
     /// Kind of lane.
     #[serde(rename = "type", default)]
     #[schemars(schema_with = "lane_types")]
     pub lane_type: LaneType,
     /// Centre line in driving direction, at least two points.
+    #[schemars(extend("minItems" = 2))]
     pub points_m: PointsDoc,
     /// Metres; assumed by type when absent.
     #[serde(default)]
@@ -119,12 +121,14 @@ pub struct LaneDoc {
 #[serde(deny_unknown_fields)]
 pub struct RoadLineDoc {
     /// Unique among road lines.
+    #[schemars(schema_with = "id")]
     pub id: String,
     /// WOMD's name in snake case.
     #[serde(rename = "type", default = "unknown")]
     #[schemars(schema_with = "line_types")]
     pub line_type: String,
     /// In order.
+    #[schemars(extend("minItems" = 1))]
     pub points_m: PointsDoc,
 }
 
@@ -133,12 +137,14 @@ pub struct RoadLineDoc {
 #[serde(deny_unknown_fields)]
 pub struct RoadEdgeDoc {
     /// Unique among road edges.
+    #[schemars(schema_with = "id")]
     pub id: String,
     /// WOMD's name in snake case, or `sidewalk`.
     #[serde(rename = "type", default = "unknown")]
     #[schemars(schema_with = "edge_types")]
     pub line_type: String,
     /// In order.
+    #[schemars(extend("minItems" = 1))]
     pub points_m: PointsDoc,
 }
 
@@ -151,8 +157,10 @@ fn unknown() -> String {
 #[serde(deny_unknown_fields)]
 pub struct AreaDoc {
     /// Unique among areas of the kind.
+    #[schemars(schema_with = "id")]
     pub id: String,
     /// Open ring.
+    #[schemars(extend("minItems" = 1))]
     pub polygon_m: PointsDoc,
 }
 
@@ -161,8 +169,10 @@ pub struct AreaDoc {
 #[serde(deny_unknown_fields)]
 pub struct DrivableDoc {
     /// Unique among drivable areas.
+    #[schemars(schema_with = "id")]
     pub id: String,
     /// Open ring.
+    #[schemars(extend("minItems" = 1))]
     pub polygon_m: PointsDoc,
     /// Open rings that are not drivable.
     #[serde(default, deserialize_with = "bounded::<_, _, LINKS>")]
@@ -174,6 +184,7 @@ pub struct DrivableDoc {
 #[serde(deny_unknown_fields)]
 pub struct StopSignDoc {
     /// Unique among stop signs.
+    #[schemars(schema_with = "id")]
     pub id: String,
     /// Where it stands.
     pub position_m: PointDoc,

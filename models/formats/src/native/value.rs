@@ -81,10 +81,12 @@ impl JsonSchema for PointDoc {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let coordinate = serde_json::json!({"type": "number", "minimum": -1e4, "maximum": 1e4});
         json_schema!({
             "description": "[x, y] or [x, y, z], metres in the scene frame.",
             "type": "array",
-            "items": {"type": "number", "minimum": -1e7, "maximum": 1e7},
+            "prefixItems": [coordinate, coordinate],
+            "items": {"type": "number"},
             "minItems": 2,
             "maxItems": 3
         })
@@ -148,7 +150,8 @@ impl JsonSchema for PointsDoc {
             "description": "A line or open ring; all its points have two or all have three numbers.",
             "type": "array",
             "items": point,
-            "maxItems": crate::limits::MAX_POLYLINE_POINTS
+            "maxItems": crate::limits::MAX_POLYLINE_POINTS,
+            "anyOf": [{"items": {"maxItems": 2}}, {"items": {"minItems": 3}}]
         })
     }
 }
@@ -229,6 +232,11 @@ pub(crate) fn check_integer(pointer: &str, value: u64) -> Result<u64, FieldProbl
     }
     let detail = format!("{value} found, 0 to {MAX_SAFE_INTEGER} expected");
     Err(FieldProblem::new(pointer, code::OUT_OF_RANGE, detail))
+}
+
+/// Schema of an id.
+pub(crate) fn id(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({"type": "string", "pattern": "^[A-Za-z0-9_.:\\-]{1,64}$"})
 }
 
 /// Schema of a list of words, for domain enums that know serde but not schemas.

@@ -1,9 +1,9 @@
 //! From a Scenario message to a scene.
 
 use super::proto::{DynamicMapState, MapPoint, ObjectState, RequiredPrediction, Scenario, Track};
-use super::{Imported, LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
+use super::{LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
 use crate::limits::MAX_AGENTS;
-use crate::problem::{FieldProblem, ReadError, Warning};
+use crate::problem::{FieldProblem, Imported, ReadError, Warning};
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};
 use std::collections::{BTreeMap, BTreeSet};

@@ -18,9 +18,8 @@ pub use record::{MAX_RECORD_BYTES, Record, RecordReader, looks_like, masked_crc,
 pub use wire::MAX_TRACKS;
 
 use crate::limits::{MAX_DECODED_BYTES, MAX_EXPANSION, MAX_SCENES};
-use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::problem::{FieldProblem, Imported, ReadError, code};
 use prost::Message;
-use scene::Scene;
 use std::io::Read;
 
 /// Licence of scenes from Waymo.
@@ -59,9 +58,6 @@ impl Default for Options {
         }
     }
 }
-
-/// A scene and what its reader changed or left out.
-pub type Imported = (Scene, Vec<Warning>);
 
 /// Reads scenes one by one from a stream of any length.
 pub struct Records<R: Read> {

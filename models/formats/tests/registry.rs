@@ -1,0 +1,59 @@
+//! The table of formats: sniffing, import by content, export.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
+
+use formats::registry::{self, ExportOptions, FORMATS, ImportOptions};
+use std::collections::BTreeSet;
+
+const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");
+
+#[test]
+fn every_format_reads_what_it_writes_and_knows_its_own() {
+    let scene = formats::native::read(JUNCTION).unwrap();
+    for format in FORMATS {
+        let info = format.info();
+        for gzip in [false, true] {
+            let exported = format.export(&[&scene], &ExportOptions { gzip, ..Default::default() }).unwrap();
+            let found = registry::sniff(&exported.bytes, "upload").unwrap().info().id;
+            assert_eq!(found, info.id);
+            assert!(exported.losses.iter().all(|loss| registry::LOSS_CODES.contains(&loss.code)));
+            let list =
+                registry::import(&exported.bytes, "upload", "auto", &ImportOptions::default()).unwrap();
+            let (again, _) = list.into_iter().next().unwrap().unwrap();
+            assert_eq!(again.agents.len(), scene.agents.len(), "{}", info.id);
+        }
+    }
+}
+
+#[test]
+fn ids_are_unique_and_found() {
+    let ids: BTreeSet<&str> = FORMATS.iter().map(|f| f.info().id).collect();
+    assert_eq!(ids.len(), FORMATS.len());
+    assert!(ids.iter().all(|id| registry::by_id(id).is_some()));
+    assert!(registry::by_id("nothing").is_none());
+}
+
+#[test]
+fn licence_can_be_given_and_unknown_content_is_refused() {
+    let options = ImportOptions { licence: Some("cc-by-4.0".into()), ..Default::default() };
+    let (scene, _) = registry::import(JUNCTION, "a.json", "auto", &options).unwrap().remove(0).unwrap();
+    assert_eq!(scene.meta.licence.as_deref(), Some("cc-by-4.0"));
+    let error = registry::import(b"<xml/>", "a.xml", "auto", &options).unwrap_err();
+    assert_eq!(error.code(), "format-unknown");
+    assert_eq!(registry::import(JUNCTION, "", "nothing", &options).unwrap_err().code(), "format-unknown");
+}
+
+#[test]
+fn losses_are_listed_once() {
+    let scene = formats::native::read(JUNCTION).unwrap();
+    let womd = registry::by_id("womd").unwrap();
+    let exported = womd.export(&[&scene, &scene], &ExportOptions::default()).unwrap();
+    assert_eq!(
+        registry::loss_header(&exported.losses),
+        "no-conditions, no-licence, no-modes, no-notes, no-subtype"
+    );
+}
