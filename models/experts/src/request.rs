@@ -43,6 +43,8 @@ pub struct Request {
     pub diversity: f64,
     /// Denoising steps, 0..=100; 0 returns the initializer's modes.
     pub steps: usize,
+    /// Drafts carry all modes; otherwise the likeliest alone when many road users are concerned.
+    pub stream_all: bool,
     /// Futures the user picked: kept as chosen (index into last answer's modes cannot be trusted,
     /// so the picked motion itself is given).
     pub pinned: BTreeMap<AgentId, Vec<State>>,
@@ -63,6 +65,7 @@ impl Request {
             modes: 6,
             diversity: 1.0,
             steps: 5,
+            stream_all: false,
             pinned: BTreeMap::new(),
         }
     }

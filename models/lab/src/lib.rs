@@ -1,3 +1,5 @@
-//! Placeholder.
+//! How experts are made and judged: synthetic traffic, training records, training, evaluation.
 
+pub mod prepare;
 pub mod synthesize;
+pub mod train;

@@ -34,9 +34,14 @@ const SIGHT_M: f64 = 90.0;
 
 /// Works out anchors and features of one road user.
 pub fn plan(world: &World<'_>, who: &Present) -> Planned {
+    let anchors = anchors(world, who, &world.model(who), &world.target(who));
+    plan_with(world, who, anchors)
+}
+
+/// Features of a road user with given anchors, [`MODES`] of them.
+pub fn plan_with(world: &World<'_>, who: &Present, anchors: Vec<Anchor>) -> Planned {
     let model = world.model(who);
     let target = world.target(who);
-    let anchors = anchors(world, who, &model, &target);
     let frame = Frame::of(who);
     let mut encoded = Box::new([[0.0; ANCHOR]; MODES]);
     let obstacles = world.obstacles(who.index);

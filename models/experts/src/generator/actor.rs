@@ -1,0 +1,173 @@
+//! Road users of one call: those that get new futures and those that keep what they have.
+
+use super::choice::swept_kept;
+use crate::features::agent::{Planned, plan, plan_with};
+use crate::features::anchors::{Anchor, PathKind};
+use crate::features::profile::Progress;
+use crate::features::world::{Present, World};
+use crate::features::{MODES, RESIDUAL};
+use scene::geometry::direction;
+use scene::routes::Polyline;
+use scene::score::SweptBoxes;
+use scene::{Agent, AgentId, HORIZON_STEPS, STEP_S, Scene, State, Vec2};
+
+/// Why a road user gets new futures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// It was asked for.
+    Regenerated,
+    /// It answers one that was.
+    Reacting,
+}
+
+/// A road user that gets new futures.
+pub(super) struct Actor {
+    pub(super) id: AgentId,
+    pub(super) role: Role,
+    pub(super) planned: Planned,
+    /// What it would do if nothing changed; reacting road users keep it unless something is in the way.
+    pub(super) kept: Option<Vec<State>>,
+    /// The future that the user picked: it stays as it is.
+    pub(super) pinned: Option<Vec<State>>,
+    /// First drafts.
+    pub(super) residual: [[f32; RESIDUAL]; MODES],
+    /// By mode, summing to one.
+    pub(super) probability: [f64; MODES],
+    /// Stays where it is.
+    pub(super) rests: bool,
+    pub(super) stays_probability: f64,
+}
+
+impl Actor {
+    /// A road user that was asked for, or one that answers without a motion of its own to keep.
+    pub(super) fn regenerated(world: &World<'_>, who: &Present, role: Role) -> Self {
+        Self::of(world, who, role, plan(world, who), None)
+    }
+
+    /// One that answers: its anchors are its own path at other paces.
+    pub(super) fn reacting(world: &World<'_>, who: &Present, kept: Vec<State>) -> Self {
+        let goal_free = world.conditions[who.index].goal.is_free();
+        let planned = match own_path(who, &kept) {
+            Some(anchors) if goal_free => plan_with(world, who, anchors),
+            _ => plan(world, who),
+        };
+        Self::of(world, who, Role::Reacting, planned, Some(kept))
+    }
+
+    fn of(world: &World<'_>, who: &Present, role: Role, planned: Planned, kept: Option<Vec<State>>) -> Self {
+        Self {
+            id: world.agent(who).id.clone(),
+            role,
+            planned,
+            kept,
+            pinned: None,
+            residual: [[0.0; RESIDUAL]; MODES],
+            probability: [1.0 / MODES as f64; MODES],
+            rests: false,
+            stays_probability: 0.0,
+        }
+    }
+
+    /// Anchors are its own path: the networks' residuals, made for routes, do not apply.
+    pub(super) fn keeps_its_path(&self) -> bool {
+        self.kept.is_some() && self.planned.anchors.iter().all(|a| a.kind == PathKind::LeastEffort)
+    }
+
+    /// Most probable mode.
+    pub(super) fn likeliest(&self) -> usize {
+        let mut best = 0;
+        for mode in 1..MODES {
+            if self.probability[mode] > self.probability[best] {
+                best = mode;
+            }
+        }
+        best
+    }
+}
+
+/// Shares of the kept speed that a reacting road user may fall back to.
+const PACES: [f64; MODES] = [1.0, 0.75, 0.5, 0.25, 0.0, 1.2];
+
+/// Anchors along the motion that is kept, at other paces; `None` for one that hardly moves.
+fn own_path(who: &Present, kept: &[State]) -> Option<Vec<Anchor>> {
+    let mut points = vec![who.start.position()];
+    points.extend(kept.iter().map(State::position));
+    let path = Polyline::new(points);
+    if path.length_m() < 2.0 {
+        return None;
+    }
+    let last = kept.last()?;
+    let tail = last.position() + direction(last.heading_rad) * 40.0;
+    let mut points = path.points().to_vec();
+    points.push(tail);
+    let path = Polyline::new(points).resample(1.0);
+    let speeds: Vec<f64> =
+        (0..HORIZON_STEPS).map(|i| kept.get(i).map_or(last.speed_mps(), State::speed_mps)).collect();
+    let anchors = PACES.iter().enumerate().map(|(timing, pace)| Anchor {
+        base: at_pace(who.start.speed_mps(), &speeds, *pace),
+        caps_mps: vec![60.0; path.points().len()],
+        path: path.clone(),
+        kind: PathKind::LeastEffort,
+        route: None,
+        identity: 100 + timing as u64,
+        timing: (timing, MODES),
+    });
+    Some(anchors.collect())
+}
+
+/// Progress at a share of the kept speeds, slowing by at most 3.5 m/s2 and speeding up by 1.5.
+fn at_pace(v0: f64, speeds: &[f64], pace: f64) -> Progress {
+    let mut out = [0.0; HORIZON_STEPS + 1];
+    let mut speed = v0;
+    for i in 0..HORIZON_STEPS {
+        let wanted = if pace == 1.0 { speeds[i] } else { (pace * speeds[i]).max(0.0) };
+        let next = if pace == 1.0 {
+            wanted
+        } else {
+            wanted.clamp(speed - 3.5 * STEP_S, speed + 1.5 * STEP_S).max(0.0)
+        };
+        out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
+        speed = next;
+    }
+    out
+}
+
+/// Where a road user that keeps its motion is at a step of the window (0 is the start): its chosen
+/// future, else its log; one that was only drawn goes straight on.
+pub(super) fn kept_state(scene: &Scene, agent: &Agent, start_step: usize, step: usize) -> Option<State> {
+    let at = start_step + step;
+    if let Some(generated) = scene.generated.as_ref()
+        && let Some(future) = generated.chosen_future(&agent.id)
+        && let Some(state) = at.checked_sub(future.first_step).and_then(|i| future.states.get(i))
+    {
+        return Some(*state);
+    }
+    if let Some(state) = agent.state_at(at) {
+        return Some(state);
+    }
+    let mut known = agent.track.valid_steps();
+    let (Some(first), None) = (known.next(), known.next()) else { return None };
+    let state = agent.state_at(first)?;
+    let moved = state.position() + state.velocity() * (at.saturating_sub(first) as f64 * STEP_S);
+    Some(State { x_m: moved.x, y_m: moved.y, ..state })
+}
+
+/// States of a kept motion over the window, one a step from the first after the start, as far as known.
+pub(super) fn kept_states(scene: &Scene, agent: &Agent, start_step: usize) -> Vec<State> {
+    (1..=HORIZON_STEPS).map_while(|step| kept_state(scene, agent, start_step, step)).collect()
+}
+
+/// Boxes of a kept road user.
+pub(super) fn kept_boxes(world: &World<'_>, who: &Present) -> SweptBoxes {
+    let agent = world.agent(who);
+    swept_kept(|step| kept_state(world.scene, agent, world.step, step), &who.size)
+}
+
+/// Two motions come within 5 m of each other within 3 s (`model.md` section 6). One state a step each.
+pub(super) fn come_near(a: &[Vec2], b: &[State], reach_m: f64) -> bool {
+    (4..a.len()).step_by(5).any(|i| {
+        let from = i.saturating_sub(30);
+        let to = (i + 30).min(b.len());
+        (from..to).step_by(5).any(|j| (a[i] - b[j].position()).norm() < reach_m)
+    })
+}

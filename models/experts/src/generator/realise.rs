@@ -1,0 +1,121 @@
+//! From route coordinates to motion: residual knots on an anchor, to positions, to control knots, to a
+//! rollout that meets the goal and the limits.
+
+use crate::features::agent::Planned;
+use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
+use scene::geometry::direction;
+use scene::motion::{
+    Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Trajectory, fit, project,
+};
+use scene::{HORIZON_STEPS, KNOTS, Vec2, wrap_angle};
+use std::sync::LazyLock;
+
+/// Steps between two instants.
+pub(super) const PER_INSTANT: usize = HORIZON_STEPS / INSTANTS;
+
+static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
+
+/// One future as motion.
+#[derive(Clone, Debug)]
+pub(super) struct Motion {
+    pub(super) knots: Knots,
+    pub(super) states: Trajectory,
+    pub(super) reach: Reach,
+}
+
+impl From<Projection> for Motion {
+    fn from(p: Projection) -> Self {
+        Self { knots: p.knots, states: p.trajectory, reach: p.reach }
+    }
+}
+
+/// Progress and offset of a draft at the instants.
+pub(super) fn route_coordinates(
+    planned: &Planned,
+    slot: usize,
+    residual: &[f32; RESIDUAL],
+) -> [(f64, f64); INSTANTS] {
+    let anchor = &planned.anchors[slot];
+    let mut out = [(0.0, 0.0); INSTANTS];
+    let mut last = 0.0_f64;
+    for (i, place) in out.iter_mut().enumerate() {
+        let (mut along, mut across) = (anchor.base_at((i + 1) * PER_INSTANT), 0.0);
+        for k in 0..KNOTS {
+            along += f64::from(ALONG_SCALE * BASIS.along[i][k] * residual[k]);
+            across += f64::from(ACROSS_SCALE * BASIS.across[i][k] * residual[KNOTS + k]);
+        }
+        // Nobody rolls back along a path.
+        last = along.max(last);
+        *place = (last, across);
+    }
+    out
+}
+
+/// Box centres and headings of a draft at the instants, before any motion model has its say.
+pub(super) fn places(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL]) -> [(Vec2, f64); INSTANTS] {
+    let anchor = &planned.anchors[slot];
+    route_coordinates(planned, slot, residual).map(|(along, across)| anchor.place(along, across))
+}
+
+/// The motion of a draft: fitted to its places and projected onto goal and limits.
+pub(super) fn realise(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL]) -> Motion {
+    let places = places(planned, slot, residual);
+    let mut samples = Vec::with_capacity(INSTANTS);
+    let mut last = (planned.present.start.position(), planned.present.start.heading_rad);
+    for (i, (position, path_heading)) in places.into_iter().enumerate() {
+        // Drifting across a path turns the body; at a crawl the path says it better.
+        let chord = position - last.0;
+        let chord_heading = if chord.norm() > 1.0 { chord.y.atan2(chord.x) } else { path_heading };
+        let drift = wrap_angle(chord_heading - path_heading).clamp(-0.5, 0.5);
+        let heading_rad = path_heading + if chord.norm() > 1.0 { 0.5 * drift } else { 0.0 };
+        samples.push(Sampled { step: (i + 1) * PER_INSTANT, position, heading_rad });
+        last = (position, heading_rad);
+    }
+    let knots = fit(&planned.model, &samples);
+    let motion = project(&planned.model, &knots, &planned.target, None);
+    if motion.reach.is_reached() {
+        return motion.into();
+    }
+    reversing(planned, &motion).unwrap_or_else(|| motion.into())
+}
+
+/// A goal behind a standing vehicle may be met backwards.
+fn reversing(planned: &Planned, forwards: &Projection) -> Option<Motion> {
+    let goal = planned.target.position?;
+    let local = planned.model.to_local(goal);
+    let may = planned.model.kind == Kind::Drive
+        && planned.model.start.velocity().dot(&direction(planned.model.start.heading_rad)) < 0.5
+        && local.x < 1.0
+        && local.norm() < 30.0;
+    if !may {
+        return None;
+    }
+    let model = planned.model.in_gear(Gear::Reverse);
+    let backwards = project(&model, &model.coasting(), &planned.target, None);
+    let better = |p: &Projection| {
+        let r = Residuals::of(&p.trajectory[planned.target.step], &planned.target);
+        r.position_m + 5.0 * r.heading_rad + r.speed_mps
+    };
+    (better(&backwards) < better(forwards)).then(|| backwards.into())
+}
+
+/// Exact rest at the start pose.
+pub(super) fn rest(planned: &Planned) -> Motion {
+    let start = &planned.present.start;
+    let still =
+        MotionState { position: start.position(), heading_rad: start.heading_rad, velocity: Vec2::zeros() };
+    let residuals = Residuals::of(&still, &planned.target);
+    Motion {
+        knots: Knots::default(),
+        states: vec![still; HORIZON_STEPS + 1],
+        reach: Reach::Reached(residuals),
+    }
+}
+
+/// Standing at the start, and rest meets whatever is asked.
+pub(super) fn may_rest(planned: &Planned) -> bool {
+    let start = &planned.present.start;
+    let still =
+        MotionState { position: start.position(), heading_rad: start.heading_rad, velocity: Vec2::zeros() };
+    start.speed_mps() < 0.3 && Residuals::of(&still, &planned.target).is_met()
+}

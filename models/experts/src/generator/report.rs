@@ -1,0 +1,166 @@
+//! What a call says besides futures: every field's value and origin, the verdict on the goal in plain
+//! words, and warnings.
+
+use super::actor::Actor;
+use super::realise::Motion;
+use crate::features::world::World;
+use crate::request::{Field, NearestState, ReachReport, Resolved, Source, Warning};
+use scene::geometry::obb::{OrientedBox, iou};
+use scene::motion::{Kind, Limiting, MotionState, Reach};
+use scene::{AgentType, STEP_S, wrap_angle};
+use std::collections::BTreeMap;
+
+impl From<&MotionState> for NearestState {
+    fn from(s: &MotionState) -> Self {
+        Self {
+            x_m: s.position.x,
+            y_m: s.position.y,
+            heading_rad: wrap_angle(s.heading_rad),
+            speed_mps: s.speed_mps(),
+        }
+    }
+}
+
+/// Fields and verdict of one road user whose shown future is `motion`.
+pub(super) fn resolved(world: &World<'_>, actor: &Actor, motion: &Motion) -> Resolved {
+    let present = &actor.planned.present;
+    let agent = world.agent(present);
+    let conditions = &world.conditions[present.index];
+    let mut fields = BTreeMap::new();
+    let mut put = |name: &str, value: f64, from: Source| {
+        fields.insert(name.to_owned(), Field { value, from });
+    };
+    let logged = agent.state_at(world.step).is_some();
+    let start = |fixed: bool| match (fixed, logged) {
+        (true, _) => Source::User,
+        (false, true) => Source::Log,
+        (false, false) => Source::Default,
+    };
+    let (s, c) = (&present.start, &conditions.start);
+    put("start.x_m", s.x_m, start(c.position.is_some()));
+    put("start.y_m", s.y_m, start(c.position.is_some()));
+    put("start.heading_rad", s.heading_rad, start(c.heading_rad.is_some()));
+    put("start.speed_mps", s.speed_mps(), start(c.speed_mps.is_some()));
+    let size = |fixed: bool| if fixed { Source::User } else { Source::Log };
+    put("length_m", present.size.length_m, size(conditions.length_m.is_some()));
+    put("width_m", present.size.width_m, size(conditions.width_m.is_some()));
+    let target = &actor.planned.target;
+    let end = &motion.states[target.step.min(motion.states.len() - 1)];
+    let goal = |fixed: bool| if fixed { Source::User } else { Source::Model };
+    let position = target.position.unwrap_or(end.position);
+    put("goal.x_m", position.x, goal(target.position.is_some()));
+    put("goal.y_m", position.y, goal(target.position.is_some()));
+    let heading = target.heading_rad.unwrap_or(end.heading_rad);
+    put("goal.heading_rad", wrap_angle(heading), goal(target.heading_rad.is_some()));
+    let speed = target.speed_mps.unwrap_or_else(|| end.speed_mps());
+    put("goal.speed_mps", speed, goal(target.speed_mps.is_some()));
+    let due = (world.step + target.step) as f64 * STEP_S;
+    put("goal.time_s", due, if conditions.goal.time_s.is_some() { Source::User } else { Source::Default });
+    Resolved { agent_type: present.agent_type, fields, reach: reach_report(actor, motion) }
+}
+
+fn reach_report(actor: &Actor, motion: &Motion) -> ReachReport {
+    match &motion.reach {
+        Reach::Reached(r) => ReachReport::Reached {
+            position_m: r.position_m,
+            heading_rad: r.heading_rad,
+            speed_mps: r.speed_mps,
+        },
+        Reach::Unreachable { nearest, limiting, needs, .. } => ReachReport::Unreachable {
+            nearest: nearest.into(),
+            limiting: limit_name(*limiting).to_owned(),
+            needs: *needs,
+            words: words(actor, nearest, *limiting, *needs),
+        },
+    }
+}
+
+fn limit_name(limiting: Limiting) -> &'static str {
+    match limiting {
+        Limiting::Acceleration => "acceleration",
+        Limiting::Braking => "braking",
+        Limiting::Speed => "speed",
+        Limiting::Lateral => "lateral",
+        Limiting::Curvature => "curvature",
+    }
+}
+
+/// One sentence or two: what cannot be, and what can.
+fn words(actor: &Actor, nearest: &MotionState, limiting: Limiting, needs: Option<f64>) -> String {
+    let planned = &actor.planned;
+    let seconds = planned.target.step as f64 * STEP_S;
+    let what = match planned.present.agent_type {
+        AgentType::Pedestrian => "pedestrian",
+        AgentType::Cyclist => "cyclist",
+        _ => "vehicle",
+    };
+    let start = planned.present.start;
+    let went = (nearest.position - start.position()).norm();
+    let asked = planned.target.position.map(|p| (p - start.position()).norm());
+    let from = match planned.model.kind {
+        Kind::Walk => format!("{:.1} m/s", start.speed_mps()),
+        Kind::Drive => format!("{:.0} km/h", 3.6 * start.speed_mps()),
+    };
+    let needs = |unit: &str| needs.map_or(String::new(), |n| format!(" It would take {n:.1} {unit}."));
+    match (limiting, asked) {
+        (Limiting::Acceleration | Limiting::Speed, Some(asked)) if asked > went => format!(
+            "Too far for {seconds:.1} s. The goal is {asked:.0} m away. In {seconds:.1} s from {from} this {what} gets {went:.0} m at most."
+        ),
+        (Limiting::Acceleration, _) => {
+            format!("Cannot speed up that much in {seconds:.1} s from {from}.{}", needs("m/s²"))
+        }
+        (Limiting::Speed, _) => format!("Faster than this {what} can go.{}", needs("m/s")),
+        (Limiting::Braking, Some(asked)) => format!(
+            "Cannot stop that soon. From {from} it gets no nearer than {went:.0} m, the goal is {asked:.0} m away.{}",
+            needs("m/s²")
+        ),
+        (Limiting::Braking, None) => {
+            format!("Cannot slow down that much in {seconds:.1} s.{}", needs("m/s²"))
+        }
+        (Limiting::Lateral, _) => format!("Too tight at this speed.{}", needs("m/s² sideways")),
+        (Limiting::Curvature, _) => format!("Too tight a turn for this {what}."),
+    }
+}
+
+/// Unlikely starts and goals: done anyway, but said.
+pub(super) fn warnings(world: &World<'_>, actors: &[Actor]) -> Vec<Warning> {
+    let mut out = Vec::new();
+    for actor in actors {
+        let present = &actor.planned.present;
+        let conditions = &world.conditions[present.index];
+        let mut warn = |code: &str, detail: String| {
+            out.push(Warning { code: code.to_owned(), agent: Some(actor.id.clone()), detail });
+        };
+        let off_road = |point| {
+            present.agent_type != AgentType::Pedestrian
+                && !world.map.graph.lanes().is_empty()
+                && world.map.graph.nearest_for(point, 6.0, present.agent_type).is_empty()
+        };
+        if let Some(position) = conditions.goal.position {
+            if off_road(position) {
+                warn("goal-off-road", "There is no lane within 6 m of the goal.".into());
+            }
+            let distance = (position - present.start.position()).norm();
+            let seconds = actor.planned.target.step as f64 * STEP_S;
+            if distance > 1.1 * seconds * actor.planned.model.limits.speed_mps.max(present.start.speed_mps())
+            {
+                warn(
+                    "goal-unreachable",
+                    format!("{distance:.0} m in {seconds:.1} s is beyond the top speed."),
+                );
+            }
+        }
+        if conditions.start.position.is_some() {
+            if off_road(present.start.position()) {
+                warn("start-off-road", "There is no lane within 6 m of the start.".into());
+            }
+            let own = OrientedBox::of_state(&present.start, &present.size);
+            for other in world.present.iter().filter(|p| p.index != present.index) {
+                if iou(&own, &OrientedBox::of_state(&other.start, &other.size)) > 0.02 {
+                    warn("start-overlaps", format!("The start overlaps {}.", world.agent(other).id));
+                }
+            }
+        }
+    }
+    out
+}
