@@ -55,7 +55,8 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Options, String> {
             "validate-every" => options.validate_every = value.parse().map_err(bad)?,
             "rate" => options.rate = value.parse().map_err(|_| format!("--rate {value}: not a number"))?,
             "minutes" => {
-                options.minutes = Some(value.parse().map_err(|_| format!("--minutes {value}: not a number"))?);
+                options.minutes =
+                    Some(value.parse().map_err(|_| format!("--minutes {value}: not a number"))?);
             }
             _ => return Err(format!("--{name} is unknown\n{USAGE}")),
         }

@@ -47,7 +47,9 @@ pub(super) fn save(path: &Path, state: &State, expert: &Expert, adam: &AdamW) ->
         tensors.insert(format!("weights/{name}"), tensor.clone());
     }
     for (name, moments) in &adam.moments {
-        for (kind, values) in [("first", &moments.first), ("second", &moments.second), ("mean", &moments.mean)] {
+        for (kind, values) in
+            [("first", &moments.first), ("second", &moments.second), ("mean", &moments.mean)]
+        {
             let tensor = Tensor::from_slice(values, values.len(), &Device::Cpu)?;
             tensors.insert(format!("{kind}/{name}"), tensor);
         }
@@ -69,7 +71,8 @@ pub(super) struct Resumed {
 pub(super) fn load(path: &Path) -> Result<Resumed, TrainError> {
     let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
     let damaged = |reason: String| TrainError::damaged(path, reason);
-    let (_, metadata) = safetensors::SafeTensors::read_metadata(&bytes).map_err(|e| damaged(e.to_string()))?;
+    let (_, metadata) =
+        safetensors::SafeTensors::read_metadata(&bytes).map_err(|e| damaged(e.to_string()))?;
     let text = metadata.metadata().as_ref().and_then(|m| m.get(HEADER));
     let text = text.ok_or_else(|| damaged("not a checkpoint of a training run".into()))?;
     let state: State = serde_json::from_str(text).map_err(|error| damaged(error.to_string()))?;
@@ -77,9 +80,13 @@ pub(super) fn load(path: &Path) -> Result<Resumed, TrainError> {
     let expert = Expert::trainable(state.architecture.clone(), state.card.clone(), 0, &Device::Cpu)?;
     let mut take = |kind: &str, name: &str, count: usize| -> Result<Tensor, TrainError> {
         let tensor = tensors.remove(&format!("{kind}/{name}"));
-        let tensor = tensor.ok_or_else(|| TrainError::damaged(path, format!("{kind} of {name} is missing")))?;
+        let tensor =
+            tensor.ok_or_else(|| TrainError::damaged(path, format!("{kind} of {name} is missing")))?;
         if tensor.elem_count() != count {
-            return Err(TrainError::damaged(path, format!("{kind} of {name} has shape {:?}", tensor.shape())));
+            return Err(TrainError::damaged(
+                path,
+                format!("{kind} of {name} has shape {:?}", tensor.shape()),
+            ));
         }
         Ok(tensor)
     };

@@ -34,7 +34,11 @@ type Matrix = [[f64; KNOTS]; KNOTS];
 type Design = [[f64; KNOTS]; INSTANTS];
 
 /// Cholesky factor of `A' A + ridge` over the valid instants, and `A = B P`.
-fn factorised(rows: &[[f32; KNOTS]; INSTANTS], tangent: &[[f32; KNOTS]; KNOTS], valid: &[f32; INSTANTS]) -> (Matrix, Design) {
+fn factorised(
+    rows: &[[f32; KNOTS]; INSTANTS],
+    tangent: &[[f32; KNOTS]; KNOTS],
+    valid: &[f32; INSTANTS],
+) -> (Matrix, Design) {
     let mut design = [[0.0; KNOTS]; INSTANTS];
     for (row, out) in rows.iter().zip(&mut design) {
         for (k, row) in row.iter().enumerate() {

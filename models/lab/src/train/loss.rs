@@ -120,7 +120,8 @@ pub(super) fn initial(
     let score_nll = scores(&ade, &said.score, 0.5, &mut grad.score);
     let (stays_bce, stays_grad) = binary(said.stays, target.stays);
     grad.stays = 0.2 * stays_grad;
-    let scale_nll = scales(&recorded[best], &said.residual[best], &said.log_scale[best], 0.02, &mut grad.log_scale[best]);
+    let scale_nll =
+        scales(&recorded[best], &said.residual[best], &said.log_scale[best], 0.02, &mut grad.log_scale[best]);
     total += 0.5 * score_nll + 0.2 * stays_bce + 0.02 * scale_nll;
     let first_ade = ade[least(&said.score.map(|score| -score))];
     (InitialParts { total, min_ade: ade[best], first_ade, score_nll, stays_bce, scale_nll }, grad)
@@ -189,7 +190,11 @@ pub(super) fn denoised(
 }
 
 /// Distance between a refined residual and the draft it came from, over all instants.
-pub(super) fn moved(route: &Route, draft: &[f32; RESIDUAL], refined: &[f32; RESIDUAL]) -> (f32, [f32; RESIDUAL]) {
+pub(super) fn moved(
+    route: &Route,
+    draft: &[f32; RESIDUAL],
+    refined: &[f32; RESIDUAL],
+) -> (f32, [f32; RESIDUAL]) {
     let difference: [f32; RESIDUAL] = std::array::from_fn(|i| refined[i] - draft[i]);
     let steps = route.coordinates(&[0.0; INSTANTS], &difference);
     let (mut mean, mut pull) = (0.0, [[0.0; 2]; INSTANTS]);
@@ -221,7 +226,10 @@ mod tests {
     }
 
     fn close(slope: f32, expected: f32, what: &str) {
-        assert!((slope - expected).abs() < 0.02 * expected.abs() + 0.004, "{what}: slope {slope}, gradient {expected}");
+        assert!(
+            (slope - expected).abs() < 0.02 * expected.abs() + 0.004,
+            "{what}: slope {slope}, gradient {expected}"
+        );
     }
 
     #[test]
@@ -236,16 +244,16 @@ mod tests {
                     let mut moved = said.clone();
                     change(&mut moved, delta);
                     let (parts, _) = initial(&route, &record.target, &recorded, &moved);
-                    // The scale's likelihood does not move the residual: its loss is held apart.
-                    (f64::from(parts.total), f64::from(0.02 * parts.scale_nll))
+                    // Scales and scores do not move the residual: their losses are held apart.
+                    (f64::from(parts.total), f64::from(0.02 * parts.scale_nll + 0.5 * parts.score_nll))
                 };
                 let (up, down) = (at(2e-3), at(-2e-3));
                 (((up.0 - down.0) / 4e-3) as f32, ((up.1 - down.1) / 4e-3) as f32)
             };
             for mode in 0..MODES {
                 for i in (0..RESIDUAL).step_by(3) {
-                    let (all, scale) = slope(&|said, d| said.residual[mode][i] += d);
-                    close(all - scale, grad.residual[mode][i], "residual");
+                    let (all, apart) = slope(&|said, d| said.residual[mode][i] += d);
+                    close(all - apart, grad.residual[mode][i], "residual");
                     close(slope(&|said, d| said.log_scale[mode][i] += d).0, grad.log_scale[mode][i], "scale");
                 }
                 close(slope(&|said, d| said.score[mode] += d).0, grad.score[mode], "score");

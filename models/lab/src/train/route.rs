@@ -19,7 +19,8 @@ pub(super) struct Route {
 impl Route {
     pub(super) fn new() -> Self {
         let basis = Basis::new();
-        let scaled = |rows: [[f32; KNOTS]; INSTANTS], scale: f32| rows.map(|row| row.map(|value| scale * value));
+        let scaled =
+            |rows: [[f32; KNOTS]; INSTANTS], scale: f32| rows.map(|row| row.map(|value| scale * value));
         Self { along: scaled(basis.along, ALONG_SCALE), across: scaled(basis.across, ACROSS_SCALE) }
     }
 
@@ -29,10 +30,18 @@ impl Route {
     }
 
     /// Where a residual of a mode is at the instants.
-    pub(super) fn coordinates(&self, base_along: &[f32; INSTANTS], residual: &[f32; RESIDUAL]) -> RouteCoordinates {
+    pub(super) fn coordinates(
+        &self,
+        base_along: &[f32; INSTANTS],
+        residual: &[f32; RESIDUAL],
+    ) -> RouteCoordinates {
         std::array::from_fn(|i| {
-            let sum = |row: &[f32; KNOTS], knots: &[f32]| row.iter().zip(knots).map(|(b, r)| b * r).sum::<f32>();
-            [base_along[i] + sum(&self.along[i], &residual[..KNOTS]), sum(&self.across[i], &residual[KNOTS..])]
+            let sum =
+                |row: &[f32; KNOTS], knots: &[f32]| row.iter().zip(knots).map(|(b, r)| b * r).sum::<f32>();
+            [
+                base_along[i] + sum(&self.along[i], &residual[..KNOTS]),
+                sum(&self.across[i], &residual[KNOTS..]),
+            ]
         })
     }
 }
@@ -50,8 +59,7 @@ impl Placed {
         for (i, &[along, across]) in coordinates.iter().enumerate() {
             let (point, [c, s]) = at(&record.paths[mode], along);
             let ahead = record.centre_ahead;
-            placed.poses[i] =
-                [point[0] - across * s + ahead * c, point[1] + across * c + ahead * s, c, s];
+            placed.poses[i] = [point[0] - across * s + ahead * c, point[1] + across * c + ahead * s, c, s];
             placed.directions[i] = [c, s];
         }
         placed

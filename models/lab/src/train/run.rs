@@ -316,7 +316,9 @@ fn first_weights(options: &Options) -> Result<Expert, TrainError> {
 }
 
 fn same_run(path: &Path, options: &Options, records: &str, state: &State) -> Result<(), TrainError> {
-    let differs = |what: &str| Err(TrainError::damaged(path, format!("the checkpoint is of a run with another {what}")));
+    let differs = |what: &str| {
+        Err(TrainError::damaged(path, format!("the checkpoint is of a run with another {what}")))
+    };
     match () {
         () if state.records != records => differs("set of records"),
         () if state.stage != options.stage => differs("stage"),

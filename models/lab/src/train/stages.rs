@@ -205,7 +205,8 @@ fn denoiser(
         .collect();
     let device = expert.device();
     let clean = tensor(&shard.recorded, device)?;
-    let noisy = expert.refiner.add_noise(&prepared, &clean, &tensor(&noise(rng, count, 1.0), device)?, &levels)?;
+    let noisy =
+        expert.refiner.add_noise(&prepared, &clean, &tensor(&noise(rng, count, 1.0), device)?, &levels)?;
     let counts: Vec<Vec<bool>> =
         shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(tools, r, log)).collect();
     let push = tensor(&pushes(tools, shard, &counts, &arrays(&noisy)?), device)?;
@@ -323,7 +324,8 @@ impl Walk<'_> {
     fn go(&self, drafts: &Tensor, start: usize, steps: &[(usize, usize)], noise: &[Modes]) -> Result<Tensor> {
         let (refiner, device) = (&self.expert.refiner, self.expert.device());
         let levels = vec![start; self.shard.records.len()];
-        let mut residual = refiner.add_noise(&self.prepared, drafts, &tensor(noise, device)?, &levels)?.detach();
+        let mut residual =
+            refiner.add_noise(&self.prepared, drafts, &tensor(noise, device)?, &levels)?.detach();
         for &step in steps {
             let push = pushes(self.tools, self.shard, self.counts, &arrays(&residual)?);
             residual = refiner.step(&self.prepared, &residual, &tensor(&push, device)?, step, None)?.detach();
@@ -357,7 +359,8 @@ pub(super) fn validate(
     let refined = arrays(&walk.go(&drafts, schedule::START, &steps, &noise)?)?;
     for (index, draft) in arrays(&drafts)?.iter().enumerate() {
         let record = &shard.records[index];
-        let ade = |modes: &Modes, mode: usize| loss::distance(&tools.route, &record.target, mode, &modes[mode]).0;
+        let ade =
+            |modes: &Modes, mode: usize| loss::distance(&tools.route, &record.target, mode, &modes[mode]).0;
         let min = (0..MODES).map(|mode| ade(&refined[index], mode)).fold(f32::INFINITY, f32::min);
         metrics.add("refined", min);
         for (name, modes) in [("overlap", draft), ("overlap'", &refined[index])] {

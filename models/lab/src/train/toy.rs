@@ -84,7 +84,7 @@ fn target(speed: f32, accel: f32, aside: f32) -> Target {
     for instant in 0..INSTANTS {
         let t = 0.5 * (instant + 1) as f32;
         for mode in 0..MODES {
-            target.base_along[mode][instant] = speed * t * (0.7 + 0.12 * mode as f32);
+            target.base_along[mode][instant] = speed * t + 0.1 * (mode as f32 - 2.5) * t * t;
             target.along[mode][instant] = speed * t + 0.5 * accel * t * t;
             target.across[mode][instant] = aside * (t / 4.0).min(1.0);
         }

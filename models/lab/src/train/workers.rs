@@ -33,7 +33,8 @@ impl Workers<'_> {
         indices: &[usize],
         step: u64,
     ) -> Result<(Gradients, Metrics), TrainError> {
-        let results = self.each_shard(indices, |number, shard| self.shard_gradient(expert, shard, step, number))?;
+        let results =
+            self.each_shard(indices, |number, shard| self.shard_gradient(expert, shard, step, number))?;
         let mut metrics = Metrics::default();
         let mut sums: Gradients = vec![None; expert.vars().len()];
         for (gradients, measured) in results {
