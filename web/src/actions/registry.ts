@@ -208,7 +208,7 @@ add(
   { id: 'next-group', label: 'Next part of the page', group: 'Everything', keys: ['F6'], help: 'Top bar, scenes, road users, inspector, timeline', context: 'always', undo: 'none', run: (c) => c.focusGroup(1) },
   { id: 'previous-group', label: 'Previous part of the page', group: 'Everything', keys: ['Shift+F6'], help: 'The way back', context: 'always', undo: 'none', run: (c) => c.focusGroup(-1) },
   { id: 'coach', label: 'Show the first steps', group: 'Everything', keys: [], icon: 'help', help: 'The three-step hint', undo: 'none', run: (c) => { c.ui.coach.value = 1; } },
-  { id: 'unit', label: 'km/h or mph', group: 'Everything', keys: ['U'], help: 'Unit of vehicle speeds', undo: 'none', run: (c) => c.editor.setUnit(c.editor.speedUnit.value === 'km/h' ? 'mph' : 'km/h') },
+  { id: 'unit', label: 'km/h or mph', group: 'Everything', keys: ['U'], icon: 'ruler', help: 'Unit of vehicle speeds', undo: 'none', run: (c) => c.editor.setUnit(c.editor.speedUnit.value === 'km/h' ? 'mph' : 'km/h') },
 );
 
 export const ACTIONS: readonly Action[] = Object.freeze(list);

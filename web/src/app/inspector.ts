@@ -30,6 +30,7 @@ export function agentPanel(c: Context, id: string): HTMLElement {
       h('div', { class: 'grow' }, h('h2', null, first.name), h('p', null, where)), iconButton(c, 'follow'), iconButton(c, 'zoom-selection')),
     canChange(first) ? [
       h('div', { class: 'swap' }, swap(() => hintKey(c, agent()), () => hint(c, agent()))),
+      swap(() => c.editor.motion.value.warnings?.get(id)?.join('|') ?? '', () => warnings(c, id)),
       startSection(c, agent), goalSection(c, agent), futuresSection(c, agent), changesSection(c),
       h('div', { class: 'grow' }),
       h('div', { class: 'sect foot' },
@@ -37,6 +38,11 @@ export function agentPanel(c: Context, id: string): HTMLElement {
         swap(() => touched(agent()), () => (touched(agent()) ? actionButton(c, 'reset-agent', { class: 'line', icon: '', size: 15 }) : null)))
     ] : h('div', { class: 'sect last' }, h('p', { class: 'sec' }, first.type === 'other'
       ? 'Objects of this kind are shown but not changed.' : `Only road users that are there at 0.0 s can be changed. This one appears at ${seconds((first.log.valid[0]?.[0] ?? 0) / 10)}.`)));
+}
+
+function warnings(c: Context, id: string): HTMLElement | null {
+  const list = c.editor.motion.peek().warnings?.get(id);
+  return list?.length ? h('div', { class: 'sect' }, list.map((w) => h('div', { class: 'hint plain' }, icon('warn', 17), h('div', { class: 'tx' }, w)))) : null;
 }
 
 const sentenceCase = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);

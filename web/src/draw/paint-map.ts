@@ -1,6 +1,6 @@
 // The road: ground, kerbs, asphalt, bike lanes, crosswalks, lines, arrows. Drawn in metres under one transform.
-import { wrapAngle, type Box, type Vec } from '../model/geometry';
-import { turnOf, type Lane, type LaneMap } from '../model/lanemap';
+import { pointAt, wrapAngle, type Box, type Vec } from '../model/geometry';
+import { nearestLanes, turnOf, type Lane, type LaneMap } from '../model/lanemap';
 import { Layer } from './tiles';
 import { colours } from './theme';
 import type { View } from './view';
@@ -42,7 +42,7 @@ export class MapPicture {
   private addLane(lane: Lane): void {
     const { pts } = lane.line;
     if (lane.kind === 'walk') this.walks.add(pts);
-    else if (lane.kind === 'bike' && !lane.inside) { layerOf(this.bike, Math.min(2.4, lane.width)).add(pts); this.outlines.add(pts); }
+    else if (lane.kind === 'bike' && !(lane.inside && this.crossesTraffic(lane))) { layerOf(this.bike, Math.min(2.4, lane.width)).add(pts); this.outlines.add(pts); }
     else if (lane.kind === 'bike') layerOf(this.roads, 2.4).add(pts);
     else {
       // A lane that ends at the rim of the map is cut square; where lanes meet, round ends close the gap.
@@ -50,6 +50,15 @@ export class MapPicture {
       layerOf(open ? this.openRoads : this.roads, this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2)).add(pts);
       this.outlines.add(pts);
     }
+  }
+
+  /** Across a junction a bike lane has no paint of its own; beside other lanes it keeps it. */
+  private crossesTraffic(lane: Lane): boolean {
+    for (let s = 1; s < lane.line.length; s += 2) {
+      const p = pointAt(lane.line, s);
+      if (nearestLanes(this.map, p.x, p.y, null, 2, (l) => l.kind === 'road').some((h) => Math.abs(Math.sin(h.heading - p.heading)) > 0.4)) return true;
+    }
+    return false;
   }
 
   paint(g: CanvasRenderingContext2D, v: View, showLanes: boolean): void {

@@ -3,14 +3,15 @@ import { batch } from '@preact/signals-core';
 import type { Editor } from './editor';
 import type { Library } from './library';
 import { Generator, type Handlers } from '../net/generator';
-import type { DraftEvent, FinalEvent, Problem, ResolvedJson, ScoreJson } from '../net/api';
+import type { DraftEvent, FinalEvent, Problem } from '../net/api';
 import { Away, type Client } from '../net/client';
 import type { ConditionJson, SceneJson } from '../model/json';
 import { conditionOf, generatedJson, isEmptyCondition, stillAgents, trackJson } from '../model/write';
-import { readFutures, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
-import { canChange, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { readFutures, type Futures, type MotionSet } from '../model/futures';
+import { canChange, sceneKey, startPose, touched, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { summary, readEvents } from '../model/events';
+import { readReach, readScore, readWarnings } from './answers';
 import { sketchFutures } from './sketch';
 
 const RETRY_S = [1, 2, 4, 6];
@@ -193,6 +194,9 @@ export class Asking {
     const a = editor.scene.peek()?.agents.get(id);
     const start = a && startPose(a);
     if (!a || !start) return;
+    const shown = editor.draft.peek();
+    // The answer to a release starts rough again; what the drag has settled already stays until it is better.
+    if (!editor.drag.peek() && shown?.id === id && !shown.futures.sketch && step < shown.futures.step) return;
     const f = readFutures(e.agents[id], start, step, steps, a.type === 'pedestrian');
     const old = editor.draft.peek();
     const earlier = step > 0 && old?.id === id && !old.futures.sketch ? [old.futures, ...old.earlier].slice(0, 3) : [];
@@ -235,7 +239,7 @@ export class Asking {
     for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
     const reach = new Map(before.reach);
     for (const [id, r] of Object.entries(e.resolved ?? {})) { const v = readReach(r); if (v) reach.set(id, v); else reach.delete(id); }
-    const set: MotionSet = { key: sceneKey(scene), futures, driving, score: readScore(e.scores), reach, stale: false, head: e.generated };
+    const set: MotionSet = { key: sceneKey(scene), futures, driving, score: readScore(e.scores), reach, stale: false, head: e.generated, warnings: readWarnings(e) };
     editor.liveReach.value = null;
     editor.settle(set, { except: w.commit!.agent });
     this.afterCommit(w.commit!, ms);
@@ -364,29 +368,3 @@ export class Asking {
     return s ? summary(readEvents(s, this.editor.motion.peek())) : '';
   }
 }
-
-export function readReach(r: ResolvedJson | undefined): Reach | null {
-  const j = r?.reach;
-  if (!j) return null;
-  const n = j.nearest;
-  return {
-    status: j.status === 'unreachable' ? 'unreachable' : 'reached',
-    nearest: n ? { x: n.x_m, y: n.y_m, heading: n.heading_rad ?? 0, speed: n.speed_mps ?? 0 } : null,
-    limiting: j.limiting ?? null, needs: j.needs ?? null, words: j.words ?? null,
-  };
-}
-
-/** The score of the scene, wherever the reply carries it. */
-export function readScore(json: unknown): Score | null {
-  const one = (Array.isArray(json) ? json[0] : json) as { scene?: ScoreJson; samples?: { scene?: ScoreJson }[] } | null | undefined;
-  const s = one?.scene ?? one?.samples?.[0]?.scene ?? (one && 'collisions' in one ? (one as ScoreJson) : undefined);
-  if (!s) return null;
-  return {
-    collisions: (s.collisions ?? []).map((c) => ({ a: String(c.a), b: String(c.b), time: c.time_s })),
-    nearMisses: (s.near_misses ?? []).map((c) => ({ a: String(c.a), b: String(c.b), time: c.time_s, distance: c.distance_m ?? null, ttc: c.ttc_s ?? null })),
-    minTtc: s.min_ttc_s ?? null, offroadShare: s.offroad_share ?? null,
-  };
-}
-
-/** For tests and panels: is this road user one the generator can be asked about? */
-export const askable = (a: Agent | null): boolean => !!a && canChange(a);

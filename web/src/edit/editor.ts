@@ -8,7 +8,7 @@ import { emptyMotion, MotionCache, type Futures, type MotionSet, type Reach } fr
 import { findChanges, motionOf, type Change } from '../model/changes';
 import { readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
-import type { Pose, Vec } from '../model/geometry';
+import type { OnLine, Pose, Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
 import type { SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
@@ -27,7 +27,7 @@ export type Status =
 /** Futures on their way: the latest draft and the ones before it, which stay behind as trails. */
 export interface Draft { readonly id: string; readonly futures: Futures; readonly earlier: readonly Futures[] }
 
-export interface DragInfo { readonly grip: Grip; readonly laneName: string | null; readonly laneId: string | null }
+export interface DragInfo { readonly grip: Grip; readonly laneName: string | null; readonly laneId: string | null; readonly stop: OnLine | null }
 
 export class Editor {
   readonly scene: Signal<Scene | null> = signal(null);

@@ -1,5 +1,5 @@
 // The pointer: hover, select, drag a handle, pan, zoom. Pointer moves are gathered and worked off once a frame.
-import { clamp, wrapAngle, type Pose, type Vec } from '../model/geometry';
+import { clamp, project, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { setBoth, setGoal, setStart, type Command } from '../model/commands';
 import { canChange, startPose, type Agent, type GoalSpec, type StartSpec } from '../model/scene';
 import { speedForTip } from '../draw/handles';
@@ -7,7 +7,7 @@ import type { Stage } from '../draw/stage';
 import type { Editor, Grip } from './editor';
 import type { Asking } from './asking';
 import { agentsAt, hitTest, type Hit, type HitContext } from './hit';
-import { alongLane, laneWords, snapHeading, snapToLane } from './snap';
+import { alongLane, laneWords, snapHeading, snapToLane, softStop } from './snap';
 import { SPEED_LIMIT, TIME_RANGE, pickFuture } from './moves';
 import type { Picture } from './picture';
 
@@ -155,7 +155,7 @@ export class Gestures {
     editor.focusPart.value = hit.grip.part;
     editor.history?.begin();
     this.drag = { grip: hit.grip, agent: a, start, goal, grabX: gx, grabY: gy, lane: null, follow, command: null };
-    editor.drag.value = { grip: hit.grip, laneName: null, laneId: null };
+    editor.drag.value = { grip: hit.grip, laneName: null, laneId: null, stop: null };
     editor.changes.value = [];
     editor.notify(null);
     this.stage.element.dataset.cursor = hit.grip.handle === 'body' ? 'grabbing' : hit.grip.handle === 'heading' ? 'crosshair' : 'resize';
@@ -213,6 +213,8 @@ export class Gestures {
     // A start prefers lanes in its own direction; a goal may lie on any lane, best one that leads away from the start.
     const hint = !d.follow || grip.part === 'start' ? pose.heading : d.lane ? null : Math.atan2(y - start.y, x - start.x);
     const s = (this.mods.shift && alongLane(map, d.lane, x, y)) || (this.mods.alt ? { x, y, laneHeading: null, lane: null } : snapToLane(map, a, x, y, hint, this.stage.view.z, d.lane));
+    const stop = s.lane && !this.mods.alt && a.type === 'vehicle' ? softStop(editor.scene.peek()!, s.lane, a, project(s.lane.line, s.x, s.y).s, this.stage.view.z) : null;
+    if (stop) Object.assign(s, { x: stop.x, y: stop.y, laneHeading: stop.heading });
     d.lane = s.lane?.id ?? null;
     const key = `${grip.part}:${a.id}`;
     const patch: { pos: Vec; heading?: number | null } = { pos: Object.freeze([s.x, s.y] as const) };
@@ -225,7 +227,7 @@ export class Gestures {
     }
     const laneName = laneWords(map, a, s.x, s.y, s.laneHeading);
     const old = editor.drag.peek();
-    if (old?.laneId !== d.lane || old?.laneName !== laneName) editor.drag.value = { grip, laneId: d.lane, laneName };
+    if (old?.laneId !== d.lane || old?.laneName !== laneName || (old.stop === null) !== (stop === null)) editor.drag.value = { grip, laneId: d.lane, laneName, stop };
     return put(patch);
   }
 

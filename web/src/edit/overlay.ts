@@ -109,6 +109,11 @@ export class Overlay {
     const d = this.editor.drag.value;
     const lane = d?.laneId ? this.editor.scene.value!.map.lanes.get(d.laneId) : null;
     if (lane) polyline(g, v, lane.line.pts, d!.grip.part === 'goal' ? colours().goal : colours().vehicle, Math.min(3.2, lane.width) * v.z, 0.22);
+    const bar = d?.stop;
+    if (bar) {
+      const half = 1.5, at = (k: number): [number, number] => [bar.x + Math.cos(bar.heading) * 2.6 - Math.sin(bar.heading) * k, bar.y + Math.sin(bar.heading) * 2.6 + Math.cos(bar.heading) * k];
+      polyline(g, v, [at(-half), at(half)], colours().goal, 3, 1, [], 'round');
+    }
   }
 
   /** How far it gets, and what lies beyond. */

@@ -1,7 +1,7 @@
 // Snapping to lanes and angles. It shows itself and lets go with Alt.
-import { deg, insidePolygon, rad, wrapAngle } from '../model/geometry';
+import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/geometry';
 import { nearestLanes, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
-import type { Agent } from '../model/scene';
+import { startPose, type Agent, type Scene } from '../model/scene';
 
 export interface Snapped { x: number; y: number; laneHeading: number | null; lane: Lane | null }
 
@@ -29,6 +29,26 @@ export function snapToLane(map: LaneMap, a: Agent, x: number, y: number, heading
     if (s < score) { score = s; best = h; }
   }
   return best ? { x: best.x, y: best.y, laneHeading: best.heading, lane: best.lane } : free;
+}
+
+/** Where traffic stops on a lane: at a stop line with the nose on it, and 2 m behind the last of a queue. */
+export interface SoftStop { readonly s: number; readonly x: number; readonly y: number; readonly heading: number }
+
+const CAPTURE_PX = 8;
+const QUEUE_GAP_M = 2;
+
+export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom: number): SoftStop | null {
+  const places: number[] = [];
+  const stops = scene.signals.some((g) => g.lane === lane.id || lane.next.includes(g.lane)) || scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < 4);
+  if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - 0.3);
+  for (const b of scene.agents.values()) {
+    const p = b.id === a.id || b.type !== 'vehicle' ? null : startPose(b);
+    if (!p || Math.abs(p.speed) > 0.5) continue;
+    const on = project(lane.line, p.x, p.y);
+    if (on.d < 1.2) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
+  }
+  const s = places.filter((v) => v > 0 && Math.abs(v - along) * zoom < CAPTURE_PX).sort((p, q) => Math.abs(p - along) - Math.abs(q - along))[0];
+  return s === undefined ? null : { s, ...pointAt(lane.line, s) };
 }
 
 /** Along one lane only: the nearest point of it, however far the pointer strays. */

@@ -103,6 +103,8 @@ export interface MotionSet {
   readonly score: Score | null;
   readonly reach: ReadonlyMap<string, Reach>;
   readonly stale: boolean;
+  /** Unlikely things that were done anyway, by road user. */
+  readonly warnings?: ReadonlyMap<string, readonly string[]>;
   /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */
   readonly head?: Readonly<Record<string, unknown>>;
 }
