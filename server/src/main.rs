@@ -1,1 +1,60 @@
-fn main() {}
+//! DragTraffic: the editor, its HTTP API and the same work on the command line, in one program.
+//!
+//! `dragtraffic` alone serves the editor; `dragtraffic --help` lists the rest.
+
+mod app;
+mod body;
+mod catalog;
+mod cli;
+mod clock;
+mod embed;
+mod events;
+mod guard;
+mod jobs;
+mod library;
+mod limits;
+mod metrics;
+mod net;
+mod observe;
+mod openapi;
+mod problem;
+mod routes;
+mod scoring;
+mod store;
+mod stream;
+mod transfer;
+
+use std::process::ExitCode;
+
+/// Freed memory is kept for the next tensor: candle allocates each operation's output.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+/// What the numeric libraries read when they start. One thread a call: scenes and calls are cut over
+/// workers, and candle's own threads cost more than they give at this size.
+const SETTINGS: [(&str, &str); 3] =
+    [("CANDLE_NUM_THREADS", "1"), ("RAYON_NUM_THREADS", "1"), ("MIMALLOC_PURGE_DELAY", "-1")];
+
+fn main() -> ExitCode {
+    with_settings();
+    cli::run()
+}
+
+/// Starts the program again with the settings in place where they are missing; the allocator has
+/// read its own before `main`. Values that the user gave are kept.
+fn with_settings() {
+    if SETTINGS.iter().all(|(name, _)| std::env::var_os(name).is_some()) {
+        return;
+    }
+    #[cfg(unix)]
+    if let Ok(program) = std::env::current_exe() {
+        use std::os::unix::process::CommandExt;
+        let missing = SETTINGS.into_iter().filter(|(name, _)| std::env::var_os(name).is_none());
+        let mut command = std::process::Command::new(program);
+        if let Some(name) = std::env::args_os().next() {
+            command.arg0(name);
+        }
+        // Returns only when it fails; the program then runs as it is, a little slower.
+        let _ = command.args(std::env::args_os().skip(1)).envs(missing).exec();
+    }
+}

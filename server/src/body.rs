@@ -1,0 +1,234 @@
+//! Request bodies: media type, time, encoded size, Content-Encoding, decoded size, JSON.
+//!
+//! The encoded bytes are bounded while they arrive, the decoded ones while they are unpacked, so a
+//! small body can never become a large one in memory.
+
+use crate::app::App;
+use crate::limits::Limits;
+use crate::problem::{Code, Problem};
+use axum::body::{Body, Bytes};
+use axum::extract::{FromRequest, Request};
+use axum::http::{HeaderMap, header};
+use http_body_util::BodyExt;
+use serde::de::DeserializeOwned;
+use std::io::Read;
+use std::time::Duration;
+
+/// Bodies up to this size are parsed on the spot; larger ones on a thread for such work.
+const SMALL: usize = 32 << 10;
+/// Growth below this size is never too much.
+const FREE_EXPANSION: u64 = 1 << 20;
+
+/// Media types of JSON documents.
+pub const JSON: &[&str] = &["application/json", "application/vnd.dragtraffic.scene+json"];
+
+/// A JSON body read into a document type.
+pub struct Json<T>(pub T);
+
+impl<T: DeserializeOwned + Send + 'static> FromRequest<App> for Json<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, app: &App) -> Result<Self, Problem> {
+        media_type(request.headers(), JSON)?;
+        let bytes = read_json(request, &app.limits).await?;
+        parse(bytes).await.map(Self)
+    }
+}
+
+/// Checks the Content-Type against a list and returns the one given, without parameters.
+///
+/// # Errors
+/// `unsupported-media-type` when it is missing or not in the list.
+pub fn media_type(headers: &HeaderMap, allowed: &[&str]) -> Result<String, Problem> {
+    let given = headers.get(header::CONTENT_TYPE).and_then(|v| v.to_str().ok()).unwrap_or_default();
+    let essence = given.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
+    if allowed.contains(&essence.as_str()) {
+        return Ok(essence);
+    }
+    let detail = format!("Content-Type is \"{essence}\"; expected {}.", allowed.join(" or "));
+    Err(Problem::new(Code::UnsupportedMediaType, detail))
+}
+
+/// Reads and unpacks a JSON-sized body.
+///
+/// # Errors
+/// Every limit of such a body.
+pub async fn read_json(request: Request, limits: &Limits) -> Result<Bytes, Problem> {
+    let bounds = Bounds {
+        encoded: limits.json_encoded_bytes,
+        decoded: limits.json_decoded_bytes,
+        ratio: limits.expansion_ratio,
+        time: Duration::from_secs(limits.body_read_s),
+    };
+    read(request, bounds).await
+}
+
+/// Reads and unpacks an uploaded file.
+///
+/// # Errors
+/// Every limit of such a body.
+pub async fn read_upload(request: Request, limits: &Limits) -> Result<Bytes, Problem> {
+    let bounds = Bounds {
+        encoded: limits.import_encoded_bytes,
+        decoded: limits.import_decoded_bytes,
+        ratio: limits.expansion_ratio,
+        time: Duration::from_secs(limits.import_read_s),
+    };
+    read(request, bounds).await
+}
+
+/// Parses JSON, away from the network threads when it is long.
+///
+/// # Errors
+/// `malformed-json`, or 422 with the place of the fault.
+pub async fn parse<T: DeserializeOwned + Send + 'static>(bytes: Bytes) -> Result<T, Problem> {
+    if bytes.len() <= SMALL {
+        return formats::native::from_json(&bytes).map_err(Problem::from);
+    }
+    blocking(move || formats::native::from_json(&bytes).map_err(Problem::from)).await
+}
+
+/// Runs CPU work away from the network threads; a panic there is a 500 here.
+///
+/// # Errors
+/// The work's own problem, or `internal`.
+pub async fn blocking<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+) -> Result<T, Problem> {
+    tokio::task::spawn_blocking(work).await.unwrap_or_else(|error| Err(Problem::internal(error)))
+}
+
+#[derive(Clone, Copy)]
+struct Bounds {
+    encoded: u64,
+    decoded: u64,
+    ratio: u64,
+    time: Duration,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Encoding {
+    Identity,
+    Gzip,
+    Zstd,
+}
+
+async fn read(request: Request, bounds: Bounds) -> Result<Bytes, Problem> {
+    let encoding = encoding_of(request.headers())?;
+    let declared = request.headers().get(header::CONTENT_LENGTH).and_then(|v| v.to_str().ok()?.parse().ok());
+    if declared.is_some_and(|length: u64| length > bounds.encoded) {
+        return Err(too_large(bounds.encoded));
+    }
+    let encoded = tokio::time::timeout(bounds.time, collect(request.into_body(), bounds.encoded));
+    let encoded = encoded.await.map_err(|_| {
+        let detail = format!("The body did not arrive within {} s.", bounds.time.as_secs());
+        Problem::new(Code::BodyTimeout, detail)
+    })??;
+    match encoding {
+        Encoding::Identity => Ok(encoded),
+        _ => blocking(move || unpack(&encoded, encoding, bounds)).await,
+    }
+}
+
+fn encoding_of(headers: &HeaderMap) -> Result<Encoding, Problem> {
+    let mut all = headers.get_all(header::CONTENT_ENCODING).iter();
+    let (first, more) = (all.next(), all.next());
+    match (first.map(|v| v.as_bytes().to_ascii_lowercase()).as_deref(), more) {
+        (None | Some(b"identity"), None) => Ok(Encoding::Identity),
+        (Some(b"gzip"), None) => Ok(Encoding::Gzip),
+        (Some(b"zstd"), None) => Ok(Encoding::Zstd),
+        _ => {
+            let detail = "Content-Encoding may be gzip or zstd, once.";
+            let mut problem = Problem::new(Code::UnsupportedMediaType, detail);
+            let known = axum::http::HeaderValue::from_static("gzip, zstd");
+            problem.headers.push((header::ACCEPT_ENCODING, known));
+            Err(problem)
+        }
+    }
+}
+
+async fn collect(mut body: Body, limit: u64) -> Result<Bytes, Problem> {
+    let mut bytes = Vec::new();
+    while let Some(frame) = body.frame().await {
+        let frame = frame.map_err(|_| Problem::new(Code::BadHeader, "The body broke off."))?;
+        let Ok(data) = frame.into_data() else { continue };
+        if (bytes.len() + data.len()) as u64 > limit {
+            return Err(too_large(limit));
+        }
+        bytes.extend_from_slice(&data);
+    }
+    Ok(bytes.into())
+}
+
+fn too_large(limit: u64) -> Problem {
+    Problem::new(Code::BodyTooLarge, format!("The body may have {limit} bytes.")).with("limit", limit)
+}
+
+fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds) -> Result<Bytes, Problem> {
+    let broken = |error: std::io::Error| {
+        Problem::new(Code::MalformedFile, format!("The body cannot be decoded: {error}."))
+            .with("offset", 0)
+            .with("reason", error.to_string())
+    };
+    let mut reader: Box<dyn Read + '_> = match encoding {
+        Encoding::Zstd => {
+            let mut decoder = zstd::stream::read::Decoder::new(encoded).map_err(broken)?;
+            // A frame may ask for gigabytes of window; 8 MiB is what level 19 uses.
+            decoder.window_log_max(23).map_err(broken)?;
+            Box::new(decoder)
+        }
+        _ => Box::new(flate2::read::MultiGzDecoder::new(encoded)),
+    };
+    let mut decoded = Vec::new();
+    let mut chunk = vec![0; 64 << 10];
+    loop {
+        let count = reader.read(&mut chunk).map_err(broken)?;
+        let Some(data) = chunk.get(..count).filter(|data| !data.is_empty()) else { break };
+        decoded.extend_from_slice(data);
+        let size = decoded.len() as u64;
+        if size > bounds.decoded {
+            let detail = format!("The body may decode to {} bytes.", bounds.decoded);
+            return Err(Problem::new(Code::DecodedTooLarge, detail).with("limit", bounds.decoded));
+        }
+        if size > FREE_EXPANSION && size > bounds.ratio.saturating_mul(encoded.len() as u64) {
+            let detail = format!("The body may grow {} times when decoded.", bounds.ratio);
+            return Err(Problem::new(Code::ExpansionTooHigh, detail).with("limit", bounds.ratio));
+        }
+    }
+    Ok(decoded.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bounds, Encoding, unpack};
+    use std::io::Write;
+    use std::time::Duration;
+
+    const BOUNDS: Bounds = Bounds { encoded: 1 << 20, decoded: 8 << 20, ratio: 100, time: Duration::from_secs(1) };
+
+    fn gzip(data: &[u8]) -> Vec<u8> {
+        let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+        encoder.write_all(data).unwrap();
+        encoder.finish().unwrap()
+    }
+
+    fn code(encoded: &[u8], encoding: Encoding) -> &'static str {
+        unpack(encoded, encoding, BOUNDS).map_or_else(|p| p.code.name(), |_| "ok")
+    }
+
+    #[test]
+    fn bombs_are_stopped() {
+        assert_eq!(code(&gzip(&vec![0; 4 << 20]), Encoding::Gzip), "expansion-too-high");
+        assert_eq!(code(&gzip(b"{}"), Encoding::Gzip), "ok");
+        assert_eq!(code(b"not gzip", Encoding::Gzip), "malformed-file");
+        assert_eq!(code(&zstd::encode_all(&vec![0; 4 << 20][..], 3).unwrap(), Encoding::Zstd), "expansion-too-high");
+        let big: Vec<u8> = (0..9u32 << 20).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
+        assert_eq!(code(&zstd::encode_all(&big[..], 1).unwrap(), Encoding::Zstd), "decoded-too-large");
+    }
+
+    #[test]
+    fn skippable_frames_decode_to_nothing() {
+        let frame = [0x50, 0x2a, 0x4d, 0x18, 4, 0, 0, 0, 1, 2, 3, 4];
+        assert_eq!(unpack(&frame, Encoding::Zstd, BOUNDS).unwrap().len(), 0);
+    }
+}

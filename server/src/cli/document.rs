@@ -1,0 +1,61 @@
+//! `dragtraffic openapi`, `schema` and `info`.
+
+use super::{Common, Exit, Failure, output};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Flags of `openapi`.
+#[derive(Args, Clone, Debug)]
+pub struct OpenapiArgs {
+    /// Compare with this file and exit 1 on a difference.
+    #[arg(long, value_name = "FILE")]
+    check: Option<PathBuf>,
+}
+
+/// Flags of `schema`.
+#[derive(Args, Clone, Debug)]
+pub struct SchemaArgs {
+    /// Compare with this file and exit 1 on a difference.
+    #[arg(long, value_name = "FILE")]
+    check: Option<PathBuf>,
+}
+
+/// Prints or checks the OpenAPI document.
+///
+/// # Errors
+/// Exit 1 on a difference.
+pub fn openapi(args: OpenapiArgs) -> Result<(), Failure> {
+    show(&crate::openapi::text(), args.check.as_deref(), "openapi")
+}
+
+/// Prints or checks the scene's JSON Schema.
+///
+/// # Errors
+/// Exit 1 on a difference.
+pub fn schema(args: SchemaArgs) -> Result<(), Failure> {
+    let schema = formats::native::schema().to_value();
+    let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
+    text.push('\n');
+    show(&text, args.check.as_deref(), "schema")
+}
+
+fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> {
+    let Some(path) = check else { return output::print(text.as_bytes()) };
+    if output::read(path)? == text.as_bytes() {
+        return Ok(());
+    }
+    let message = format!("{path} is out of date; run: dragtraffic {command} > {path}", path = path.display());
+    Err(Failure::new(Exit::Failure, message))
+}
+
+/// Prints what `/v1/info` gives.
+///
+/// # Errors
+/// Exit 7 without weights.
+pub fn info(common: &Common) -> Result<(), Failure> {
+    let generator = super::generator(common)?;
+    let info = crate::routes::info::document(&generator, &crate::limits::Limits::default());
+    let mut text = serde_json::to_string_pretty(&info).unwrap_or_default();
+    text.push('\n');
+    output::print(text.as_bytes())
+}

@@ -1,0 +1,239 @@
+//! `dragtraffic import`, `convert`, `export` and `score`: files in, files out.
+
+use super::{Exit, Failure, output};
+use crate::problem::Problem;
+use crate::routes::import::range;
+use crate::scoring;
+use crate::transfer::{self, Imported, Motion};
+use clap::Args;
+use scene::Scene;
+use scene::score::ScoreInput;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// Flags of `import` and `convert`.
+#[derive(Args, Clone, Debug)]
+pub struct ConvertArgs {
+    /// File to read; - is stdin.
+    #[arg(required_unless_present = "list")]
+    input: Option<PathBuf>,
+    /// File to write; a folder for many scenes; - or absent is stdout.
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// Format of the input; recognised from its content when absent.
+    #[arg(long)]
+    from: Option<String>,
+    /// Format of the output.
+    #[arg(long, default_value = "dragtraffic")]
+    to: String,
+    /// Scenes to take: one number, or FIRST..LAST.
+    #[arg(long)]
+    index: Option<String>,
+    /// Which motion the output takes.
+    #[arg(long, value_enum, default_value_t)]
+    mode: Motion,
+    /// Exit 5 when the output cannot hold something.
+    #[arg(long)]
+    strict: bool,
+    /// Overwrite the output.
+    #[arg(long)]
+    force: bool,
+    /// List the formats and exit.
+    #[arg(long)]
+    list: bool,
+}
+
+/// Flags of `export`.
+#[derive(Args, Clone, Debug)]
+pub struct ExportArgs {
+    /// Scene to read; - is stdin.
+    scene: PathBuf,
+    /// Format of the output.
+    #[arg(long)]
+    format: String,
+    /// File to write; - or absent is stdout.
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// Which sample of the generated futures.
+    #[arg(long)]
+    sample: Option<usize>,
+    /// Which motion the output takes.
+    #[arg(long, value_enum, default_value_t)]
+    mode: Motion,
+    /// Exit 5 when the output cannot hold something.
+    #[arg(long)]
+    strict: bool,
+    /// Overwrite the output.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Flags of `score`.
+#[derive(Args, Clone, Debug)]
+pub struct ScoreArgs {
+    /// Scenes to read, of any format.
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// One JSON object a line in place of text.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Problems of files as failures of the command.
+pub fn refused(path: &Path, problem: &Problem) -> Failure {
+    let mut message = format!("{}: {}", path.display(), problem.detail);
+    if let Some(Value::Array(errors)) = problem.members.get("errors") {
+        for error in errors.iter().skip(1) {
+            let text = |key: &str| error.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+            message.push_str(&format!("\n  {} at \"{}\": {}", text("code"), text("pointer"), text("detail")));
+        }
+    }
+    Failure::new(Exit::Input, message)
+}
+
+/// Reads scenes of any format.
+///
+/// # Errors
+/// Exit 3.
+pub fn read_scenes(path: &Path, from: Option<&str>, index: Option<&str>) -> Result<Vec<Imported>, Failure> {
+    let bytes = output::read(path)?;
+    let wanted = index.map(range).transpose().map_err(|p| Failure::new(Exit::Usage, p.detail))?;
+    let (skip, most) = wanted.map_or((0, usize::MAX), |range| (range.start, range.len()));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let read =
+        transfer::read(&bytes, from, &name, skip, most).map_err(|problem| refused(path, &problem))?;
+    for (index, problem) in &read.skipped {
+        output::complain(&format!("{}: scene {index} left out: {}", path.display(), problem.detail));
+    }
+    for imported in &read.scenes {
+        for warning in &imported.warnings {
+            output::complain(&format!("{}: {}: {}", path.display(), warning.code, warning.detail));
+        }
+    }
+    if read.scenes.is_empty() {
+        return Err(Failure::new(Exit::Input, format!("{}: no scene at that index", path.display())));
+    }
+    Ok(read.scenes)
+}
+
+/// Reads exactly one scene, the first of the file.
+///
+/// # Errors
+/// Exit 3.
+pub fn read_scene(path: &Path) -> Result<Scene, Failure> {
+    let mut scenes = read_scenes(path, None, Some("0"))?;
+    Ok(scenes.swap_remove(0).scene)
+}
+
+/// Turns a file of one format into another.
+///
+/// # Errors
+/// Exit 3, 5, 8.
+pub fn convert(args: ConvertArgs, to_native: bool) -> Result<(), Failure> {
+    let Some(input) = args.input.filter(|_| !args.list) else {
+        let text = serde_json::to_string_pretty(&transfer::table()).unwrap_or_default();
+        return output::print(format!("{text}\n").as_bytes());
+    };
+    let to = if to_native { "dragtraffic".to_owned() } else { args.to };
+    let scenes = read_scenes(&input, args.from.as_deref(), args.index.as_deref())?;
+    let folder = args.output.as_deref().filter(|path| path.is_dir());
+    if scenes.len() > 1 && folder.is_none() {
+        let message = format!("{} scenes; give --index, or a folder as --output", scenes.len());
+        return Err(Failure::new(Exit::Usage, message));
+    }
+    for (i, imported) in scenes.iter().enumerate() {
+        let target = match folder {
+            Some(folder) => Some(folder.join(file_name(&imported.scene, i, &to))),
+            None => args.output.clone(),
+        };
+        write(&imported.scene, &to, None, args.mode, target.as_deref(), args.strict, args.force)?;
+    }
+    Ok(())
+}
+
+fn file_name(scene: &Scene, index: usize, to: &str) -> String {
+    let info = formats::registry::by_id(to).map(|format| format.info());
+    let extension = info.and_then(|info| info.extensions.first().copied()).unwrap_or("json");
+    let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
+    let stem: String = scene.meta.source_id.as_deref().unwrap_or(&scene.name).chars().map(clean).take(60).collect();
+    if stem.is_empty() { format!("scene-{index:06}.{extension}") } else { format!("{stem}.{extension}") }
+}
+
+/// Writes a scene in another format.
+///
+/// # Errors
+/// Exit 3, 5, 8.
+pub fn export(args: ExportArgs) -> Result<(), Failure> {
+    let scene = read_scene(&args.scene)?;
+    write(&scene, &args.format, args.sample, args.mode, args.output.as_deref(), args.strict, args.force)
+}
+
+fn write(
+    scene: &Scene,
+    format: &str,
+    sample: Option<usize>,
+    motion: Motion,
+    target: Option<&Path>,
+    strict: bool,
+    force: bool,
+) -> Result<(), Failure> {
+    let written = transfer::write(scene, format, sample, motion)
+        .map_err(|problem| Failure::new(Exit::Usage, problem.detail))?;
+    for loss in &written.losses {
+        output::complain(&format!("not in {format}: {}: {}", loss.code, loss.detail));
+    }
+    if strict && !written.losses.is_empty() {
+        return Err(Failure::new(Exit::Lossy, "nothing written: --strict was given and something would be lost"));
+    }
+    output::write(target, &written.bytes, force)
+}
+
+/// Scores scenes.
+///
+/// # Errors
+/// Exit 3 when none can be read, 4 when some cannot.
+pub fn score(args: ScoreArgs) -> Result<(), Failure> {
+    let (mut done, mut failed) = (0, 0);
+    for path in &args.scenes {
+        let scenes = match read_scenes(path, None, None) {
+            Ok(scenes) => scenes,
+            Err(failure) => {
+                output::complain(&failure.message);
+                failed += 1;
+                continue;
+            }
+        };
+        for imported in scenes {
+            let drivable = scoring::drivable(&imported.scene);
+            let score = scene::score::score(&ScoreInput::of_scene(&imported.scene, &drivable));
+            let mut object = Map::new();
+            object.insert("file".into(), path.display().to_string().into());
+            object.insert("source_id".into(), json!(imported.scene.meta.source_id));
+            if let Ok(Value::Object(members)) = serde_json::to_value(&score) {
+                object.extend(members);
+            }
+            let line = if args.json { Value::Object(object).to_string() } else { in_words(path, &score) };
+            output::print(format!("{line}\n").as_bytes())?;
+            done += 1;
+        }
+    }
+    match (done, failed) {
+        (_, 0) => Ok(()),
+        (0, _) => Err(Failure::new(Exit::Input, "no scene could be read")),
+        _ => Err(Failure::new(Exit::Partly, format!("{failed} of {} files could not be read", args.scenes.len()))),
+    }
+}
+
+fn in_words(path: &Path, score: &scene::score::Score) -> String {
+    let number = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.2} {unit}"));
+    let scene = &score.scene;
+    format!(
+        "{}: {} collisions, {} near misses, least time to collision {}, least gap {}, off road {}",
+        path.display(),
+        scene.collisions.len(),
+        scene.near_misses.len(),
+        number(scene.min_ttc_s, "s"),
+        number(scene.min_distance_m, "m"),
+        scene.offroad_share.map_or("-".into(), |share| format!("{:.1} %", share * 100.0)),
+    )
+}

@@ -1,0 +1,121 @@
+//! `dragtraffic synthesize`, `prepare`, `train`: the only file that knows how experts are made.
+
+use super::{Common, Exit, Failure, output};
+use clap::{Args, ValueEnum};
+use lab::synthesize::{self, Options, Template};
+use std::path::PathBuf;
+
+/// Flags of `synthesize`.
+#[derive(Args, Clone, Debug)]
+pub struct SynthesizeArgs {
+    /// Seeds to work on; each gives one file.
+    #[arg(long, default_value_t = 1)]
+    count: u64,
+    /// First seed.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Folder to write to; files that are there already are kept.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Windows of 9 seconds cut from each seed's two minutes.
+    #[arg(long, default_value_t = 28)]
+    per_seed: usize,
+    /// Seeds worked on at the same time; 0 means one a core.
+    #[arg(long, default_value_t = 0)]
+    threads: usize,
+    /// SUMO's folder, with bin/ in it; else SUMO_HOME, else PATH.
+    #[arg(long, value_name = "DIR")]
+    sumo_home: Option<PathBuf>,
+    /// Kind of all networks; mixed when absent.
+    #[arg(long, value_enum)]
+    template: Option<TemplateWord>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum TemplateWord {
+    Crossing,
+    Grid,
+    Arterial,
+    Lot,
+    Roundabout,
+    Motorway,
+}
+
+impl From<TemplateWord> for Template {
+    fn from(word: TemplateWord) -> Self {
+        match word {
+            TemplateWord::Crossing => Self::Crossing,
+            TemplateWord::Grid => Self::Grid,
+            TemplateWord::Arterial => Self::Arterial,
+            TemplateWord::Lot => Self::Lot,
+            TemplateWord::Roundabout => Self::Roundabout,
+            TemplateWord::Motorway => Self::Motorway,
+        }
+    }
+}
+
+/// Flags of commands that are passed on as they are.
+#[derive(Args, Clone, Debug)]
+pub struct LabArgs {
+    /// Flags of the command.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    arguments: Vec<String>,
+}
+
+/// Makes training windows.
+///
+/// # Errors
+/// Exit 1 without SUMO, 4 when some seeds failed.
+pub fn synthesize(args: SynthesizeArgs, common: &Common) -> Result<(), Failure> {
+    let options = Options {
+        seeds: args.seed..args.seed.saturating_add(args.count),
+        out_dir: args.output,
+        threads: args.threads,
+        sumo_home: args.sumo_home,
+        per_seed: args.per_seed,
+        template: args.template.map(Template::from),
+    };
+    let quiet = common.quiet;
+    let report = synthesize::run(&options, &|progress| {
+        if !quiet {
+            let (done, all) = progress.finished;
+            let windows = progress.windows.map_or("there already".into(), |n| format!("{n} windows"));
+            output::complain(&format!("seed {}: {windows} ({done} of {all})", progress.seed));
+        }
+    })
+    .map_err(|error| Failure::new(Exit::Failure, error.to_string()))?;
+    let [vehicles, pedestrians, cyclists] = report.agents;
+    let line = serde_json::json!({
+        "written": report.written, "skipped": report.skipped, "windows": report.windows,
+        "vehicles": vehicles, "pedestrians": pedestrians, "cyclists": cyclists, "failed": report.failed.len(),
+    });
+    output::print(format!("{line}\n").as_bytes())?;
+    for (seed, reason) in &report.failed {
+        output::complain(&format!("seed {seed} failed: {reason}"));
+    }
+    if report.failed.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::new(Exit::Partly, format!("{} seeds failed", report.failed.len())))
+}
+
+/// Makes training shards.
+///
+/// # Errors
+/// Exit 1.
+pub fn prepare(args: LabArgs) -> Result<(), Failure> {
+    not_yet("prepare", &args)
+}
+
+/// Trains an expert.
+///
+/// # Errors
+/// Exit 1.
+pub fn train(args: LabArgs) -> Result<(), Failure> {
+    not_yet("train", &args)
+}
+
+fn not_yet(command: &str, args: &LabArgs) -> Result<(), Failure> {
+    let words = args.arguments.len();
+    Err(Failure::new(Exit::Failure, format!("{command} is not in this build ({words} words given)")))
+}

@@ -1,0 +1,194 @@
+//! The command line. Results go to stdout, everything else to stderr.
+
+mod document;
+mod files;
+mod generate;
+mod lab;
+mod output;
+mod serve;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// How a command ends; the numbers are part of the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Anything that has no number of its own.
+    Failure = 1,
+    /// The command line makes no sense.
+    Usage = 2,
+    /// Input cannot be read or is not valid.
+    Input = 3,
+    /// Some items failed, the rest are done.
+    Partly = 4,
+    /// Something was lost under `--strict`.
+    Lossy = 5,
+    /// The address is taken.
+    AddressInUse = 6,
+    /// Weights are missing or wrong.
+    Weights = 7,
+    /// The output exists.
+    OutputExists = 8,
+}
+
+/// Why a command failed.
+#[derive(Debug)]
+pub struct Failure {
+    /// Exit code.
+    pub exit: Exit,
+    /// One sentence; empty when it was told already.
+    pub message: String,
+}
+
+impl Failure {
+    /// A failure with one sentence.
+    pub fn new(exit: Exit, message: impl Into<String>) -> Self {
+        Self { exit, message: message.into() }
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Self::new(Exit::Failure, error.to_string())
+    }
+}
+
+/// Make traffic scenes by dragging: editor, HTTP API and command line in one program.
+#[derive(Parser)]
+#[command(name = "dragtraffic", version, args_conflicts_with_subcommands = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    serve: serve::ServeArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Flags of every command.
+#[derive(Args, Clone, Debug)]
+pub struct Common {
+    /// Log lines as text or JSON.
+    #[arg(long, global = true, value_enum, env = "DRAGTRAFFIC_LOG_FORMAT")]
+    pub log_format: Option<LogFormat>,
+    /// Which log lines: error, warn, info, debug, trace, or a tracing filter.
+    #[arg(long, global = true, env = "DRAGTRAFFIC_LOG", default_value = "info")]
+    pub log_level: String,
+    /// Say nothing but errors.
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+    /// Folder with vehicle.safetensors, pedestrian.safetensors and cyclist.safetensors, in place of
+    /// the weights inside the program.
+    #[arg(long, global = true, env = "DRAGTRAFFIC_WEIGHTS", value_name = "DIR")]
+    pub weights: Option<PathBuf>,
+}
+
+/// Form of log lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// For people.
+    Text,
+    /// One object a line.
+    Json,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Serve the editor and the HTTP API (the default).
+    Serve(serve::ServeArgs),
+    /// Generate futures of a scene.
+    Generate(generate::GenerateArgs),
+    /// Turn a file of any known format into scene JSON.
+    Import(files::ConvertArgs),
+    /// Turn a file of one format into another.
+    Convert(files::ConvertArgs),
+    /// Write a scene in another format.
+    Export(files::ExportArgs),
+    /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
+    Score(files::ScoreArgs),
+    /// Print the OpenAPI document, or compare it with a file.
+    Openapi(document::OpenapiArgs),
+    /// Print the JSON Schema of the scene document, or compare it with a file.
+    Schema(document::SchemaArgs),
+    /// Print version, weights, limits and formats as JSON.
+    Info,
+    /// Make training windows from procedural networks, driven through SUMO.
+    Synthesize(lab::SynthesizeArgs),
+    /// Make training shards from logs.
+    Prepare(lab::LabArgs),
+    /// Train an expert.
+    Train(lab::LabArgs),
+}
+
+/// Parses the command line and does what it says.
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let code = if error.use_stderr() { Exit::Usage as u8 } else { 0 };
+            // Help into a closed pipe is no failure.
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let common = cli.common;
+    log(&common);
+    let done = match cli.command {
+        None => serve::run(cli.serve, &common),
+        Some(Command::Serve(args)) => serve::run(args, &common),
+        Some(Command::Generate(args)) => generate::run(args, &common),
+        Some(Command::Import(args)) => files::convert(args, true),
+        Some(Command::Convert(args)) => files::convert(args, false),
+        Some(Command::Export(args)) => files::export(args),
+        Some(Command::Score(args)) => files::score(args),
+        Some(Command::Openapi(args)) => document::openapi(args),
+        Some(Command::Schema(args)) => document::schema(args),
+        Some(Command::Info) => document::info(&common),
+        Some(Command::Synthesize(args)) => lab::synthesize(args, &common),
+        Some(Command::Prepare(args)) => lab::prepare(args),
+        Some(Command::Train(args)) => lab::train(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if !failure.message.is_empty() {
+                output::complain(&failure.message);
+            }
+            ExitCode::from(failure.exit as u8)
+        }
+    }
+}
+
+fn log(common: &Common) {
+    let level = if common.quiet { "error" } else { common.log_level.as_str() };
+    let filter = tracing_subscriber::EnvFilter::try_new(level)
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("info"));
+    let terminal = std::io::stderr().is_terminal();
+    let builder = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr);
+    let json = match common.log_format {
+        Some(format) => format == LogFormat::Json,
+        None => false,
+    };
+    let done = if json {
+        builder.json().try_init()
+    } else {
+        let colour = terminal && std::env::var_os("NO_COLOR").is_none();
+        builder.with_ansi(colour).with_target(false).try_init()
+    };
+    // A second subscriber is refused; the first one logs.
+    let _ = done;
+}
+
+/// The experts, from a folder or from inside the program.
+///
+/// # Errors
+/// Exit 7.
+pub fn generator(common: &Common) -> Result<experts::Generator, Failure> {
+    let loaded = match &common.weights {
+        Some(folder) => experts::Generator::from_dir(folder),
+        None => experts::Generator::built_in(),
+    };
+    loaded.map_err(|error| Failure::new(Exit::Weights, error.to_string()))
+}

@@ -1,0 +1,117 @@
+//! One worker: takes jobs, drives the generator, turns its events into messages.
+
+use super::{End, Job, Pool, Task, lock};
+use crate::events::{self, AcceptedBody, DraftBody, FinalBody, TimingBody};
+use crate::metrics;
+use crate::problem::Problem;
+use experts::{Answer, Draft, Event, GenerateError, Generator};
+use formats::native::SampleDoc;
+use scene::{AgentType, Scene};
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+/// Works until the pool stops.
+pub fn work(pool: &Pool, generator: &Generator) {
+    while let Some(job) = pool.take() {
+        let began = Instant::now();
+        let task = lock(&job.task).take();
+        if let Some(task) = task.filter(|_| !job.outbox.is_closed()) {
+            // The generator keeps caches of plain values only, so it is usable after a panic.
+            let run = AssertUnwindSafe(|| generate(&job, generator, task));
+            if catch_unwind(run).is_err() {
+                job.fail(Problem::internal("a generation panicked"));
+            }
+        }
+        pool.finished(&job, began.elapsed());
+    }
+}
+
+fn generate(job: &Job, generator: &Generator, task: Task) {
+    let queued = job.asked.elapsed();
+    metrics::phase("queue", queued.as_secs_f64());
+    let scene = Arc::clone(&task.request.scene);
+    let generation = match generator.start(task.request, job.cancel.clone()) {
+        Ok(generation) => generation,
+        Err(error) => return job.fail(error.into()),
+    };
+    for event in generation {
+        match event {
+            Ok(Event::Accepted(accepted)) => {
+                let position = job.queue_position.load(Ordering::Relaxed);
+                job.send("accepted", AcceptedBody::new(&accepted, position), None);
+            }
+            Ok(Event::Draft(draft)) => {
+                count(&scene, &draft);
+                let body = DraftBody::new(&draft, task.all_modes);
+                job.send(body.event(), body, None);
+            }
+            Ok(Event::Final(answer)) => {
+                let mut body = final_body(&task.head, &answer, queued);
+                if task.score {
+                    add_scores(&mut body, &scene, &answer);
+                }
+                if job.send("final", body, Some(End::Final)) {
+                    metrics::generated("final");
+                }
+                return;
+            }
+            Err(error) => return job.fail(error.into()),
+        }
+    }
+    job.fail(GenerateError::Expert("the generator ended without an answer".into()).into());
+}
+
+fn count(scene: &Scene, draft: &Draft) {
+    let types = draft.futures.agents.keys().filter_map(|id| scene.agent(id)).map(expert_of);
+    if draft.step == 0 {
+        types.for_each(|expert| metrics::agents(expert, 1));
+    } else {
+        types.collect::<BTreeSet<_>>().into_iter().for_each(metrics::step);
+    }
+}
+
+fn expert_of(agent: &scene::Agent) -> &'static str {
+    match agent.conditions.agent_type.unwrap_or(agent.agent_type) {
+        AgentType::Pedestrian => "pedestrian",
+        AgentType::Cyclist => "cyclist",
+        AgentType::Vehicle | AgentType::Other => "vehicle",
+    }
+}
+
+fn final_body(head: &events::GeneratedHead, answer: &Answer, queued: Duration) -> FinalBody {
+    let t = &answer.timings;
+    metrics::phase("encode", t.encode_ms / 1e3);
+    metrics::phase("initial", t.initial_ms / 1e3);
+    t.step_ms.iter().for_each(|ms| metrics::phase("step", ms / 1e3));
+    let timing = TimingBody {
+        queue_ms: round(queued.as_secs_f64() * 1e3),
+        encode_ms: round(t.encode_ms),
+        initial_ms: round(t.initial_ms),
+        step_ms: t.step_ms.iter().copied().map(round).collect(),
+        choice_ms: round(t.choice_ms),
+        score_ms: 0.0,
+    };
+    FinalBody {
+        samples: answer.samples.iter().map(SampleDoc::from_sample).collect(),
+        resolved: events::resolved(answer),
+        scores: None,
+        warnings: answer.warnings.clone(),
+        timing,
+        generated: head.to_json(),
+    }
+}
+
+fn add_scores(body: &mut FinalBody, scene: &Scene, answer: &Answer) {
+    let began = Instant::now();
+    let scores: Vec<_> =
+        answer.samples.iter().map(|sample| crate::scoring::sample(scene, sample)).collect();
+    body.timing.score_ms = round(began.elapsed().as_secs_f64() * 1e3);
+    body.scores = Some(scores);
+}
+
+fn round(ms: f64) -> f64 {
+    (ms * 100.0).round() / 100.0
+}

@@ -1,0 +1,127 @@
+//! Every bound of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
+
+use serde_json::{Map, Value, json};
+
+macro_rules! limits {
+    ($($field:ident = $default:expr, $what:literal;)*) => {
+        /// Bounds that the server keeps. All are whole numbers in the unit of their name.
+        #[derive(Clone, Debug, PartialEq, Eq)]
+        pub struct Limits { $(#[doc = $what] pub $field: u64,)* }
+
+        impl Default for Limits {
+            fn default() -> Self { Self { $($field: $default,)* } }
+        }
+
+        impl Limits {
+            /// Name, number and meaning of each bound.
+            pub fn table(&self) -> Vec<(&'static str, u64, &'static str)> {
+                vec![$((stringify!($field), self.$field, $what),)*]
+            }
+
+            fn slot(&mut self, name: &str) -> Option<&mut u64> {
+                match name { $(stringify!($field) => Some(&mut self.$field),)* _ => None }
+            }
+        }
+    };
+}
+
+limits! {
+    json_encoded_bytes = 16 << 20, "JSON body as it arrives";
+    json_decoded_bytes = 64 << 20, "JSON body after Content-Encoding is undone";
+    import_encoded_bytes = 256 << 20, "uploaded file as it arrives";
+    import_decoded_bytes = 1 << 30, "uploaded file after Content-Encoding is undone";
+    expansion_ratio = 100, "decoded to encoded size, beyond the first MiB";
+    header_bytes = 16 << 10, "names and values of all header fields";
+    header_fields = 64, "header fields of a request";
+    uri_bytes = 8 << 10, "path and query of a request";
+    regenerated_agents = 128, "road users regenerated or reacting in one call";
+    reply_points = 500_000, "samples x modes x road users x steps of a reply";
+    import_scenes = 200, "scenes taken from one upload";
+    running = 0, "generations at the same time; 0 means half the cores, 1 to 8";
+    queue = 16, "generations that wait";
+    generate_s = 60, "wall time of a generation";
+    stream_s = 120, "wall time of a reply, waiting included";
+    stalled_s = 15, "time a reader may leave an event waiting";
+    buffered_events = 8, "events kept for a slow reader before steps are dropped";
+    heartbeat_s = 10, "time between signs of life in a stream";
+    header_read_s = 10, "time for a request's head, and between requests of a connection";
+    body_read_s = 30, "time for a JSON body";
+    import_read_s = 120, "time for an upload";
+    connections = 256, "open connections; the longest idle one makes room";
+    clients = 1_024, "clients whose revisions are remembered";
+    client_idle_s = 600, "time after which a client is forgotten";
+    stored_scenes = 10_000, "scenes in the store";
+    store_bytes = 4 << 30, "size of the store's file";
+    map_keep_s = 86_400, "time an unused map is kept";
+    cached_maps = 64, "maps kept in memory";
+    shutdown_s = 10, "time running work gets when the server stops";
+}
+
+/// Bounds that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
+fn fixed() -> [(&'static str, u64, &'static str); 10] {
+    [
+        ("json_depth", 128, "nesting of a JSON document"),
+        ("agents", 256, "road users in a scene"),
+        ("scene_steps", 600, "steps in a scene"),
+        ("map_polylines", 20_000, "lines and areas of a map"),
+        ("map_points", 400_000, "points of a map"),
+        ("polyline_points", 4_096, "points of one line"),
+        ("signals", 512, "signals in a scene"),
+        ("coordinate_m", 10_000, "distance from the origin"),
+        ("samples", 32, "joint scenes per call"),
+        ("modes", 6, "alternatives kept per road user"),
+    ]
+}
+
+impl Limits {
+    /// Applies one `NAME=N`.
+    ///
+    /// # Errors
+    /// A sentence when the name or the number cannot be read.
+    pub fn set(&mut self, assignment: &str) -> Result<(), String> {
+        let (name, number) =
+            assignment.split_once('=').ok_or_else(|| format!("\"{assignment}\": NAME=N expected"))?;
+        let number =
+            number.parse().map_err(|_| format!("\"{number}\" is not a whole number for limit {name}"))?;
+        let slot = self.slot(name).ok_or_else(|| {
+            let names: Vec<_> = Self::default().table().iter().map(|row| row.0).collect();
+            format!("no limit is named \"{name}\"; there are {}", names.join(", "))
+        })?;
+        *slot = number;
+        Ok(())
+    }
+
+    /// Generations that may run at the same time.
+    pub fn workers(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        match self.running {
+            0 => (cores / 2).clamp(1, 8),
+            n => n.min(64) as usize,
+        }
+    }
+
+    /// All bounds for `/v1/info`.
+    pub fn to_json(&self) -> Value {
+        let mut object = Map::new();
+        for (name, number, what) in self.table().into_iter().chain(fixed()) {
+            let number = if name == "running" { self.workers() as u64 } else { number };
+            object.insert(name.to_owned(), json!({"value": number, "what": what}));
+        }
+        Value::Object(object)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Limits;
+
+    #[test]
+    fn a_limit_is_set_by_name() {
+        let mut limits = Limits::default();
+        assert!(limits.set("queue=3").is_ok());
+        assert_eq!(limits.queue, 3);
+        assert!(limits.set("queue").is_err());
+        assert!(limits.set("queue=-1").is_err());
+        assert!(limits.set("tail=1").unwrap_err().contains("queue"));
+    }
+}

@@ -1,0 +1,97 @@
+//! Files out of scenes: `/v1/scenes/{id}/export` and `/v1/export`.
+
+use super::{Id, Params};
+use crate::app::App;
+use crate::body::{self, Json};
+use crate::catalog;
+use crate::metrics;
+use crate::problem::Problem;
+use crate::transfer::{self, Motion};
+use axum::extract::State;
+use axum::http::{HeaderValue, header};
+use axum::response::{IntoResponse, Response};
+use formats::native::SceneDoc;
+use scene::Scene;
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// Query of an export.
+#[derive(Debug, Deserialize, utoipa::IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub struct ExportParams {
+    /// A name of the formats table.
+    #[param(default = "dragtraffic")]
+    format: String,
+    /// Which sample of the generated futures; the chosen one when absent.
+    sample: Option<usize>,
+    /// `chosen` futures, or the `log` alone.
+    #[param(default = "chosen", value_type = String)]
+    mode: Motion,
+}
+
+impl Default for ExportParams {
+    fn default() -> Self {
+        Self { format: "dragtraffic".into(), sample: None, mode: Motion::Chosen }
+    }
+}
+
+/// Exports a scene of this server.
+#[utoipa::path(get, path = "/v1/scenes/{id}/export", operation_id = "exportScene", tag = "files",
+    params(("id" = String, Path), ExportParams),
+    responses((status = 200, description = "the file", content_type = "application/octet-stream", body = Vec<u8>)))]
+pub async fn stored(
+    State(app): State<App>,
+    Id(id): Id,
+    Params(params): Params<ExportParams>,
+) -> Result<Response, Problem> {
+    let opened = catalog::open(&app, &id).await?;
+    export(opened.scene, params).await
+}
+
+/// Exports a scene given in the body.
+#[utoipa::path(post, path = "/v1/export", operation_id = "exportUnsaved", tag = "files", params(ExportParams),
+    request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
+    responses((status = 200, description = "the file", content_type = "application/octet-stream", body = Vec<u8>)))]
+pub async fn unsaved(
+    State(app): State<App>,
+    Params(params): Params<ExportParams>,
+    Json(doc): Json<SceneDoc>,
+) -> Result<Response, Problem> {
+    let scene = Arc::new(catalog::scene_of(&app, doc).await?);
+    export(scene, params).await
+}
+
+async fn export(scene: Arc<Scene>, params: ExportParams) -> Result<Response, Problem> {
+    let licence = scene.meta.licence.clone();
+    let name = scene.name.clone();
+    let format = transfer::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
+    let written =
+        body::blocking(move || transfer::write(&scene, &params.format, params.sample, params.mode)).await;
+    let file = written.inspect_err(|_| metrics::transfer(true, format, "error"))?;
+    metrics::transfer(true, format, "done");
+    let mut response = file.bytes.into_response();
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(file.media_type));
+    let mut set = |header: &'static str, text: String| {
+        if let Ok(value) = HeaderValue::from_str(&text) {
+            headers.insert(header, value);
+        }
+    };
+    set("content-disposition", format!("attachment; filename=\"{}{}\"", file_name(&name), file.extension));
+    if !file.losses.is_empty() {
+        set("dragtraffic-loss", formats::registry::loss_header(&file.losses));
+    }
+    if let Some(licence) = licence {
+        set("dragtraffic-licence", licence.chars().filter(char::is_ascii_graphic).take(64).collect());
+    }
+    Ok(response)
+}
+
+/// A name that every file system takes.
+fn file_name(name: &str) -> String {
+    let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
+    let cleaned: String = name.chars().map(clean).take(60).collect();
+    let trimmed = cleaned.trim_matches('-');
+    if trimmed.is_empty() { "scene".into() } else { trimmed.into() }
+}

@@ -1,0 +1,392 @@
+//! `/v1/generate`: conditions to futures.
+
+use super::is_id;
+use crate::app::App;
+use crate::body::{self, Json};
+use crate::catalog;
+use crate::events::GeneratedHead;
+use crate::jobs::{Caller, Task};
+use crate::limits::Limits;
+use crate::problem::{Code, Problem};
+use crate::stream::{self, Form};
+use axum::extract::{FromRequest, Request, State};
+use axum::response::Response;
+use experts::React;
+use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
+use formats::{FieldProblem, ReadError};
+use scene::{STEP_S, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// `"all"` or a list of ids.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Who {
+    /// `"all"`.
+    All(All),
+    /// These.
+    Ids(Vec<String>),
+}
+
+/// The word `all`.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum All {
+    /// Everyone.
+    All,
+}
+
+/// Who else answers: true for everyone near, or ids.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Reacting {
+    /// Everyone, or nobody.
+    Whether(bool),
+    /// These.
+    Ids(Vec<String>),
+}
+
+/// What drafts carry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StreamModes {
+    /// The chosen future of each road user.
+    #[default]
+    Chosen,
+    /// All alternatives.
+    All,
+}
+
+/// Body of a generation. Exactly one of `scene` and `scene_id` is given.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GenerateRequest {
+    /// The scene itself; its map may be `{"ref":"sha256:HEX"}`.
+    #[serde(default)]
+    scene: Option<SceneDoc>,
+    /// A scene of this server.
+    #[serde(default)]
+    scene_id: Option<String>,
+    /// With `scene_id`: refuse when the scene has changed.
+    #[serde(default)]
+    etag: Option<String>,
+    /// Replace the scene's own conditions of these road users, whole.
+    #[serde(default)]
+    conditions: Members<ConditionsDoc>,
+    /// Road users put in for this call.
+    #[serde(default)]
+    add_agents: Vec<AgentDoc>,
+    /// Road users taken out for this call.
+    #[serde(default)]
+    remove_agents: Vec<String>,
+    /// Own id for the job, so that it can be cancelled.
+    #[serde(default)]
+    job: Option<String>,
+    /// With `revision`: a newer revision of this client takes over.
+    #[serde(default)]
+    client: Option<String>,
+    /// Rises with each request of `client`.
+    #[serde(default)]
+    #[schemars(range(max = 9007199254740991u64))]
+    revision: Option<u64>,
+    /// Road users to regenerate.
+    #[serde(default = "everyone")]
+    agents: Who,
+    /// Who else answers to them.
+    #[serde(default = "nobody")]
+    react: Reacting,
+    /// Scene time of the start, seconds.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 59.9))]
+    start_s: f64,
+    /// Seconds to generate.
+    #[serde(default = "nine")]
+    #[schemars(range(min = 0.5, max = 20.0))]
+    horizon_s: f64,
+    /// Plan anew after so many seconds: 3, 6 or 9; null plans once per 9.
+    #[serde(default)]
+    replan_interval_s: Option<f64>,
+    /// The same seed gives the same answer.
+    #[serde(default)]
+    #[schemars(range(max = 9007199254740991u64))]
+    seed: u64,
+    /// Independent joint scenes.
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 32))]
+    samples: u64,
+    /// Alternatives kept per road user.
+    #[serde(default = "six")]
+    #[schemars(range(min = 1, max = 6))]
+    modes: u64,
+    /// Scale of the noise; 0 is deterministic.
+    #[serde(default = "unit")]
+    #[schemars(range(min = 0.0, max = 2.0))]
+    diversity: f64,
+    /// Denoising steps; 0 returns the first guess.
+    #[serde(default = "five")]
+    #[schemars(range(max = 100))]
+    steps: u64,
+    /// What drafts carry.
+    #[serde(default)]
+    stream_modes: StreamModes,
+    /// Put scores into `final`.
+    #[serde(default = "yes")]
+    score: bool,
+}
+
+fn everyone() -> Who {
+    Who::All(All::All)
+}
+fn nobody() -> Reacting {
+    Reacting::Whether(false)
+}
+fn nine() -> f64 {
+    9.0
+}
+fn unit() -> f64 {
+    1.0
+}
+fn one() -> u64 {
+    1
+}
+fn six() -> u64 {
+    6
+}
+fn five() -> u64 {
+    5
+}
+fn yes() -> bool {
+    true
+}
+
+/// Generates futures. The reply is a stream of events (NDJSON or SSE) or the last event alone (JSON),
+/// by Accept. Stores nothing.
+#[utoipa::path(post, path = "/v1/generate", operation_id = "generate", tag = "generate",
+    request_body(content = ref("#/components/schemas/GenerateRequest"), content_type = "application/json"),
+    responses((status = 200, content(
+        (ref("#/components/schemas/FinalEvent") = "application/json"),
+        (ref("#/components/schemas/Event") = "application/x-ndjson"),
+        (ref("#/components/schemas/Event") = "text/event-stream")))))]
+pub async fn generate(State(app): State<App>, request: Request) -> Result<Response, Problem> {
+    let form = Form::negotiate(request.headers())?;
+    let Json(body) = Json::<GenerateRequest>::from_request(request, &app).await?;
+    let caller = body.caller()?;
+    let task = prepare(&app, body).await?;
+    let handle = app.pool.submit(caller, task)?;
+    Ok(stream::reply(handle, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await)
+}
+
+/// The task of a body.
+async fn prepare(app: &App, mut body: GenerateRequest) -> Result<Task, Problem> {
+    let scene = match (body.scene.take(), body.scene_id.take()) {
+        (Some(doc), None) => catalog::scene_of(app, doc).await.map_err(|p| under(p, "/scene"))?,
+        (None, Some(id)) => {
+            let opened = catalog::open(app, &id).await?;
+            if body.etag.as_ref().is_some_and(|etag| *etag != opened.etag) {
+                let detail = "The stored scene is another than the one you read.";
+                return Err(Problem::new(Code::StaleEtag, detail).with("etag", opened.etag));
+            }
+            (*opened.scene).clone()
+        }
+        _ => {
+            let detail = "exactly one of scene and scene_id is needed";
+            return Err(Problem::field("/scene", Code::InvalidField, detail));
+        }
+    };
+    let app = app.clone();
+    body::blocking(move || body.task(scene, &app.limits, &app.generator)).await
+}
+
+/// Puts a prefix before the pointers of a problem about a part of the body.
+fn under(mut problem: Problem, prefix: &str) -> Problem {
+    let errors = problem.members.get_mut("errors").and_then(|e| e.as_array_mut());
+    for error in errors.into_iter().flatten() {
+        let pointer = error.get("pointer").and_then(|p| p.as_str()).map(|p| format!("{prefix}{p}"));
+        if let (Some(object), Some(pointer)) = (error.as_object_mut(), pointer) {
+            object.insert("pointer".into(), pointer.into());
+        }
+    }
+    problem
+}
+
+impl GenerateRequest {
+    /// What the generator is to do with a scene.
+    ///
+    /// # Errors
+    /// Every fault of the options, conditions and ids.
+    pub fn task(&self, scene: Scene, limits: &Limits, generator: &experts::Generator) -> Result<Task, Problem> {
+        self.check_ranges()?;
+        let scene = Arc::new(self.apply(scene)?);
+        let request = self.request(&scene, limits.regenerated_agents, limits.reply_points)?;
+        let weights = generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone()));
+        let head = GeneratedHead {
+            input_sha256: scene.input_hash().hex(),
+            weights: weights.collect(),
+            seed: self.seed,
+            request: self.options(),
+        };
+        let all_modes = self.stream_modes == StreamModes::All;
+        Ok(Task { request, all_modes, score: self.score, head })
+    }
+
+    fn caller(&self) -> Result<Caller, Problem> {
+        for (pointer, id) in [("/job", &self.job), ("/client", &self.client)] {
+            if id.as_ref().is_some_and(|id| !is_id(id)) {
+                return Err(Problem::field(pointer, Code::InvalidField, "1 to 64 of A-Z a-z 0-9 _ and - expected"));
+            }
+        }
+        let client = match (&self.client, self.revision) {
+            (Some(client), Some(revision)) => Some((client.clone(), revision)),
+            (None, None) => None,
+            _ => {
+                let detail = "client and revision are given together";
+                return Err(Problem::field("/revision", Code::InvalidField, detail));
+            }
+        };
+        Ok(Caller { job: self.job.clone(), client })
+    }
+
+    /// Numbers that do not depend on the scene.
+    fn check_ranges(&self) -> Result<(), Problem> {
+        let safe = MAX_SAFE_INTEGER as f64;
+        let numbers = [
+            ("/seed", 0.0, safe, self.seed as f64),
+            ("/revision", 0.0, safe, self.revision.unwrap_or(0) as f64),
+            ("/horizon_s", 0.5, 20.0, self.horizon_s),
+            ("/samples", 1.0, 32.0, self.samples as f64),
+            ("/modes", 1.0, 6.0, self.modes as f64),
+            ("/diversity", 0.0, 2.0, self.diversity),
+            ("/steps", 0.0, 100.0, self.steps as f64),
+        ];
+        let outside = numbers.into_iter().filter(|(_, min, max, got)| !(got >= min && got <= max));
+        let mut faults: Vec<_> =
+            outside.map(|(pointer, min, max, got)| FieldProblem::range(pointer, min, max, got)).collect();
+        if self.replan_interval_s.is_some_and(|s| ![3.0, 6.0, 9.0].contains(&s)) {
+            let detail = "null, 3, 6 or 9 expected";
+            faults.push(FieldProblem::new("/replan_interval_s", "invalid-field", detail));
+        }
+        refuse(faults)
+    }
+
+    /// The scene with this call's road users and conditions.
+    fn apply(&self, mut scene: Scene) -> Result<Scene, Problem> {
+        let last_s = (scene.time.steps - 1) as f64 * STEP_S;
+        if !(self.start_s >= 0.0 && self.start_s <= last_s + 1e-6) {
+            return refuse(vec![FieldProblem::range("/start_s", 0.0, last_s, self.start_s)]).map(|()| scene);
+        }
+        let mut faults = Vec::new();
+        for (i, id) in self.remove_agents.iter().enumerate() {
+            let before = scene.agents.len();
+            scene.agents.retain(|agent| agent.id != *id);
+            if scene.agents.len() == before {
+                faults.push(unknown(format!("/remove_agents/{i}"), id));
+            }
+        }
+        for (i, doc) in self.add_agents.iter().enumerate() {
+            match doc.clone().into_agent(&format!("/add_agents/{i}")) {
+                Ok(agent) => scene.agents.push(agent),
+                Err(more) => faults.extend(more),
+            }
+        }
+        let start_step = self.start_step();
+        let window = Window { start_s: start_step as f64 * STEP_S, horizon_s: self.horizon_s };
+        for (id, doc) in &self.conditions.0 {
+            let pointer = format!("/conditions/{}", id.replace('~', "~0").replace('/', "~1"));
+            let Some(agent) = scene.agents.iter_mut().find(|agent| agent.id == *id) else {
+                faults.push(unknown(pointer, id));
+                continue;
+            };
+            let context = Context { agent_type: agent.agent_type, start: agent.state_at(start_step), window };
+            match doc.resolve(&pointer, &context) {
+                Ok(conditions) => agent.conditions = conditions,
+                Err(more) => faults.extend(more),
+            }
+        }
+        refuse(faults)?;
+        if self.add_agents.is_empty() {
+            return Ok(scene);
+        }
+        let check = scene.checked();
+        check.map_err(|faults| ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect()).into())
+    }
+
+    fn start_step(&self) -> usize {
+        (self.start_s / STEP_S).round() as usize
+    }
+
+    /// The generator's request.
+    fn request(&self, scene: &Arc<Scene>, most_agents: u64, most_points: u64) -> Result<experts::Request, Problem> {
+        let agents = match &self.agents {
+            Who::All(_) => None,
+            Who::Ids(ids) => Some(self.known(scene, "/agents", ids)?),
+        };
+        if agents.as_ref().is_some_and(BTreeSet::is_empty) {
+            return Err(Problem::field("/agents", Code::InvalidField, "\"all\" or at least one id expected"));
+        }
+        let react = match &self.react {
+            Reacting::Whether(false) => React::Nobody,
+            Reacting::Whether(true) => React::Everyone,
+            Reacting::Ids(ids) => React::Only(self.known(scene, "/react", ids)?),
+        };
+        let count = match (&agents, &react) {
+            (None, _) | (_, React::Everyone) => scene.agents.len() - scene.counts()[3],
+            (Some(agents), React::Only(ids)) => agents.union(ids).count(),
+            (Some(agents), React::Nobody) => agents.len(),
+        };
+        let named = agents.as_ref().map_or(0, BTreeSet::len);
+        if named as u64 > most_agents {
+            let detail = format!("{named} road users to regenerate; at most {most_agents}");
+            return Err(Problem::field("/agents", Code::TooManyAgents, detail).with("limit", most_agents));
+        }
+        let horizon_steps = (self.horizon_s / STEP_S).round().max(1.0) as usize;
+        let points = self.samples * self.modes * (count as u64).min(most_agents) * horizon_steps as u64;
+        if points > most_points {
+            let detail = format!("the reply would have {points} points; at most {most_points}");
+            return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).with("limit", most_points));
+        }
+        let replan = self.replan_interval_s.map(|s| (s / STEP_S).round() as usize);
+        let long = horizon_steps > scene::HORIZON_STEPS;
+        Ok(experts::Request {
+            agents,
+            react,
+            start_step: self.start_step(),
+            horizon_steps,
+            replan_steps: replan.or(long.then_some(scene::HORIZON_STEPS)),
+            seed: self.seed,
+            samples: self.samples as usize,
+            modes: self.modes as usize,
+            diversity: self.diversity,
+            steps: self.steps as usize,
+            stream_all: self.stream_modes == StreamModes::All,
+            ..experts::Request::new(Arc::clone(scene))
+        })
+    }
+
+    fn known(&self, scene: &Scene, pointer: &str, ids: &[String]) -> Result<BTreeSet<String>, Problem> {
+        let missing = ids.iter().enumerate().filter(|(_, id)| scene.agent(id).is_none());
+        refuse(missing.map(|(i, id)| unknown(format!("{pointer}/{i}"), id)).collect())?;
+        Ok(ids.iter().cloned().collect())
+    }
+
+    /// The options as sent, for `generated.request`.
+    fn options(&self) -> serde_json::Value {
+        json!({
+            "agents": self.agents, "react": self.react, "start_s": self.start_s, "horizon_s": self.horizon_s,
+            "replan_interval_s": self.replan_interval_s, "samples": self.samples, "modes": self.modes,
+            "diversity": self.diversity, "steps": self.steps,
+        })
+    }
+}
+
+fn unknown(pointer: String, id: &str) -> FieldProblem {
+    let shown: String = id.chars().take(64).collect();
+    FieldProblem::new(pointer, "unknown-agent", format!("the scene has no road user \"{shown}\""))
+}
+
+fn refuse(faults: Vec<FieldProblem>) -> Result<(), Problem> {
+    if faults.is_empty() { Ok(()) } else { Err(ReadError::invalid(faults).into()) }
+}

@@ -1,0 +1,65 @@
+//! `/v1/maps`: immutable maps by content hash.
+
+use crate::app::App;
+use crate::body::blocking;
+use crate::catalog;
+use crate::problem::{Code, Problem};
+use axum::extract::{Path, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use scene::ContentHash;
+use serde::Serialize;
+
+/// One map of the store.
+#[derive(Debug, Serialize, schemars::JsonSchema)]
+pub struct MapItem {
+    /// Content hash, 64 hex digits.
+    sha256: String,
+    /// Size of its JSON.
+    bytes: u64,
+    /// Lines and areas.
+    polylines: u64,
+    /// Points of them all.
+    points: u64,
+}
+
+/// Maps of the store.
+#[derive(Debug, Serialize, schemars::JsonSchema)]
+pub struct MapList {
+    maps: Vec<MapItem>,
+}
+
+/// Lists the maps of saved scenes.
+#[utoipa::path(get, path = "/v1/maps", operation_id = "listMaps", tag = "maps",
+    responses((status = 200, body = ref("#/components/schemas/MapList"))))]
+pub async fn list(State(app): State<App>) -> Result<axum::Json<MapList>, Problem> {
+    let rows = app.store.maps().await?.into_iter();
+    let maps = rows.map(|(sha256, bytes, polylines, points)| MapItem { sha256, bytes, polylines, points });
+    Ok(axum::Json(MapList { maps: maps.collect() }))
+}
+
+/// Reads a map. It never changes, so it may be kept for ever.
+#[utoipa::path(get, path = "/v1/maps/{sha256}", operation_id = "readMap", tag = "maps",
+    params(("sha256" = String, Path)),
+    responses((status = 200, body = ref("#/components/schemas/Map")), (status = 304, description = "not changed")))]
+pub async fn read(
+    State(app): State<App>,
+    path: Result<Path<String>, axum::extract::rejection::PathRejection>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let missing = || Problem::new(Code::NotFound, "No map has this hash.");
+    let Path(name) = path.map_err(|_| missing())?;
+    let hash = ContentHash::from_hex(name.strip_prefix("sha256:").unwrap_or(&name)).ok_or_else(missing)?;
+    let etag = format!("\"{}\"", hash.hex());
+    let head = [
+        (header::ETAG, etag.clone()),
+        (header::CACHE_CONTROL, "private, max-age=31536000, immutable".to_owned()),
+        (header::CONTENT_TYPE, "application/json".to_owned()),
+    ];
+    let map = catalog::map(&app, hash).await?.ok_or_else(missing)?;
+    if super::if_none_match(&headers).is_some_and(|tags| tags.contains(&etag)) {
+        return Ok((StatusCode::NOT_MODIFIED, head).into_response());
+    }
+    let json = blocking(move || Ok(catalog::map_json(&map))).await?;
+    Ok((head, json).into_response())
+}

@@ -1,0 +1,333 @@
+//! `/v1/scenes`: list, read, create, replace, rename, delete, duplicate.
+
+use super::{Id, Params, if_match, if_none_match};
+use crate::app::App;
+use crate::body::{self, Json};
+use crate::catalog::{self, Item};
+use crate::problem::{Code, Problem};
+use crate::store::{Expect, MapRecord, SceneRecord};
+use axum::extract::{FromRequest, Request, State};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use formats::native::{self, MapForm, SceneDoc};
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+/// Query of the list.
+#[derive(Debug, Deserialize, utoipa::IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub struct ListParams {
+    /// Most scenes of a page, 1 to 200.
+    #[param(default = 50, minimum = 1, maximum = 200)]
+    limit: usize,
+    /// `next` of the page before.
+    after: Option<String>,
+    /// Text in the name, case ignored.
+    q: Option<String>,
+    /// One tag.
+    tag: Option<String>,
+    /// Scene that the listed ones are variants of.
+    parent: Option<String>,
+    /// `updated` or `name`, with `-` before it for falling order.
+    #[param(default = "-updated")]
+    sort: String,
+}
+
+impl Default for ListParams {
+    fn default() -> Self {
+        Self { limit: 50, after: None, q: None, tag: None, parent: None, sort: "-updated".into() }
+    }
+}
+
+/// A page of scenes.
+#[derive(Debug, Serialize, schemars::JsonSchema)]
+pub struct SceneList {
+    scenes: Vec<Item>,
+    /// Send as `after` for the next page; null on the last.
+    next: Option<String>,
+}
+
+/// Lists scenes without their content: saved ones, demos, and those of the data folder.
+#[utoipa::path(get, path = "/v1/scenes", operation_id = "listScenes", tag = "scenes", params(ListParams),
+    responses((status = 200, body = ref("#/components/schemas/SceneList"))))]
+pub async fn list(
+    State(app): State<App>,
+    Params(params): Params<ListParams>,
+) -> Result<axum::Json<SceneList>, Problem> {
+    if !(1..=200).contains(&params.limit) {
+        return Err(Problem::range("/query/limit", 1.0, 200.0, params.limit as f64));
+    }
+    let order = order(&params.sort)?;
+    let text = params.q.map(|q| q.to_lowercase());
+    let mut items: Vec<Item> = app.store.list().await?.into_iter().map(Item::from).collect();
+    items.extend(app.library.items());
+    items.retain(|item| {
+        text.as_ref().is_none_or(|q| item.name.to_lowercase().contains(q))
+            && params.tag.as_ref().is_none_or(|tag| item.tags.contains(tag))
+            && params.parent.as_ref().is_none_or(|parent| item.parent_id.as_ref() == Some(parent))
+    });
+    items.sort_by(|a, b| order(a, b).then_with(|| a.id.cmp(&b.id)));
+    if let Some(after) = params.after {
+        let at = items.iter().position(|item| item.id == after).ok_or_else(|| {
+            Problem::field("/query/after", Code::InvalidField, "no scene of this list has that cursor")
+        })?;
+        items.drain(..=at);
+    }
+    let next = (items.len() > params.limit).then(|| items.get(params.limit - 1).map(|item| item.id.clone()));
+    items.truncate(params.limit);
+    Ok(axum::Json(SceneList { scenes: items, next: next.flatten() }))
+}
+
+type Order = fn(&Item, &Item) -> Ordering;
+
+fn order(sort: &str) -> Result<Order, Problem> {
+    match sort {
+        "-updated" => Ok(|a, b| b.updated_at.cmp(&a.updated_at)),
+        "updated" => Ok(|a, b| a.updated_at.cmp(&b.updated_at)),
+        "name" => Ok(|a, b| a.name.cmp(&b.name)),
+        "-name" => Ok(|a, b| b.name.cmp(&a.name)),
+        _ => Err(Problem::field("/query/sort", Code::InvalidField, "updated, -updated, name or -name expected")),
+    }
+}
+
+/// Query of a read.
+#[derive(Debug, Default, Deserialize, utoipa::IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub struct ReadParams {
+    /// The map itself or its hash alone: `inline` or `ref`.
+    #[param(default = "inline")]
+    map: MapParam,
+}
+
+/// How the map is given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum MapParam {
+    /// Whole.
+    #[default]
+    Inline,
+    /// `{"ref":"sha256:HEX"}`.
+    Ref,
+}
+
+/// Reads a scene.
+#[utoipa::path(get, path = "/v1/scenes/{id}", operation_id = "readScene", tag = "scenes",
+    params(("id" = String, Path), ReadParams),
+    responses((status = 200, body = ref("#/components/schemas/Scene")), (status = 304, description = "not changed")))]
+pub async fn read(
+    State(app): State<App>,
+    Id(id): Id,
+    Params(params): Params<ReadParams>,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let fresh = |etag: &str| {
+        let known = if_none_match(&headers).unwrap_or_default();
+        !known.iter().any(|tag| tag == "*" || tag.trim_start_matches("W/") == etag)
+    };
+    if let Some(opened) = app.library.open(&id).await? {
+        if !fresh(&opened.etag) {
+            return Ok(not_modified(&opened.etag));
+        }
+        let form = if params.map == MapParam::Ref { MapForm::Ref } else { MapForm::Inline };
+        let scene = opened.scene;
+        let json = body::blocking(move || Ok(native::write_doc(&SceneDoc::from_scene(&scene, form)))).await?;
+        return Ok(scene_reply(&opened.etag, json));
+    }
+    let (summary, json) = app.store.get(&id).await?.ok_or_else(catalog::not_found)?;
+    if !fresh(&summary.etag) {
+        return Ok(not_modified(&summary.etag));
+    }
+    let json = match params.map {
+        MapParam::Ref => json,
+        MapParam::Inline => {
+            let map = app.store.map(&summary.map_sha).await?;
+            let map = map.ok_or_else(|| Problem::internal("a stored scene's map is missing"))?;
+            catalog::with_map(&json, &summary.map_sha, &map)
+        }
+    };
+    Ok(scene_reply(&summary.etag, json))
+}
+
+fn scene_reply(etag: &str, json: Vec<u8>) -> Response {
+    let head = [(header::ETAG, etag.to_owned()), (header::CONTENT_TYPE, native::MEDIA_TYPE.to_owned())];
+    (head, json).into_response()
+}
+
+fn not_modified(etag: &str) -> Response {
+    (StatusCode::NOT_MODIFIED, [(header::ETAG, etag.to_owned())]).into_response()
+}
+
+/// What a change gave.
+#[derive(Debug, Serialize, schemars::JsonSchema)]
+pub struct Saved {
+    id: String,
+    /// As in the ETag header.
+    etag: String,
+}
+
+fn saved(status: StatusCode, id: String, etag: String) -> Response {
+    let head = [(header::ETAG, etag.clone()), (header::LOCATION, format!("/v1/scenes/{id}"))];
+    (status, head, axum::Json(Saved { id, etag })).into_response()
+}
+
+/// Saves a new scene; the id of the document is ignored.
+#[utoipa::path(post, path = "/v1/scenes", operation_id = "createScene", tag = "scenes",
+    request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
+    responses((status = 201, body = ref("#/components/schemas/Saved"))))]
+pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Problem> {
+    let id = uuid::Uuid::now_v7().to_string();
+    let scene = catalog::scene_of(&app, doc).await?;
+    let etag = store_new(&app, &id, scene).await?;
+    Ok(saved(StatusCode::CREATED, id, etag))
+}
+
+/// Keeps a scene under a new id.
+///
+/// # Errors
+/// When the store is full or the id is taken.
+pub async fn store_new(app: &App, id: &str, scene: scene::Scene) -> Result<String, Problem> {
+    let key = id.to_owned();
+    let record = body::blocking(move || Ok(catalog::record(scene, &key))).await?;
+    Ok(app.store.put(id, Expect::Absent, record).await?.etag)
+}
+
+/// Replaces a scene (If-Match) or makes one under the client's own id (If-None-Match: *).
+#[utoipa::path(put, path = "/v1/scenes/{id}", operation_id = "replaceScene", tag = "scenes",
+    params(("id" = String, Path), ("If-Match" = Option<String>, Header), ("If-None-Match" = Option<String>, Header)),
+    request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
+    responses((status = 200, body = ref("#/components/schemas/Saved")),
+        (status = 201, body = ref("#/components/schemas/Saved"))))]
+pub async fn replace(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Problem> {
+    let expect = match (if_match(request.headers()), if_none_match(request.headers())) {
+        (Some(tags), _) => Expect::Etags(tags),
+        (None, Some(tags)) if tags == ["*"] => Expect::Absent,
+        _ => return Err(precondition_required()),
+    };
+    writable(&app, &id)?;
+    let Json(doc) = Json::<SceneDoc>::from_request(request, &app).await?;
+    let scene = catalog::scene_of(&app, doc).await?;
+    let key = id.clone();
+    let record = body::blocking(move || Ok(catalog::record(scene, &key))).await?;
+    let written = app.store.put(&id, expect, record).await?;
+    let status = if written.created { StatusCode::CREATED } else { StatusCode::OK };
+    Ok(saved(status, id, written.etag))
+}
+
+fn precondition_required() -> Problem {
+    let detail = "Send If-Match with the ETag you read, or If-None-Match: * to create with PUT.";
+    Problem::new(Code::PreconditionRequired, detail)
+}
+
+fn writable(app: &App, id: &str) -> Result<(), Problem> {
+    if app.library.has(id) {
+        let detail = "This scene is read-only; POST to its /duplicate and change the copy.";
+        return Err(Problem::new(Code::ReadOnly, detail));
+    }
+    Ok(())
+}
+
+/// Merge patch of what people say about a scene.
+#[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ScenePatch {
+    /// New name; null empties it.
+    #[serde(deserialize_with = "present")]
+    name: Option<Option<String>>,
+    /// New tags; null removes all.
+    #[serde(deserialize_with = "present")]
+    tags: Option<Option<Vec<String>>>,
+    /// New notes; null empties them.
+    #[serde(deserialize_with = "present")]
+    notes: Option<Option<String>>,
+}
+
+/// Tells null from absence.
+fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Option<Option<T>>, D::Error> {
+    Option::deserialize(d).map(Some)
+}
+
+/// Renames a scene, or changes its tags or notes (RFC 7396 merge patch).
+#[utoipa::path(patch, path = "/v1/scenes/{id}", operation_id = "renameScene", tag = "scenes",
+    params(("id" = String, Path), ("If-Match" = Option<String>, Header)),
+    request_body(content = ref("#/components/schemas/ScenePatch"), content_type = "application/merge-patch+json"),
+    responses((status = 200, body = ref("#/components/schemas/Saved"))))]
+pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Problem> {
+    let tags = if_match(request.headers()).ok_or_else(precondition_required)?;
+    body::media_type(request.headers(), &["application/merge-patch+json", "application/json"])?;
+    writable(&app, &id)?;
+    let patch: ScenePatch = body::parse(body::read_json(request, &app.limits).await?).await?;
+    let (summary, json) = app.store.get(&id).await?.ok_or_else(catalog::not_found)?;
+    let mut doc = body::blocking(move || Ok(native::read_doc(&json)?)).await?;
+    if let Some(name) = patch.name {
+        doc.name = name.unwrap_or_default();
+    }
+    if let Some(tags) = patch.tags {
+        doc.meta.tags = tags.unwrap_or_default();
+    }
+    if let Some(notes) = patch.notes {
+        doc.meta.notes = notes.unwrap_or_default();
+    }
+    // The whole scene is checked again, so that a patch cannot store what a PUT could not.
+    catalog::scene_of(&app, doc.clone()).await?;
+    let record = same_map(&doc, summary.parent_id, summary.meta, summary.map_sha);
+    // Between the read above and this write the scene may have changed: the ETag read decides too.
+    let held = tags.iter().any(|t| t == "*" || *t == summary.etag);
+    let expect = if held { vec![summary.etag] } else { tags };
+    let written = app.store.put(&id, Expect::Etags(expect), record).await?;
+    Ok(saved(StatusCode::OK, id, written.etag))
+}
+
+/// A row whose map is stored already.
+fn same_map(doc: &SceneDoc, parent_id: Option<String>, meta: String, sha: String) -> SceneRecord {
+    SceneRecord {
+        name: doc.name.clone(),
+        tags: doc.meta.tags.clone(),
+        parent_id,
+        meta,
+        json: native::write_doc(doc),
+        map: MapRecord { sha, polylines: 0, points: 0, json: None },
+    }
+}
+
+/// Deletes a scene.
+#[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",
+    params(("id" = String, Path), ("If-Match" = Option<String>, Header)),
+    responses((status = 204, description = "deleted")))]
+pub async fn remove(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<StatusCode, Problem> {
+    let tags = if_match(&headers).ok_or_else(precondition_required)?;
+    writable(&app, &id)?;
+    app.store.delete(&id, Expect::Etags(tags)).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// How the copy is called.
+#[derive(Debug, Default, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DuplicateRequest {
+    /// The original's with "copy" after it when absent.
+    name: Option<String>,
+}
+
+/// Copies a scene, read-only ones too; `meta.parent_id` names the original.
+#[utoipa::path(post, path = "/v1/scenes/{id}/duplicate", operation_id = "duplicateScene", tag = "scenes",
+    params(("id" = String, Path)),
+    request_body(content = ref("#/components/schemas/DuplicateRequest"), content_type = "application/json"),
+    responses((status = 201, body = ref("#/components/schemas/Saved"))))]
+pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Problem> {
+    let typed = request.headers().contains_key(header::CONTENT_TYPE);
+    if typed {
+        body::media_type(request.headers(), body::JSON)?;
+    }
+    let bytes = body::read_json(request, &app.limits).await?;
+    let options: DuplicateRequest =
+        if bytes.is_empty() && !typed { DuplicateRequest::default() } else { body::parse(bytes).await? };
+    let opened = catalog::open(&app, &id).await?;
+    let mut scene = (*opened.scene).clone();
+    scene.name = options.name.unwrap_or_else(|| format!("{} copy", scene.name));
+    scene.meta.parent_id = Some(id);
+    let copy = uuid::Uuid::now_v7().to_string();
+    let etag = store_new(&app, &copy, scene).await?;
+    Ok(saved(StatusCode::CREATED, copy, etag))
+}

@@ -1,0 +1,175 @@
+//! `/v1/score`: collisions, near misses, off-road driving, kinematics, goals.
+
+use crate::app::App;
+use crate::body::{self, Json};
+use crate::catalog;
+use crate::problem::{Code, Problem};
+use crate::scoring;
+use axum::extract::State;
+use formats::native::{Members, SceneDoc};
+use formats::{FieldProblem, ReadError};
+use scene::score::{PairChoice, Score, ScoreInput, Thresholds};
+use scene::{AgentFutures, Future, Sample, Scene, State as AgentState, Track};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// Motion of one road user as columns, one value a step from `first_step`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TrajectoryDoc {
+    /// Scene step of the first value.
+    #[schemars(range(max = 599))]
+    first_step: u64,
+    x_m: Vec<f64>,
+    y_m: Vec<f64>,
+    heading_rad: Vec<f64>,
+    vx_mps: Vec<f64>,
+    vy_mps: Vec<f64>,
+}
+
+/// What trajectories are compared with.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Reference {
+    /// `"log"`.
+    Word(Log),
+    /// Motion by road user.
+    Given(Members<TrajectoryDoc>),
+}
+
+/// The word `log`.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Log {
+    /// The recording.
+    Log,
+}
+
+/// Body of a score. Exactly one of `scene` and `scene_id` is given.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScoreRequest {
+    /// The scene itself.
+    #[serde(default)]
+    scene: Option<SceneDoc>,
+    /// A scene of this server.
+    #[serde(default)]
+    scene_id: Option<String>,
+    /// Motion to score; for the rest the chosen futures, else the log.
+    #[serde(default)]
+    trajectories: Members<TrajectoryDoc>,
+    /// The log by default.
+    #[serde(default)]
+    reference: Option<Reference>,
+    /// `all` or `regenerated`.
+    #[serde(default)]
+    #[schemars(with = "PairWord")]
+    pairs: PairChoice,
+    /// Numbers that decide what counts; those absent have their defaults.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
+    thresholds: Thresholds,
+}
+
+/// Which pairs are looked at.
+#[derive(JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[allow(dead_code, reason = "stands for scene::score::PairChoice in the document")]
+enum PairWord {
+    All,
+    Regenerated,
+}
+
+/// Scores a scene: chosen futures or the given motion, and the log of the rest.
+#[utoipa::path(post, path = "/v1/score", operation_id = "score", tag = "score",
+    request_body(content = ref("#/components/schemas/ScoreRequest"), content_type = "application/json"),
+    responses((status = 200, body = ref("#/components/schemas/ScoreReply"))))]
+pub async fn score(
+    State(app): State<App>,
+    Json(mut request): Json<ScoreRequest>,
+) -> Result<axum::Json<Score>, Problem> {
+    let scene = match (request.scene.take(), request.scene_id.take()) {
+        (Some(doc), None) => std::sync::Arc::new(catalog::scene_of(&app, doc).await?),
+        (None, Some(id)) => catalog::open(&app, &id).await?.scene,
+        _ => {
+            let detail = "exactly one of scene and scene_id is needed";
+            return Err(Problem::field("/scene", Code::InvalidField, detail));
+        }
+    };
+    body::blocking(move || of(&scene, &request).map(axum::Json)).await
+}
+
+fn of(scene: &Scene, request: &ScoreRequest) -> Result<Score, Problem> {
+    let mut faults = Vec::new();
+    let mut sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample)).cloned();
+    for (id, doc) in &request.trajectories.0 {
+        let Some(states) = states(scene, "/trajectories", id, doc, &mut faults) else { continue };
+        let future = Future { probability: 1.0, first_step: doc.first_step as usize, states };
+        let futures = AgentFutures { chosen: 0, modes: vec![future] };
+        sample.get_or_insert_with(Sample::default).agents.insert(id.clone(), futures);
+    }
+    let mut references: BTreeMap<&str, Track> = BTreeMap::new();
+    if let Some(Reference::Given(given)) = &request.reference {
+        for (id, doc) in &given.0 {
+            let Some(states) = states(scene, "/reference", id, doc, &mut faults) else { continue };
+            let states = states.into_iter().map(Some).collect();
+            references.insert(id, Track { first_step: doc.first_step as usize, states, z_m: None });
+        }
+    }
+    if !faults.is_empty() {
+        return Err(ReadError::invalid(faults).into());
+    }
+    let drivable = scoring::drivable(scene);
+    let mut input = ScoreInput::of_sample(scene, sample.as_ref(), &drivable);
+    for actor in &mut input.actors {
+        if let Some(track) = references.get(actor.id) {
+            actor.reference = Some(track);
+        }
+    }
+    input.pairs = request.pairs;
+    input.thresholds = request.thresholds;
+    Ok(scene::score::score(&input))
+}
+
+/// The motion of a document, or its faults.
+fn states(
+    scene: &Scene,
+    base: &str,
+    id: &str,
+    doc: &TrajectoryDoc,
+    faults: &mut Vec<FieldProblem>,
+) -> Option<Vec<AgentState>> {
+    let at = format!("{base}/{}", id.replace('~', "~0").replace('/', "~1"));
+    let before = faults.len();
+    if scene.agent(id).is_none() {
+        faults.push(FieldProblem::new(at.clone(), "unknown-agent", "the scene has no such road user"));
+    }
+    let (first, steps) = (doc.first_step as f64, doc.x_m.len());
+    if first + steps as f64 > 1_000.0 {
+        faults.push(FieldProblem::range(format!("{at}/first_step"), 0.0, 1_000.0 - steps as f64, first));
+    }
+    let columns = [&doc.y_m, &doc.heading_rad, &doc.vx_mps, &doc.vy_mps];
+    if columns.iter().any(|column| column.len() != steps) || steps == 0 {
+        let detail = "columns of equal length with at least one value expected";
+        faults.push(FieldProblem::new(at.clone(), "invalid-field", detail));
+    }
+    let bounds = [(&doc.x_m, 1e5), (&doc.y_m, 1e5), (&doc.heading_rad, 1e3), (&doc.vx_mps, 150.0), (&doc.vy_mps, 150.0)];
+    for (column, most) in bounds {
+        if let Some(bad) = column.iter().find(|v| !(v.abs() <= most)) {
+            faults.push(FieldProblem::range(at.clone(), -most, most, *bad));
+        }
+    }
+    if faults.len() > before {
+        return None;
+    }
+    let rows = doc.x_m.iter().zip(&doc.y_m).zip(&doc.heading_rad).zip(&doc.vx_mps).zip(&doc.vy_mps);
+    let state = |((((x_m, y_m), heading_rad), vx_mps), vy_mps): ((((&f64, &f64), &f64), &f64), &f64)| AgentState {
+        x_m: *x_m,
+        y_m: *y_m,
+        heading_rad: *heading_rad,
+        vx_mps: *vx_mps,
+        vy_mps: *vy_mps,
+    };
+    Some(rows.map(state).collect())
+}
