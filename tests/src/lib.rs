@@ -1,1 +1,8 @@
-//! Placeholder.
+//! What the end-to-end tests share: the real program, a plain HTTP client, small scenes.
+
+pub mod http;
+pub mod program;
+pub mod scenes;
+
+pub use http::{Reply, Request};
+pub use program::Server;

@@ -1,0 +1,169 @@
+//! The real program: built once, started on a free port with its own folder.
+
+use crate::http::{Reply, Request};
+use anyhow::{Context, bail, ensure};
+use std::io::{BufRead, BufReader};
+use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// The repository's root.
+pub fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// The program: `DRAGTRAFFIC_BIN`, else built now by cargo, which does nothing when it is current.
+pub fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| match std::env::var_os("DRAGTRAFFIC_BIN") {
+        Some(path) => path.into(),
+        None => build().unwrap_or_else(|error| panic!("the program could not be built: {error:#}")),
+    })
+}
+
+fn build() -> anyhow::Result<PathBuf> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["build", "-p", "dragtraffic", "--message-format=json-render-diagnostics"])
+        .current_dir(root())
+        .stdin(Stdio::null())
+        .stderr(Stdio::inherit())
+        .output()?;
+    ensure!(output.status.success(), "cargo build failed");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let messages = text.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
+    let mut executables = messages.filter_map(|m| m["executable"].as_str().map(PathBuf::from));
+    executables.next_back().context("cargo named no program")
+}
+
+/// A running server, killed when dropped.
+pub struct Server {
+    /// Where it listens.
+    pub address: SocketAddr,
+    child: Child,
+    folder: Option<TempDir>,
+}
+
+impl Server {
+    /// Starts one with an empty store.
+    ///
+    /// # Errors
+    /// When it does not say its address within ten seconds.
+    pub fn start(flags: &[&str]) -> anyhow::Result<Self> {
+        let folder = tempfile::tempdir()?;
+        let mut server = Self::start_at(&folder.path().join("scenes.sqlite"), flags)?;
+        server.folder = Some(folder);
+        Ok(server)
+    }
+
+    /// Starts one on a given store.
+    ///
+    /// # Errors
+    /// When it does not say its address.
+    pub fn start_at(db: &Path, flags: &[&str]) -> anyhow::Result<Self> {
+        let mut child = Command::new(program())
+            .args(["serve", "--port", "0", "--log-level", "warn", "--db"])
+            .arg(db)
+            .args(flags)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()?;
+        let out = child.stdout.take().context("no stdout")?;
+        let mut line = String::new();
+        BufReader::new(out).read_line(&mut line)?;
+        let address = line.trim().strip_prefix("DragTraffic is at http://").map(|a| a.trim_end_matches('/'));
+        let Some(address) = address.and_then(|a| a.parse().ok()) else {
+            let status = child.wait()?;
+            bail!("the server said \"{}\" and ended with {status}", line.trim());
+        };
+        Ok(Self { address, child, folder: None })
+    }
+
+    /// Waits until `/readyz` says yes.
+    ///
+    /// # Errors
+    /// After a minute.
+    pub fn wait_ready(&self) -> anyhow::Result<()> {
+        let began = Instant::now();
+        while began.elapsed() < Duration::from_secs(60) {
+            if self.get("/readyz")?.status == 200 {
+                return Ok(());
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        bail!("not ready within a minute")
+    }
+
+    /// Sends a request.
+    ///
+    /// # Errors
+    /// When no reply can be read.
+    pub fn send(&self, request: &Request) -> anyhow::Result<Reply> {
+        request.send(self.address)
+    }
+
+    /// GET.
+    ///
+    /// # Errors
+    /// When no reply can be read.
+    pub fn get(&self, path: &str) -> anyhow::Result<Reply> {
+        self.send(&Request::new("GET", path))
+    }
+
+    /// POST of JSON.
+    ///
+    /// # Errors
+    /// When no reply can be read.
+    pub fn post(&self, path: &str, body: &serde_json::Value) -> anyhow::Result<Reply> {
+        self.send(&Request::new("POST", path).json(body))
+    }
+
+    /// Value of a metric, the sum over its labels.
+    ///
+    /// # Errors
+    /// When no reply can be read.
+    pub fn metric(&self, name: &str) -> anyhow::Result<f64> {
+        let text = self.get("/metrics")?.text();
+        let lines = text.lines().filter(|line| {
+            line.strip_prefix(name).is_some_and(|rest| rest.starts_with('{') || rest.starts_with(' '))
+        });
+        Ok(lines.filter_map(|line| line.rsplit(' ').next()?.parse::<f64>().ok()).sum())
+    }
+
+    /// Process id.
+    pub fn pid(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Kills it at once, as a power cut would.
+    ///
+    /// # Errors
+    /// When it is gone already.
+    pub fn kill(mut self) -> anyhow::Result<()> {
+        self.child.kill()?;
+        self.child.wait()?;
+        Ok(())
+    }
+
+    /// Asks it to stop and waits for the end: exit code and time taken.
+    ///
+    /// # Errors
+    /// When the signal cannot be sent.
+    pub fn stop(mut self) -> anyhow::Result<(Option<i32>, Duration)> {
+        let began = Instant::now();
+        let sent = Command::new("kill").args(["-TERM", &self.pid().to_string()]).status()?;
+        ensure!(sent.success(), "kill failed");
+        let status = self.child.wait()?;
+        Ok((status.code(), began.elapsed()))
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

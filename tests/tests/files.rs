@@ -1,0 +1,161 @@
+//! Files in and out over HTTP and on the command line.
+
+use dragtraffic_tests::program::{program, root};
+use dragtraffic_tests::scenes::street;
+use dragtraffic_tests::{Request, Server};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// Real Waymo Open Motion scenes beside the repository, when this machine has them.
+fn womd() -> Option<PathBuf> {
+    let folder = root().join("../shared/data/womd/val");
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    println!("skipped: no Waymo Open Motion scenes at {}", folder.display());
+    None
+}
+
+fn upload(path: &str, body: Vec<u8>) -> Request {
+    Request::new("POST", path).header("content-type", "application/octet-stream").body(body)
+}
+
+fn run(arguments: &[&str]) -> Output {
+    Command::new(program()).args(arguments).output().unwrap()
+}
+
+#[test]
+fn a_scene_goes_through_the_native_format_unchanged() {
+    let server = Server::start(&[]).unwrap();
+    let made = upload("/v1/import", street(2, 20).to_string().into_bytes());
+    let made = server.send(&made).unwrap();
+    assert_eq!(made.status, 201, "{}", made.text());
+    let id = made.json()["scenes"][0]["id"].as_str().unwrap().to_owned();
+    let file = server.get(&format!("/v1/scenes/{id}/export")).unwrap();
+    assert!(file.header("content-disposition").contains("attachment; filename=\"street"));
+    assert_eq!(file.header("dragtraffic-licence"), "cc0");
+    let dry = server.send(&upload("/v1/import?dry_run=true", file.body.clone())).unwrap();
+    assert_eq!(dry.status, 200);
+    let back = &dry.json()["scenes"][0]["scene"];
+    for member in ["agents", "map", "signals", "time"] {
+        assert_eq!(back[member], file.json()[member], "{member}");
+    }
+}
+
+#[test]
+fn a_scene_goes_through_womd() {
+    let server = Server::start(&[]).unwrap();
+    let scene = street(2, 91);
+    let file = server.post("/v1/export?format=womd", &scene).unwrap();
+    assert_eq!(file.status, 200, "{}", file.text());
+    let back = server.send(&upload("/v1/import?dry_run=true", file.body.clone())).unwrap();
+    assert_eq!(back.status, 200, "{}", back.text());
+    assert_eq!(back.json()["format"], "womd");
+    assert_eq!(back.json()["scenes"][0]["counts"]["vehicle"], 2);
+    let mut broken = file.body;
+    let middle = broken.len() / 2;
+    broken[middle] ^= 0x55;
+    let refused = server.send(&upload("/v1/import", broken)).unwrap();
+    assert_eq!((refused.status, refused.code().as_str()), (400, "malformed-file"), "{}", refused.text());
+    assert!(refused.json()["offset"].is_u64());
+}
+
+#[test]
+fn real_scenes_are_listed_opened_scored_and_copied() {
+    let Some(folder) = womd() else { return };
+    let server = Server::start(&["--data", folder.to_str().unwrap()]).unwrap();
+    let mut scenes = Vec::new();
+    for _ in 0..600 {
+        let page = server.get("/v1/scenes?limit=200&q=&sort=name").unwrap().json();
+        scenes = page["scenes"].as_array().unwrap().clone();
+        scenes.retain(|s| s["source"] == "womd");
+        if !scenes.is_empty() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(100));
+    }
+    let first = &scenes[0];
+    let id = first["id"].as_str().unwrap();
+    assert!(id.starts_with("womd-") && first["readonly"] == true && first["licence"] == "waymo-nc");
+    let scene = server.get(&format!("/v1/scenes/{id}")).unwrap();
+    assert_eq!(scene.status, 200, "{}", scene.text());
+    assert!(!scene.json()["map"]["lanes"].as_array().unwrap().is_empty());
+    let by_ref = server.get(&format!("/v1/scenes/{id}?map=ref")).unwrap();
+    assert!(by_ref.body.len() < scene.body.len());
+    assert_eq!(by_ref.json()["map"]["ref"], format!("sha256:{}", first["map_sha256"].as_str().unwrap()));
+    let score = server.post("/v1/score", &json!({"scene_id": id})).unwrap();
+    assert_eq!(score.status, 200, "{}", score.text());
+    let change = Request::new("DELETE", &format!("/v1/scenes/{id}")).header("if-match", "*");
+    assert_eq!(server.send(&change).unwrap().code(), "read-only");
+    let copy = server.send(&Request::new("POST", &format!("/v1/scenes/{id}/duplicate"))).unwrap();
+    assert_eq!(copy.status, 201, "{}", copy.text());
+}
+
+#[test]
+fn a_real_file_is_imported() {
+    let Some(folder) = womd() else { return };
+    let file = std::fs::read_dir(folder).unwrap().flatten().map(|f| f.path()).min().unwrap();
+    let bytes = std::fs::read(&file).unwrap();
+    let server = Server::start(&[]).unwrap();
+    let made = server.send(&upload("/v1/import", bytes.clone())).unwrap();
+    assert_eq!(made.status, 201, "{}", made.text());
+    let made = made.json();
+    assert_eq!(made["skipped"], json!([]));
+    let id = made["scenes"][0]["id"].as_str().unwrap();
+    let exported = server.get(&format!("/v1/scenes/{id}/export?format=womd&mode=log")).unwrap();
+    assert_eq!(exported.status, 200);
+    let refusing = Server::start(&["--refuse-nc"]).unwrap();
+    assert_eq!(refusing.send(&upload("/v1/import", bytes)).unwrap().code(), "licence-refused");
+}
+
+#[test]
+fn scoring_takes_given_motion() {
+    let server = Server::start(&[]).unwrap();
+    let steps = 90;
+    let still = vec![0.0; steps];
+    // Car 0 stands where car 2 drives.
+    let body = json!({"scene": street(4, 91), "trajectories": {"0": {"first_step": 1,
+        "x_m": vec![-30.0; steps], "y_m": still, "heading_rad": still, "vx_mps": still, "vy_mps": still}}});
+    let score = server.post("/v1/score", &body).unwrap();
+    assert_eq!(score.status, 200, "{}", score.text());
+    let collisions = score.json()["scene"]["collisions"].as_array().unwrap().clone();
+    assert!(collisions.iter().any(|c| c["a"] == "0" && c["b"] == "2"), "{collisions:?}");
+    let stranger = json!({"scene": street(1, 5), "trajectories": {"ghost": {"first_step": 0,
+        "x_m": [0], "y_m": [0], "heading_rad": [0], "vx_mps": [0], "vy_mps": [0]}}});
+    assert_eq!(server.post("/v1/score", &stranger).unwrap().code(), "unknown-agent");
+}
+
+#[test]
+fn commands_and_their_exit_codes() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (scene, record, back) = (at("a.json"), at("a.tfrecord"), at("b.json"));
+    std::fs::write(&scene, street(3, 91).to_string()).unwrap();
+    let convert = ["convert", &scene, "--to", "womd", "-o", &record];
+    assert_eq!(run(&convert).status.code(), Some(0));
+    assert_eq!(run(&convert).status.code(), Some(8), "never overwritten without --force");
+    assert_eq!(run(&["import", &record, "-o", &back]).status.code(), Some(0));
+    let read: Value = serde_json::from_slice(&std::fs::read(&back).unwrap()).unwrap();
+    assert_eq!(read["agents"].as_array().unwrap().len(), 3);
+    assert_eq!(run(&["convert", &scene, "--to", "womd", "-o", &at("c"), "--strict"]).status.code(), Some(5));
+    std::fs::write(at("bad.json"), "{\"format\":").unwrap();
+    assert_eq!(run(&["import", &at("bad.json")]).status.code(), Some(3));
+    assert_eq!(run(&["import", &at("missing.json")]).status.code(), Some(3));
+    assert_eq!(run(&["import"]).status.code(), Some(2));
+    assert_eq!(run(&["nonsense"]).status.code(), Some(2));
+    let scored = run(&["score", "--json", &scene, &at("bad.json")]);
+    assert_eq!(scored.status.code(), Some(4));
+    let line: Value = serde_json::from_slice(&scored.stdout).unwrap();
+    assert!(line["scene"]["collisions"].is_array());
+    let out = at("out.json");
+    let made = run(&["generate", &scene, "--agents", "0", "--goal", "0=20,0,10", "--seed", "7", "-o", &out]);
+    assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+    let made: Value = serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap();
+    assert_eq!(made["generated"]["samples"][0]["agents"]["0"]["modes"].as_array().unwrap().len(), 6);
+    assert_eq!(made["generated"]["stale"], false);
+    let info: Value = serde_json::from_slice(&run(&["info"]).stdout).unwrap();
+    assert_eq!(info["name"], "dragtraffic");
+    let document = root().join("assets/openapi.json");
+    assert_eq!(run(&["openapi", "--check", document.to_str().unwrap()]).status.code(), Some(0));
+}

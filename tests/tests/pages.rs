@@ -1,0 +1,103 @@
+//! The editor's files, the documentation, headers, and slow connections.
+
+use dragtraffic_tests::{Request, Server};
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+#[test]
+fn pages_come_with_their_headers() {
+    let server = Server::start(&[]).unwrap();
+    for path in ["/", "/scenes/some-editor-address", "/docs", "/docs/problems"] {
+        let page = server.get(path).unwrap();
+        assert_eq!(page.status, 200, "{path}");
+        assert!(page.header("content-type").starts_with("text/html"), "{path}");
+        let policy = page.header("content-security-policy");
+        assert!(policy.contains("default-src 'none'") && policy.contains("script-src 'self'"), "{path}");
+        assert!(!policy.contains("unsafe"));
+        assert_eq!(page.header("x-content-type-options"), "nosniff");
+        assert_eq!(page.header("referrer-policy"), "no-referrer");
+        assert!(!page.text().contains("<script>"), "nothing inline");
+    }
+    assert_eq!(server.get("/assets/none.js").unwrap().code(), "not-found");
+    assert!(server.get("/docs/problems").unwrap().text().contains("id=\"stale-etag\""));
+    let document = server.get("/openapi.json").unwrap().json();
+    assert_eq!(document["openapi"], "3.1.0");
+    let named = server.send(&Request::new("GET", "/healthz").header("x-request-id", "mine-1")).unwrap();
+    assert_eq!(named.header("x-request-id"), "mine-1");
+    let made = server.send(&Request::new("GET", "/healthz").header("x-request-id", "bad id!")).unwrap();
+    assert_eq!(made.header("x-request-id").len(), 32);
+}
+
+#[test]
+fn every_get_of_the_document_answers() {
+    let server = Server::start(&[]).unwrap();
+    let document = server.get("/openapi.json").unwrap().json();
+    for (path, item) in document["paths"].as_object().unwrap() {
+        if item.get("get").is_none() {
+            continue;
+        }
+        let filled = path.replace("{id}", "none").replace("{sha256}", &"0".repeat(64));
+        let reply = server.get(&filled).unwrap();
+        let expected: &[u16] = if path.contains('{') { &[404] } else { &[200, 503] };
+        assert!(expected.contains(&reply.status), "{path}: {}", reply.status);
+        let wrong = server.send(&Request::new("TRACE", &filled)).unwrap();
+        assert_eq!(wrong.code(), "method-not-allowed", "{path}");
+    }
+}
+
+#[test]
+fn a_head_that_dribbles_is_cut_off() {
+    let server = Server::start(&["--limit", "header_read_s=1"]).unwrap();
+    let mut slow = TcpStream::connect(server.address).unwrap();
+    slow.write_all(b"GET /healthz HTTP/1.1\r\nhost: ").unwrap();
+    slow.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    let began = Instant::now();
+    let mut rest = Vec::new();
+    let _ = slow.read_to_end(&mut rest);
+    assert!(began.elapsed() < Duration::from_secs(5), "{:?}", began.elapsed());
+}
+
+#[test]
+fn half_open_connections_do_not_stop_a_client() {
+    let server = Server::start(&["--limit", "connections=16"]).unwrap();
+    let idle: Vec<TcpStream> = (0..200)
+        .map(|_| {
+            let mut stream = TcpStream::connect(server.address).unwrap();
+            stream.write_all(b"GET / HTTP/1.1\r\n").unwrap();
+            stream
+        })
+        .collect();
+    let began = Instant::now();
+    assert_eq!(server.get("/healthz").unwrap().status, 200);
+    assert!(began.elapsed() < Duration::from_secs(1), "{:?}", began.elapsed());
+    drop(idle);
+}
+
+#[test]
+fn a_token_guards_what_is_not_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("token");
+    let token = "0123456789abcdef0123456789abcdef";
+    std::fs::write(&file, token).unwrap();
+    let path = file.to_str().unwrap().to_owned();
+    set_mode(&file, 0o644);
+    assert!(Server::start(&["--token-file", &path]).is_err(), "readable by others");
+    set_mode(&file, 0o600);
+    let server = Server::start(&["--token-file", &path]).unwrap();
+    assert_eq!(server.get("/").unwrap().status, 200);
+    assert_eq!(server.get("/healthz").unwrap().status, 200);
+    let refused = server.get("/v1/scenes").unwrap();
+    assert_eq!((refused.code().as_str(), refused.header("www-authenticate")), ("unauthorized", "Bearer"));
+    let with = |token: &str| {
+        let request = Request::new("GET", "/v1/scenes").header("authorization", &format!("Bearer {token}"));
+        server.send(&request).unwrap().status
+    };
+    assert_eq!(with(token), 200);
+    assert_eq!(with("0123456789abcdef0123456789abcdee"), 401);
+}
+
+fn set_mode(path: &std::path::Path, mode: u32) {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::set_permissions(path, std::fs::Permissions::from_mode(mode)).unwrap();
+}

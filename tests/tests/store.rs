@@ -1,0 +1,185 @@
+//! Saved scenes: preconditions, conditional reads, maps by hash, and what a power cut leaves.
+
+use dragtraffic_tests::program::program;
+use dragtraffic_tests::scenes::street;
+use dragtraffic_tests::{Reply, Request, Server};
+use serde_json::{Value, json};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+fn put(id: &str, precondition: (&str, &str), scene: &Value) -> Request {
+    Request::new("PUT", &format!("/v1/scenes/{id}")).header(precondition.0, precondition.1).json(scene)
+}
+
+fn saved(server: &Server, id: &str, scene: &Value) -> Reply {
+    let reply = server.send(&put(id, ("if-none-match", "*"), scene)).unwrap();
+    assert_eq!(reply.status, 201, "{}", reply.text());
+    reply
+}
+
+#[test]
+fn a_scene_lives_through_create_read_change_delete() {
+    let server = Server::start(&[]).unwrap();
+    let made = server.post("/v1/scenes", &street(3, 20)).unwrap();
+    assert_eq!(made.status, 201, "{}", made.text());
+    let (at, etag) = (made.header("location").to_owned(), made.header("etag").to_owned());
+    let read = server.get(&at).unwrap();
+    assert_eq!(read.json()["agents"].as_array().unwrap().len(), 3);
+    assert_eq!(read.json()["map"]["lanes"].as_array().unwrap().len(), 2);
+    assert_eq!(read.header("etag"), etag);
+    assert_eq!(read.header("cache-control"), "no-store");
+    let known = Request::new("GET", &at).header("if-none-match", &etag);
+    let unchanged = server.send(&known).unwrap();
+    assert_eq!((unchanged.status, unchanged.body.len()), (304, 0));
+    let rename = Request::new("PATCH", &at)
+        .header("if-match", &etag)
+        .header("content-type", "application/merge-patch+json")
+        .body(json!({"name": "late", "tags": ["a", "b"], "notes": null}).to_string());
+    let renamed = server.send(&rename).unwrap();
+    assert_eq!(renamed.status, 200, "{}", renamed.text());
+    assert_eq!(server.send(&rename).unwrap().code(), "stale-etag");
+    assert_eq!(server.send(&known).unwrap().status, 200, "another version now");
+    let list = server.get("/v1/scenes?q=LATE&tag=a").unwrap().json();
+    assert_eq!(list["scenes"][0]["name"], "late");
+    assert_eq!(list["scenes"][0]["counts"]["vehicle"], 3);
+    assert_eq!(list["scenes"][0]["etag"], renamed.header("etag"));
+    let delete = Request::new("DELETE", &at).header("if-match", renamed.header("etag"));
+    assert_eq!(server.send(&delete).unwrap().status, 204);
+    assert_eq!(server.get(&at).unwrap().status, 404);
+    let head = server.send(&Request::new("HEAD", "/v1/scenes")).unwrap();
+    assert_eq!((head.status, head.body.len()), (200, 0));
+}
+
+#[test]
+fn of_two_writers_one_is_told() {
+    let server = Server::start(&[]).unwrap();
+    let first = saved(&server, "shared", &street(1, 5)).header("etag").to_owned();
+    let mine = server.send(&put("shared", ("if-match", &first), &street(2, 5))).unwrap();
+    let theirs = server.send(&put("shared", ("if-match", &first), &street(3, 5))).unwrap();
+    assert_eq!(mine.status, 200);
+    assert_eq!((theirs.status, theirs.code().as_str()), (412, "stale-etag"));
+    assert_eq!(theirs.json()["etag"], mine.header("etag"));
+    assert!(theirs.json()["updated_at"].is_string());
+    assert_eq!(server.get("/v1/scenes/shared").unwrap().json()["agents"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn copies_share_their_map() {
+    let server = Server::start(&[]).unwrap();
+    saved(&server, "original", &street(1, 5));
+    let copy = server.send(&Request::new("POST", "/v1/scenes/original/duplicate")).unwrap();
+    assert_eq!(copy.status, 201, "{}", copy.text());
+    let copy = server.get(copy.header("location")).unwrap().json();
+    assert_eq!(copy["meta"]["parent_id"], "original");
+    assert_eq!(copy["name"], "street copy");
+    assert_eq!(server.get("/v1/maps").unwrap().json()["maps"].as_array().unwrap().len(), 1);
+    let by_ref = server.get("/v1/scenes/original?map=ref").unwrap().json();
+    let sha = by_ref["map"]["ref"].as_str().unwrap().trim_start_matches("sha256:").to_owned();
+    let map = server.get(&format!("/v1/maps/{sha}")).unwrap();
+    assert_eq!(map.json(), copy["map"]);
+    assert!(map.header("cache-control").contains("immutable"));
+    let again = server.send(&put("by-ref", ("if-none-match", "*"), &by_ref)).unwrap();
+    assert_eq!(again.status, 201, "{}", again.text());
+    let children = server.get("/v1/scenes?parent=original").unwrap().json();
+    assert_eq!(children["scenes"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn lists_come_in_pages() {
+    let server = Server::start(&[]).unwrap();
+    for i in 0..7 {
+        let mut scene = street(1, 2);
+        scene["name"] = json!(format!("mine {i}"));
+        saved(&server, &format!("s{i}"), &scene);
+    }
+    let mut names = Vec::new();
+    let mut after = String::new();
+    loop {
+        let page = server.get(&format!("/v1/scenes?q=mine&sort=name&limit=3{after}")).unwrap().json();
+        names.extend(page["scenes"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap().to_owned()));
+        match page["next"].as_str() {
+            Some(next) => after = format!("&after={next}"),
+            None => break,
+        }
+    }
+    assert_eq!(names, (0..7).map(|i| format!("mine {i}")).collect::<Vec<_>>());
+}
+
+#[test]
+fn what_was_acknowledged_survives_a_kill() {
+    let folder = tempfile::tempdir().unwrap();
+    let db = folder.path().join("scenes.sqlite");
+    for round in 0..6u64 {
+        let server = Server::start_at(&db, &[]).unwrap();
+        let (address, stop) = (server.address, Arc::new(AtomicBool::new(false)));
+        let acknowledged = Arc::new(Mutex::new(Vec::new()));
+        let (halt, known) = (Arc::clone(&stop), Arc::clone(&acknowledged));
+        let writer = std::thread::spawn(move || {
+            let mut etag = String::new();
+            for i in 0.. {
+                if halt.load(Ordering::Relaxed) {
+                    return;
+                }
+                let id = format!("r{round}-{}", i / 4);
+                let mut scene = street(2, 30);
+                scene["name"] = json!(format!("version {i}"));
+                let precondition = if i % 4 == 0 { ("if-none-match", "*") } else { ("if-match", etag.as_str()) };
+                let Ok(reply) = put(&id, precondition, &scene).send(address) else { return };
+                if !(200..300).contains(&reply.status) {
+                    return;
+                }
+                etag = reply.header("etag").to_owned();
+                known.lock().unwrap().push((id, i));
+            }
+        });
+        // Moments that differ from round to round and from run to run.
+        let jitter = u64::from(std::process::id()) % 37;
+        std::thread::sleep(Duration::from_millis(60 + round * 83 + jitter));
+        server.kill().unwrap();
+        stop.store(true, Ordering::Relaxed);
+        writer.join().unwrap();
+        let reopened = Server::start_at(&db, &[]).unwrap();
+        let acknowledged = acknowledged.lock().unwrap().clone();
+        assert!(!acknowledged.is_empty(), "round {round}: nothing was saved before the kill");
+        for (id, version) in &acknowledged {
+            let scene = reopened.get(&format!("/v1/scenes/{id}")).unwrap().json();
+            let name = scene["name"].as_str().unwrap_or_else(|| panic!("{id} is lost: {scene}"));
+            let stored: u64 = name.trim_start_matches("version ").parse().unwrap();
+            assert!(stored >= *version as u64, "{id}: version {version} was acknowledged, {stored} is there");
+            assert_eq!(scene["agents"].as_array().unwrap().len(), 2, "whole");
+        }
+        reopened.kill().unwrap();
+    }
+}
+
+#[test]
+fn a_signal_stops_it_in_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let db = folder.path().join("scenes.sqlite");
+    let server = Server::start_at(&db, &[]).unwrap();
+    saved(&server, "kept", &street(1, 5));
+    let (code, took) = server.stop().unwrap();
+    assert_eq!(code, Some(0));
+    assert!(took < Duration::from_secs(14), "{took:?}");
+    let server = Server::start_at(&db, &[]).unwrap();
+    assert_eq!(server.get("/v1/scenes/kept").unwrap().status, 200);
+}
+
+#[test]
+fn trouble_at_the_start_has_its_exit_code() {
+    let run = |flags: &[&str]| std::process::Command::new(program()).args(flags).output().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let db = folder.path().join("s.sqlite");
+    let db = db.to_str().unwrap();
+    let server = Server::start(&[]).unwrap();
+    let port = server.address.port().to_string();
+    assert_eq!(run(&["serve", "--db", db, "--port", &port]).status.code(), Some(6), "port taken");
+    assert_eq!(run(&["serve", "--db", db, "--bind", "0.0.0.0", "--port", "0"]).status.code(), Some(2));
+    assert_eq!(run(&["serve", "--db", db, "--limit", "nonsense=1"]).status.code(), Some(2));
+    assert_eq!(run(&["serve", "--db", db, "--port", "0", "--weights", "/nonexistent"]).status.code(), Some(7));
+    assert_eq!(run(&["serve", "--db", "/nonexistent/x.sqlite", "--port", "0"]).status.code(), Some(1));
+    std::fs::write(folder.path().join("broken.sqlite"), "this is no database, not at all").unwrap();
+    let broken = folder.path().join("broken.sqlite");
+    assert_eq!(run(&["serve", "--port", "0", "--db", broken.to_str().unwrap()]).status.code(), Some(1));
+}

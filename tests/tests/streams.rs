@@ -1,0 +1,188 @@
+//! Generation over HTTP: three representations, latest wins, cancelling, many clients at once.
+
+use dragtraffic_tests::scenes::generate;
+use dragtraffic_tests::{Request, Server};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+fn ask(body: &Value, accept: &str) -> Request {
+    Request::new("POST", "/v1/generate").header("accept", accept).json(body)
+}
+
+fn ndjson(text: &str) -> Vec<Value> {
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn sse(text: &str) -> Vec<Value> {
+    let data = text.lines().filter_map(|line| line.strip_prefix("data: "));
+    data.map(|data| serde_json::from_str(data).unwrap()).collect()
+}
+
+/// A body that takes long: many steps for many road users.
+fn long(client: &str, revision: u64) -> Value {
+    let mut body = generate(24);
+    body["agents"] = json!("all");
+    body["steps"] = json!(100);
+    body["client"] = json!(client);
+    body["revision"] = json!(revision);
+    body["score"] = json!(false);
+    body
+}
+
+#[test]
+fn three_representations_have_equal_samples() {
+    let server = Server::start(&[]).unwrap();
+    let body = generate(4);
+    let plain = server.send(&ask(&body, "application/json")).unwrap();
+    assert_eq!(plain.status, 200, "{}", plain.text());
+    let lines = server.send(&ask(&body, "application/x-ndjson")).unwrap();
+    let events = server.send(&ask(&body, "text/event-stream")).unwrap();
+    let (lines, events) = (ndjson(&lines.text()), sse(&events.text()));
+    for list in [&lines, &events] {
+        let names: Vec<&str> = list.iter().map(|e| e["event"].as_str().unwrap()).collect();
+        assert_eq!(names.first(), Some(&"accepted"));
+        assert_eq!(names.last(), Some(&"final"));
+        assert_eq!(names.iter().filter(|n| ["final", "error", "superseded"].contains(n)).count(), 1);
+        let initial = names.iter().position(|n| *n == "initial");
+        let step = names.iter().position(|n| *n == "step");
+        assert!(initial.is_some() && step.is_none_or(|s| Some(s) > initial), "{names:?}");
+        assert!(list.windows(2).all(|w| w[0]["seq"].as_u64() < w[1]["seq"].as_u64()));
+        assert_eq!(list.last().unwrap()["samples"], plain.json()["samples"]);
+    }
+    let last = plain.json();
+    let modes = last["samples"][0]["agents"]["0"]["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 6);
+    assert_eq!(modes[0]["x_m"].as_array().unwrap().len(), 90);
+    assert_eq!(modes[0]["first_step"], 1);
+    assert_eq!(last["resolved"]["0"]["goal"]["x_m"]["from"], "user");
+    assert!(last["resolved"]["0"]["reach"]["status"].is_string());
+    assert_eq!(last["scores"].as_array().unwrap().len(), 1);
+    let x = modes[0]["x_m"][40].as_f64().unwrap();
+    assert!(((x * 1000.0).round() / 1000.0 - x).abs() < 1e-12, "rounded to a millimetre");
+}
+
+#[test]
+fn answers_do_not_depend_on_who_else_is_regenerated_or_when_it_is_asked() {
+    let server = Server::start(&[]).unwrap();
+    let body = generate(4);
+    let first = server.post("/v1/generate", &body).unwrap().json();
+    let again = server.post("/v1/generate", &body).unwrap().json();
+    assert_eq!(first["samples"], again["samples"]);
+    assert_eq!(first["scores"], again["scores"]);
+    let mut other = body.clone();
+    other["seed"] = json!(8);
+    assert_ne!(first["samples"], server.post("/v1/generate", &other).unwrap().json()["samples"]);
+}
+
+#[test]
+fn a_newer_revision_takes_over_and_an_older_one_is_refused() {
+    let server = Server::start(&[]).unwrap();
+    let (head, mut lines) = ask(&long("tab", 5), "application/x-ndjson").stream(server.address).unwrap();
+    assert_eq!(head.status, 200);
+    assert!(lines.next().unwrap().contains("\"accepted\""));
+    let mut newer = generate(2);
+    newer["client"] = json!("tab");
+    newer["revision"] = json!(6);
+    let answer = server.post("/v1/generate", &newer).unwrap();
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    assert_eq!(answer.json()["revision"], 6);
+    let last: Value = serde_json::from_str(&lines.last().unwrap()).unwrap();
+    assert_eq!((last["event"].as_str(), last["by_revision"].as_u64()), (Some("superseded"), Some(6)));
+    let stale = server.post("/v1/generate", &newer).unwrap();
+    assert_eq!((stale.status, stale.code().as_str()), (409, "stale-revision"));
+    assert_eq!(stale.json()["highest_revision"], 6);
+}
+
+#[test]
+fn a_superseded_plain_call_is_a_conflict() {
+    let server = Server::start(&[]).unwrap();
+    let address = server.address;
+    let older = std::thread::spawn(move || ask(&long("tab", 1), "application/json").send(address).unwrap());
+    std::thread::sleep(Duration::from_millis(300));
+    let mut newer = generate(2);
+    newer["client"] = json!("tab");
+    newer["revision"] = json!(2);
+    assert_eq!(server.post("/v1/generate", &newer).unwrap().status, 200);
+    let older = older.join().unwrap();
+    assert_eq!((older.status, older.code().as_str()), (409, "superseded"));
+}
+
+#[test]
+fn work_stops_when_the_reader_leaves() {
+    let server = Server::start(&[]).unwrap();
+    let (_, mut lines) = ask(&long("gone", 1), "application/x-ndjson").stream(server.address).unwrap();
+    while !lines.next().unwrap().contains("\"event\":\"step\"") {}
+    drop(lines);
+    let before = Instant::now();
+    while server.metric("dragtraffic_running").unwrap() > 0.0 {
+        assert!(before.elapsed() < Duration::from_secs(20), "still running");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let steps = server.metric("dragtraffic_steps_total").unwrap();
+    assert!(steps < 60.0, "{steps} of 100 steps were made for nobody");
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(server.metric("dragtraffic_steps_total").unwrap(), steps);
+}
+
+#[test]
+fn a_job_is_cancelled_by_its_id() {
+    let server = Server::start(&[]).unwrap();
+    let mut body = long("c", 1);
+    body["job"] = json!("mine");
+    let (_, mut lines) = ask(&body, "application/x-ndjson").stream(server.address).unwrap();
+    assert!(lines.next().is_some());
+    let twice = server.post("/v1/generate", &json!({"job": "mine", "scene": body["scene"]})).unwrap();
+    assert_eq!((twice.status, twice.code().as_str()), (409, "exists"));
+    assert_eq!(server.send(&Request::new("DELETE", "/v1/jobs/mine")).unwrap().status, 204);
+    let last: Value = serde_json::from_str(&lines.last().unwrap()).unwrap();
+    assert_eq!(last["problem"]["code"], "cancelled");
+    assert_eq!(server.send(&Request::new("DELETE", "/v1/jobs/mine")).unwrap().status, 204, "idempotent");
+}
+
+#[test]
+fn a_full_queue_says_when_to_come_back() {
+    let server = Server::start(&["--limit", "queue=1", "--limit", "running=1"]).unwrap();
+    let (_, mut running) = ask(&long("a", 1), "application/x-ndjson").stream(server.address).unwrap();
+    assert!(running.next().is_some());
+    let waiting = ask(&long("b", 1), "application/x-ndjson").open(server.address).unwrap();
+    while server.metric("dragtraffic_queue_length").unwrap() < 1.0 {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let refused = server.post("/v1/generate", &long("c", 1)).unwrap();
+    assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
+    assert!((1..=30).contains(&refused.header("retry-after").parse::<u32>().unwrap()));
+    drop((waiting, running));
+}
+
+#[test]
+fn a_generation_has_a_time_limit() {
+    let server = Server::start(&["--limit", "generate_s=0"]).unwrap();
+    let reply = server.post("/v1/generate", &long("a", 1)).unwrap();
+    assert_eq!((reply.status, reply.code().as_str()), (504, "generate-timeout"));
+}
+
+#[test]
+fn sixty_four_clients_at_once() {
+    let server = Server::start(&["--limit", "queue=64"]).unwrap();
+    server.wait_ready().unwrap();
+    let expected = server.post("/v1/generate", &generate(2)).unwrap().json()["samples"].clone();
+    let address = server.address;
+    let clients: Vec<_> = (0..64)
+        .map(|i| {
+            std::thread::spawn(move || {
+                let accept = ["application/json", "application/x-ndjson", "text/event-stream"][i % 3];
+                let reply = ask(&generate(2), accept).send(address).unwrap();
+                assert_eq!(reply.status, 200, "{}", reply.text());
+                match i % 3 {
+                    0 => reply.json(),
+                    1 => ndjson(&reply.text()).pop().unwrap(),
+                    _ => sse(&reply.text()).pop().unwrap(),
+                }
+            })
+        })
+        .collect();
+    for client in clients {
+        assert_eq!(client.join().unwrap()["samples"], expected);
+    }
+    assert_eq!(server.metric("dragtraffic_running").unwrap(), 0.0);
+}
