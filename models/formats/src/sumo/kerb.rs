@@ -155,7 +155,9 @@ fn area(list: &[(&str, Arm)], all: &[Borders]) -> Option<JunctionArea> {
         let next = &sides[(i + 1) % sides.len()].0;
         let outward = -next.direction;
         let turn_rad = cross(last.direction, outward).atan2(last.direction.dot(&outward));
-        let points = corner(last.point, last.direction, next.point, outward, CORNER_RADIUS_M);
+        // A road that merely bends keeps bending as wide as it can.
+        let radius = if turn_rad.abs() < 0.9 { f64::INFINITY } else { CORNER_RADIUS_M };
+        let points = corner(last.point, last.direction, next.point, outward, radius);
         ring.extend(points.iter().skip(1).take(points.len().saturating_sub(2)));
         corners.push(Corner {
             points,

@@ -2,10 +2,11 @@
 
 use super::kerb::{self, Borders, Corner, JunctionArea};
 use super::net::{EdgeFunction, LaneKind, Net};
-use super::polyline::{arc_lengths, offset_right, point_at, resample, simplify, tangents};
+use super::polyline::{length, offset_right, resample, simplify, tangents};
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::map::{Area, Lane, LaneMap, LaneType, Neighbor, StopSign, TypedLine};
+use std::collections::HashMap;
 
 /// Spacing of lane points, metres: on roads and within junctions.
 const SPACING_M: (f64, f64) = (2.0, 1.0);
@@ -47,15 +48,16 @@ pub struct NetMap {
 
 /// Draws a network's map.
 pub fn lane_map(net: &Net, options: MapOptions) -> NetMap {
-    let mut builder = Builder { net, out: NetMap::default(), next_id: net.lanes.len() };
+    let mut builder = Builder { net, out: NetMap::default(), next_id: net.lanes.len(), tapers: tapers(net) };
     builder.lanes(options);
     builder.crosswalks();
     builder.signs();
     let all = kerb::borders(net);
     let junctions = kerb::junctions(net, &all);
     builder.lane_lines(&all);
+    builder.taper_lines();
     builder.edges(&all);
-    builder.corners(&junctions);
+    builder.corners(&all, &junctions);
     if options.sidewalks {
         builder.sidewalk_corners(&junctions);
     }
@@ -67,6 +69,32 @@ struct Builder<'a> {
     net: &'a Net,
     out: NetMap,
     next_id: usize,
+    /// For lanes within a node where one edge merely goes on as another: lane before, lane after.
+    tapers: HashMap<usize, (usize, usize)>,
+}
+
+/// Lanes within nodes where nobody crosses: from the only edge into a node to the only edge out of it.
+fn tapers(net: &Net) -> HashMap<usize, (usize, usize)> {
+    let mut ends: HashMap<&str, (usize, usize)> = HashMap::new();
+    for edge in net.edges.iter().filter(|e| e.function == EdgeFunction::Normal) {
+        ends.entry(&edge.to).or_default().0 += 1;
+        ends.entry(&edge.from).or_default().1 += 1;
+    }
+    let mut found = HashMap::new();
+    for (before, lane) in net.lanes.iter().enumerate() {
+        let edge = net.edge_of(before);
+        // Nor does anybody cross on a motorway, where ramps join or leave.
+        if ends.get(edge.to.as_str()) != Some(&(1, 1)) && !edge.road_type.contains("motorway") {
+            continue;
+        }
+        let travelled = |kind| matches!(kind, LaneKind::Vehicle | LaneKind::Bike | LaneKind::Bus);
+        for &inner in lane.successors.iter().filter(|&&l| travelled(net.lanes[l].kind)) {
+            if let [after] = net.lanes[inner].successors[..] {
+                found.insert(inner, (before, after));
+            }
+        }
+    }
+    found
 }
 
 fn lane_id(lane: usize) -> String {
@@ -131,7 +159,7 @@ impl Builder<'_> {
             let beside = |other: Option<usize>| -> Vec<Neighbor> {
                 let other = other.and_then(|index| net.edge_of(i).lanes.get(index).copied());
                 let other = other.filter(|&o| !internal && travelled && types[o].is_some_and(drives));
-                let count = |l: usize| (crate::sumo::polyline::length(&net.lanes[l].shape) / step).round();
+                let count = |l: usize| (length(&net.lanes[l].shape) / step).round();
                 other
                     .map(|o| Neighbor {
                         lane: lane_id(o),
@@ -154,7 +182,7 @@ impl Builder<'_> {
                 speed_limit_mps: travelled.then_some(lane.speed_mps),
                 predecessors: predecessors[i].clone(),
                 successors: next,
-                interpolating: internal,
+                interpolating: internal && !self.tapers.contains_key(&i),
             };
             self.out.map.lanes.push(lane);
             if let (Some((program, link)), true) = (&net.lanes[i].signal, travelled) {
@@ -240,8 +268,25 @@ impl Builder<'_> {
         }
     }
 
+    /// Painted lines where a turn lane opens: beside each lane that has one to its left.
+    fn taper_lines(&mut self) {
+        let net = self.net;
+        let mut inner: Vec<(usize, usize)> = self.tapers.iter().map(|(l, ends)| (ends.0, *l)).collect();
+        inner.sort_unstable();
+        for pair in inner.windows(2) {
+            let ((before, lane), (next_before, next)) = (pair[0], pair[1]);
+            if net.lanes[before].edge != net.lanes[next_before].edge || before == next_before {
+                continue;
+            }
+            let both = [lane, next].iter().all(|&l| net.lanes[l].kind == LaneKind::Vehicle);
+            let line_type = if both { "broken_single_white" } else { "solid_single_white" };
+            self.line(line_type, offset_right(&net.lanes[lane].shape, -net.lanes[lane].width_m / 2.0));
+        }
+    }
+
     /// Right borders, and left borders by what lies beyond them: oncoming traffic, a median, nothing.
     fn edges(&mut self, all: &[Borders]) {
+        let extents = extents(all);
         for (b, borders) in all.iter().enumerate() {
             let lot = self.is_lot(borders.edge);
             if !lot {
@@ -250,7 +295,7 @@ impl Builder<'_> {
             let line = resample(&borders.left, 2.0);
             let ways = tangents(&line);
             let sides: Vec<LeftSide> =
-                line.iter().zip(&ways).map(|(p, way)| left_side(*p, *way, b, all)).collect();
+                line.iter().zip(&ways).map(|(p, way)| left_side(*p, *way, Some(b), all, &extents)).collect();
             let mut from = 0;
             for to in 1..=sides.len() {
                 if to < sides.len() && sides[to].kind() == sides[from].kind() {
@@ -272,23 +317,29 @@ impl Builder<'_> {
         }
     }
 
-    fn corners(&mut self, junctions: &[JunctionArea]) {
+    fn corners(&mut self, all: &[Borders], junctions: &[JunctionArea]) {
+        let extents = extents(all);
         for junction in junctions {
             // Where only two arms meet, the road goes on: its median or middle line goes on too.
             for Corner { points, from, to, turn_rad } in &junction.corners {
                 let mixed = self.is_lot(from.0) != self.is_lot(to.0);
-                let merging = turn_rad.abs() > 2.4 || from.1 == to.1 && junction.arms > 2;
+                let merging = turn_rad.abs() > 2.4;
                 let both_lots = self.is_lot(from.0) && self.is_lot(to.0);
                 if mixed || both_lots || merging {
                     continue;
                 }
                 // From the right border of a lane inwards to a right border outwards is a kerb; the other
                 // way round is the left side of a stretch between two one-way edges.
-                let left = !from.1 && to.1;
-                if left && junction.arms == 2 {
-                    self.line("solid_double_yellow", points.clone());
-                } else {
+                let (first, last) = (points[0], points[points.len() - 1]);
+                if from.1 || !to.1 || junction.arms > 2 {
                     self.edge("boundary", points.clone());
+                    continue;
+                }
+                let way = (first - last) / (first - last).norm().max(1e-9);
+                match left_side((first + last) / 2.0, way, None, all, &extents) {
+                    LeftSide::Oncoming(_) => self.line("solid_double_yellow", points.clone()),
+                    LeftSide::Median => self.edge("median", points.clone()),
+                    LeftSide::Open => self.edge("boundary", points.clone()),
                 }
             }
         }
@@ -373,18 +424,27 @@ impl LeftSide {
     }
 }
 
-fn left_side(p: Vec2, way: Vec2, own: usize, all: &[Borders]) -> LeftSide {
+/// Corners of the upright boxes about left borders, grown by what counts as a median.
+fn extents(all: &[Borders]) -> Vec<(Vec2, Vec2)> {
+    let margin = Vec2::repeat(MEDIAN_M);
+    let fold = |b: &Borders, pick: fn(f64, f64) -> f64| {
+        b.left.iter().skip(1).fold(b.left[0], |a, p| Vec2::new(pick(a.x, p.x), pick(a.y, p.y)))
+    };
+    all.iter().map(|b| (fold(b, f64::min) - margin, fold(b, f64::max) + margin)).collect()
+}
+
+/// What lies to the left of the point `p` of a left border that goes along `way`.
+fn left_side(p: Vec2, way: Vec2, own: Option<usize>, all: &[Borders], extents: &[(Vec2, Vec2)]) -> LeftSide {
     let mut best = (MEDIAN_M, None);
-    for (b, other) in all.iter().enumerate().filter(|(b, _)| *b != own) {
-        let near = |q: &Vec2| (q - p).norm() < 200.0;
-        if !near(&other.left[0]) && !other.left.last().is_some_and(near) {
+    for (b, other) in all.iter().enumerate().filter(|(b, _)| Some(*b) != own) {
+        let (low, high) = extents[b];
+        if p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y {
             continue;
         }
-        let lengths = arc_lengths(&other.left);
-        for (i, w) in other.left.windows(2).enumerate() {
+        for w in other.left.windows(2) {
             let along = w[1] - w[0];
-            let s = ((p - w[0]).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
-            let foot = point_at(&other.left, &lengths, lengths[i] + s * along.norm());
+            let share = ((p - w[0]).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+            let foot = w[0] + along * share;
             let gap = (foot - p).norm();
             // Beyond the left border, and the other way round.
             let beyond = gap < TOUCHING_M || cross(way, foot - p) > 0.0;

@@ -69,9 +69,8 @@ pub fn write(
 ) -> std::io::Result<()> {
     let fringe = network.fringe.iter().map(String::as_str).collect();
     let mut trips = Trips { net, fringe, items: Vec::new() };
-    let motorway = network.character.name == Rank::Motorway.name();
-    trips.vehicles(fleet, crowd, motorway, draw);
-    if !motorway {
+    trips.vehicles(fleet, crowd, draw);
+    if network.character.name != Rank::Motorway.name() {
         trips.cyclists(fleet, crowd, draw);
         trips.people(fleet, crowd, draw);
     }
@@ -136,7 +135,7 @@ impl Trips<'_> {
         self.normal().map(|e| (e, spread(e))).collect()
     }
 
-    fn vehicles(&mut self, fleet: &Fleet, crowd: Crowd, motorway: bool, draw: &mut Draw) {
+    fn vehicles(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Draw) {
         let net = self.net;
         let reachable = self.reachable(&[LaneKind::Vehicle]);
         let carries = |e: &usize| self.lanes(&net.edges[*e], LaneKind::Vehicle) > 0;
@@ -172,7 +171,7 @@ impl Trips<'_> {
             let mean_wait = 3600.0 / hourly.max(1e-3);
             let mut time = draw.exponential(mean_wait);
             while time < WARM_UP_S + RECORDED_S {
-                let trucks = if motorway { 0.10 } else { 0.035 };
+                let trucks = if edge.road_type == Rank::Motorway.name() { 0.10 } else { 0.035 };
                 let group = ["truck", "bus", "moto", "car"]
                     [draw.weighted(&[trucks, crowd.buses, 0.02, 1.0 - trucks - crowd.buses - 0.02])];
                 let goal = &net.edges[goals[draw.weighted(&weights)]];
@@ -196,7 +195,7 @@ impl Trips<'_> {
         let usable = |e: &usize| {
             let edge = &net.edges[*e];
             let rides = self.lanes(edge, LaneKind::Vehicle) + self.lanes(edge, LaneKind::Bike) > 0;
-            rides && !matches!(edge.road_type.as_str(), "lot" | "roundabout")
+            rides && !matches!(edge.road_type.as_str(), "lot" | "roundabout" | "motorway")
         };
         let edges: Vec<usize> = self.normal().filter(usable).collect();
         let outer: Vec<usize> =

@@ -4,8 +4,13 @@
 //! One seed decides everything about one network and its traffic; the same seed gives the same file.
 
 mod demand;
+pub mod demo;
+mod demo_check;
+mod demo_clip;
+mod demo_networks;
 mod filters;
 mod fleet;
+mod footpath;
 mod network;
 mod parked;
 mod programs;

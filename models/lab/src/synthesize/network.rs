@@ -68,6 +68,18 @@ pub struct Section {
     pub rank: Rank,
 }
 
+impl Section {
+    /// Lanes of one direction, from the right.
+    fn strips(&self, lanes: usize) -> Vec<Strip> {
+        let beside = [Strip::Sidewalk(self.sidewalk), Strip::Parking(self.parking), Strip::Bike(self.bike)];
+        let there = [self.sidewalk, self.parking, self.bike].map(|width| width > 0.0);
+        let mut strips: Vec<Strip> =
+            beside.into_iter().zip(there).filter(|(_, there)| *there).map(|(strip, _)| strip).collect();
+        strips.extend(vec![Strip::Traffic(self.lane); lanes]);
+        strips
+    }
+}
+
 /// A junction or an end of the network.
 #[derive(Clone, Debug)]
 struct NodeSpec {
@@ -227,7 +239,7 @@ impl Network {
                 from: from.to_owned(),
                 to: to.to_owned(),
                 shape,
-                strips: vec![Strip::Traffic(section.lane); lanes],
+                strips: section.strips(lanes),
                 speed: section.speed,
                 priority: section.priority,
                 rank: section.rank,
@@ -265,18 +277,8 @@ impl Network {
                     line.reverse();
                     (from, to, turn) = (to, from, road.turn_lanes.0);
                 }
-                let mut strips = Vec::new();
-                for (width, strip) in [
-                    (s.sidewalk, Strip::Sidewalk(s.sidewalk)),
-                    (s.parking, Strip::Parking(s.parking)),
-                    (s.bike, Strip::Bike(s.bike)),
-                ] {
-                    if width > 0.0 {
-                        strips.push(strip);
-                    }
-                }
-                let beside = strips.len();
-                strips.extend(vec![Strip::Traffic(s.lane); lanes]);
+                let strips = s.strips(lanes);
+                let beside = strips.len() - lanes;
                 let make = |from: String, to: String, shape: Vec<Vec2>, strips: Vec<Strip>| EdgeSpec {
                     from,
                     to,

@@ -2,6 +2,7 @@
 
 use super::demand::{self, Crowd};
 use super::fleet::Fleet;
+use super::footpath::Kerbs;
 use super::network::Network;
 use super::programs::{ProgramError, Sumo};
 use super::random::{Draw, Purpose};
@@ -122,6 +123,10 @@ pub fn record(
     let signals = read_signals(path)?;
 
     let mut map = lane_map(&net, MapOptions { sidewalks: true, parking: true });
+    let kerbs = Kerbs::new(&map.map.road_edges);
+    for actor in actors.iter_mut().filter(|a| a.on_foot) {
+        kerbs.keep_off(&mut actor.track);
+    }
     let parked = parked::park(&network, &net, &mut Draw::new(seed, Purpose::Parking));
     let mut next_id = 1_000_000;
     let mut areas = |rings: &[Vec<Vec2>]| -> Vec<Area> {

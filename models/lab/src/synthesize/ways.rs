@@ -24,17 +24,18 @@ pub fn roundabout(draw: &mut Draw) -> Network {
     let side_rank = if draw.chance(0.4) { Rank::Residential } else { Rank::Collector };
     let side = section(draw, side_rank);
     let bare = |s: Section| Section { parking: 0.0, bike: 0.0, median: 1.2, ..s };
-    ring(&mut net, &angles, radius, lanes);
+    ring(&mut net, &angles, radius, lanes, 0.0);
     for (i, &angle) in angles.iter().enumerate() {
         let s = bare(if i % 2 == 0 { main } else { side });
         let (reach, lean, bend) = (draw.uniform(140.0, 200.0), draw.normal(0.0, 18.0), draw.normal(0.0, 0.2));
-        approach(&mut net, i, angle, radius, lanes, s, [reach, lean, bend]);
+        approach(&mut net, i, angle, radius, lanes, s, 0.0, [reach, lean, bend]);
     }
     net
 }
 
-/// The ring: counter-clockwise arcs between the mouths of the arms.
-pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize) {
+/// The ring: counter-clockwise arcs between the mouths of the arms, with a sidewalk of this width
+/// outside (zero: none).
+pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize, sidewalk: f64) {
     let half = HALF_MOUTH_M / radius;
     let mut mouths: Vec<(f64, String)> = Vec::new();
     for (i, &angle) in angles.iter().enumerate() {
@@ -64,14 +65,16 @@ pub fn ring(net: &mut Network, angles: &[f64], radius: f64, lanes: usize) {
         let n = ((span * radius / 1.5) as usize).max(2);
         let arc = (0..=n).map(|i| direction(from + span * i as f64 / n as f64) * radius).collect();
         let edge = format!("ring{k}");
-        net.edge(&edge, id, next, arc, lanes, s, false);
+        // Across the mouth of an arm there is nowhere to walk.
+        let walk = if id.starts_with("ri") { sidewalk } else { 0.0 };
+        net.edge(&edge, id, next, arc, lanes, Section { sidewalk: walk, ..s }, false);
         edges.push(edge);
     }
     net.roundabout(mouths.into_iter().map(|m| m.1).collect(), edges);
 }
 
 /// One arm: a street up to a splitter node with a crosswalk, then an entry and an exit of their own.
-/// `shape` is the street's length, sideways end and bend.
+/// `sidewalk` is the width of theirs; `shape` is the street's length, sideways end and bend.
 pub fn approach(
     net: &mut Network,
     i: usize,
@@ -79,6 +82,7 @@ pub fn approach(
     radius: f64,
     lanes: usize,
     s: Section,
+    sidewalk: f64,
     shape: [f64; 3],
 ) {
     let (way, across) = (direction(angle), left_of(direction(angle)));
@@ -97,7 +101,7 @@ pub fn approach(
     let gap = across * (s.median / 2.0);
     let lead_in = hermite(near + gap, -way, net.position(&entry), inward);
     let lead_out = hermite(net.position(&exit), outward, near - gap, way);
-    let slow = Section { speed: 20.0 * MPH, priority: 3, sidewalk: 0.0, rank: Rank::Collector, ..s };
+    let slow = Section { speed: 20.0 * MPH, priority: 3, sidewalk, rank: Rank::Collector, ..s };
     net.edge(&format!("in{i}"), &splitter, &entry, lead_in, s.forward, slow, false);
     net.edge(&format!("out{i}"), &exit, &splitter, lead_out, s.backward, slow, false);
 }
