@@ -164,6 +164,7 @@ pub fn run(options: &Options, report: &mut dyn FnMut(&Progress)) -> Result<Metri
         mirror: options.mirror.as_ref(),
     };
     let mut since = Since::new();
+    let mut validated = None;
     while run.progress() < 1.0 {
         let rate = rate(options.rate, run.adam.step, options.steps.min(200), run.progress());
         let batch = split.batch(options.seed, run.adam.step, options.batch);
@@ -177,16 +178,14 @@ pub fn run(options: &Options, report: &mut dyn FnMut(&Progress)) -> Result<Metri
             since = Since::new();
         }
         if step.is_multiple_of(options.validate_every.max(1)) {
-            let metrics = run.validate(&workers, &split)?;
-            report(&Progress::Validation { step, metrics });
-            run.save()?;
+            validated = Some((step, run.finish(&workers, &split, report)?));
             since = Since::new();
         }
     }
-    let metrics = run.validate(&workers, &split)?;
-    report(&Progress::Validation { step: run.adam.step, metrics: metrics.clone() });
-    run.save()?;
-    Ok(metrics)
+    match validated {
+        Some((step, metrics)) if step == run.adam.step => Ok(metrics),
+        _ => run.finish(&workers, &split, report),
+    }
 }
 
 /// What was measured since the last line.
@@ -265,9 +264,18 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn validate(&self, workers: &Workers<'_>, split: &Split) -> Result<Metrics, TrainError> {
+    /// Validates, reports and saves.
+    fn finish(
+        &mut self,
+        workers: &Workers<'_>,
+        split: &Split,
+        report: &mut dyn FnMut(&Progress),
+    ) -> Result<Metrics, TrainError> {
         self.adam.write_means(self.mean.vars())?;
-        workers.validate(&self.mean, &split.held_out)
+        let metrics = workers.validate(&self.mean, &split.held_out)?;
+        report(&Progress::Validation { step: self.adam.step, metrics: metrics.clone() });
+        self.save()?;
+        Ok(metrics)
     }
 
     fn save(&mut self) -> Result<(), TrainError> {
