@@ -2,7 +2,7 @@
 import type { Context } from '../actions/context';
 import { canChange, hasGoal, touched, startPose, type Agent } from '../model/scene';
 import { deg, rad, wrapAngle, type Vec } from '../model/geometry';
-import { LETTERS, isSettled } from '../model/futures';
+import { LETTERS, isSettled, reachWords } from '../model/futures';
 import { endPose, poseAt } from '../model/motion';
 import { nearestLanes } from '../model/lanemap';
 import { comparedWithLog } from '../model/changes';
@@ -57,8 +57,7 @@ function verdict(c: Context, a: Agent): Verdict | null {
   const live = e.liveReach.value?.id === a.id ? e.liveReach.value.reach : !e.drag.value && !e.motion.value.stale ? e.motion.value.reach.get(a.id) ?? null : null;
   const local = e.localReach.value;
   if (a.goal.pos && (live ? live.status === 'unreachable' : local && local.kind !== 'ok')) {
-    const own = local && local.kind !== 'ok' ? local : null;
-    return { kind: 'near', icon: 'warn', title: own?.title ?? `Out of reach in ${seconds(a.goal.time)}`, words: own?.words ?? sentenceCase(live?.words ?? 'The nearest reachable point is shown.'), remedies: true };
+    return { kind: 'near', icon: 'warn', remedies: true, ...(live ? reachWords(live, a.goal.time) : { title: local!.title, words: local!.words }) };
   }
   if (e.drag.value) return local && a.goal.pos ? { kind: 'ok', icon: 'check', title: local.title, words: local.words, remedies: false } : null;
   if (a.goal.pos && a.type === 'vehicle' && !nearestLanes(e.scene.value!.map, a.goal.pos[0], a.goal.pos[1], null, 4, (l) => l.kind === 'road' || l.kind === 'other').length)

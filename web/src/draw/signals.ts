@@ -29,9 +29,14 @@ export function paintSignals(g: CanvasRenderingContext2D, v: View, scene: Scene,
     if (done.has(key)) continue;
     done.add(key);
     const light = stateAt(s, t);
-    const nearStart = lane && entry && Math.hypot(entry.x - at[0], entry.y - at[1]) < lane.line.length / 2;
-    const heading = lane ? pointAt(lane.line, nearStart ? 0 : lane.line.length).heading : 0;
-    bar(g, v.x(at[0]), v.y(at[1]), heading, Math.max(9, Math.min(2.5, (lane?.width ?? 3) - 0.7) * v.z), Math.max(3, 0.32 * v.z), light, paint[light]);
+    if (!lane) {
+      // A signal for people on foot, or one whose lane is not on the map: no direction, so a disc.
+      disc(g, v.x(at[0]), v.y(at[1]), Math.max(3.2, 0.4 * v.z), light, paint[light]);
+      continue;
+    }
+    const nearStart = entry && Math.hypot(entry.x - at[0], entry.y - at[1]) < lane.line.length / 2;
+    const heading = pointAt(lane.line, nearStart ? 0 : lane.line.length).heading;
+    bar(g, v.x(at[0]), v.y(at[1]), heading, Math.max(9, Math.min(2.5, lane.width - 0.7) * v.z), Math.max(3, 0.32 * v.z), light, paint[light]);
   }
 }
 
@@ -53,4 +58,21 @@ function bar(g: CanvasRenderingContext2D, x: number, y: number, heading: number,
   g.stroke();
   g.setLineDash([]);
   g.globalAlpha = 1;
+}
+
+function disc(g: CanvasRenderingContext2D, x: number, y: number, r: number, light: Light, colour: string): void {
+  const c = colours();
+  g.beginPath();
+  g.arc(x, y, Math.min(r, 6), 0, Math.PI * 2);
+  g.fillStyle = colour;
+  g.strokeStyle = c.halo;
+  g.lineWidth = 1.5;
+  g.setLineDash([]);
+  g.stroke();
+  g.fill();
+  if (light !== 'go') return;
+  g.beginPath();
+  g.arc(x, y, Math.min(r, 6) * 0.42, 0, Math.PI * 2);
+  g.fillStyle = c.halo;
+  g.fill();
 }

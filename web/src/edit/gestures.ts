@@ -211,8 +211,9 @@ export class Gestures {
     const x = pose.x + wx - d.grabX, y = pose.y + wy - d.grabY;
     const start = startPose(a)!;
     // A start prefers lanes in its own direction; a goal may lie on any lane, best one that leads away from the start.
-    const hint = !d.follow || grip.part === 'start' ? pose.heading : d.lane ? null : Math.atan2(y - start.y, x - start.x);
-    const s = (this.mods.shift && alongLane(map, d.lane, x, y)) || (this.mods.alt ? { x, y, laneHeading: null, lane: null } : snapToLane(map, a, x, y, hint, this.stage.view.z, d.lane));
+    const travel = grip.part === 'goal' && Math.hypot(x - start.x, y - start.y) > 6 ? Math.atan2(y - start.y, x - start.x) : null;
+    const hint = !d.follow || grip.part === 'start' ? pose.heading : d.lane ? null : travel;
+    const s = (this.mods.shift && alongLane(map, d.lane, x, y)) || (this.mods.alt ? { x, y, laneHeading: null, lane: null } : snapToLane(map, a, x, y, hint, this.stage.view.z, d.lane, travel));
     const stop = s.lane && !this.mods.alt && a.type === 'vehicle' ? softStop(editor.scene.peek()!, s.lane, a, project(s.lane.line, s.x, s.y).s, this.stage.view.z) : null;
     if (stop) Object.assign(s, { x: stop.x, y: stop.y, laneHeading: stop.heading });
     d.lane = s.lane?.id ?? null;

@@ -21,6 +21,8 @@ export interface Verdict {
 }
 
 const SAVE_DELAY_MS = 300;
+/** Examples in the order in which they are best met, last first. */
+const FIRST = ['demo-motorway', 'demo-arterial', 'demo-residential', 'demo-roundabout', 'demo-crossing'];
 
 export class Library {
   readonly list = signal<readonly SceneListItem[]>([]);
@@ -48,7 +50,9 @@ export class Library {
 
   async refresh(): Promise<void> {
     try {
-      this.list.value = (await this.client.scenes()).scenes;
+      // Own scenes first, newest on top, then the examples, then what was recorded.
+      const rank = (s: SceneListItem): number => (s.readonly !== true && !s.id.startsWith('demo-') ? 0 : s.id.startsWith('demo-') ? 1 : 2);
+      this.list.value = (await this.client.scenes()).scenes.map((s, i) => ({ s, i })).sort((a, b) => rank(a.s) - rank(b.s) || (rank(a.s) === 1 ? FIRST.indexOf(b.s.id) - FIRST.indexOf(a.s.id) : 0) || a.i - b.i).map((p) => p.s);
     } finally {
       this.listed.value = true;
     }

@@ -127,6 +127,8 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
       command: { ...setGoal(a, { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed }), name: `Goal of ${a.name} moved to the nearest reachable point` },
     });
   }
+  const bend = verdict?.limiting === 'lateral' || verdict?.limiting === 'curvature' || local?.kind === 'sharp';
+  if (bend && a.goal.heading !== null) out.push({ label: 'Leave the heading free', note: 'wider goal', icon: 'lock', primary: false, command: withField(a, 'goal', { heading: null }) });
   if (local?.time && local.time > a.goal.time) out.push({ label: 'Give it more time', note: `${local.time.toFixed(1)} s`, icon: 'clock', primary: false, command: withField(a, 'goal', { time: local.time }) });
   if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
     const faster = local.kind === 'far';

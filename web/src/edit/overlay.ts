@@ -1,6 +1,7 @@
 // The overlay: selection, handles, futures, labels, ghosts, events. The only canvas a drag frame paints.
 import type { OnLine, Pose } from '../model/geometry';
 import { endPose, poseAt } from '../model/motion';
+import { reachWords } from '../model/futures';
 import { comparedWithLog } from '../model/changes';
 import { canChange, startPose, touched, type Agent } from '../model/scene';
 import { metres, num, seconds, speedLabel } from '../model/units';
@@ -225,7 +226,7 @@ export class Overlay {
     const { editor: e } = this;
     const live = e.liveReach.value?.id === a.id ? e.liveReach.value.reach : !e.drag.value && !e.motion.value.stale ? e.motion.value.reach.get(a.id) : null;
     const local = e.localReach.value;
-    if (live) return live.status === 'unreachable' ? { title: local && local.kind !== 'ok' ? local.title : `Out of reach in ${seconds(a.goal.time)}`, nearest: live.nearest } : null;
+    if (live) return live.status === 'unreachable' ? { title: reachWords(live, a.goal.time).title, nearest: live.nearest } : null;
     return local && local.kind !== 'ok' && a.goal.pos ? { title: local.title, nearest: local.nearest } : null;
   }
 
@@ -311,8 +312,7 @@ export class Overlay {
         paintIcon(g, 'cross', x, y, c['on-collision']);
         this.labels.block(x - 12, y - 12, 24, 24);
       }
-      const gap = ev.facts.find(([k]) => k === 'Closest gap')?.[1];
-      const text = hit ? `Collision · ${ev.title}` : `${seconds(ev.time)} · ${gap ? `${gap} to ` : ''}${ev.b.name}`;
+      const text = hit ? `Collision · ${ev.title}` : `${seconds(ev.time)} · ${ev.short}`;
       this.tag(g, [x, y], text, { leader: hit ? c.collision : c['near-text'], radii: [44, 60, 84], bg: hit ? c.collision : c.near, fg: hit ? c['on-collision'] : c['on-near'], height: 22, icon: hit ? 'cross' : 'triangle' });
     }
   }

@@ -1,12 +1,13 @@
 // Snapping to lanes and angles. It shows itself and lets go with Alt.
 import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/geometry';
-import { nearestLanes, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
+import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
 import { startPose, type Agent, type Scene } from '../model/scene';
 
 export interface Snapped { x: number; y: number; laneHeading: number | null; lane: Lane | null }
 
 const RADIUS_M = 1.8;
 const RADIUS_PX = 14;
+const AGAINST = 2.1;
 /** The lane one is on already is preferred by this much, so that the box does not flicker between two. */
 const STAY_BONUS_M = 0.6;
 
@@ -16,7 +17,11 @@ export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null 
   return null;
 }
 
-export function snapToLane(map: LaneMap, a: Agent, x: number, y: number, heading: number | null, zoom: number, stay: string | null): Snapped {
+/**
+ * The best lane under a point. `travel` is the line from the start to a goal: lanes that lead back against it are
+ * left alone, or a goal a little beyond the middle line would turn the car round. Alt puts it anywhere.
+ */
+export function snapToLane(map: LaneMap, a: Agent, x: number, y: number, heading: number | null, zoom: number, stay: string | null, travel: number | null = null): Snapped {
   const fits = lanesFor(a);
   const free: Snapped = { x, y, laneHeading: null, lane: null };
   if (!fits) return free;
@@ -25,6 +30,7 @@ export function snapToLane(map: LaneMap, a: Agent, x: number, y: number, heading
   let best: LaneHit | null = null, score = Infinity;
   for (const h of hits) {
     const bike = a.type === 'cyclist' && h.lane.kind === 'bike' ? 0.8 : 0;
+    if (travel !== null && Math.abs(wrapAngle(h.heading - travel)) > AGAINST) continue;
     const s = h.score - (h.lane.id === stay ? STAY_BONUS_M : 0) - bike;
     if (s < score) { score = s; best = h; }
   }
@@ -82,8 +88,9 @@ export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: nu
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
   if (!hit) return 'off the lanes';
   const way = compass(hit.heading);
-  const what = hit.lane.kind === 'bike' ? 'bike lane' : hit.lane.kind === 'walk' ? 'pavement' : hit.lane.inside ? 'inside the crossing' : hit.lane.type === 'freeway' ? 'motorway lane' : hit.lane.type === 'bus_lane' ? 'bus lane' : 'lane';
-  return hit.lane.inside ? `${what}, ${way}bound` : `${way}bound ${what}`;
+  const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
+  const what = hit.lane.kind === 'bike' ? 'bike lane' : hit.lane.kind === 'walk' ? 'pavement' : junction ? 'inside the crossing' : hit.lane.type === 'freeway' ? 'motorway lane' : hit.lane.type === 'bus_lane' ? 'bus lane' : 'lane';
+  return junction ? `${what}, ${way}bound` : `${way}bound ${what}`;
 }
 
 function onFoot(map: LaneMap, x: number, y: number): string {

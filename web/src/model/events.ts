@@ -8,7 +8,7 @@ import { wrapAngle, type Vec } from './geometry';
 
 export interface TrafficEvent {
   readonly kind: 'collision' | 'near'; readonly time: number; readonly a: Agent; readonly b: Agent;
-  readonly title: string; readonly label: string; readonly at: Vec; readonly facts: readonly (readonly [string, string])[];
+  readonly title: string; readonly label: string; /** The closest of it, for a label on the map. */ readonly short: string; readonly at: Vec; readonly facts: readonly (readonly [string, string])[];
 }
 
 /** Near misses closer together than this are one event: the same pair passing once. */
@@ -49,7 +49,8 @@ function event(scene: Scene, set: MotionSet, kind: 'collision' | 'near', ida: st
   if (gap !== null) facts.push(['Closest gap', `${num(gap, 1)} m`]);
   if (ttc !== null) facts.push(['Time to collision', `${num(ttc, 1)} s`]);
   const title = kind === 'collision' ? `${a.name} × ${b.name}` : `${a.name}, ${b.name}`;
-  return { kind, time, a, b, title, label: `${kind === 'collision' ? 'Collision' : 'Near miss'} ${num(time, 1)} s`, at: [(pa.x + pb.x) / 2, (pa.y + pb.y) / 2], facts };
+  const short = gap !== null && (gap <= 1 || ttc === null) ? `${num(gap, 1)} m to ${b.name}` : ttc !== null ? `${num(ttc, 1)} s to collision with ${b.name}` : b.name;
+  return { kind, time, a, b, title, short, label: `${kind === 'collision' ? 'Collision' : 'Near miss'} ${num(time, 1)} s`, at: [(pa.x + pb.x) / 2, (pa.y + pb.y) / 2], facts };
 }
 
 function doing(scene: Scene, set: MotionSet, a: Agent, t: number): string {

@@ -1,6 +1,6 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
 import type { AgentFuturesJson } from './json';
-import { endPose, motionFrom, pathLength, poseAtStep, type Motion } from './motion';
+import { distances, endPose, motionFrom, pathLength, poseAtStep, type Motion } from './motion';
 import { wrapAngle, type Pose } from './geometry';
 
 export const LETTERS = 'ABCDEF';
@@ -47,11 +47,12 @@ function totalTurn(m: Motion): number {
   return t;
 }
 
-/** Sideways move without a turn, as in a lane change. */
+/** Sideways move without a turn, as in a lane change; a long road that bends a little is still straight on. */
 function shift(m: Motion): string | null {
-  const h = m.heading[0], dx = m.x[m.x.length - 1] - m.x[0], dy = m.y[m.y.length - 1] - m.y[0];
+  const n = m.x.length - 1;
+  const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2, dx = m.x[n] - m.x[0], dy = m.y[n] - m.y[0];
   const left = -dx * Math.sin(h) + dy * Math.cos(h);
-  return Math.abs(left) > 2.2 ? `Moves ${left > 0 ? 'left' : 'right'}` : null;
+  return Math.abs(left) > Math.max(2.2, 0.07 * Math.hypot(dx, dy)) ? `Moves ${left > 0 ? 'left' : 'right'}` : null;
 }
 
 function pace(m: Motion, a: Pose, b: Pose, length: number, ped: boolean): string {
@@ -68,18 +69,29 @@ function pace(m: Motion, a: Pose, b: Pose, length: number, ped: boolean): string
   return '';
 }
 
-/** Two futures may look alike; the second then says how it differs in speed, so that a list can be read. */
+/** Two futures may look alike; the second then says how it differs, so that a list can be read. */
 function distinct(modes: Future[]): Future[] {
   const seen = new Map<string, number>();
-  return modes.map((m) => {
-    const n = seen.get(m.name) ?? 0;
-    seen.set(m.name, n + 1);
-    if (!n) return m;
-    const first = modes.find((o) => o.name === m.name)!;
-    const d = pathLength(m.motion) - pathLength(first.motion);
-    const base = m.name.split(',')[0];
-    return { ...m, name: Math.abs(d) < 1 ? `${base}, another line` : `${base}, ${Math.abs(d).toFixed(0)} m ${d > 0 ? 'further' : 'less'}` };
+  return modes.map((m, i) => {
+    const first = seen.get(m.name);
+    if (first === undefined) { seen.set(m.name, i); return m; }
+    return { ...m, name: `${m.name.split(',')[0]}, ${difference(modes[first].motion, m.motion) ?? `almost as ${LETTERS[first]}`}` };
   });
+}
+
+function difference(a: Motion, b: Motion): string | null {
+  const sa = distances(a), sb = distances(b);
+  const n = Math.min(sa.length, sb.length) - 1;
+  const end = sb[n] - sa[n];
+  if (Math.abs(end) > 1) return `${Math.abs(end).toFixed(0)} m ${end > 0 ? 'further' : 'less'}`;
+  const mid = n >> 1, early = sb[mid] - sa[mid];
+  if (Math.abs(early) > 0.8) return early > 0 ? 'earlier' : 'later';
+  let side = 0;
+  for (let i = 1; i <= n; i++) {
+    const left = -(b.x[i] - a.x[i]) * Math.sin(a.heading[i]) + (b.y[i] - a.y[i]) * Math.cos(a.heading[i]);
+    if (Math.abs(left) > Math.abs(side)) side = left;
+  }
+  return Math.abs(side) > 0.4 ? `more to the ${side > 0 ? 'left' : 'right'}` : null;
 }
 
 export interface Collision { a: string; b: string; time: number }
@@ -92,6 +104,15 @@ export interface Score {
 export interface Reach {
   readonly status: 'reached' | 'unreachable'; readonly nearest: Pose | null;
   readonly limiting: string | null; readonly needs: unknown; readonly words: string | null;
+}
+
+/** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
+export function reachWords(r: Reach, time: number): { title: string; words: string } {
+  const text = r.words?.trim() ?? '';
+  const cut = /[.!?](?=\s|$)(?!\d)/.exec(text.replace(/(\d)\.(?=\d)/g, '$1,'));
+  const title = cut ? text.slice(0, cut.index) : text;
+  const rest = cut ? text.slice(cut.index + 1).trim() : '';
+  return { title: title || `Out of reach in ${time.toFixed(1)} s`, words: rest || 'The nearest reachable point is shown.' };
 }
 
 /** Everything worked out for one document key. */
