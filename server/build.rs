@@ -16,7 +16,15 @@ fn main() -> Result<(), String> {
     if !web.join("package.json").exists() {
         return placeholder(&page, "The editor's sources are not in this checkout.");
     }
-    for source in ["src", "public", "index.html", "package.json", "package-lock.json", "vite.config.ts", "tsconfig.json"] {
+    for source in [
+        "src",
+        "public",
+        "index.html",
+        "package.json",
+        "package-lock.json",
+        "vite.config.ts",
+        "tsconfig.json",
+    ] {
         if web.join(source).exists() {
             println!("cargo::rerun-if-changed={}", web.join(source).display());
         }
@@ -57,7 +65,10 @@ fn npm(web: &Path, arguments: &[&str]) -> Result<(), String> {
 }
 
 fn placeholder(page: &Path, why: &str) -> Result<(), String> {
-    let html = format!("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>DragTraffic</title><p>{why} The API is described at <a href=\"/docs\">/docs</a>.</p></html>\n");
-    let write = page.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(page, html));
+    let html = format!(
+        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>DragTraffic</title><p>{why} The API is described at <a href=\"/docs\">/docs</a>.</p></html>\n"
+    );
+    let write =
+        page.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(page, html));
     write.map_err(|error| error.to_string())
 }

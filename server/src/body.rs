@@ -204,7 +204,8 @@ mod tests {
     use std::io::Write;
     use std::time::Duration;
 
-    const BOUNDS: Bounds = Bounds { encoded: 1 << 20, decoded: 8 << 20, ratio: 100, time: Duration::from_secs(1) };
+    const BOUNDS: Bounds =
+        Bounds { encoded: 1 << 20, decoded: 8 << 20, ratio: 100, time: Duration::from_secs(1) };
 
     fn gzip(data: &[u8]) -> Vec<u8> {
         let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
@@ -221,7 +222,10 @@ mod tests {
         assert_eq!(code(&gzip(&vec![0; 4 << 20]), Encoding::Gzip), "expansion-too-high");
         assert_eq!(code(&gzip(b"{}"), Encoding::Gzip), "ok");
         assert_eq!(code(b"not gzip", Encoding::Gzip), "malformed-file");
-        assert_eq!(code(&zstd::encode_all(&vec![0; 4 << 20][..], 3).unwrap(), Encoding::Zstd), "expansion-too-high");
+        assert_eq!(
+            code(&zstd::encode_all(&vec![0; 4 << 20][..], 3).unwrap(), Encoding::Zstd),
+            "expansion-too-high"
+        );
         let big: Vec<u8> = (0..9u32 << 20).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
         assert_eq!(code(&zstd::encode_all(&big[..], 1).unwrap(), Encoding::Zstd), "decoded-too-large");
     }

@@ -183,8 +183,6 @@ pub struct Opened {
     pub scene: Arc<Scene>,
     /// With quotes.
     pub etag: String,
-    /// It cannot be changed.
-    pub readonly: bool,
 }
 
 /// Opens a scene by id.
@@ -198,7 +196,7 @@ pub async fn open(app: &App, id: &str) -> Result<Opened, Problem> {
     let (summary, json) = app.store.get(id).await?.ok_or_else(not_found)?;
     let doc = blocking(move || Ok(native::read_doc(&json)?)).await?;
     let scene = Arc::new(scene_of(app, doc).await?);
-    Ok(Opened { scene, etag: summary.etag, readonly: false })
+    Ok(Opened { scene, etag: summary.etag })
 }
 
 /// Nothing has this id.
@@ -253,4 +251,3 @@ pub fn with_map(json: &[u8], sha: &str, map: &[u8]) -> Vec<u8> {
     };
     [before, b"\"map\":", map, after].concat()
 }
-

@@ -47,7 +47,8 @@ impl Guard {
         if let Some(bad) = allow_origins.iter().find(|o| *o == "*" || *o == "null" || !o.contains("://")) {
             return Err(format!("\"{bad}\" is no origin; give one such as https://tools.example"));
         }
-        let own_origins = hosts.iter().flat_map(|h| [format!("http://{h}"), format!("https://{h}")]).collect();
+        let own_origins =
+            hosts.iter().flat_map(|h| [format!("http://{h}"), format!("https://{h}")]).collect();
         let foreign_origins = allow_origins.iter().map(|o| o.to_ascii_lowercase()).collect();
         Ok(Self { hosts, own_origins, foreign_origins, token })
     }
@@ -179,7 +180,9 @@ mod tests {
         for host in ["127.0.0.1:8080", "localhost:8080", "LocalHost:8080", "[::1]:8080"] {
             assert_eq!(verdict("GET", &[("host", host)]), None, "{host}");
         }
-        for host in ["evil.example:8080", "localhost", "127.0.0.1:9", "localhost.:8080", "127.0.0.1.nip.io:8080"] {
+        for host in
+            ["evil.example:8080", "localhost", "127.0.0.1:9", "localhost.:8080", "127.0.0.1.nip.io:8080"]
+        {
             assert_eq!(verdict("GET", &[("host", host)]), Some("host-not-allowed"), "{host}");
         }
         assert_eq!(verdict("GET", &[]), Some("bad-host"));
@@ -193,7 +196,8 @@ mod tests {
         for origin in ["http://localhost:8080", "http://127.0.0.1:8080", "https://tools.example"] {
             assert_eq!(verdict("POST", &[host, ("origin", origin)]), None, "{origin}");
         }
-        for origin in ["null", "*", "http://evil.example", "http://localhost:9", "https://tools.example.evil"] {
+        for origin in ["null", "*", "http://evil.example", "http://localhost:9", "https://tools.example.evil"]
+        {
             assert_eq!(verdict("POST", &[host, ("origin", origin)]), Some("bad-origin"), "{origin}");
         }
         assert_eq!(verdict("POST", &[host]), None);

@@ -92,7 +92,7 @@ impl Library {
             let mut scene = read(&entry.place)?;
             scene.id = Some(entry.item.id.clone());
             scene.name.clone_from(&entry.item.name);
-            Ok(Opened { scene: Arc::new(scene), etag: entry.item.etag, readonly: true })
+            Ok(Opened { scene: Arc::new(scene), etag: entry.item.etag })
         });
         let opened = scene.await?;
         self.change(|inside| {
@@ -168,7 +168,8 @@ impl Library {
         for path in files {
             match read_file(&path) {
                 Ok((bytes, scenes)) => {
-                    let modified = path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
+                    let modified =
+                        path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
                     for (index, scene) in scenes.iter().enumerate() {
                         let id = file_id(&path, scene, index);
                         self.add(id, scene, Place::File(path.clone(), index), &bytes, modified);
@@ -213,4 +214,3 @@ fn file_id(path: &Path, scene: &Scene, index: usize) -> String {
     let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
     format!("{source}-{own}").chars().map(clean).take(64).collect()
 }
-

@@ -25,8 +25,7 @@ pub fn request(route: &str, method: &Method, status: StatusCode, seconds: f64) {
         }
         _ => "OTHER".to_owned(),
     };
-    let labels =
-        [("route", route.to_owned()), ("method", method), ("status", status.as_str().to_owned())];
+    let labels = [("route", route.to_owned()), ("method", method), ("status", status.as_str().to_owned())];
     counter!("dragtraffic_http_requests_total", &labels).increment(1);
     histogram!("dragtraffic_http_request_seconds", "route" => route.to_owned()).record(seconds);
 }

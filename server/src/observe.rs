@@ -17,15 +17,10 @@ const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'sel
     font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
 
-/// Id of the request at hand, kept in its extensions.
-#[derive(Clone, Debug)]
-pub struct RequestId(pub String);
-
 /// Wraps every request.
-pub async fn observe(State(app): State<App>, mut request: Request, next: Next) -> Response {
+pub async fn observe(State(app): State<App>, request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(request.headers());
-    request.extensions_mut().insert(RequestId(id.clone()));
     let method = request.method().clone();
     let path = request.uri().path().to_owned();
     let route =
@@ -63,8 +58,8 @@ fn written(mut response: Response, method: &Method, path: &str, id: &str) -> Res
         None if status.is_client_error() || status.is_server_error() => bare(status),
         None => return response,
     };
-    if problem.code.status() >= 500 {
-        tracing::warn!(code = problem.code.name(), detail = problem.detail, request_id = id, "refused");
+    if problem.code.status() == 500 {
+        tracing::error!(code = problem.code.name(), detail = problem.detail, request_id = id, "refused");
     }
     let body = problem.body(Some(path), Some(id)).to_string();
     let headers = response.headers_mut();

@@ -10,8 +10,14 @@ use std::collections::BTreeMap;
 use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 
 /// Codes that any operation can answer with.
-const ANYWHERE: &[Code] =
-    &[Code::BadHost, Code::HostNotAllowed, Code::CrossSite, Code::UriTooLong, Code::HeadersTooLarge, Code::Internal];
+const ANYWHERE: &[Code] = &[
+    Code::BadHost,
+    Code::HostNotAllowed,
+    Code::CrossSite,
+    Code::UriTooLong,
+    Code::HeadersTooLarge,
+    Code::Internal,
+];
 /// Codes of operations that change something.
 const CHANGES: &[Code] = &[Code::BadOrigin];
 /// Codes of operations that take a body.
@@ -27,13 +33,8 @@ const BODIES: &[Code] = &[
     Code::OutOfRange,
 ];
 /// Codes of operations that take a scene.
-const SCENES: &[Code] = &[
-    Code::HalfPosition,
-    Code::UnknownMap,
-    Code::TooManyAgents,
-    Code::MapTooLarge,
-    Code::UnsupportedVersion,
-];
+const SCENES: &[Code] =
+    &[Code::HalfPosition, Code::UnknownMap, Code::TooManyAgents, Code::MapTooLarge, Code::UnsupportedVersion];
 
 /// Further codes of single operations.
 fn own_codes(operation: &str) -> &'static [Code] {
@@ -49,9 +50,13 @@ fn own_codes(operation: &str) -> &'static [Code] {
         }
         "deleteScene" => &[Code::NotFound, Code::StaleEtag, Code::PreconditionRequired, Code::ReadOnly],
         "duplicateScene" => &[Code::NotFound, Code::StoreFull],
-        "exportScene" => {
-            &[Code::NotFound, Code::FormatUnknown, Code::CannotRepresent, Code::InvalidField, Code::OutOfRange]
-        }
+        "exportScene" => &[
+            Code::NotFound,
+            Code::FormatUnknown,
+            Code::CannotRepresent,
+            Code::InvalidField,
+            Code::OutOfRange,
+        ],
         "exportUnsaved" => &[Code::FormatUnknown, Code::CannotRepresent],
         "importScenes" => &[Code::FormatUnknown, Code::LicenceRefused, Code::StoreFull],
         "readMap" => &[Code::NotFound],
@@ -80,7 +85,8 @@ fn own_codes(operation: &str) -> &'static [Code] {
 
 /// The document before its paths.
 pub fn head() -> OpenApi {
-    let licence = LicenseBuilder::new().name("MIT OR Apache-2.0").identifier(Some("MIT OR Apache-2.0")).build();
+    let licence =
+        LicenseBuilder::new().name("MIT OR Apache-2.0").identifier(Some("MIT OR Apache-2.0")).build();
     let info = InfoBuilder::new()
         .title("DragTraffic")
         .version(env!("CARGO_PKG_VERSION"))
@@ -126,7 +132,11 @@ fn complete(method: &str, operation: &mut Value) {
     if body != "null" {
         codes.extend(BODIES);
     }
-    if body.contains("schemas/Scene\"") || body.contains("GenerateRequest") || body.contains("ScoreRequest") || id == "importScenes" {
+    if body.contains("schemas/Scene\"")
+        || body.contains("GenerateRequest")
+        || body.contains("ScoreRequest")
+        || id == "importScenes"
+    {
         codes.extend(SCENES);
     }
     codes.extend(own_codes(&id));

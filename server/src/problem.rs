@@ -203,7 +203,21 @@ impl From<ReadError> for Problem {
             Kind::MalformedFile { .. } => Code::MalformedFile,
             _ => Code::from_name(error.code()).unwrap_or(Code::InvalidField),
         };
-        let detail = error.to_string();
+        let first = error.problems.first();
+        let mut detail = first.map_or_else(String::new, |p| match p.pointer.as_str() {
+            "" => p.detail.clone(),
+            pointer => format!("{pointer}: {}", p.detail),
+        });
+        match error.kind {
+            Kind::MalformedJson { line, column } => {
+                detail = format!("line {line}, column {column}: {detail}")
+            }
+            Kind::MalformedFile { offset } => detail = format!("byte {offset}: {detail}"),
+            _ => {}
+        }
+        if error.problems.len() > 1 {
+            detail.push_str(&format!(" (and {} more)", error.problems.len() - 1));
+        }
         match error.kind {
             Kind::MalformedJson { line, column } => {
                 Self::new(code, detail).with("line", line).with("column", column)

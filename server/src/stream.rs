@@ -37,8 +37,10 @@ impl Form {
         if given.is_empty() {
             return Ok(Self::Json);
         }
-        let quality = |form: &(Form, &str)| given.iter().map(|list| quality(list, form.1)).fold(0.0, f64::max);
-        let best = FORMS.iter().map(|form| (form.0, quality(form))).reduce(|a, b| if b.1 > a.1 { b } else { a });
+        let quality =
+            |form: &(Form, &str)| given.iter().map(|list| quality(list, form.1)).fold(0.0, f64::max);
+        let best =
+            FORMS.iter().map(|form| (form.0, quality(form))).reduce(|a, b| if b.1 > a.1 { b } else { a });
         match best {
             Some((form, quality)) if quality > 0.0 => Ok(form),
             _ => {
@@ -83,7 +85,8 @@ async fn last(handle: Handle) -> Response {
     while let Some(message) = handle.next().await {
         match message.end {
             Some(End::Final) => {
-                return ([(header::CONTENT_TYPE, "application/json")], Body::from(message.json)).into_response();
+                return ([(header::CONTENT_TYPE, "application/json")], Body::from(message.json))
+                    .into_response();
             }
             Some(End::Superseded(by)) => {
                 let detail = format!("Revision {by} of the same client took over.");
@@ -153,7 +156,9 @@ impl Source {
     fn written(&self, message: &Message) -> Bytes {
         let mut bytes = Vec::with_capacity(message.json.len() + 64);
         if self.form == Form::Sse {
-            bytes.extend_from_slice(format!("event: {}\nid: {}\ndata: ", message.event, message.seq).as_bytes());
+            bytes.extend_from_slice(
+                format!("event: {}\nid: {}\ndata: ", message.event, message.seq).as_bytes(),
+            );
         }
         bytes.extend_from_slice(&message.json);
         bytes.extend_from_slice(if self.form == Form::Sse { b"\n\n" } else { b"\n" });

@@ -69,7 +69,13 @@ fn known(name: &str) -> &str {
 ///
 /// # Errors
 /// `format-unknown`, or why not one scene of the file can be read.
-pub fn read(bytes: &[u8], format: Option<&str>, name: &str, skip: usize, most: usize) -> Result<Read, Problem> {
+pub fn read(
+    bytes: &[u8],
+    format: Option<&str>,
+    name: &str,
+    skip: usize,
+    most: usize,
+) -> Result<Read, Problem> {
     let id = match format {
         Some(format) => known(format),
         None => registry::sniff(bytes, name).map_or("auto", |format| format.info().id),

@@ -7,7 +7,7 @@ use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 use tempfile::TempDir;
 
 /// The repository's root.
@@ -15,13 +15,37 @@ pub fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// The program: `DRAGTRAFFIC_BIN`, else built now by cargo, which does nothing when it is current.
+/// The program: `DRAGTRAFFIC_BIN`, else the one beside these tests when it is newer than its sources
+/// (`cargo test --workspace` has just built it), else built now.
 pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| match std::env::var_os("DRAGTRAFFIC_BIN") {
-        Some(path) => path.into(),
-        None => build().unwrap_or_else(|error| panic!("the program could not be built: {error:#}")),
+    PROGRAM.get_or_init(|| {
+        let given = std::env::var_os("DRAGTRAFFIC_BIN").map(PathBuf::from);
+        given
+            .or_else(current)
+            .map_or_else(build, Ok)
+            .unwrap_or_else(|error| panic!("the program could not be built: {error:#}"))
     })
+}
+
+/// The program beside the tests, when nothing it is made from has changed since.
+fn current() -> Option<PathBuf> {
+    let tests = std::env::current_exe().ok()?;
+    let program = tests.parent()?.parent()?.join("dragtraffic");
+    let built = program.metadata().and_then(|m| m.modified()).ok()?;
+    let sources =
+        ["Cargo.lock", "server", "models", "assets/scenes", "assets/weights", "web/src", "web/index.html"];
+    let changed = sources.iter().filter_map(|source| newest(&root().join(source))).max()?;
+    (changed < built).then_some(program)
+}
+
+/// Latest change of a file, or of any file below a folder.
+fn newest(path: &Path) -> Option<SystemTime> {
+    if !path.is_dir() {
+        return path.metadata().and_then(|m| m.modified()).ok();
+    }
+    let entries = std::fs::read_dir(path).ok()?.flatten();
+    entries.filter_map(|entry| newest(&entry.path())).max()
 }
 
 fn build() -> anyhow::Result<PathBuf> {

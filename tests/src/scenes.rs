@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 /// `steps` steps.
 pub fn street(agents: usize, steps: usize) -> Value {
     let points = |y: f64| -> Vec<[f64; 2]> { (-20..=40).map(|i| [f64::from(i) * 5.0, y]).collect() };
-    let lane = |id: &str, y: f64| json!({"id": id, "type": "surface_street", "points_m": points(y), "width_m": 3.5});
+    let lane =
+        |id: &str, y: f64| json!({"id": id, "type": "surface_street", "points_m": points(y), "width_m": 3.5});
     let cars: Vec<Value> = (0..agents).map(|i| car(i, steps)).collect();
     json!({
         "format": "dragtraffic.scene", "version": 1, "name": "street",

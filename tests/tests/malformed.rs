@@ -62,7 +62,7 @@ fn json_cases() -> Vec<Case> {
         case("1e400", with_raw("/conditions/0/goal/x_m", "1e400"), 400, "malformed-json"),
         case("nested 200 deep", post("/v1/generate").body(deep.clone()), 422, "invalid-field"),
         case("x_ member nested 200 deep", with_raw("/scene/x_deep", &deep), 400, "malformed-json"),
-        case("trailing text", post("/v1/score").body("{} {}"), 422, "invalid-field"),
+        case("trailing text", post("/v1/score").body("{} {}"), 400, "malformed-json"),
         case("\"NaN\" in quotes", with("/conditions/0/goal/x_m", json!("NaN")), 422, "invalid-field"),
         case("fraction for an integer", with("/samples", json!(1.5)), 422, "invalid-field"),
         case("negative for an integer", with("/seed", json!(-1)), 422, "invalid-field"),
@@ -86,11 +86,21 @@ fn json_cases() -> Vec<Case> {
 fn condition_cases() -> Vec<Case> {
     vec![
         case("1e29 metres", with("/conditions/0/goal/x_m", json!(1e29)), 422, "out-of-range"),
-        case("speed just outside", with("/conditions/0/goal/speed_mps", json!(60.000001)), 422, "out-of-range"),
+        case(
+            "speed just outside",
+            with("/conditions/0/goal/speed_mps", json!(60.000001)),
+            422,
+            "out-of-range",
+        ),
         case("negative speed", with("/conditions/0/goal/speed_mps", json!(-0.1)), 422, "out-of-range"),
         case("vehicle of 25.1 m", with("/conditions/0/length_m", json!(25.1)), 422, "out-of-range"),
         case("goal 1501 m away", with("/conditions/0/goal/x_m", json!(1_500.0)), 422, "out-of-range"),
-        case("goal time before the start", with("/conditions/0/goal/time_s", json!(0.2)), 422, "out-of-range"),
+        case(
+            "goal time before the start",
+            with("/conditions/0/goal/time_s", json!(0.2)),
+            422,
+            "out-of-range",
+        ),
         case("goal time after the end", with("/conditions/0/goal/time_s", json!(9.2)), 422, "out-of-range"),
         case("half a position", with("/conditions/0/goal", json!({"x_m": 1})), 422, "half-position"),
         case(
@@ -150,9 +160,19 @@ fn scene_cases() -> Vec<Case> {
         case("map by unknown hash", scene("/map", json!({"ref": hash})), 422, "unknown-map"),
         case("map by no hash", scene("/map", json!({"ref": "sha256:zz"})), 422, "invalid-field"),
         case("lane of one point", scene("/map/lanes/0/points_m", json!([[0, 0]])), 422, "invalid-field"),
-        case("point of four numbers", scene("/map/lanes/0/points_m/0", json!([0, 0, 0, 0])), 422, "invalid-field"),
+        case(
+            "point of four numbers",
+            scene("/map/lanes/0/points_m/0", json!([0, 0, 0, 0])),
+            422,
+            "invalid-field",
+        ),
         case("point at 20 km", scene("/map/lanes/0/points_m/0", json!([20_000, 0])), 422, "out-of-range"),
-        case("track longer than the scene", scene("/agents/0/track/first_step", json!(5)), 422, "invalid-field"),
+        case(
+            "track longer than the scene",
+            scene("/agents/0/track/first_step", json!(5)),
+            422,
+            "invalid-field",
+        ),
         case("columns of unequal length", scene("/agents/0/track/y_m", json!([0])), 422, "invalid-field"),
         case("two road users of one id", scene("/agents/1/id", json!("0")), 422, "invalid-field"),
         case("id with a slash", scene("/agents/0/id", json!("a/b")), 422, "invalid-field"),
@@ -172,12 +192,23 @@ fn http_cases() -> Vec<Case> {
     let one = street(1, 5).to_string();
     let put = |path: &str| Request::new("PUT", path).header("content-type", "application/json");
     let skippable = [0x50, 0x2a, 0x4d, 0x18, 4, 0, 0, 0, 1, 2, 3, 4];
-    let encoded = |coding: &str, body: Vec<u8>| post("/v1/scenes").header("content-encoding", coding).body(body);
+    let encoded =
+        |coding: &str, body: Vec<u8>| post("/v1/scenes").header("content-encoding", coding).body(body);
     vec![
         case("foreign Host", get("/healthz").header("host", "evil.example"), 421, "host-not-allowed"),
-        case("Host with another port", get("/v1/scenes").header("host", "localhost:1"), 421, "host-not-allowed"),
+        case(
+            "Host with another port",
+            get("/v1/scenes").header("host", "localhost:1"),
+            421,
+            "host-not-allowed",
+        ),
         case("no Host", get("/healthz").without_host(), 400, "bad-host"),
-        case("foreign Origin", post("/v1/scenes").header("origin", "http://evil.example").body(one.clone()), 403, "bad-origin"),
+        case(
+            "foreign Origin",
+            post("/v1/scenes").header("origin", "http://evil.example").body(one.clone()),
+            403,
+            "bad-origin",
+        ),
         case("Origin null", post("/v1/scenes").header("origin", "null").body(one.clone()), 403, "bad-origin"),
         case("cross-site read", get("/v1/scenes").header("sec-fetch-site", "cross-site"), 403, "cross-site"),
         case("unknown address", get("/v1/nothing"), 404, "not-found"),
@@ -191,38 +222,108 @@ fn http_cases() -> Vec<Case> {
         case("map by a name", get("/v1/maps/../../etc/passwd"), 404, "not-found"),
         case("wrong method", Request::new("PUT", "/v1/scenes"), 405, "method-not-allowed"),
         case("wrong method on a page", Request::new("POST", "/"), 405, "method-not-allowed"),
-        case("Accept: image/png", post("/v1/generate").header("accept", "image/png").body("{}"), 406, "not-acceptable"),
-        case("body of a form", Request::new("POST", "/v1/scenes").header("content-type", "text/plain").body("{}"), 415, "unsupported-media-type"),
+        case(
+            "Accept: image/png",
+            post("/v1/generate").header("accept", "image/png").body("{}"),
+            406,
+            "not-acceptable",
+        ),
+        case(
+            "body of a form",
+            Request::new("POST", "/v1/scenes").header("content-type", "text/plain").body("{}"),
+            415,
+            "unsupported-media-type",
+        ),
         case("no Content-Type", Request::new("POST", "/v1/scenes").body("{}"), 415, "unsupported-media-type"),
         case("unknown Content-Encoding", encoded("br", b"x".to_vec()), 415, "unsupported-media-type"),
         case("two Content-Encodings", encoded("gzip, gzip", b"x".to_vec()), 415, "unsupported-media-type"),
         case("gzip bomb", encoded("gzip", gzip(&vec![b' '; 32 << 20])), 413, "expansion-too-high"),
-        case("zstd bomb", encoded("zstd", zstd::encode_all(&vec![b' '; 32 << 20][..], 3).unwrap()), 413, "expansion-too-high"),
+        case(
+            "zstd bomb",
+            encoded("zstd", zstd::encode_all(&vec![b' '; 32 << 20][..], 3).unwrap()),
+            413,
+            "expansion-too-high",
+        ),
         case("broken gzip", encoded("gzip", b"not gzip at all".to_vec()), 400, "malformed-file"),
-        case("zstd frame that decodes to nothing", encoded("zstd", skippable.to_vec()), 400, "malformed-json"),
+        case(
+            "zstd frame that decodes to nothing",
+            encoded("zstd", skippable.to_vec()),
+            400,
+            "malformed-json",
+        ),
         case("body above the limit", post("/v1/scenes").body(vec![b' '; 2 << 20]), 413, "body-too-large"),
-        case("Content-Length above the limit", post("/v1/scenes").length("99999999999"), 413, "body-too-large"),
+        case(
+            "Content-Length above the limit",
+            post("/v1/scenes").length("99999999999"),
+            413,
+            "body-too-large",
+        ),
         case("Content-Length that lies", post("/v1/scenes").length("5000").body("{}"), 408, "body-timeout"),
         case("address of 9 kB", get(&format!("/v1/scenes?q={}", "a".repeat(9_000))), 414, "uri-too-long"),
-        case("header of 20 kB", get("/v1/scenes").header("x-a", &"a".repeat(20_000)), 431, "headers-too-large"),
-        case("70 headers", (0..70).fold(get("/v1/scenes"), |r, i| r.header(&format!("x-{i}"), "1")), 431, "headers-too-large"),
+        case(
+            "header of 20 kB",
+            get("/v1/scenes").header("x-a", &"a".repeat(20_000)),
+            431,
+            "headers-too-large",
+        ),
+        case(
+            "70 headers",
+            (0..70).fold(get("/v1/scenes"), |r, i| r.header(&format!("x-{i}"), "1")),
+            431,
+            "headers-too-large",
+        ),
         case("limit of 0", get("/v1/scenes?limit=0"), 422, "out-of-range"),
         case("limit in words", get("/v1/scenes?limit=ten"), 422, "invalid-field"),
         case("unknown parameter", get("/v1/scenes?colour=red"), 422, "invalid-field"),
         case("unknown cursor", get("/v1/scenes?after=zzz"), 422, "invalid-field"),
-        case("PUT without precondition", put("/v1/scenes/kept").body(one.clone()), 428, "precondition-required"),
-        case("PUT over an existing id", put("/v1/scenes/kept").header("if-none-match", "*").body(one.clone()), 412, "stale-etag"),
-        case("PUT with a stale ETag", put("/v1/scenes/kept").header("if-match", "\"1-aa\"").body(one.clone()), 412, "stale-etag"),
-        case("PUT of nothing with If-Match", put("/v1/scenes/gone").header("if-match", "*").body(one), 404, "not-found"),
-        case("DELETE without precondition", Request::new("DELETE", "/v1/scenes/kept"), 428, "precondition-required"),
-        case("PATCH of agents", Request::new("PATCH", "/v1/scenes/kept").header("if-match", "*").header("content-type", "application/merge-patch+json").body("{\"agents\":[]}"), 422, "invalid-field"),
+        case(
+            "PUT without precondition",
+            put("/v1/scenes/kept").body(one.clone()),
+            428,
+            "precondition-required",
+        ),
+        case(
+            "PUT over an existing id",
+            put("/v1/scenes/kept").header("if-none-match", "*").body(one.clone()),
+            412,
+            "stale-etag",
+        ),
+        case(
+            "PUT with a stale ETag",
+            put("/v1/scenes/kept").header("if-match", "\"1-aa\"").body(one.clone()),
+            412,
+            "stale-etag",
+        ),
+        case(
+            "PUT of nothing with If-Match",
+            put("/v1/scenes/gone").header("if-match", "*").body(one),
+            404,
+            "not-found",
+        ),
+        case(
+            "DELETE without precondition",
+            Request::new("DELETE", "/v1/scenes/kept"),
+            428,
+            "precondition-required",
+        ),
+        case(
+            "PATCH of agents",
+            Request::new("PATCH", "/v1/scenes/kept")
+                .header("if-match", "*")
+                .header("content-type", "application/merge-patch+json")
+                .body("{\"agents\":[]}"),
+            422,
+            "invalid-field",
+        ),
         case("export to an unknown format", get("/v1/scenes/kept/export?format=doc"), 422, "format-unknown"),
         case("export of sample 3", get("/v1/scenes/kept/export?sample=3"), 422, "out-of-range"),
     ]
 }
 
 fn import_cases() -> Vec<Case> {
-    let upload = |body: Vec<u8>| Request::new("POST", "/v1/import").header("content-type", "application/octet-stream").body(body);
+    let upload = |body: Vec<u8>| {
+        Request::new("POST", "/v1/import").header("content-type", "application/octet-stream").body(body)
+    };
     // A TFRecord's head: length, its checksum, then data that is not there or does not fit.
     let mut truncated = 1_000u64.to_le_bytes().to_vec();
     truncated.extend([1, 2, 3, 4, 5]);
@@ -239,9 +340,28 @@ fn import_cases() -> Vec<Case> {
         case("import as an unknown format", named(vec![1], "pickle"), 422, "format-unknown"),
         case("import of half a TFRecord", named(truncated, "womd"), 400, "malformed-file"),
         case("TFRecord that promises exabytes", named(huge, "womd"), 400, "malformed-file"),
-        case("TFRecord of gzip garbage", named([&[0x1f, 0x8b, 8, 0][..], &[0xaa; 60]].concat(), "womd"), 400, "malformed-file"),
-        case("import as a form", Request::new("POST", "/v1/import").header("content-type", "application/x-www-form-urlencoded").body("a=b"), 415, "unsupported-media-type"),
-        case("index backwards", Request::new("POST", "/v1/import?index=5..2").header("content-type", "application/octet-stream").body("x"), 422, "invalid-field"),
+        case(
+            "TFRecord of gzip garbage",
+            named([&[0x1f, 0x8b, 8, 0][..], &[0xaa; 60]].concat(), "womd"),
+            400,
+            "malformed-file",
+        ),
+        case(
+            "import as a form",
+            Request::new("POST", "/v1/import")
+                .header("content-type", "application/x-www-form-urlencoded")
+                .body("a=b"),
+            415,
+            "unsupported-media-type",
+        ),
+        case(
+            "index backwards",
+            Request::new("POST", "/v1/import?index=5..2")
+                .header("content-type", "application/octet-stream")
+                .body("x"),
+            422,
+            "invalid-field",
+        ),
     ]
 }
 
@@ -252,8 +372,13 @@ fn check(server: &Server, case: &Case) -> Result<Reply, String> {
     }
     let body = reply.json();
     let complete = ["type", "title", "detail", "instance", "request_id"].iter().all(|m| body[*m].is_string());
-    let leaks = ["/root", "/home", ".rs:", "SELECT", "panicked"].iter().any(|word| reply.text().contains(word));
-    if !complete || leaks || body["status"] != case.status || reply.header("x-request-id") != body["request_id"] {
+    let leaks =
+        ["/root", "/home", ".rs:", "SELECT", "panicked"].iter().any(|word| reply.text().contains(word));
+    if !complete
+        || leaks
+        || body["status"] != case.status
+        || reply.header("x-request-id") != body["request_id"]
+    {
         return Err(format!("not a clean problem: {body}"));
     }
     if case.status == 405 && reply.header("allow").is_empty() {

@@ -97,7 +97,9 @@ fn lists_come_in_pages() {
     let mut after = String::new();
     loop {
         let page = server.get(&format!("/v1/scenes?q=mine&sort=name&limit=3{after}")).unwrap().json();
-        names.extend(page["scenes"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap().to_owned()));
+        names.extend(
+            page["scenes"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap().to_owned()),
+        );
         match page["next"].as_str() {
             Some(next) => after = format!("&after={next}"),
             None => break,
@@ -124,7 +126,8 @@ fn what_was_acknowledged_survives_a_kill() {
                 let id = format!("r{round}-{}", i / 4);
                 let mut scene = street(2, 30);
                 scene["name"] = json!(format!("version {i}"));
-                let precondition = if i % 4 == 0 { ("if-none-match", "*") } else { ("if-match", etag.as_str()) };
+                let precondition =
+                    if i % 4 == 0 { ("if-none-match", "*") } else { ("if-match", etag.as_str()) };
                 let Ok(reply) = put(&id, precondition, &scene).send(address) else { return };
                 if !(200..300).contains(&reply.status) {
                     return;
@@ -177,7 +180,10 @@ fn trouble_at_the_start_has_its_exit_code() {
     assert_eq!(run(&["serve", "--db", db, "--port", &port]).status.code(), Some(6), "port taken");
     assert_eq!(run(&["serve", "--db", db, "--bind", "0.0.0.0", "--port", "0"]).status.code(), Some(2));
     assert_eq!(run(&["serve", "--db", db, "--limit", "nonsense=1"]).status.code(), Some(2));
-    assert_eq!(run(&["serve", "--db", db, "--port", "0", "--weights", "/nonexistent"]).status.code(), Some(7));
+    assert_eq!(
+        run(&["serve", "--db", db, "--port", "0", "--weights", "/nonexistent"]).status.code(),
+        Some(7)
+    );
     assert_eq!(run(&["serve", "--db", "/nonexistent/x.sqlite", "--port", "0"]).status.code(), Some(1));
     std::fs::write(folder.path().join("broken.sqlite"), "this is no database, not at all").unwrap();
     let broken = folder.path().join("broken.sqlite");

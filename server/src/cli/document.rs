@@ -44,7 +44,8 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
     if output::read(path)? == text.as_bytes() {
         return Ok(());
     }
-    let message = format!("{path} is out of date; run: dragtraffic {command} > {path}", path = path.display());
+    let message =
+        format!("{path} is out of date; run: dragtraffic {command} > {path}", path = path.display());
     Err(Failure::new(Exit::Failure, message))
 }
 

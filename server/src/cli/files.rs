@@ -100,8 +100,7 @@ pub fn read_scenes(path: &Path, from: Option<&str>, index: Option<&str>) -> Resu
     let wanted = index.map(range).transpose().map_err(|p| Failure::new(Exit::Usage, p.detail))?;
     let (skip, most) = wanted.map_or((0, usize::MAX), |range| (range.start, range.len()));
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let read =
-        transfer::read(&bytes, from, &name, skip, most).map_err(|problem| refused(path, &problem))?;
+    let read = transfer::read(&bytes, from, &name, skip, most).map_err(|problem| refused(path, &problem))?;
     for (index, problem) in &read.skipped {
         output::complain(&format!("{}: scene {index} left out: {}", path.display(), problem.detail));
     }
@@ -155,7 +154,8 @@ fn file_name(scene: &Scene, index: usize, to: &str) -> String {
     let info = formats::registry::by_id(to).map(|format| format.info());
     let extension = info.and_then(|info| info.extensions.first().copied()).unwrap_or("json");
     let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
-    let stem: String = scene.meta.source_id.as_deref().unwrap_or(&scene.name).chars().map(clean).take(60).collect();
+    let stem: String =
+        scene.meta.source_id.as_deref().unwrap_or(&scene.name).chars().map(clean).take(60).collect();
     if stem.is_empty() { format!("scene-{index:06}.{extension}") } else { format!("{stem}.{extension}") }
 }
 
@@ -183,7 +183,10 @@ fn write(
         output::complain(&format!("not in {format}: {}: {}", loss.code, loss.detail));
     }
     if strict && !written.losses.is_empty() {
-        return Err(Failure::new(Exit::Lossy, "nothing written: --strict was given and something would be lost"));
+        return Err(Failure::new(
+            Exit::Lossy,
+            "nothing written: --strict was given and something would be lost",
+        ));
     }
     output::write(target, &written.bytes, force)
 }
@@ -220,7 +223,10 @@ pub fn score(args: ScoreArgs) -> Result<(), Failure> {
     match (done, failed) {
         (_, 0) => Ok(()),
         (0, _) => Err(Failure::new(Exit::Input, "no scene could be read")),
-        _ => Err(Failure::new(Exit::Partly, format!("{failed} of {} files could not be read", args.scenes.len()))),
+        _ => Err(Failure::new(
+            Exit::Partly,
+            format!("{failed} of {} files could not be read", args.scenes.len()),
+        )),
     }
 }
 

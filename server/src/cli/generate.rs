@@ -146,11 +146,10 @@ fn goal(text: &str) -> Result<Value, Failure> {
         return Err(Failure::new(Exit::Usage, format!("--goal {text}: at most {} numbers", names.len())));
     }
     for (name, field) in names.into_iter().zip(fields).filter(|(_, field)| !field.is_empty()) {
-        let number: f64 = field
-            .parse()
-            .ok()
-            .filter(|n: &f64| n.is_finite())
-            .ok_or_else(|| Failure::new(Exit::Usage, format!("--goal {text}: \"{field}\" is no number")))?;
+        let number: f64 =
+            field.parse().ok().filter(|n: &f64| n.is_finite()).ok_or_else(|| {
+                Failure::new(Exit::Usage, format!("--goal {text}: \"{field}\" is no number"))
+            })?;
         goal.insert(name.into(), json!(number));
     }
     Ok(Value::Object(goal))

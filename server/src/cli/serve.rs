@@ -157,7 +157,8 @@ async fn listen(args: &ServeArgs, has_token: bool) -> Result<TcpListener, Failur
 }
 
 fn read_token(path: &Path) -> Result<String, Failure> {
-    let wrong = |reason: &str| Failure::new(Exit::Usage, format!("--token-file {}: {reason}", path.display()));
+    let wrong =
+        |reason: &str| Failure::new(Exit::Usage, format!("--token-file {}: {reason}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
     #[cfg(unix)]
     {

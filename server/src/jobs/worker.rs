@@ -106,8 +106,7 @@ fn final_body(head: &events::GeneratedHead, answer: &Answer, queued: Duration) -
 
 fn add_scores(body: &mut FinalBody, scene: &Scene, answer: &Answer) {
     let began = Instant::now();
-    let scores: Vec<_> =
-        answer.samples.iter().map(|sample| crate::scoring::sample(scene, sample)).collect();
+    let scores: Vec<_> = answer.samples.iter().map(|sample| crate::scoring::sample(scene, sample)).collect();
     body.timing.score_ms = round(began.elapsed().as_secs_f64() * 1e3);
     body.scores = Some(scores);
 }

@@ -93,7 +93,13 @@ fn one_operation(html: &mut String, path: &str, method: &str, operation: &Value)
         let _ = write!(html, "<h3>Parameters</h3><ul>");
         for parameter in parameters {
             let word = |key: &str| escape(parameter[key].as_str().unwrap_or_default());
-            let _ = write!(html, "<li><code>{}</code> ({}) {}</li>", word("name"), word("in"), word("description"));
+            let _ = write!(
+                html,
+                "<li><code>{}</code> ({}) {}</li>",
+                word("name"),
+                word("in"),
+                word("description")
+            );
         }
         let _ = write!(html, "</ul>");
     }

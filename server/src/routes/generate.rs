@@ -218,7 +218,12 @@ impl GenerateRequest {
     ///
     /// # Errors
     /// Every fault of the options, conditions and ids.
-    pub fn task(&self, scene: Scene, limits: &Limits, generator: &experts::Generator) -> Result<Task, Problem> {
+    pub fn task(
+        &self,
+        scene: Scene,
+        limits: &Limits,
+        generator: &experts::Generator,
+    ) -> Result<Task, Problem> {
         self.check_ranges()?;
         let scene = Arc::new(self.apply(scene)?);
         let request = self.request(&scene, limits.regenerated_agents, limits.reply_points)?;
@@ -236,7 +241,11 @@ impl GenerateRequest {
     fn caller(&self) -> Result<Caller, Problem> {
         for (pointer, id) in [("/job", &self.job), ("/client", &self.client)] {
             if id.as_ref().is_some_and(|id| !is_id(id)) {
-                return Err(Problem::field(pointer, Code::InvalidField, "1 to 64 of A-Z a-z 0-9 _ and - expected"));
+                return Err(Problem::field(
+                    pointer,
+                    Code::InvalidField,
+                    "1 to 64 of A-Z a-z 0-9 _ and - expected",
+                ));
             }
         }
         let client = match (&self.client, self.revision) {
@@ -311,7 +320,8 @@ impl GenerateRequest {
             return Ok(scene);
         }
         let check = scene.checked();
-        check.map_err(|faults| ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect()).into())
+        check
+            .map_err(|faults| ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect()).into())
     }
 
     fn start_step(&self) -> usize {
@@ -319,7 +329,12 @@ impl GenerateRequest {
     }
 
     /// The generator's request.
-    fn request(&self, scene: &Arc<Scene>, most_agents: u64, most_points: u64) -> Result<experts::Request, Problem> {
+    fn request(
+        &self,
+        scene: &Arc<Scene>,
+        most_agents: u64,
+        most_points: u64,
+    ) -> Result<experts::Request, Problem> {
         let agents = match &self.agents {
             Who::All(_) => None,
             Who::Ids(ids) => Some(self.known(scene, "/agents", ids)?),

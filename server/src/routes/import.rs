@@ -65,7 +65,8 @@ pub async fn import(
     let read = body::blocking(move || transfer::read(&bytes, format.as_deref(), &name, skip, count)).await;
     let read = read.inspect_err(|_| metrics::transfer(false, known(&asked), "error"))?;
     if read.scenes.len() > most {
-        let detail = format!("The file has more than {most} scenes; take some with index, or use the command line.");
+        let detail =
+            format!("The file has more than {most} scenes; take some with index, or use the command line.");
         return Err(Problem::field("/query/index", Code::OutOfRange, detail).with("limit", most));
     }
     let mut scenes = Vec::new();
@@ -88,7 +89,9 @@ pub async fn import(
 fn created(scenes: &[Value], reply: axum::Json<Value>) -> Response {
     let first = scenes.first().and_then(|s| s.get("id")).and_then(Value::as_str);
     match first {
-        Some(id) => (StatusCode::CREATED, [(header::LOCATION, format!("/v1/scenes/{id}"))], reply).into_response(),
+        Some(id) => {
+            (StatusCode::CREATED, [(header::LOCATION, format!("/v1/scenes/{id}"))], reply).into_response()
+        }
         None => (StatusCode::CREATED, reply).into_response(),
     }
 }
@@ -96,7 +99,8 @@ fn created(scenes: &[Value], reply: axum::Json<Value>) -> Response {
 async fn keep(app: &App, imported: transfer::Imported, dry_run: bool) -> Result<Value, Problem> {
     let transfer::Imported { scene, warnings } = imported;
     let facts = Facts::of(&scene);
-    let mut object = json!({"name": scene.name, "warnings": warnings, "counts": facts.counts, "steps": facts.steps});
+    let mut object =
+        json!({"name": scene.name, "warnings": warnings, "counts": facts.counts, "steps": facts.steps});
     if dry_run {
         let doc = body::blocking(move || Ok(json!(SceneDoc::from_scene(&scene, MapForm::Inline)))).await?;
         object["scene"] = doc;

@@ -54,8 +54,7 @@ pub fn pages() -> Router<App> {
 
 /// Ids of scenes and jobs: `[A-Za-z0-9_-]{1,64}`.
 pub fn is_id(text: &str) -> bool {
-    (1..=64).contains(&text.len())
-        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
+    (1..=64).contains(&text.len()) && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
 }
 
 /// An id in the path. One that no scene can have is simply not found.
@@ -80,9 +79,9 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Params<T> {
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
         let query = Query::<T>::from_request_parts(parts, state).await;
-        query.map(|Query(params)| Self(params)).map_err(|error| {
-            Problem::field("/query", Code::InvalidField, error.body_text())
-        })
+        query
+            .map(|Query(params)| Self(params))
+            .map_err(|error| Problem::field("/query", Code::InvalidField, error.body_text()))
     }
 }
 

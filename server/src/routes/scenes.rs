@@ -87,7 +87,11 @@ fn order(sort: &str) -> Result<Order, Problem> {
         "updated" => Ok(|a, b| a.updated_at.cmp(&b.updated_at)),
         "name" => Ok(|a, b| a.name.cmp(&b.name)),
         "-name" => Ok(|a, b| b.name.cmp(&a.name)),
-        _ => Err(Problem::field("/query/sort", Code::InvalidField, "updated, -updated, name or -name expected")),
+        _ => Err(Problem::field(
+            "/query/sort",
+            Code::InvalidField,
+            "updated, -updated, name or -name expected",
+        )),
     }
 }
 
@@ -244,7 +248,9 @@ pub struct ScenePatch {
 }
 
 /// Tells null from absence.
-fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Option<Option<T>>, D::Error> {
+fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(
+    d: D,
+) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(d).map(Some)
 }
 

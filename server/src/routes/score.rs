@@ -154,7 +154,13 @@ fn states(
         let detail = "columns of equal length with at least one value expected";
         faults.push(FieldProblem::new(at.clone(), "invalid-field", detail));
     }
-    let bounds = [(&doc.x_m, 1e5), (&doc.y_m, 1e5), (&doc.heading_rad, 1e3), (&doc.vx_mps, 150.0), (&doc.vy_mps, 150.0)];
+    let bounds = [
+        (&doc.x_m, 1e5),
+        (&doc.y_m, 1e5),
+        (&doc.heading_rad, 1e3),
+        (&doc.vx_mps, 150.0),
+        (&doc.vy_mps, 150.0),
+    ];
     for (column, most) in bounds {
         if let Some(bad) = column.iter().find(|v| !(v.abs() <= most)) {
             faults.push(FieldProblem::range(at.clone(), -most, most, *bad));
@@ -164,12 +170,8 @@ fn states(
         return None;
     }
     let rows = doc.x_m.iter().zip(&doc.y_m).zip(&doc.heading_rad).zip(&doc.vx_mps).zip(&doc.vy_mps);
-    let state = |((((x_m, y_m), heading_rad), vx_mps), vy_mps): ((((&f64, &f64), &f64), &f64), &f64)| AgentState {
-        x_m: *x_m,
-        y_m: *y_m,
-        heading_rad: *heading_rad,
-        vx_mps: *vx_mps,
-        vy_mps: *vy_mps,
+    let state = |((((x_m, y_m), heading_rad), vx_mps), vy_mps): ((((&f64, &f64), &f64), &f64), &f64)| {
+        AgentState { x_m: *x_m, y_m: *y_m, heading_rad: *heading_rad, vx_mps: *vx_mps, vy_mps: *vy_mps }
     };
     Some(rows.map(state).collect())
 }

@@ -139,7 +139,8 @@ impl Store {
                 return;
             }
             let result = (|| {
-                let transaction = connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
+                let transaction =
+                    connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
                 let value = task(&transaction)?;
                 transaction.commit()?;
                 Ok(value)

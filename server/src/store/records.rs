@@ -82,8 +82,7 @@ pub enum Expect {
     Etags(Vec<String>),
 }
 
-const SUMMARY: &str =
-    "id, name, etag, tags, parent_id, map_sha, meta, length(body), created_at, updated_at";
+const SUMMARY: &str = "id, name, etag, tags, parent_id, map_sha, meta, length(body), created_at, updated_at";
 
 fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
     Ok(SceneSummary {
@@ -117,7 +116,8 @@ impl Store {
         self.read(move |connection| {
             let sql = format!("SELECT {SUMMARY}, body FROM scenes WHERE id = ?1");
             let mut query = connection.prepare_cached(&sql)?;
-            let row = query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(10)?))).optional()?;
+            let row =
+                query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(10)?))).optional()?;
             let Some((summary, packed)) = row else { return Ok(None) };
             Ok(Some((summary, zstd::decode_all(packed.as_slice())?)))
         })
@@ -188,9 +188,8 @@ impl Store {
             let mut query =
                 connection.prepare_cached("SELECT sha, bytes, polylines, points FROM maps ORDER BY sha")?;
             let number = |row: &Row<'_>, i| row.get::<_, i64>(i).map(i64::unsigned_abs);
-            let rows = query.query_map([], |row| {
-                Ok((row.get(0)?, number(row, 1)?, number(row, 2)?, number(row, 3)?))
-            })?;
+            let rows = query
+                .query_map([], |row| Ok((row.get(0)?, number(row, 1)?, number(row, 2)?, number(row, 3)?)))?;
             Ok(rows.collect::<Result<_, _>>()?)
         })
         .await

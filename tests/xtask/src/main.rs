@@ -1,1 +1,171 @@
-fn main() {}
+//! `cargo xtask test`: sets up what the checks need and runs all of them.
+//!
+//! `cargo xtask test NAME…` runs some. What is missing on this machine (a browser) is skipped with a
+//! printed reason; a check that fails does not stop the others.
+
+use anyhow::{Context, bail};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+use std::time::Instant;
+
+/// How a check ended.
+enum Outcome {
+    Passed,
+    Skipped(String),
+    Failed(String),
+}
+
+type Check = (&'static str, fn() -> anyhow::Result<Outcome>);
+
+/// In the order of what is found fastest.
+const CHECKS: &[Check] = &[
+    ("web-packages", web_packages),
+    ("fmt", || cargo(&["fmt", "--all", "--check"])),
+    ("web-lint", || npm("web", &["run", "lint"])),
+    ("web-types", || npm("web", &["run", "check"])),
+    ("web-test", || npm("web", &["test"])),
+    ("clippy", || cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])),
+    ("test", || cargo(&["test", "--workspace", "--locked"])),
+    ("openapi", || drift("openapi", "assets/openapi.json")),
+    ("schema", || drift("schema", "assets/schema/scene.v1.schema.json")),
+    ("browser", browser),
+];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.split_first() {
+        Some((command, names)) if command == "test" => test(names),
+        _ => {
+            let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
+            eprintln!("usage: cargo xtask test [NAME…]\nchecks: {}", names.join(", "));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn test(names: &[String]) -> ExitCode {
+    if let Some(unknown) = names.iter().find(|name| !CHECKS.iter().any(|check| check.0 == *name)) {
+        eprintln!("no check is named {unknown}");
+        return ExitCode::from(2);
+    }
+    let mut lines = Vec::new();
+    let mut failed = false;
+    for (name, check) in CHECKS.iter().filter(|check| names.is_empty() || names.iter().any(|n| n == check.0))
+    {
+        println!("== {name}");
+        let began = Instant::now();
+        let outcome = check().unwrap_or_else(|error| Outcome::Failed(format!("{error:#}")));
+        let text = match outcome {
+            Outcome::Passed => "passed".to_owned(),
+            Outcome::Skipped(why) => format!("skipped: {why}"),
+            Outcome::Failed(why) => {
+                failed = true;
+                format!("FAILED: {why}")
+            }
+        };
+        lines.push(format!("{name:<13} {:>5} s  {text}", began.elapsed().as_secs()));
+    }
+    println!("\n{}", lines.join("\n"));
+    if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// The repository's root.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+fn run(command: &mut Command) -> anyhow::Result<Outcome> {
+    let shown = format!("{command:?}").replace('"', "");
+    let status = command.stdin(Stdio::null()).status().with_context(|| format!("cannot run {shown}"))?;
+    Ok(if status.success() { Outcome::Passed } else { Outcome::Failed(format!("{shown}: {status}")) })
+}
+
+fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    run(Command::new(program).args(arguments).current_dir(root()))
+}
+
+fn npm(folder: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
+    let folder = root().join(folder);
+    run(Command::new("npm").args(arguments).current_dir(&folder)).with_context(|| {
+        format!("{}: Node.js 20 or later with npm is needed (https://nodejs.org)", folder.display())
+    })
+}
+
+/// Installs the packages of a folder unless those there match its lock file.
+fn packages(folder: &str) -> anyhow::Result<Outcome> {
+    let changed = |path: &str| root().join(folder).join(path).metadata().and_then(|m| m.modified()).ok();
+    let (locked, installed) = (changed("package-lock.json"), changed("node_modules/.package-lock.json"));
+    if installed.is_some() && installed >= locked {
+        return Ok(Outcome::Passed);
+    }
+    npm(folder, &["ci", "--no-audit", "--no-fund"])
+}
+
+fn web_packages() -> anyhow::Result<Outcome> {
+    packages("web")
+}
+
+/// Compares a committed document with what the program prints.
+fn drift(command: &str, file: &str) -> anyhow::Result<Outcome> {
+    run(Command::new(program()?).args([command, "--check", file]).current_dir(root()))
+}
+
+/// The program that `cargo test --workspace` has built, else built now.
+fn program() -> anyhow::Result<PathBuf> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
+    let program = target.join("debug/dragtraffic");
+    if !program.is_file()
+        && let Outcome::Failed(why) = cargo(&["build", "--locked", "-p", "dragtraffic"])?
+    {
+        bail!(why);
+    }
+    Ok(program.canonicalize()?)
+}
+
+fn browser() -> anyhow::Result<Outcome> {
+    let folder = "tests/browser";
+    if !root().join(folder).join("package.json").exists() {
+        return Ok(Outcome::Skipped(format!("{folder} is not in this checkout")));
+    }
+    let Some(chromium) = chromium()? else {
+        let why = "no Chromium here; install it (Debian: apt-get install chromium) or set CHROMIUM";
+        return Ok(Outcome::Skipped(why.into()));
+    };
+    if let failed @ Outcome::Failed(_) = packages(folder)? {
+        return Ok(failed);
+    }
+    let mut e2e = Command::new("npm");
+    e2e.args(["run", "e2e"]).current_dir(root().join(folder));
+    run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))
+}
+
+/// A Chromium: `CHROMIUM`, one on the path, or installed now where that is allowed.
+fn chromium() -> anyhow::Result<Option<String>> {
+    if let Ok(given) = std::env::var("CHROMIUM") {
+        return Ok(Some(given));
+    }
+    if let Some(found) = on_path() {
+        return Ok(Some(found));
+    }
+    let is_root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout == b"0\n");
+    let has_apt = Path::new("/usr/bin/apt-get").exists();
+    if !is_root || !has_apt {
+        return Ok(None);
+    }
+    let apt = |arguments: &[&str]| {
+        run(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
+    };
+    apt(&["update", "-q"])?;
+    match apt(&["install", "-y", "-q", "--no-install-recommends", "chromium"])? {
+        Outcome::Passed => Ok(on_path()),
+        Outcome::Failed(why) | Outcome::Skipped(why) => bail!("chromium could not be installed: {why}"),
+    }
+}
+
+fn on_path() -> Option<String> {
+    let names = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+    let folders: Vec<_> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
+    let places = names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+    places.filter(|place| place.is_file()).map(|place| place.display().to_string()).next()
+}
