@@ -1,5 +1,6 @@
 //! How experts are made and judged: synthetic traffic, training records, training, evaluation.
 
+pub mod eval;
 pub mod prepare;
 pub mod synthesize;
 pub mod train;

@@ -15,7 +15,7 @@ pub use project::{Limiting, Projection, Reach, Residuals, Target, project};
 
 use crate::geometry::{direction, rotate};
 use crate::limits::Limits;
-use crate::{AgentType, HORIZON_STEPS, KNOTS, Size, State, Subtype, Vec2, wrap_angle};
+use crate::{AgentType, HORIZON_STEPS, KNOTS, STEP_S, Size, State, Subtype, Vec2, wrap_angle};
 
 /// Number of control values of one future.
 pub const CONTROLS: usize = 2 * KNOTS;
@@ -185,6 +185,46 @@ impl MotionModel {
         }
         local
     }
+}
+
+/// How far a rollout goes beyond its model's limits: the largest excess over any of them, in the limit's
+/// own unit, zero or less when all hold. A hair of rounding is allowed for.
+pub fn limit_excess(model: &MotionModel, states: &[MotionState]) -> f64 {
+    let l = &model.limits;
+    let top = l.speed_mps.max(model.start.speed_mps());
+    let reference = |s: &MotionState| s.position - direction(s.heading_rad) * model.offset_m;
+    let mut worst = f64::NEG_INFINITY;
+    for w in states.windows(2) {
+        let moved = match model.kind {
+            Kind::Drive => (reference(&w[1]) - reference(&w[0])).norm(),
+            Kind::Walk => (w[1].position - w[0].position).norm(),
+        };
+        let speed = moved / STEP_S;
+        worst = worst.max(speed - top - 1e-6);
+        match model.kind {
+            Kind::Drive => {
+                let turn = wrap_angle(w[1].heading_rad - w[0].heading_rad).abs();
+                if speed > 0.05 {
+                    worst = worst.max(turn / moved - l.curvature_per_m - 1e-3);
+                }
+                worst = worst.max(speed * turn / STEP_S - l.lateral_mps2 - 1e-2);
+            }
+            Kind::Walk => {
+                let change = (w[1].velocity - w[0].velocity).norm() / STEP_S;
+                worst = worst.max(change - l.accel_mps2 - 1e-6);
+            }
+        }
+    }
+    if model.kind == Kind::Drive {
+        // Speeding up and braking from the distances of neighbouring steps.
+        for w in states.windows(3) {
+            let first = (reference(&w[1]) - reference(&w[0])).norm();
+            let second = (reference(&w[2]) - reference(&w[1])).norm();
+            let rate = (second - first) / (STEP_S * STEP_S);
+            worst = worst.max(rate - l.accel_mps2 - 0.05).max(-rate - l.brake_mps2 - 0.05);
+        }
+    }
+    worst
 }
 
 #[cfg(test)]

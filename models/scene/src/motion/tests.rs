@@ -1,5 +1,5 @@
 use super::*;
-use crate::{AgentType, STEP_S, Size, State, Subtype};
+use crate::{AgentType, Size, State, Subtype};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 
@@ -17,33 +17,6 @@ fn agent_type() -> impl Strategy<Value = AgentType> {
 fn knots() -> impl Strategy<Value = Knots> {
     (prop::array::uniform10(-9.0..6.0), prop::array::uniform10(-0.4..0.4))
         .prop_map(|(first, second)| Knots { first, second })
-}
-
-/// Largest breach of any limit over a rollout; zero or less when all hold.
-fn breach(model: &MotionModel, trajectory: &Trajectory) -> f64 {
-    let l = &model.limits;
-    let v0 = model.start_speed_mps();
-    let mut worst = f64::NEG_INFINITY;
-    let reference = |s: &MotionState| s.position - direction(s.heading_rad) * model.offset_m;
-    for w in trajectory.windows(2) {
-        let moved = match model.kind {
-            Kind::Drive => (reference(&w[1]) - reference(&w[0])).norm(),
-            Kind::Walk => (w[1].position - w[0].position).norm(),
-        };
-        let speed = moved / STEP_S;
-        worst = worst.max(speed - l.speed_mps.max(v0) - 1e-6);
-        if model.kind == Kind::Drive {
-            let turn = (w[1].heading_rad - w[0].heading_rad).abs();
-            if speed > 0.05 {
-                worst = worst.max(turn / moved - l.curvature_per_m - 1e-3);
-            }
-            worst = worst.max(speed * turn / STEP_S - l.lateral_mps2 - 1e-2);
-        } else {
-            let change = (w[1].velocity - w[0].velocity).norm() / STEP_S;
-            worst = worst.max(change - l.accel_mps2 - 1e-6);
-        }
-    }
-    worst
 }
 
 /// A target that some legal motion of the model certainly meets.
@@ -65,7 +38,7 @@ proptest! {
         let v = if kind == AgentType::Pedestrian { v * 0.15 } else { v };
         let model = model(kind, v);
         let trajectory = model.rollout(&u);
-        prop_assert!(breach(&model, &trajectory) <= 0.0, "breach {}", breach(&model, &trajectory));
+        prop_assert!(limit_excess(&model, &trajectory) <= 0.0, "breach {}", limit_excess(&model, &trajectory));
         prop_assert_eq!(trajectory.len(), HORIZON_STEPS + 1);
     }
 
@@ -73,7 +46,7 @@ proptest! {
     fn reverse_never_goes_forwards(u in knots()) {
         let model = model(AgentType::Vehicle, 0.0).in_gear(Gear::Reverse);
         let trajectory = model.rollout(&u);
-        prop_assert!(breach(&model, &trajectory) <= 0.0);
+        prop_assert!(limit_excess(&model, &trajectory) <= 0.0);
         for w in trajectory.windows(2) {
             let along = (w[1].position - w[0].position).dot(&direction(w[0].heading_rad));
             // Off-tracking of the box centre may move it by millimetres ahead while it swings.
@@ -135,7 +108,7 @@ fn success_rate(kind: AgentType, speed: f64, subset: u8) -> f64 {
         let model = model(kind, speed);
         let target = reachable(&model, &model.legal(&u), [90, 60, 35][i % 3], subset);
         let answer = project(&model, &model.coasting(), &target, None);
-        assert!(breach(&model, &answer.trajectory) <= 0.0);
+        assert!(limit_excess(&model, &answer.trajectory) <= 0.0);
         let residuals = Residuals::of(&answer.trajectory[target.step], &target);
         assert_eq!(answer.reach.is_reached(), residuals.is_met());
         met += usize::from(answer.reach.is_reached());
