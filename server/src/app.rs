@@ -66,6 +66,8 @@ pub fn router(app: &App) -> Router {
     router
         .merge(routes::pages())
         .fallback(embed::fallback)
+        // Bodies are bounded by `body`, with limits of their own.
+        .layer(axum::extract::DefaultBodyLimit::disable())
         .layer(tower_http::catch_panic::CatchPanicLayer::custom(panicked))
         .layer(axum::middleware::from_fn_with_state(app.clone(), observe::observe))
         .with_state(app.clone())

@@ -227,7 +227,9 @@ mod tests {
             "expansion-too-high"
         );
         let big: Vec<u8> = (0..9u32 << 20).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
-        assert_eq!(code(&zstd::encode_all(&big[..], 1).unwrap(), Encoding::Zstd), "decoded-too-large");
+        let patient = Bounds { ratio: u64::MAX, ..BOUNDS };
+        let refused = unpack(&zstd::encode_all(&big[..], 1).unwrap(), Encoding::Zstd, patient);
+        assert_eq!(refused.unwrap_err().code.name(), "decoded-too-large");
     }
 
     #[test]

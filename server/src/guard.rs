@@ -5,7 +5,8 @@
 use crate::limits::Limits;
 use crate::problem::{Code, Problem};
 use axum::extract::Request;
-use axum::http::{HeaderMap, HeaderValue, Method, header};
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
+use axum::response::{IntoResponse, Response};
 use std::net::{IpAddr, SocketAddr};
 
 /// What the command line allowed.
@@ -53,23 +54,38 @@ impl Guard {
         Ok(Self { hosts, own_origins, foreign_origins, token })
     }
 
-    /// Tells browsers that the given foreign origins may read replies.
-    pub fn allow_cross_origin(&self, headers: &mut HeaderMap) {
-        let Some(origin) = self.foreign_origins.first().and_then(|o| HeaderValue::from_str(o).ok()) else {
-            return;
-        };
-        // One origin can be named; with several, the first is: credentials are never sent.
-        headers.insert(header::ACCESS_CONTROL_ALLOW_ORIGIN, origin);
-        headers.insert(
-            header::ACCESS_CONTROL_EXPOSE_HEADERS,
-            HeaderValue::from_static("ETag, Location, Retry-After, X-Request-Id, Dragtraffic-Loss"),
-        );
+    /// The request's Origin, when it is one given with `--allow-origin`.
+    pub fn foreign_origin(&self, request: &Request) -> Option<HeaderValue> {
+        let origin = request.headers().get(header::ORIGIN)?;
+        let name = origin.to_str().ok()?.to_ascii_lowercase();
+        self.foreign_origins.contains(&name).then(|| origin.clone())
     }
 
     fn origin_allowed(&self, origin: &str) -> bool {
         let origin = origin.to_ascii_lowercase();
         self.own_origins.contains(&origin) || self.foreign_origins.contains(&origin)
     }
+}
+
+/// Tells a browser that pages of this origin may read the reply; never with credentials.
+pub fn allow_cross_origin(headers: &mut HeaderMap, origin: HeaderValue) {
+    headers.insert(header::ACCESS_CONTROL_ALLOW_ORIGIN, origin);
+    headers.append(header::VARY, HeaderValue::from_static("Origin"));
+    let exposed = "ETag, Location, Retry-After, X-Request-Id, Dragtraffic-Loss";
+    headers.insert(header::ACCESS_CONTROL_EXPOSE_HEADERS, HeaderValue::from_static(exposed));
+}
+
+/// Answer to a browser that asks before a cross-origin call.
+pub fn preflight() -> Response {
+    let head = [
+        (header::ACCESS_CONTROL_ALLOW_METHODS, "GET, HEAD, POST, PUT, PATCH, DELETE"),
+        (
+            header::ACCESS_CONTROL_ALLOW_HEADERS,
+            "Content-Type, Content-Encoding, Accept, Authorization, If-Match, If-None-Match, X-Request-Id",
+        ),
+        (header::ACCESS_CONTROL_MAX_AGE, "600"),
+    ];
+    (StatusCode::NO_CONTENT, head).into_response()
 }
 
 /// Refuses what must not reach a handler.

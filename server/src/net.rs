@@ -26,6 +26,8 @@ struct Place {
     number: u64,
     requests: AtomicUsize,
     idle_since: Mutex<Instant>,
+    /// When the reply under way was last asked for more; `None` without one.
+    asked: Mutex<Option<Instant>>,
     close: Notify,
 }
 
@@ -54,10 +56,17 @@ impl Table {
             number: self.next.fetch_add(1, Ordering::Relaxed),
             requests: AtomicUsize::new(0),
             idle_since: Mutex::new(Instant::now()),
+            asked: Mutex::new(None),
             close: Notify::new(),
         });
         places.push(Arc::clone(&place));
         Some(place)
+    }
+
+    /// Closes connections whose reader has taken nothing of a reply for so long.
+    fn close_stalled(&self, limit: Duration) {
+        let stalled = |p: &&Arc<Place>| lock(&p.asked).is_some_and(|asked| asked.elapsed() > limit);
+        lock(&self.places).iter().filter(stalled).for_each(|p| p.close.notify_one());
     }
 
     fn leave(&self, number: u64) {
@@ -78,6 +87,7 @@ impl Busy {
 impl Drop for Busy {
     fn drop(&mut self) {
         *lock(&self.0.idle_since) = Instant::now();
+        *lock(&self.0.asked) = None;
         self.0.requests.fetch_sub(1, Ordering::Relaxed);
     }
 }
@@ -94,11 +104,18 @@ pub async fn serve(
 ) {
     let table = Arc::new(Table::default());
     let (closing, closed) = watch::channel(false);
+    // A stream asks again at each heartbeat, so a longer silence is the reader's.
+    let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
+    let mut look = tokio::time::interval(Duration::from_secs(1));
     let header_time = Duration::from_secs(limits.header_read_s.max(1));
     let mut stop = pin!(stop);
     loop {
         let accepted = tokio::select! {
             () = &mut stop => break,
+            _ = look.tick() => {
+                table.close_stalled(stalled);
+                continue;
+            }
             accepted = listener.accept() => accepted,
         };
         let stream = match accepted {
@@ -140,7 +157,7 @@ async fn connection(
     let service = tower::service_fn(move |request: hyper::Request<hyper::body::Incoming>| {
         let busy = Busy::new(&counted);
         let reply = tower::ServiceExt::oneshot(router.clone(), request.map(axum::body::Body::new));
-        async move { reply.await.map(|reply| reply.map(|body| Counted { body, _busy: busy })) }
+        async move { reply.await.map(|reply| reply.map(|body| Counted { body, busy })) }
     });
     let mut http = hyper::server::conn::http1::Builder::new();
     http.timer(TokioTimer::new())
@@ -170,7 +187,7 @@ async fn connection(
 /// A reply's body that keeps its connection marked as busy until it is sent.
 struct Counted {
     body: axum::body::Body,
-    _busy: Busy,
+    busy: Busy,
 }
 
 impl hyper::body::Body for Counted {
@@ -181,6 +198,7 @@ impl hyper::body::Body for Counted {
         mut self: std::pin::Pin<&mut Self>,
         context: &mut std::task::Context<'_>,
     ) -> std::task::Poll<Option<Result<hyper::body::Frame<bytes::Bytes>, axum::Error>>> {
+        *lock(&self.busy.0.asked) = Some(Instant::now());
         std::pin::Pin::new(&mut self.body).poll_frame(context)
     }
 

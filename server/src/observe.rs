@@ -2,6 +2,7 @@
 //! problems are written.
 
 use crate::app::App;
+use crate::guard;
 use crate::problem::{Code, Problem};
 use axum::body::Body;
 use axum::extract::{MatchedPath, Request, State};
@@ -25,13 +26,17 @@ pub async fn observe(State(app): State<App>, request: Request, next: Next) -> Re
     let path = request.uri().path().to_owned();
     let route =
         request.extensions().get::<MatchedPath>().map_or("(none)".to_owned(), |p| p.as_str().to_owned());
-    let response = match crate::guard::check(&app.guard, &app.limits, &request) {
+    let foreign = app.guard.foreign_origin(&request);
+    let response = match guard::check(&app.guard, &app.limits, &request) {
+        Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
         Ok(()) => next.run(request).await,
         Err(refusal) => refusal.into_response(),
     };
     let mut response = written(response, &method, &path, &id);
     dress(response.headers_mut(), &path, &id);
-    app.guard.allow_cross_origin(response.headers_mut());
+    if let Some(origin) = foreign {
+        guard::allow_cross_origin(response.headers_mut(), origin);
+    }
     let status = response.status();
     let seconds = began.elapsed().as_secs_f64();
     crate::metrics::request(&route, &method, status, seconds);

@@ -44,6 +44,24 @@ fn a_scene_goes_through_the_native_format_unchanged() {
 }
 
 #[test]
+fn a_form_may_carry_the_file() {
+    let server = Server::start(&[]).unwrap();
+    let form = format!(
+        "--b\r\ncontent-disposition: form-data; name=\"file\"; filename=\"../../a.json\"\r\n\r\n{}\r\n--b--\r\n",
+        street(1, 5)
+    );
+    let post = |body: &str| {
+        let request =
+            Request::new("POST", "/v1/import").header("content-type", "multipart/form-data; boundary=b");
+        server.send(&request.body(body)).unwrap()
+    };
+    let made = post(&form);
+    assert_eq!(made.status, 201, "{}", made.text());
+    assert_eq!(post(&form.replace("name=\"file\"", "name=\"other\"")).code(), "invalid-field");
+    assert_eq!(post("no form at all").code(), "malformed-file");
+}
+
+#[test]
 fn a_scene_goes_through_womd() {
     let server = Server::start(&[]).unwrap();
     let scene = street(2, 91);

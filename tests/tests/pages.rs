@@ -75,6 +75,23 @@ fn half_open_connections_do_not_stop_a_client() {
 }
 
 #[test]
+fn an_allowed_origin_may_call() {
+    let origin = "https://tools.example";
+    let server = Server::start(&["--allow-origin", origin]).unwrap();
+    let from = |method: &str, origin: &str| {
+        let request = Request::new(method, "/v1/scenes").header("origin", origin);
+        server.send(&request.header("sec-fetch-site", "cross-site")).unwrap()
+    };
+    let asked = from("OPTIONS", origin);
+    assert_eq!((asked.status, asked.header("access-control-max-age")), (204, "600"));
+    let read = from("GET", origin);
+    assert_eq!((read.status, read.header("access-control-allow-origin")), (200, origin));
+    assert!(read.header("access-control-allow-credentials").is_empty());
+    let foreign = from("GET", "https://evil.example");
+    assert_eq!((foreign.code().as_str(), foreign.header("access-control-allow-origin")), ("cross-site", ""));
+}
+
+#[test]
 fn a_token_guards_what_is_not_a_page() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("token");

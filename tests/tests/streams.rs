@@ -162,6 +162,24 @@ fn a_generation_has_a_time_limit() {
 }
 
 #[test]
+fn a_reader_that_stops_reading_is_let_go() {
+    let server = Server::start(&["--limit", "stalled_s=1", "--limit", "heartbeat_s=1"]).unwrap();
+    let mut body = long("slow", 1);
+    body["stream_modes"] = json!("all");
+    let stalled = ask(&body, "application/x-ndjson").open(server.address).unwrap();
+    let began = Instant::now();
+    while server.metric("dragtraffic_events_dropped_total").unwrap() < 1.0 {
+        assert!(began.elapsed() < Duration::from_secs(30), "no event was dropped");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    while server.metric("dragtraffic_running").unwrap() > 0.0 {
+        assert!(began.elapsed() < Duration::from_secs(40), "still working for a reader that is gone");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    drop(stalled);
+}
+
+#[test]
 fn sixty_four_clients_at_once() {
     let server = Server::start(&["--limit", "queue=64"]).unwrap();
     server.wait_ready().unwrap();

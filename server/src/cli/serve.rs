@@ -41,6 +41,9 @@ pub struct ServeArgs {
     /// File with a token of at least 32 characters that callers must send; mode 0600.
     #[arg(long, value_name = "FILE")]
     token_file: Option<PathBuf>,
+    /// Generations at the same time; half the cores when absent.
+    #[arg(long, env = "DRAGTRAFFIC_THREADS", value_name = "N")]
+    threads: Option<u64>,
     /// Change a limit of /v1/info, such as --limit queue=4.
     #[arg(long, value_name = "NAME=N")]
     limit: Vec<String>,
@@ -71,6 +74,9 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let mut limits = Limits::default();
     for assignment in &args.limit {
         limits.set(assignment).map_err(|reason| Failure::new(Exit::Usage, reason))?;
+    }
+    if let Some(threads) = args.threads {
+        limits.running = threads;
     }
     let limits = Arc::new(limits);
     let token = args.token_file.as_deref().map(read_token).transpose()?;

@@ -8,7 +8,8 @@ use crate::catalog::Facts;
 use crate::metrics;
 use crate::problem::{Code, Problem};
 use crate::transfer;
-use axum::extract::{Request, State};
+use axum::body::Bytes;
+use axum::extract::{FromRequest, Multipart, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use formats::native::{MapForm, SceneDoc};
@@ -42,7 +43,24 @@ const UPLOADS: &[&str] = &[
     "application/x-protobuf",
     "application/xml",
     "text/xml",
+    MULTIPART,
 ];
+const MULTIPART: &str = "multipart/form-data";
+
+/// The part `file` of a form, and the name it was given. Names are labels; nothing is opened.
+async fn file_of(request: Request) -> Result<(Bytes, Option<String>), Problem> {
+    let broken = |error: String| Problem::new(Code::MalformedFile, error).with("offset", 0);
+    let form = Multipart::from_request(request, &()).await;
+    let mut form = form.map_err(|error| broken(error.body_text()))?;
+    while let Some(part) = form.next_field().await.map_err(|error| broken(error.body_text()))? {
+        if part.name() == Some("file") {
+            let name = part.file_name().map(str::to_owned);
+            let bytes = part.bytes().await.map_err(|error| broken(error.body_text()))?;
+            return Ok((bytes, name));
+        }
+    }
+    Err(Problem::field("/file", Code::InvalidField, "the form needs a part named file"))
+}
 
 /// Stores the scenes of a file.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),
@@ -54,11 +72,18 @@ pub async fn import(
     Params(params): Params<ImportParams>,
     request: Request,
 ) -> Result<Response, Problem> {
-    body::media_type(request.headers(), UPLOADS)?;
+    let media_type = body::media_type(request.headers(), UPLOADS)?;
     let wanted = params.index.as_deref().map(range).transpose()?;
-    let bytes = body::read_upload(request, &app.limits).await?;
+    let (mut parts, unread) = request.into_parts();
+    let bytes = body::read_upload(Request::from_parts(parts.clone(), unread), &app.limits).await?;
+    let (bytes, label) = if media_type == MULTIPART {
+        parts.headers.remove(header::CONTENT_ENCODING);
+        file_of(Request::from_parts(parts, bytes.into())).await?
+    } else {
+        (bytes, None)
+    };
     let format = params.format.filter(|f| f != "auto");
-    let name = params.name.unwrap_or_default();
+    let name = params.name.or(label).unwrap_or_default();
     let most = app.limits.import_scenes as usize;
     let asked = format.clone().unwrap_or_else(|| "auto".into());
     let (skip, count) = wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1)));

@@ -101,7 +101,7 @@ fn order(sort: &str) -> Result<Order, Problem> {
 #[into_params(parameter_in = Query)]
 pub struct ReadParams {
     /// The map itself or its hash alone: `inline` or `ref`.
-    #[param(default = "inline")]
+    #[param(default = "inline", inline)]
     map: MapParam,
 }
 
