@@ -41,7 +41,7 @@ fn rate(road_type: &str) -> f64 {
         "residential" => 45.0,
         "collector" => 190.0,
         "arterial" => 330.0,
-        "motorway" => 1000.0,
+        "motorway" => 600.0,
         "lot" => 50.0,
         "roundabout" => 0.0,
         _ => 100.0,
@@ -167,7 +167,9 @@ impl Trips<'_> {
             };
             let weights: Vec<f64> = goals.iter().map(weight).collect();
             let lanes = self.lanes(edge, LaneKind::Vehicle) as f64;
-            let hourly = rate(&edge.road_type) * lanes * crowd.traffic * (0.35 * draw.gauss()).exp();
+            // Ramps carry less than a lane of the road they lead to.
+            let ramp = if edge.road_type == Rank::Motorway.name() && lanes < 2.0 { 0.5 } else { 1.0 };
+            let hourly = ramp * rate(&edge.road_type) * lanes * crowd.traffic * (0.35 * draw.gauss()).exp();
             let mean_wait = 3600.0 / hourly.max(1e-3);
             let mut time = draw.exponential(mean_wait);
             while time < WARM_UP_S + RECORDED_S {
@@ -212,7 +214,8 @@ impl Trips<'_> {
             let goals: Vec<usize> = edges
                 .iter()
                 .copied()
-                .filter(|g| *g != source && reachable[&source].contains(g) && net.edges[*g].to != edge.from)
+                .filter(|g| reachable[&source].contains(g) && net.edges[*g].to != edge.from)
+                .filter(|g| *g != source || from_outside)
                 .filter(|g| self.fringe.contains(net.edges[*g].to.as_str()))
                 .collect();
             let Some(&goal) = goals.get(draw.below(goals.len())) else { continue };

@@ -37,6 +37,8 @@ pub struct Demo {
     buses: usize,
     /// Signals must change.
     signals: bool,
+    /// Where no signal explains it, vehicles that get less far than this in the whole time are stuck.
+    least_m: f64,
 }
 
 /// All demo scenes.
@@ -46,11 +48,12 @@ pub const DEMOS: [Demo; 5] = [
         name: "Rosa & 5th",
         notes: "Signalised crossing with left-turn lanes, bike lanes, crosswalks and parked cars.",
         network: networks::crossing,
-        crowd: Crowd { traffic: 0.55, cyclists: 26.0, people: 30.0, buses: 0.03 },
-        seeds: &[1, 2, 3, 4, 5, 6],
+        crowd: Crowd { traffic: 0.55, cyclists: 26.0, people: 30.0, buses: 0.05 },
+        seeds: &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12],
         wanted: [16, 14, 10, 5],
         buses: 1,
         signals: true,
+        least_m: 0.0,
     },
     Demo {
         id: "demo-roundabout",
@@ -62,17 +65,19 @@ pub const DEMOS: [Demo; 5] = [
         wanted: [13, 0, 9, 4],
         buses: 0,
         signals: false,
+        least_m: 3.0,
     },
     Demo {
         id: "demo-motorway",
         name: "Ring road merge",
         notes: "Motorway entry; a street with a sidewalk and bike lanes runs beside it.",
         network: networks::motorway,
-        crowd: Crowd { traffic: 0.95, cyclists: 45.0, people: 45.0, buses: 0.01 },
-        seeds: &[1, 2, 3, 4],
-        wanted: [36, 0, 6, 4],
+        crowd: Crowd { traffic: 1.35, cyclists: 30.0, people: 45.0, buses: 0.01 },
+        seeds: &[1, 2, 3, 4, 5, 6, 7, 8],
+        wanted: [30, 0, 6, 4],
         buses: 0,
         signals: false,
+        least_m: 90.0,
     },
     Demo {
         id: "demo-residential",
@@ -84,6 +89,7 @@ pub const DEMOS: [Demo; 5] = [
         wanted: [6, 22, 10, 4],
         buses: 0,
         signals: false,
+        least_m: 3.0,
     },
     Demo {
         id: "demo-arterial",
@@ -95,6 +101,7 @@ pub const DEMOS: [Demo; 5] = [
         wanted: [38, 6, 12, 5],
         buses: 1,
         signals: true,
+        least_m: 0.0,
     },
 ];
 
@@ -259,6 +266,12 @@ impl Demo {
         if self.signals && !changes(15, 60) {
             score += 20.0;
         }
+        // Where no signal explains it, nobody should stand about on the road.
+        let stuck = |a: &&Agent| {
+            let moves = a.agent_type == AgentType::Vehicle && !parked(a);
+            moves && a.track.states.iter().all(Option::is_some) && a.track.extent_m() < self.least_m
+        };
+        score += 5.0 * scene.agents.iter().filter(stuck).count() as f64;
         // Everybody is there from the first frame on.
         let late = scene.agents.iter().filter(|a| a.track.at(0).is_none()).count();
         score + 0.4 * late as f64 + 1e-6 * (start + recording.actors.len()) as f64

@@ -105,3 +105,45 @@ fn jump(agent: &Agent) -> Option<String> {
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::demo::DEMOS;
+    use super::*;
+    use formats::native;
+
+    fn shipped(id: &str) -> Vec<u8> {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/scenes");
+        std::fs::read(format!("{folder}/{id}.json")).unwrap()
+    }
+
+    #[test]
+    fn shipped_demos_are_fit_to_be_shown() {
+        for demo in &DEMOS {
+            let bytes = shipped(demo.id);
+            assert!(bytes.len() < 600_000, "{}: {} bytes", demo.id, bytes.len());
+            let scene = native::read(&bytes).unwrap();
+            assert_eq!((scene.id.as_deref(), scene.name.as_str()), (Some(demo.id), demo.name));
+            assert_eq!(scene.meta.licence.as_deref(), Some("cc0"));
+            assert_eq!(faults(&scene), Vec::<String>::new(), "{}", demo.id);
+            let [vehicles, pedestrians, cyclists, others] = scene.counts();
+            assert!(vehicles >= 10 && pedestrians >= 5 && cyclists >= 4 && others == 0, "{}", demo.id);
+        }
+    }
+
+    #[test]
+    fn faults_are_found() {
+        let mut scene = native::read(&shipped("demo-crossing")).unwrap();
+        let first = scene.agents[0].clone();
+        scene.agents[1].track = first.track.clone();
+        assert!(faults(&scene).iter().any(|f| f.contains("overlap")));
+        let healed = without_overlaps(scene.clone());
+        assert!(healed.agents.len() < scene.agents.len() && faults(&healed).is_empty());
+        for state in scene.agents[0].track.states[40..].iter_mut().flatten() {
+            state.y_m += 40.0;
+        }
+        let faults = faults(&scene);
+        assert!(faults.iter().any(|f| f.contains("jumps at step 39")), "{faults:?}");
+        assert!(faults.iter().any(|f| f.contains("off the road")), "{faults:?}");
+    }
+}

@@ -115,10 +115,10 @@ pub fn motorway() -> Network {
         .collect();
     let shape = MotorwayShape { lanes: 3, speed: 60.0 * MPH, median: 5.0, entry_first: true };
     // The entry lane begins west of the origin and ends east of it.
-    carriageway(&mut net, &line, "f", shape, [425.0, 800.0], [150.0, 100.0], [30.0, 30.0]);
+    carriageway(&mut net, &line, "f", shape, [432.0, 800.0], [165.0, 120.0], [30.0, 30.0]);
     let back: Vec<Vec2> = line.iter().rev().copied().collect();
     let exit_first = MotorwayShape { entry_first: false, ..shape };
-    carriageway(&mut net, &back, "b", exit_first, [380.0, 760.0], [140.0, 120.0], [34.0, 30.0]);
+    carriageway(&mut net, &back, "b", exit_first, [350.0, 740.0], [180.0, 140.0], [34.0, 30.0]);
     let (west, east) = (Vec2::new(-230.0, -52.0), Vec2::new(230.0, -49.0));
     let street = Section { parking: 0.0, median: 0.0, ..SIDE };
     net.end("p", west);

@@ -27,6 +27,8 @@ pub struct Fleet {
     pub groups: BTreeMap<&'static str, Vec<String>>,
     /// `<vType>` elements.
     pub xml: String,
+    /// How early drivers get into the lane they need; SUMO's default is 1.
+    strategic: f64,
 }
 
 fn size(length: f64, width: f64, height: f64) -> Size {
@@ -34,9 +36,10 @@ fn size(length: f64, width: f64, height: f64) -> Size {
 }
 
 impl Fleet {
-    /// Draws the kinds of a seed.
-    pub fn new(draw: &mut Draw) -> Self {
-        let mut fleet = Self::default();
+    /// Draws the kinds of a seed. Streets are short, and drivers there change lanes less eagerly than by
+    /// default; on a motorway, who comes late for an exit stops and blocks the road.
+    pub fn new(draw: &mut Draw, motorway: bool) -> Self {
+        let mut fleet = Self { strategic: if motorway { 4.0 } else { 0.7 }, ..Self::default() };
         for _ in 0..24 {
             fleet.car(draw);
         }
@@ -78,10 +81,11 @@ impl Fleet {
         let rest = format!(
             "carFollowModel=\"IDM\" accel=\"{accel:.2}\" decel=\"{decel:.2}\" emergencyDecel=\"8\" tau=\"{tau:.2}\" \
              delta=\"4\" minGap=\"{gap:.2}\" stepping=\"0.1\" speedFactor=\"normc({:.2},0.08,0.65,1.4)\" \
-             laneChangeModel=\"SL2015\" lcKeepRight=\"0\" lcSublane=\"1\" lcStrategic=\"0.7\" \
+             laneChangeModel=\"SL2015\" lcKeepRight=\"0\" lcSublane=\"1\" lcStrategic=\"{}\" \
              lcSpeedGain=\"{:.2}\" maxSpeedLat=\"{:.2}\" lcAccelLat=\"0.7\" minGapLat=\"0.5\" latAlignment=\"{}\" \
              impatience=\"{:.2}\" jmDriveAfterYellowTime=\"{:.2}\" jmTimegapMinor=\"{:.2}\"",
             1.03 + 0.07 * g,
+            self.strategic,
             draw.clipped(0.35, 0.25, 0.02, 1.2),
             draw.clipped(0.9, 0.2, 0.5, 1.4),
             draw.one_of(["center", "center", "arbitrary"]),

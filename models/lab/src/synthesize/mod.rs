@@ -281,3 +281,69 @@ impl Report {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Runs a small job, or says why it cannot.
+    fn made(name: &str, seed: u64) -> Option<(tempfile::TempDir, Options, Report)> {
+        let folder = tempfile::tempdir().unwrap();
+        let options = Options {
+            seeds: seed..seed + 1,
+            out_dir: folder.path().join(name),
+            threads: 1,
+            per_seed: 4,
+            template: Some(Template::Crossing),
+            ..Options::default()
+        };
+        match run(&options, &|_| {}) {
+            Ok(report) => Some((folder, options, report)),
+            Err(SynthesizeError::Program(error)) => {
+                println!("skipped: {error}");
+                None
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    #[test]
+    fn a_seed_makes_one_file_and_the_same_one_again() {
+        let Some((_a, options, report)) = made("a", 3) else { return };
+        assert_eq!((report.written, report.skipped, report.failed.len()), (1, 0, 0), "{report:?}");
+        let again = run(&options, &|p| assert_eq!(p.windows, None)).unwrap();
+        assert_eq!((again.written, again.skipped), (0, 1));
+        let Some((_b, other, _)) = made("b", 3) else { return };
+        let read = |o: &Options| std::fs::read(o.out_dir.join("000003.tfrecord.gz")).unwrap();
+        assert_eq!(read(&options), read(&other));
+    }
+
+    #[test]
+    fn windows_come_back_from_their_file_and_obey_physics() {
+        let Some((_folder, options, report)) = made("c", 5) else { return };
+        let bytes = std::fs::read(options.out_dir.join("000005.tfrecord.gz")).unwrap();
+        let scenes = womd::read_all(&bytes, &womd::Options::default());
+        assert_eq!(scenes.len() as u64, report.windows);
+        for scene in scenes {
+            let (scene, _) = scene.unwrap();
+            assert_eq!((scene.time.steps, scene.time.now_step), (STEPS, NOW));
+            assert!(scene.meta.source_id.as_deref().is_some_and(|id| id.starts_with("synth-5-")));
+            assert_eq!(scene.meta.licence.as_deref(), Some("cc0"));
+            let ids: std::collections::HashSet<_> = scene.map.lanes.iter().map(|l| &l.id).collect();
+            let links = scene.map.lanes.iter().flat_map(|l| l.successors.iter().chain(&l.predecessors));
+            assert!(links.into_iter().all(|id| ids.contains(id)));
+            for agent in &scene.agents {
+                check_motion(agent);
+            }
+        }
+    }
+
+    fn check_motion(agent: &scene::Agent) {
+        for pair in agent.track.states.windows(2) {
+            let [Some(a), Some(b)] = pair else { continue };
+            let moved = (b.position() - a.position()).norm();
+            assert!(moved <= a.speed_mps().max(b.speed_mps()) * STEP_S + 0.2, "{}: {moved}", agent.id);
+            assert!((b.velocity() - a.velocity()).norm() / STEP_S < 12.0, "{}", agent.id);
+        }
+    }
+}

@@ -115,7 +115,7 @@ pub fn record(
     let net = Net::read(&std::fs::read_to_string(path.join("net.xml"))?)
         .map_err(|source| RecordError::File { file: "net.xml", source })?;
     let mut draw = Draw::new(seed, Purpose::Demand);
-    let fleet = Fleet::new(&mut draw);
+    let fleet = Fleet::new(&mut draw, network.character.name.contains("motorway"));
     let drawn = Crowd::new(&mut draw);
     demand::write(&network, &net, &fleet, crowd.unwrap_or(drawn), &mut draw, path)?;
     sumo.simulate(path, seed)?;

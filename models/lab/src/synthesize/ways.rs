@@ -138,8 +138,8 @@ pub fn motorway(draw: &mut Draw) -> Network {
         if back {
             middle.reverse();
         }
-        let starts = [draw.uniform(330.0, 420.0), draw.uniform(700.0, 800.0)];
-        let spans = [draw.uniform(120.0, 180.0), draw.uniform(120.0, 160.0)];
+        let starts = [draw.uniform(310.0, 390.0), draw.uniform(690.0, 780.0)];
+        let spans = [draw.uniform(180.0, 250.0), draw.uniform(150.0, 220.0)];
         let asides = [draw.uniform(20.0, 40.0), draw.uniform(20.0, 40.0)];
         carriageway(&mut net, &middle, if back { "b" } else { "f" }, shape, starts, spans, asides);
     }
