@@ -5,9 +5,9 @@ import { findRoute, nearestLanes } from '../src/model/lanemap';
 import { furthestReach, leastReach, limitsOf, localReach } from '../src/model/reach';
 import { parseTyped, num, speedLabel } from '../src/model/units';
 import { poseAt, motionFrom } from '../src/model/motion';
-import { readScene, SceneError } from '../src/model/read';
-import { conditionOf, writeScene } from '../src/model/write';
-import { setGoal, setStart } from '../src/model/commands';
+import { readGenerated, readScene, SceneError } from '../src/model/read';
+import { conditionOf, generatedJson, writeScene } from '../src/model/write';
+import { choose, setGoal, setStart } from '../src/model/commands';
 import { emptyMotion, readFutures, type MotionSet } from '../src/model/futures';
 import { findChanges } from '../src/model/changes';
 import { readEvents } from '../src/model/events';
@@ -78,6 +78,21 @@ describe('scene', () => {
     expect(written.agents.slice(1).every((x: { conditions: object }) => Object.keys(x.conditions).length === 0)).toBe(true);
     expect(written.map).toEqual(json.map);
     expect(touched(again.agents.get('2')!)).toBe(false);
+  });
+
+  it('keeps futures and picks beside the scene, and drops those that are out of date', () => {
+    const json = crossingJson(), s = readScene(json);
+    const picked = choose(car(s), 2, 'C').apply(setGoal(car(s), { pos: [4, 30], heading: null, speed: null, time: 9 }).apply(s));
+    const f = readFutures({ chosen: 1, modes: sixFutures(json.agents[0], { goal: { x_m: 4, y_m: 30 } }, 5, 5) }, startPose(car(s))!, 5, 5, false);
+    const written = JSON.parse(JSON.stringify(writeScene(json, picked, generatedJson(picked, [['1', f]], { input_sha256: 'abc' }))));
+    const again = readScene(written), set = readGenerated(written, again)!;
+    expect(car(again).chosen).toBe(2);
+    expect(written.generated.input_sha256).toBe('abc');
+    expect(written.generated.samples[0].agents['1'].chosen).toBe(2);
+    expect([...set.driving]).toEqual(['1']);
+    expect(set.futures.get('1')!.modes[0].motion.x.length).toBe(91);
+    expect(set.futures.get('1')!.modes[0].motion.x[90]).toBeCloseTo(f.modes[0].motion.x[90], 3);
+    expect(readGenerated({ ...written, generated: { ...written.generated, stale: true } }, again)).toBeNull();
   });
 
   it('says what is wrong with other documents', () => {

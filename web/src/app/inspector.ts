@@ -181,7 +181,7 @@ function futuresSection(c: Context, agent: () => Agent): HTMLElement {
     if (!f) return editor.status.value.kind === 'refining' ? 'working' : '';
     if (f.sketch) return 'sketch, generator away';
     if (!isSettled(f)) return f.step ? `step ${f.step} of ${f.steps}` : 'first guess';
-    if (editor.motion.value.stale && !editor.draft.value) return 'from before the last change';
+    if (editor.outdated.value) return 'from before the last change';
     if (a.chosen !== null) return `chosen: ${LETTERS[a.chosen]}`;
     return hasGoal(a.goal) ? `of ${f.modes.length === 6 ? 'six' : f.modes.length}` : `${f.modes.length === 6 ? 'six' : f.modes.length}, no goal set`;
   };

@@ -19,10 +19,11 @@ const STEPS = 5;
 /** A key held down sends one request when it rests. */
 const REST_MS = 80;
 
-interface Wanted { agents: string[] | 'all'; react: boolean | string[]; commit: { name: string; agent: string | null; undo: boolean } | null; kept?: ReadonlySet<string> }
+interface Wanted { agents: string[] | 'all'; react: boolean | string[]; commit: { name: string; agent: string | null; undo: boolean } | null; kept?: ReadonlySet<string>; unscored?: boolean }
 
 export class Asking {
   readonly generator: Generator;
+  private readonly calm = typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
   private restTimer = 0;
   private retryTimer = 0;
   private tries = 0;
@@ -142,7 +143,7 @@ export class Asking {
     const part = (): string => (inline ? this.inlinePart(scene, before, w) : `"scene_id":${JSON.stringify(scene.id)}`);
     this.generator.ask({
       preview, scenePart: part, fullPart: async () => this.fullPart(scene, before, w),
-      options: { agents: w.agents, react: w.react, conditions, seed: scene.seed, diversity: scene.diversity, steps: STEPS, stream_modes: 'all', score: w.commit !== null },
+      options: { agents: w.agents, react: w.react, conditions, seed: scene.seed, diversity: scene.diversity, steps: STEPS, stream_modes: 'all', score: w.commit !== null && !w.unscored },
       on: this.handlers(scene, w),
     });
     if (!preview) editor.status.value = { kind: 'refining', step: 0, steps: STEPS, ms: 0 };
@@ -184,7 +185,11 @@ export class Asking {
         this.answered();
         if (w.commit) this.finalOfCommit(scene, e, w, ms); else this.finalOfPreview(scene, e, w, ms);
       },
-      refused: (p) => this.refused(p),
+      refused: (p) => {
+        // Futures matter more than their score: when working out both fails, they are asked for alone.
+        if (p.code === 'internal' && w.commit && !w.unscored) this.send({ ...w, unscored: true }, false);
+        else this.refused(p);
+      },
       away: () => this.wentAway(w),
     };
   }
@@ -199,7 +204,7 @@ export class Asking {
     if (!editor.drag.peek() && shown?.id === id && !shown.futures.sketch && step < shown.futures.step) return;
     const f = readFutures(e.agents[id], start, step, steps, a.type === 'pedestrian');
     const old = editor.draft.peek();
-    const earlier = step > 0 && old?.id === id && !old.futures.sketch ? [old.futures, ...old.earlier].slice(0, 3) : [];
+    const earlier = step > 0 && !this.calm.matches && old?.id === id && !old.futures.sketch ? [old.futures, ...old.earlier].slice(0, 3) : [];
     editor.draft.value = { id, futures: f, earlier };
   }
 
@@ -282,7 +287,7 @@ export class Asking {
     const trajectories: Record<string, unknown> = {};
     const driving = new Set(set.driving);
     for (const id of editor.touchedIds(scene)) if (set.futures.has(id)) driving.add(id);
-    const shown: MotionSet = { ...set, key: sceneKey(scene), driving, stale: false };
+    const shown: MotionSet = { ...set, key: sceneKey(scene), driving, stale: false, fresh: null };
     for (const a of scene.agents.values()) if (driving.has(a.id) || (scene.others === 'still' && canChange(a))) trajectories[a.id] = trackJson(motionOf(scene, shown, a));
     if (set.stale) editor.settle(shown, null);
     const ref = this.library.stored ? { scene_id: scene.id } : { scene: { ...this.library.raw, map: this.library.mapJson, generated: null } };

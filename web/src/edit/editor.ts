@@ -102,6 +102,8 @@ export class Editor {
     const s = this.scene.value;
     return s && !this.drag.value ? readEvents(s, this.motion.value) : [];
   });
+  /** Are the futures of the selected road user from before the last change? */
+  readonly outdated = computed(() => this.motion.value.stale && !this.draft.value && this.motion.value.fresh !== this.selection.value);
   /** Changes only when a drag begins or ends. */
   readonly dragging = computed(() => this.drag.value !== null);
   readonly undoName = computed(() => (this.historyTick.value, this.history?.undoName ?? null));
@@ -114,7 +116,7 @@ export class Editor {
     keep('speed-unit', unit);
   }
 
-  open(scene: Scene): void {
+  open(scene: Scene, motion?: MotionSet | null): void {
     batch(() => {
       this.history = new History(scene);
       this.cache.clear();
@@ -127,7 +129,8 @@ export class Editor {
       this.drag.value = null;
       this.liveReach.value = null;
       this.selectedEvent.value = null;
-      this.motion.value = emptyMotion(sceneKey(scene));
+      this.motion.value = motion ?? emptyMotion(sceneKey(scene));
+      if (motion) this.cache.put(motion);
       this.time.value = 0;
       this.playing.value = false;
       this.status.value = { kind: 'ready' };
@@ -192,19 +195,23 @@ export class Editor {
       this.historyTick.value++;
       this.changes.value = [];
       this.selectedEvent.value = null;
-      this.adoptMotion(scene);
+      this.adoptMotion(scene, agent && onlyPicked(before, scene, agent) ? agent : null);
     });
     this.onCommit?.(scene, { name, agent, undo });
   }
 
   /** Known answers appear at once; otherwise the old ones stay, marked as out of date. */
-  private adoptMotion(scene: Scene): void {
+  private adoptMotion(scene: Scene, fresh: string | null): void {
     const key = sceneKey(scene);
     const known = this.cache.get(key);
     if (known) {
       this.motion.value = known;
       this.draft.value = null;
-    } else this.motion.value = { ...this.motion.value, key, stale: true };
+    } else {
+      const m = this.motion.value;
+      const keeps = fresh && m.futures.has(fresh) ? fresh : null;
+      this.motion.value = { ...m, key, stale: true, fresh: keeps, driving: keeps ? new Set([...m.driving, keeps]) : m.driving };
+    }
   }
 
   /** Takes over what the generator worked out for the document as it is now. */
@@ -255,6 +262,13 @@ export class Editor {
   touchedIds(scene = this.scene.peek()): string[] {
     return scene ? [...scene.agents.values()].filter((a) => touched(a) && canChange(a)).map((a) => a.id) : [];
   }
+}
+
+/** Was nothing changed but the choice among its futures? */
+function onlyPicked(before: Scene, after: Scene, id: string): boolean {
+  const a = before.agents.get(id), b = after.agents.get(id);
+  return !!a && !!b && a.start === b.start && a.goal === b.goal && a.length === b.length && a.width === b.width && a.chosen !== b.chosen
+    && before.seed === after.seed && before.diversity === after.diversity && before.others === after.others;
 }
 
 function changedAgent(before: Scene, after: Scene): string | null {

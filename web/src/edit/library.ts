@@ -6,7 +6,7 @@ import { Away, Refused, type Client } from '../net/client';
 import type { SceneListItem } from '../net/api';
 import { forget, keep, recall } from '../net/storage';
 import { isMapRef, type MapJson, type SceneJson } from '../model/json';
-import { readScene, SceneError } from '../model/read';
+import { readGenerated, readScene, SceneError } from '../model/read';
 import { generatedJson, writeScene } from '../model/write';
 import { sceneKey, touched, withAgents, type Agent, type Scene } from '../model/scene';
 
@@ -36,6 +36,8 @@ export class Library {
   mapRef: string | null = null;
   /** The server knows this scene by its id. */
   stored = false;
+  /** The document as it was opened: nothing to save yet. */
+  private opened: Scene | null = null;
   private etag: string | null = null;
   private saveTimer = 0;
   private saving = false;
@@ -91,10 +93,14 @@ export class Library {
     if (kept) scene = restore(scene, kept);
     this.saveState.value = this.isOwn(scene.id) ? (kept ? 'local' : 'saved') : kept ? 'local' : 'example';
     keep('last-scene', scene.id);
-    this.editor.open(scene);
+    this.opened = kept ? null : scene;
+    const saved = kept ? null : readGenerated(json, scene);
+    this.editor.open(scene, saved);
+    const unanswered = !saved && [...scene.agents.values()].some(touched);
+    if (unanswered) this.editor.motion.value = { ...this.editor.motion.peek(), stale: true };
     this.onOpen?.(scene);
+    if (unanswered) this.editor.onCommit?.(scene, { name: 'Scene opened', agent: null, undo: true });
     if (kept) {
-      this.editor.onCommit?.(scene, { name: 'Changes from last time', agent: null, undo: true });
       this.editor.notify({ text: 'Your changes from last time are back.', action: { label: 'Start fresh', run: () => void this.startFresh(scene.id) } }, 9000);
     }
   }
@@ -106,7 +112,7 @@ export class Library {
 
   /** A document change was committed. */
   changed(scene: Scene): void {
-    if (!this.raw) return;
+    if (!this.raw || scene === this.opened) return;
     const id = scene.id;
     const kept = keptEdits(scene);
     if (kept ? !keep(`edits:${id}`, kept) : (forget(`edits:${id}`), false)) this.saveState.value = 'full';

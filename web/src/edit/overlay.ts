@@ -140,7 +140,7 @@ export class Overlay {
     if (!f) return;
     const chosen = e.chosen.value;
     const d = e.draft.value;
-    const outdated = e.motion.value.stale && !d;
+    const outdated = e.outdated.value;
     if (d && d.id === a.id) d.earlier.forEach((old, i) => paintFutures(g, v, old, { chosen, alpha: TRAIL_ALPHA[i] ?? 0.1 }));
     const committed = this.committed(a);
     paintFutures(g, v, f, { chosen, only: e.hoverFuture.value, outdated, alpha: outdated ? 0.6 : 1, onlyChosen: committed });

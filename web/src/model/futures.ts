@@ -37,7 +37,7 @@ export function describe(m: Motion, isPedestrian: boolean): string {
   if (length < 1.5) return isPedestrian ? 'Stays' : 'Stands still';
   const turn = totalTurn(m);
   const side = turn > 0 ? 'left' : 'right';
-  const where = Math.abs(turn) > 2.5 ? 'Turns round' : Math.abs(turn) > 0.6 ? `Turns ${side}` : shift(m) ?? (isPedestrian ? 'Straight' : 'Straight on');
+  const where = Math.abs(turn) > 2.5 ? 'Turns round' : Math.abs(turn) > 0.6 ? `Turns ${side}` : shift(m, isPedestrian) ?? (isPedestrian ? 'Straight' : 'Straight on');
   return `${where}${pace(m, a, b, length, isPedestrian)}`;
 }
 
@@ -48,11 +48,12 @@ function totalTurn(m: Motion): number {
 }
 
 /** Sideways move without a turn, as in a lane change; a long road that bends a little is still straight on. */
-function shift(m: Motion): string | null {
+function shift(m: Motion, isPedestrian: boolean): string | null {
   const n = m.x.length - 1;
   const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2, dx = m.x[n] - m.x[0], dy = m.y[n] - m.y[0];
   const left = -dx * Math.sin(h) + dy * Math.cos(h);
-  return Math.abs(left) > Math.max(2.2, 0.07 * Math.hypot(dx, dy)) ? `Moves ${left > 0 ? 'left' : 'right'}` : null;
+  const limit = isPedestrian ? Math.max(1, 0.18 * Math.hypot(dx, dy)) : Math.max(2.2, 0.07 * Math.hypot(dx, dy));
+  return Math.abs(left) > limit ? `${isPedestrian ? 'Bears' : 'Moves'} ${left > 0 ? 'left' : 'right'}` : null;
 }
 
 function pace(m: Motion, a: Pose, b: Pose, length: number, ped: boolean): string {
@@ -91,7 +92,7 @@ function difference(a: Motion, b: Motion): string | null {
     const left = -(b.x[i] - a.x[i]) * Math.sin(a.heading[i]) + (b.y[i] - a.y[i]) * Math.cos(a.heading[i]);
     if (Math.abs(left) > Math.abs(side)) side = left;
   }
-  return Math.abs(side) > 0.4 ? `more to the ${side > 0 ? 'left' : 'right'}` : null;
+  return Math.abs(side) > 0.4 ? `further ${side > 0 ? 'left' : 'right'}` : null;
 }
 
 export interface Collision { a: string; b: string; time: number }
@@ -109,7 +110,7 @@ export interface Reach {
 /** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
 export function reachWords(r: Reach, time: number): { title: string; words: string } {
   const text = r.words?.trim() ?? '';
-  const cut = /[.!?](?=\s|$)(?!\d)/.exec(text.replace(/(\d)\.(?=\d)/g, '$1,'));
+  const cut = /[.!?](?=\s|$)/.exec(text);
   const title = cut ? text.slice(0, cut.index) : text;
   const rest = cut ? text.slice(cut.index + 1).trim() : '';
   return { title: title || `Out of reach in ${time.toFixed(1)} s`, words: rest || 'The nearest reachable point is shown.' };
@@ -124,6 +125,8 @@ export interface MotionSet {
   readonly score: Score | null;
   readonly reach: ReadonlyMap<string, Reach>;
   readonly stale: boolean;
+  /** The one road user whose futures still hold while the rest is out of date: another of its six was picked. */
+  readonly fresh?: string | null;
   /** Unlikely things that were done anyway, by road user. */
   readonly warnings?: ReadonlyMap<string, readonly string[]>;
   /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */

@@ -2,7 +2,8 @@
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import { isMapRef, type AgentJson, type ConditionJson, type MapJson, type SceneJson } from './json';
 import { isStill, motionFrom, poseAtStep, STEP_S } from './motion';
-import { freeGoal, GOAL_TIME, logStartSpec, type Agent, type AgentType, type GoalSpec, type Kind, type Others, type Scene, type StartSpec } from './scene';
+import { emptyMotion, readFutures, type Futures, type MotionSet } from './futures';
+import { freeGoal, GOAL_TIME, logStartSpec, sceneKey, startPose, type Agent, type AgentType, type GoalSpec, type Kind, type Others, type Scene, type StartSpec } from './scene';
 import type { Pose, Vec } from './geometry';
 
 export class SceneError extends Error {}
@@ -34,12 +35,27 @@ function readAgent(json: AgentJson, map: LaneMap, name: string, scene: SceneJson
   const type = (['vehicle', 'pedestrian', 'cyclist'].includes(json.type) ? json.type : 'other') as AgentType;
   const kind = kindOf(json);
   const c = json.conditions ?? {};
-  const chosen = scene.generated?.samples?.[scene.generated.chosen_sample ?? 0]?.agents?.[json.id]?.chosen;
+  const picked = scene.x_editor?.picked?.[json.id];
   return Object.freeze({
     id: json.id, type, kind, name, length: c.length_m ?? json.length_m, width: c.width_m ?? json.width_m, logSize: [json.length_m, json.width_m] as const,
     log, logStart, parked: type === 'vehicle' && isStill(log) && offLanes(map, logStart), ego: json.role === 'ego',
-    start: readStart(c, logStart), goal: readGoal(c), chosen: chosen && chosen > 0 ? chosen : null,
+    start: readStart(c, logStart), goal: readGoal(c), chosen: typeof picked === 'number' && picked >= 0 && picked < 6 ? Math.floor(picked) : null,
   });
+}
+
+/** The futures saved beside a scene, when they still belong to it. */
+export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
+  const g = json.generated;
+  const agents = g && !g.stale ? g.samples?.[g.chosen_sample ?? 0]?.agents : undefined;
+  if (!g || !agents) return null;
+  const futures = new Map<string, Futures>();
+  for (const [id, f] of Object.entries(agents)) {
+    const a = scene.agents.get(id), start = a && startPose(a);
+    if (a && start && f.modes?.length) futures.set(id, readFutures(f, start, 1, 1, a.type === 'pedestrian'));
+  }
+  if (!futures.size) return null;
+  const head = Object.fromEntries(Object.entries(g).filter(([k]) => k !== 'samples'));
+  return { ...emptyMotion(sceneKey(scene)), futures, driving: new Set(futures.keys()), head };
 }
 
 function readStart(c: ConditionJson, log: Pose | null): StartSpec {

@@ -67,8 +67,13 @@ export function writeScene(raw: SceneJson, scene: Scene, generated: GeneratedJso
   });
   return {
     ...raw, name: scene.name, map: map ?? raw.map, agents, generated,
-    x_editor: { seed: scene.seed, diversity: scene.diversity, others: scene.others },
+    x_editor: { seed: scene.seed, diversity: scene.diversity, others: scene.others, ...picks(scene) },
   };
+}
+
+function picks(scene: Scene): { picked?: Record<string, number> } {
+  const picked = Object.fromEntries([...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => [a.id, a.chosen!]));
+  return Object.keys(picked).length ? { picked } : {};
 }
 
 /** The same scene with everybody but `keep` standing where it starts. */

@@ -196,7 +196,15 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const stored = d.server.scenes.get(id.id)!;
     expect(stored.rev).toBeGreaterThan(1);
     expect(JSON.stringify(stored.scene.agents[0].conditions)).toContain('x_m');
-    stored.etag = '"9-other"';
+    // Opened again, the futures are there without asking.
+    const asked = d.server.log.length;
+    await d.page.reload();
+    await d.ready();
+    await d.page.waitForTimeout(400);
+    expect(d.server.log.length).toBe(asked);
+    await d.select('1');
+    expect(await d.text('.goalsec h3')).not.toContain('free');
+    d.server.scenes.get(id.id)!.etag = '"9-other"';
     await d.key('Shift+G');
     await d.page.waitForSelector('.banner');
     expect(await d.text('.banner')).toContain('changed elsewhere');

@@ -73,7 +73,7 @@ export function startStandIn(options = {}) {
       if (g?.x_m === undefined) continue;
       const d = Math.hypot(g.x_m - a.track.x_m[0], g.y_m - a.track.y_m[0]), max = (g.time_s ?? 9) * 14;
       const far = d > max;
-      resolved[a.id] = { reach: { status: far ? 'unreachable' : 'reached', nearest: { x_m: a.track.x_m[0] + ((g.x_m - a.track.x_m[0]) * max) / d, y_m: a.track.y_m[0] + ((g.y_m - a.track.y_m[0]) * max) / d, heading_rad: g.heading_rad ?? 0, speed_mps: 10 }, limiting: far ? 'time' : null, needs: null, words: far ? 'needs more time' : null } };
+      resolved[a.id] = { reach: { status: far ? 'unreachable' : 'reached', nearest: { x_m: a.track.x_m[0] + ((g.x_m - a.track.x_m[0]) * max) / d, y_m: a.track.y_m[0] + ((g.y_m - a.track.y_m[0]) * max) / d, heading_rad: g.heading_rad ?? 0, speed_mps: 10 }, limiting: far ? 'time' : null, needs: null, words: far ? `Too far for ${(g.time_s ?? 9).toFixed(1)} s. The goal is ${d.toFixed(0)} m away.` : null } };
     }
     send({ event: 'final', samples: [{ agents }], resolved, scores: b.score === false ? null : score(), warnings: [], timing: {} });
     res.end();
