@@ -1,0 +1,177 @@
+// The editor as a person meets it: eyes, a mouse, a keyboard, and the list that screen readers read.
+import { chromium as engine } from 'playwright-core';
+import { chromium as executablePath, out } from './where.js';
+import { Wire } from './wire.js';
+
+const FLAGS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const PATIENCE_MS = 15_000;
+
+export const launch = () => engine.launch({ executablePath, args: FLAGS });
+
+const number = (text) => Number(text.replace('≈', '').replace('−', '-').trim());
+
+export class Editor {
+  /** What the page complained about; a connection that broke is not the page's fault. */
+  errors = [];
+
+  static async open(browser, url, options = {}) {
+    const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+    const e = new Editor();
+    e.page = await context.newPage();
+    e.page.setDefaultTimeout(PATIENCE_MS);
+    e.page.on('console', (m) => { if (m.type() === 'error' && !/ERR_|Failed to load resource/.test(m.text())) e.errors.push(m.text()); });
+    e.page.on('pageerror', (error) => e.errors.push(String(error.stack ?? error)));
+    e.cdp = await context.newCDPSession(e.page);
+    e.wire = await Wire.on(e.cdp);
+    await e.page.goto(url);
+    await e.ready();
+    return e;
+  }
+
+  async ready() {
+    await this.page.waitForSelector('[data-agent]', { state: 'attached' });
+    await this.page.waitForSelector('main.stage[data-view]');
+  }
+
+  /** The first seconds play by themselves; most journeys cut that short. */
+  async begin() {
+    await this.key('Home');
+    await this.until(() => document.querySelector('.tm').textContent.startsWith('0.0'));
+    await this.settled();
+  }
+
+  async close() { await this.page.context().close(); }
+
+  until(what, argument) { return this.page.waitForFunction(what, argument); }
+
+  picture(name) { return this.page.screenshot({ path: `${out}/${name}.png` }); }
+
+  // -------------------------------------------------------------- what one reads
+
+  text(selector) { return this.page.locator(selector).first().innerText(); }
+  shows(selector) { return this.page.locator(selector).first().isVisible(); }
+
+  /** The list of road users: `{ id, name, kind, speed (m/s), words }`. */
+  async roadUsers() {
+    const rows = await this.page.locator('[data-agent]').evaluateAll((all) => all.map((e) => [e.dataset.agent, e.textContent]));
+    return rows.map(([id, words]) => {
+      const [, name, value, unit] = /^(.+?), ([\d.]+) (km\/h|m\/s)/.exec(words) ?? [null, words, 'NaN', ''];
+      return { id, name, kind: name.replace(/ \d+$/, ''), speed: Number(value) / (unit === 'm/s' ? 1 : 3.6), words };
+    });
+  }
+
+  /** A pose as the handles tell it to those who cannot see them. */
+  async pose(part) {
+    const said = (what) => this.page.getByRole('slider', { name: `${part} ${what}`, exact: true }).getAttribute('aria-valuetext');
+    const [x, y] = (await said('position')).replaceAll('−', '-').match(/-?[\d.]+/g).map(Number);
+    const now = (what) => this.page.getByRole('slider', { name: `${part} ${what}`, exact: true }).getAttribute('aria-valuenow').then(Number);
+    return { x, y, heading: (await now('heading')) * (Math.PI / 180), speed: await now('speed') };
+  }
+
+  async value(field, nth = 0) { return number(await this.page.locator(`[data-field="${field}"]`).nth(nth).inputValue()); }
+  async goal() { return { x: await this.value('goal-pos', 0), y: await this.value('goal-pos', 1) }; }
+
+  /** Every value the inspector shows, as text. */
+  inspector() {
+    return this.page.locator('aside.insp').evaluate((el) => [
+      el.querySelector('h2')?.textContent ?? '',
+      ...[...el.querySelectorAll('input')].map((i) => `${i.getAttribute('aria-label')}: ${i.value}`),
+      ...[...el.querySelectorAll('[role="switch"], [role="radio"]')].map((s) => `${s.getAttribute('aria-label') ?? s.textContent}: ${s.getAttribute('aria-checked')}`),
+    ]);
+  }
+
+  // -------------------------------------------------------------- where things are
+
+  async view() {
+    const [cx, cy, zoom] = (await this.page.getAttribute('main.stage', 'data-view')).split(' ').map(Number);
+    return { cx, cy, zoom, box: await this.page.locator('main.stage').boundingBox() };
+  }
+
+  /** Page position of a place in the scene. */
+  async at(x, y) {
+    const { cx, cy, zoom, box } = await this.view();
+    return [box.x + box.width / 2 + (x - cx) * zoom, box.y + box.height / 2 - (y - cy) * zoom];
+  }
+
+  /** Is the picture, and no panel, under a page position? */
+  open([x, y], margin = 24) {
+    return this.page.evaluate(([px, py, m]) => [[0, 0], [-m, -m], [m, -m], [-m, m], [m, m]].every(([dx, dy]) => {
+      const el = document.elementFromPoint(px + dx, py + dy);
+      return el instanceof HTMLCanvasElement || el?.matches('main.stage') === true;
+    }), [x, y, margin]);
+  }
+
+  // -------------------------------------------------------------- what one does
+
+  key(k) { return this.page.keyboard.press(k); }
+
+  /** As a screen reader activates an entry of the list. */
+  async choose(id) {
+    await this.page.locator(`[data-agent="${id}"]`).evaluate((el) => el.click());
+    await this.page.waitForSelector('.fu');
+    await this.settled();
+  }
+
+  async letGo() {
+    await this.page.evaluate(() => document.activeElement?.blur?.());
+    await this.key('Escape');
+    await this.until(() => !document.querySelector('.fu'));
+  }
+
+  /** Nothing is on the way any more. */
+  async settled() {
+    await this.page.waitForTimeout(120);
+    await this.until(() => !/Working|Refining|Loading/.test(document.querySelector('.status')?.textContent ?? ''));
+    await this.page.waitForTimeout(60);
+  }
+
+  async drag(from, to, { moves = 10, every = 16, then } = {}) {
+    const { mouse } = this.page;
+    await mouse.move(...from);
+    await mouse.down();
+    for (let i = 1; i <= moves; i++) {
+      await mouse.move(from[0] + ((to[0] - from[0]) * i) / moves, from[1] + ((to[1] - from[1]) * i) / moves);
+      await this.page.waitForTimeout(every);
+      await then?.(i);
+    }
+  }
+
+  async release() {
+    await this.page.mouse.up();
+    await this.settled();
+  }
+
+  async type(field, value, nth = 0) {
+    const el = this.page.locator(`[data-field="${field}"]`).nth(nth);
+    await el.click();
+    await el.fill(value);
+    await el.press('Enter');
+    await this.settled();
+  }
+
+  /** Keeps what an element says from now on; `said()` gives it back. */
+  async listen(selector) {
+    const log = await this.page.evaluateHandle((s) => {
+      const said = [];
+      const note = () => { const t = document.querySelector(s)?.textContent ?? ''; if (t !== said.at(-1)) said.push(t); };
+      new MutationObserver(note).observe(document.querySelector(s), { subtree: true, childList: true, characterData: true });
+      note();
+      return said;
+    }, selector);
+    return () => log.jsonValue();
+  }
+
+  /** Drops a file from outside onto the picture. */
+  async drop(name, bytes) {
+    const data = await this.page.evaluateHandle(([n, base64]) => {
+      const raw = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+      const t = new DataTransfer();
+      t.items.add(new File([raw], n, { type: 'application/octet-stream' }));
+      return t;
+    }, [name, bytes.toString('base64')]);
+    for (const type of ['dragenter', 'dragover', 'drop']) await this.page.dispatchEvent('main.stage', type, { dataTransfer: data });
+  }
+}
+
+export const distance = (a, b) => Math.hypot(a.x - b.x, a.y - b.y);
+export const turn = (a, b) => Math.abs(Math.atan2(Math.sin(a - b), Math.cos(a - b)));

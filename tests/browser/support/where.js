@@ -1,0 +1,38 @@
+// What these journeys need on this machine, and the words for what is missing.
+import { accessSync, constants, existsSync, mkdirSync, readdirSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+
+const chromium = process.env.CHROMIUM || '/usr/bin/chromium';
+const program = process.env.DRAGTRAFFIC_BIN || here('../../../target/debug/dragtraffic');
+
+function runs(path) {
+  try {
+    accessSync(path, constants.X_OK);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+/** Why nothing can be run here, or false. */
+export function missing() {
+  const why = !runs(chromium) ? 'no Chromium; set CHROMIUM to its path'
+    : !runs(program) ? 'no dragtraffic program; run `cargo build -p dragtraffic` or set DRAGTRAFFIC_BIN'
+      : false;
+  if (why) console.log(`Skipped: ${why}.`);
+  return why;
+}
+
+/** A recorded scenario file from beside the checkout, or null. */
+export function recordedFile() {
+  const folder = here('../../../../shared/data/womd/val');
+  const name = existsSync(folder) && readdirSync(folder).sort().find((n) => n.endsWith('.tfrecord.gz'));
+  return name ? { path: `${folder}/${name}`, name } : null;
+}
+
+export const out = here('../out');
+mkdirSync(out, { recursive: true });
+
+export { chromium, program };

@@ -1,0 +1,78 @@
+// What the page asks of the generator and what comes back, seen from outside the page.
+
+/** One `POST /v1/generate`. Times are seconds of the browser's monotonic clock. */
+class Asked {
+  constructor(id, sent, body) {
+    this.id = id;
+    this.sent = sent;
+    this.body = body;
+    this.ended = null;
+    this.cancelled = false;
+    this.head = Buffer.alloc(0);
+    this.tail = [];
+    this.chunks = [];
+  }
+
+  /** The events that arrived whole, with the time at which the last byte of each was there. */
+  events() {
+    const text = Buffer.concat([this.head, ...this.tail]);
+    const out = [];
+    let from = 0;
+    for (let end; (end = text.indexOf(10, from)) >= 0; from = end + 1) {
+      if (end > from) out.push({ ...JSON.parse(text.subarray(from, end).toString()), at: this.#arrival(end + 1) });
+    }
+    return out;
+  }
+
+  #arrival(bytes) {
+    let sum = 0;
+    for (const c of this.chunks) {
+      sum += c.bytes;
+      if (sum >= bytes) return c.at;
+    }
+    return this.ended;
+  }
+
+  event(name) { return this.events().find((e) => e.event === name); }
+}
+
+export class Wire {
+  asked = [];
+
+  static async on(cdp) {
+    const w = new Wire();
+    const of = (e) => w.asked.find((a) => a.id === e.requestId);
+    cdp.on('Network.requestWillBeSent', (e) => {
+      if (e.request.method === 'POST' && new URL(e.request.url).pathname === '/v1/generate') w.asked.push(new Asked(e.requestId, e.timestamp, JSON.parse(e.request.postData ?? '{}')));
+    });
+    cdp.on('Network.responseReceived', (e) => {
+      const a = of(e);
+      if (!a) return;
+      a.status = e.response.status;
+      void cdp.send('Network.streamResourceContent', { requestId: e.requestId })
+        .then((r) => { a.head = Buffer.from(r.bufferedData, 'base64'); }, () => undefined);
+    });
+    cdp.on('Network.dataReceived', (e) => {
+      const a = of(e);
+      if (!a) return;
+      a.chunks.push({ at: e.timestamp, bytes: e.dataLength });
+      if (e.data) a.tail.push(Buffer.from(e.data, 'base64'));
+    });
+    cdp.on('Network.loadingFinished', (e) => { const a = of(e); if (a) a.ended = e.timestamp; });
+    cdp.on('Network.loadingFailed', (e) => { const a = of(e); if (a) { a.ended = e.timestamp; a.cancelled = e.canceled === true; } });
+    await cdp.send('Network.enable', { maxPostDataSize: 1 << 24 });
+    return w;
+  }
+
+  /** Those asked since a mark taken with `asked.length`. */
+  since(mark) { return this.asked.slice(mark); }
+  last() { return this.asked.at(-1); }
+
+  /** The most that were on the way at the same time. */
+  static crowd(asked) {
+    const ends = asked.flatMap((a) => [[a.sent, 1], [a.ended ?? Infinity, -1]]).sort((p, q) => p[0] - q[0] || p[1] - q[1]);
+    let now = 0, most = 0;
+    for (const [, d] of ends) most = Math.max(most, (now += d));
+    return most;
+  }
+}
