@@ -27,7 +27,7 @@ import { timeline } from './timeline';
 import { dialogs } from './dialogs';
 import { handleSliders, liveRegion, roadUserList } from './access';
 import { emptyState } from './empty';
-import { busyBox } from './thumbs';
+import { busyBox, busyCentre } from './thumbs';
 
 const FIRST_SCENE = 'demo-crossing';
 const WIDE = 1300;
@@ -80,14 +80,9 @@ function fit(c: Context, opening = false): void {
   c.stage.resize();
   if (opening) c.stage.view.fit(busyBox(scene), 9.5, 6.8);
   else c.stage.view.fit(scene.map.box);
-  if (opening) c.stage.view.centre(...centreOf(scene));
+  if (opening) c.stage.view.centre(...busyCentre(scene));
   c.stage.invalidate('map');
   c.stage.viewChanged();
-}
-
-function centreOf(scene: import('../model/scene').Scene): [number, number] {
-  const b = busyBox(scene);
-  return [(b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2];
 }
 
 function follow(c: Context): void {

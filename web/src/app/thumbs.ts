@@ -63,9 +63,18 @@ function paint(canvas: HTMLCanvasElement, k: Kept, w: number, ht: number): void 
   canvas.dataset.done = String(paletteStamp());
 }
 
+/** The middle of what moves: the median, so that one queue far out does not pull it away. */
+export function busyCentre(scene: Scene): [number, number] {
+  const at = [...scene.agents.values()].filter((a) => !a.parked && a.type !== 'other').map(startPose).filter((p) => p !== null);
+  if (!at.length) return [(scene.map.box.x0 + scene.map.box.x1) / 2, (scene.map.box.y0 + scene.map.box.y1) / 2];
+  const median = (v: number[]): number => v.sort((a, b) => a - b)[v.length >> 1];
+  return [median(at.map((p) => p.x)), median(at.map((p) => p.y))];
+}
+
 /** Where the road users are: the middle four fifths of them, so that one far away does not shrink the rest. */
 export function busyBox(scene: Scene, margin = 8): Box {
-  const at = [...scene.agents.values()].map(startPose).filter((p) => p !== null);
+  const moving = [...scene.agents.values()].filter((a) => !a.parked && a.type !== 'other');
+  const at = moving.map(startPose).filter((p) => p !== null);
   if (at.length < 3) return scene.map.box;
   const cut = (v: number[]): [number, number] => { v.sort((a, b) => a - b); const n = Math.floor(v.length * 0.1); return [v[n], v[v.length - 1 - n]]; };
   const [x0, x1] = cut(at.map((p) => p.x)), [y0, y1] = cut(at.map((p) => p.y));

@@ -230,8 +230,7 @@ function findArrows(map: LaneMap): Arrow[] {
       if (Math.abs(t) > 0.5) junction = true;
       if (n.inside || n.line.length < 45) ways.add(t > 0.5 ? 'L' : t < -0.5 ? 'R' : 'S');
     }
-    // A lane that only goes straight on carries an arrow when a neighbour at the same crossing turns.
-    if (!junction || !ways.size) continue;
+    if (!junction || !ways.size || !hasNeighbour(map, lane)) continue;
     for (const back of lane.line.length > 40 ? [6, 24] : [6]) {
       const s = lane.line.length - back;
       const p = lane.line.pts, S = lane.line.s;
@@ -242,6 +241,12 @@ function findArrows(map: LaneMap): Arrow[] {
     }
   }
   return out;
+}
+
+/** Arrows are painted where lanes must be told apart; a single lane carries none. */
+function hasNeighbour(map: LaneMap, lane: Lane): boolean {
+  const p = pointAt(lane.line, lane.line.length - 6);
+  return nearestLanes(map, p.x, p.y, p.heading, 5, (l) => l.kind === 'road' && l !== lane).some((h) => h.d > 2 && Math.abs(wrapAngle(h.heading - p.heading)) < 0.3);
 }
 
 function paintArrow(g: CanvasRenderingContext2D, ways: string): void {
