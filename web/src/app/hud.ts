@@ -46,7 +46,7 @@ function status(c: Context): HTMLElement {
   const line = (dot: string, text: string) => h('div', { class: 'row' }, h('span', { class: `dot ${dot}` }), text);
   switch (s.kind) {
     case 'loading': return line('busy', 'Loading the scene …');
-    case 'refining': return h('div', { class: 'row' }, h('span', { class: 'steps' }, [...Array(s.steps).keys()].map((i) => h('i', { class: i < s.step ? 'd' : '' }))), s.step ? `Refining, step ${s.step} of ${s.steps} · ${s.ms.toFixed(0)} ms` : 'Working out futures …');
+    case 'refining': return h('div', { class: 'row' }, h('span', { class: 'steps' }, [...Array(s.steps).keys()].map((i) => h('i', { class: i < s.step ? 'd' : '' }))), s.step ? `Refining, step ${s.step} of ${s.steps} · ${s.ms.toFixed(0)} ms` : s.ms ? `First guess · ${s.ms.toFixed(0)} ms` : 'Working out futures …');
     case 'refused': return line('collision', s.words);
     case 'away': { const n = editor.away.peek()?.waiting ?? 0; return line('near', `Generator away${n ? ` · ${n} change${n > 1 ? 's' : ''} waiting` : ''}`); }
     case 'settled': {

@@ -147,13 +147,12 @@ function agentCurves(c: Context, a: Axes, unit: SpeedUnit): SVGElement[] {
 function eventBadges(c: Context, a: Axes): SVGElement[] {
   const { editor } = c;
   const out: SVGElement[] = [];
-  let taken = -Infinity;
   const all = editor.events.peek();
-  const crowded = all.length > 7;
-  for (const ev of all) {
-    const w = crowded ? 20 : ev.label.length * 5.9 + 26;
-    const x = Math.min(a.x1 - w - 2, Math.max(taken + 3, a.x(ev.time) - w / 2, X0 + 2));
-    taken = x + w;
+  const full = all.map((ev) => ev.label.length * 5.9 + 26);
+  const crowded = full.reduce((sum, w) => sum + w + 3, 0) > (a.x1 - X0) * 0.8;
+  const places = sideBySide(all.map((ev, i) => ({ at: a.x(ev.time), w: crowded ? 20 : full[i] })), X0 + 2, a.x1 - 2);
+  for (const [i, ev] of all.entries()) {
+    const w = crowded ? 20 : full[i], x = places[i];
     const on = editor.selectedEvent.peek() === ev;
     const hit = ev.kind === 'collision';
     out.push(svg('g', { class: 'badge', role: 'button', 'aria-label': `${ev.label}: ${ev.title}`, onclick: () => goTo(c, ev) },
@@ -163,4 +162,16 @@ function eventBadges(c: Context, a: Axes): SVGElement[] {
       crowded ? null : svg('text', { x: x + 20, y: 15.5, css: { fill: `var(--on-${ev.kind})` } }, ev.label)));
   }
   return out;
+}
+
+/** Left edges of badges near their places, none on top of another: pushed right first, then back from the end. */
+export function sideBySide(items: readonly { at: number; w: number }[], from: number, to: number): number[] {
+  const x: number[] = [];
+  items.forEach(({ at, w }, i) => { x[i] = Math.max(at - w / 2, i ? x[i - 1] + items[i - 1].w + 3 : from); });
+  let limit = to;
+  for (let i = items.length - 1; i >= 0; i--) {
+    x[i] = Math.max(from, Math.min(x[i], limit - items[i].w));
+    limit = x[i] - 3;
+  }
+  return x;
 }
