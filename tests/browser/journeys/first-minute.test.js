@@ -1,25 +1,14 @@
 // The first minute: look, click a car, drag its goal, let go.
 import assert from 'node:assert/strict';
-import { after, afterEach, before, describe, it } from 'node:test';
-import { distance, Editor, launch } from '../support/editor.js';
+import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
-import { Program } from '../support/program.js';
+import { distance } from '../support/editor.js';
+import { journeys } from '../support/journey.js';
 import { Wire } from '../support/wire.js';
-import { missing } from '../support/where.js';
 
-describe('the first minute', { skip: missing() }, () => {
-  let program, browser, e;
-  before(async () => { program = await Program.start(); browser = await launch(); });
-  after(async () => { await browser?.close(); await program?.stop(); });
-  afterEach(async () => {
-    const errors = e?.errors ?? [];
-    await e?.close();
-    e = null;
-    assert.deepEqual(errors, []);
-  });
-
+journeys('the first minute', (stage) => {
   it('opens the example crossing, plays it once and waits to be clicked', { timeout: 40_000 }, async () => {
-    e = await Editor.open(browser, program.url);
+    const e = await stage.open();
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.3);
     assert.equal(await e.page.inputValue('.title input'), 'Rosa & 5th');
     const users = await e.roadUsers();
@@ -36,7 +25,7 @@ describe('the first minute', { skip: missing() }, () => {
   });
 
   it('lists six futures of a clicked car', { timeout: 40_000 }, async () => {
-    e = await Editor.open(browser, program.url);
+    const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
     const at = await e.at(car.start.x, car.start.y);
@@ -60,7 +49,7 @@ describe('the first minute', { skip: missing() }, () => {
   });
 
   it('steers a goal flag: futures follow the hand, the others answer on release', { timeout: 60_000 }, async () => {
-    e = await Editor.open(browser, program.url);
+    const e = await stage.open();
     await e.begin();
     const car = await carOnTheMove(e);
     await e.page.mouse.click(...(await e.at(car.start.x, car.start.y)));

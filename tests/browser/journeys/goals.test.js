@@ -1,0 +1,143 @@
+// Goals that cannot be, values typed and handles turned, and the way back.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { carOnTheMove, cyclistOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
+import { turn } from '../support/editor.js';
+import { journeys } from '../support/journey.js';
+
+/** Pixels from the rear of a box to the knob that turns it, and from its nose to where the speed arrow begins. */
+const STALK = 24, GAP = 5;
+const SHORTEST_RIDER_PX = 17;
+
+journeys('goals and values', (stage) => {
+  it('says why a goal is out of reach and mends it with one click', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.page.mouse.click(...car.from);
+    await e.page.waitForSelector('.fu');
+    await e.settled();
+    await e.drag([car.to[0] + 9, car.to[1] - 26], [car.to[0] + (car.from[0] - car.to[0]) * 0.1 + 9, car.to[1] + (car.from[1] - car.to[1]) * 0.1 - 26]);
+    await e.release();
+    await e.type('goal-time', '2');
+    assert.match(await e.text('.hint'), /Too far for 2\.0 s/);
+    assert.match(await e.text('.hint'), /\d+ m/);
+    assert.match(await e.text('.status'), /nearest reachable/);
+    const ways = await e.page.locator('.opt').allInnerTexts();
+    assert.ok(ways.some((w) => w.startsWith('Use nearest reachable')), ways.join(' | '));
+    assert.ok(ways.length >= 2, ways.join(' | '));
+    await e.picture('unreachable');
+    for (const [i, way] of ways.entries()) {
+      await e.page.locator('.opt').nth(i).click();
+      await e.settled();
+      assert.equal(await e.page.locator('.hint.near').count(), 0, `${way.replace(/\s+/g, ' ')} mends it: ${await e.page.locator('.hint').allInnerTexts()}`);
+      const answer = e.wire.last().event('final');
+      assert.notEqual(answer.resolved[car.id].reach.status, 'unreachable', way);
+      await e.key('Control+z');
+      await e.settled();
+      assert.match(await e.text('.hint'), /Too far for 2\.0 s/);
+    }
+  });
+
+  it('takes typed, freed and dragged values, and undoes and redoes all of them', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const walker = await pedestrianOnTheMove(e);
+    const rider = await cyclistOnTheMove(e);
+    await e.key('Control+s');
+    await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    const id = await own(e);
+    const before = await stored(e, id);
+
+    await e.choose(walker.id);
+    await e.type('goal-speed', '1.2+0.4');
+    const pill = e.page.getByRole('switch', { name: 'Goal speed fixed' });
+    assert.equal(await pill.getAttribute('aria-checked'), 'true');
+    assert.equal(e.wire.last().body.conditions[walker.id].goal.speed_mps, 1.6);
+    await e.picture('pedestrian-typed');
+    await pill.click();
+    await e.settled();
+    assert.equal(await pill.getAttribute('aria-checked'), 'false');
+    assert.ok((await e.page.inputValue('[data-field="goal-speed"]')).startsWith('≈'), 'what the generator chose');
+    assert.equal((await stored(e, id))[walker.id].conditions?.goal?.speed_mps, undefined);
+    await pill.click();
+    await e.settled();
+    assert.equal(await pill.getAttribute('aria-checked'), 'true');
+
+    await e.choose(rider.id);
+    await e.key('z');
+    await e.page.waitForTimeout(200);
+    await tiller(e, 20);
+    const turned = (await e.pose('Start')).heading;
+    assert.ok(turn(turned, rider.start.heading) > 0.1, `turned by ${turn(turned, rider.start.heading).toFixed(2)} rad`);
+    assert.ok(Math.abs(e.wire.last().body.conditions[rider.id].start.heading_rad - turned) < 0.02);
+    const slow = (await e.pose('Start')).speed;
+    await arrow(e, 10 / 3.6);
+    const fast = (await e.pose('Start')).speed;
+    assert.ok(Math.abs(fast - slow - 10 / 3.6) < 0.4, `${slow} m/s, then ${fast} m/s`);
+
+    await e.page.locator('.fu[data-future="C"]').click();
+    await e.settled();
+    assert.equal(await e.page.locator('.fu[aria-checked="true"]').getAttribute('data-future'), 'C');
+    await e.key('Home');
+    await e.key('Space');
+    await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.5);
+    await e.key('Space');
+    await e.key('Home');
+    await e.settled();
+
+    const done = { page: await e.inspector(), scene: await stored(e, id) };
+    const steps = await all(e, 'undo', 'Control+z');
+    assert.ok(steps >= 6, `${steps} steps`);
+    assert.deepEqual(await stored(e, id), before);
+    assert.equal(await all(e, 'redo', 'Control+Shift+z'), steps);
+    assert.deepEqual(await e.inspector(), done.page);
+    assert.deepEqual(await stored(e, id), done.scene);
+  });
+});
+
+/** The identifier of the one scene that is the visitor's own. */
+async function own(e) {
+  const list = await (await e.page.request.get(new URL('/v1/scenes', e.page.url()).href)).json();
+  return list.scenes.find((s) => !s.readonly).id;
+}
+
+/** What the server keeps of what the user decided, once saving is done. */
+async function stored(e, id) {
+  await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+  const scene = await (await e.page.request.get(new URL(`/v1/scenes/${id}`, e.page.url()).href)).json();
+  return Object.fromEntries(scene.agents.map((a) => [a.id, { conditions: a.conditions, length: a.length_m, width: a.width_m }]));
+}
+
+/** Undoes or redoes until there is nothing left; the number of steps. */
+async function all(e, action, key) {
+  const off = () => e.page.locator(`header [data-action="${action}"]`).getAttribute('aria-disabled');
+  let n = 0;
+  for (; n < 50 && (await off()) !== 'true'; n++) {
+    await e.key(key);
+    await e.settled();
+  }
+  return n;
+}
+
+async function handles(e) {
+  const p = await e.pose('Start');
+  const { zoom } = await e.view();
+  const half = Math.max((await e.page.getByLabel('length in metres').inputValue()) * zoom, SHORTEST_RIDER_PX) / 2;
+  const [x, y] = await e.at(p.x, p.y);
+  const c = Math.cos(p.heading), s = Math.sin(p.heading);
+  return { p, zoom, half, ahead: (d, aside = 0) => [x + c * d - s * aside, y - s * d - c * aside] };
+}
+
+async function tiller(e, aside) {
+  const { half, ahead } = await handles(e);
+  await e.drag(ahead(-half - STALK), ahead(-half - STALK + 3, aside));
+  await e.release();
+}
+
+async function arrow(e, faster) {
+  const { p, zoom, half, ahead } = await handles(e);
+  const tip = half + GAP + p.speed * 2 * zoom;
+  await e.drag(ahead(tip), ahead(tip + faster * 2 * zoom));
+  await e.release();
+}
