@@ -172,8 +172,8 @@ fn complete(method: &str, operation: &mut Value) {
 fn example(operation: &str) -> Option<Value> {
     match operation {
         "generate" => Some(json!({
-            "scene_id": "demo-crossing", "agents": ["12"], "seed": 7,
-            "conditions": {"12": {"goal": {"x_m": 61.0, "y_m": 3.4, "speed_mps": 12.0}}},
+            "scene_id": "demo-crossing", "agents": ["5"], "seed": 7,
+            "conditions": {"5": {"goal": {"x_m": 14.0, "y_m": 0.4, "speed_mps": 6.0}}},
         })),
         "score" => Some(json!({"scene_id": "demo-crossing"})),
         "renameScene" => Some(json!({"name": "left turn, late"})),

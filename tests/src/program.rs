@@ -145,7 +145,7 @@ impl Server {
         self.send(&Request::new("POST", path).json(body))
     }
 
-    /// Value of a metric, the sum over its labels.
+    /// Value of a metric: the sum over its labels, or of one series given with its labels.
     ///
     /// # Errors
     /// When no reply can be read.

@@ -43,6 +43,75 @@ fn a_scene_goes_through_the_native_format_unchanged() {
     }
 }
 
+/// A server whose demos are listed.
+fn with_demos() -> Server {
+    let server = Server::start(&[]).unwrap();
+    for _ in 0..200 {
+        if server.get("/v1/scenes/demo-crossing?map=ref").unwrap().status == 200 {
+            return server;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    panic!("demo-crossing is not listed");
+}
+
+#[test]
+fn demos_can_be_used_and_copied_but_not_changed() {
+    let server = with_demos();
+    let demo = server.get("/v1/scenes/demo-crossing").unwrap();
+    let mut scene = demo.json();
+    let change = Request::new("PUT", "/v1/scenes/demo-crossing").header("if-match", demo.header("etag"));
+    let refused = server.send(&change.json(&scene)).unwrap();
+    assert_eq!((refused.status, refused.code().as_str()), (403, "read-only"));
+    let copy = server.post("/v1/scenes/demo-crossing/duplicate", &json!({"name": "mine"})).unwrap();
+    let copy = server.get(copy.header("location")).unwrap().json();
+    assert_eq!(
+        (copy["name"].as_str(), copy["meta"]["parent_id"].as_str()),
+        (Some("mine"), Some("demo-crossing"))
+    );
+    assert_eq!(copy["agents"], scene["agents"]);
+    // A drag sends the map by its hash; the answer is the same.
+    let ask = |scene: &Value| json!({"scene": scene, "agents": ["5"], "score": false});
+    let inline = server.post("/v1/generate", &ask(&scene)).unwrap();
+    assert_eq!(inline.status, 200, "{}", inline.text());
+    scene["map"] = server.get("/v1/scenes/demo-crossing?map=ref").unwrap().json()["map"].clone();
+    let by_hash = server.post("/v1/generate", &ask(&scene)).unwrap();
+    assert_eq!(by_hash.json()["samples"], inline.json()["samples"]);
+    let stale = json!({"scene_id": "demo-crossing", "etag": "\"1-0\""});
+    assert_eq!(server.post("/v1/generate", &stale).unwrap().code(), "stale-etag");
+}
+
+#[test]
+fn an_answer_can_be_saved_and_goes_stale_with_its_scene() {
+    let server = with_demos();
+    let mut scene = server.get("/v1/scenes/demo-crossing").unwrap().json();
+    let answer = server.post("/v1/generate", &json!({"scene": scene, "agents": ["5"]})).unwrap().json();
+    scene["generated"] = answer["generated"].clone();
+    scene["generated"]["samples"] = answer["samples"].clone();
+    let put = Request::new("PUT", "/v1/scenes/kept").header("if-none-match", "*").json(&scene);
+    let saved = server.send(&put).unwrap();
+    assert_eq!(saved.status, 201, "{}", saved.text());
+    let kept = server.get("/v1/scenes/kept").unwrap().json();
+    assert_eq!(kept["generated"]["stale"], false);
+    assert_eq!(kept["generated"]["samples"], scene["generated"]["samples"]);
+    scene["agents"][0]["conditions"] = json!({"goal": {"speed_mps": 3}});
+    let put = Request::new("PUT", "/v1/scenes/kept").header("if-match", saved.header("etag")).json(&scene);
+    assert_eq!(server.send(&put).unwrap().status, 200);
+    assert_eq!(server.get("/v1/scenes/kept").unwrap().json()["generated"]["stale"], true);
+}
+
+#[test]
+fn examples_of_the_document_work() {
+    let server = with_demos();
+    let document = server.get("/openapi.json").unwrap().json();
+    for (path, operation) in [("/v1/generate", "post"), ("/v1/score", "post")] {
+        let body =
+            &document["paths"][path][operation]["requestBody"]["content"]["application/json"]["example"];
+        let reply = server.post(path, body).unwrap();
+        assert_eq!(reply.status, 200, "{path}: {}", reply.text());
+    }
+}
+
 #[test]
 fn a_form_may_carry_the_file() {
     let server = Server::start(&[]).unwrap();
