@@ -79,11 +79,11 @@ journeys('goals and values', (stage) => {
     await e.page.locator('.fu[data-future="C"]').click();
     await e.settled();
     assert.equal(await e.page.locator('.fu[aria-checked="true"]').getAttribute('data-future'), 'C');
-    await e.key('Home');
-    await e.key('Space');
+    const play = e.page.getByRole('button', { name: 'Play or pause' });
+    await play.click();
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.5);
-    await e.key('Space');
-    await e.key('Home');
+    await play.click();
+    await e.page.getByRole('button', { name: 'To the start' }).click();
     await e.settled();
 
     const done = { page: await e.inspector(), scene: await stored(e, id) };
