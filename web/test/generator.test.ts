@@ -80,6 +80,17 @@ describe('generator', () => {
     expect(b.seen.refused).toEqual(['not-found']);
   });
 
+  it('waits for its turn when the queue is full, without calling the generator away', async () => {
+    server = await startStandIn({ port: 0, delay: 1, busy: 3 });
+    const g = new Generator(server.url), p = ask(true, 1), c = ask(false, 1);
+    g.ask(p.ask);
+    await p.done;
+    expect(p.seen).toMatchObject({ dropped: 1, away: 0, final: 0 });
+    g.ask(c.ask);
+    await c.done;
+    expect(c.seen).toMatchObject({ final: 1, away: 0 });
+  });
+
   it('sends the map again when the server does not know it', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
     const scene = [...server.scenes.values()][0].scene;

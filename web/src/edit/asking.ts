@@ -64,7 +64,11 @@ export class Asking {
   }
 
   /** Drops the previews of a drag that was put back. */
-  cancelPreviews(): void { this.generator.cancel(); }
+  cancelPreviews(): void {
+    this.generator.cancel();
+    // A drag that began while a change was being worked out has pushed that aside; it is asked for again.
+    if (this.editor.motion.peek().stale && !this.editor.away.peek()) this.workOut({ name: 'Change', agent: this.editor.selection.peek(), undo: true });
+  }
 
   private committed(scene: Scene, step: { name: string; agent: string | null; undo: boolean }): void {
     const { editor } = this;

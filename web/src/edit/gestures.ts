@@ -342,8 +342,8 @@ export class Gestures {
     editor.cancelPreview();
     editor.draft.value = null;
     editor.liveReach.value = null;
-    this.asking.cancelPreviews();
     editor.status.value = { kind: 'ready' };
+    this.asking.cancelPreviews();
     editor.say('Put back.');
     this.stage.invalidate('agents', 'overlay');
     return true;

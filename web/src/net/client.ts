@@ -21,7 +21,7 @@ export async function problemOf(reply: Response): Promise<Problem> {
   }
 }
 
-/** Gateway errors and "shutting down" mean the generator is away; "busy" passes and is tried again the same way. */
+/** Gateway errors and "shutting down" mean the generator is away; "busy" is an answer, and passes. */
 const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
 
 export class Client {
@@ -37,7 +37,7 @@ export class Client {
     }
     if (reply.ok || reply.status === 304) return reply;
     const problem = await problemOf(reply);
-    if (isAway(reply.status)) throw new Away(problem.detail ?? problem.title);
+    if (isAway(reply.status) && problem.code !== 'busy') throw new Away(problem.detail ?? problem.title);
     throw new Refused(reply.status, problem);
   }
 

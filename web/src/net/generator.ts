@@ -85,6 +85,7 @@ export class Generator {
       if (!reply.ok) {
         const p = await problemOf(reply);
         if (!mine()) return;
+        if (p.code === 'busy') return await this.later(ask, me, Number(reply.headers.get('retry-after')) || 1);
         if (reply.status === 409) ask.on.dropped?.();
         else if (reply.status >= 502 && reply.status <= 504) ask.on.away();
         else ask.on.refused(p);
@@ -100,6 +101,13 @@ export class Generator {
         this.next();
       }
     }
+  }
+
+  /** The queue is full for a moment: a preview is let go, a change waits and is asked again. */
+  private async later(ask: Ask, me: Running, seconds: number): Promise<void> {
+    if (ask.preview) { ask.on.dropped?.(); return; }
+    await new Promise((r) => setTimeout(r, Math.min(5, seconds) * 1000));
+    if (this.running === me) await this.run(ask);
   }
 
   private post(part: string, me: Running): Promise<Response> {

@@ -15,7 +15,7 @@ const CSP = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 's
 const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.woff2': 'font/woff2', '.txt': 'text/plain' };
 
 export function startStandIn(options = {}) {
-  const o = { port: 8090, delay: 8, loss: 0, shuffle: false, away: false, scenes: [], ...options };
+  const o = { port: 8090, delay: 8, loss: 0, shuffle: false, away: false, busy: 0, scenes: [], ...options };
   const scenes = new Map();
   const maps = new Map();
   const log = [];
@@ -39,6 +39,7 @@ export function startStandIn(options = {}) {
 
   async function generate(req, res) {
     const b = JSON.parse((await body(req)).toString());
+    if (o.busy > 0) { o.busy--; res.setHeader('Retry-After', '0.05'); return problem(res, 503, 'busy', 'The queue is full.'); }
     log.push({ path: 'generate', ...b, scene: b.scene ? 'inline' : undefined });
     const stored = b.scene_id ? scenes.get(b.scene_id)?.scene : null;
     if (b.scene?.map?.ref && !maps.has(b.scene.map.ref)) return problem(res, 422, 'unknown-map', 'This map is not known.');
