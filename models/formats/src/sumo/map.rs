@@ -1,20 +1,14 @@
 //! A SUMO network as a lane map.
 
-use super::kerb::{self, Borders, Corner, JunctionArea};
+use super::kerb::{self, Borders, JunctionArea};
 use super::net::{EdgeFunction, LaneKind, Net};
-use super::polyline::{length, offset_right, resample, simplify, tangents};
+use super::polyline::{length, offset_right, resample, simplify};
 use scene::Vec2;
-use scene::geometry::cross;
-use scene::map::{Area, Lane, LaneMap, LaneType, Neighbor, StopSign, TypedLine};
+use scene::map::{Area, Lane, LaneMap, LaneType, Neighbor, StopSign};
 use std::collections::HashMap;
 
 /// Spacing of lane points, metres: on roads and within junctions.
 const SPACING_M: (f64, f64) = (2.0, 1.0);
-/// Left borders nearer than this to those of oncoming traffic are one painted line, metres.
-const TOUCHING_M: f64 = 0.6;
-/// Left borders up to this far from those of oncoming traffic enclose a median, metres.
-const MEDIAN_M: f64 = 15.0;
-
 /// What a lane map of a network carries besides traffic lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct MapOptions {
@@ -48,7 +42,10 @@ pub struct NetMap {
 
 /// Draws a network's map.
 pub fn lane_map(net: &Net, options: MapOptions) -> NetMap {
-    let mut builder = Builder { net, out: NetMap::default(), next_id: net.lanes.len(), tapers: tapers(net) };
+    let links = net.lanes.iter().enumerate().flat_map(|(i, l)| l.successors.iter().map(move |s| (*s, i)));
+    let before = links.filter(|(lane, from)| lane != from).collect();
+    let mut builder =
+        Builder { net, out: NetMap::default(), next_id: net.lanes.len(), tapers: tapers(net), before };
     builder.lanes(options);
     builder.crosswalks();
     builder.signs();
@@ -65,12 +62,14 @@ pub fn lane_map(net: &Net, options: MapOptions) -> NetMap {
     builder.out
 }
 
-struct Builder<'a> {
-    net: &'a Net,
-    out: NetMap,
+pub(super) struct Builder<'a> {
+    pub(super) net: &'a Net,
+    pub(super) out: NetMap,
     next_id: usize,
     /// For lanes within a node where one edge merely goes on as another: lane before, lane after.
-    tapers: HashMap<usize, (usize, usize)>,
+    pub(super) tapers: HashMap<usize, (usize, usize)>,
+    /// For lanes within a junction, a lane that leads there.
+    before: HashMap<usize, usize>,
 }
 
 /// Lanes within nodes where nobody crosses: from the only edge into a node to the only edge out of it.
@@ -102,12 +101,12 @@ fn lane_id(lane: usize) -> String {
 }
 
 impl Builder<'_> {
-    fn id(&mut self) -> String {
+    pub(super) fn id(&mut self) -> String {
         self.next_id += 1;
         self.next_id.to_string()
     }
 
-    fn is_lot(&self, edge: usize) -> bool {
+    pub(super) fn is_lot(&self, edge: usize) -> bool {
         self.net.edges[edge].road_type == "lot"
     }
 
@@ -115,9 +114,8 @@ impl Builder<'_> {
         let internal = self.net.edge_of(lane).function == EdgeFunction::Internal;
         match self.net.lanes[lane].kind {
             LaneKind::Vehicle if internal => {
-                let leads_in = |l: &usize| self.net.lanes[*l].successors.contains(&lane);
-                let before = (0..self.net.lanes.len()).find(leads_in).filter(|l| *l != lane);
-                let freeway = before.is_some_and(|l| self.net.edge_of(l).road_type.contains("motorway"));
+                let before = self.before.get(&lane);
+                let freeway = before.is_some_and(|l| self.net.edge_of(*l).road_type.contains("motorway"));
                 Some(if freeway { LaneType::Freeway } else { LaneType::SurfaceStreet })
             }
             LaneKind::Vehicle if self.net.edge_of(lane).road_type.contains("motorway") => {
@@ -235,116 +233,6 @@ impl Builder<'_> {
         }
     }
 
-    fn line(&mut self, line_type: &str, points: Vec<Vec2>) {
-        if points.len() > 1 {
-            let (id, points) = (self.id(), simplify(&points, 0.03, 20.0).into());
-            self.out.map.road_lines.push(TypedLine { id, line_type: line_type.to_owned(), points });
-        }
-    }
-
-    fn edge(&mut self, line_type: &str, points: Vec<Vec2>) {
-        if points.len() > 1 {
-            let (id, points) = (self.id(), simplify(&points, 0.02, 20.0).into());
-            self.out.map.road_edges.push(TypedLine { id, line_type: line_type.to_owned(), points });
-        }
-    }
-
-    /// Painted lines between lanes of one direction.
-    fn lane_lines(&mut self, all: &[Borders]) {
-        for borders in all {
-            let edge = &self.net.edges[borders.edge];
-            let inner: Vec<usize> = edge
-                .lanes
-                .iter()
-                .copied()
-                .filter(|&l| self.net.lanes[l].kind != LaneKind::Sidewalk)
-                .collect();
-            for pair in inner.windows(2) {
-                let (a, b) = (&self.net.lanes[pair[0]], &self.net.lanes[pair[1]]);
-                let both = a.kind == LaneKind::Vehicle && b.kind == LaneKind::Vehicle;
-                let line_type = if both { "broken_single_white" } else { "solid_single_white" };
-                self.line(line_type, offset_right(&a.shape, -a.width_m / 2.0));
-            }
-        }
-    }
-
-    /// Painted lines where a turn lane opens: beside each lane that has one to its left.
-    fn taper_lines(&mut self) {
-        let net = self.net;
-        let mut inner: Vec<(usize, usize)> = self.tapers.iter().map(|(l, ends)| (ends.0, *l)).collect();
-        inner.sort_unstable();
-        for pair in inner.windows(2) {
-            let ((before, lane), (next_before, next)) = (pair[0], pair[1]);
-            if net.lanes[before].edge != net.lanes[next_before].edge || before == next_before {
-                continue;
-            }
-            let both = [lane, next].iter().all(|&l| net.lanes[l].kind == LaneKind::Vehicle);
-            let line_type = if both { "broken_single_white" } else { "solid_single_white" };
-            self.line(line_type, offset_right(&net.lanes[lane].shape, -net.lanes[lane].width_m / 2.0));
-        }
-    }
-
-    /// Right borders, and left borders by what lies beyond them: oncoming traffic, a median, nothing.
-    fn edges(&mut self, all: &[Borders]) {
-        let extents = extents(all);
-        for (b, borders) in all.iter().enumerate() {
-            let lot = self.is_lot(borders.edge);
-            if !lot {
-                self.edge("boundary", borders.right.clone());
-            }
-            let line = resample(&borders.left, 2.0);
-            let ways = tangents(&line);
-            let sides: Vec<LeftSide> =
-                line.iter().zip(&ways).map(|(p, way)| left_side(*p, *way, Some(b), all, &extents)).collect();
-            let mut from = 0;
-            for to in 1..=sides.len() {
-                if to < sides.len() && sides[to].kind() == sides[from].kind() {
-                    continue;
-                }
-                let piece = line[from..(to + 1).min(line.len())].to_vec();
-                match sides[from] {
-                    LeftSide::Oncoming(other) if other < b => {}
-                    LeftSide::Oncoming(_) => {
-                        let quiet = self.net.edges[borders.edge].road_type == "residential" || lot;
-                        let line = if quiet { "broken_single_yellow" } else { "solid_double_yellow" };
-                        self.line(line, piece);
-                    }
-                    LeftSide::Median => self.edge("median", piece),
-                    LeftSide::Open => self.edge("boundary", piece),
-                }
-                from = to;
-            }
-        }
-    }
-
-    fn corners(&mut self, all: &[Borders], junctions: &[JunctionArea]) {
-        let extents = extents(all);
-        for junction in junctions {
-            // Where only two arms meet, the road goes on: its median or middle line goes on too.
-            for Corner { points, from, to, turn_rad } in &junction.corners {
-                let mixed = self.is_lot(from.0) != self.is_lot(to.0);
-                let merging = turn_rad.abs() > 2.4;
-                let both_lots = self.is_lot(from.0) && self.is_lot(to.0);
-                if mixed || both_lots || merging {
-                    continue;
-                }
-                // From the right border of a lane inwards to a right border outwards is a kerb; the other
-                // way round is the left side of a stretch between two one-way edges.
-                let (first, last) = (points[0], points[points.len() - 1]);
-                if from.1 || !to.1 || junction.arms > 2 {
-                    self.edge("boundary", points.clone());
-                    continue;
-                }
-                let way = (first - last) / (first - last).norm().max(1e-9);
-                match left_side((first + last) / 2.0, way, None, all, &extents) {
-                    LeftSide::Oncoming(_) => self.line("solid_double_yellow", points.clone()),
-                    LeftSide::Median => self.edge("median", points.clone()),
-                    LeftSide::Open => self.edge("boundary", points.clone()),
-                }
-            }
-        }
-    }
-
     /// Sidewalks go on round the corners, at their distance from the kerb.
     fn sidewalk_corners(&mut self, junctions: &[JunctionArea]) {
         let net = self.net;
@@ -406,56 +294,54 @@ fn area(id: String, ring: Vec<Vec2>) -> Area {
     Area { id, polygon: ring.into(), holes: Vec::new() }
 }
 
-#[derive(Clone, Copy)]
-enum LeftSide {
-    /// The border at this index touches.
-    Oncoming(usize),
-    Median,
-    Open,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl LeftSide {
-    fn kind(self) -> (u8, usize) {
-        match self {
-            Self::Oncoming(other) => (0, other),
-            Self::Median => (1, 0),
-            Self::Open => (2, 0),
-        }
+    /// A two-way street that ends at a signal, with a sidewalk on one side.
+    const STREET: &str = r#"<net>
+      <edge id=":c_0" function="internal">
+        <lane id=":c_0_0" index="0" speed="6.5" length="10" width="3" shape="0,-1.5 10,-1.5"/></edge>
+      <edge id=":c_c0" function="crossing">
+        <lane id=":c_c0_0" index="0" allow="pedestrian" speed="1" length="8" width="4" shape="2,-4 2,4"/></edge>
+      <edge id="in" from="w" to="c">
+        <lane id="in_0" index="0" allow="pedestrian" speed="2" length="50" width="2" shape="-50,-4 0,-4"/>
+        <lane id="in_1" index="1" speed="13.9" length="50" width="3" shape="-50,-1.5 0,-1.5"/></edge>
+      <edge id="out" from="c" to="e">
+        <lane id="out_0" index="0" speed="13.9" length="50" width="3" shape="10,-1.5 60,-1.5"/></edge>
+      <edge id="back" from="c" to="w">
+        <lane id="back_0" index="0" speed="13.9" length="50" width="3" shape="0,1.5 -50,1.5"/></edge>
+      <junction id="c" type="traffic_light" x="5" y="0"/>
+      <connection from="in" to="out" fromLane="1" toLane="0" via=":c_0_0" tl="c" linkIndex="0" state="o"/>
+      <connection from=":c_0" to="out" fromLane="0" toLane="0"/></net>"#;
+
+    #[test]
+    fn a_street_becomes_a_map() {
+        let net = Net::read(STREET).unwrap();
+        let NetMap { map, signals } = lane_map(&net, MapOptions { sidewalks: true, parking: true });
+        let types: Vec<LaneType> = map.lanes.iter().map(|l| l.lane_type).collect();
+        use LaneType::{Sidewalk, SurfaceStreet};
+        assert_eq!(types, [SurfaceStreet, Sidewalk, SurfaceStreet, SurfaceStreet, SurfaceStreet]);
+        let inner = &map.lanes[0];
+        assert!(inner.interpolating);
+        assert_eq!((inner.predecessors.len(), inner.successors.len()), (1, 1));
+        assert_eq!(map.lanes[2].successors, [inner.id.clone()]);
+        assert_eq!((signals.len(), signals[0].feature.as_str()), (1, inner.id.as_str()));
+        assert_eq!(map.crosswalks[0].polygon.xy.len(), 4);
+        // Oncoming lanes touch: one painted line between them, drawn once.
+        let middle: Vec<_> = map.road_lines.iter().filter(|l| l.line_type == "solid_double_yellow").collect();
+        assert_eq!(middle.len(), 1);
+        assert!(middle[0].points.xy.iter().all(|p| p.y.abs() < 1e-9));
+        let kerb = |y: f64| map.road_edges.iter().any(|e| e.points.xy.iter().all(|p| (p.y - y).abs() < 1e-9));
+        assert!(kerb(-3.0) && kerb(3.0));
+        assert!(map.drivable.len() >= 3);
     }
-}
 
-/// Corners of the upright boxes about left borders, grown by what counts as a median.
-fn extents(all: &[Borders]) -> Vec<(Vec2, Vec2)> {
-    let margin = Vec2::repeat(MEDIAN_M);
-    let fold = |b: &Borders, pick: fn(f64, f64) -> f64| {
-        b.left.iter().skip(1).fold(b.left[0], |a, p| Vec2::new(pick(a.x, p.x), pick(a.y, p.y)))
-    };
-    all.iter().map(|b| (fold(b, f64::min) - margin, fold(b, f64::max) + margin)).collect()
-}
-
-/// What lies to the left of the point `p` of a left border that goes along `way`.
-fn left_side(p: Vec2, way: Vec2, own: Option<usize>, all: &[Borders], extents: &[(Vec2, Vec2)]) -> LeftSide {
-    let mut best = (MEDIAN_M, None);
-    for (b, other) in all.iter().enumerate().filter(|(b, _)| Some(*b) != own) {
-        let (low, high) = extents[b];
-        if p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y {
-            continue;
-        }
-        for w in other.left.windows(2) {
-            let along = w[1] - w[0];
-            let share = ((p - w[0]).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
-            let foot = w[0] + along * share;
-            let gap = (foot - p).norm();
-            // Beyond the left border, and the other way round.
-            let beyond = gap < TOUCHING_M || cross(way, foot - p) > 0.0;
-            if gap < best.0 && beyond && along.dot(&way) < -0.7 * along.norm() {
-                best = (gap, Some(b));
-            }
-        }
-    }
-    match best {
-        (gap, Some(b)) if gap < TOUCHING_M => LeftSide::Oncoming(b),
-        (_, Some(_)) => LeftSide::Median,
-        _ => LeftSide::Open,
+    #[test]
+    fn sidewalks_are_left_out_on_demand() {
+        let net = Net::read(STREET).unwrap();
+        let map = lane_map(&net, MapOptions { sidewalks: false, parking: false }).map;
+        assert!(map.lanes.iter().all(|l| l.lane_type != LaneType::Sidewalk));
+        assert_eq!(map.lanes.len(), 4);
     }
 }

@@ -5,6 +5,7 @@ pub mod fcd;
 pub mod kerb;
 pub mod map;
 pub mod net;
+mod paint;
 pub mod polyline;
 pub mod signals;
 
