@@ -38,3 +38,14 @@ export async function cyclistOnTheMove(e) {
   const riders = (await e.roadUsers()).filter((u) => u.kind === 'Cyclist' && u.speed > 1.5);
   return find(e, riders, (who) => clear(e, who));
 }
+
+/** A vehicle that stands or drives ahead of another one, near enough to be run into. */
+export async function inTheWayOf(e, car) {
+  const others = (await e.roadUsers()).filter((u) => u.id !== car.id && ['Car', 'Bus', 'Truck'].includes(u.kind) && !u.words.includes('parked'));
+  return find(e, others, async (who) => {
+    const far = distance(car.start, who.start);
+    const bearing = Math.atan2(who.start.y - car.start.y, who.start.x - car.start.x);
+    if (far < 12 || far > 70) return `${far.toFixed(0)} m away`;
+    return turn(bearing, car.start.heading) < 0.6 || 'not ahead';
+  });
+}

@@ -5,6 +5,8 @@ import { Wire } from './wire.js';
 
 const FLAGS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 const PATIENCE_MS = 15_000;
+/** Longer than the editor gathers keys before it asks. */
+const REST_MS = 160;
 
 export const launch = () => engine.launch({ executablePath, args: FLAGS });
 
@@ -118,11 +120,17 @@ export class Editor {
     await this.until(() => !document.querySelector('.fu'));
   }
 
-  /** Nothing is on the way any more. */
+  /** Nothing is on the way any more. The page's own timer is waited for, however busy the machine is. */
   async settled() {
-    await this.page.waitForTimeout(120);
-    await this.until(() => !/Working|Refining|Loading/.test(document.querySelector('.status')?.textContent ?? ''));
-    await this.page.waitForTimeout(60);
+    const end = Date.now() + PATIENCE_MS;
+    for (;;) {
+      const mark = this.wire.asked.length;
+      const busy = await this.page.evaluate((ms) => new Promise((resolve) => {
+        setTimeout(() => requestAnimationFrame(() => resolve(/Working|Refining|Loading/.test(document.querySelector('.status')?.textContent ?? ''))), ms);
+      }), REST_MS);
+      if (!busy && mark === this.wire.asked.length && this.wire.quiet()) return;
+      if (Date.now() > end) throw new Error(`still busy: ${await this.text('.status')}`);
+    }
   }
 
   async drag(from, to, { moves = 10, every = 16, then } = {}) {

@@ -67,6 +67,7 @@ export class Wire {
   /** Those asked since a mark taken with `asked.length`. */
   since(mark) { return this.asked.slice(mark); }
   last() { return this.asked.at(-1); }
+  quiet() { return this.asked.every((a) => a.ended !== null); }
 
   /** The most that were on the way at the same time. */
   static crowd(asked) {

@@ -1,0 +1,31 @@
+// What the editor makes of a scene in which somebody runs into somebody.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { carOnTheMove, inTheWayOf } from '../support/casting.js';
+import { journeys } from '../support/journey.js';
+
+journeys('judging', (stage) => {
+  it('marks a collision on the timeline, lists it and leads to it', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    const obstacle = await inTheWayOf(e, car);
+    await e.choose(car.id);
+    await e.type('goal-pos', String(obstacle.start.x), 0);
+    await e.type('goal-pos', String(obstacle.start.y), 1);
+    await e.page.getByRole('group', { name: 'What the others do' }).first().getByRole('button', { name: 'Hold still' }).click();
+    await e.settled();
+    const badge = e.page.getByRole('button', { name: new RegExp(`^Collision \\d\\.\\d s: .*\\b${car.name}\\b`) }).first();
+    await badge.waitFor();
+    const [, at] = /Collision (\d\.\d) s/.exec(await badge.getAttribute('aria-label'));
+    await badge.click();
+    await e.page.waitForSelector('.evrow');
+    assert.ok((await e.text('.tm')).startsWith(at), `the playhead stands at ${at} s`);
+    assert.match(await e.text('aside.insp'), /Collision at \d\.\d s[\s\S]*What you can do/);
+    await e.settled();
+    await e.picture('events');
+    await e.page.getByRole('button', { name: `Change ${car.name}`, exact: true }).click();
+    await e.page.waitForSelector('.fu');
+    assert.equal(await e.text('.ih h2'), car.name);
+  });
+});
