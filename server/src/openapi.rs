@@ -105,7 +105,9 @@ pub fn document() -> Value {
     let (_, paths) = crate::routes::all().split_for_parts();
     let mut document = serde_json::to_value(paths).unwrap_or(Value::Null);
     document["servers"] = json!([{"url": "/", "description": "the server that gave this document"}]);
-    document["components"] = json!({"schemas": schemas()});
+    let token = json!({"type": "http", "scheme": "bearer", "description": "with --token-file only"});
+    document["security"] = json!([{}, {"token": []}]);
+    document["components"] = json!({"schemas": schemas(), "securitySchemes": {"token": token}});
     let methods = document["paths"].as_object_mut().into_iter().flatten();
     for operation in methods.flat_map(|(_, item)| item.as_object_mut().into_iter().flatten()) {
         let (method, operation) = operation;
@@ -123,6 +125,11 @@ pub fn text() -> String {
 
 /// Adds problem replies and examples to one operation.
 fn complete(method: &str, operation: &mut Value) {
+    for (status, reply) in operation["responses"].as_object_mut().into_iter().flatten() {
+        if reply["description"].as_str().is_none_or(str::is_empty) {
+            reply["description"] = if status == "201" { "stored" } else { "the answer" }.into();
+        }
+    }
     let id = operation["operationId"].as_str().unwrap_or_default().to_owned();
     let mut codes: Vec<Code> = ANYWHERE.to_vec();
     if method != "get" {
