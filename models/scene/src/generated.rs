@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 pub struct Future {
     /// Share of belief among the road user's futures; they sum to one.
     pub probability: f64,
+    /// Which of the generator's anchors it follows: names the same idea from one answer to the next.
+    pub anchor: Option<u32>,
     /// Scene step of `states[0]`: one after the start.
     pub first_step: usize,
     /// One state a step, without gaps.

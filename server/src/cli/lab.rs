@@ -1,8 +1,10 @@
-//! `dragtraffic synthesize`, `prepare`, `train`: the only file that knows how experts are made.
+//! `dragtraffic synthesize`, `prepare`, `train`, `eval`, `bench`: the only file that knows how experts are made.
 
 use super::{Common, Exit, Failure, output};
 use clap::{Args, ValueEnum};
 use lab::synthesize::{self, Options, Template};
+use lab::train::Stage;
+use scene::AgentType;
 use std::path::PathBuf;
 
 /// Flags of `synthesize`.
@@ -54,12 +56,118 @@ impl From<TemplateWord> for Template {
     }
 }
 
-/// Flags of commands that are passed on as they are.
+/// Whose expert.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ExpertWord {
+    Vehicle,
+    Pedestrian,
+    Cyclist,
+}
+
+impl ExpertWord {
+    fn agent_type(self) -> AgentType {
+        match self {
+            Self::Vehicle => AgentType::Vehicle,
+            Self::Pedestrian => AgentType::Pedestrian,
+            Self::Cyclist => AgentType::Cyclist,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Vehicle => "vehicle",
+            Self::Pedestrian => "pedestrian",
+            Self::Cyclist => "cyclist",
+        }
+    }
+}
+
+/// Flags of `prepare`.
 #[derive(Args, Clone, Debug)]
-pub struct LabArgs {
-    /// Flags of the command.
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
-    arguments: Vec<String>,
+pub struct PrepareArgs {
+    /// Files or folders of scenes in any format.
+    #[arg(required = true)]
+    inputs: Vec<PathBuf>,
+    /// File of records to write.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Whose expert the records are for.
+    #[arg(long, value_enum)]
+    expert: ExpertWord,
+    /// Draws road users and conditions.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Most road users of a scene.
+    #[arg(long, default_value_t = 6)]
+    per_scene: usize,
+    /// Choices of conditions for each moving road user.
+    #[arg(long, default_value_t = 2)]
+    draws: usize,
+    /// Stop after so many records.
+    #[arg(long, default_value_t = 200_000)]
+    most: u64,
+}
+
+/// Flags of `train`.
+#[derive(Args, Clone, Debug)]
+pub struct TrainArgs {
+    /// Files made by `prepare`.
+    #[arg(required = true)]
+    records: Vec<PathBuf>,
+    /// denoiser, then initializer, then joint.
+    #[arg(long, value_enum)]
+    stage: StageWord,
+    /// Which expert.
+    #[arg(long, value_enum)]
+    expert: ExpertWord,
+    /// Weights file to write; its checkpoint lies beside it.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Weights of the stage before.
+    #[arg(long)]
+    init: Option<PathBuf>,
+    /// Optimiser steps.
+    #[arg(long, default_value_t = 3000)]
+    steps: u64,
+    /// Records a step.
+    #[arg(long, default_value_t = 64)]
+    batch: usize,
+    /// Greatest learning rate.
+    #[arg(long, default_value_t = 1e-3)]
+    rate: f64,
+    /// Threads that share a step; the result does not depend on it.
+    #[arg(long, default_value_t = 1)]
+    workers: usize,
+    /// Draws records and first weights.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Go on from the checkpoint.
+    #[arg(long)]
+    resume: bool,
+    /// What the data are, for the weights' header.
+    #[arg(long, default_value = "Synthetic traffic made by dragtraffic synthesize (CC0)")]
+    trained_on: String,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum StageWord {
+    Denoiser,
+    Initializer,
+    Joint,
+}
+
+/// Flags of `eval` and `bench`.
+#[derive(Args, Clone, Debug)]
+pub struct EvalArgs {
+    /// Files or folders of scenes in any format.
+    #[arg(required = true)]
+    inputs: Vec<PathBuf>,
+    /// Most files.
+    #[arg(long, default_value_t = 10_000)]
+    most: usize,
+    /// Folder for pictures of futures over the map.
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
 }
 
 /// Makes training windows.
@@ -99,23 +207,104 @@ pub fn synthesize(args: SynthesizeArgs, common: &Common) -> Result<(), Failure> 
     Err(Failure::new(Exit::Partly, format!("{} seeds failed", report.failed.len())))
 }
 
-/// Makes training shards.
+/// Makes training records.
 ///
 /// # Errors
-/// Exit 1.
-pub fn prepare(args: LabArgs) -> Result<(), Failure> {
-    not_yet("prepare", &args)
+/// Exit 3 when nothing can be read, 1 when the records cannot be written.
+pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
+    let options = lab::prepare::Options {
+        inputs: args.inputs,
+        out: args.output,
+        agent_type: args.expert.agent_type(),
+        seed: args.seed,
+        per_scene: args.per_scene,
+        draws: args.draws,
+        most_records: args.most,
+    };
+    let progress = |report: &lab::prepare::Report| {
+        if !common.quiet {
+            output::complain(&format!(
+                "{} files, {} scenes, {} records",
+                report.files, report.scenes, report.records
+            ));
+        }
+    };
+    let report = lab::prepare::run(&options, progress).map_err(failed)?;
+    print_json(&report)
 }
 
 /// Trains an expert.
 ///
 /// # Errors
-/// Exit 1.
-pub fn train(args: LabArgs) -> Result<(), Failure> {
-    not_yet("train", &args)
+/// Exit 1 with the reason.
+pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
+    let stage = match args.stage {
+        StageWord::Denoiser => Stage::Denoiser,
+        StageWord::Initializer => Stage::Initializer,
+        StageWord::Joint => Stage::Joint,
+    };
+    let mut options = lab::train::Options::new(args.records, stage, args.output);
+    options.expert = args.expert.name().to_owned();
+    options.init = args.init;
+    options.steps = args.steps;
+    options.batch = args.batch;
+    options.rate = args.rate;
+    options.threads = args.workers;
+    options.seed = args.seed;
+    options.resume = args.resume;
+    options.trained_on = args.trained_on;
+    let quiet = common.quiet;
+    lab::train::run(&options, &mut |line| {
+        if !quiet {
+            output::complain(&line.to_string());
+        }
+    })
+    .map_err(|error| Failure::new(Exit::Failure, error.to_string()))?;
+    Ok(())
 }
 
-fn not_yet(command: &str, args: &LabArgs) -> Result<(), Failure> {
-    let words = args.arguments.len();
-    Err(Failure::new(Exit::Failure, format!("{command} is not in this build ({words} words given)")))
+/// Judges the experts on scenes: goals met, errors against the log, and pictures.
+///
+/// # Errors
+/// Exit 3 when nothing can be read, 7 without weights.
+pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
+    let scenes = scenes(&args)?;
+    let generator = super::generator(common)?;
+    let reach = lab::eval::reach(&generator, &scenes).map_err(failed)?;
+    let errors = lab::eval::errors(&generator, &scenes, &lab::eval::Subset::ALL).map_err(failed)?;
+    if let Some(folder) = &args.pictures {
+        lab::eval::picture::write_all(&generator, &scenes, folder).map_err(failed)?;
+    }
+    print_json(&serde_json::json!({ "reach": reach, "errors": errors }))
+}
+
+/// Times answers at one thread and at two.
+///
+/// # Errors
+/// Exit 3 when nothing can be read, 7 without weights.
+pub fn bench(args: EvalArgs, common: &Common) -> Result<(), Failure> {
+    let scenes = scenes(&args)?;
+    let mut rows = Vec::new();
+    for threads in [1, 2] {
+        let generator = super::generator(common)?.with_threads(threads);
+        generator.warm_up();
+        rows.extend(lab::eval::latency::latency(&generator, threads, &scenes, 3).map_err(failed)?);
+    }
+    print_json(&rows)
+}
+
+fn scenes(args: &EvalArgs) -> Result<Vec<scene::Scene>, Failure> {
+    let unreadable = |error: anyhow::Error| Failure::new(Exit::Input, error.to_string());
+    let files = lab::prepare::scene_files(&args.inputs).map_err(unreadable)?;
+    let read = files.iter().take(args.most).map(|file| lab::prepare::read_scenes(file));
+    Ok(read.filter_map(Result::ok).flatten().collect())
+}
+
+fn failed(error: anyhow::Error) -> Failure {
+    Failure::new(Exit::Failure, error.to_string())
+}
+
+fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::new(Exit::Failure, e.to_string()))?;
+    output::print(format!("{text}\n").as_bytes())
 }

@@ -117,9 +117,13 @@ enum Command {
     /// Make training windows from procedural networks, driven through SUMO.
     Synthesize(lab::SynthesizeArgs),
     /// Make training shards from logs.
-    Prepare(lab::LabArgs),
+    Prepare(lab::PrepareArgs),
     /// Train an expert.
-    Train(lab::LabArgs),
+    Train(lab::TrainArgs),
+    /// Judge the experts on scenes: goals met, errors against the log, pictures.
+    Eval(lab::EvalArgs),
+    /// Time answers: one drag, and whole scenes.
+    Bench(lab::EvalArgs),
 }
 
 /// Parses the command line and does what it says.
@@ -147,8 +151,10 @@ pub fn run() -> ExitCode {
         Some(Command::Schema(args)) => document::schema(args),
         Some(Command::Info) => document::info(&common),
         Some(Command::Synthesize(args)) => lab::synthesize(args, &common),
-        Some(Command::Prepare(args)) => lab::prepare(args),
-        Some(Command::Train(args)) => lab::train(args),
+        Some(Command::Prepare(args)) => lab::prepare(args, &common),
+        Some(Command::Train(args)) => lab::train(args, &common),
+        Some(Command::Eval(args)) => lab::eval(args, &common),
+        Some(Command::Bench(args)) => lab::bench(args, &common),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -189,7 +189,8 @@ fn neighbours(world: &World<'_>, who: &Present, frame: &Frame) -> Vec<[f32; NEIG
         })
         .filter(|(rank, _)| *rank < 100.0)
         .collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.index.cmp(&b.1.index)));
+    // Stable: equal ranks stay in the world's order.
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.truncate(NEIGHBOURS);
     order.into_iter().map(|(_, p)| encode_neighbour(world, p, frame)).collect()
 }

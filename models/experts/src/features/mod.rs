@@ -38,6 +38,18 @@ pub const NEIGHBOUR: usize = 24;
 /// Numbers of an anchor.
 pub const ANCHOR: usize = 112;
 
+/// Share of standing road users that get a training record, so that moving ones are not drowned.
+pub const STANDING_SHARE: f64 = 0.06;
+/// Training records of a moving road user for each one of a standing road user that is kept.
+pub const MOVING_DRAWS: f64 = 2.0;
+
+/// Probability of staying as the world has it, from what a network says that was trained on few standing
+/// road users (see [`STANDING_SHARE`]).
+pub fn stays_in_the_world(said: f64) -> f64 {
+    let odds = said / (1.0 - said).max(1e-9) * (MOVING_DRAWS / STANDING_SHARE);
+    odds / (1.0 + odds)
+}
+
 /// Scale of the along knots, m/s2: residuals are divided by it before they enter a network.
 pub const ALONG_SCALE: f32 = 1.0;
 /// Scale of the across knots, metres.

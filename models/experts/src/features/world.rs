@@ -45,7 +45,7 @@ pub struct World<'a> {
     pub map: Arc<MapIndex>,
     /// Start of the window, scene step.
     pub step: usize,
-    /// Road users present at the start, in scene order.
+    /// Road users present at the start, by id.
     pub present: Vec<Present>,
     /// What the user fixed, one entry an agent of the scene.
     pub conditions: Vec<Conditions>,
@@ -70,7 +70,10 @@ impl<'a> World<'a> {
         conditions: Vec<Conditions>,
     ) -> Self {
         let agents = scene.agents.iter().zip(&conditions).enumerate();
-        let present = agents.filter_map(|(index, (agent, c))| present(index, agent, c, step)).collect();
+        let mut present: Vec<Present> =
+            agents.filter_map(|(index, (agent, c))| present(index, agent, c, step)).collect();
+        // Sums over road users run in this order, so that the scene's own order changes no byte.
+        present.sort_by(|a, b| scene.agents[a.index].id.cmp(&scene.agents[b.index].id));
         let mut signals = Vec::new();
         let mut signal_ages_s = Vec::new();
         for signal in &scene.signals {

@@ -9,7 +9,7 @@ use crate::features::{MODES, RESIDUAL};
 use scene::geometry::direction;
 use scene::routes::Polyline;
 use scene::score::SweptBoxes;
-use scene::{Agent, AgentId, HORIZON_STEPS, STEP_S, Scene, State, Vec2};
+use scene::{Agent, AgentId, AgentType, HORIZON_STEPS, STEP_S, Scene, State, Vec2};
 
 /// Why a road user gets new futures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +71,13 @@ impl Actor {
     /// Anchors are its own path: the networks' residuals, made for routes, do not apply.
     pub(super) fn keeps_its_path(&self) -> bool {
         self.kept.is_some() && self.planned.anchors.iter().all(|a| a.kind == PathKind::LeastEffort)
+    }
+
+    /// A vehicle that stands beside or off every lane: nothing but its driver can make it go.
+    pub(super) fn is_parked(&self) -> bool {
+        let off_lane = |anchor: &Anchor| anchor.route.as_ref().is_none_or(|r| r.lateral_m.abs() > 1.4);
+        self.planned.present.agent_type == AgentType::Vehicle
+            && self.planned.anchors.first().is_some_and(off_lane)
     }
 
     /// Most probable mode.

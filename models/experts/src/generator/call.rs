@@ -7,7 +7,7 @@ use super::realise::{Motion, PER_INSTANT, may_rest, places, realise, rest};
 use super::{EncodedMap, Generator, parallel, report};
 use crate::features::agent::Planned;
 use crate::features::world::World;
-use crate::features::{INSTANTS, MODES, RESIDUAL};
+use crate::features::{INSTANTS, MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::{Growth, Obstacle, Poses, Pullback, overlap};
 use crate::net::{Context, NetError, Prepared, schedule};
 use crate::request::{
@@ -155,12 +155,10 @@ impl<'g> Generation<'g> {
         let started = Instant::now();
         let scene = self.scene.clone();
         let world = World::new(&scene, self.map.index.clone(), self.request.start_step);
-        let wanted: Vec<usize> = self.regenerated.iter().copied().collect();
-        let mut actors = parallel::map(self.generator.threads(), &wanted, |index| {
-            let who = world.present.iter().find(|p| p.index == *index)?;
-            Some(Actor::regenerated(&world, who, Role::Regenerated))
+        let wanted: Vec<_> = world.present.iter().filter(|p| self.regenerated.contains(&p.index)).collect();
+        let mut actors = parallel::map(self.generator.threads(), &wanted, |who| {
+            Actor::regenerated(&world, who, Role::Regenerated)
         });
-        let mut actors: Vec<Actor> = actors.drain(..).flatten().collect();
         let mut batches = self.encode(&mut actors, 0)?;
         for actor in &mut actors {
             actor.pinned = self.request.pinned.get(&actor.id).cloned();
@@ -193,15 +191,15 @@ impl<'g> Generation<'g> {
                 (path, a.planned.present.size.length_m)
             })
             .collect();
-        let candidates: Vec<usize> = self.candidates.iter().copied().collect();
-        let found = parallel::map(self.generator.threads(), &candidates, |index| {
-            let who = world.present.iter().find(|p| p.index == *index)?;
+        let candidates: Vec<_> =
+            world.present.iter().filter(|p| self.candidates.contains(&p.index)).collect();
+        let found = parallel::map(self.generator.threads(), &candidates, |who| {
             let kept = kept_states(world.scene, world.agent(who), world.step);
             let asked = matches!(self.request.react, React::Only(_));
             let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < 0.5);
             let reach = |length: f64| 5.0 + 0.5 * (length + who.size.length_m);
             let near = paths.iter().any(|(path, length)| come_near(path, &kept, reach(*length)));
-            let unmoved = world.conditions[*index].start == scene::Start::default();
+            let unmoved = world.conditions[who.index].start == scene::Start::default();
             if !asked && unmoved && (parked || !near) {
                 return None;
             }
@@ -239,9 +237,10 @@ impl<'g> Generation<'g> {
                     actor.residual = said.residual[row];
                     actor.probability = softmax(&said.log_prob[row]);
                 }
-                actor.stays_probability = f64::from(said.stays[row]);
+                actor.stays_probability = stays_in_the_world(f64::from(said.stays[row]));
                 let free = actor.planned.target.is_free();
-                actor.rests = may_rest(&actor.planned) && (!free || actor.stays_probability > 0.5);
+                actor.rests =
+                    may_rest(&actor.planned) && (!free || actor.stays_probability > 0.5 || actor.is_parked());
             }
             let actors = members.into_iter().map(|i| i + first).collect();
             batches.push(Batch { agent_type, actors, prepared });
@@ -411,7 +410,8 @@ impl<'g> Generation<'g> {
 
     fn futures(&self, chosen: usize, motions: &[(f64, usize, Motion)]) -> AgentFutures {
         let total: f64 = motions.iter().map(|m| m.0).sum();
-        let modes = motions.iter().map(|(p, _, motion)| Future {
+        let modes = motions.iter().map(|(p, slot, motion)| Future {
+            anchor: u32::try_from(*slot).ok(),
             probability: if total > 0.0 { p / total } else { 1.0 / motions.len() as f64 },
             first_step: self.request.start_step + 1,
             states: self.cut(&motion.states),

@@ -1,9 +1,42 @@
 //! Pictures of futures over the map, as SVG.
 
+use super::{Subset, answer, cases};
+use anyhow::Result;
+use experts::{Generator, Request};
 use scene::map::LaneType;
 use scene::{AgentFutures, AgentType, Scene, Vec2};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Pictures of every third moving road user, without a goal and with its position fixed:
+/// `SCENE-AGENT-CONDITION.svg`.
+///
+/// # Errors
+/// When the generator fails or a file cannot be written.
+pub fn write_all(generator: &Generator, scenes: &[Scene], folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder)?;
+    for scene in scenes {
+        for case in cases(scene).into_iter().step_by(3) {
+            for subset in [Subset::None, Subset::Pos] {
+                let mut changed = scene.clone();
+                let agent = &mut changed.agents[case.agent];
+                agent.conditions.goal = case.goal(scene, subset);
+                let id = agent.id.clone();
+                let Some(start) = agent.state_at(0) else { continue };
+                let mut request = Request::new(Arc::new(changed.clone()));
+                request.agents = Some(BTreeSet::from([id.clone()]));
+                let answer = answer(generator, request)?;
+                let Some(sample) = answer.samples.first() else { continue };
+                let picture = futures_svg(&changed, &sample.agents, start.position());
+                let place = scene.meta.source_id.as_deref().unwrap_or(&scene.name);
+                std::fs::write(folder.join(format!("{place}-{id}-{}.svg", subset.name())), picture)?;
+            }
+        }
+    }
+    Ok(())
+}
 
 /// Half the side of the square that is shown, metres.
 const HALF_M: f64 = 70.0;

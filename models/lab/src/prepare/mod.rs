@@ -7,6 +7,7 @@ mod record;
 use crate::train::{Record, Writer};
 use anyhow::{Context, Result};
 use conditions::Draw;
+use experts::features::STANDING_SHARE;
 use experts::features::world::{MapIndex, World};
 use rayon::prelude::*;
 use scene::{AgentType, HORIZON_STEPS, Scene};
@@ -150,7 +151,7 @@ fn scene_records(scene: &Scene, options: &Options) -> SceneRecords {
             continue;
         }
         let standing = agent.track.extent_m() < 2.0;
-        if standing && !draw.chance(0.06) {
+        if standing && !draw.chance(STANDING_SHARE) {
             out.standing += 1;
             continue;
         }

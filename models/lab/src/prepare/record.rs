@@ -17,9 +17,9 @@ pub(super) fn record(world: &World<'_>, index: usize) -> Option<Record> {
     let planned = plan(world, who);
     let agent = world.agent(who);
     let target = target(&planned, agent, world.step);
-    let turned = agent.state_at(HORIZON_STEPS).map_or(0.0, |s| {
-        scene::wrap_angle(s.heading_rad - who.start.heading_rad).abs()
-    });
+    let turned = agent
+        .state_at(HORIZON_STEPS)
+        .map_or(0.0, |s| scene::wrap_angle(s.heading_rad - who.start.heading_rad).abs());
     Some(Record {
         boxes: boxes(world, who, agent),
         half: [0.5 * who.size.length_m as f32, 0.5 * who.size.width_m as f32],
@@ -83,9 +83,8 @@ fn boxes(world: &World<'_>, who: &Present, agent: &Agent) -> Vec<LoggedBox> {
         .filter(|p| p.index != who.index)
         .filter_map(|p| {
             let other = world.agent(p);
-            let gaps = instants().filter_map(|s| {
-                Some((other.state_at(s)?.position() - agent.state_at(s)?.position()).norm())
-            });
+            let gaps = instants()
+                .filter_map(|s| Some((other.state_at(s)?.position() - agent.state_at(s)?.position()).norm()));
             let nearest = gaps.fold(f64::INFINITY, f64::min) - 0.5 * p.size.length_m;
             (nearest < 25.0).then_some((nearest, p))
         })

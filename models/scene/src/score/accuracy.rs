@@ -140,6 +140,7 @@ mod tests {
         let mode = |speed: f64| {
             let track = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, speed).track.into_owned();
             Future {
+                anchor: None,
                 probability: 0.5,
                 first_step: 1,
                 states: track.states.into_iter().skip(1).flatten().collect(),

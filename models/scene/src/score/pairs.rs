@@ -244,7 +244,8 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
         let matter_m = gap_m.max(stir_m).max((a.top_mps + b.top_mps) * horizon_s);
         if apart > matter_m + stir_m {
             // Nothing matters until the two have come that near.
-            next = step + ((apart - matter_m) / stir_m) as usize;
+            // Two that stand still never come nearer: the quotient is infinite then.
+            next = step.saturating_add(((apart - matter_m) / stir_m) as usize);
             continue;
         }
         let matters = apart < gap_m.max(p.stir_m.unwrap_or(0.0) + q.stir_m.unwrap_or(0.0));

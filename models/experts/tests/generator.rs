@@ -1,0 +1,298 @@
+//! The generator's promises, with random weights: they hold whatever the networks say.
+
+use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request};
+use scene::map::{Lane, LaneMap, LaneType};
+use scene::motion::{MotionModel, MotionState, limit_excess};
+use scene::{
+    Agent, AgentType, Conditions, Future, Goal, Meta, Scene, Size, State, Subtype, Timing, Track, Vec2,
+};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, LazyLock};
+
+static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::random(3).unwrap().with_threads(1));
+
+fn lane(id: &str, from: Vec2, to: Vec2, successors: &[&str]) -> Lane {
+    let n = (to - from).norm().ceil() as usize;
+    let points: Vec<Vec2> = (0..=n).map(|i| from + (to - from) * (i as f64 / n as f64)).collect();
+    Lane {
+        id: id.into(),
+        lane_type: LaneType::SurfaceStreet,
+        points: points.into(),
+        width_m: Some(3.5),
+        left_boundary: Vec::new(),
+        right_boundary: Vec::new(),
+        speed_limit_mps: Some(13.4),
+        predecessors: Vec::new(),
+        successors: successors.iter().map(|s| (*s).to_owned()).collect(),
+        left_neighbors: Vec::new(),
+        right_neighbors: Vec::new(),
+        interpolating: false,
+    }
+}
+
+fn agent(id: &str, agent_type: AgentType, at: (f64, f64), heading_rad: f64, speed: f64) -> Agent {
+    let ahead = scene::geometry::direction(heading_rad);
+    let state = |i: usize| {
+        let p = Vec2::new(at.0, at.1) + ahead * (speed * 0.1 * i as f64);
+        State { x_m: p.x, y_m: p.y, heading_rad, vx_mps: ahead.x * speed, vy_mps: ahead.y * speed }
+    };
+    Agent {
+        id: id.into(),
+        agent_type,
+        subtype: Subtype::Unknown,
+        role: None,
+        size: Size::default_for(agent_type, Subtype::Unknown),
+        track: Track { first_step: 0, states: (0..91).map(|i| Some(state(i))).collect(), z_m: None },
+        conditions: Conditions::default(),
+    }
+}
+
+/// Two streets that cross, with cars, a cyclist, a pedestrian and a parked car.
+fn crossing() -> Scene {
+    use std::f64::consts::FRAC_PI_2;
+    let v = Vec2::new;
+    let map = LaneMap {
+        lanes: vec![
+            lane("w", v(-100.0, -1.75), v(-8.0, -1.75), &["we", "wn"]),
+            lane("we", v(-8.0, -1.75), v(8.0, -1.75), &["e"]),
+            lane("wn", v(-8.0, -1.75), v(1.75, 8.0), &["n"]),
+            lane("e", v(8.0, -1.75), v(120.0, -1.75), &[]),
+            lane("s", v(1.75, -100.0), v(1.75, -8.0), &["sn"]),
+            lane("sn", v(1.75, -8.0), v(1.75, 8.0), &["n"]),
+            lane("n", v(1.75, 8.0), v(1.75, 120.0), &[]),
+        ],
+        ..LaneMap::default()
+    };
+    let scene = Scene {
+        id: None,
+        name: "crossing".into(),
+        meta: Meta::default(),
+        time: Timing { steps: 91, now_step: 0 },
+        map: Arc::new(map),
+        signals: Vec::new(),
+        agents: vec![
+            agent("1", AgentType::Vehicle, (-40.0, -1.75), 0.0, 8.0),
+            agent("2", AgentType::Vehicle, (-60.0, -1.75), 0.0, 9.0),
+            agent("3", AgentType::Vehicle, (1.75, -45.0), FRAC_PI_2, 8.0),
+            agent("4", AgentType::Cyclist, (1.9, -20.0), FRAC_PI_2, 4.0),
+            agent("5", AgentType::Pedestrian, (-12.0, 6.0), -FRAC_PI_2, 1.3),
+            agent("6", AgentType::Vehicle, (-30.0, -6.5), 0.0, 0.0),
+        ],
+        generated: None,
+        extra: BTreeMap::new(),
+    };
+    scene.checked().unwrap()
+}
+
+fn run(generator: &Generator, request: Request) -> Answer {
+    for event in generator.start(request, Cancel::default()).unwrap() {
+        if let Event::Final(answer) = event.unwrap() {
+            return answer;
+        }
+    }
+    panic!("no answer");
+}
+
+fn ask(scene: Scene, agents: Option<&[&str]>) -> Request {
+    let mut request = Request::new(Arc::new(scene));
+    request.agents = agents.map(|ids| ids.iter().map(|id| (*id).to_owned()).collect());
+    request
+}
+
+fn with_goal(mut scene: Scene, id: &str, subset: u8) -> Scene {
+    let agent = scene.agents.iter_mut().find(|a| a.id == id).unwrap();
+    let end = agent.state_at(85).unwrap();
+    agent.conditions.goal = Goal {
+        position: (subset & 1 > 0).then(|| end.position()),
+        heading_rad: (subset & 2 > 0).then_some(end.heading_rad),
+        speed_mps: (subset & 4 > 0).then(|| end.speed_mps()),
+        time_s: None,
+    };
+    scene
+}
+
+/// Every logged state after the first step moved somewhere else.
+fn other_future(mut scene: Scene, who: impl Fn(&Agent) -> bool) -> Scene {
+    for agent in scene.agents.iter_mut().filter(|a| who(a)) {
+        for state in agent.track.states.iter_mut().skip(1).flatten() {
+            state.x_m += 17.0;
+            state.y_m -= 9.0;
+            state.heading_rad += 0.5;
+            state.vx_mps *= 0.3;
+        }
+    }
+    scene
+}
+
+#[test]
+fn nothing_after_the_start_leaks_into_an_answer() {
+    for id in ["1", "4", "5"] {
+        for subset in 0..8 {
+            let honest = with_goal(crossing(), id, subset);
+            let changed = other_future(honest.clone(), |a| a.id == id);
+            let a = run(&GENERATOR, ask(honest, Some(&[id])));
+            let b = run(&GENERATOR, ask(changed, Some(&[id])));
+            assert!(a.samples == b.samples, "{id}, subset {subset:03b}");
+        }
+    }
+}
+
+#[test]
+fn futures_of_others_do_not_leak_when_all_are_generated() {
+    for subset in 0..8 {
+        let honest = with_goal(crossing(), "1", subset);
+        let changed = other_future(honest.clone(), |_| true);
+        let (a, b) = (run(&GENERATOR, ask(honest, None)), run(&GENERATOR, ask(changed, None)));
+        assert!(a.samples == b.samples, "subset {subset:03b}");
+    }
+}
+
+#[test]
+fn neither_threads_nor_order_change_a_byte() {
+    let scene = with_goal(crossing(), "1", 5);
+    let one = run(&GENERATOR, ask(scene.clone(), None));
+    let three = Generator::random(3).unwrap().with_threads(3);
+    assert!(one.samples == run(&three, ask(scene.clone(), None)).samples, "threads");
+    let mut turned = scene;
+    turned.agents.reverse();
+    let reversed = run(&GENERATOR, ask(turned, Some(&["1"])));
+    let alone = run(&GENERATOR, ask(with_goal(crossing(), "1", 5), Some(&["1"])));
+    assert!(reversed.samples == alone.samples, "order");
+}
+
+#[test]
+fn seeds_repeat_and_differ() {
+    let ask_seed = |seed: u64, diversity: f64| {
+        let mut request = ask(crossing(), Some(&["1"]));
+        request.seed = seed;
+        request.diversity = diversity;
+        run(&GENERATOR, request).samples
+    };
+    assert!(ask_seed(1, 1.0) == ask_seed(1, 1.0));
+    assert!(ask_seed(1, 1.0) != ask_seed(2, 1.0));
+    assert!(ask_seed(1, 0.0) == ask_seed(2, 0.0), "without diversity there is nothing to draw");
+}
+
+fn excess(scene: &Scene, id: &str, future: &Future) -> f64 {
+    let agent = scene.agent(id).unwrap();
+    let start = agent.state_at(0).unwrap();
+    let model = MotionModel::new(agent.agent_type, agent.subtype, agent.size, start);
+    let states: Vec<MotionState> = std::iter::once(&start)
+        .chain(&future.states)
+        .map(|s| MotionState { position: s.position(), heading_rad: s.heading_rad, velocity: s.velocity() })
+        .collect();
+    limit_excess(&model, &states)
+}
+
+#[test]
+fn limits_hold_and_goals_are_met_in_every_event() {
+    for subset in 0..8 {
+        let scene = with_goal(with_goal(crossing(), "1", subset), "5", subset);
+        let goal = scene.agent("1").unwrap().conditions.goal;
+        let mut request = ask(scene.clone(), Some(&["1", "4", "5"]));
+        request.diversity = 2.0;
+        let mut events = 0;
+        for event in GENERATOR.start(request, Cancel::default()).unwrap() {
+            let samples = match event.unwrap() {
+                Event::Accepted(_) => continue,
+                Event::Draft(draft) => vec![draft.futures],
+                Event::Final(answer) => answer.samples,
+            };
+            events += 1;
+            for (id, futures) in &samples[0].agents {
+                let total: f64 = futures.modes.iter().map(|m| m.probability).sum();
+                assert!((total - 1.0).abs() < 1e-9);
+                for future in &futures.modes {
+                    assert_eq!(future.states.len(), 90);
+                    let excess = excess(&scene, id, future);
+                    assert!(excess <= 0.0, "{id}: {excess} beyond a limit");
+                }
+            }
+            let end = samples[0].agents["1"].modes[0].states[89];
+            if let Some(position) = goal.position {
+                assert!((position - end.position()).norm() < 0.1);
+            }
+            if let Some(heading) = goal.heading_rad {
+                assert!(scene::wrap_angle(heading - end.heading_rad).abs() < 0.02);
+            }
+            if let Some(speed) = goal.speed_mps {
+                assert!((speed - end.speed_mps()).abs() < 0.1);
+            }
+        }
+        assert_eq!(events, 7, "initial, five steps, final");
+    }
+}
+
+#[test]
+fn what_cannot_be_reached_is_said_with_the_nearest_state() {
+    let mut scene = crossing();
+    scene.agents[0].conditions.goal =
+        Goal { position: Some(Vec2::new(118.0, -1.75)), time_s: Some(4.0), ..Goal::default() };
+    let answer = run(&GENERATOR, ask(scene, Some(&["1"])));
+    let ReachReport::Unreachable { nearest, words, .. } = &answer.resolved["1"].reach else {
+        panic!("158 m in 4 s were reached")
+    };
+    assert!(words.starts_with("Too far for 4.0 s"), "{words}");
+    assert!(nearest.x_m > -20.0 && nearest.x_m < 40.0);
+    assert!(answer.warnings.iter().any(|w| w.code == "goal-unreachable"));
+}
+
+#[test]
+fn parked_cars_keep_their_pose_to_the_last_bit() {
+    let answer = run(&GENERATOR, ask(crossing(), None));
+    let start = crossing().agent("6").unwrap().state_at(0).unwrap();
+    let futures = &answer.samples[0].agents["6"];
+    for state in &futures.modes[futures.chosen].states {
+        assert_eq!((state.x_m, state.y_m, state.heading_rad), (start.x_m, start.y_m, start.heading_rad));
+    }
+}
+
+#[test]
+fn others_react_or_keep_what_they_do() {
+    let mut scene = crossing();
+    // A goal that makes car 1 turn left, in front of car 3.
+    scene.agents[0].conditions.goal = Goal { position: Some(Vec2::new(1.75, 40.0)), ..Goal::default() };
+    let mut request = ask(scene, Some(&["1"]));
+    request.react = React::Everyone;
+    let answer = run(&GENERATOR, request);
+    let changed: BTreeSet<&str> = answer.samples[0].agents.keys().map(String::as_str).collect();
+    assert!(changed.contains("1"));
+    assert!(!changed.contains("6"), "a parked car has no reason to react");
+}
+
+#[test]
+fn a_cancelled_call_stops() {
+    let cancel = Cancel::default();
+    let mut call = GENERATOR.start(ask(crossing(), None), cancel.clone()).unwrap();
+    assert!(call.next().unwrap().is_ok());
+    assert!(call.next().unwrap().is_ok());
+    cancel.cancel();
+    assert_eq!(call.next(), Some(Err(GenerateError::Cancelled)));
+    assert_eq!(call.next(), None);
+}
+
+#[test]
+fn unknown_road_users_are_refused() {
+    let error = GENERATOR.start(ask(crossing(), Some(&["77"])), Cancel::default()).err();
+    assert_eq!(error, Some(GenerateError::UnknownAgent("77".into())));
+}
+
+#[test]
+fn a_small_move_of_the_goal_moves_the_answer_by_centimetres() {
+    let goal = |x: f64| {
+        let mut scene = crossing();
+        scene.agents[0].conditions.goal = Goal { position: Some(Vec2::new(x, -1.9)), ..Goal::default() };
+        let answer = run(&GENERATOR, ask(scene, Some(&["1"])));
+        // Followed by its anchor: probabilities of other ideas may change places.
+        let modes = &answer.samples[0].agents["1"].modes;
+        modes.iter().find(|m| m.anchor == Some(0)).unwrap().clone()
+    };
+    let mut last = goal(30.0);
+    for i in 1..=12 {
+        let next = goal(30.0 + 0.05 * f64::from(i));
+        let moved = last.states.iter().zip(&next.states);
+        let moved = moved.map(|(a, b)| (a.position() - b.position()).norm()).fold(0.0, f64::max);
+        assert!(moved < 0.4, "{moved} m for 5 cm");
+        last = next;
+    }
+}
