@@ -17,6 +17,7 @@ pub fn root() -> &'static Path {
 
 /// The program: `DRAGTRAFFIC_BIN`, else the one beside these tests when it is newer than its sources
 /// (`cargo test --workspace` has just built it), else built now.
+#[allow(clippy::panic, reason = "no test can go on without it")]
 pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {

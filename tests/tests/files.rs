@@ -1,5 +1,7 @@
 //! Files in and out over HTTP and on the command line.
 
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
+
 use dragtraffic_tests::program::{program, root};
 use dragtraffic_tests::scenes::street;
 use dragtraffic_tests::{Request, Server};

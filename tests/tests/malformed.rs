@@ -1,6 +1,8 @@
 //! Requests that no good client sends: each is refused with its code, and the server lives on.
 //! `cargo test -p dragtraffic-tests --test malformed -- --nocapture` prints the table.
 
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
+
 use dragtraffic_tests::scenes::{generate, street};
 use dragtraffic_tests::{Reply, Request, Server};
 use serde_json::{Value, json};

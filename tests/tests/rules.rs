@@ -1,5 +1,7 @@
 //! The arrows between crates, as the architecture draws them: a new one fails here first.
 
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
+
 use dragtraffic_tests::program::root;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};

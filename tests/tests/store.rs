@@ -1,5 +1,7 @@
 //! Saved scenes: preconditions, conditional reads, maps by hash, and what a power cut leaves.
 
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
+
 use dragtraffic_tests::program::program;
 use dragtraffic_tests::scenes::street;
 use dragtraffic_tests::{Reply, Request, Server};

@@ -1,5 +1,7 @@
 //! Generation over HTTP: three representations, latest wins, cancelling, many clients at once.
 
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
+
 use dragtraffic_tests::scenes::generate;
 use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};

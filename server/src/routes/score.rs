@@ -105,7 +105,7 @@ fn of(scene: &Scene, request: &ScoreRequest) -> Result<Score, Problem> {
     let mut sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample)).cloned();
     for (id, doc) in &request.trajectories.0 {
         let Some(states) = states(scene, "/trajectories", id, doc, &mut faults) else { continue };
-        let future = Future { probability: 1.0, first_step: doc.first_step as usize, states };
+        let future = Future { probability: 1.0, anchor: None, first_step: doc.first_step as usize, states };
         let futures = AgentFutures { chosen: 0, modes: vec![future] };
         sample.get_or_insert_with(Sample::default).agents.insert(id.clone(), futures);
     }
@@ -162,7 +162,7 @@ fn states(
         (&doc.vy_mps, 150.0),
     ];
     for (column, most) in bounds {
-        if let Some(bad) = column.iter().find(|v| !(v.abs() <= most)) {
+        if let Some(bad) = column.iter().find(|v| !v.is_finite() || v.abs() > most) {
             faults.push(FieldProblem::range(at.clone(), -most, most, *bad));
         }
     }
@@ -170,8 +170,12 @@ fn states(
         return None;
     }
     let rows = doc.x_m.iter().zip(&doc.y_m).zip(&doc.heading_rad).zip(&doc.vx_mps).zip(&doc.vy_mps);
-    let state = |((((x_m, y_m), heading_rad), vx_mps), vy_mps): ((((&f64, &f64), &f64), &f64), &f64)| {
-        AgentState { x_m: *x_m, y_m: *y_m, heading_rad: *heading_rad, vx_mps: *vx_mps, vy_mps: *vy_mps }
-    };
-    Some(rows.map(state).collect())
+    let states = rows.map(|((((x_m, y_m), heading_rad), vx_mps), vy_mps)| AgentState {
+        x_m: *x_m,
+        y_m: *y_m,
+        heading_rad: *heading_rad,
+        vx_mps: *vx_mps,
+        vy_mps: *vy_mps,
+    });
+    Some(states.collect())
 }
