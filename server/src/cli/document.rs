@@ -33,8 +33,7 @@ pub fn openapi(args: OpenapiArgs) -> Result<(), Failure> {
 /// # Errors
 /// Exit 1 on a difference.
 pub fn schema(args: SchemaArgs) -> Result<(), Failure> {
-    let schema = formats::native::schema().to_value();
-    let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
+    let mut text = serde_json::to_string_pretty(&formats::native::schema()).unwrap_or_default();
     text.push('\n');
     show(&text, args.check.as_deref(), "schema")
 }
