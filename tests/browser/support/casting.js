@@ -1,51 +1,68 @@
 // Finds road users fit for a part, by what the page says about them. Scenes may change; the parts stay.
 import { distance, turn } from './editor.js';
 
-/** Goes through the list and keeps the first that `fits`; with nobody selected again at the end. */
-async function find(e, likely, fits) {
-  const tried = [];
-  for (const u of likely) {
-    await e.choose(u.id);
-    const start = await e.pose('Start'), end = await e.pose('Goal');
-    const who = { ...u, start, end, from: await e.at(start.x, start.y), to: await e.at(end.x, end.y) };
-    const why = await fits(who);
-    await e.letGo();
-    if (why === true) return who;
-    tried.push(`${u.name}: ${why}`);
-  }
-  throw new Error(`nobody fits. ${tried.join('; ')}`);
+async function look(e, u) {
+  const start = await e.pose('Start'), end = await e.pose('Goal');
+  return { ...u, start, end, from: await e.at(start.x, start.y), to: await e.at(end.x, end.y) };
 }
 
-const clear = async (e, who) => (!(await e.open(who.from)) ? 'starts under a panel' : !(await e.open([who.to[0] + 9, who.to[1] - 26])) ? 'ends under a panel' : true);
+/** Are the box and the flag of somebody in view, with no panel over them? */
+const clear = async (e, who) => (await e.open(who.from)) && (await e.open([who.to[0] + 9, who.to[1] - 26]));
 
-/** A car that goes straight on for a good distance, all in view. */
+/**
+ * Goes through the likely ones and takes the first that `suits`, in view if possible; else the view is moved to
+ * the first that suits. Nobody is selected afterwards.
+ */
+async function find(e, likely, suits) {
+  const tried = [], hidden = [];
+  for (const u of likely) {
+    await e.choose(u.id);
+    const who = await look(e, u);
+    const why = suits(who);
+    const seen = why === true && (await clear(e, who));
+    await e.letGo();
+    if (seen) return who;
+    if (why === true) hidden.push(u);
+    else tried.push(`${u.name} ${why}`);
+  }
+  for (const u of hidden) {
+    await e.choose(u.id);
+    await e.key('z');
+    await e.settled();
+    const who = await look(e, u);
+    const seen = await clear(e, who);
+    await e.letGo();
+    if (seen) return who;
+    tried.push(`${u.name} is under a panel`);
+  }
+  throw new Error(`nobody fits: ${tried.join(', ')}`);
+}
+
+/** A car that goes on for a good distance without turning off. */
 export async function carOnTheMove(e) {
   const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5).sort((a, b) => b.speed - a.speed);
-  return find(e, cars, async (who) => {
+  return find(e, cars, (who) => {
     const far = distance(who.start, who.end);
-    if (far < 20 || far > 110) return `goes ${far.toFixed(0)} m`;
-    if (turn(who.start.heading, who.end.heading) > 0.2) return 'turns';
-    return clear(e, who);
+    if (far < 15 || far > 110) return `goes ${far.toFixed(0)} m`;
+    return turn(who.start.heading, who.end.heading) < 0.2 || 'turns';
   });
 }
 
 export async function pedestrianOnTheMove(e) {
-  const people = (await e.roadUsers()).filter((u) => u.kind === 'Pedestrian' && u.speed > 0.7);
-  return find(e, people, (who) => clear(e, who));
+  return find(e, (await e.roadUsers()).filter((u) => u.kind === 'Pedestrian' && u.speed > 0.7), () => true);
 }
 
 export async function cyclistOnTheMove(e) {
-  const riders = (await e.roadUsers()).filter((u) => u.kind === 'Cyclist' && u.speed > 1.5);
-  return find(e, riders, (who) => clear(e, who));
+  return find(e, (await e.roadUsers()).filter((u) => u.kind === 'Cyclist' && u.speed > 1.5), () => true);
 }
 
 /** A vehicle that stands or drives ahead of another one, near enough to be run into. */
 export async function inTheWayOf(e, car) {
   const others = (await e.roadUsers()).filter((u) => u.id !== car.id && ['Car', 'Bus', 'Truck'].includes(u.kind) && !u.words.includes('parked'));
-  return find(e, others, async (who) => {
+  return find(e, others, (who) => {
     const far = distance(car.start, who.start);
     const bearing = Math.atan2(who.start.y - car.start.y, who.start.x - car.start.x);
-    if (far < 12 || far > 70) return `${far.toFixed(0)} m away`;
-    return turn(bearing, car.start.heading) < 0.6 || 'not ahead';
+    if (far < 12 || far > 70) return `is ${far.toFixed(0)} m away`;
+    return turn(bearing, car.start.heading) < 0.6 || 'is not ahead';
   });
 }
