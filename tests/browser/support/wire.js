@@ -7,15 +7,17 @@ class Asked {
     this.sent = sent;
     this.body = body;
     this.ended = null;
-    this.cancelled = false;
     this.head = Buffer.alloc(0);
     this.tail = [];
     this.chunks = [];
+    this.whole = null;
+    /** Ended, and what came has been fetched from the browser. */
+    this.read = false;
   }
 
   /** The events that arrived whole, with the time at which the last byte of each was there. */
   events() {
-    const text = Buffer.concat([this.head, ...this.tail]);
+    const text = this.whole ?? Buffer.concat([this.head, ...this.tail]);
     const out = [];
     let from = 0;
     for (let end; (end = text.indexOf(10, from)) >= 0; from = end + 1) {
@@ -58,8 +60,16 @@ export class Wire {
       a.chunks.push({ at: e.timestamp, bytes: e.dataLength });
       if (e.data) a.tail.push(Buffer.from(e.data, 'base64'));
     });
-    cdp.on('Network.loadingFinished', (e) => { const a = of(e); if (a) a.ended = e.timestamp; });
-    cdp.on('Network.loadingFailed', (e) => { const a = of(e); if (a) { a.ended = e.timestamp; a.cancelled = e.canceled === true; } });
+    cdp.on('Network.loadingFinished', (e) => {
+      const a = of(e);
+      if (!a) return;
+      a.ended = e.timestamp;
+      // A quick answer may be over before its stream could be followed.
+      void cdp.send('Network.getResponseBody', { requestId: e.requestId })
+        .then((r) => { a.whole = Buffer.from(r.body, r.base64Encoded ? 'base64' : 'utf8'); }, () => undefined)
+        .finally(() => { a.read = true; });
+    });
+    cdp.on('Network.loadingFailed', (e) => { const a = of(e); if (a) { a.ended = e.timestamp; a.read = true; } });
     await cdp.send('Network.enable', { maxPostDataSize: 1 << 24 });
     return w;
   }
@@ -67,7 +77,7 @@ export class Wire {
   /** Those asked since a mark taken with `asked.length`. */
   since(mark) { return this.asked.slice(mark); }
   last() { return this.asked.at(-1); }
-  quiet() { return this.asked.every((a) => a.ended !== null); }
+  quiet() { return this.asked.every((a) => a.read); }
 
   /** The most that were on the way at the same time. */
   static crowd(asked) {
