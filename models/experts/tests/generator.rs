@@ -1,4 +1,5 @@
 //! The generator's promises, with random weights: they hold whatever the networks say.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request};
 use scene::map::{Lane, LaneMap, LaneType};

@@ -5,7 +5,7 @@ use crate::features::agent::Planned;
 use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
 use scene::geometry::direction;
 use scene::motion::{
-    Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Trajectory, fit, project,
+    Gear, Kind, MotionState, Projection, Reach, Residuals, Sampled, Trajectory, fit, project,
 };
 use scene::{HORIZON_STEPS, KNOTS, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -18,14 +18,13 @@ static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
 /// One future as motion.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
-    pub(super) knots: Knots,
     pub(super) states: Trajectory,
     pub(super) reach: Reach,
 }
 
 impl From<Projection> for Motion {
     fn from(p: Projection) -> Self {
-        Self { knots: p.knots, states: p.trajectory, reach: p.reach }
+        Self { states: p.trajectory, reach: p.reach }
     }
 }
 
@@ -105,11 +104,7 @@ pub(super) fn rest(planned: &Planned) -> Motion {
     let still =
         MotionState { position: start.position(), heading_rad: start.heading_rad, velocity: Vec2::zeros() };
     let residuals = Residuals::of(&still, &planned.target);
-    Motion {
-        knots: Knots::default(),
-        states: vec![still; HORIZON_STEPS + 1],
-        reach: Reach::Reached(residuals),
-    }
+    Motion { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(residuals) }
 }
 
 /// Standing at the start, and rest meets whatever is asked.

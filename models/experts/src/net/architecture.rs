@@ -95,7 +95,7 @@ impl Architecture {
             ));
         }
         let sizes = [self.width, self.piece_width, self.gating_blocks, self.refiner_blocks, self.heads];
-        if sizes.iter().any(|&size| size == 0 || size > 4096) || self.width % self.heads != 0 {
+        if sizes.iter().any(|&size| size == 0 || size > 4096) || !self.width.is_multiple_of(self.heads) {
             return refuse(format!("sizes {sizes:?} (width, piece width, blocks, heads) cannot be"));
         }
         Ok(())

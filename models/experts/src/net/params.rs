@@ -17,10 +17,14 @@ pub enum Init {
     Normal(f64),
 }
 
+#[allow(clippy::large_enum_variant, reason = "one exists while a network is put together")]
 enum Source {
     Random(ChaCha12Rng),
     Given(BTreeMap<String, Tensor>),
 }
+
+/// Parameters by name, and their variables where they are trainable.
+pub type Finished = (BTreeMap<String, Tensor>, BTreeMap<String, Var>);
 
 /// Hands out parameters by name while a network is put together.
 pub struct Params {
@@ -93,7 +97,7 @@ impl Params {
     ///
     /// # Errors
     /// When a file has tensors that no part of the network asked for.
-    pub fn finish(self) -> Result<(BTreeMap<String, Tensor>, BTreeMap<String, Var>), NetError> {
+    pub fn finish(self) -> Result<Finished, NetError> {
         if let Source::Given(left) = &self.source
             && let Some((name, tensor)) = left.first_key_value()
         {

@@ -17,6 +17,10 @@ pub struct FutureDoc {
     /// Share of belief among the road user's futures.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub probability: f64,
+    /// Which of the generator's anchors it follows: the same number while a goal is dragged is the same
+    /// idea.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor: Option<u32>,
     /// Scene step of the first value: one after the start.
     pub first_step: u64,
     /// Box centre, metres.
@@ -89,6 +93,7 @@ impl FutureDoc {
         let column = |f: fn(&State) -> f64| future.states.iter().map(f).collect();
         Self {
             probability: future.probability,
+            anchor: future.anchor,
             first_step: future.first_step as u64,
             x_m: column(|s| round_m(s.x_m)),
             y_m: column(|s| round_m(s.y_m)),
@@ -124,7 +129,12 @@ impl FutureDoc {
                 vy_mps: *vy_mps,
             })
             .collect();
-        Future { probability: self.probability, first_step: self.first_step as usize, states }
+        Future {
+            probability: self.probability,
+            anchor: self.anchor,
+            first_step: self.first_step as usize,
+            states,
+        }
     }
 }
 

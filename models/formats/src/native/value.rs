@@ -220,6 +220,7 @@ pub fn round_m(value: f64) -> f64 {
 }
 
 /// Rounds a server-made heading to 0.0001 rad and keeps it within [-pi, pi).
+#[allow(clippy::approx_constant, reason = "the largest heading of four decimals, not pi")]
 pub fn round_rad(value: f64) -> f64 {
     let rounded = (value * 1e4).round() / 1e4 + 0.0;
     if rounded.abs() > std::f64::consts::PI { 3.1415_f64.copysign(rounded) } else { rounded }

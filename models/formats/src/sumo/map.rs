@@ -325,7 +325,7 @@ mod tests {
         let inner = &map.lanes[0];
         assert!(inner.interpolating);
         assert_eq!((inner.predecessors.len(), inner.successors.len()), (1, 1));
-        assert_eq!(map.lanes[2].successors, [inner.id.clone()]);
+        assert_eq!(map.lanes[2].successors, std::slice::from_ref(&inner.id));
         assert_eq!((signals.len(), signals[0].feature.as_str()), (1, inner.id.as_str()));
         assert_eq!(map.crosswalks[0].polygon.xy.len(), 4);
         // Oncoming lanes touch: one painted line between them, drawn once.

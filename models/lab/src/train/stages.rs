@@ -199,7 +199,7 @@ fn denoiser(
     // Half of the levels are those that refinement walks through.
     let levels: Vec<usize> = (0..count)
         .map(|_| {
-            let top = if rng.next_u32() % 2 == 0 { schedule::START } else { schedule::LEVELS };
+            let top = if rng.next_u32().is_multiple_of(2) { schedule::START } else { schedule::LEVELS };
             1 + (unit(rng) * top as f64) as usize % top
         })
         .collect();
