@@ -91,6 +91,37 @@ describe('generator', () => {
     expect(c.seen).toMatchObject({ final: 1, away: 0 });
   });
 
+  it('notices a generator that hangs: slow at first, then away', async () => {
+    server = await startStandIn({ port: 0, delay: 1, hang: true });
+    let asked = 0;
+    const g = new Generator(server.url, undefined, { slow: 60, look: 200, lost: 2000, tick: 20, alive: async () => { asked++; return false; } });
+    const a = ask(true, 1), waiting = ask(true, 2), slow: number[] = [];
+    g.ask({ ...a.ask, on: { ...a.ask.on, slow: (ms) => slow.push(ms) } });
+    g.ask(waiting.ask);
+    await a.done;
+    expect(slow[0]).toBeGreaterThanOrEqual(60);
+    expect(slow.length).toBeLessThan(4);
+    expect(a.seen).toMatchObject({ away: 1, drafts: [], final: 0 });
+    expect(waiting.seen).toMatchObject({ dropped: 1, away: 0 });
+    expect(asked).toBe(1);
+    expect(g.busy).toBe(false);
+    server.options.hang = false;
+    const b = ask(false, 1);
+    g.ask(b.ask);
+    await b.done;
+    expect(b.seen).toMatchObject({ final: 1, away: 0 });
+  });
+
+  it('waits on for a server that is only busy, up to a limit', async () => {
+    server = await startStandIn({ port: 0, delay: 1, hang: true });
+    const g = new Generator(server.url, undefined, { slow: 40, look: 80, lost: 300, tick: 20, alive: async () => true }), a = ask(true, 1);
+    const began = performance.now();
+    g.ask(a.ask);
+    await a.done;
+    expect(performance.now() - began).toBeGreaterThan(250);
+    expect(a.seen.away).toBe(1);
+  });
+
   it('sends the map again when the server does not know it', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
     const scene = [...server.scenes.values()][0].scene;

@@ -6,10 +6,10 @@ import { furthestReach, leastReach, limitsOf, localReach } from '../src/model/re
 import { parseTyped, num, speedLabel } from '../src/model/units';
 import { poseAt, motionFrom } from '../src/model/motion';
 import { readGenerated, readScene, SceneError } from '../src/model/read';
-import { conditionOf, generatedJson, writeScene } from '../src/model/write';
+import { conditionOf, generatedJson, stillAgents, writeScene } from '../src/model/write';
 import { choose, setGoal, setStart } from '../src/model/commands';
-import { emptyMotion, readFutures, type MotionSet } from '../src/model/futures';
-import { findChanges } from '../src/model/changes';
+import { emptyMotion, placesLike, readFutures, type MotionSet } from '../src/model/futures';
+import { findChanges, motionOf } from '../src/model/changes';
 import { readEvents } from '../src/model/events';
 import { freeGoal, sceneKey, startPose, touched } from '../src/model/scene';
 import { giveWay, sixFutures } from './standin/futures.mjs';
@@ -109,6 +109,57 @@ describe('scene', () => {
   });
 });
 
+describe('letters of futures', () => {
+  const of = (...anchors: (number | null)[]) => anchors.map((anchor) => ({ anchor }));
+  const read = (anchors: (number | null)[], chosen: number, keep?: Parameters<typeof readFutures>[5]) => readFutures({
+    chosen, modes: anchors.map((anchor, i) => ({ probability: 0.5 - i * 0.05, x_m: [1 + (anchor ?? 9)], y_m: [0], heading_rad: [0], ...(anchor === null ? {} : { anchor }) })),
+  }, { x: 0, y: 0, heading: 0, speed: 1 }, 1, 5, false, keep);
+
+  it('stay with their idea while probabilities change places', () => {
+    const before = read([3, 0, null, 5, 1, 2], 0);
+    const after = read([0, 3, 5, 2, null, 1], 0, { like: before, always: false });
+    expect(after.modes.map((m) => m.anchor)).toEqual([3, 0, null, 5, 1, 2]);
+    // Each keeps its own probability and motion, and the choice is still the idea the generator chose.
+    expect(after.modes.map((m) => m.probability)).toEqual([0.45, 0.5, 0.3, 0.4, 0.25, 0.35].map((v) => expect.closeTo(v, 9)));
+    expect(after.modes.map((m) => m.motion.x[1])).toEqual([4, 1, 10, 6, 2, 3]);
+    expect(after.modes[after.chosen].anchor).toBe(0);
+  });
+
+  it('follow the probabilities again when other ideas come, but not within a drag', () => {
+    const before = of(3, 0, 4, 5, 1, 2), sent = of(0, null, 3, 5, 2, 1);
+    expect(placesLike(before, sent, false)).toEqual([0, 1, 2, 3, 4, 5]);
+    expect(placesLike(before, sent, true).map((i) => sent[i].anchor)).toEqual([3, 0, null, 5, 1, 2]);
+  });
+
+  it('are those of the list where nobody names ideas, and lose none', () => {
+    expect(placesLike([{}, {}, {}], [{}, {}, {}], true)).toEqual([0, 1, 2]);
+    const list = fc.array(fc.option(fc.integer({ min: 0, max: 5 })), { maxLength: 6 });
+    fc.assert(fc.property(list, list, fc.boolean(), (a, b, always) => {
+      expect([...placesLike(of(...a), of(...b), always)].sort()).toEqual(b.map((_, i) => i));
+    }));
+  });
+
+  it('are written with the scene', () => {
+    const s = crossing();
+    const written = generatedJson(s, [['1', read([4, null], 1)]])!.samples[0].agents['1'];
+    expect(written.chosen).toBe(1);
+    expect(written.modes.map((m) => m.anchor)).toEqual([4, undefined]);
+  });
+});
+
+describe('others held still', () => {
+  it('are joined by nobody from outside', () => {
+    const json = crossingJson();
+    const late = { ...json.agents[1], id: 'late', track: { ...json.agents[1].track, valid: [[20, 91]] as [number, number][] } };
+    const s = readScene({ ...json, agents: [...json.agents, late], x_editor: { others: 'still' } });
+    const a = s.agents.get('late')!;
+    expect(a.logStart).toBeNull();
+    expect(poseAt(motionOf(s, emptyMotion(''), a), 5)).toBeNull();
+    expect(stillAgents({ ...json, agents: [...json.agents, late] }, s, new Set(['1'])).map((x) => x.id)).not.toContain('late');
+    expect(readEvents(s, { ...emptyMotion(''), score: { collisions: [{ a: '1', b: 'late', time: 5 }], nearMisses: [], minTtc: null, offroadShare: null } })).toEqual([]);
+  });
+});
+
 describe('lanes and reach', () => {
   const s = crossing();
   const road = (l: { kind: string }) => l.kind === 'road';
@@ -159,7 +210,7 @@ describe('futures', () => {
     const before = emptyMotion('a');
     const late = readFutures({ chosen: 0, modes: [giveWay(json.agents[1], 2.2)] }, startPose(s.agents.get('2')!)!, 5, 5, false);
     const after: MotionSet = { ...before, key: 'b', futures: new Map([['1', futures('1')], ['2', late]]), driving: new Set(['1', '2']) };
-    const changes = findChanges(s, before, after, '1');
+    const changes = findChanges(s, before, after, new Set(['1']));
     expect(changes.map((c) => c.id)).toEqual(['2']);
     expect(changes[0].words).toMatch(/later|waits|slows|stops/);
   });

@@ -164,7 +164,7 @@ const rate = (c: Context, d: number): void => {
   c.editor.rate.value = RATES[Math.min(RATES.length - 1, Math.max(0, i + d))];
 };
 add(
-  { id: 'play', label: 'Play or pause', group: 'Time', keys: ['Space'], icon: 'play', help: 'Runs from the playhead', undo: 'none', when: hasScene, run: (c) => c.playback.toggle() },
+  { id: 'play', label: 'Play or pause', group: 'Time', keys: ['Space'], icon: 'play', help: 'Runs from the playhead', undo: 'none', when: hasScene, checked: (c) => c.editor.playing.value, run: (c) => c.playback.toggle() },
   { id: 'step-back', label: '0.1 s back', group: 'Time', keys: [','], help: 'One frame', undo: 'none', when: hasScene, run: (c) => step(c, -1) },
   { id: 'step-on', label: '0.1 s on', group: 'Time', keys: ['.'], help: 'One frame', undo: 'none', when: hasScene, run: (c) => step(c, 1) },
   { id: 'to-start', label: 'To the start', group: 'Time', keys: ['Home'], icon: 'prev', help: 'Playhead to 0.0 s', undo: 'none', when: hasScene, run: (c) => { c.editor.playing.value = false; c.editor.setTime(0); } },
@@ -193,7 +193,7 @@ add(
   { id: 'export-womd', label: 'Export scenario record (Waymo TFRecord)', group: 'Scene', keys: [], icon: 'export', help: 'The motion on screen as a Scenario record', undo: 'none', when: hasScene, run: (c) => void download(c, 'womd') },
   { id: 'others-react', label: 'Others react', group: 'Scene', keys: [], help: 'Everybody you gave no goal adapts when you let go', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.others === 'react', run: (c) => c.editor.run(setOthers('react')) },
   { id: 'others-log', label: 'Others replay the log', group: 'Scene', keys: [], help: 'They do what was recorded', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.others === 'log', run: (c) => c.editor.run(setOthers('log')) },
-  { id: 'others-still', label: 'Others hold still', group: 'Scene', keys: [], help: 'They stay where they start', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.others === 'still', run: (c) => c.editor.run(setOthers('still')) },
+  { id: 'others-still', label: 'Others hold still', group: 'Scene', keys: [], help: 'They stay where they start, and nobody else comes in', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.others === 'still', run: (c) => c.editor.run(setOthers('still')) },
   { id: 'delete-scene', label: 'Delete this scene', group: 'Scene', keys: [], icon: 'trash', help: 'Asks first; examples stay', undo: 'none', when: (c) => (!c.editor.scene.value ? 'No scene is open.' : c.library.isOwn(c.editor.scene.value.id) ? true : 'Examples cannot be deleted.'), run: (c) => { c.ui.deleting.value = c.editor.scene.value!.id; } },
   { id: 'reset-all', label: 'Everybody back to the log', group: 'Scene', keys: [], icon: 'undo', help: 'Drops every change; can be undone', undo: 'command', when: hasScene, run: (c) => c.editor.run(resetAll(c.editor.scene.value!)) },
 );

@@ -12,23 +12,36 @@ import { h, swap, watch } from './dom';
 export function roadUserList(c: Context): HTMLElement {
   const { editor } = c;
   return h('nav', { class: 'sr', 'aria-label': () => `Road users, ${editor.scene.value?.agents.size ?? 0}`, 'data-group': 'users' },
-    swap(() => `${editor.scene.value?.id}:${editor.events.value.length}`, () => {
+    swap(() => editor.scene.value?.id, () => {
       const scene = editor.scene.peek();
       if (!scene) return null;
       return h('ul', null, [...scene.agents.values()].filter(canChange).map((a) => h('li', null, h('button', {
         type: 'button', 'data-agent': a.id, tabindex: () => (editor.selection.value === a.id || (!editor.selection.value && isFirst(c, a)) ? '0' : '-1'), 'aria-pressed': () => String(editor.selection.value === a.id),
         onclick: () => editor.select(a.id),
-      }, () => words(c, editor.scene.value?.agents.get(a.id) ?? a)))));
+      }, wordsOf(c, a)))));
     }));
+}
+
+/** The words of one button. The buttons stay while events come and go, or the focus would fall off the page. */
+function wordsOf(c: Context, first: Agent): () => string {
+  let of: unknown[] = [];
+  let text = '';
+  return () => {
+    const a = c.editor.scene.value?.agents.get(first.id) ?? first;
+    const next = c.editor.events.value.find((e) => e.a.id === a.id || e.b.id === a.id)?.label ?? '';
+    const now = [a, next, c.editor.unitOf(a)];
+    // A drag changes the scene sixty times a second, and one road user at a time.
+    if (now.some((v, i) => v !== of[i])) { of = now; text = words(c, a, next); }
+    return text;
+  };
 }
 
 const isFirst = (c: Context, a: Agent): boolean => [...(c.editor.scene.peek()?.agents.values() ?? [])].find(canChange)?.id === a.id;
 
-function words(c: Context, a: Agent): string {
+function words(c: Context, a: Agent, next: string): string {
   const p = startPose(a);
   if (!p) return a.name;
-  const next = c.editor.events.peek().find((e) => e.a.id === a.id || e.b.id === a.id);
-  return [a.name, speedLabel(p.speed, c.editor.unitOf(a)), a.parked ? 'parked' : laneWords(c.editor.scene.peek()!.map, a, p.x, p.y, p.heading), hasGoal(a.goal) ? 'goal set' : '', next ? next.label.toLowerCase() : ''].filter(Boolean).join(', ');
+  return [a.name, speedLabel(p.speed, c.editor.unitOf(a)), a.parked ? 'parked' : laneWords(c.editor.scene.peek()!.map, a, p.x, p.y, p.heading), hasGoal(a.goal) ? 'goal set' : '', next.toLowerCase()].filter(Boolean).join(', ');
 }
 
 /** The handles of the selected road user, for keys and screen readers. They have no picture of their own. */

@@ -29,7 +29,7 @@ export function hud(c: Context, picture: Picture): HTMLElement {
 const statusKey = (c: Context): string => {
   const { editor } = c;
   const s = editor.status.value;
-  return JSON.stringify([s, editor.away.value?.waiting, editor.events.value.length, editor.selection.value, editor.draft.value !== null, unreachable(c), editor.layers.value.log && editor.touchedIds(editor.scene.value).length]);
+  return JSON.stringify([s, editor.away.value?.waiting, editor.events.value.length, editor.selectedEvent.value?.time, editor.selection.value, editor.draft.value !== null, unreachable(c), editor.layers.value.log && editor.touchedIds(editor.scene.value).length]);
 };
 
 const unreachable = (c: Context): boolean => {
@@ -44,9 +44,12 @@ function status(c: Context): HTMLElement {
   const { editor } = c;
   const s = editor.status.peek();
   const line = (dot: string, text: string) => h('div', { class: 'row' }, h('span', { class: `dot ${dot}` }), text);
+  // At an event the chip says what happens in the scene, not what the generator did last.
+  if (editor.selectedEvent.peek() && (s.kind === 'settled' || s.kind === 'ready')) return readyLine(c, line);
   switch (s.kind) {
     case 'loading': return line('busy', 'Loading the scene …');
     case 'refining': return h('div', { class: 'row' }, h('span', { class: 'steps' }, [...Array(s.steps).keys()].map((i) => h('i', { class: i < s.step ? 'd' : '' }))), s.step ? `Refining, step ${s.step} of ${s.steps} · ${s.ms.toFixed(0)} ms` : s.ms ? `First guess · ${s.ms.toFixed(0)} ms` : 'Working out futures …');
+    case 'slow': return line('busy', `This takes longer than usual (${(s.ms / 1000).toFixed(1)} s).${editor.dragging.peek() ? ' You can keep dragging.' : ''}`);
     case 'refused': return line('collision', s.words);
     case 'away': { const n = editor.away.peek()?.waiting ?? 0; return line('near', `Generator away${n ? ` · ${n} change${n > 1 ? 's' : ''} waiting` : ''}`); }
     case 'settled': {

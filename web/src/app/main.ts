@@ -114,15 +114,29 @@ function keys(c: Context): void {
     const typing = target instanceof HTMLInputElement && target.type !== 'range';
     const a = actionForKey(keyOf(e));
     if (!a || e.defaultPrevented) return;
-    if (typing && a.context !== 'always') return;
+    // In a number field undo is the browser's only while something is typed that has not been taken over.
+    const undoing = (a.id === 'undo' || a.id === 'redo') && typing && !!target.dataset.field && !('typed' in target.dataset);
+    if (typing && a.context !== 'always' && !undoing) return;
     if (c.ui.dialog.peek() && a.context !== 'always') return;
     // Tab walks through road users only from the picture; elsewhere it is the browser's.
     if (/^(Shift\+)?Tab$/.test(a.keys![0]) && !(target === document.body || target.closest('[data-group="users"]'))) return;
-    if (target instanceof HTMLButtonElement && (e.key === ' ' || e.key === 'Enter') && !e.ctrlKey && !target.dataset.agent) return;
+    // A button's own keys; in the list of road users they select first, and after that Enter goes on to the inspector.
+    if (target instanceof HTMLButtonElement && (e.key === ' ' || e.key === 'Enter') && !e.ctrlKey && (!target.dataset.agent || target.dataset.agent !== c.editor.selection.peek())) return;
     if (target instanceof HTMLInputElement && target.type === 'range' && e.key.startsWith('Arrow')) return;
     if (c.editor.drag.peek() && a.id !== 'deselect') return;
     e.preventDefault();
     perform(c, a.id);
+  });
+}
+
+/**
+ * A click with the mouse leaves no focus on a button: the Space that follows is meant to play. Keys keep theirs, and
+ * so do dialogs and menus, which hand the focus back themselves.
+ */
+function clicks(): void {
+  addEventListener('click', (e) => {
+    const button = e.detail > 0 && e.target instanceof Element ? e.target.closest('button') : null;
+    if (button && button === document.activeElement && !button.closest('.dlg, .menu')) button.blur();
   });
 }
 
@@ -166,6 +180,7 @@ async function start(): Promise<void> {
   const c = build();
   crashes(c);
   keys(c);
+  clicks();
   drops(c);
   coaching(c);
   const wanted = new URLSearchParams(location.search).get('scene') ?? recall<string>('last-scene');

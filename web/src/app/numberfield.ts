@@ -17,7 +17,9 @@ export interface NumberFieldSpec {
 }
 
 export function numberField(s: NumberFieldSpec): HTMLElement {
+  /** Something is typed that has not been taken over. */
   let editing = false;
+  const typed = (on: boolean) => { editing = on; input.toggleAttribute('data-typed', on); };
   const input = h('input', { type: 'text', inputmode: 'decimal', autocomplete: 'off', spellcheck: 'false', 'aria-label': s.label, 'data-field': s.field ?? null });
   const unitText = () => (typeof s.unit === 'function' ? s.unit() : s.unit);
   const box = h('label', { class: () => `field ${s.free() ? 'free' : ''} ${s.live?.() ? 'live' : ''}` },
@@ -25,15 +27,17 @@ export function numberField(s: NumberFieldSpec): HTMLElement {
     s.onUnit ? h('button', { type: 'button', class: 'u', title: 'Change the unit', tabindex: '-1', onclick: (e: Event) => { e.preventDefault(); s.onUnit!(); } }, unitText) : h('span', { class: 'u' }, unitText));
   watch(() => {
     const t = s.text();
-    if (!editing && input.value !== t) input.value = t;
+    if (editing || input.value === t) return;
+    input.value = t;
+    if (document.activeElement === input) input.select();
   });
-  const show = () => { editing = false; box.classList.remove('bad'); input.value = s.text(); };
+  const show = () => { typed(false); box.classList.remove('bad'); input.value = s.text(); };
   const commit = (): boolean => {
     if (!editing) return true;
     if (input.value === s.text()) { show(); return true; }
     const v = parseTyped(input.value, s.quantity());
     if (v === null) { box.classList.add('bad'); return false; }
-    editing = false;
+    typed(false);
     box.classList.remove('bad');
     s.set(v);
     input.value = s.text();
@@ -42,16 +46,15 @@ export function numberField(s: NumberFieldSpec): HTMLElement {
   const bump = (d: number) => {
     const now = parseTyped(input.value, s.quantity()) ?? s.value();
     if (now === null) return;
-    editing = false;
+    typed(false);
     s.set(Number((now + d).toFixed(6)));
     input.value = s.text();
-    editing = document.activeElement === input;
   };
-  input.addEventListener('focus', () => { editing = true; s.onFocus?.(); input.select(); });
-  input.addEventListener('input', () => { editing = true; box.classList.remove('bad'); });
-  input.addEventListener('blur', () => { if (!commit()) show(); editing = false; });
+  input.addEventListener('focus', () => { s.onFocus?.(); input.select(); });
+  input.addEventListener('input', () => { typed(true); box.classList.remove('bad'); });
+  input.addEventListener('blur', () => { if (!commit()) show(); });
   input.addEventListener('keydown', (e) => {
-    if (e.key === 'Enter') { if (commit()) { editing = true; input.select(); } e.preventDefault(); }
+    if (e.key === 'Enter') { if (commit()) input.select(); e.preventDefault(); }
     else if (e.key === 'Escape') { show(); input.blur(); e.stopPropagation(); }
     else if (e.key === 'ArrowUp' || e.key === 'ArrowDown') {
       e.preventDefault();

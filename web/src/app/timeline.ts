@@ -3,7 +3,8 @@ import type { Context } from '../actions/context';
 import { RATES } from '../edit/playback';
 import { num } from '../model/units';
 import { iconButton, segments } from './buttons';
-import { h, swap } from './dom';
+import { h } from './dom';
+import { icon } from './icons';
 import { plot } from './plot';
 import { OTHERS } from './scenepanel';
 
@@ -11,12 +12,19 @@ export function timeline(c: Context): HTMLElement {
   const { editor } = c;
   return h('footer', { class: 'time', 'aria-label': 'Timeline', 'data-group': 'timeline' },
     h('div', { class: 'tb' },
-      iconButton(c, 'to-start'), swap(() => editor.playing.value, () => iconButton(c, 'play', { class: 'on', icon: editor.playing.peek() ? 'pause' : 'play' })), iconButton(c, 'to-end'),
+      iconButton(c, 'to-start'), playButton(c), iconButton(c, 'to-end'),
       h('span', { class: 'tm' }, () => `${num(editor.time.value, 1)} s `, h('small', null, () => `/ ${num(editor.scene.value?.duration ?? 9, 1)} s`)),
       h('button', { type: 'button', class: 'btn rate', title: 'Playback speed (Shift < >)', 'aria-label': () => `Playback speed ${editor.rate.value} times`, onclick: (e: MouseEvent) => cycle(c, e.shiftKey ? -1 : 1) }, () => `${editor.rate.value}×`),
       iconButton(c, 'loop'), iconButton(c, 'next-event'), h('span', { class: 'grow' }),
       h('span', { class: 'fieldlab' }, 'Others'), segments(c, 'What the others do', OTHERS)),
     plot(c));
+}
+
+/** One button with two pictures: were it built anew, the focus would be lost at every press. */
+function playButton(c: Context): HTMLElement {
+  const button = iconButton(c, 'play', { class: 'playing' });
+  button.append(icon('pause', 18));
+  return button;
 }
 
 function cycle(c: Context, d: number): void {

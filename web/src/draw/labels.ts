@@ -18,6 +18,9 @@ export class Labels {
     this.used = [];
   }
 
+  /** Is a point out of the picture? What belongs to it is not labelled then. */
+  outside(x: number, y: number): boolean { return x < -8 || y < -8 || x > this.w + 8 || y > this.h + 8; }
+
   block(x: number, y: number, w: number, h: number): void { this.used.push({ x, y, w, h }); }
 
   place(x: number, y: number, w: number, h: number, tries: readonly Offset[], must: boolean): Rect | null {
@@ -54,6 +57,12 @@ export interface PillStyle {
   tries?: readonly Offset[]; radii?: readonly number[]; must?: boolean;
 }
 
+/** What must be read takes any free place before it covers something else. */
+function places(w: number, h: number, s: PillStyle): readonly Offset[] {
+  if (!s.tries) return around(w, h, s.radii ?? [24, 36, 52, 72, 96, 124]);
+  return s.must === false ? s.tries : [...s.tries, ...around(w, h, [30, 44, 60, 80])];
+}
+
 const widths = new Map<string, number>();
 function textWidth(g: CanvasRenderingContext2D, f: string, text: string): number {
   const key = f + text;
@@ -67,11 +76,12 @@ function textWidth(g: CanvasRenderingContext2D, f: string, text: string): number
 }
 
 export function pill(g: CanvasRenderingContext2D, labels: Labels, x: number, y: number, text: string, s: PillStyle = {}): Rect | null {
+  if (labels.outside(x, y)) return null;
   const c = colours();
   const f = font(s.weight ?? 600, 11);
   const h = s.height ?? 20, icon = s.icon ? 15 : 0;
   const w = textWidth(g, f, text) + 14 + icon;
-  const r = labels.place(x, y, w, h, s.tries ?? around(w, h, s.radii ?? [24, 36, 52, 72, 96, 124]), s.must ?? true);
+  const r = labels.place(x, y, w, h, places(w, h, s), s.must ?? true);
   if (!r) return null;
   if (s.leader) leaderLine(g, x, y, r, s.leader);
   roundRect(g, r.x, r.y, w, h, h / 2);

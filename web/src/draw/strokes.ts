@@ -112,14 +112,25 @@ export interface Chip { readonly index: number; readonly x: number; readonly y: 
 
 const CHIP_TRIES: readonly Offset[] = [[0, 0], [22, 0], [0, -24], [-22, 0], [0, 24], [20, -20], [-20, -20], [20, 20], [-20, 20], [0, -44], [42, 0], [-42, 0], [0, 44]];
 
+/** The end of a motion, or where it leaves the part of the picture that no panel covers. */
+function lastInView(v: View, m: Motion): [number, number] | null {
+  const { left, right, top, bottom } = v.inset;
+  for (let i = m.x.length - 1; i >= 0; i--) {
+    const x = v.x(m.x[i]), y = v.y(m.y[i]);
+    if (x > left && x < v.w - right && y > top && y < v.h - bottom) return [x, y];
+  }
+  return null;
+}
+
 /** Letters at the ends of the futures; returns where they are, for clicks. */
 export function paintChips(g: CanvasRenderingContext2D, labels: Labels, v: View, f: Futures, which: readonly number[], chosen: number): Chip[] {
   const out: Chip[] = [];
   const R = 8.5;
   for (const i of which) {
     const m = f.modes[i].motion;
-    const n = m.x.length - 1;
-    const ex = v.x(m.x[n]), ey = v.y(m.y[n]);
+    const end = lastInView(v, m);
+    if (!end) continue;
+    const [ex, ey] = end;
     const r = labels.place(ex, ey, 2 * R + 2, 2 * R + 2, CHIP_TRIES.map(([a, b]): Offset => [a - R - 1, b - R - 1]), true)!;
     const cx = r.x + R + 1, cy = r.y + R + 1;
     if (Math.hypot(cx - ex, cy - ey) > 4) {

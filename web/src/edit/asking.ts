@@ -7,8 +7,8 @@ import type { DraftEvent, FinalEvent, Problem } from '../net/api';
 import { Away, type Client } from '../net/client';
 import type { ConditionJson, SceneJson } from '../model/json';
 import { conditionOf, generatedJson, isEmptyCondition, stillAgents, trackJson } from '../model/write';
-import { readFutures, type Futures, type MotionSet } from '../model/futures';
-import { canChange, sceneKey, startPose, touched, type Scene } from '../model/scene';
+import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
+import { canChange, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { summary, readEvents } from '../model/events';
 import { readReach, readScore, readWarnings } from './answers';
@@ -18,6 +18,10 @@ const RETRY_S = [1, 2, 4, 6];
 const STEPS = 5;
 /** A key held down sends one request when it rests. */
 const REST_MS = 80;
+/** A server that is only busy says so within this time. */
+const PROBE_MS = 1500;
+
+type Keep = (a: Agent) => KeepOrder;
 
 interface Wanted { agents: string[] | 'all'; react: boolean | string[]; commit: { name: string; agent: string | null; undo: boolean } | null; kept?: ReadonlySet<string>; unscored?: boolean }
 
@@ -32,7 +36,7 @@ export class Asking {
   private partCache: { set: MotionSet; others: string; text: string } | null = null;
 
   constructor(private readonly editor: Editor, private readonly library: Library, private readonly client: Client, base = '') {
-    this.generator = new Generator(base);
+    this.generator = new Generator(base, undefined, { alive: () => client.answers(PROBE_MS) });
     editor.onCommit = (scene, step) => this.committed(scene, step);
     editor.onSelect = (id) => this.selected(id);
   }
@@ -42,8 +46,10 @@ export class Asking {
     const { editor } = this;
     if (!id) {
       // A running answer to a commit must still arrive; only a look at futures is dropped.
-      if (!editor.motion.peek().stale) this.generator.cancel();
-      if (editor.status.peek().kind === 'refining') editor.status.value = { kind: 'ready' };
+      if (editor.motion.peek().stale) return;
+      this.generator.cancel();
+      // What was said about its futures goes with it.
+      if (['refining', 'slow', 'settled'].includes(editor.status.peek().kind)) editor.status.value = { kind: 'ready' };
       return;
     }
     const a = editor.agent.peek();
@@ -176,46 +182,60 @@ export class Asking {
   private handlers(scene: Scene, w: Wanted): Handlers {
     const { editor } = this;
     const subject = w.commit ? w.commit.agent ?? editor.selection.peek() : (w.agents as string[])[0];
+    let began = false;
+    let slow = false;
+    // Letters stay with their ideas during a drag and from the first guess to the answer, and a pick keeps its letter.
+    const keep = (a: Agent): KeepOrder => {
+      const d = editor.draft.peek();
+      const like = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
+      return { like, always: editor.drag.peek() !== null || a.chosen !== null || (began && a.id === subject) };
+    };
     return {
       draft: (e, step, steps, ms) => {
         this.answered();
         const id = subject && e.agents[subject] ? subject : null;
         batch(() => {
-          if (id && editor.selection.peek() === id) this.draw(id, e, step, steps);
+          if (id && editor.selection.peek() === id) began = this.draw(id, e, step, steps, keep) || began;
           editor.status.value = { kind: 'refining', step, steps, ms };
         });
       },
       final: (e, ms) => {
         this.answered();
-        if (w.commit) this.finalOfCommit(scene, e, w, ms); else this.finalOfPreview(scene, e, w, ms);
+        if (w.commit) this.finalOfCommit(scene, e, w, ms, keep); else this.finalOfPreview(scene, e, w, ms, keep);
       },
       refused: (p) => {
         // Futures matter more than their score: when working out both fails, they are asked for alone.
         if (p.code === 'internal' && w.commit && !w.unscored) this.send({ ...w, unscored: true }, false);
         else this.refused(p);
       },
+      slow: (ms) => {
+        editor.status.value = { kind: 'slow', ms };
+        if (!slow) editor.say('This takes longer than usual.');
+        slow = true;
+      },
       away: () => this.wentAway(w),
     };
   }
 
-  private draw(id: string, e: DraftEvent, step: number, steps: number): void {
+  private draw(id: string, e: DraftEvent, step: number, steps: number, keep: Keep): boolean {
     const { editor } = this;
     const a = editor.scene.peek()?.agents.get(id);
     const start = a && startPose(a);
-    if (!a || !start) return;
+    if (!a || !start) return false;
     const shown = editor.draft.peek();
     // The answer to a release starts rough again; what the drag has settled already stays until it is better.
-    if (!editor.drag.peek() && shown?.id === id && !shown.futures.sketch && step < shown.futures.step) return;
-    const f = readFutures(e.agents[id], start, step, steps, a.type === 'pedestrian');
+    if (!editor.drag.peek() && shown?.id === id && !shown.futures.sketch && step < shown.futures.step) return false;
+    const f = readFutures(e.agents[id], start, step, steps, a.type === 'pedestrian', keep(a));
     const old = editor.draft.peek();
     const earlier = step > 0 && !this.calm.matches && old?.id === id && !old.futures.sketch ? [old.futures, ...old.earlier].slice(0, 3) : [];
     editor.draft.value = { id, futures: f, earlier };
+    return true;
   }
 
-  private finalOfPreview(scene: Scene, e: FinalEvent, w: Wanted, ms: number): void {
+  private finalOfPreview(scene: Scene, e: FinalEvent, w: Wanted, ms: number, keep: Keep): void {
     const { editor } = this;
     const id = (w.agents as string[])[0];
-    const f = this.readAll(scene, e).get(id);
+    const f = this.readAll(scene, e, keep).get(id);
     if (!f) return;
     const reach = readReach(e.resolved?.[id]);
     batch(() => {
@@ -235,11 +255,11 @@ export class Asking {
     if (best && !editor.drag.peek()) editor.say(`Six futures. Most likely: ${best.name}, ${Math.round(best.probability * 100)} percent.`);
   }
 
-  private finalOfCommit(scene: Scene, e: FinalEvent, w: Wanted, ms: number): void {
+  private finalOfCommit(scene: Scene, e: FinalEvent, w: Wanted, ms: number, keep: Keep): void {
     const { editor } = this;
     if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
     const before = editor.motion.peek();
-    const answers = this.readAll(scene, e);
+    const answers = this.readAll(scene, e, keep);
     // A look at somebody's futures from before the change is no longer true.
     const futures = new Map([...before.futures].filter(([id]) => before.driving.has(id) || w.kept?.has(id) || touched(scene.agents.get(id)!)));
     for (const [id, f] of answers) futures.set(id, f);
@@ -250,7 +270,9 @@ export class Asking {
     for (const [id, r] of Object.entries(e.resolved ?? {})) { const v = readReach(r); if (v) reach.set(id, v); else reach.delete(id); }
     const set: MotionSet = { key: sceneKey(scene), futures, driving, score: readScore(e.scores), reach, stale: false, head: e.generated, warnings: readWarnings(e) };
     editor.liveReach.value = null;
-    editor.settle(set, { except: w.commit!.agent });
+    // Those that were asked something are no others, also when only the mode of the others was changed.
+    const subjects = w.commit!.agent ? [w.commit!.agent] : editor.touchedIds(scene);
+    editor.settle(set, { except: new Set([...subjects, ...(editor.selection.peek() ? [editor.selection.peek()!] : [])]) });
     this.afterCommit(w.commit!, ms);
     const looked = editor.selection.peek();
     if (looked && !futures.has(looked)) this.selected(looked);
@@ -271,11 +293,11 @@ export class Asking {
     if (hit) editor.say(`Collision, ${hit.a.name} and ${hit.b.name}, ${hit.time.toFixed(1)} seconds.`, true);
   }
 
-  private readAll(scene: Scene, e: FinalEvent): Map<string, Futures> {
+  private readAll(scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {
     const out = new Map<string, Futures>();
     for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
       const a = scene.agents.get(id), start = a && startPose(a);
-      if (a && start && json.modes?.length) out.set(id, readFutures(json, start, STEPS, STEPS, a.type === 'pedestrian'));
+      if (a && start && json.modes?.length) out.set(id, readFutures(json, start, STEPS, STEPS, a.type === 'pedestrian', keep(a)));
     }
     return out;
   }

@@ -8,7 +8,7 @@ import { emptyMotion, MotionCache, type Futures, type MotionSet, type Reach } fr
 import { findChanges, motionOf, type Change } from '../model/changes';
 import { readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
-import type { OnLine, Pose, Vec } from '../model/geometry';
+import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
 import type { SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
@@ -22,6 +22,7 @@ export interface Toast { readonly text: string; readonly undo?: boolean; readonl
 
 export type Status =
   | { kind: 'loading' } | { kind: 'ready' } | { kind: 'refining'; step: number; steps: number; ms: number }
+  | { kind: 'slow'; ms: number }
   | { kind: 'settled'; ms: number; adapted: number | null } | { kind: 'away' } | { kind: 'refused'; words: string };
 
 /** Futures on their way: the latest draft and the ones before it, which stay behind as trails. */
@@ -215,7 +216,7 @@ export class Editor {
   }
 
   /** Takes over what the generator worked out for the document as it is now. */
-  settle(set: MotionSet, changed: { except: string | null } | null): void {
+  settle(set: MotionSet, changed: { except: ReadonlySet<string> } | null): void {
     const scene = this.scene.peek();
     if (!scene) return;
     const before = this.motion.peek();
@@ -242,7 +243,7 @@ export class Editor {
     const [x, y] = g.pos ?? [end!.x, end!.y];
     const start = startPose(a);
     const travel = start ? Math.atan2(y - start.y, x - start.x) : 0;
-    return { x, y, heading: g.heading ?? end?.heading ?? travel, speed: g.speed ?? Math.abs(end?.speed ?? start?.speed ?? 0), set: g.pos !== null };
+    return { x, y, heading: wrapAngle(g.heading ?? end?.heading ?? travel), speed: g.speed ?? Math.abs(end?.speed ?? start?.speed ?? 0), set: g.pos !== null };
   }
 
   notify(toast: Toast | null, ms = 6000): void {

@@ -3,9 +3,9 @@ import { deg, rad, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { nearestLanes } from '../model/lanemap';
 import { choose, clearGoal, setBoth, setGoal, setSize, setStart, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
-import { limitsOf, localReach } from '../model/reach';
+import { limitsOf, localReach, shortfall } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type StartSpec } from '../model/scene';
-import { toUnit } from '../model/units';
+import { metres, toUnit } from '../model/units';
 import type { Editor, Part } from './editor';
 import { lanesFor } from './snap';
 
@@ -119,11 +119,11 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
   const out: Remedy[] = [];
   const nearest = (verdict?.status === 'unreachable' ? verdict.nearest : null) ?? local?.nearest ?? null;
   if (nearest) {
-    const along = Math.hypot(nearest.x - start.x, nearest.y - start.y);
+    const gets = shortfall(start, a.goal.pos, nearest, local)?.gets ?? Math.hypot(nearest.x - start.x, nearest.y - start.y);
     const heading = a.goal.heading === null ? null : nearest.heading;
     const speed = a.goal.speed === null ? null : nearest.speed;
     out.push({
-      label: 'Use nearest reachable', note: `${(local?.kind === 'far' ? local.max : along).toFixed(0)} m`, icon: 'flag', primary: true,
+      label: 'Use nearest reachable', note: metres(gets, 0), icon: 'flag', primary: true,
       command: { ...setGoal(a, { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed }), name: `Goal of ${a.name} moved to the nearest reachable point` },
     });
   }

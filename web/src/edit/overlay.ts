@@ -1,6 +1,7 @@
 // The overlay: selection, handles, futures, labels, ghosts, events. The only canvas a drag frame paints.
 import type { OnLine, Pose } from '../model/geometry';
 import { endPose, poseAt } from '../model/motion';
+import { shortfall } from '../model/reach';
 import { reachWords } from '../model/futures';
 import { comparedWithLog } from '../model/changes';
 import { canChange, startPose, touched, type Agent } from '../model/scene';
@@ -236,12 +237,11 @@ export class Overlay {
     paintGhost(g, v, a, nearest, c.goal, c['goal-soft'], [], 2);
     const x = v.x(nearest.x), y = v.y(nearest.y);
     paintFlag(g, this.labels, x, y, c.goal, true);
-    const r = this.editor.localReach.value;
-    this.tag(g, [x, y], r?.kind === 'far' ? `Nearest reachable · ${metres(r.max, 0)}` : 'Nearest reachable', { tries: [[34, -26], [-170, -26], [34, 8]], bg: c.goal, fg: c.surface });
-    if (r?.kind === 'far' && a.goal.pos) {
-      const beyond = r.along - r.max;
-      this.tag(g, [(x + v.x(a.goal.pos[0])) / 2, (y + v.y(a.goal.pos[1])) / 2], `${metres(beyond, 0)} beyond reach`, { weight: 500, must: false });
-    }
+    const start = startPose(a);
+    const far = start && a.goal.pos ? shortfall(start, a.goal.pos, nearest, this.editor.localReach.value) : null;
+    this.tag(g, [x, y], far ? `Nearest reachable · ${metres(far.gets, 0)}` : 'Nearest reachable', { tries: [[34, -26], [-170, -26], [34, 8], [-170, 8]], bg: c.goal, fg: c.surface });
+    if (far && far.beyond > 1 && a.goal.pos)
+      this.tag(g, [(x + v.x(a.goal.pos[0])) / 2, (y + v.y(a.goal.pos[1])) / 2], `${metres(far.beyond, 0)} beyond reach`, { weight: 500, must: false });
   }
 
   private dragLabels(g: G, v: View, a: Agent, goal: Pose | null): void {
@@ -284,7 +284,7 @@ export class Overlay {
       const a = e.scene.value!.agents.get(ch.id);
       const p = a && this.poseNow(a);
       const x = p ? v.x(p.x) : -1, y = p ? v.y(p.y) : -1;
-      if (x > 0 && x < v.w && y > 0 && y < v.h) this.tag(g, [x, y], `${ch.name} ${ch.short}`, { leader: colours().ink, radii: [44, 60, 84, 110], must: false });
+      if (x > 0 && x < v.w && y > 0 && y < v.h) this.tag(g, [x, y], `${ch.name}: ${ch.short}`, { leader: colours().ink, radii: [44, 60, 84, 110], must: false });
     }
   }
 

@@ -2,8 +2,8 @@
 import { distances, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
 import type { MotionSet } from './futures';
 import type { Agent, Scene } from './scene';
-import { startPose } from './scene';
-import { heldStill } from './motion';
+import { startPose, staysAway } from './scene';
+import { heldStill, nowhere } from './motion';
 import { num, speedText } from './units';
 
 export interface Change { readonly id: string; readonly name: string; readonly words: string; readonly short: string; readonly size: number; readonly before: Motion; readonly at: number }
@@ -15,15 +15,16 @@ export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
   if (scene.others === 'still' && a.type !== 'other') {
     const p = startPose(a);
     if (p) return heldStill(p, scene.steps);
+    if (staysAway(scene, a)) return nowhere;
   }
   return a.log;
 }
 
-/** Everybody but `except` whose motion differs by more than half a metre somewhere (a footstep for people on foot). */
-export function findChanges(scene: Scene, before: MotionSet, after: MotionSet, except: string | null): Change[] {
+/** Everybody but `except` whose motion differs by more than a metre somewhere (a footstep for people on foot). */
+export function findChanges(scene: Scene, before: MotionSet, after: MotionSet, except: ReadonlySet<string>): Change[] {
   const out: Change[] = [];
   for (const a of scene.agents.values()) {
-    if (a.id === except || !after.driving.has(a.id)) continue;
+    if (except.has(a.id) || !after.driving.has(a.id)) continue;
     const m0 = motionOf(scene, before, a), m1 = motionOf(scene, after, a);
     if (m0 === m1) continue;
     const apart = furthest(m0, m1, scene.duration);

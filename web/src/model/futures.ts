@@ -5,7 +5,11 @@ import { wrapAngle, type Pose } from './geometry';
 
 export const LETTERS = 'ABCDEF';
 
-export interface Future { readonly probability: number; readonly motion: Motion; readonly name: string }
+export interface Future {
+  readonly probability: number; readonly motion: Motion; readonly name: string;
+  /** Which of the generator's ideas this one follows; null for staying at rest, and where nobody says. */
+  readonly anchor?: number | null;
+}
 
 export interface Futures {
   readonly modes: readonly Future[];
@@ -20,12 +24,47 @@ export interface Futures {
 
 export const isSettled = (f: Futures): boolean => f.step >= f.steps;
 
-export function readFutures(json: AgentFuturesJson, start: Pose, step: number, steps: number, isPedestrian: boolean): Futures {
-  const modes = json.modes.slice(0, 6).map((m) => {
-    const motion = motionFrom(m, start);
-    return { probability: m.probability, motion, name: m.name ?? describe(motion, isPedestrian) };
+export function readFutures(json: AgentFuturesJson, start: Pose, step: number, steps: number, isPedestrian: boolean, keep?: KeepOrder): Futures {
+  const sent = json.modes.slice(0, 6);
+  const order = keep?.like ? placesLike(keep.like.modes, sent, keep.always) : sent.map((_, i) => i);
+  const modes = order.map((i) => {
+    const m = sent[i], motion = motionFrom(m, start);
+    return { probability: m.probability, motion, name: m.name ?? describe(motion, isPedestrian), anchor: m.anchor ?? null };
   });
-  return { modes: step >= steps ? distinct(modes) : modes, chosen: json.chosen ?? 0, step, steps };
+  return { modes: step >= steps ? distinct(modes) : modes, chosen: Math.max(0, order.indexOf(json.chosen ?? 0)), step, steps };
+}
+
+/** The futures on screen, whose letters the new ones take over: always, or only while the ideas are the same. */
+export interface KeepOrder { readonly like: Futures | null | undefined; readonly always: boolean }
+
+interface HasAnchor { readonly anchor?: number | null }
+
+/** Names for the ideas in a list. Two of the same, or several without a number, are told apart by their turn. */
+function ideas(modes: readonly HasAnchor[]): string[] {
+  const count = new Map<number | null, number>();
+  return modes.map(({ anchor = null }) => {
+    const n = count.get(anchor) ?? 0;
+    count.set(anchor, n + 1);
+    return `${anchor ?? 'rest'}/${n}`;
+  });
+}
+
+/**
+ * In which order to show what was sent (most likely first), so that an idea keeps its letter and colour while the
+ * probabilities change places. Ideas that are new take the places of those that are gone.
+ */
+export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor[], always: boolean): number[] {
+  const was = ideas(shown), now = ideas(sent);
+  const same = was.length === now.length && now.every((k) => was.includes(k));
+  if (!same && !always) return now.map((_, i) => i);
+  const rest = now.map((_, i) => i).filter((i) => !was.includes(now[i]));
+  const order: number[] = [];
+  for (const k of was.slice(0, now.length)) {
+    const i = now.indexOf(k);
+    if (i >= 0) order.push(i);
+    else if (rest.length) order.push(rest.shift()!);
+  }
+  return [...order, ...now.map((_, i) => i).filter((i) => !order.includes(i))];
 }
 
 /** A short plain name from the shape of the motion, for generators that send none. */

@@ -27,7 +27,8 @@ export interface AgentJson {
   id: string; type: string; subtype?: string; role?: string | null; length_m: number; width_m: number; height_m?: number | null;
   track: TrackJson; conditions?: ConditionJson | null;
 }
-export interface ModeJson extends TrackJson { probability: number; name?: string; anchor?: unknown }
+/** `anchor`: which of the generator's ideas the future follows; absent for staying at rest. */
+export interface ModeJson extends TrackJson { probability: number; name?: string; anchor?: number | null }
 export interface AgentFuturesJson { chosen: number; modes: ModeJson[] }
 export interface SampleJson { agents: Record<string, AgentFuturesJson>; score?: unknown }
 export interface GeneratedJson { chosen_sample?: number; samples: SampleJson[]; stale?: boolean; seed?: number; [k: string]: unknown }

@@ -46,6 +46,9 @@ function signedSpeed(vx: number, vy: number, heading: number): number {
   return vx * Math.cos(heading) + vy * Math.sin(heading) < -0.2 * v ? -v : v;
 }
 
+/** The motion of somebody who does not appear. */
+export const nowhere: Motion = { first: 0, x: new Float64Array(0), y: new Float64Array(0), heading: new Float64Array(0), speed: new Float64Array(0), valid: [] };
+
 export const isValidAt = (m: Motion, step: number): boolean => m.valid.some(([a, b]) => step >= a && step < b);
 export const firstValid = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
 export const lastStep = (m: Motion): number => m.valid.length ? m.valid[m.valid.length - 1][1] - 1 : m.first - 1;

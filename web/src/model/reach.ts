@@ -88,6 +88,18 @@ export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, 
   return { ...base, kind: 'ok', title: 'Reachable', words: a.type === 'pedestrian' ? `${metres(along, 1)} in ${seconds(t)}: ${mean}${walk(along / t)}` : `${mean} on average is enough.` };
 }
 
+/**
+ * How far it gets and how much is missing, from whoever gave the verdict: the generator measures straight from the
+ * start, the quick look along the way. The two are never mixed, or the numbers on one screen contradict each other.
+ */
+export function shortfall(start: Pose, goal: readonly [number, number], nearest: { x: number; y: number } | null, local: LocalReach | null): { gets: number; beyond: number } | null {
+  if (nearest && nearest !== local?.nearest) {
+    const gets = Math.hypot(nearest.x - start.x, nearest.y - start.y);
+    return { gets, beyond: Math.hypot(goal[0] - start.x, goal[1] - start.y) - gets };
+  }
+  return local?.kind === 'far' ? { gets: local.max, beyond: local.along - local.max } : null;
+}
+
 const walk = (v: number): string => (v < 0.6 ? ', a stroll.' : v < 1.6 ? ', a normal walk.' : v < 2.2 ? ', a brisk walk.' : ', running.');
 
 function timeFor(l: Limits, v: number, d: number): number | null {

@@ -1,7 +1,7 @@
 // The document: what the user made. Frozen and structurally shared; motion that the generator worked out
 // is not part of it, it is looked up by the document's key (see futures.ts).
 import type { LaneMap } from './lanemap';
-import type { Pose, Vec } from './geometry';
+import { wrapAngle, type Pose, type Vec } from './geometry';
 import type { Motion } from './motion';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
@@ -49,7 +49,7 @@ export function startPose(a: Agent): Pose | null {
   const l = a.logStart;
   if (!l) return null;
   const [x, y] = a.start.pos ?? [l.x, l.y];
-  return { x, y, heading: a.start.heading ?? l.heading, speed: a.start.speed ?? Math.abs(l.speed) };
+  return { x, y, heading: wrapAngle(a.start.heading ?? l.heading), speed: a.start.speed ?? Math.abs(l.speed) };
 }
 
 export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !== null || g.speed !== null;
@@ -81,5 +81,8 @@ const MADE = ['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'];
 
 /** Recorded maps know nothing of what lies beside the road; made ones are drawn with grass and pavement. */
 export const isRecorded = (source: string): boolean => !MADE.includes(source);
+
+/** With the others held still nobody comes in from outside: it would run into those that stand. */
+export const staysAway = (s: Scene, a: Agent): boolean => s.others === 'still' && a.type !== 'other' && a.logStart === null;
 
 export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;

@@ -1,7 +1,7 @@
 // Document -> JSON: conditions for a request, and the whole scene for saving.
 import type { AgentFuturesJson, AgentJson, ConditionJson, GeneratedJson, GoalJson, MapJson, MapRef, SceneJson, StartJson, TrackJson } from './json';
 import type { Motion } from './motion';
-import { hasGoal, sameSpec, logStartSpec, sizeChanged, startPose, type Agent, type Scene } from './scene';
+import { hasGoal, sameSpec, logStartSpec, sizeChanged, startPose, staysAway, type Agent, type Scene } from './scene';
 import type { Futures } from './futures';
 
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
@@ -41,7 +41,7 @@ export function trackJson(m: Motion, skip = 0): TrackJson & { first_step: number
 function futuresJson(f: Futures, chosen: number): AgentFuturesJson {
   return {
     chosen,
-    modes: f.modes.map((m) => ({ probability: m.probability, ...trackJson(m.motion, 1) })),
+    modes: f.modes.map((m) => ({ probability: m.probability, ...(m.anchor == null ? {} : { anchor: m.anchor }), ...trackJson(m.motion, 1) })),
   };
 }
 
@@ -76,9 +76,9 @@ function picks(scene: Scene): { picked?: Record<string, number> } {
   return Object.keys(picked).length ? { picked } : {};
 }
 
-/** The same scene with everybody but `keep` standing where it starts. */
+/** The same scene with everybody but `keep` standing where it starts. Who would drive in later stays away. */
 export function stillAgents(raw: SceneJson, scene: Scene, keep: ReadonlySet<string>): AgentJson[] {
-  return raw.agents.map((json) => {
+  return raw.agents.filter((json) => { const a = scene.agents.get(json.id); return !a || !staysAway(scene, a); }).map((json) => {
     const a = scene.agents.get(json.id);
     const p = a && startPose(a);
     if (!p || keep.has(json.id)) return json;

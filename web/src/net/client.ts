@@ -103,9 +103,10 @@ export class Client {
     return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-loss') };
   }
 
-  async answers(): Promise<boolean> {
+  /** Does anybody answer? A server that hangs takes the connection and says nothing, hence the limit. */
+  async answers(limit_ms = 3000): Promise<boolean> {
     try {
-      await this.request('/healthz');
+      await this.request('/healthz', { signal: AbortSignal.timeout(limit_ms), cache: 'no-store' });
       return true;
     } catch (e) {
       return !(e instanceof Away);

@@ -20,11 +20,22 @@ export interface Handlers {
   final(e: FinalEvent, ms: number): void;
   refused(p: Problem): void;
   away(): void;
+  /** Nothing new for a while; said again while it lasts, with the time since the question. */
+  slow?(ms: number): void;
   /** The request ended without an answer because a newer one took its place. */
   dropped?(): void;
 }
 
-interface Running { ask: Ask; revision: number; abort: AbortController; drawn: boolean }
+interface Running { ask: Ask; revision: number; abort: AbortController; drawn: boolean;
+  /** How long since something new came, signs of life apart. */
+  idle: number;
+}
+
+/** When a silence is called slow, when it is looked into, and when it is taken for an absence in any case. */
+export interface Patience { slow: number; look: number; lost: number; tick: number; alive?: () => Promise<boolean> }
+
+/** `lost` is longer than the time between two signs of life in a stream. */
+const PATIENCE: Patience = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
 
 const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
 
@@ -33,8 +44,12 @@ export class Generator {
   private waiting: Ask | null = null;
   private revision = 0;
   readonly client: string;
+  private readonly patience: Patience;
+  /** How long nobody has said anything, over questions that replaced each other. */
+  private silent = 0;
 
-  constructor(private readonly base = '', private readonly fetcher: typeof fetch = (...a) => fetch(...a), private readonly now = () => performance.now()) {
+  constructor(private readonly base = '', private readonly fetcher: typeof fetch = (...a) => fetch(...a), patience: Partial<Patience> = {}, private readonly now = () => performance.now()) {
+    this.patience = { ...PATIENCE, ...patience };
     this.client = `editor-${Math.random().toString(36).slice(2, 10)}`;
   }
 
@@ -59,6 +74,7 @@ export class Generator {
     this.waiting?.on.dropped?.();
     this.waiting = null;
     this.stopRunning();
+    this.silent = 0;
   }
 
   private stopRunning(): void {
@@ -69,8 +85,9 @@ export class Generator {
   }
 
   private async run(ask: Ask): Promise<void> {
-    const me: Running = { ask, revision: ++this.revision, abort: new AbortController(), drawn: false };
+    const me: Running = { ask, revision: ++this.revision, abort: new AbortController(), drawn: false, idle: this.silent };
     this.running = me;
+    const unwatch = this.watch(me);
     const mine = () => this.running === me;
     const began = this.now();
     try {
@@ -96,16 +113,52 @@ export class Generator {
       if (!mine()) return;
       if ((e as Error).name === 'AbortError') ask.on.dropped?.(); else ask.on.away();
     } finally {
+      unwatch();
       if (mine()) {
         this.running = null;
+        this.silent = 0;
         this.next();
       }
     }
   }
 
+  /**
+   * Looks after a question while it is open. Time is counted in ticks, so that a computer that slept does not take
+   * its own absence for the generator's.
+   */
+  private watch(me: Running): () => void {
+    const { slow, look, lost, tick, alive } = this.patience;
+    let looked = false;
+    let told = 0;
+    const timer = setInterval(() => {
+      if (this.running !== me) return;
+      me.idle += tick;
+      this.silent += tick;
+      if (this.silent >= lost || (!alive && this.silent >= look)) return this.lose(me);
+      if (me.idle < told) told = 0;
+      if (me.idle >= slow && me.idle - told >= 4 * tick) me.ask.on.slow?.((told = me.idle));
+      if (this.silent < look) looked = false;
+      else if (!looked && alive) {
+        looked = true;
+        void alive().then((yes) => { if (!yes && this.running === me && this.silent >= look) this.lose(me); });
+      }
+    }, tick);
+    return () => clearInterval(timer);
+  }
+
+  private lose(me: Running): void {
+    this.running = null;
+    this.silent = 0;
+    me.abort.abort();
+    this.waiting?.on.dropped?.();
+    this.waiting = null;
+    me.ask.on.away();
+  }
+
   /** The queue is full for a moment: a preview is let go, a change waits and is asked again. */
   private async later(ask: Ask, me: Running, seconds: number): Promise<void> {
     if (ask.preview) { ask.on.dropped?.(); return; }
+    this.silent = 0;
     await new Promise((r) => setTimeout(r, Math.min(5, seconds) * 1000));
     if (this.running === me) await this.run(ask);
   }
@@ -124,9 +177,11 @@ export class Generator {
     let ended = false;
     for await (const e of readEvents(reply.body!)) {
       if (this.running !== me) return;
+      this.silent = 0;
       // An answer to an older question is dropped without a flash.
       if (e.revision !== undefined && e.revision !== me.revision) continue;
       const ms = this.now() - began;
+      if (e.event !== 'heartbeat') me.idle = 0;
       if (e.event === 'accepted') on.accepted?.(e);
       else if (e.event === 'initial' || e.event === 'step') {
         const step = e.event === 'initial' ? 0 : e.step ?? shown + 1;

@@ -15,7 +15,7 @@ const CSP = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 's
 const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.woff2': 'font/woff2', '.txt': 'text/plain' };
 
 export function startStandIn(options = {}) {
-  const o = { port: 8090, delay: 8, loss: 0, shuffle: false, away: false, busy: 0, scenes: [], ...options };
+  const o = { port: 8090, delay: 8, loss: 0, shuffle: false, away: false, hang: false, busy: 0, scenes: [], ...options };
   const scenes = new Map();
   const maps = new Map();
   const log = [];
@@ -105,6 +105,8 @@ export function startStandIn(options = {}) {
   const server = createServer((req, res) => {
     const url = new URL(req.url, 'http://x');
     if (o.away) return void req.socket.destroy();
+    // Takes the question and says nothing, as a stopped process does.
+    if (o.hang && ['/v1/generate', '/healthz'].includes(url.pathname)) return;
     if (url.pathname === '/healthz') return void res.end('ok');
     if (url.pathname.startsWith('/v1/')) return void api(req, res, url).catch((e) => problem(res, 500, 'internal', String(e)));
     let file = normalize(join(DIST, url.pathname));
