@@ -27,10 +27,12 @@ import { timeline } from './timeline';
 import { dialogs } from './dialogs';
 import { handleSliders, liveRegion, roadUserList } from './access';
 import { emptyState } from './empty';
-import { busyBox, busyCentre } from './thumbs';
+import { busyBox, sceneCentre } from './thumbs';
 
 const FIRST_SCENE = 'demo-crossing';
 const WIDE = 1300;
+/** How much of the map the height of the picture shows at first. */
+const OPENING_M = 88;
 
 function build(): Context {
   const ui = new Ui();
@@ -78,9 +80,12 @@ function fit(c: Context, opening = false): void {
   const scene = c.editor.scene.peek();
   if (!scene) return;
   c.stage.resize();
-  if (opening) c.stage.view.fit(busyBox(scene), 9.5, 6.8);
-  else c.stage.view.fit(scene.map.box);
-  if (opening) c.stage.view.centre(...busyCentre(scene));
+  const v = c.stage.view;
+  if (opening) {
+    // The same stretch of road on every screen: a junction with the beginnings of its arms.
+    v.fit(busyBox(scene), 9.5, Math.max(4.4, Math.min(9, (v.h - v.inset.top - v.inset.bottom) / OPENING_M)));
+    v.centre(...sceneCentre(scene));
+  } else v.fit(scene.map.box);
   c.stage.invalidate('map');
   c.stage.viewChanged();
 }

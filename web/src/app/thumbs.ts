@@ -71,6 +71,23 @@ export function busyCentre(scene: Scene): [number, number] {
   return [median(at.map((p) => p.x)), median(at.map((p) => p.y))];
 }
 
+const JUNCTION_M = 30;
+
+/** The middle of the junction the busy part is about; without one near it, the busy middle itself. */
+export function sceneCentre(scene: Scene): [number, number] {
+  const [bx, by] = busyCentre(scene);
+  const inside = [...scene.map.lanes.values()].filter((l) => l.inside && l.kind === 'road').map((l) => l.line.pts[l.line.pts.length >> 1]).filter(([x, y]) => Math.hypot(x - bx, y - by) < 2 * JUNCTION_M);
+  let best: readonly Vec[] = [], score = 0;
+  for (const [x, y] of inside) {
+    const round = inside.filter((p) => Math.hypot(p[0] - x, p[1] - y) < JUNCTION_M);
+    const s = round.length - Math.hypot(x - bx, y - by) / 20;
+    if (s > score) { score = s; best = round; }
+  }
+  if (best.length < 4) return [bx, by];
+  const mean = (i: 0 | 1): number => best.reduce((sum, p) => sum + p[i], 0) / best.length;
+  return [mean(0), mean(1)];
+}
+
 /** Where the road users are: the middle four fifths of them, so that one far away does not shrink the rest. */
 export function busyBox(scene: Scene, margin = 8): Box {
   const moving = [...scene.agents.values()].filter((a) => !a.parked && a.type !== 'other');
