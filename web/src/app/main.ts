@@ -83,7 +83,8 @@ function fit(c: Context, opening = false): void {
   const v = c.stage.view;
   if (opening) {
     // The same stretch of road on every screen: a junction with the beginnings of its arms.
-    v.fit(busyBox(scene), 9.5, Math.max(4.4, Math.min(9, (v.h - v.inset.top - v.inset.bottom) / OPENING_M)));
+    const z = Math.max(4.4, Math.min(8.5, (v.h - v.inset.top - v.inset.bottom) / OPENING_M));
+    v.fit(busyBox(scene), 1.1 * z, z);
     v.centre(...sceneCentre(scene));
   } else v.fit(scene.map.box);
   c.stage.invalidate('map');
