@@ -15,6 +15,7 @@ use crate::request::{
 };
 use scene::geometry::direction;
 use scene::motion::{MotionState, Trajectory};
+use scene::routes::LaneGraph;
 use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, Scene, State, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -28,6 +29,9 @@ const SHOW_ALL_BELOW: usize = 5;
 const REACT_WITHIN_M: f64 = 120.0;
 /// Steps of guidance on a conflicting draft, and the share of the push taken at each.
 const GUIDANCE: (usize, f32) = (12, 0.35);
+
+/// Cost of a motion that is off the lanes all the time.
+const OFF_LANES: f64 = 8.0;
 
 type Residuals = [[f32; RESIDUAL]; MODES];
 
@@ -437,7 +441,7 @@ impl<'g> Generation<'g> {
             world.present.iter().filter(|p| !acting.contains(&p.index)).map(|p| kept_boxes(&world, p));
         let mut choice = Choice { agents: Vec::new(), fixed: fixed.collect() };
         for (actor, motions) in self.actors.iter().zip(&motions) {
-            choice.agents.push(options(actor, motions));
+            choice.agents.push(options(actor, motions, &self.map.index.graph));
         }
         let mut chosen = choice.solve();
         self.guide(&world, &mut choice, &mut motions, &mut chosen);
@@ -522,7 +526,7 @@ impl<'g> Generation<'g> {
         });
         for (i, guided) in concerned.into_iter().zip(guided) {
             motions[i].extend(guided);
-            choice.agents[i] = options(&self.actors[i], &motions[i]);
+            choice.agents[i] = options(&self.actors[i], &motions[i], &self.map.index.graph);
         }
         *chosen = choice.solve();
     }
@@ -734,7 +738,7 @@ fn actor_poses(actor: &Actor, mode: usize, residual: &[f32; RESIDUAL]) -> Poses 
 }
 
 /// What an actor can do: its motions, after what it keeps (reacting) or has pinned.
-fn options(actor: &Actor, motions: &[(f64, usize, Motion)]) -> Vec<Choosable> {
+fn options(actor: &Actor, motions: &[(f64, usize, Motion)], graph: &LaneGraph) -> Vec<Choosable> {
     let size = &actor.planned.present.size;
     if let Some(pinned) = &actor.pinned {
         let boxes = super::choice::swept_kept(|step| pinned.get(step - 1).copied(), size);
@@ -748,7 +752,8 @@ fn options(actor: &Actor, motions: &[(f64, usize, Motion)]) -> Vec<Choosable> {
             for (motion, cost) in motions.iter().zip(medoid_costs(&all, &modes)) {
                 // A goal missed is worse than anything but an overlap.
                 let missed = if motion.2.reach.is_reached() { 0.0 } else { 3.0 };
-                out.push(Choosable { boxes: swept(&motion.2.states, size), cost: cost + missed });
+                let off = OFF_LANES * off_lanes(actor, &motion.2.states, graph);
+                out.push(Choosable { boxes: swept(&motion.2.states, size), cost: cost + missed + off });
             }
         }
         Some(kept) => {
@@ -756,11 +761,23 @@ fn options(actor: &Actor, motions: &[(f64, usize, Motion)]) -> Vec<Choosable> {
             out.push(Choosable { boxes, cost: 0.0 });
             for motion in motions {
                 let boxes = swept(&motion.2.states, size);
-                out.push(Choosable { boxes, cost: 0.6 + deviation_m(&motion.2.states, kept) / 4.0 });
+                let off = OFF_LANES * off_lanes(actor, &motion.2.states, graph);
+                out.push(Choosable { boxes, cost: 0.6 + deviation_m(&motion.2.states, kept) / 4.0 + off });
             }
         }
     }
     out
+}
+
+/// Share of a vehicle's motion that is away from every lane, for one that starts on a lane.
+fn off_lanes(actor: &Actor, states: &Trajectory, graph: &LaneGraph) -> f64 {
+    let agent_type = actor.planned.present.agent_type;
+    let away = |s: &MotionState| graph.nearest_for(s.position, 2.5, agent_type).is_empty();
+    if agent_type != AgentType::Vehicle || states.first().is_none_or(away) {
+        return 0.0;
+    }
+    let looked_at = states.iter().step_by(PER_INSTANT);
+    looked_at.filter(|s| away(s)).count() as f64 / (INSTANTS + 1) as f64
 }
 
 /// Mean distance of a motion from the kept one, metres.

@@ -140,6 +140,7 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
     let mut best: Option<(f64, MotionModel, Knots, Trajectory)> = None;
     for (variant, first_guess) in attempts(model, &near, &target, warm) {
         let knots = solve(&variant, &near, first_guess(&variant, &near, &target, warm), &target);
+        let knots = calm_after(&variant, knots, &near, &target);
         let trajectory = variant.rollout(&knots);
         let residuals = Residuals::of(&trajectory[target.step], &target);
         let norm = residuals.norm();
@@ -161,6 +162,21 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
         Reach::Unreachable { nearest, residuals, limiting, needs }
     };
     Projection { knots, trajectory, reach }
+}
+
+/// What the goal asked for ends with the goal: later knots go back to the wanted ones (on foot, the
+/// velocity at the goal is kept), so that a hurry to reach it does not carry on beyond.
+fn calm_after(model: &MotionModel, mut knots: Knots, near: &Knots, target: &Target) -> Knots {
+    let per_knot = HORIZON_STEPS / (KNOTS - 1);
+    // Up to this knot the motion before the goal depends on them.
+    let last = target.step.div_ceil(per_knot);
+    for i in last + 1..KNOTS {
+        (knots.first[i], knots.second[i]) = match model.kind {
+            Kind::Drive => (near.first[i], near.second[i]),
+            Kind::Walk => (knots.first[last], knots.second[last]),
+        };
+    }
+    model.legal(&knots)
 }
 
 type FirstGuess = fn(&MotionModel, &Knots, &Target, Option<&Knots>) -> Knots;
