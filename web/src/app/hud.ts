@@ -57,8 +57,7 @@ function status(c: Context): HTMLElement {
       const n = editor.futures.peek()?.modes.length ?? 6;
       const ms = s.ms ? ` · ${s.ms.toFixed(0)} ms` : '';
       const adapted = s.adapted === null ? '' : s.adapted === 0 ? '' : ` · ${s.adapted} other${s.adapted > 1 ? 's' : ''} adapted`;
-      if (editor.selection.peek()) return line('', `${n === 6 ? 'Six' : n} futures${ms}${adapted}`);
-      return line('', `Ready${ms}${adapted}`);
+      return editor.selection.peek() ? line('', `${n === 6 ? 'Six' : n} futures${ms}${adapted}`) : readyLine(c, line);
     }
     case 'ready': return readyLine(c, line);
   }

@@ -101,6 +101,8 @@ export class Overlay {
       this.tag(g, h.tip, (a.start.speed === null ? '≈ ' : '') + speedLabel(start.speed, unit), { tries: [[-22, -32], [-22, 14], [14, -10]] });
     }
     if (!atStart && now && !e.playing.value) this.tag(g, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
+    const bad = goal ? this.unreachable(a) : null;
+    if (bad?.nearest) this.labelNearest(g, v, a, bad.nearest);
     this.paintLetters(g, v, a);
     this.dragLabels(g, v, a, goal);
   }
@@ -237,6 +239,12 @@ export class Overlay {
     paintGhost(g, v, a, nearest, c.goal, c['goal-soft'], [], 2);
     const x = v.x(nearest.x), y = v.y(nearest.y);
     paintFlag(g, this.labels, x, y, c.goal, true);
+  }
+
+  /** After the handles, which would cover it. */
+  private labelNearest(g: G, v: View, a: Agent, nearest: OnLine): void {
+    const c = colours();
+    const x = v.x(nearest.x), y = v.y(nearest.y);
     const start = startPose(a);
     const far = start && a.goal.pos ? shortfall(start, a.goal.pos, nearest, this.editor.localReach.value) : null;
     this.tag(g, [x, y], far ? `Nearest reachable · ${metres(far.gets, 0)}` : 'Nearest reachable', { tries: [[34, -26], [-170, -26], [34, 8], [-170, 8]], bg: c.goal, fg: c.surface });

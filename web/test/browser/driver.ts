@@ -61,7 +61,7 @@ export class Driver {
   }
 
   async settled(): Promise<void> {
-    await this.page.waitForFunction(() => !/Working|Refining/.test(document.querySelector('.status')?.textContent ?? ''));
+    await this.page.waitForFunction(() => !/Working|First guess|Refining|longer than usual/.test(document.querySelector('.status')?.textContent ?? ''));
     await this.page.waitForTimeout(60);
   }
 

@@ -172,6 +172,63 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(d.last().conditions['1'].goal).toBeDefined();
   });
 
+  it('notices in the middle of a drag that the generator hangs', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    const [x, y] = await d.at(...(await d.goal()));
+    await d.drag([x + 8, y - 26], [x + 8, y - 60]);
+    d.server.options.hang = true;
+    await d.drag([x + 8, y - 60], [x + 8, y - 120]);
+    await d.page.waitForFunction(() => /longer than usual \(\d\.\d s\)\. You can keep dragging/.test(document.querySelector('.status')!.textContent!), null, { timeout: 5000 });
+    await d.page.waitForSelector('.banner', { timeout: 9000 });
+    expect(await d.text('.status')).toContain('Generator away');
+    expect(await d.page.locator('.fu').count()).toBe(0);
+    await d.page.mouse.up();
+    await d.page.waitForFunction(() => /1 change waiting/.test(document.querySelector('.status')!.textContent!));
+    d.server.options.hang = false;
+    await d.page.waitForSelector('.fu', { timeout: 12_000 });
+    await d.settled();
+    expect(await d.page.locator('.banner').count()).toBe(0);
+  });
+
+  it('leaves keys and focus where they are expected', async () => {
+    d = await (await Driver.open(browser)).ready();
+    const focus = () => d.page.evaluate(() => (document.activeElement as HTMLElement).dataset.agent ?? (document.activeElement as HTMLElement).dataset.field ?? document.activeElement!.tagName);
+    // Enter selects in the list, and then goes on to the inspector.
+    await d.page.locator('[data-agent="1"]').focus();
+    await d.key('Enter');
+    await d.page.waitForSelector('.fu');
+    expect(await focus()).toBe('1');
+    // Events come and go; the buttons of the list stay.
+    d.server.options.collision = true;
+    await d.key('g');
+    await d.key('Shift+ArrowUp');
+    await d.page.waitForSelector('.plot .badge');
+    expect(await focus()).toBe('1');
+    await d.key('Enter');
+    expect(await focus()).toBe('goal-speed');
+    // Undo is the editor's as soon as what was typed is taken over.
+    await d.page.locator('[data-field="goal-time"]').fill('4');
+    await d.key('Enter');
+    await d.settled();
+    await d.key('Control+z');
+    expect(await d.value('goal-time')).toBe(9);
+    expect(await focus()).toBe('goal-time');
+    // After a click with the mouse Space plays.
+    await d.page.locator('.fu[data-future="C"]').click();
+    await d.settled();
+    await d.key('Space');
+    expect(await d.page.locator('[data-action="play"]').getAttribute('aria-pressed')).toBe('true');
+    await d.key('Space');
+    // Nothing is said about futures when nobody is selected.
+    await d.page.locator('.card.chipbar .btn').first().focus();
+    await d.key('Escape');
+    await d.key('Escape');
+    await d.settled();
+    expect(await d.page.locator('.ih h2').innerText()).toBe('Scene');
+    expect(await d.text('.status')).not.toMatch(/\d ms/);
+  });
+
   it('imports files with a verdict for each', async () => {
     d = await (await Driver.open(browser)).ready();
     const good = { name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(buildCrossing('x', 'Mine').scene)) };
