@@ -264,7 +264,7 @@ impl<'g> Generation<'g> {
             })
             .collect();
         self.drafts = self.actors.iter().map(|a| a.residual).collect();
-        let Some(&(level, _)) = schedule::ddim(schedule::START, self.request.steps).first() else {
+        let Some(&(level, _)) = self.levels().first() else {
             return Ok(());
         };
         for batch in &self.batches {
@@ -286,8 +286,7 @@ impl<'g> Generation<'g> {
     /// One refinement step for everybody.
     fn step(&mut self, step: usize) -> Result<(), GenerateError> {
         let started = Instant::now();
-        let levels = schedule::ddim(schedule::START, self.request.steps);
-        let Some(&level) = levels.get(step - 1) else { return Ok(()) };
+        let Some(&level) = self.levels().get(step - 1) else { return Ok(()) };
         let pushes = self.pushes();
         let drafts = &self.drafts;
         let results = parallel::map(self.generator.threads(), &self.batches, |batch| {
@@ -589,9 +588,14 @@ impl<'g> Generation<'g> {
         })
     }
 
-    /// Refinement steps that the schedule has room for.
+    /// Levels of the refinement steps: from the leapfrog start, or from as high up as many steps need.
+    fn levels(&self) -> Vec<(usize, usize)> {
+        schedule::ddim(schedule::START.max(self.request.steps), self.request.steps)
+    }
+
+    /// Refinement steps.
     fn steps(&self) -> usize {
-        schedule::ddim(schedule::START, self.request.steps).len()
+        self.levels().len()
     }
 
     fn stop_if_cancelled(&self) -> Result<(), GenerateError> {
