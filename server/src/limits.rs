@@ -61,13 +61,13 @@ limits! {
 fn fixed() -> [(&'static str, u64, &'static str); 10] {
     [
         ("json_depth", 128, "nesting of a JSON document"),
-        ("agents", 256, "road users in a scene"),
-        ("scene_steps", 600, "steps in a scene"),
-        ("map_polylines", 20_000, "lines and areas of a map"),
-        ("map_points", 400_000, "points of a map"),
-        ("polyline_points", 4_096, "points of one line"),
-        ("signals", 512, "signals in a scene"),
-        ("coordinate_m", 10_000, "distance from the origin"),
+        ("agents", scene::MAX_AGENTS as u64, "road users in a scene"),
+        ("scene_steps", scene::MAX_STEPS as u64, "steps in a scene"),
+        ("map_polylines", scene::MAX_POLYLINES as u64, "lines and areas of a map"),
+        ("map_points", scene::MAX_MAP_POINTS as u64, "points of a map"),
+        ("polyline_points", scene::MAX_POLYLINE_POINTS as u64, "points of one line"),
+        ("signals", scene::MAX_SIGNALS as u64, "signals in a scene"),
+        ("coordinate_m", scene::MAX_COORDINATE_M as u64, "distance from the origin"),
         ("samples", 32, "joint scenes per call"),
         ("modes", 6, "alternatives kept per road user"),
     ]

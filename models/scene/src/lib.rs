@@ -28,6 +28,9 @@ pub use geometry::{Vec2, wrap_angle};
 pub use hash::ContentHash;
 pub use map::LaneMap;
 pub use signal::{Signal, SignalState};
+pub use whole::{
+    MAX_AGENTS, MAX_COORDINATE_M, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,
+};
 pub use whole::{Meta, Origin, Scene, SceneError, Timing};
 
 /// Length of one step in seconds, fixed for the whole product (10 Hz).

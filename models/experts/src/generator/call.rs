@@ -5,8 +5,7 @@ use super::choice::{Choice, Choosable, medoid_costs, swept};
 use super::noise::Key;
 use super::realise::{Motion, PER_INSTANT, may_rest, places, realise, rest};
 use super::{EncodedMap, Generator, parallel, report};
-use crate::features::agent::Planned;
-use crate::features::world::World;
+use crate::features::world::{Present, World};
 use crate::features::{INSTANTS, MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::{Growth, Obstacle, Poses, Pullback, overlap};
 use crate::net::{Context, NetError, Prepared, schedule};
@@ -316,7 +315,7 @@ impl<'g> Generation<'g> {
             .zip(&self.drafts)
             .zip(&self.standing_for)
             .map(|((actor, draft), mode)| {
-                (actor_poses(actor, *mode, &draft[*mode]), half_size(&actor.planned))
+                (actor_poses(actor, *mode, &draft[*mode]), half_size(&actor.planned.present))
             })
             .collect();
         let kept = self.kept_poses(&world);
@@ -342,7 +341,7 @@ impl<'g> Generation<'g> {
         let places = places(&actor.planned, mode, residual);
         let own = poses_of(&places);
         let obstacles = others.iter().map(|(poses, half)| Obstacle { poses, half: *half });
-        let found = overlap(&own, half_size(&actor.planned), obstacles, Growth::Square);
+        let found = overlap(&own, half_size(&actor.planned.present), obstacles, Growth::Square);
         if found.energy == 0.0 {
             return [0.0; RESIDUAL];
         }
@@ -367,7 +366,7 @@ impl<'g> Generation<'g> {
                     *pose = pose_of(s.position(), s.heading_rad);
                 }
             }
-            (poses, [0.5 * p.size.length_m as f32, 0.5 * p.size.width_m as f32])
+            (poses, half_size(p))
         })
         .collect()
     }
@@ -500,7 +499,7 @@ impl<'g> Generation<'g> {
         let present: Vec<(Poses, [f32; 2])> = (0..self.actors.len())
             .map(|i| {
                 let actor = &self.actors[i];
-                let half = half_size(&actor.planned);
+                let half = half_size(&actor.planned.present);
                 match shown_motion(actor, chosen[i]).and_then(|m| motions[i].get(m)) {
                     Some((_, _, motion)) => (poses_of_states(&motion.states), half),
                     None => (poses_of_kept(actor), half),
@@ -704,9 +703,8 @@ fn finite(residual: &Residuals, step: usize, agent: &AgentId) -> Result<(), Gene
     Err(GenerateError::NonFinite { step, agent: agent.clone() })
 }
 
-fn half_size(planned: &Planned) -> [f32; 2] {
-    let size = &planned.present.size;
-    [0.5 * size.length_m as f32, 0.5 * size.width_m as f32]
+fn half_size(who: &Present) -> [f32; 2] {
+    [0.5 * who.size.length_m as f32, 0.5 * who.size.width_m as f32]
 }
 
 fn pose_of(position: Vec2, heading_rad: f64) -> [f32; 4] {

@@ -98,19 +98,20 @@ fn reversing(planned: &Planned, forwards: &Projection) -> Option<Motion> {
     (better(&backwards) < better(forwards)).then(|| backwards.into())
 }
 
+/// The start pose without motion.
+fn still(planned: &Planned) -> MotionState {
+    let start = &planned.present.start;
+    MotionState { position: start.position(), heading_rad: start.heading_rad, velocity: Vec2::zeros() }
+}
+
 /// Exact rest at the start pose.
 pub(super) fn rest(planned: &Planned) -> Motion {
-    let start = &planned.present.start;
-    let still =
-        MotionState { position: start.position(), heading_rad: start.heading_rad, velocity: Vec2::zeros() };
+    let still = still(planned);
     let residuals = Residuals::of(&still, &planned.target);
     Motion { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(residuals) }
 }
 
 /// Standing at the start, and rest meets whatever is asked.
 pub(super) fn may_rest(planned: &Planned) -> bool {
-    let start = &planned.present.start;
-    let still =
-        MotionState { position: start.position(), heading_rad: start.heading_rad, velocity: Vec2::zeros() };
-    start.speed_mps() < 0.3 && Residuals::of(&still, &planned.target).is_met()
+    planned.present.start.speed_mps() < 0.3 && Residuals::of(&still(planned), &planned.target).is_met()
 }

@@ -8,7 +8,7 @@ use super::fit::{Sampled, fit};
 use super::walk::{STANDING_MPS, position_row, velocity_row};
 use super::whiten::Whitening;
 use super::{CONTROLS, Kind, Knots, MotionModel, MotionState, Trajectory};
-use crate::geometry::{direction, rotate};
+use crate::geometry::direction;
 use crate::{HORIZON_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
 
@@ -490,7 +490,7 @@ fn explain(model: &MotionModel, knots: &Knots, target: &Target) -> (Limiting, Op
     let v0 = model.start_speed_mps();
     let l = &model.limits;
     if let Some(goal) = target.position {
-        let local = rotate(goal - model.start.position(), -model.start.heading_rad);
+        let local = model.to_local(goal);
         let distance = match model.kind {
             Kind::Drive => arc_through(local).0,
             Kind::Walk => local.norm(),
