@@ -2,5 +2,6 @@
 
 pub mod eval;
 pub mod prepare;
+pub mod statistics;
 pub mod synthesize;
 pub mod train;

@@ -116,6 +116,8 @@ enum Command {
     Info,
     /// Make training windows from procedural networks, driven through SUMO.
     Synthesize(lab::SynthesizeArgs),
+    /// Lay the statistics of sets of scenes side by side.
+    Statistics(lab::StatisticsArgs),
     /// Make training shards from logs.
     Prepare(lab::PrepareArgs),
     /// Train an expert.
@@ -151,6 +153,7 @@ pub fn run() -> ExitCode {
         Some(Command::Schema(args)) => document::schema(args),
         Some(Command::Info) => document::info(&common),
         Some(Command::Synthesize(args)) => lab::synthesize(args, &common),
+        Some(Command::Statistics(args)) => lab::statistics(args),
         Some(Command::Prepare(args)) => lab::prepare(args, &common),
         Some(Command::Train(args)) => lab::train(args, &common),
         Some(Command::Eval(args)) => lab::eval(args, &common),

@@ -8,7 +8,7 @@ pub mod demo;
 mod demo_check;
 mod demo_clip;
 mod demo_networks;
-mod filters;
+pub(crate) mod filters;
 mod fleet;
 mod footpath;
 mod network;
@@ -16,6 +16,7 @@ mod parked;
 mod programs;
 mod random;
 mod recording;
+mod scripted;
 mod streets;
 mod tracks;
 mod ways;
@@ -63,12 +64,12 @@ pub enum Template {
 impl Template {
     /// All of them, with the share of seeds that gets each when none is asked for.
     pub const SHARES: [(Self, f64); 6] = [
-        (Self::Crossing, 0.34),
+        (Self::Crossing, 0.36),
         (Self::Grid, 0.24),
-        (Self::Arterial, 0.17),
+        (Self::Arterial, 0.20),
         (Self::Lot, 0.10),
         (Self::Roundabout, 0.07),
-        (Self::Motorway, 0.08),
+        (Self::Motorway, 0.03),
     ];
 
     fn build(self, draw: &mut Draw) -> Network {
