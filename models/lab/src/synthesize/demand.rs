@@ -27,7 +27,7 @@ impl Crowd {
     /// Draws one.
     pub fn new(draw: &mut Draw) -> Self {
         Self {
-            traffic: draw.uniform(0.4, 1.9),
+            traffic: draw.uniform(0.5, 2.3),
             cyclists: draw.one_of([3.0, 8.0, 18.0]),
             people: draw.one_of([5.0, 18.0, 65.0]),
             buses: 0.02,
@@ -180,15 +180,33 @@ impl Trips<'_> {
                 // Nothing long turns in the aisles of a parking lot.
                 let narrow = edge.road_type == "lot" || goal.road_type == "lot";
                 let kind = fleet.pick(draw, if narrow { "car" } else { group });
+                let stop = self.stop(if kind.starts_with("bus") { 0.7 } else { 0.025 }, [edge, goal], draw);
                 let goal = &goal.id;
                 self.items.push((time, format!(
-                    r#"<trip id="v{count}" type="{kind}" depart="{time:.1}" from="{}" to="{goal}" departLane="best" departSpeed="max" departPosLat="random_free"/>"#,
+                    r#"<trip id="v{count}" type="{kind}" depart="{time:.1}" from="{}" to="{goal}" departLane="best" departSpeed="max" departPosLat="random_free">{stop}</trip>"#,
                     edge.id
                 )));
                 count += 1;
                 time += draw.exponential(mean_wait);
             }
         }
+    }
+
+    /// A halt in the rightmost lane by this chance: a bus at its stop, or somebody who double-parks.
+    fn stop(&self, chance: f64, edges: [&NetEdge; 2], draw: &mut Draw) -> String {
+        let edge = edges[draw.below(2)];
+        let lane = self.net.lanes_of(edge, LaneKind::Vehicle).next().map(|l| &self.net.lanes[l]);
+        let Some(lane) = lane.filter(|l| length(&l.shape) > 60.0) else { return String::new() };
+        if !draw.chance(chance) || matches!(edge.road_type.as_str(), "motorway" | "lot" | "roundabout") {
+            return String::new();
+        }
+        let end = draw.uniform(35.0, length(&lane.shape) - 20.0);
+        let seconds = draw.uniform(5.0, 25.0);
+        format!(
+            r#"<stop lane="{}" startPos="{:.1}" endPos="{end:.1}" duration="{seconds:.0}"/>"#,
+            lane.id,
+            end - 18.0
+        )
     }
 
     fn cyclists(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Draw) {

@@ -39,7 +39,7 @@ impl Fleet {
     /// Draws the kinds of a seed. Streets are short, and drivers there change lanes less eagerly than by
     /// default; on a motorway, who comes late for an exit stops and blocks the road.
     pub fn new(draw: &mut Draw, motorway: bool) -> Self {
-        let mut fleet = Self { strategic: if motorway { 4.0 } else { 0.7 }, ..Self::default() };
+        let mut fleet = Self { strategic: if motorway { 4.0 } else { 0.5 }, ..Self::default() };
         for _ in 0..24 {
             fleet.car(draw);
         }
@@ -73,9 +73,8 @@ impl Fleet {
         let width = draw.clipped(if big { 2.19 } else { 2.04 }, 0.09, 1.81, 2.46);
         // How pressing the driver is; moves all parameters together.
         let g = draw.gauss();
-        // Logged drivers leave a stop line faster than the recipe's mean of 2.4 m/s2.
-        let accel = draw.clipped(3.0 + 0.35 * g, 0.4, 1.8, 4.5);
-        let decel = draw.clipped(2.5 + 0.4 * g, 0.4, 1.6, 4.0);
+        let accel = draw.clipped(2.6 + 0.35 * g, 0.5, 1.4, 4.5);
+        let decel = draw.clipped(2.2 + 0.4 * g, 0.45, 1.2, 4.0);
         let tau = draw.clipped(0.95 - 0.2 * g, 0.2, 0.55, 1.9);
         let gap = draw.clipped(2.9 - 0.2 * g, 0.6, 1.4, 5.0);
         let rest = format!(
@@ -86,7 +85,7 @@ impl Fleet {
              impatience=\"{:.2}\" jmDriveAfterYellowTime=\"{:.2}\" jmTimegapMinor=\"{:.2}\"",
             1.03 + 0.07 * g,
             self.strategic,
-            draw.clipped(0.35, 0.25, 0.02, 1.2),
+            draw.clipped(0.12, 0.12, 0.0, 0.6),
             draw.clipped(0.9, 0.2, 0.5, 1.4),
             draw.one_of(["center", "center", "arbitrary"]),
             draw.clipped(0.2 + 0.15 * g, 0.1, 0.0, 0.8),

@@ -20,6 +20,8 @@ pub enum Purpose {
     Motion = 4,
     /// Choice of windows.
     Windows = 5,
+    /// Manoeuvres that SUMO does not know.
+    Scripted = 6,
 }
 
 /// A stream of random draws.

@@ -7,7 +7,7 @@ use super::network::Network;
 use super::programs::{ProgramError, Sumo};
 use super::random::{Draw, Purpose};
 use super::tracks::{self, Cleaned};
-use super::{DT_S, RECORDED_S, parked};
+use super::{DT_S, RECORDED_S, parked, scripted};
 use formats::sumo::SumoError;
 use formats::sumo::fcd;
 use formats::sumo::map::{MapOptions, NetMap, lane_map};
@@ -150,6 +150,7 @@ pub fn record(
         });
     }
     standing(&net, &mut actors, &mut Draw::new(seed ^ 0x5eed, Purpose::Motion));
+    scripted::add(&net, &fleet, &mut actors, &mut Draw::new(seed, Purpose::Scripted));
     find_overlaps(&mut actors);
     Ok(Recording { network, map, actors, signals })
 }

@@ -21,6 +21,8 @@ const SEEN_M: f64 = 200.0;
 const MAP_M: f64 = 210.0;
 /// Most road users of a window.
 const MAX_AGENTS: usize = 256;
+/// Whoever has not moved after so many steps is no starter.
+const SOON: usize = 25;
 /// Who the windows of a seed are centred on, in turn: people and cyclists more often than their share.
 const TURNS: [AgentType; 10] = {
     use AgentType::{Cyclist as C, Pedestrian as P, Vehicle as V};
@@ -95,7 +97,17 @@ fn choose(
             _ => 0.0,
         };
         let fresh = 0.4_f64.powi(used.get(i).copied().unwrap_or(0));
-        fresh * if travel > 3.0 { 1.0 } else { 0.25 }
+        // Logs are kept for what happens in them: who waits through most of a window is seldom its middle.
+        let soon = track.at(start + SOON).zip(track.at(start));
+        let starts = soon.is_some_and(|(a, b)| (a.position() - b.position()).norm() > 0.5);
+        fresh
+            * if travel <= 3.0 {
+                0.2
+            } else if starts {
+                1.0
+            } else {
+                0.4
+            }
     };
     let weights: Vec<f64> = candidates.iter().map(weight).collect();
     candidates.get(draw.weighted(&weights)).copied()
