@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use scene::geometry::{direction, rotate};
 use scene::motion::{MotionModel, Target};
 use scene::routes::speed;
-use scene::{AgentType, KNOTS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
+use scene::{AgentType, HORIZON_STEPS, KNOTS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
@@ -261,9 +261,16 @@ fn signal_flags<const N: usize>(out: &mut Filler<N>, state: Option<SignalState>)
     out.flag(matches!(state, Some(SignalState::Go | SignalState::ArrowGo)));
 }
 
+/// Standing road users this far ahead count as a queue, metres.
+const QUEUE_M: f64 = 60.0;
+
 /// What can be said of a path whatever the timing on it.
 struct PathFacts {
     leader: Option<speed::Leader>,
+    /// The one ahead of the leader.
+    second: Option<speed::Leader>,
+    /// Standing road users on the path within [`QUEUE_M`].
+    queue: usize,
     light: Option<(SignalState, f64, f64)>,
     stop_sign_m: Option<f64>,
     /// Nearest crossing road user: distance along the path, its time to get there, its speed.
@@ -278,8 +285,12 @@ impl PathFacts {
         });
         let stop_sign_m =
             anchor.route.as_ref().and_then(|route| speed::stop_sign_distance_m(route, &world.map.graph));
+        let ahead = speed::leaders(&anchor.path, who.size.length_m, obstacles);
+        let waits = |l: &&speed::Leader| l.gap_m < QUEUE_M && obstacles[l.index].speed_mps < 0.5;
         Self {
-            leader: speed::leader(&anchor.path, who.size.length_m, obstacles),
+            leader: ahead.first().copied(),
+            second: ahead.get(1).copied(),
+            queue: ahead.iter().filter(waits).count(),
             light,
             stop_sign_m,
             crossing: crossing(anchor, obstacles),
@@ -352,11 +363,37 @@ fn encode_anchor(frame: &Frame, anchor: &Anchor, facts: &PathFacts, slot: usize)
     let (timing, count) = anchor.timing;
     out.push((timing as f64 + 0.5) / count as f64);
     out.push(count as f64 / 6.0);
+    out.flag(facts.second.is_some());
+    out.push(facts.second.map_or(100.0, |l| l.gap_m) / 30.0);
+    out.push(facts.second.map_or(0.0, |l| l.speed_mps) / 10.0);
+    out.push(facts.queue as f64 / 5.0);
+    // What this timing does about what is ahead: when it gets to the light, to the leader (who is taken
+    // to drive on as now) and to where another crosses.
+    let light = facts.light.and_then(|l| first_step(|step| anchor.base[step] >= l.1));
+    out.push(seconds_of(light) / 9.0);
+    out.push(light.map_or(0.0, |step| speed_at(&anchor.base, step)) / 10.0);
+    let met = facts
+        .leader
+        .and_then(|l| first_step(|step| anchor.base[step] >= l.gap_m + l.speed_mps * step as f64 * STEP_S));
+    out.push(seconds_of(met) / 9.0);
+    let there = facts.crossing.and_then(|c| first_step(|step| anchor.base[step] >= c.0));
+    out.push(there.zip(facts.crossing).map_or(1.0, |(step, c)| (step as f64 * STEP_S - c.1) / 9.0));
     out.values
 }
 
+/// The first step of the window at which something holds.
+fn first_step(holds: impl Fn(usize) -> bool) -> Option<usize> {
+    (1..=HORIZON_STEPS).find(|step| holds(*step))
+}
+
+/// A step in seconds; what does not happen in the window lies beyond it.
+fn seconds_of(step: Option<usize>) -> f64 {
+    step.map_or(12.0, |step| step as f64 * STEP_S)
+}
+
 /// Projections of the residual knots onto those that leave the fixed goal fields alone. The base meets
-/// the goal already: along, position and speed at the goal's step; across, offset and drift.
+/// the goal already: along, position and speed at the goal's step; across, offset and, where the heading
+/// is fixed, drift.
 fn tangent(target: &Target) -> [[[f32; KNOTS]; KNOTS]; 2] {
     let t = target.step as f64 * STEP_S;
     let row = |f: fn(usize, f64) -> f64| (0..KNOTS).map(|k| f(k, t)).collect::<Vec<_>>();
@@ -371,6 +408,8 @@ fn tangent(target: &Target) -> [[[f32; KNOTS]; KNOTS]; 2] {
     let mut across = vec![(0..KNOTS).map(|k| if k == 0 { 1.0 } else { 0.0 }).collect::<Vec<_>>()];
     if target.position.is_some() {
         across.push(row(hat));
+    }
+    if target.position.is_some() && target.heading_rad.is_some() {
         let last = (t - 1e-9).floor() as usize;
         let drift = (0..KNOTS).map(|k| match k {
             k if k == last => -1.0,

@@ -10,6 +10,9 @@ use crate::features::{
 /// Tokens of a context: map pieces, neighbours, anchors.
 pub const TOKENS: usize = PIECES + NEIGHBOURS + MODES;
 
+/// Generation of what features mean and of the networks' arithmetic.
+const VERSION: u32 = 2;
+
 /// Everything that decides the shapes of an expert's tensors and what they mean.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -66,7 +69,7 @@ impl FeatureSizes {
 impl Default for Architecture {
     fn default() -> Self {
         Self {
-            version: 1,
+            version: VERSION,
             width: 128,
             piece_width: 64,
             gating_blocks: 4,
@@ -84,8 +87,8 @@ impl Architecture {
     /// When the version, the features or the sizes do not fit.
     pub fn check(&self) -> Result<(), NetError> {
         let refuse = |reason: String| Err(NetError::Header { member: "architecture", reason });
-        if self.version != 1 {
-            return refuse(format!("version {}, this program runs version 1", self.version));
+        if self.version != VERSION {
+            return refuse(format!("version {}, this program runs version {VERSION}", self.version));
         }
         if self.features != FeatureSizes::CURRENT {
             return refuse(format!(

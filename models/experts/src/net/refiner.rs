@@ -63,7 +63,7 @@ impl Refiner {
             .map(|block| CrossBlock::new(p, &format!("refiner.blocks.{block}"), d, a.heads))
             .collect::<std::result::Result<_, _>>()?;
         let draft = Linear::new(p, "refiner.draft", 2 * RESIDUAL + LEVEL, d, RELU_GAIN)?;
-        let head = Mlp::new(p, "refiner.head", [d, d, RESIDUAL + 2], 0.1)?;
+        let head = Mlp::new(p, "refiner.head", [d, d, RESIDUAL + 2], 0.02)?;
         let norm = Norm::new(p, "refiner.norm", d)?;
         Ok(Self {
             draft,
@@ -145,7 +145,7 @@ impl Refiner {
         let said = self.head.forward(&self.norm.forward(&x)?)?;
         let correction = (self.smoothed(&said.narrow(2, 0, RESIDUAL)?)? * SPREAD)?;
         let taken = (gates(&said.narrow(2, RESIDUAL, 2)?.contiguous()?)? * push)?;
-        let kept = residual.broadcast_mul(&shares(levels, schedule::signal, residual)?)?;
+        let kept = residual.broadcast_mul(&shares(levels, skip, residual)?)?;
         ops::project(&((kept + correction)? + taken)?, &prepared.tangent)
     }
 
@@ -169,6 +169,13 @@ impl Refiner {
             None => Ok(next),
         }
     }
+}
+
+/// Power of the way past the network. Without noise a draft comes out as it went in, so that what nothing
+/// pushes is not worn down step by step; towards pure noise less and less of it counts.
+fn skip(level: usize) -> f64 {
+    let signal = schedule::signal(level);
+    signal / signal.max(0.5).powi(2)
 }
 
 /// Square roots of shares of power as [batch, 1, 1].

@@ -5,7 +5,7 @@
 /// Number of noise levels; level 0 has no noise.
 pub const LEVELS: usize = 100;
 /// Level at which refinement begins unless told otherwise.
-pub const START: usize = 20;
+pub const START: usize = 10;
 /// Refinement steps unless told otherwise.
 pub const STEPS: usize = 5;
 

@@ -12,7 +12,7 @@ const BETA2: f64 = 0.98;
 const EPSILON: f64 = 1e-8;
 const DECAY: f64 = 0.01;
 /// Longest gradient of a step.
-const CLIP: f64 = 1.0;
+const CLIP: f64 = 5.0;
 /// Most of the running mean of the weights that is kept each step.
 const MEAN: f64 = 0.999;
 

@@ -104,13 +104,15 @@ pub fn route_speed_caps(route: &Route) -> Vec<f64> {
 /// Nearest obstacle ahead whose centre lies within 1.6 m of the path. The path begins at the centre of the
 /// own box, which is `own_length_m` long and not among `others`.
 pub fn leader(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Option<Leader> {
-    let mut nearest: Option<(f64, Leader)> = None;
+    leaders(path, own_length_m, others).into_iter().next()
+}
+
+/// All obstacles ahead in the sense of [`leader`], nearest first.
+pub fn leaders(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Vec<Leader> {
+    let mut found: Vec<(f64, Leader)> = Vec::new();
     for (index, other) in others.iter().enumerate() {
         let foot = path.project(other.outline.center());
         if foot.distance_m > IN_THE_WAY_M || foot.s_m < AHEAD_M || foot.s_m >= path.length_m() {
-            continue;
-        }
-        if nearest.as_ref().is_some_and(|(s, _)| foot.s_m >= *s) {
             continue;
         }
         let along = other.outline.forward().dot(&direction(foot.heading_rad));
@@ -118,9 +120,11 @@ pub fn leader(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Option
         let half_extent = other.outline.half_length_m() * along.abs() + other.outline.half_width_m() * across;
         let gap_m = foot.s_m - half_extent - 0.5 * own_length_m;
         let speed_mps = if along > SAME_WAY { other.speed_mps } else { 0.0 };
-        nearest = Some((foot.s_m, Leader { index, gap_m, speed_mps }));
+        found.push((foot.s_m, Leader { index, gap_m, speed_mps }));
     }
-    nearest.map(|(_, leader)| leader)
+    // Stable: of two at the same place the first given comes first.
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.into_iter().map(|(_, leader)| leader).collect()
 }
 
 /// Path arc length of the place at `s_m` of the leg's lane; `None` when the leg does not pass it.
