@@ -7,7 +7,7 @@ import { endPose, poseAt } from '../model/motion';
 import { nearestLanes } from '../model/lanemap';
 import { comparedWithLog } from '../model/changes';
 import { fromUnit, metres, num, seconds, speedText, toUnit } from '../model/units';
-import { pickFuture, remedies, resize, shownPose, snapToNearest, toggleField, withField, SPEED_LIMIT, TIME_RANGE, type Field } from '../edit/moves';
+import { pickFuture, remedies, resize, shownPose, snapToNearest, toggleField, withField, SPEED_LIMIT, goalTime, type Field } from '../edit/moves';
 import { laneWords } from '../edit/snap';
 import type { Part } from '../edit/editor';
 import { actionButton, iconButton } from './buttons';
@@ -168,7 +168,7 @@ function goalSection(c: Context, agent: () => Agent): HTMLElement {
     row('Time', [numberField({
       label: 'Time at the goal in seconds', unit: 's', quantity: () => 'time', step: 0.1, decimals: () => 1, field: 'goal-time', free: () => false, live: () => editor.drag.value?.grip.handle === 'time',
       value: () => agent().goal.time, text: () => num(agent().goal.time, 1),
-      set: (v) => editor.run(withField(agent(), 'goal', { time: Math.round(Math.min(TIME_RANGE[1], Math.max(TIME_RANGE[0], v)) * 10) / 10 })),
+      set: (v) => editor.run(withField(agent(), 'goal', { time: Math.round(goalTime(editor.scene.peek(), v) * 10) / 10 })),
     })], null));
 }
 

@@ -7,6 +7,7 @@ import { h } from './dom';
 import { icon } from './icons';
 import { plot } from './plot';
 import { OTHERS } from './scenepanel';
+import { LENGTHS, REPLANS } from '../model/scene';
 
 export function timeline(c: Context): HTMLElement {
   const { editor } = c;
@@ -16,6 +17,8 @@ export function timeline(c: Context): HTMLElement {
       h('span', { class: 'tm' }, () => `${num(editor.time.value, 1)} s `, h('small', null, () => `/ ${num(editor.scene.value?.duration ?? 9, 1)} s`)),
       h('button', { type: 'button', class: 'btn rate', title: 'Playback speed (Shift < >)', 'aria-label': () => `Playback speed ${editor.rate.value} times`, onclick: (e: MouseEvent) => cycle(c, e.shiftKey ? -1 : 1) }, () => `${editor.rate.value}×`),
       iconButton(c, 'loop'), iconButton(c, 'next-event'), h('span', { class: 'grow' }),
+      h('span', { class: 'fieldlab' }, 'Length'), segments(c, 'How much is worked out', LENGTHS.map((s) => [`length-${s}`, `${s} s`])),
+      h('span', { class: 'fieldlab' }, 'Plan anew'), segments(c, 'How often everybody plans anew', REPLANS.map((s) => [`replan-${s}`, `${s} s`])),
       h('span', { class: 'fieldlab' }, 'Others'), segments(c, 'What the others do', OTHERS)),
     plot(c));
 }

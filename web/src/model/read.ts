@@ -1,9 +1,9 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import { isMapRef, type AgentJson, type ConditionJson, type MapJson, type SceneJson } from './json';
-import { isStill, motionFrom, poseAtStep, STEP_S } from './motion';
+import { isStill, motionFrom, poseAtStep } from './motion';
 import { emptyMotion, readFutures, type Futures, type MotionSet } from './futures';
-import { freeGoal, GOAL_TIME, logStartSpec, sceneKey, startPose, type Agent, type AgentType, type GoalSpec, type Kind, type Others, type Scene, type StartSpec } from './scene';
+import { durationOf, freeGoal, GOAL_TIME, logStartSpec, readLength, readReplan, sceneKey, startPose, type Agent, type AgentType, type GoalSpec, type Kind, type Others, type Scene, type StartSpec } from './scene';
 import type { Pose, Vec } from './geometry';
 
 export class SceneError extends Error {}
@@ -19,9 +19,10 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   const names = namer(json.agents);
   for (const a of json.agents) agents.set(a.id, readAgent(a, map, names(a), json));
   const ed = json.x_editor ?? {};
+  const length = readLength(ed.length_s);
   return Object.freeze({
     id: json.id ?? '', name: json.name ?? 'Untitled', source: json.meta?.source ?? 'drawn', licence: json.meta?.licence ?? '',
-    steps, duration: Math.min(GOAL_TIME, Math.max(1, steps - 1) * STEP_S), map,
+    steps, duration: durationOf(length, steps), length, replan: readReplan(ed.replan_s), map,
     signals: (json.signals ?? []).map((s) => ({ lane: s.lane, stop: s.stop_m ? ([s.stop_m[0], s.stop_m[1]] as Vec) : null, states: s.states })),
     agents, seed: ed.seed ?? 0, diversity: ed.diversity ?? 1, others: readOthers(ed.others),
   });
