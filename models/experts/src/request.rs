@@ -220,7 +220,8 @@ pub struct Timings {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// One coherent scene each. A chosen future runs through all windows to the end of the horizon;
-    /// its alternatives are those of the first window and end with that window's plan.
+    /// its alternatives are those of the first window and end with that window's plan. A future of the
+    /// scene that is kept and ends before the horizon is planned on, and so part of the answer.
     pub samples: Vec<Sample>,
     /// Planning windows that were run, one after the other.
     pub windows: usize,

@@ -67,6 +67,8 @@ pub struct Generation<'g> {
     guessed: BTreeMap<usize, Guessed>,
     regenerated: BTreeSet<usize>,
     candidates: BTreeSet<usize>,
+    /// Those that keep a future which ends before the call does: they plan on from its end.
+    continuing: BTreeSet<usize>,
     /// The first window serves all samples, the present one this sample alone.
     first: Option<Window<'g>>,
     later: Option<Window<'g>>,
@@ -123,8 +125,18 @@ impl<'g> Generation<'g> {
         let (base, guessed) = if spans.len() > 1 {
             known_to_the_end(&request, &regenerated, &spans)
         } else {
-            (scene, BTreeMap::new())
+            (scene.clone(), BTreeMap::new())
         };
+        let keeps_a_future = |i: &usize| {
+            let generated = scene.generated.as_ref();
+            generated.is_some_and(|g| g.chosen_future(&scene.agents[*i].id).is_some())
+        };
+        let continuing = guessed
+            .keys()
+            .filter(|i| movable.contains(i) && !regenerated.contains(i) && !candidates.contains(i))
+            .filter(|i| keeps_a_future(i))
+            .copied()
+            .collect();
         Ok(Self {
             generator,
             request: Arc::new(request),
@@ -136,6 +148,7 @@ impl<'g> Generation<'g> {
             guessed,
             regenerated,
             candidates,
+            continuing,
             first: None,
             later: None,
             sent: BTreeMap::new(),
@@ -151,17 +164,22 @@ impl<'g> Generation<'g> {
     fn accept(&self) -> Accepted {
         let agents = &self.request.scene.agents;
         let ids = |set: &BTreeSet<usize>| set.iter().map(|i| agents[*i].id.clone()).collect();
-        let moved = |i: &usize| self.regenerated.contains(i) || self.candidates.contains(i);
+        let reacting = self.candidates.union(&self.continuing).copied().collect();
+        let moved = |i: &usize| self.regenerated.contains(i) || self.reacting(i);
         let fixed: BTreeSet<usize> = (0..agents.len()).filter(|i| !moved(i)).collect();
         Accepted {
             seed: self.request.seed,
             regenerated: ids(&self.regenerated),
-            reacting: ids(&self.candidates),
+            reacting: ids(&reacting),
             fixed: ids(&fixed),
             steps: self.request.steps,
             windows: self.spans.len(),
             warnings: Vec::new(),
         }
+    }
+
+    fn reacting(&self, agent: &usize) -> bool {
+        self.candidates.contains(agent) || self.continuing.contains(agent)
     }
 
     /// Steps after the call's start at which the goal of a road user is due; the end when nobody said.
@@ -202,6 +220,10 @@ impl<'g> Generation<'g> {
             let ended: Vec<usize> = candidates.iter().filter(ended).take(room).copied().collect();
             candidates.retain(|i| !ended.contains(i));
             moving.extend(ended.into_iter().map(|i| (i, Role::Reacting)));
+            let over = |i: &&usize| self.guessed.get(i).is_some_and(|g| g.step <= step + 1);
+            let new = self.continuing.iter().filter(|i| !self.progress.contains_key(i)).filter(over);
+            let room = MOST_ACTORS.saturating_sub(moving.len());
+            moving.extend(new.take(room).map(|i| (*i, Role::Reacting)));
         }
         if matches!(self.request.react, React::Everyone) {
             let sources = moving.iter().map(|m| m.0).collect();
@@ -233,14 +255,19 @@ impl<'g> Generation<'g> {
         let from = self.spans[number].start;
         let step = self.request.start_step + from;
         let agents = self.base.agents.iter().enumerate().map(|(i, agent)| {
-            let states = match self.progress.get(&i) {
-                Some(progress) => {
-                    let conditions = &agent.conditions;
-                    let on_foot = conditions.agent_type.unwrap_or(agent.agent_type) == AgentType::Pedestrian;
-                    vec![progress.executed.get(from - 1).map(|s| if on_foot { *s } else { rolling(s) })]
-                }
+            let mut states: Vec<Option<State>> = match self.progress.get(&i) {
+                Some(progress) => vec![progress.executed.get(from - 1).copied()],
                 None => (step..=step + HORIZON_STEPS).map(|at| agent.track.at(at).copied()).collect(),
             };
+            // A recorded velocity is left as it is: its sideways part is noise.
+            let made = self.progress.contains_key(&i) || self.continuing.contains(&i);
+            let on_foot = agent.conditions.agent_type.unwrap_or(agent.agent_type) == AgentType::Pedestrian;
+            if let Some(Some(first)) = states.first_mut()
+                && made
+                && !on_foot
+            {
+                *first = rolling(first);
+            }
             let mut conditions = agent.conditions.clone();
             conditions.start = Start::default();
             scene::Agent {

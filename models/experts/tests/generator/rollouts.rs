@@ -222,6 +222,26 @@ fn who_is_kept_goes_straight_on_where_the_log_ends_and_that_is_said() {
 }
 
 #[test]
+fn a_kept_future_that_ends_is_planned_on() {
+    let mut scene = crossing();
+    let nine = run(&GENERATOR, ask(scene.clone(), Some(&["2"])));
+    let picked = (nine.samples[0].agents["2"].chosen + 1) % 6;
+    let mut sample = nine.samples[0].clone();
+    sample.agents.get_mut("2").unwrap().chosen = picked;
+    let kept = sample.agents["2"].modes[picked].states.clone();
+    scene.generated = Some(scene::Generated { samples: vec![sample], ..scene::Generated::default() });
+    for interval in [30, 90] {
+        let answer = run(&GENERATOR, rollout(scene.clone(), Some(&["1"]), 200, interval));
+        let on = chosen(&answer, "2");
+        assert_eq!((on.first_step, on.states.len()), (1, 200));
+        assert!(on.states[..90] == kept[..], "what was picked is kept as it is");
+        assert!(excess(&scene, "2", on) <= 0.0);
+        assert!(answer.warnings.iter().all(|w| w.agent.as_deref() != Some("2")));
+        assert!(!answer.samples[0].agents.contains_key("3"), "a log is kept, not planned on");
+    }
+}
+
+#[test]
 fn reacting_road_users_have_one_track_from_the_start_too() {
     let goal = Goal { position: Some(Vec2::new(1.75, 40.0)), time_s: Some(9.0), ..Goal::default() };
     let scene = goal_at(crossing(), "1", goal);
