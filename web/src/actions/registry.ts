@@ -185,7 +185,7 @@ add(
 );
 
 for (const s of LENGTHS)
-  add({ id: `length-${s}`, label: `${s} s`, group: 'Time', keys: [], icon: 'clock', help: s > 9 ? `Work out ${s} s: past 9 s everybody plans anew from where they are by then` : 'Work out 9 s, in one go', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.length === s, run: (c) => { if (c.editor.scene.peek()!.length !== s) c.editor.run(setLength(c.editor.scene.peek()!, s)); } });
+  add({ id: `length-${s}`, label: `Length ${s} s`, group: 'Time', keys: [], help: s > 9 ? `Work out ${s} s: past 9 s everybody plans anew from where they are by then` : 'Work out 9 s, in one go', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.length === s, run: (c) => { if (c.editor.scene.peek()!.length !== s) c.editor.run(setLength(c.editor.scene.peek()!, s)); } });
 for (const s of REPLANS)
   add({ id: `replan-${s}`, label: `Plan anew each ${s} s`, group: 'Time', keys: [], help: `Everybody looks again every ${s} s and plans on from there`, undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.replan === s, run: (c) => { if (c.editor.scene.peek()!.replan !== s) c.editor.run(setReplan(s)); } });
 

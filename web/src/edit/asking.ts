@@ -11,6 +11,7 @@ import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../mo
 import { canChange, GOAL_TIME, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { summary, readEvents } from '../model/events';
+import { motionFrom } from '../model/motion';
 import { readReach, readScore, readWarnings } from './answers';
 import { sketchFutures } from './sketch';
 
@@ -306,7 +307,11 @@ export class Asking {
     const out = new Map<string, Futures>();
     for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
       const a = scene.agents.get(id), start = a && startPose(a);
-      if (a && start && json.modes?.length) out.set(id, readFutures(json, start, STEPS, STEPS, a.type === 'pedestrian', keep(a)));
+      if (!a || !start || !json.modes?.length) continue;
+      const known = this.editor.motion.peek().futures.get(id);
+      // A picked future comes back longer than it was; the other five stand as they are.
+      const longer = known && a.chosen !== null && json.modes.length === 1 && known.modes[a.chosen];
+      out.set(id, longer ? { ...known, modes: known.modes.map((m) => (m === longer ? { ...m, motion: motionFrom(json.modes[0], start) } : m)) } : readFutures(json, start, STEPS, STEPS, a.type === 'pedestrian', keep(a)));
     }
     return out;
   }
