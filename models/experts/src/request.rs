@@ -221,11 +221,13 @@ pub struct Timings {
 pub struct Answer {
     /// One coherent scene each. A chosen future runs through all windows to the end of the horizon;
     /// its alternatives are those of the first window and end with that window's plan. A future of the
-    /// scene that is kept and ends before the horizon is planned on, and so part of the answer.
+    /// scene that is kept and ends before the horizon is planned on, and so part of the answer;
+    /// in a call about everybody, so is one that comes in later and whose log ends (its future begins
+    /// after it has come in).
     pub samples: Vec<Sample>,
     /// Planning windows that were run, one after the other.
     pub windows: usize,
-    /// By regenerated or reacting road user.
+    /// By regenerated or reacting road user that was there at the start.
     pub resolved: BTreeMap<AgentId, Resolved>,
     /// Unlikely things.
     pub warnings: Vec<Warning>,

@@ -44,8 +44,11 @@ struct Progress {
     role: Role,
     /// Of the window in which it first got any.
     futures: AgentFutures,
-    /// From the step after the call's start to where the next window begins.
+    /// To where the next window begins, from the step after the call's start or, for one that came in
+    /// later, after its first.
     executed: Vec<State>,
+    /// Steps of the call that passed before `executed`.
+    absent: usize,
     /// Was parked at the start and has not moved.
     parked: bool,
     reach: ReachReport,
@@ -69,6 +72,9 @@ pub struct Generation<'g> {
     candidates: BTreeSet<usize>,
     /// Those that keep a future which ends before the call does: they plan on from its end.
     continuing: BTreeSet<usize>,
+    /// Those that come in after the start of a call that is about everybody: they plan on where their log
+    /// ends.
+    arriving: BTreeSet<usize>,
     /// The first window serves all samples, the present one this sample alone.
     first: Option<Window<'g>>,
     later: Option<Window<'g>>,
@@ -121,6 +127,8 @@ impl<'g> Generation<'g> {
         if found > MOST_ACTORS {
             return Err(GenerateError::TooManyAgents { found, most: MOST_ACTORS });
         }
+        let everybody = request.agents.is_none() || matches!(request.react, React::Everyone);
+        let here: BTreeSet<usize> = world.present.iter().map(|p| p.index).collect();
         drop(world);
         let (base, guessed) = if spans.len() > 1 {
             known_to_the_end(&request, &regenerated, &spans)
@@ -137,6 +145,12 @@ impl<'g> Generation<'g> {
             .filter(|i| keeps_a_future(i))
             .copied()
             .collect();
+        let moves = |i: &usize| {
+            let agent = &scene.agents[*i];
+            agent.conditions.agent_type.unwrap_or(agent.agent_type) != AgentType::Other
+        };
+        let late = guessed.keys().filter(|i| everybody && !here.contains(i) && moves(i));
+        let arriving = late.copied().collect();
         Ok(Self {
             generator,
             request: Arc::new(request),
@@ -149,6 +163,7 @@ impl<'g> Generation<'g> {
             regenerated,
             candidates,
             continuing,
+            arriving,
             first: None,
             later: None,
             sent: BTreeMap::new(),
@@ -164,7 +179,7 @@ impl<'g> Generation<'g> {
     fn accept(&self) -> Accepted {
         let agents = &self.request.scene.agents;
         let ids = |set: &BTreeSet<usize>| set.iter().map(|i| agents[*i].id.clone()).collect();
-        let reacting = self.candidates.union(&self.continuing).copied().collect();
+        let reacting = &(&self.candidates | &self.continuing) | &self.arriving;
         let moved = |i: &usize| self.regenerated.contains(i) || self.reacting(i);
         let fixed: BTreeSet<usize> = (0..agents.len()).filter(|i| !moved(i)).collect();
         Accepted {
@@ -179,7 +194,7 @@ impl<'g> Generation<'g> {
     }
 
     fn reacting(&self, agent: &usize) -> bool {
-        self.candidates.contains(agent) || self.continuing.contains(agent)
+        [&self.candidates, &self.continuing, &self.arriving].iter().any(|set| set.contains(agent))
     }
 
     /// Steps after the call's start at which the goal of a road user is due; the end when nobody said.
@@ -217,7 +232,10 @@ impl<'g> Generation<'g> {
             let end = self.request.start_step + self.spans[number].end;
             let ended = |i: &&usize| self.guessed.get(i).is_some_and(|g| g.step <= end);
             let room = MOST_ACTORS.saturating_sub(moving.len());
-            let ended: Vec<usize> = candidates.iter().filter(ended).take(room).copied().collect();
+            let seen = |i: &&usize| self.base.agents[**i].track.at(step).is_some();
+            let arrived = self.arriving.iter().filter(|i| !self.progress.contains_key(i)).filter(seen);
+            let ended: Vec<usize> =
+                candidates.iter().chain(arrived).filter(ended).take(room).copied().collect();
             candidates.retain(|i| !ended.contains(i));
             moving.extend(ended.into_iter().map(|i| (i, Role::Reacting)));
             let over = |i: &&usize| self.guessed.get(i).is_some_and(|g| g.step <= step + 1);
@@ -256,7 +274,7 @@ impl<'g> Generation<'g> {
         let step = self.request.start_step + from;
         let agents = self.base.agents.iter().enumerate().map(|(i, agent)| {
             let mut states: Vec<Option<State>> = match self.progress.get(&i) {
-                Some(progress) => vec![progress.executed.get(from - 1).copied()],
+                Some(progress) => vec![progress.executed.last().copied()],
                 None => (step..=step + HORIZON_STEPS).map(|at| agent.track.at(at).copied()).collect(),
             };
             // A recorded velocity is left as it is: its sideways part is noise.
@@ -384,10 +402,11 @@ impl<'g> Generation<'g> {
                     window.futures(0, &[(1.0, *slot, motion.clone())])
                 };
                 let executed = self.before(decided.agent, span.start);
+                let absent = span.start - executed.len();
                 let role = actor.role;
                 let parked = actor.is_parked() && decided.rests();
                 let reach = reach.clone();
-                Progress { role, futures, executed, parked, reach, intermediate: Vec::new() }
+                Progress { role, futures, executed, absent, parked, reach, intermediate: Vec::new() }
             }
         };
         progress.executed.extend(motion.states.iter().skip(1).take(span.len()).map(State::from));
@@ -402,11 +421,13 @@ impl<'g> Generation<'g> {
         Ok(())
     }
 
-    /// What a road user that keeps its motion did before a window in which it first gives it up.
+    /// What a road user that keeps its motion did before a window in which it first gives it up. The first
+    /// state of one that came in later is its start and left out like any other's.
     fn before(&self, agent: usize, steps: usize) -> Vec<State> {
         let track = &self.base.agents[agent].track;
         let start = self.request.start_step;
-        (1..=steps).filter_map(|i| track.at(start + i).copied()).collect()
+        let late = usize::from(track.at(start).is_none());
+        (1..=steps).filter_map(|i| track.at(start + i).copied()).skip(late).collect()
     }
 
     /// Ends a sample: one continuous future each.
@@ -422,7 +443,8 @@ impl<'g> Generation<'g> {
                 std::mem::replace(&mut progress.futures, AgentFutures { chosen: 0, modes: Vec::new() });
             if let Some(future) = futures.modes.get_mut(futures.chosen) {
                 let states = std::mem::take(&mut progress.executed);
-                *future = Future { first_step: self.request.start_step + 1, states, ..future.clone() };
+                let first_step = self.request.start_step + 1 + progress.absent;
+                *future = Future { first_step, states, ..future.clone() };
             }
             sample.agents.insert(self.request.scene.agents[*i].id.clone(), futures);
         }

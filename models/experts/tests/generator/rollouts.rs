@@ -242,6 +242,24 @@ fn a_kept_future_that_ends_is_planned_on() {
 }
 
 #[test]
+fn who_comes_in_later_plans_on_where_the_log_ends() {
+    let mut scene = crossing();
+    let mut late = agent("7", AgentType::Vehicle, (-90.0, -1.75), 0.0, 7.0);
+    late.track.first_step = 40;
+    late.track.states.truncate(51);
+    let log: Vec<State> = late.track.states.iter().copied().flatten().collect();
+    scene.agents.push(late);
+    let answer = run(&GENERATOR, rollout(scene.clone(), None, 200, 90));
+    let future = chosen(&answer, "7");
+    assert_eq!((future.first_step, future.states.len()), (41, 160));
+    assert!(future.states[..50] == log[1..], "the log as far as it goes");
+    assert!(answer.warnings.iter().all(|w| w.code != "extrapolated"));
+    let kept = run(&GENERATOR, rollout(scene, Some(&["1"]), 200, 90));
+    assert!(!kept.samples[0].agents.contains_key("7"));
+    assert!(kept.warnings.iter().any(|w| w.agent.as_deref() == Some("7")));
+}
+
+#[test]
 fn reacting_road_users_have_one_track_from_the_start_too() {
     let goal = Goal { position: Some(Vec2::new(1.75, 40.0)), time_s: Some(9.0), ..Goal::default() };
     let scene = goal_at(crossing(), "1", goal);
