@@ -109,7 +109,7 @@ fn twenty_seconds_are_planned_window_after_window() {
         .body(record.body.clone());
     let again = server.send(&again).unwrap();
     assert_eq!(again.status, 200, "{}", again.text());
-    assert_eq!(again.json()["scenes"][0]["time"]["steps"], 201);
+    assert_eq!(again.json()["scenes"][0]["steps"], 201);
 }
 
 #[test]

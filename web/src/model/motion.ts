@@ -74,6 +74,9 @@ export function poseAt(m: Motion, t: number): Pose | null {
   };
 }
 
+/** Does it end before a time? A future that nobody follows ends with the first 9 s. */
+export const endsBefore = (m: Motion, t: number): boolean => lastStep(m) * STEP_S < t - 0.05;
+
 export function endPose(m: Motion): Pose {
   const last = lastStep(m);
   return poseAtStep(m, last) ?? { x: m.x[m.x.length - 1] ?? 0, y: m.y[m.y.length - 1] ?? 0, heading: 0, speed: 0 };
