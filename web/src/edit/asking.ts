@@ -11,7 +11,8 @@ import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../mo
 import { canChange, GOAL_TIME, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { summary, readEvents } from '../model/events';
-import { motionFrom, poseAtStep } from '../model/motion';
+import { motionFrom } from '../model/motion';
+import { firstPose } from '../model/read';
 import { readReach, readScore, readWarnings } from './answers';
 import { sketchFutures } from './sketch';
 
@@ -306,9 +307,7 @@ export class Asking {
   private readAll(scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {
     const out = new Map<string, Futures>();
     for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
-      const a = scene.agents.get(id);
-      // Who comes in later begins where the log first shows it.
-      const start = a && (startPose(a) ?? poseAtStep(a.log, (json.modes?.[0]?.first_step ?? 0) - 1));
+      const a = scene.agents.get(id), start = a && firstPose(a, json);
       if (!a || !start || !json.modes?.length) continue;
       const known = this.editor.motion.peek().futures.get(id);
       // A picked future comes back longer than it was; the other five stand as they are.
