@@ -96,6 +96,8 @@ pub struct TimingBody {
 /// `final`: the answer.
 #[derive(Debug, Serialize)]
 pub struct FinalBody {
+    /// Planning windows that were run, one after the other.
+    pub windows: usize,
     /// Joint scenes.
     pub samples: Vec<SampleDoc>,
     /// Every condition field as it was used.
@@ -157,6 +159,9 @@ fn resolved_doc(resolved: &Resolved) -> Value {
         }
     }
     object.insert("reach".into(), json!(resolved.reach));
+    if !resolved.intermediate.is_empty() {
+        object.insert("intermediate".into(), json!(resolved.intermediate));
+    }
     Value::Object(object)
 }
 

@@ -123,13 +123,25 @@ fn condition_cases() -> Vec<Case> {
         case("101 steps", with("/steps", json!(101)), 422, "out-of-range"),
         case("diversity of 2.1", with("/diversity", json!(2.1)), 422, "out-of-range"),
         case("horizon of 20.1 s", with("/horizon_s", json!(20.1)), 422, "out-of-range"),
+        case("horizon of 0.4 s", with("/horizon_s", json!(0.4)), 422, "out-of-range"),
+        case("goal time after the end of 20 s", late_goal(), 422, "out-of-range"),
         case("start after the scene", with("/start_s", json!(9.2)), 422, "out-of-range"),
         case("re-planning each 4 s", with("/replan_interval_s", json!(4)), 422, "invalid-field"),
+        case("re-planning all the time", with("/replan_interval_s", json!(0)), 422, "invalid-field"),
+        case("re-planning each \"3\"", with("/replan_interval_s", json!("3")), 422, "invalid-field"),
+        case("re-planning each 30 s", with("/replan_interval_s", json!(30)), 422, "invalid-field"),
         case("client without revision", with("/client", json!("a")), 422, "invalid-field"),
         case("job id with dots", with("/job", json!("../x")), 422, "invalid-field"),
         case("reply of a million points", reply_too_large(), 422, "reply-too-large"),
         case("129 road users to regenerate", many(), 422, "too-many-agents"),
     ]
+}
+
+fn late_goal() -> Request {
+    let mut body = generate(2);
+    body["horizon_s"] = json!(20);
+    body["conditions"]["0"]["goal"]["time_s"] = json!(20.1);
+    post("/v1/generate").body(body.to_string())
 }
 
 fn reply_too_large() -> Request {

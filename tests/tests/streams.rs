@@ -64,6 +64,55 @@ fn three_representations_have_equal_samples() {
 }
 
 #[test]
+fn twenty_seconds_are_planned_window_after_window() {
+    let server = Server::start(&[]).unwrap();
+    let mut body = generate(4);
+    body["agents"] = json!("all");
+    body["horizon_s"] = json!(20);
+    body["replan_interval_s"] = json!(6);
+    body["conditions"]["0"]["goal"] = json!({"x_m": 90.0, "y_m": 0.0, "time_s": 16.0});
+    let plain = server.post("/v1/generate", &body).unwrap();
+    assert_eq!(plain.status, 200, "{}", plain.text());
+    let last = plain.json();
+    assert_eq!(last["windows"], 4);
+    for agent in last["samples"][0]["agents"].as_object().unwrap().values() {
+        let chosen = &agent["modes"][agent["chosen"].as_u64().unwrap() as usize];
+        assert_eq!((&chosen["first_step"], chosen["x_m"].as_array().unwrap().len()), (&json!(1), 200));
+        let lengths = agent["modes"].as_array().unwrap().iter().map(|m| m["x_m"].as_array().unwrap().len());
+        assert_eq!(lengths.filter(|n| *n == 90).count(), 5, "the alternatives end with the first window");
+    }
+    let futures = &last["samples"][0]["agents"]["0"];
+    let x = futures["modes"][futures["chosen"].as_u64().unwrap() as usize]["x_m"][159].as_f64().unwrap();
+    assert!((x - 90.0).abs() < 0.1, "{x}");
+    let told = last["resolved"]["0"]["intermediate"].as_array().unwrap();
+    assert_eq!(told.iter().map(|i| i["window"].as_u64().unwrap()).collect::<Vec<_>>(), [0, 1]);
+    assert!((told[0]["time_s"].as_f64().unwrap() - 9.0).abs() < 1e-9 && told[0]["x_m"].is_number());
+    let lines = ndjson(&server.send(&ask(&body, "application/x-ndjson")).unwrap().text());
+    assert_eq!(lines[0]["windows"], 4);
+    let drafts = lines.iter().filter(|e| e["event"] == "initial");
+    assert_eq!(drafts.map(|e| e["window"].as_u64().unwrap()).collect::<Vec<_>>(), [0, 1, 2, 3]);
+    assert!(
+        lines
+            .windows(2)
+            .all(|w| w[0]["window"].as_u64() <= w[1]["window"].as_u64() || w[1]["window"].is_null())
+    );
+    assert_eq!(lines.last().unwrap()["samples"], last["samples"]);
+    // Kept with its scene, written as a record of 20 s, and read again.
+    let mut scene = body["scene"].clone();
+    scene["generated"] = last["generated"].clone();
+    scene["generated"]["samples"] = last["samples"].clone();
+    let record = server.post("/v1/export?format=womd", &scene).unwrap();
+    assert_eq!(record.status, 200, "{}", record.text());
+    assert!(record.header("dragtraffic-loss").contains("long-record"));
+    let again = Request::new("POST", "/v1/import?dry_run=true&format=womd")
+        .header("content-type", "application/octet-stream")
+        .body(record.body.clone());
+    let again = server.send(&again).unwrap();
+    assert_eq!(again.status, 200, "{}", again.text());
+    assert_eq!(again.json()["scenes"][0]["steps"], 201);
+}
+
+#[test]
 fn answers_do_not_depend_on_who_else_is_regenerated_or_when_it_is_asked() {
     let server = Server::start(&[]).unwrap();
     let body = generate(4);

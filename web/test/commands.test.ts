@@ -1,16 +1,16 @@
 // Any command, then its inverse, gives the same scene; undo and redo are exact.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { choose, clearGoal, rename, resetAgent, resetAll, setBoth, setDiversity, setGoal, setOthers, setSeed, setSize, setStart, type Command } from '../src/model/commands';
+import { choose, clearGoal, rename, resetAgent, resetAll, setBoth, setDiversity, setGoal, setLength, setOthers, setReplan, setSeed, setSize, setStart, type Command } from '../src/model/commands';
 import { History } from '../src/model/history';
 import type { Agent, GoalSpec, Scene, StartSpec } from '../src/model/scene';
-import { sceneKey } from '../src/model/scene';
+import { LENGTHS, REPLANS, sceneKey } from '../src/model/scene';
 import { crossing } from './helpers';
 
 const number = fc.double({ min: -200, max: 200, noNaN: true });
 const pos = fc.option(fc.tuple(number, number).map(([x, y]) => [x, y] as const));
 const start: fc.Arbitrary<StartSpec> = fc.record({ pos, heading: fc.option(number), speed: fc.option(fc.double({ min: 0, max: 45, noNaN: true })) });
-const goal: fc.Arbitrary<GoalSpec> = fc.record({ pos, heading: fc.option(number), speed: fc.option(number), time: fc.double({ min: 1, max: 9, noNaN: true }) });
+const goal: fc.Arbitrary<GoalSpec> = fc.record({ pos, heading: fc.option(number), speed: fc.option(number), time: fc.double({ min: 1, max: 20, noNaN: true }) });
 
 const makers: fc.Arbitrary<(s: Scene, a: Agent) => Command> = fc.oneof(
   start.map((v) => (_: Scene, a: Agent) => setStart(a, v)), goal.map((v) => (_: Scene, a: Agent) => setGoal(a, v)),
@@ -20,10 +20,11 @@ const makers: fc.Arbitrary<(s: Scene, a: Agent) => Command> = fc.oneof(
   fc.constant((_: Scene, a: Agent) => clearGoal(a)), fc.constant((_: Scene, a: Agent) => resetAgent(a)), fc.constant((s: Scene) => resetAll(s)),
   fc.nat().map((n) => () => setSeed(n)), fc.double({ min: 0, max: 2, noNaN: true }).map((d) => () => setDiversity(d)),
   fc.constantFrom('react', 'log', 'still' as const).map((o) => () => setOthers(o as 'react')), fc.string().map((n) => () => rename(n)),
+  fc.constantFrom(...LENGTHS).map((l) => (s: Scene) => setLength(s, l)), fc.constantFrom(...REPLANS).map((r) => () => setReplan(r)),
 );
 
 /** Everything that a command may change, as text. */
-const face = (s: Scene): string => sceneKey(s) + s.name + JSON.stringify([...s.agents.values()].map((a) => [a.id, a.start, a.goal, a.chosen, a.length, a.width]));
+const face = (s: Scene): string => sceneKey(s) + s.name + s.duration + JSON.stringify([...s.agents.values()].map((a) => [a.id, a.start, a.goal, a.chosen, a.length, a.width]));
 
 describe('commands', () => {
   const scene = crossing();
@@ -45,6 +46,18 @@ describe('commands', () => {
     expect(next.agents.get('2')).toBe(scene.agents.get('2'));
     expect(next.map).toBe(scene.map);
     expect(Object.isFrozen(next) && Object.isFrozen(next.agents.get('1'))).toBe(true);
+  });
+
+  it('stretch the scene, and bring goals back that would come after its end', () => {
+    const long = setLength(scene, 20).apply(scene);
+    expect([long.length, long.duration]).toEqual([20, 20]);
+    const a = long.agents.get('1')!;
+    const late = setGoal(a, { ...a.goal, pos: [1, 2], time: 17 }).apply(long);
+    const short = setLength(late, 12);
+    expect(short.apply(late).agents.get('1')!.goal.time).toBe(12);
+    expect(short.apply(late).duration).toBe(12);
+    expect(short.invert(late).apply(short.apply(late)).agents.get('1')!.goal.time).toBe(17);
+    expect(setLength(long, 9).apply(long).duration).toBe(scene.duration);
   });
 
   it('come back through any mix of do, undo and redo', () => {

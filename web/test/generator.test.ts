@@ -28,6 +28,17 @@ describe('generator', () => {
     expect(a.seen).toEqual({ drafts: [0, 1, 2, 3, 4, 5], final: 1, away: 0, refused: [], dropped: 0 });
   });
 
+  it('shows each window from its first guess on', async () => {
+    server = await startStandIn({ port: 0, delay: 1 });
+    const g = new Generator(server.url), a = ask(false, 10), windows: number[] = [];
+    const on: Handlers = { ...a.ask.on, draft: (e, step, steps, ms) => { windows.push(e.window ?? 0); a.ask.on.draft(e, step, steps, ms); } };
+    g.ask({ ...a.ask, on, options: { ...a.ask.options, horizon_s: 20, replan_interval_s: 9 } });
+    await a.done;
+    expect(a.seen.drafts).toEqual([0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5]);
+    expect(windows.filter((w, i) => w !== windows[i - 1])).toEqual([0, 1, 2]);
+    expect(a.seen.final).toBe(1);
+  });
+
   it('keeps one on the way and one waiting while a drag goes on', async () => {
     server = await startStandIn({ port: 0, delay: 15 });
     const g = new Generator(server.url);

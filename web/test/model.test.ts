@@ -4,15 +4,15 @@ import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/g
 import { findRoute, nearestLanes } from '../src/model/lanemap';
 import { furthestReach, leastReach, limitsOf, localReach } from '../src/model/reach';
 import { parseTyped, num, speedLabel } from '../src/model/units';
-import { poseAt, motionFrom } from '../src/model/motion';
+import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/motion';
 import { readGenerated, readScene, SceneError } from '../src/model/read';
 import { conditionOf, generatedJson, stillAgents, writeScene } from '../src/model/write';
-import { choose, setGoal, setStart } from '../src/model/commands';
+import { choose, setGoal, setLength, setReplan, setStart } from '../src/model/commands';
 import { emptyMotion, placesLike, readFutures, type MotionSet } from '../src/model/futures';
 import { findChanges, motionOf } from '../src/model/changes';
 import { readEvents } from '../src/model/events';
 import { freeGoal, sceneKey, startPose, touched } from '../src/model/scene';
-import { giveWay, sixFutures } from './standin/futures.mjs';
+import { giveWay, goOn, sixFutures } from './standin/futures.mjs';
 import { car, crossing, crossingJson, walker } from './helpers';
 
 describe('geometry', () => {
@@ -54,6 +54,51 @@ describe('numbers', () => {
     expect(num(-43.94, 1)).toBe('\u221243.9');
     expect(num(-0.01, 1)).toBe('0.0');
     expect(speedLabel(8.9, 'km/h')).toBe('32 km/h');
+  });
+});
+
+describe('longer scenes', () => {
+  it('go straight on where nobody says more, and stand where somebody stood', () => {
+    const m = motionFrom({ x_m: [0, 1, 2], y_m: [0, 0, 0], heading_rad: [0, 0, 0], vx_mps: [10, 10, 10], vy_mps: [0, 0, 0] });
+    const on = straightOn(m, 200);
+    expect(lastStep(on)).toBe(200);
+    expect(endPose(on)).toEqual({ x: 200, y: 0, heading: 0, speed: 10 });
+    expect(poseAt(on, 0.1)).toEqual(poseAt(m, 0.1));
+    expect(straightOn(m, 200)).toBe(on);
+    expect(straightOn(m, 2)).toBe(m);
+    const still = motionFrom({ x_m: [5, 5], y_m: [1, 1], heading_rad: [1, 1], vx_mps: [0.1, 0.1], vy_mps: [0, 0] });
+    expect(endPose(straightOn(still, 90))).toEqual({ x: 5, y: 1, heading: 1, speed: 0 });
+  });
+
+  it('play everybody to the end: who was worked out as told, the rest straight on', () => {
+    const scene = setLength(crossing(), 20).apply(crossing());
+    const a = car(scene);
+    const json = { chosen: 0, modes: sixFutures(crossingJson().agents.find((j) => j.id === '1')!, undefined, 5, 5) };
+    goOn(json.modes[0], 200);
+    const futures = readFutures(json, startPose(a)!, 5, 5, false);
+    expect(futures.modes.map((m) => m.motion.x.length)).toEqual([201, 91, 91, 91, 91, 91]);
+    const set: MotionSet = { ...emptyMotion(''), futures: new Map([['1', futures]]), driving: new Set(['1']) };
+    expect(motionOf(scene, set, a)).toBe(futures.modes[0].motion);
+    for (const other of scene.agents.values()) if (lastStep(other.log) > 80) expect(poseAt(motionOf(scene, set, other), 20), other.id).not.toBeNull();
+    const nine = crossing();
+    expect(motionOf(nine, set, nine.agents.get('2')!)).toBe(nine.agents.get('2')!.log);
+  });
+
+  it('are kept with the scene and asked for again', () => {
+    const scene = setReplan(6).apply(setLength(crossing(), 15).apply(crossing()));
+    const back = readScene(writeScene(crossingJson(), scene, null));
+    expect([back.length, back.replan, back.duration]).toEqual([15, 6, 15]);
+    expect(sceneKey(back)).toBe(sceneKey(scene));
+    const odd = readScene({ ...crossingJson(), x_editor: { length_s: 17, replan_s: 4 } });
+    expect([odd.length, odd.replan]).toEqual([9, 9]);
+  });
+
+  it('leave a goal more time', () => {
+    const scene = setLength(crossing(), 20).apply(crossing());
+    const a = car(scene), p = startPose(a)!;
+    const goal = { ...freeGoal(), pos: [p.x + 22 * 15 * Math.cos(p.heading), p.y + 22 * 15 * Math.sin(p.heading)] as const, time: 4 };
+    expect(localReach(scene.map, a, p, goal, 'km/h', 20)?.time).toBeGreaterThan(9);
+    expect(localReach(scene.map, a, p, goal, 'km/h')?.time).toBeNull();
   });
 });
 

@@ -8,6 +8,6 @@ pub mod request;
 
 pub use generator::{Generation, Generator, WeightsError, WeightsInfo};
 pub use request::{
-    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, NearestState, ReachReport, React, Request,
-    Resolved, Source, Timings, Warning,
+    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
+    React, Request, Resolved, Source, Timings, Warning,
 };

@@ -29,9 +29,9 @@ pub struct Request {
     pub react: React,
     /// Scene step at which the window starts.
     pub start_step: usize,
-    /// Steps to generate; more than 90 needs re-planning.
+    /// Steps to generate, 1..=[`scene::MAX_HORIZON_STEPS`]; fewer than a window's 90 are a window cut short.
     pub horizon_steps: usize,
-    /// Plan anew after so many steps; `None` plans once per 90.
+    /// Plan anew, from the states reached, after so many steps (1..=90); `None` means after each 90.
     pub replan_steps: Option<usize>,
     /// Repeats the answer.
     pub seed: u64,
@@ -137,6 +137,21 @@ impl NearestState {
     }
 }
 
+/// Where a window sent a road user whose goal is due after the window's end: the state there on the
+/// way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Intermediate {
+    /// Planning window, from 0.
+    pub window: usize,
+    /// Scene time at which the state was to be reached, seconds: the end of the window's plan.
+    pub time_s: f64,
+    /// The state.
+    #[serde(flatten)]
+    pub state: NearestState,
+    /// The plan met it.
+    pub reached: bool,
+}
+
 /// Every condition field of one road user as it was used.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Resolved {
@@ -147,6 +162,9 @@ pub struct Resolved {
     pub fields: BTreeMap<String, Field>,
     /// Verdict on the goal.
     pub reach: ReachReport,
+    /// One entry for each window that ended its plan before the goal was due.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub intermediate: Vec<Intermediate>,
 }
 
 /// Something unlikely that was done anyway.
@@ -176,9 +194,9 @@ pub struct Accepted {
 /// Futures that are not settled yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
-    /// Planning window, from 0.
+    /// Planning window, from 0. Its futures begin one step after the window's start.
     pub window: usize,
-    /// Joint sample, from 0.
+    /// Joint sample, from 0; drafts of the first alone are told.
     pub sample: usize,
     /// 0 for the initializer's modes, then the denoising step.
     pub step: usize,
@@ -201,9 +219,15 @@ pub struct Timings {
 /// Last event of a call that succeeded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// One coherent scene each.
+    /// One coherent scene each. A chosen future runs through all windows to the end of the horizon;
+    /// its alternatives are those of the first window and end with that window's plan. A future of the
+    /// scene that is kept and ends before the horizon is planned on, and so part of the answer;
+    /// in a call about everybody, so is one that comes in later and whose log ends (its future begins
+    /// after it has come in).
     pub samples: Vec<Sample>,
-    /// By regenerated or reacting road user.
+    /// Planning windows that were run, one after the other.
+    pub windows: usize,
+    /// By regenerated or reacting road user that was there at the start.
     pub resolved: BTreeMap<AgentId, Resolved>,
     /// Unlikely things.
     pub warnings: Vec<Warning>,
@@ -211,7 +235,8 @@ pub struct Answer {
     pub timings: Timings,
 }
 
-/// What [`crate::Generator::start`] yields, in order: accepted, then per window the drafts, then one answer.
+/// What [`crate::Generator::start`] yields, in order: accepted, then per window the drafts of the first
+/// sample, then one answer.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "few exist at a time")]
 pub enum Event {

@@ -10,6 +10,11 @@ use scene::{
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, LazyLock};
 
+#[path = "generator/leaks.rs"]
+mod leaks;
+#[path = "generator/rollouts.rs"]
+mod rollouts;
+
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::random(3).unwrap().with_threads(1));
 
 fn lane(id: &str, from: Vec2, to: Vec2, successors: &[&str]) -> Lane {
@@ -110,42 +115,6 @@ fn with_goal(mut scene: Scene, id: &str, subset: u8) -> Scene {
         time_s: None,
     };
     scene
-}
-
-/// Every logged state after the first step moved somewhere else.
-fn other_future(mut scene: Scene, who: impl Fn(&Agent) -> bool) -> Scene {
-    for agent in scene.agents.iter_mut().filter(|a| who(a)) {
-        for state in agent.track.states.iter_mut().skip(1).flatten() {
-            state.x_m += 17.0;
-            state.y_m -= 9.0;
-            state.heading_rad += 0.5;
-            state.vx_mps *= 0.3;
-        }
-    }
-    scene
-}
-
-#[test]
-fn nothing_after_the_start_leaks_into_an_answer() {
-    for id in ["1", "4", "5"] {
-        for subset in 0..8 {
-            let honest = with_goal(crossing(), id, subset);
-            let changed = other_future(honest.clone(), |a| a.id == id);
-            let a = run(&GENERATOR, ask(honest, Some(&[id])));
-            let b = run(&GENERATOR, ask(changed, Some(&[id])));
-            assert!(a.samples == b.samples, "{id}, subset {subset:03b}");
-        }
-    }
-}
-
-#[test]
-fn futures_of_others_do_not_leak_when_all_are_generated() {
-    for subset in 0..8 {
-        let honest = with_goal(crossing(), "1", subset);
-        let changed = other_future(honest.clone(), |_| true);
-        let (a, b) = (run(&GENERATOR, ask(honest, None)), run(&GENERATOR, ask(changed, None)));
-        assert!(a.samples == b.samples, "subset {subset:03b}");
-    }
 }
 
 #[test]

@@ -38,6 +38,8 @@ pub mod code {
     pub const NO_LANE_WIDTH: &str = "no-lane-width";
     /// Types of lanes or edges that the format has no word for.
     pub const NO_LANE_TYPE: &str = "no-lane-type";
+    /// More steps than the scene, because a future is longer: readers made for recordings may not take it.
+    pub const LONG_RECORD: &str = "long-record";
     /// Ids that the format cannot hold.
     pub const IDS_RENUMBERED: &str = "ids-renumbered";
 }

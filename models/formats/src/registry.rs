@@ -206,7 +206,7 @@ pub fn loss_header(losses: &[Loss]) -> String {
 }
 
 /// Every loss code that a writer here can give.
-pub const LOSS_CODES: [&str; 10] = [
+pub const LOSS_CODES: [&str; 11] = [
     loss_code::NO_CONDITIONS,
     loss_code::NO_MODES,
     loss_code::NO_SUBTYPE,
@@ -217,4 +217,5 @@ pub const LOSS_CODES: [&str; 10] = [
     loss_code::NO_LANE_WIDTH,
     loss_code::NO_LANE_TYPE,
     loss_code::IDS_RENUMBERED,
+    loss_code::LONG_RECORD,
 ];

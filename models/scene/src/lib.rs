@@ -37,5 +37,7 @@ pub use whole::{Meta, Origin, Scene, SceneError, Timing};
 pub const STEP_S: f64 = 0.1;
 /// Steps in one planning window (9 s).
 pub const HORIZON_STEPS: usize = 90;
+/// Most steps of one answer, planned window after window (20 s).
+pub const MAX_HORIZON_STEPS: usize = 200;
 /// Control knots of a future, one a second from 0 to 9 s (`model.md` section 1: more bring nothing).
 pub const KNOTS: usize = 10;

@@ -40,13 +40,13 @@ pub struct GenerateArgs {
     /// Denoising steps.
     #[arg(long, default_value_t = 5)]
     steps: u64,
-    /// Seconds to generate.
+    /// Seconds to generate, 0.5 to 20. More than 9 is planned window after window.
     #[arg(long, default_value_t = 9.0)]
     horizon: f64,
     /// Scene time of the start, seconds.
     #[arg(long, default_value_t = 0.0)]
     start: f64,
-    /// Plan anew after so many seconds: 3, 6 or 9.
+    /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9 (9 when absent).
     #[arg(long)]
     replan: Option<f64>,
     /// Scale of the noise.

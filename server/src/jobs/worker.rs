@@ -95,6 +95,7 @@ fn final_body(head: &events::GeneratedHead, answer: &Answer, queued: Duration) -
         score_ms: 0.0,
     };
     FinalBody {
+        windows: answer.windows,
         samples: answer.samples.iter().map(SampleDoc::from_sample).collect(),
         resolved: events::resolved(answer),
         scores: None,

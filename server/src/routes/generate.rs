@@ -14,13 +14,16 @@ use axum::response::Response;
 use experts::React;
 use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
 use formats::{FieldProblem, ReadError};
-use scene::{STEP_S, Scene};
+use scene::{MAX_HORIZON_STEPS, STEP_S, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// Intervals of re-planning, seconds: the paper's.
+const REPLAN_S: [f64; 3] = [3.0, 6.0, 9.0];
 
 /// `"all"` or a list of ids.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -103,11 +106,11 @@ pub struct GenerateRequest {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 59.9))]
     start_s: f64,
-    /// Seconds to generate.
+    /// Seconds to generate. More than 9 is planned window after window.
     #[serde(default = "nine")]
     #[schemars(range(min = 0.5, max = 20.0))]
     horizon_s: f64,
-    /// Plan anew after so many seconds: 3, 6 or 9; null plans once per 9.
+    /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9; null is 9.
     #[serde(default)]
     replan_interval_s: Option<f64>,
     /// The same seed gives the same answer.
@@ -265,7 +268,7 @@ impl GenerateRequest {
         let numbers = [
             ("/seed", 0.0, safe, self.seed as f64),
             ("/revision", 0.0, safe, self.revision.unwrap_or(0) as f64),
-            ("/horizon_s", 0.5, 20.0, self.horizon_s),
+            ("/horizon_s", 0.5, MAX_HORIZON_STEPS as f64 * STEP_S, self.horizon_s),
             ("/samples", 1.0, 32.0, self.samples as f64),
             ("/modes", 1.0, 6.0, self.modes as f64),
             ("/diversity", 0.0, 2.0, self.diversity),
@@ -274,8 +277,8 @@ impl GenerateRequest {
         let outside = numbers.into_iter().filter(|(_, min, max, got)| !(got >= min && got <= max));
         let mut faults: Vec<_> =
             outside.map(|(pointer, min, max, got)| FieldProblem::range(pointer, min, max, got)).collect();
-        if self.replan_interval_s.is_some_and(|s| ![3.0, 6.0, 9.0].contains(&s)) {
-            let detail = "null, 3, 6 or 9 expected";
+        if let Some(got) = self.replan_interval_s.filter(|s| !REPLAN_S.contains(s)) {
+            let detail = format!("{got} s; null, 3, 6 or 9 expected");
             faults.push(FieldProblem::new("/replan_interval_s", "invalid-field", detail));
         }
         refuse(faults)
@@ -363,14 +366,13 @@ impl GenerateRequest {
             let detail = format!("the reply would have {points} points; at most {most_points}");
             return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).with("limit", most_points));
         }
-        let replan = self.replan_interval_s.map(|s| (s / STEP_S).round() as usize);
-        let long = horizon_steps > scene::HORIZON_STEPS;
+        let replan_steps = self.replan_interval_s.map(|s| (s / STEP_S).round() as usize);
         Ok(experts::Request {
             agents,
             react,
             start_step: self.start_step(),
             horizon_steps,
-            replan_steps: replan.or(long.then_some(scene::HORIZON_STEPS)),
+            replan_steps,
             seed: self.seed,
             samples: self.samples as usize,
             modes: self.modes as usize,

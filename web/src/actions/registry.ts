@@ -1,8 +1,8 @@
 // The one list of everything a user can do. Menus, buttons, palette, shortcut sheet and tooltips are made from it.
 import type { Context } from './context';
 import type { Part } from '../edit/editor';
-import { canChange, hasGoal, touched, type Agent } from '../model/scene';
-import { clearGoal, resetAgent, resetAll, setOthers, setSeed, type Command } from '../model/commands';
+import { canChange, hasGoal, LENGTHS, REPLANS, touched, type Agent } from '../model/scene';
+import { clearGoal, resetAgent, resetAll, setLength, setOthers, setReplan, setSeed, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
 import { STEP_S } from '../model/motion';
 import * as moves from '../edit/moves';
@@ -143,10 +143,10 @@ add(
   agentAction('toggle-field', 'Fixed or free', 'Goal and futures', ['F'], 'The field touched last', (c, a) => moves.toggleField(c.editor, a, c.editor.lastField.value.part, c.editor.lastField.value.field), 'lock'),
   agentAction('toggle-goal-speed', 'Fix or free the goal speed', 'Goal and futures', ['Shift+F'], 'Free lets the generator choose it', (c, a) => moves.toggleField(c.editor, a, 'goal', 'speed'), 'lock'),
   agentAction('free-speed', 'Speed free', 'Goal and futures', ['Backspace'], 'Speed of the active part', (c, a) => ((part(c) === 'goal' ? a.goal : a.start).speed === null ? null : moves.toggleField(c.editor, a, part(c), 'speed'))),
-  agentAction('goal-earlier', 'Goal 0.1 s earlier', 'Goal and futures', [';'], 'Time at the goal', (_, a) => moves.later(a, -0.1)),
-  agentAction('goal-later', 'Goal 0.1 s later', 'Goal and futures', ["'"], 'Time at the goal', (_, a) => moves.later(a, 0.1)),
-  agentAction('goal-earlier-far', 'Goal 1 s earlier', 'Goal and futures', ['Shift+;'], 'Time at the goal', (_, a) => moves.later(a, -1)),
-  agentAction('goal-later-far', 'Goal 1 s later', 'Goal and futures', ["Shift+'"], 'Time at the goal', (_, a) => moves.later(a, 1)),
+  agentAction('goal-earlier', 'Goal 0.1 s earlier', 'Goal and futures', [';'], 'Time at the goal', (c, a) => moves.later(c.editor, a, -0.1)),
+  agentAction('goal-later', 'Goal 0.1 s later', 'Goal and futures', ["'"], 'Time at the goal', (c, a) => moves.later(c.editor, a, 0.1)),
+  agentAction('goal-earlier-far', 'Goal 1 s earlier', 'Goal and futures', ['Shift+;'], 'Time at the goal', (c, a) => moves.later(c.editor, a, -1)),
+  agentAction('goal-later-far', 'Goal 1 s later', 'Goal and futures', ["Shift+'"], 'Time at the goal', (c, a) => moves.later(c.editor, a, 1)),
 );
 for (let i = 0; i < 6; i++)
   add(agentAction(`future-${LETTERS[i].toLowerCase()}`, `Choose future ${LETTERS[i]}`, 'Goal and futures', [`Alt+${i + 1}`], 'Playback follows it and the others answer', (c, a) => moves.pickFuture(c.editor, a, i)));
@@ -183,6 +183,11 @@ add(
       c.editor.selectedEvent.value = next;
     } },
 );
+
+for (const s of LENGTHS)
+  add({ id: `length-${s}`, label: `Length ${s} s`, group: 'Time', keys: [], help: s > 9 ? `Work out ${s} s: past 9 s everybody plans anew from where they are by then` : 'Work out 9 s, in one go', undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.length === s, run: (c) => { if (c.editor.scene.peek()!.length !== s) c.editor.run(setLength(c.editor.scene.peek()!, s)); } });
+for (const s of REPLANS)
+  add({ id: `replan-${s}`, label: `Plan anew each ${s} s`, group: 'Time', keys: [], help: `Everybody looks again every ${s} s and plans on from there`, undo: 'command', when: hasScene, checked: (c) => c.editor.scene.value?.replan === s, run: (c) => { if (c.editor.scene.peek()!.replan !== s) c.editor.run(setReplan(s)); } });
 
 // ---- Scene
 add(

@@ -73,7 +73,7 @@ export function handleSliders(c: Context): HTMLElement {
         make(part, 'speed', () => pose()?.speed ?? 0, () => `${speedLabel(pose()?.speed ?? 0, editor.unitOf(agent()))}${free('speed')}`, (key, far) => moves.faster(editor, agent(), part, sign(key) * (far ? 10 : 1))),
       ];
     };
-    return h('div', null, parts('start'), parts('goal'), make('goal', 'time', () => agent().goal.time, () => `${num(agent().goal.time, 1)} seconds`, (key, far) => moves.later(agent(), sign(key) * (far ? 1 : 0.1))));
+    return h('div', null, parts('start'), parts('goal'), make('goal', 'time', () => agent().goal.time, () => `${num(agent().goal.time, 1)} seconds`, (key, far) => moves.later(c.editor, agent(), sign(key) * (far ? 1 : 0.1))));
   }));
 }
 

@@ -48,7 +48,7 @@ function status(c: Context): HTMLElement {
   if (editor.selectedEvent.peek() && (s.kind === 'settled' || s.kind === 'ready')) return readyLine(c, line);
   switch (s.kind) {
     case 'loading': return line('busy', 'Loading the scene …');
-    case 'refining': return h('div', { class: 'row' }, h('span', { class: 'steps' }, [...Array(s.steps).keys()].map((i) => h('i', { class: i < s.step ? 'd' : '' }))), s.step ? `Refining, step ${s.step} of ${s.steps} · ${s.ms.toFixed(0)} ms` : s.ms ? `First guess · ${s.ms.toFixed(0)} ms` : 'Working out futures …');
+    case 'refining': return h('div', { class: 'row' }, h('span', { class: 'steps' }, [...Array(s.steps).keys()].map((i) => h('i', { class: i < s.step ? 'd' : '' }))), s.part ? `Refining ${s.part} · ${s.ms.toFixed(0)} ms` : s.step ? `Refining, step ${s.step} of ${s.steps} · ${s.ms.toFixed(0)} ms` : s.ms ? `First guess · ${s.ms.toFixed(0)} ms` : 'Working out futures …');
     case 'slow': return line('busy', `This takes longer than usual (${(s.ms / 1000).toFixed(1)} s).${editor.dragging.peek() ? ' You can keep dragging.' : ''}`);
     case 'refused': return line('collision', s.words);
     case 'away': { const n = editor.away.peek()?.waiting ?? 0; return line('near', `Generator away${n ? ` · ${n} change${n > 1 ? 's' : ''} waiting` : ''}`); }

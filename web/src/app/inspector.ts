@@ -3,11 +3,11 @@ import type { Context } from '../actions/context';
 import { canChange, hasGoal, touched, startPose, type Agent } from '../model/scene';
 import { deg, rad, wrapAngle, type Vec } from '../model/geometry';
 import { LETTERS, isSettled, reachWords } from '../model/futures';
-import { endPose, poseAt } from '../model/motion';
+import { endPose, endsBefore, poseAt } from '../model/motion';
 import { nearestLanes } from '../model/lanemap';
 import { comparedWithLog } from '../model/changes';
 import { fromUnit, metres, num, seconds, speedText, toUnit } from '../model/units';
-import { pickFuture, remedies, resize, shownPose, snapToNearest, toggleField, withField, SPEED_LIMIT, TIME_RANGE, type Field } from '../edit/moves';
+import { pickFuture, remedies, resize, shownPose, snapToNearest, toggleField, withField, SPEED_LIMIT, goalTime, type Field } from '../edit/moves';
 import { laneWords } from '../edit/snap';
 import type { Part } from '../edit/editor';
 import { actionButton, iconButton } from './buttons';
@@ -72,15 +72,16 @@ function verdict(c: Context, a: Agent): Verdict | null {
 function goalReached(a: Agent, c: Context): Verdict {
   const f = c.editor.futures.value!;
   const pos = a.goal.pos!;
-  const miss = f.modes.map((m, i) => {
+  const miss = f.modes.flatMap((m, i) => {
     const p = poseAt(m.motion, a.goal.time) ?? endPose(m.motion);
-    return { letter: LETTERS[i], d: Math.hypot(p.x - pos[0], p.y - pos[1]) };
+    // Of a goal later than 9 s only the future that goes on can say anything.
+    return endsBefore(m.motion, a.goal.time) ? [] : [{ letter: LETTERS[i], d: Math.hypot(p.x - pos[0], p.y - pos[1]) }];
   });
   const good = miss.filter((m) => m.d <= 2), bad = miss.filter((m) => m.d > 2);
   if (!good.length) return { kind: 'near', icon: 'warn', title: 'No future reaches the goal', words: `The closest, ${bad.sort((p, q) => p.d - q.d)[0].letter}, ends ${metres(bad[0].d, 1)} away.`, remedies: false };
-  const words = !bad.length ? `All within ${metres(Math.max(0.1, ...miss.map((m) => m.d)), 1)} at ${seconds(a.goal.time)}.`
+  const words = !bad.length ? `${miss.length === 1 ? 'Within' : 'All within'} ${metres(Math.max(0.1, ...miss.map((m) => m.d)), 1)} at ${seconds(a.goal.time)}.`
     : bad.length === 1 ? `${bad[0].letter} ends ${metres(bad[0].d, 1)} short.` : `${bad.map((m) => m.letter).join(', ')} end up to ${metres(Math.max(...bad.map((m) => m.d)), 1)} away.`;
-  return { kind: 'ok', icon: 'check', title: bad.length ? `Goal reached in ${good.map((m) => m.letter).join(', ')}` : `Goal reached in all ${miss.length === 6 ? 'six' : miss.length}`, words, remedies: false };
+  return { kind: 'ok', icon: 'check', title: bad.length || miss.length === 1 ? `Goal reached in ${good.map((m) => m.letter).join(', ')}` : `Goal reached in all ${miss.length === 6 ? 'six' : miss.length}`, words, remedies: false };
 }
 
 const hintKey = (c: Context, a: Agent): string => {
@@ -168,7 +169,7 @@ function goalSection(c: Context, agent: () => Agent): HTMLElement {
     row('Time', [numberField({
       label: 'Time at the goal in seconds', unit: 's', quantity: () => 'time', step: 0.1, decimals: () => 1, field: 'goal-time', free: () => false, live: () => editor.drag.value?.grip.handle === 'time',
       value: () => agent().goal.time, text: () => num(agent().goal.time, 1),
-      set: (v) => editor.run(withField(agent(), 'goal', { time: Math.round(Math.min(TIME_RANGE[1], Math.max(TIME_RANGE[0], v)) * 10) / 10 })),
+      set: (v) => editor.run(withField(agent(), 'goal', { time: Math.round(goalTime(editor.scene.peek(), v) * 10) / 10 })),
     })], null));
 }
 

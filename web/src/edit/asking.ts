@@ -8,11 +8,19 @@ import { Away, type Client } from '../net/client';
 import type { ConditionJson, SceneJson } from '../model/json';
 import { conditionOf, generatedJson, isEmptyCondition, stillAgents, trackJson } from '../model/write';
 import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
-import { canChange, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { canChange, GOAL_TIME, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { summary, readEvents } from '../model/events';
+import { motionFrom } from '../model/motion';
+import { firstPose } from '../model/read';
 import { readReach, readScore, readWarnings } from './answers';
 import { sketchFutures } from './sketch';
+
+/** Length and re-planning, as the API says them; 9 s in one go needs no words. */
+const rollout = (s: Scene): { horizon_s?: number; replan_interval_s?: number } => (s.length > GOAL_TIME || s.replan < GOAL_TIME ? { horizon_s: s.length, replan_interval_s: s.replan } : {});
+
+/** Which seconds a later window is about. */
+const partOf = (s: Scene, window: number): string => `${window * s.replan} to ${Math.min(s.length, (window + 1) * s.replan)} s`;
 
 const RETRY_S = [1, 2, 4, 6];
 const STEPS = 5;
@@ -123,8 +131,9 @@ export class Asking {
     else void this.rescore(step);
   }
 
-  /** Nobody is asked anything: everybody follows the log again. */
+  /** Nobody is asked anything: everybody follows the log again, or, past its end, makes a way of their own. */
   private pristine(scene: Scene, step: Wanted['commit']): void {
+    if (scene.length > GOAL_TIME && scene.others === 'react') return this.send({ agents: 'all', react: false, commit: step }, false);
     const set: MotionSet = { key: sceneKey(scene), futures: new Map(), driving: new Set(), score: null, reach: new Map(), stale: false };
     this.editor.settle(set, null);
     void this.rescore(step);
@@ -153,7 +162,7 @@ export class Asking {
     const part = (): string => (inline ? this.inlinePart(scene, before, w) : `"scene_id":${JSON.stringify(scene.id)}`);
     this.generator.ask({
       preview, scenePart: part, fullPart: async () => this.fullPart(scene, before, w),
-      options: { agents: w.agents, react: w.react, conditions, seed: scene.seed, diversity: scene.diversity, steps: STEPS, stream_modes: 'all', score: w.commit !== null && !w.unscored },
+      options: { agents: w.agents, react: w.react, conditions, seed: scene.seed, diversity: scene.diversity, steps: STEPS, stream_modes: 'all', score: w.commit !== null && !w.unscored, ...rollout(scene) },
       on: this.handlers(scene, w),
     });
     if (!preview) editor.status.value = { kind: 'refining', step: 0, steps: STEPS, ms: 0 };
@@ -195,6 +204,8 @@ export class Asking {
         this.answered();
         const id = subject && e.agents[subject] ? subject : null;
         batch(() => {
+          // Later windows go on from where the first one led; its six stay on screen until all is worked out.
+          if (e.window) { editor.status.value = { kind: 'refining', step, steps, ms, part: partOf(scene, e.window) }; return; }
           if (id && editor.selection.peek() === id) began = this.draw(id, e, step, steps, keep) || began;
           editor.status.value = { kind: 'refining', step, steps, ms };
         });
@@ -296,8 +307,12 @@ export class Asking {
   private readAll(scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {
     const out = new Map<string, Futures>();
     for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
-      const a = scene.agents.get(id), start = a && startPose(a);
-      if (a && start && json.modes?.length) out.set(id, readFutures(json, start, STEPS, STEPS, a.type === 'pedestrian', keep(a)));
+      const a = scene.agents.get(id), start = a && firstPose(a, json);
+      if (!a || !start || !json.modes?.length) continue;
+      const known = this.editor.motion.peek().futures.get(id);
+      // A picked future comes back longer than it was; the other five stand as they are.
+      const longer = known && a.chosen !== null && json.modes.length === 1 && known.modes[a.chosen];
+      out.set(id, longer ? { ...known, modes: known.modes.map((m) => (m === longer ? { ...m, motion: motionFrom(json.modes[0], start) } : m)) } : readFutures(json, start, STEPS, STEPS, a.type === 'pedestrian', keep(a)));
     }
     return out;
   }

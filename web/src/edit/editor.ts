@@ -21,7 +21,7 @@ export type Tool = 'select' | 'pan' | 'measure';
 export interface Toast { readonly text: string; readonly undo?: boolean; readonly action?: { label: string; run: () => void } }
 
 export type Status =
-  | { kind: 'loading' } | { kind: 'ready' } | { kind: 'refining'; step: number; steps: number; ms: number }
+  | { kind: 'loading' } | { kind: 'ready' } | { kind: 'refining'; step: number; steps: number; ms: number; /** Seconds that a later window is about. */ part?: string }
   | { kind: 'slow'; ms: number }
   | { kind: 'settled'; ms: number; adapted: number | null } | { kind: 'away' } | { kind: 'refused'; words: string };
 
@@ -91,7 +91,7 @@ export class Editor {
     const a = this.agent.value, s = this.scene.value;
     const start = a && startPose(a);
     if (!a || !s || !start || !a.goal.pos) return null;
-    return localReach(s.map, a, start, a.goal, this.unitOf(a));
+    return localReach(s.map, a, start, a.goal, this.unitOf(a), s.length);
   });
   /** Index of the future in force for the selected road user. */
   readonly chosen = computed<number>(() => {
@@ -196,6 +196,8 @@ export class Editor {
       this.historyTick.value++;
       this.changes.value = [];
       this.selectedEvent.value = null;
+      // A scene may have become shorter.
+      this.time.value = Math.min(this.time.peek(), scene.duration);
       this.adoptMotion(scene, agent && onlyPicked(before, scene, agent) ? agent : null);
     });
     this.onCommit?.(scene, { name, agent, undo });
@@ -269,7 +271,7 @@ export class Editor {
 function onlyPicked(before: Scene, after: Scene, id: string): boolean {
   const a = before.agents.get(id), b = after.agents.get(id);
   return !!a && !!b && a.start === b.start && a.goal === b.goal && a.length === b.length && a.width === b.width && a.chosen !== b.chosen
-    && before.seed === after.seed && before.diversity === after.diversity && before.others === after.others;
+    && before.seed === after.seed && before.diversity === after.diversity && before.others === after.others && before.length === after.length && before.replan === after.replan;
 }
 
 function changedAgent(before: Scene, after: Scene): string | null {

@@ -8,7 +8,7 @@ import type { Editor, Grip } from './editor';
 import type { Asking } from './asking';
 import { agentsAt, hitTest, type Hit, type HitContext } from './hit';
 import { alongLane, laneWords, snapHeading, snapToLane, softStop } from './snap';
-import { SPEED_LIMIT, TIME_RANGE, pickFuture } from './moves';
+import { SPEED_LIMIT, goalTime, pickFuture } from './moves';
 import type { Picture } from './picture';
 
 interface Mods { alt: boolean; shift: boolean; ctrl: boolean }
@@ -193,7 +193,7 @@ export class Gestures {
       case 'time': {
         const raw = a.goal.time + (this.at.x - this.press!.x) / 40;
         const grid = this.mods.alt ? 0.01 : this.mods.shift || Math.abs(raw - Math.round(raw)) < 0.15 ? 1 : 0.1;
-        const time = clamp(Math.round(raw / grid) * grid, TIME_RANGE[0], TIME_RANGE[1]);
+        const time = goalTime(this.editor.scene.peek(), Math.round(raw / grid) * grid);
         return { ...put({ time: Math.round(time * 100) / 100, ...this.keepGoal(d) }), name: `Goal time of ${a.name} changed` };
       }
     }

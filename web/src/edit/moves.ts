@@ -4,7 +4,7 @@ import { nearestLanes } from '../model/lanemap';
 import { choose, clearGoal, setBoth, setGoal, setSize, setStart, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
 import { limitsOf, localReach, shortfall } from '../model/reach';
-import { GOAL_TIME, startPose, type Agent, type GoalSpec, type StartSpec } from '../model/scene';
+import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
 import { metres, toUnit } from '../model/units';
 import type { Editor, Part } from './editor';
 import { lanesFor } from './snap';
@@ -12,7 +12,9 @@ import { lanesFor } from './snap';
 export type Field = 'pos' | 'heading' | 'speed';
 
 export const SPEED_LIMIT = { vehicle: 45, cyclist: 15, pedestrian: 5, other: 45 } as const;
-export const TIME_RANGE = [1, GOAL_TIME] as const;
+/** Seconds at which a goal may be due: up to the end of what is worked out. */
+export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
+export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
 const FIELD_WORDS = { pos: 'Position', heading: 'Heading', speed: 'Speed' } as const;
 
 const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
@@ -94,8 +96,8 @@ export function faster(e: Editor, a: Agent, part: Part, steps: number): Command 
   return withField(a, part, { speed: v }, true);
 }
 
-export function later(a: Agent, seconds: number): Command {
-  const t = Math.round(Math.min(TIME_RANGE[1], Math.max(TIME_RANGE[0], a.goal.time + seconds)) * 10) / 10;
+export function later(e: Editor, a: Agent, seconds: number): Command {
+  const t = Math.round(goalTime(e.scene.peek(), a.goal.time + seconds) * 10) / 10;
   return withField(a, 'goal', { time: t }, true);
 }
 
@@ -114,7 +116,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
   const scene = e.scene.value, start = startPose(a);
   if (!scene || !start || !a.goal.pos) return [];
   const unit = e.unitOf(a);
-  const local = localReach(scene.map, a, start, a.goal, unit);
+  const local = localReach(scene.map, a, start, a.goal, unit, scene.length);
   const verdict = e.liveReach.value?.id === a.id ? e.liveReach.value.reach : e.motion.value.reach.get(a.id);
   const out: Remedy[] = [];
   const nearest = (verdict?.status === 'unreachable' ? verdict.nearest : null) ?? local?.nearest ?? null;

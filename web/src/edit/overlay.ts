@@ -1,6 +1,6 @@
 // The overlay: selection, handles, futures, labels, ghosts, events. The only canvas a drag frame paints.
 import type { OnLine, Pose } from '../model/geometry';
-import { endPose, poseAt } from '../model/motion';
+import { endPose, endsBefore, poseAt } from '../model/motion';
 import { shortfall } from '../model/reach';
 import { reachWords } from '../model/futures';
 import { comparedWithLog } from '../model/changes';
@@ -177,6 +177,7 @@ export class Overlay {
     const f = e.futures.value!;
     return all.filter((i) => {
       const m = f.modes[i].motion;
+      if (endsBefore(m, a.goal.time)) return true;
       const p = poseAt(m, a.goal.time) ?? endPose(m);
       return Math.hypot(p.x - pos[0], p.y - pos[1]) > 5;
     });

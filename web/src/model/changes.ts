@@ -2,19 +2,27 @@
 import { distances, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
 import type { MotionSet } from './futures';
 import type { Agent, Scene } from './scene';
-import { startPose, staysAway } from './scene';
-import { heldStill, nowhere } from './motion';
+import { GOAL_TIME, startPose, staysAway } from './scene';
+import { heldStill, nowhere, straightOn } from './motion';
 import { num, speedText } from './units';
 
 export interface Change { readonly id: string; readonly name: string; readonly words: string; readonly short: string; readonly size: number; readonly before: Motion; readonly at: number }
 
-/** The motion a road user follows in playback. */
+/**
+ * The motion a road user follows in playback. Past 9 s it goes on where nobody says more, as the generator takes it
+ * to: straight on from where it was last seen.
+ */
 export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
+  const m = knownMotion(scene, set, a);
+  return scene.length > GOAL_TIME ? straightOn(m, Math.round(scene.duration / STEP_S)) : m;
+}
+
+function knownMotion(scene: Scene, set: MotionSet, a: Agent): Motion {
   const f = set.driving.has(a.id) ? set.futures.get(a.id) : undefined;
   if (f?.modes.length) return f.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)].motion;
   if (scene.others === 'still' && a.type !== 'other') {
     const p = startPose(a);
-    if (p) return heldStill(p, scene.steps);
+    if (p) return heldStill(p, Math.max(scene.steps, Math.round(scene.duration / STEP_S) + 1));
     if (staysAway(scene, a)) return nowhere;
   }
   return a.log;

@@ -1,5 +1,5 @@
 // Every change of the document is a command with an exact inverse.
-import { freeGoal, logStartSpec, withAgents, type Agent, type GoalSpec, type Others, type Scene, type StartSpec } from './scene';
+import { durationOf, freeGoal, logStartSpec, withAgents, type Agent, type GoalSpec, type Length, type Others, type Replan, type Scene, type StartSpec } from './scene';
 
 export interface Command {
   readonly name: string;
@@ -61,7 +61,7 @@ export function resetAll(scene: Scene): Command {
   return patchAgents('Everybody back to the log', patches);
 }
 
-type ScenePatch = Partial<Pick<Scene, 'seed' | 'diversity' | 'others' | 'name'>>;
+type ScenePatch = Partial<Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration'>>;
 
 export function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
   return {
@@ -79,4 +79,21 @@ export const setSeed = (seed: number): Command => patchScene(`Seed ${seed}`, { s
 export const setDiversity = (diversity: number): Command => patchScene(`Diversity ${Math.round(diversity * 100)}%`, { diversity }, 'diversity');
 export const setOthers = (others: Others): Command =>
   patchScene({ react: 'Others react', log: 'Others replay the log', still: 'Others hold still' }[others], { others });
+export const setReplan = (replan: Replan): Command => patchScene(`Planned anew each ${replan} s`, { replan });
+
+/** How much is worked out. Goals that would come after the end come at the end. */
+export function setLength(scene: Scene, length: Length): Command {
+  const late = new Map([...scene.agents.values()].filter((a) => a.goal.time > length).map((a) => [a.id, { goal: Object.freeze({ ...a.goal, time: length }) }]));
+  return both(patchScene(`${length} s worked out`, { length, duration: durationOf(length, scene.steps) }), patchAgents('', late));
+}
+
+/** Two commands as one step. */
+function both(first: Command, second: Command): Command {
+  return {
+    name: first.name,
+    apply: (scene) => second.apply(first.apply(scene)),
+    invert: (scene) => ({ ...both(second.invert(first.apply(scene)), first.invert(scene)), name: first.name }),
+  };
+}
+
 export const rename = (name: string): Command => patchScene(`Renamed to ${name}`, { name });

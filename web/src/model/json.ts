@@ -33,7 +33,7 @@ export interface AgentFuturesJson { chosen: number; modes: ModeJson[] }
 export interface SampleJson { agents: Record<string, AgentFuturesJson>; score?: unknown }
 export interface GeneratedJson { chosen_sample?: number; samples: SampleJson[]; stale?: boolean; seed?: number; [k: string]: unknown }
 /** What only the editor knows: the generator's own choices stand in `generated`, the user's picks here. */
-export interface EditorJson { seed?: number; diversity?: number; others?: string; picked?: Record<string, number> }
+export interface EditorJson { seed?: number; diversity?: number; others?: string; length_s?: number; replan_s?: number; picked?: Record<string, number> }
 export interface SceneJson {
   format?: string; version?: number; id?: string; name?: string;
   meta?: { source?: string; source_id?: string; licence?: string; parent_id?: string | null; [k: string]: unknown };

@@ -74,6 +74,9 @@ export function poseAt(m: Motion, t: number): Pose | null {
   };
 }
 
+/** Does it end before a time? A future that nobody follows ends with the first 9 s. */
+export const endsBefore = (m: Motion, t: number): boolean => lastStep(m) * STEP_S < t - 0.05;
+
 export function endPose(m: Motion): Pose {
   const last = lastStep(m);
   return poseAtStep(m, last) ?? { x: m.x[m.x.length - 1] ?? 0, y: m.y[m.y.length - 1] ?? 0, heading: 0, speed: 0 };
@@ -118,4 +121,32 @@ export function isStill(m: Motion): boolean {
 export function heldStill(p: Pose, steps: number): Motion {
   const fill = (v: number) => new Float64Array(steps).fill(v);
   return { first: 0, x: fill(p.x), y: fill(p.y), heading: fill(p.heading), speed: fill(0), valid: [[0, steps]] };
+}
+
+/** Slower than this counts as standing where nothing more is known, m/s. */
+const STANDING = 0.3;
+const continued = new WeakMap<Motion, Motion>();
+
+/** The motion up to scene step `last`: straight on at its last speed where it ends before. */
+export function straightOn(m: Motion, last: number): Motion {
+  const end = lastStep(m);
+  if (end >= last || !m.valid.length) return m;
+  const known = continued.get(m);
+  if (known && lastStep(known) === last) return known;
+  const n = last - m.first + 1, from = end - m.first;
+  const grow = (a: Float64Array): Float64Array => { const out = new Float64Array(n); out.set(a.subarray(0, from + 1)); return out; };
+  const x = grow(m.x), y = grow(m.y), heading = grow(m.heading), speed = grow(m.speed);
+  // A recorded velocity may point elsewhere than the body; along the body is near enough to be seen.
+  const v = Math.abs(speed[from]) < STANDING ? 0 : speed[from];
+  for (let i = from + 1; i < n; i++) {
+    const s = v * STEP_S * (i - from);
+    x[i] = x[from] + s * Math.cos(heading[from]);
+    y[i] = y[from] + s * Math.sin(heading[from]);
+    heading[i] = heading[from];
+    speed[i] = v;
+  }
+  const valid = m.valid.map(([a, b], i): readonly [number, number] => (i === m.valid.length - 1 ? [a, last + 1] : [a, b]));
+  const out: Motion = { first: m.first, x, y, heading, speed, valid };
+  continued.set(m, out);
+  return out;
 }

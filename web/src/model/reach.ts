@@ -3,7 +3,7 @@
 import { curveBetween, makeLine, pointAt, type Line, type Pose } from './geometry';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from './lanemap';
 import { metres, seconds, speedLabel, type SpeedUnit } from './units';
-import type { Agent, GoalSpec } from './scene';
+import { GOAL_TIME, type Agent, type GoalSpec } from './scene';
 
 export interface Limits { readonly accel: number; readonly top: number; readonly brake: number; readonly lateral: number }
 
@@ -53,7 +53,7 @@ export function pathTo(map: LaneMap, a: Pick<Agent, 'type'>, start: Pose, goal: 
   return { line: makeLine(curveBetween(start, goal)), onLanes: false };
 }
 
-export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, unit: SpeedUnit): LocalReach | null {
+export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, unit: SpeedUnit, latest = GOAL_TIME): LocalReach | null {
   if (!goal.pos) return null;
   const l = limitsOf(a), t = goal.time, v = start.speed;
   const heading = goal.heading ?? Math.atan2(goal.pos[1] - start.y, goal.pos[0] - start.x);
@@ -66,7 +66,7 @@ export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, 
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
   if (along > max + 0.5) {
     return {
-      ...base, kind: 'far', nearest: at(max, Math.min(l.top, v + l.accel * t)), time: timeFor(l, v, along), speed: speedFor(l, t, along),
+      ...base, kind: 'far', nearest: at(max, Math.min(l.top, v + l.accel * t)), time: timeFor(l, v, along, latest), speed: speedFor(l, t, along),
       title: `Too far for ${seconds(t)}`,
       words: `The goal is ${metres(along, 0)} away${onLanes ? ' along the lane' : ''}. In ${seconds(t)} from ${speedLabel(v, unit)} ${who} gets ${metres(max, 0)} at most.`,
     };
@@ -102,8 +102,8 @@ export function shortfall(start: Pose, goal: readonly [number, number], nearest:
 
 const walk = (v: number): string => (v < 0.6 ? ', a stroll.' : v < 1.6 ? ', a normal walk.' : v < 2.2 ? ', a brisk walk.' : ', running.');
 
-function timeFor(l: Limits, v: number, d: number): number | null {
-  for (let t = 0.5; t <= 9; t += 0.1) if (furthestReach(l, v, t) >= d) return Math.ceil(t * 10) / 10;
+function timeFor(l: Limits, v: number, d: number, latest: number): number | null {
+  for (let t = 0.5; t <= latest; t += 0.1) if (furthestReach(l, v, t) >= d) return Math.ceil(t * 10) / 10;
   return null;
 }
 

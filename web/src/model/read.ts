@@ -1,9 +1,9 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
-import { isMapRef, type AgentJson, type ConditionJson, type MapJson, type SceneJson } from './json';
-import { isStill, motionFrom, poseAtStep, STEP_S } from './motion';
+import { isMapRef, type AgentFuturesJson, type AgentJson, type ConditionJson, type MapJson, type SceneJson } from './json';
+import { isStill, motionFrom, poseAtStep } from './motion';
 import { emptyMotion, readFutures, type Futures, type MotionSet } from './futures';
-import { freeGoal, GOAL_TIME, logStartSpec, sceneKey, startPose, type Agent, type AgentType, type GoalSpec, type Kind, type Others, type Scene, type StartSpec } from './scene';
+import { durationOf, freeGoal, GOAL_TIME, logStartSpec, readLength, readReplan, sceneKey, startPose, type Agent, type AgentType, type GoalSpec, type Kind, type Others, type Scene, type StartSpec } from './scene';
 import type { Pose, Vec } from './geometry';
 
 export class SceneError extends Error {}
@@ -19,9 +19,10 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   const names = namer(json.agents);
   for (const a of json.agents) agents.set(a.id, readAgent(a, map, names(a), json));
   const ed = json.x_editor ?? {};
+  const length = readLength(ed.length_s);
   return Object.freeze({
     id: json.id ?? '', name: json.name ?? 'Untitled', source: json.meta?.source ?? 'drawn', licence: json.meta?.licence ?? '',
-    steps, duration: Math.min(GOAL_TIME, Math.max(1, steps - 1) * STEP_S), map,
+    steps, duration: durationOf(length, steps), length, replan: readReplan(ed.replan_s), map,
     signals: (json.signals ?? []).map((s) => ({ lane: s.lane, stop: s.stop_m ? ([s.stop_m[0], s.stop_m[1]] as Vec) : null, states: s.states })),
     agents, seed: ed.seed ?? 0, diversity: ed.diversity ?? 1, others: readOthers(ed.others),
   });
@@ -43,6 +44,9 @@ function readAgent(json: AgentJson, map: LaneMap, name: string, scene: SceneJson
   });
 }
 
+/** The pose before the first of the futures: the start, or for one that comes in later where the log first shows it. */
+export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null => startPose(a) ?? poseAtStep(a.log, (f.modes?.[0]?.first_step ?? 0) - 1);
+
 /** The futures saved beside a scene, when they still belong to it. */
 export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   const g = json.generated;
@@ -50,7 +54,7 @@ export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   if (!g || !agents) return null;
   const futures = new Map<string, Futures>();
   for (const [id, f] of Object.entries(agents)) {
-    const a = scene.agents.get(id), start = a && startPose(a);
+    const a = scene.agents.get(id), start = a && firstPose(a, f);
     if (a && start && f.modes?.length) futures.set(id, readFutures(f, start, 1, 1, a.type === 'pedestrian'));
   }
   if (!futures.size) return null;

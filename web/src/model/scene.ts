@@ -2,7 +2,7 @@
 // is not part of it, it is looked up by the document's key (see futures.ts).
 import type { LaneMap } from './lanemap';
 import { wrapAngle, type Pose, type Vec } from './geometry';
-import type { Motion } from './motion';
+import { STEP_S, type Motion } from './motion';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
 export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';
@@ -31,13 +31,29 @@ export interface Signal { readonly lane: string; readonly stop: Vec | null; read
 
 export interface Scene {
   readonly id: string; readonly name: string; readonly source: string; readonly licence: string;
-  readonly steps: number; readonly duration: number;
+  readonly steps: number;
+  /** Seconds that are worked out and played: the length, or less for a shorter recording. */
+  readonly duration: number;
+  /** Seconds asked for; past 9 s the generator plans anew from where everybody is by then. */
+  readonly length: Length;
+  /** Seconds after which everybody plans anew. */
+  readonly replan: Replan;
   readonly map: LaneMap; readonly signals: readonly Signal[];
   readonly agents: ReadonlyMap<string, Agent>;
   readonly seed: number; readonly diversity: number; readonly others: Others;
 }
 
 export const GOAL_TIME = 9;
+export const LENGTHS = [9, 12, 15, 20] as const;
+export const REPLANS = [3, 6, 9] as const;
+export type Length = (typeof LENGTHS)[number];
+export type Replan = (typeof REPLANS)[number];
+
+export const readLength = (v: unknown): Length => LENGTHS.find((l) => l === v) ?? 9;
+export const readReplan = (v: unknown): Replan => REPLANS.find((r) => r === v) ?? 9;
+
+/** A recording may be shorter than 9 s; past that the generator goes on by itself. */
+export const durationOf = (length: Length, steps: number): number => (length > GOAL_TIME ? length : Math.min(GOAL_TIME, Math.max(1, steps - 1) * STEP_S));
 export const freeGoal = (time = GOAL_TIME): GoalSpec => Object.freeze({ pos: null, heading: null, speed: null, time });
 
 export function logStartSpec(p: Pose | null): StartSpec {
@@ -72,7 +88,7 @@ export function withAgents(scene: Scene, changes: Iterable<Agent>): Scene {
 
 /** Text that names everything the generator's answer depends on; equal keys, equal answers. */
 export function sceneKey(scene: Scene): string {
-  const parts: unknown[] = [scene.id, scene.seed, scene.diversity, scene.others];
+  const parts: unknown[] = [scene.id, scene.seed, scene.diversity, scene.others, scene.length, scene.replan];
   for (const a of scene.agents.values()) if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
   return JSON.stringify(parts);
 }

@@ -1,7 +1,7 @@
 // Document -> JSON: conditions for a request, and the whole scene for saving.
 import type { AgentFuturesJson, AgentJson, ConditionJson, GeneratedJson, GoalJson, MapJson, MapRef, SceneJson, StartJson, TrackJson } from './json';
 import type { Motion } from './motion';
-import { hasGoal, sameSpec, logStartSpec, sizeChanged, startPose, staysAway, type Agent, type Scene } from './scene';
+import { GOAL_TIME, hasGoal, sameSpec, logStartSpec, sizeChanged, startPose, staysAway, type Agent, type Scene } from './scene';
 import type { Futures } from './futures';
 
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
@@ -14,7 +14,7 @@ export function conditionOf(a: Agent): ConditionJson {
     s.y_m = a.start.pos?.[1] ?? null;
     c.start = s;
   }
-  if (hasGoal(a.goal) || a.goal.time !== 9) {
+  if (hasGoal(a.goal) || a.goal.time !== GOAL_TIME) {
     const g: GoalJson = { time_s: a.goal.time };
     if (a.goal.pos) { g.x_m = a.goal.pos[0]; g.y_m = a.goal.pos[1]; }
     if (a.goal.heading !== null) g.heading_rad = a.goal.heading;
@@ -67,7 +67,7 @@ export function writeScene(raw: SceneJson, scene: Scene, generated: GeneratedJso
   });
   return {
     ...raw, name: scene.name, map: map ?? raw.map, agents, generated,
-    x_editor: { seed: scene.seed, diversity: scene.diversity, others: scene.others, ...picks(scene) },
+    x_editor: { seed: scene.seed, diversity: scene.diversity, others: scene.others, length_s: scene.length, replan_s: scene.replan, ...picks(scene) },
   };
 }
 

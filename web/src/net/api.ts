@@ -22,10 +22,12 @@ export interface ImportReply {
 export interface GenerateOptions {
   client: string; revision: number; agents: string[] | 'all'; react: boolean | string[]; conditions: Record<string, ConditionJson>;
   seed: number; diversity: number; steps: number; stream_modes: 'all' | 'chosen'; score: boolean;
+  /** Seconds to work out, and after how many everybody plans anew from where they are; 9 of each when absent. */
+  horizon_s?: number; replan_interval_s?: number;
 }
 
 interface EventBase { seq?: number; job?: string; revision?: number; elapsed_ms?: number }
-export interface AcceptedEvent extends EventBase { event: 'accepted'; regenerated?: string[]; reacting?: string[]; warnings?: WarningJson[]; steps?: number }
+export interface AcceptedEvent extends EventBase { event: 'accepted'; regenerated?: string[]; reacting?: string[]; warnings?: WarningJson[]; steps?: number; windows?: number }
 export interface DraftEvent extends EventBase { event: 'initial' | 'step'; window?: number; sample?: number; step?: number; steps?: number; agents: Record<string, AgentFuturesJson> }
 export interface ReachJson {
   status?: string; nearest?: { x_m: number; y_m: number; heading_rad?: number; speed_mps?: number } | null;
@@ -40,7 +42,7 @@ export interface ScoreJson {
 export interface ScoreReply { scene: ScoreJson; agents?: Record<string, unknown> }
 export interface WarningJson { code?: string; agent?: string; detail?: string; [k: string]: unknown }
 export interface FinalEvent extends EventBase {
-  event: 'final'; samples: SampleJson[]; resolved?: Record<string, ResolvedJson>; scores?: ScoreReply | ScoreReply[] | null; warnings?: WarningJson[];
+  event: 'final'; windows?: number; samples: SampleJson[]; resolved?: Record<string, ResolvedJson>; scores?: ScoreReply | ScoreReply[] | null; warnings?: WarningJson[];
   generated?: Record<string, unknown>;
 }
 export interface ErrorEvent extends EventBase { event: 'error'; problem: Problem }

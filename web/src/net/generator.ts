@@ -173,7 +173,7 @@ export class Generator {
 
   private async read(reply: Response, me: Running, began: number): Promise<void> {
     const { on, options } = me.ask;
-    let shown = -1;
+    let shown = -1, window = 0;
     let ended = false;
     for await (const e of readEvents(reply.body!)) {
       if (this.running !== me) return;
@@ -185,7 +185,10 @@ export class Generator {
       if (e.event === 'accepted') on.accepted?.(e);
       else if (e.event === 'initial' || e.event === 'step') {
         const step = e.event === 'initial' ? 0 : e.step ?? shown + 1;
-        if (step <= shown) continue;
+        const at = e.window ?? 0;
+        // A later window begins with a first guess of its own.
+        if (at < window || (at === window && step <= shown)) continue;
+        window = at;
         shown = step;
         me.drawn = true;
         on.draft(e, step, e.steps ?? options.steps, ms);

@@ -320,6 +320,47 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.tm')).toContain('5.4 s');
   });
 
+  it('works out 20 s: the timeline stretches, the picked length travels, playback runs to the end', async () => {
+    d = await (await Driver.open(browser)).ready();
+    expect(await d.text('.tm')).toContain('/ 9.0 s');
+    await d.page.locator('[data-action="length-20"]').click();
+    await d.page.waitForTimeout(200);
+    await d.settled();
+    expect(await d.text('.tm')).toContain('/ 20.0 s');
+    expect(d.last()).toMatchObject({ agents: 'all', horizon_s: 20, replan_interval_s: 9 });
+    await d.page.locator('[data-action="replan-3"]').click();
+    await d.page.waitForTimeout(200);
+    await d.settled();
+    expect(d.last()).toMatchObject({ horizon_s: 20, replan_interval_s: 3 });
+    await d.select('1');
+    expect(await d.page.locator('.plot text').allTextContents()).toContain('20 s');
+    const time = d.page.locator('[data-field="goal-time"]');
+    await d.key('g');
+    await d.page.waitForTimeout(150);
+    await time.fill('25');
+    await time.press('Enter');
+    await d.page.waitForTimeout(150);
+    await d.settled();
+    expect(await d.value('goal-time')).toBe(20);
+    expect(d.last().conditions['1'].goal!.time_s).toBe(20);
+    await d.page.evaluate(() => (document.activeElement as HTMLElement).blur());
+    await d.key('p');
+    await d.key('End');
+    for (let i = 0; i < 5; i++) await d.key(',');
+    expect(await d.text('.tm')).toContain('19.5 s');
+    await d.key('Space');
+    await d.page.waitForFunction(() => document.querySelector('.tm')?.textContent?.startsWith('20.0 s'));
+    await d.page.locator('[data-action="length-12"]').click();
+    await d.page.waitForTimeout(200);
+    await d.settled();
+    expect(await d.value('goal-time')).toBe(12);
+    expect(await d.text('.tm')).toMatch(/12\.0 s\s+\/ 12\.0 s/);
+    await d.key('Control+z');
+    await d.page.waitForTimeout(100);
+    expect(await d.value('goal-time')).toBe(20);
+    expect(await d.text('.tm')).toContain('/ 20.0 s');
+  });
+
   it('starts empty when there is no scene, and waits when there is no server', async () => {
     d = await Driver.open(browser, { away: false }, '/', async (p) => { await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } })); });
     await d.page.waitForSelector('.empty');

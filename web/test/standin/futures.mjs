@@ -64,3 +64,16 @@ export function giveWay(agent, seconds) {
   }
   return mode;
 }
+
+/** Makes a future longer: on as it moved last. */
+export function goOn(mode, steps) {
+  const end = mode.x_m.length - 1;
+  const last = Object.fromEntries(['x_m', 'y_m', 'heading_rad', 'vx_mps', 'vy_mps'].map((k) => [k, mode[k][end]]));
+  for (let i = 1; mode.x_m.length < steps; i++) {
+    mode.x_m.push(last.x_m + last.vx_mps * 0.1 * i);
+    mode.y_m.push(last.y_m + last.vy_mps * 0.1 * i);
+    mode.heading_rad.push(last.heading_rad);
+    mode.vx_mps.push(last.vx_mps);
+    mode.vy_mps.push(last.vy_mps);
+  }
+}

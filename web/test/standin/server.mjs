@@ -8,7 +8,7 @@ import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { buildCrossing } from './crossing.mjs';
-import { giveWay, sixFutures } from './futures.mjs';
+import { giveWay, goOn, sixFutures } from './futures.mjs';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
 const CSP = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -60,14 +60,23 @@ export function startStandIn(options = {}) {
     const drafts = (step) => Object.fromEntries(wanted.map((a) => [a.id, { chosen: 0, modes: sixFutures(a, b.conditions?.[a.id], step, b.steps) }]));
     send({ event: 'accepted', regenerated: wanted.map((a) => a.id), reacting: reacting.map((a) => a.id), warnings: [] });
     const order = [...Array(b.steps + 1).keys()];
+    const horizon = b.horizon_s ?? 9, windows = Math.ceil(horizon / (b.replan_interval_s ?? 9));
     if (o.shuffle) order.sort(() => Math.random() - 0.5);
     for (const step of order) {
       await sleep(o.delay);
       if (gone()) { send({ event: 'superseded' }); res.end(); return; }
       send(step === 0 ? { event: 'initial', window: 0, sample: 0, agents: drafts(0) } : { event: 'step', window: 0, sample: 0, step, steps: b.steps, agents: drafts(step) });
     }
+    // Later windows begin where they begin; their answers are part of the last event.
+    for (let window = 1; window < windows; window++)
+      for (const step of order) {
+        await sleep(o.delay);
+        if (gone()) { send({ event: 'superseded' }); res.end(); return; }
+        send({ event: step ? 'step' : 'initial', window, sample: 0, ...(step ? { step } : {}), steps: b.steps, agents: {} });
+      }
     const agents = drafts(b.steps);
     reacting.forEach((a, i) => { agents[a.id] = b.conditions?.[a.id]?.goal ? { chosen: 0, modes: sixFutures(a, b.conditions[a.id], b.steps, b.steps) } : { chosen: 0, modes: [giveWay(a, i % 5 === 0 ? 2.2 : 0)] }; });
+    if (horizon > 9) for (const f of Object.values(agents)) goOn(f.modes[f.chosen], Math.round(horizon * 10));
     const resolved = {};
     for (const a of wanted) {
       const g = b.conditions?.[a.id]?.goal;
@@ -76,7 +85,7 @@ export function startStandIn(options = {}) {
       const far = d > max;
       resolved[a.id] = { reach: { status: far ? 'unreachable' : 'reached', nearest: { x_m: a.track.x_m[0] + ((g.x_m - a.track.x_m[0]) * max) / d, y_m: a.track.y_m[0] + ((g.y_m - a.track.y_m[0]) * max) / d, heading_rad: g.heading_rad ?? 0, speed_mps: 10 }, limiting: far ? 'time' : null, needs: null, words: far ? `Too far for ${(g.time_s ?? 9).toFixed(1)} s. The goal is ${d.toFixed(0)} m away.` : null } };
     }
-    send({ event: 'final', samples: [{ agents }], resolved, scores: b.score === false ? null : score(), warnings: [], timing: {} });
+    send({ event: 'final', windows, samples: [{ agents }], resolved, scores: b.score === false ? null : score(), warnings: [], timing: {} });
     res.end();
   }
 

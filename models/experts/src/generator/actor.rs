@@ -7,9 +7,10 @@ use crate::features::profile::Progress;
 use crate::features::world::{Present, World};
 use crate::features::{MODES, RESIDUAL};
 use scene::geometry::direction;
+use scene::motion::{Gear, Kind};
 use scene::routes::Polyline;
 use scene::score::SweptBoxes;
-use scene::{Agent, AgentId, AgentType, HORIZON_STEPS, STEP_S, Scene, State, Vec2};
+use scene::{Agent, AgentId, AgentType, HORIZON_STEPS, STEP_S, Scene, State, Track, Vec2};
 
 /// Why a road user gets new futures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +36,8 @@ pub(super) struct Actor {
     pub(super) probability: [f64; MODES],
     /// Stays where it is.
     pub(super) rests: bool,
+    /// It was parked when the call began and has not been asked to go anywhere.
+    pub(super) stays_parked: bool,
     pub(super) stays_probability: f64,
 }
 
@@ -64,7 +67,19 @@ impl Actor {
             residual: [[0.0; RESIDUAL]; MODES],
             probability: [1.0 / MODES as f64; MODES],
             rests: false,
+            stays_parked: false,
             stays_probability: 0.0,
+        }
+    }
+
+    /// Goes on from a state that an earlier window reached: what rolls backwards does so until it stands.
+    pub(super) fn goes_on(&mut self, parked: bool) {
+        let planned = &mut self.planned;
+        self.stays_parked = parked && planned.target.is_free();
+        let start = &planned.present.start;
+        let ahead_mps = start.velocity().dot(&direction(start.heading_rad));
+        if planned.model.kind == Kind::Drive && ahead_mps < -1e-3 {
+            planned.model = planned.model.in_gear(Gear::Reverse);
         }
     }
 
@@ -157,6 +172,59 @@ pub(super) fn kept_state(scene: &Scene, agent: &Agent, start_step: usize, step: 
     let state = agent.state_at(first)?;
     let moved = state.position() + state.velocity() * (at.saturating_sub(first) as f64 * STEP_S);
     Some(State { x_m: moved.x, y_m: moved.y, ..state })
+}
+
+/// Slower than this counts as standing where nothing more is known, m/s.
+const STANDING_MPS: f64 = 0.3;
+
+/// From where on nothing is known of a road user that keeps its motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Guessed {
+    /// First scene step of which neither future nor log speaks.
+    pub(super) step: usize,
+    /// It goes straight on; otherwise it stands where it was.
+    pub(super) moving: bool,
+}
+
+/// A road user's track as those who plan up to scene step `last` see it, kept as it is: its chosen
+/// future after `start`, else its log, and where neither says more, straight on from where it was last
+/// seen. Also the first step of which nothing is known, where that comes before `last`.
+pub(super) fn carried(
+    scene: &Scene,
+    agent: &Agent,
+    pinned: Option<&[State]>,
+    start: usize,
+    last: usize,
+) -> (Track, Option<Guessed>) {
+    let chosen = scene.generated.as_ref().and_then(|g| g.chosen_future(&agent.id));
+    let future = pinned.map(|p| (start + 1, p)).or(chosen.map(|f| (f.first_step, &*f.states)));
+    let at_step = |at: usize| match future {
+        Some((first, states)) if at > start && at >= first => states.get(at - first).copied(),
+        _ => agent.track.at(at).copied(),
+    };
+    let logged = agent.track.last_valid_step().map_or(0, |l| l + 1);
+    let ends = future.map_or(logged, |(first, states)| first + states.len());
+    let first_step = agent.track.first_step.min(start);
+    let mut seen: Option<(usize, State)> = None;
+    let mut guessed: Option<Guessed> = None;
+    let states = (first_step..=last.max(first_step)).map(|at| {
+        if let Some(state) = at_step(at) {
+            seen = Some((at, state));
+            return Some(state);
+        }
+        let (since, state) = seen.filter(|_| at > start)?;
+        let moving = state.speed_mps() >= STANDING_MPS;
+        if at >= ends {
+            guessed = guessed.or(Some(Guessed { step: at, moving }));
+        }
+        if !moving {
+            return Some(State { vx_mps: 0.0, vy_mps: 0.0, ..state });
+        }
+        let moved = state.position() + state.velocity() * ((at - since) as f64 * STEP_S);
+        Some(State { x_m: moved.x, y_m: moved.y, ..state })
+    });
+    let states = states.collect();
+    (Track { first_step, states, z_m: None }, guessed)
 }
 
 /// States of a kept motion over the window, one a step from the first after the start, as far as known.

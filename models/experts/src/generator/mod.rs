@@ -1,15 +1,17 @@
 //! The generator: three experts behind their gate, their caches, and calls that yield events.
 
 mod actor;
-mod call;
 mod choice;
+mod halfway;
 mod noise;
 mod parallel;
 mod realise;
 mod report;
+mod rollout;
 mod weights;
+mod window;
 
-pub use call::Generation;
+pub use rollout::Generation;
 pub use weights::{WeightsError, WeightsInfo};
 
 use crate::features::world::MapIndex;

@@ -5,7 +5,7 @@ use crate::features::agent::Planned;
 use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
 use scene::geometry::direction;
 use scene::motion::{
-    Gear, Kind, MotionState, Projection, Reach, Residuals, Sampled, Trajectory, fit, project,
+    Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Trajectory, fit, project,
 };
 use scene::{HORIZON_STEPS, KNOTS, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -58,6 +58,9 @@ pub(super) fn places(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL])
 
 /// The motion of a draft: fitted to its places and projected onto goal and limits.
 pub(super) fn realise(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL]) -> Motion {
+    if planned.model.gear == Gear::Reverse {
+        return backing(planned);
+    }
     let places = places(planned, slot, residual);
     let mut samples = Vec::with_capacity(INSTANTS);
     let mut last = (planned.present.start.position(), planned.present.start.heading_rad);
@@ -76,6 +79,16 @@ pub(super) fn realise(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL]
         return motion.into();
     }
     reversing(planned, &motion).unwrap_or_else(|| motion.into())
+}
+
+/// Braking of what rolls backwards without a reason to, m/s2.
+const BACKING_BRAKE_MPS2: f64 = 1.5;
+
+/// What rolls backwards already (from an earlier window) goes on to its goal or comes to rest: a window
+/// never changes the gear of a vehicle in motion.
+fn backing(planned: &Planned) -> Motion {
+    let braking = Knots { first: [-BACKING_BRAKE_MPS2; KNOTS], ..Knots::default() };
+    project(&planned.model, &braking, &planned.target, None).into()
 }
 
 /// A goal behind a standing vehicle may be met backwards.
@@ -111,7 +124,10 @@ pub(super) fn rest(planned: &Planned) -> Motion {
     Motion { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(residuals) }
 }
 
-/// Standing at the start, and rest meets whatever is asked.
-pub(super) fn may_rest(planned: &Planned) -> bool {
-    planned.present.start.speed_mps() < 0.3 && Residuals::of(&still(planned), &planned.target).is_met()
+/// Standing at the start, and rest meets whatever is asked. What a recording shows standing may creep by
+/// its jitter; what an earlier window brought here has to have come to rest by its own motion.
+pub(super) fn may_rest(planned: &Planned, window: usize) -> bool {
+    let standing_mps = if window == 0 { 0.3 } else { 0.05 };
+    planned.present.start.speed_mps() < standing_mps
+        && Residuals::of(&still(planned), &planned.target).is_met()
 }

@@ -3,11 +3,11 @@
 
 use super::actor::Actor;
 use super::realise::Motion;
-use crate::features::world::World;
-use crate::request::{Field, NearestState, ReachReport, Resolved, Source, Warning};
+use crate::features::world::{Present, World};
+use crate::request::{Field, Intermediate, NearestState, ReachReport, Resolved, Source, Warning};
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::motion::{Kind, Limiting, MotionState, Reach};
-use scene::{AgentType, STEP_S, wrap_angle};
+use scene::{AgentType, Conditions, STEP_S, State, wrap_angle};
 use std::collections::BTreeMap;
 
 impl From<&MotionState> for NearestState {
@@ -21,11 +21,26 @@ impl From<&MotionState> for NearestState {
     }
 }
 
-/// Fields and verdict of one road user whose shown future is `motion`.
-pub(super) fn resolved(world: &World<'_>, actor: &Actor, motion: &Motion) -> Resolved {
-    let present = &actor.planned.present;
+/// What became of one road user over all windows.
+pub(super) struct Outcome<'a> {
+    /// At the start of the call.
+    pub(super) present: &'a Present,
+    /// As the user fixed them.
+    pub(super) conditions: &'a Conditions,
+    /// Scene step at which the goal is due.
+    pub(super) due_step: usize,
+    /// State of its shown future then (or at the end, for a goal later than that).
+    pub(super) end: State,
+    /// Verdict of the last window before the goal was due.
+    pub(super) reach: ReachReport,
+    /// Where earlier windows were sent.
+    pub(super) intermediate: Vec<Intermediate>,
+}
+
+/// Fields and verdict of one road user; `world` is that of the first window.
+pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
+    let Outcome { present, conditions, due_step, end, reach, intermediate } = outcome;
     let agent = world.agent(present);
-    let conditions = &world.conditions[present.index];
     let mut fields = BTreeMap::new();
     let mut put = |name: &str, value: f64, from: Source| {
         fields.insert(name.to_owned(), Field { value, from });
@@ -44,34 +59,39 @@ pub(super) fn resolved(world: &World<'_>, actor: &Actor, motion: &Motion) -> Res
     let size = |fixed: bool| if fixed { Source::User } else { Source::Log };
     put("length_m", present.size.length_m, size(conditions.length_m.is_some()));
     put("width_m", present.size.width_m, size(conditions.width_m.is_some()));
-    let target = &actor.planned.target;
-    let end = &motion.states[target.step.min(motion.states.len() - 1)];
+    let asked = &conditions.goal;
     let goal = |fixed: bool| if fixed { Source::User } else { Source::Model };
-    let position = target.position.unwrap_or(end.position);
-    put("goal.x_m", position.x, goal(target.position.is_some()));
-    put("goal.y_m", position.y, goal(target.position.is_some()));
-    let heading = target.heading_rad.unwrap_or(end.heading_rad);
-    put("goal.heading_rad", wrap_angle(heading), goal(target.heading_rad.is_some()));
-    let speed = target.speed_mps.unwrap_or_else(|| end.speed_mps());
-    put("goal.speed_mps", speed, goal(target.speed_mps.is_some()));
-    let due = (world.step + target.step) as f64 * STEP_S;
-    put("goal.time_s", due, if conditions.goal.time_s.is_some() { Source::User } else { Source::Default });
-    Resolved { agent_type: present.agent_type, fields, reach: reach_report(actor, motion) }
+    let position = asked.position.unwrap_or(end.position());
+    put("goal.x_m", position.x, goal(asked.position.is_some()));
+    put("goal.y_m", position.y, goal(asked.position.is_some()));
+    let heading = asked.heading_rad.unwrap_or(end.heading_rad);
+    put("goal.heading_rad", wrap_angle(heading), goal(asked.heading_rad.is_some()));
+    let speed = asked.speed_mps.unwrap_or_else(|| end.speed_mps());
+    put("goal.speed_mps", speed, goal(asked.speed_mps.is_some()));
+    let due = due_step as f64 * STEP_S;
+    put("goal.time_s", due, if asked.time_s.is_some() { Source::User } else { Source::Default });
+    Resolved { agent_type: present.agent_type, fields, reach, intermediate }
 }
 
-fn reach_report(actor: &Actor, motion: &Motion) -> ReachReport {
+/// Verdict of one window on what it was asked. `since_s` is the scene time of a later window's start:
+/// its words are about the way from there.
+pub(super) fn reach_report(actor: &Actor, motion: &Motion, since_s: Option<f64>) -> ReachReport {
     match &motion.reach {
         Reach::Reached(r) => ReachReport::Reached {
             position_m: r.position_m,
             heading_rad: r.heading_rad,
             speed_mps: r.speed_mps,
         },
-        Reach::Unreachable { nearest, limiting, needs, .. } => ReachReport::Unreachable {
-            nearest: nearest.into(),
-            limiting: limit_name(*limiting).to_owned(),
-            needs: *needs,
-            words: words(actor, nearest, *limiting, *needs),
-        },
+        Reach::Unreachable { nearest, limiting, needs, .. } => {
+            let words = words(actor, nearest, *limiting, *needs);
+            let words = since_s.map_or(words.clone(), |s| format!("From {s:.1} s on: {words}"));
+            ReachReport::Unreachable {
+                nearest: nearest.into(),
+                limiting: limit_name(*limiting).to_owned(),
+                needs: *needs,
+                words,
+            }
+        }
     }
 }
 
@@ -122,12 +142,17 @@ fn words(actor: &Actor, nearest: &MotionState, limiting: Limiting, needs: Option
     }
 }
 
-/// Unlikely starts and goals: done anyway, but said.
-pub(super) fn warnings(world: &World<'_>, actors: &[Actor]) -> Vec<Warning> {
+/// Unlikely starts and goals: done anyway, but said. `world` is that of the first window, `asked` gives
+/// what the user fixed about a road user and after how many steps its goal is due.
+pub(super) fn warnings<'a>(
+    world: &World<'_>,
+    actors: &[Actor],
+    asked: impl Fn(usize) -> (&'a Conditions, usize),
+) -> Vec<Warning> {
     let mut out = Vec::new();
     for actor in actors {
         let present = &actor.planned.present;
-        let conditions = &world.conditions[present.index];
+        let (conditions, due) = asked(present.index);
         let mut warn = |code: &str, detail: String| {
             out.push(Warning { code: code.to_owned(), agent: Some(actor.id.clone()), detail });
         };
@@ -141,7 +166,7 @@ pub(super) fn warnings(world: &World<'_>, actors: &[Actor]) -> Vec<Warning> {
                 warn("goal-off-road", "There is no lane within 6 m of the goal.".into());
             }
             let distance = (position - present.start.position()).norm();
-            let seconds = actor.planned.target.step as f64 * STEP_S;
+            let seconds = due as f64 * STEP_S;
             if distance > 1.1 * seconds * actor.planned.model.limits.speed_mps.max(present.start.speed_mps())
             {
                 warn(

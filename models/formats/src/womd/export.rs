@@ -102,6 +102,10 @@ pub fn scenario(scene: &Scene, mode: Mode) -> (Scenario, Vec<Loss>) {
     };
     let ends = scene.agents.iter().filter_map(chosen).map(|f| f.first_step + f.states.len());
     let steps = ends.fold(scene.time.steps, usize::max);
+    if steps > scene.time.steps {
+        let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
+        losses.push(Loss::new(code::LONG_RECORD, detail));
+    }
     let tracks: Vec<Track> = scene
         .agents
         .iter()

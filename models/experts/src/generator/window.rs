@@ -1,31 +1,27 @@
-//! One call: accepted, first drafts, refinement steps, then the chosen scene.
+//! One planning window: first drafts of everybody concerned, refinement steps, then one future each so
+//! that the scene is coherent. What happens before and after it is [`super::rollout`]'s matter.
 
 use super::actor::{Actor, Role, come_near, kept_boxes, kept_state, kept_states};
 use super::choice::{Choice, Choosable, medoid_costs, swept};
 use super::noise::Key;
 use super::realise::{Motion, PER_INSTANT, may_rest, places, realise, rest};
-use super::{EncodedMap, Generator, parallel, report};
+use super::{EncodedMap, Generator, parallel};
 use crate::features::world::{Present, World};
 use crate::features::{INSTANTS, MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::{Growth, Obstacle, Poses, Pullback, overlap};
 use crate::net::{Context, NetError, Prepared, schedule};
-use crate::request::{
-    Accepted, Answer, Cancel, Draft, Event, GenerateError, React, Request, Resolved, Timings, Warning,
-};
+use crate::request::{Draft, GenerateError, React, Request};
 use scene::geometry::direction;
 use scene::motion::{MotionState, Trajectory};
 use scene::routes::LaneGraph;
 use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, Scene, State, Vec2};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Most road users that get new futures in one call.
-const MOST_ACTORS: usize = 128;
+pub(super) const MOST_ACTORS: usize = 128;
 /// Most road users for which every mode is shown while it refines; above, the likeliest alone.
 const SHOW_ALL_BELOW: usize = 5;
-/// A start within this of the regenerated ones may react at all, metres.
-const REACT_WITHIN_M: f64 = 120.0;
 /// Steps of guidance on a conflicting draft, and the share of the push taken at each.
 const GUIDANCE: (usize, f32) = (12, 0.35);
 
@@ -41,25 +37,61 @@ struct Batch {
     prepared: Prepared,
 }
 
-enum Stage {
-    Accept,
-    Initial,
-    Step(usize),
-    Finish,
-    Done,
+impl From<NetError> for GenerateError {
+    fn from(error: NetError) -> Self {
+        Self::Expert(error.to_string())
+    }
 }
 
-/// A call under way: yields events until the final one.
-pub struct Generation<'g> {
+/// What a window is planned from. Road users are indices into the scene's agents.
+pub(super) struct Spec<'a> {
+    /// From 0.
+    pub(super) number: usize,
+    /// Scene step at which the window starts.
+    pub(super) step: usize,
+    /// The scene as it stands at that step: states reached, conditions that hold from here on.
+    pub(super) scene: Arc<Scene>,
+    /// Those that get new futures in any case.
+    pub(super) moving: Vec<(usize, Role)>,
+    /// Those that may answer them.
+    pub(super) candidates: &'a BTreeSet<usize>,
+    /// Those among the moving that were parked when the call began: they stay.
+    pub(super) parked: &'a BTreeSet<usize>,
+}
+
+/// What a window decided for one road user.
+pub(super) struct Decided {
+    /// Index into the scene's agents.
+    pub(super) agent: usize,
+    /// Index into [`Window::actors`].
+    pub(super) actor: usize,
+    /// Index into `motions`.
+    pub(super) chosen: usize,
+    /// Probability, slot and motion, at most as many as were asked for.
+    pub(super) motions: Vec<(f64, usize, Motion)>,
+}
+
+impl Decided {
+    /// The motion that is shown.
+    pub(super) fn motion(&self) -> &Motion {
+        &self.motions[self.chosen].2
+    }
+
+    /// The road user stays where it is.
+    pub(super) fn rests(&self) -> bool {
+        self.motions[self.chosen].1 == usize::MAX
+    }
+}
+
+/// One planning window of one call.
+pub(super) struct Window<'g> {
     generator: &'g Generator,
-    request: Request,
-    cancel: Cancel,
+    request: Arc<Request>,
     scene: Arc<Scene>,
     map: Arc<EncodedMap>,
-    stage: Stage,
-    regenerated: BTreeSet<usize>,
-    candidates: BTreeSet<usize>,
-    actors: Vec<Actor>,
+    number: usize,
+    step: usize,
+    pub(super) actors: Vec<Actor>,
     batches: Vec<Batch>,
     drafts: Vec<Residuals>,
     /// Slots by falling probability, one list an actor.
@@ -67,121 +99,66 @@ pub struct Generation<'g> {
     /// The mode that stands for each actor while the others refine.
     standing_for: Vec<usize>,
     sample: usize,
-    samples: Vec<Sample>,
-    resolved: BTreeMap<AgentId, Resolved>,
-    warnings: Vec<Warning>,
-    timings: Timings,
     pullback: Pullback,
 }
 
-impl From<NetError> for GenerateError {
-    fn from(error: NetError) -> Self {
-        Self::Expert(error.to_string())
-    }
-}
-
-fn milliseconds(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
-}
-
-impl<'g> Generation<'g> {
-    pub(super) fn new(
+impl<'g> Window<'g> {
+    /// First drafts of everybody concerned; [`Window::begin_sample`] comes next.
+    pub(super) fn plan(
         generator: &'g Generator,
-        request: Request,
-        cancel: Cancel,
+        request: Arc<Request>,
+        map: Arc<EncodedMap>,
+        spec: Spec<'_>,
     ) -> Result<Self, GenerateError> {
-        let scene = request.scene.clone();
-        let started = Instant::now();
-        let map = generator.encoded_map(&scene.map);
-        let world = World::new(&scene, map.index.clone(), request.start_step);
-        let movable: BTreeSet<usize> =
-            world.present.iter().filter(|p| p.agent_type != AgentType::Other).map(|p| p.index).collect();
-        let regenerated = match &request.agents {
-            None => movable.clone(),
-            Some(ids) => find(&scene, &movable, ids)?,
-        };
-        let candidates = match &request.react {
-            React::Nobody => BTreeSet::new(),
-            React::Everyone => within_reach(&world, &movable, &regenerated),
-            React::Only(ids) => find(&scene, &movable, ids)?.difference(&regenerated).copied().collect(),
-        };
-        let found = regenerated.len();
-        if found > MOST_ACTORS {
-            return Err(GenerateError::TooManyAgents { found, most: MOST_ACTORS });
-        }
-        drop(world);
-        let timings = Timings { encode_ms: milliseconds(started), ..Timings::default() };
-        Ok(Self {
+        let mut window = Self {
             generator,
             request,
-            cancel,
-            scene,
+            scene: spec.scene,
             map,
-            stage: Stage::Accept,
-            regenerated,
-            candidates,
+            number: spec.number,
+            step: spec.step,
             actors: Vec::new(),
             batches: Vec::new(),
             drafts: Vec::new(),
             order: Vec::new(),
             standing_for: Vec::new(),
             sample: 0,
-            samples: Vec::new(),
-            resolved: BTreeMap::new(),
-            warnings: Vec::new(),
-            timings,
             pullback: Pullback::default(),
-        })
-    }
-
-    fn world(&self) -> World<'_> {
-        World::new(&self.scene, self.map.index.clone(), self.request.start_step)
-    }
-
-    fn accept(&self) -> Accepted {
-        let ids = |set: &BTreeSet<usize>| set.iter().map(|i| self.scene.agents[*i].id.clone()).collect();
-        let moved = |i: &usize| self.regenerated.contains(i) || self.candidates.contains(i);
-        let fixed: BTreeSet<usize> = (0..self.scene.agents.len()).filter(|i| !moved(i)).collect();
-        Accepted {
-            seed: self.request.seed,
-            regenerated: ids(&self.regenerated),
-            reacting: ids(&self.candidates),
-            fixed: ids(&fixed),
-            steps: self.request.steps,
-            windows: 1,
-            warnings: Vec::new(),
-        }
-    }
-
-    /// First drafts of everybody concerned.
-    fn initial(&mut self) -> Result<Draft, GenerateError> {
-        let started = Instant::now();
-        let scene = self.scene.clone();
-        let world = World::new(&scene, self.map.index.clone(), self.request.start_step);
-        let wanted: Vec<_> = world.present.iter().filter(|p| self.regenerated.contains(&p.index)).collect();
-        let mut actors = parallel::map(self.generator.threads(), &wanted, |who| {
-            Actor::regenerated(&world, who, Role::Regenerated)
+        };
+        let scene = window.scene.clone();
+        let world = World::new(&scene, window.map.index.clone(), spec.step);
+        let role = |index| spec.moving.iter().find(|m| m.0 == index).map(|m| m.1);
+        let wanted: Vec<_> =
+            world.present.iter().filter_map(|p| role(p.index).map(|role| (p, role))).collect();
+        let mut actors = parallel::map(generator.threads(), &wanted, |(who, role)| {
+            let mut actor = Actor::regenerated(&world, who, *role);
+            if spec.number > 0 {
+                actor.goes_on(spec.parked.contains(&who.index));
+            }
+            actor
         });
-        let mut batches = self.encode(&mut actors, 0)?;
+        let mut batches = window.encode(&mut actors, 0)?;
         for actor in &mut actors {
-            actor.pinned = self.request.pinned.get(&actor.id).cloned();
+            actor.pinned = window.request.pinned.get(&actor.id).cloned();
         }
-        let mut reacting = self.reacting(&world, &actors);
+        let mut reacting = window.reacting(&world, &actors, spec.candidates);
         let first = actors.len();
-        batches.extend(self.encode(&mut reacting, first)?);
+        batches.extend(window.encode(&mut reacting, first)?);
         actors.extend(reacting);
-        self.warnings = report::warnings(&world, &actors);
-        self.batches = batches;
-        self.actors = actors;
-        self.order = self.actors.iter().map(|a| by_probability(&a.probability)).collect();
-        self.begin_sample()?;
-        self.timings.initial_ms = milliseconds(started);
-        Ok(self.draft(0))
+        window.order = actors.iter().map(|a| by_probability(&a.probability)).collect();
+        window.batches = batches;
+        window.actors = actors;
+        Ok(window)
+    }
+
+    /// The scene at the window's start.
+    pub(super) fn world(&self) -> World<'_> {
+        World::new(&self.scene, self.map.index.clone(), self.step)
     }
 
     /// Candidates that come near what the regenerated ones are about to do.
-    fn reacting(&self, world: &World<'_>, actors: &[Actor]) -> Vec<Actor> {
-        if self.candidates.is_empty() {
+    fn reacting(&self, world: &World<'_>, actors: &[Actor], candidates: &BTreeSet<usize>) -> Vec<Actor> {
+        if candidates.is_empty() {
             return Vec::new();
         }
         let paths: Vec<(Vec<Vec2>, f64)> = actors
@@ -194,8 +171,7 @@ impl<'g> Generation<'g> {
                 (path, a.planned.present.size.length_m)
             })
             .collect();
-        let candidates: Vec<_> =
-            world.present.iter().filter(|p| self.candidates.contains(&p.index)).collect();
+        let candidates: Vec<_> = world.present.iter().filter(|p| candidates.contains(&p.index)).collect();
         let found = parallel::map(self.generator.threads(), &candidates, |who| {
             let kept = kept_states(world.scene, world.agent(who), world.step);
             let asked = matches!(self.request.react, React::Only(_));
@@ -242,8 +218,8 @@ impl<'g> Generation<'g> {
                 }
                 actor.stays_probability = stays_in_the_world(f64::from(said.stays[row]));
                 let free = actor.planned.target.is_free();
-                actor.rests =
-                    may_rest(&actor.planned) && (!free || actor.stays_probability > 0.5 || actor.is_parked());
+                let stays = !free || actor.stays_probability > 0.5 || actor.is_parked();
+                actor.rests = actor.stays_parked || (may_rest(&actor.planned, self.number) && stays);
             }
             let actors = members.into_iter().map(|i| i + first).collect();
             batches.push(Batch { agent_type, actors, prepared });
@@ -252,9 +228,10 @@ impl<'g> Generation<'g> {
     }
 
     /// Fresh drafts for the present sample: the modes with the draw's noise.
-    fn begin_sample(&mut self) -> Result<(), GenerateError> {
-        let (seed, sample) = (self.request.seed, self.sample);
-        let key = |agent, step| Key { seed, sample, agent, window: 0, step };
+    pub(super) fn begin_sample(&mut self, sample: usize) -> Result<(), GenerateError> {
+        self.sample = sample;
+        let (seed, window) = (self.request.seed, self.number);
+        let key = |agent, step| Key { seed, sample, agent, window, step };
         self.standing_for = self
             .actors
             .iter()
@@ -263,7 +240,7 @@ impl<'g> Generation<'g> {
             })
             .collect();
         self.drafts = self.actors.iter().map(|a| a.residual).collect();
-        let Some(&(level, _)) = self.levels().first() else {
+        let Some(&(level, _)) = levels(&self.request).first() else {
             return Ok(());
         };
         for batch in &self.batches {
@@ -283,9 +260,8 @@ impl<'g> Generation<'g> {
     }
 
     /// One refinement step for everybody.
-    fn step(&mut self, step: usize) -> Result<(), GenerateError> {
-        let started = Instant::now();
-        let Some(&level) = self.levels().get(step - 1) else { return Ok(()) };
+    pub(super) fn refine(&mut self, step: usize) -> Result<(), GenerateError> {
+        let Some(&level) = levels(&self.request).get(step - 1) else { return Ok(()) };
         let pushes = self.pushes();
         let drafts = &self.drafts;
         let results = parallel::map(self.generator.threads(), &self.batches, |batch| {
@@ -299,9 +275,6 @@ impl<'g> Generation<'g> {
                 finite(&draft, step, &self.actors[*i].id)?;
                 self.drafts[*i] = draft;
             }
-        }
-        if self.sample == 0 {
-            self.timings.step_ms.push(milliseconds(started));
         }
         Ok(())
     }
@@ -372,7 +345,7 @@ impl<'g> Generation<'g> {
     }
 
     /// The present drafts as futures that can be shown.
-    fn draft(&self, step: usize) -> Draft {
+    pub(super) fn draft(&self, step: usize) -> Draft {
         let all = self.request.stream_all || self.actors.len() < SHOW_ALL_BELOW;
         let indices: Vec<usize> = (0..self.actors.len()).collect();
         let shown = parallel::map(self.generator.threads(), &indices, |&i| {
@@ -381,7 +354,7 @@ impl<'g> Generation<'g> {
             (self.actors[i].id.clone(), self.futures(0, &motions))
         });
         Draft {
-            window: 0,
+            window: self.number,
             sample: self.sample,
             step,
             steps: self.request.steps,
@@ -395,7 +368,7 @@ impl<'g> Generation<'g> {
         let mut out = Vec::with_capacity(count + 1);
         let mut share = 1.0;
         if actor.rests {
-            let certain = !actor.planned.target.is_free();
+            let certain = self.mode_count(i) == 1;
             let p = if certain { 1.0 } else { actor.stays_probability };
             out.push((p, usize::MAX, rest(&actor.planned)));
             if certain {
@@ -410,12 +383,13 @@ impl<'g> Generation<'g> {
         out
     }
 
-    fn futures(&self, chosen: usize, motions: &[(f64, usize, Motion)]) -> AgentFutures {
+    /// Motions as futures, cut to what was asked for.
+    pub(super) fn futures(&self, chosen: usize, motions: &[(f64, usize, Motion)]) -> AgentFutures {
         let total: f64 = motions.iter().map(|m| m.0).sum();
         let modes = motions.iter().map(|(p, slot, motion)| Future {
             anchor: u32::try_from(*slot).ok(),
             probability: if total > 0.0 { p / total } else { 1.0 / motions.len() as f64 },
-            first_step: self.request.start_step + 1,
+            first_step: self.step + 1,
             states: self.cut(&motion.states),
         });
         AgentFutures { chosen, modes: modes.collect() }
@@ -423,17 +397,16 @@ impl<'g> Generation<'g> {
 
     /// The asked-for part of a rollout, the start left out.
     fn cut(&self, states: &Trajectory) -> Vec<State> {
-        states.iter().skip(1).take(self.request.horizon_steps.min(HORIZON_STEPS)).map(State::from).collect()
+        let left = self.request.start_step + self.request.horizon_steps - self.step;
+        states.iter().skip(1).take(left.min(HORIZON_STEPS)).map(State::from).collect()
     }
 
-    /// Chooses one future each and ends the sample.
-    fn finish_sample(&mut self) -> Sample {
-        let started = Instant::now();
+    /// Chooses one future each. Those that keep what they do, or whose future is pinned, are left out.
+    pub(super) fn decide(&self) -> Vec<Decided> {
         let indices: Vec<usize> = (0..self.actors.len()).collect();
         let mut motions: Vec<Vec<(f64, usize, Motion)>> =
             parallel::map(self.generator.threads(), &indices, |&i| self.motions(i, MODES));
-        let scene = self.scene.clone();
-        let world = World::new(&scene, self.map.index.clone(), self.request.start_step);
+        let world = self.world();
         let acting: BTreeSet<usize> = self.actors.iter().map(|a| a.planned.present.index).collect();
         let fixed =
             world.present.iter().filter(|p| !acting.contains(&p.index)).map(|p| kept_boxes(&world, p));
@@ -443,10 +416,10 @@ impl<'g> Generation<'g> {
         }
         let mut chosen = choice.solve();
         self.guide(&world, &mut choice, &mut motions, &mut chosen);
-        let mut sample = Sample::default();
+        let mut decided = Vec::with_capacity(self.actors.len());
         for (i, actor) in self.actors.iter().enumerate() {
             let Some(shown) = shown_motion(actor, chosen[i]) else { continue };
-            let motions = &mut motions[i];
+            let mut motions = std::mem::take(&mut motions[i]);
             // A guided motion takes the place of the mode it was made from.
             let index = match motions.get(shown) {
                 Some((_, slot, _)) if shown >= self.mode_count(i) => {
@@ -467,20 +440,15 @@ impl<'g> Generation<'g> {
                 index
             };
             motions.truncate(keep);
-            if self.sample == 0 {
-                let verdict = report::resolved(&world, actor, &motions[index].2);
-                self.resolved.insert(actor.id.clone(), verdict);
-            }
-            sample.agents.insert(actor.id.clone(), self.futures(index, motions));
+            decided.push(Decided { agent: actor.planned.present.index, actor: i, chosen: index, motions });
         }
-        self.timings.choice_ms += milliseconds(started);
-        sample
+        decided
     }
 
     /// Modes of an actor before guidance added to them.
     fn mode_count(&self, i: usize) -> usize {
         let actor = &self.actors[i];
-        if actor.rests && !actor.planned.target.is_free() { 1 } else { MODES }
+        if actor.rests && (actor.stays_parked || !actor.planned.target.is_free()) { 1 } else { MODES }
     }
 
     /// Where the chosen scene still has conflicts, drafts pushed apart become further options; the choice
@@ -551,126 +519,16 @@ impl<'g> Generation<'g> {
         }
         pushed.then(|| realise(&actor.planned, slot, &moved))
     }
-
-    fn answer(&mut self) -> Result<Answer, GenerateError> {
-        loop {
-            let sample = self.finish_sample();
-            self.samples.push(sample);
-            self.sample += 1;
-            if self.sample >= self.request.samples.max(1) {
-                break;
-            }
-            self.begin_sample()?;
-            for step in 1..=self.steps() {
-                self.stop_if_cancelled()?;
-                self.step(step)?;
-            }
-        }
-        for (id, resolved) in &self.resolved {
-            if let crate::request::ReachReport::Unreachable { words, .. } = &resolved.reach {
-                let known = |w: &Warning| w.code == "goal-unreachable" && w.agent.as_ref() == Some(id);
-                if !self.warnings.iter().any(known) {
-                    let agent = Some(id.clone());
-                    self.warnings.push(Warning {
-                        code: "goal-unreachable".into(),
-                        agent,
-                        detail: words.clone(),
-                    });
-                }
-            }
-        }
-        Ok(Answer {
-            samples: std::mem::take(&mut self.samples),
-            resolved: std::mem::take(&mut self.resolved),
-            warnings: std::mem::take(&mut self.warnings),
-            timings: std::mem::take(&mut self.timings),
-        })
-    }
-
-    /// Levels of the refinement steps: from the leapfrog start, or from as high up as many steps need.
-    fn levels(&self) -> Vec<(usize, usize)> {
-        schedule::ddim(schedule::START.max(self.request.steps), self.request.steps)
-    }
-
-    /// Refinement steps.
-    fn steps(&self) -> usize {
-        self.levels().len()
-    }
-
-    fn stop_if_cancelled(&self) -> Result<(), GenerateError> {
-        if self.cancel.is_cancelled() { Err(GenerateError::Cancelled) } else { Ok(()) }
-    }
-
-    fn advance(&mut self) -> Result<Event, GenerateError> {
-        self.stop_if_cancelled()?;
-        match self.stage {
-            Stage::Accept => {
-                self.stage = Stage::Initial;
-                Ok(Event::Accepted(self.accept()))
-            }
-            Stage::Initial => {
-                let draft = self.initial()?;
-                self.stage = if self.steps() > 0 { Stage::Step(1) } else { Stage::Finish };
-                Ok(Event::Draft(draft))
-            }
-            Stage::Step(step) => {
-                self.step(step)?;
-                self.stage = if step < self.steps() { Stage::Step(step + 1) } else { Stage::Finish };
-                Ok(Event::Draft(self.draft(step)))
-            }
-            Stage::Finish | Stage::Done => {
-                self.stage = Stage::Done;
-                Ok(Event::Final(self.answer()?))
-            }
-        }
-    }
 }
 
-impl Iterator for Generation<'_> {
-    type Item = Result<Event, GenerateError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if matches!(self.stage, Stage::Done) {
-            return None;
-        }
-        let event = self.advance();
-        if event.is_err() {
-            self.stage = Stage::Done;
-        }
-        Some(event)
-    }
+/// Levels of the refinement steps: from the leapfrog start, or from as high up as many steps need.
+fn levels(request: &Request) -> Vec<(usize, usize)> {
+    schedule::ddim(schedule::START.max(request.steps), request.steps)
 }
 
-/// Indices of agents by id; all must be able to move.
-fn find(
-    scene: &Scene,
-    movable: &BTreeSet<usize>,
-    ids: &BTreeSet<AgentId>,
-) -> Result<BTreeSet<usize>, GenerateError> {
-    ids.iter()
-        .map(|id| {
-            let index = scene.agents.iter().position(|a| a.id == *id);
-            let index = index.ok_or_else(|| GenerateError::UnknownAgent(id.clone()))?;
-            let missing = GenerateError::StartMissing { agent: id.clone(), field: "position" };
-            movable.contains(&index).then_some(index).ok_or(missing)
-        })
-        .collect()
-}
-
-fn within_reach(
-    world: &World<'_>,
-    movable: &BTreeSet<usize>,
-    regenerated: &BTreeSet<usize>,
-) -> BTreeSet<usize> {
-    let starts: Vec<Vec2> =
-        world.present.iter().filter(|p| regenerated.contains(&p.index)).map(|p| p.start.position()).collect();
-    world
-        .present
-        .iter()
-        .filter(|p| movable.contains(&p.index) && !regenerated.contains(&p.index))
-        .filter(|p| starts.iter().any(|s| (s - p.start.position()).norm() < REACT_WITHIN_M))
-        .map(|p| p.index)
-        .collect()
+/// Refinement steps of a call.
+pub(super) fn steps(request: &Request) -> usize {
+    levels(request).len()
 }
 
 fn by_probability(probability: &[f64; MODES]) -> [usize; MODES] {

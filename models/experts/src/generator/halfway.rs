@@ -1,0 +1,144 @@
+//! Goals that are due after a window's end: where to be by then, on the way to them.
+
+use crate::features::world::{Present, World};
+use crate::request::NearestState;
+use scene::motion::{Kind, MotionModel};
+use scene::routes::{EndPose, GoalQuery, Polyline, base_path, routes_to_goal};
+use scene::{Goal, HORIZON_STEPS, STEP_S, Vec2};
+
+/// A later window needs so many steps to turn into a heading that no place goes with.
+const TURN_STEPS: usize = 30;
+/// Closer than this to its goal, what stands is there, metres.
+const THERE_M: f64 = 0.05;
+
+/// The state at the window's end on the way to a goal that is due `left` steps after the window's start,
+/// more than a window has. The way is the lanes' where they lead to the goal, else a straight line; the
+/// acceleration along it is constant (or changes evenly where the goal fixes the speed too).
+pub(super) fn on_the_way(world: &World<'_>, who: &Present, goal: &Goal, left: usize) -> NearestState {
+    let model = world.model(who);
+    let v0 = model.start_speed_mps();
+    let Some(position) = goal.position else {
+        return changing(who, v0, goal, left);
+    };
+    let distance_m = (position - who.start.position()).norm();
+    if distance_m < THERE_M && v0 < THERE_M {
+        return NearestState {
+            x_m: position.x,
+            y_m: position.y,
+            heading_rad: goal.heading_rad.unwrap_or(who.start.heading_rad),
+            speed_mps: 0.0,
+        };
+    }
+    let path = path_to(world, who, &model, goal, position);
+    let (along_m, speed_mps) = travelled(v0, &model, path.length_m(), goal.speed_mps, left);
+    let pose = path.sample(along_m);
+    NearestState { x_m: pose.position.x, y_m: pose.position.y, heading_rad: pose.heading_rad, speed_mps }
+}
+
+/// What a window is asked so that it ends in a state on the way: without a place to go to, where it goes
+/// stays free, and its heading too while there is time to turn later.
+pub(super) fn as_goal(state: &NearestState, kind: Kind, goal: &Goal, left: usize, time_s: f64) -> Goal {
+    let placed = goal.position.is_some();
+    let turns = goal.heading_rad.is_some() && left < HORIZON_STEPS + TURN_STEPS;
+    // Feet turn where they walk; wheels have to be led onto the way.
+    let led = if placed { kind == Kind::Drive } else { turns };
+    Goal {
+        position: placed.then(|| state.position()),
+        heading_rad: led.then_some(state.heading_rad),
+        speed_mps: (placed || goal.speed_mps.is_some()).then_some(state.speed_mps),
+        time_s: Some(time_s),
+    }
+}
+
+/// A goal that fixes no place: its speed is approached evenly, its heading held in view.
+fn changing(who: &Present, v0: f64, goal: &Goal, left: usize) -> NearestState {
+    let share = HORIZON_STEPS as f64 / left as f64;
+    let speed_mps = goal.speed_mps.map_or(v0, |v| v0 + (v - v0) * share);
+    let start = &who.start;
+    let heading_rad = goal.heading_rad.unwrap_or(start.heading_rad);
+    NearestState { x_m: start.x_m, y_m: start.y_m, heading_rad, speed_mps }
+}
+
+fn path_to(world: &World<'_>, who: &Present, model: &MotionModel, goal: &Goal, position: Vec2) -> Polyline {
+    let straight = || Polyline::new([who.start.position(), position]);
+    if model.kind == Kind::Walk {
+        return straight();
+    }
+    let v0 = model.start_speed_mps();
+    let query = GoalQuery {
+        pose: who.pose(),
+        speed_mps: v0,
+        agent_type: who.agent_type,
+        goal: position,
+        goal_heading_rad: goal.heading_rad,
+        least_effort_m: None,
+    };
+    let end = EndPose { position, heading_rad: goal.heading_rad };
+    match routes_to_goal(&world.map.graph, &query).into_iter().next() {
+        Some(found) => base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end)),
+        None => straight(),
+    }
+}
+
+/// Metres along the way and speed after one window, for a way of `length_m` that takes `left` steps.
+/// Nobody goes backwards along it, and nobody goes faster than its kind can.
+fn travelled(v0: f64, model: &MotionModel, length_m: f64, end: Option<f64>, left: usize) -> (f64, f64) {
+    let seconds = left as f64 * STEP_S;
+    let top = model.limits.speed_mps.max(v0);
+    let speed = |shape: f64, t: f64| {
+        let wished = match end {
+            Some(end) => v0 + (end - v0) * t / seconds + shape * t * (seconds - t),
+            None => v0 + shape * t,
+        };
+        wished.clamp(0.0, top)
+    };
+    let after = |shape: f64, steps: usize| -> f64 {
+        (0..steps).map(|i| speed(shape, (i as f64 + 0.5) * STEP_S) * STEP_S).sum()
+    };
+    // The distance rises with the shape; 40 halvings of this span leave less than a micrometre.
+    let (mut low, mut high) = (-30.0, 30.0);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if after(middle, left) < length_m { low = middle } else { high = middle }
+    }
+    let steps = HORIZON_STEPS.min(left);
+    (after(high, steps).min(length_m), speed(high, steps as f64 * STEP_S))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::{AgentType, Size, State, Subtype};
+
+    fn car(v0: f64) -> MotionModel {
+        let start = State { vx_mps: v0, ..State::default() };
+        MotionModel::new(
+            AgentType::Vehicle,
+            Subtype::Car,
+            Size::default_for(AgentType::Vehicle, Subtype::Car),
+            start,
+        )
+    }
+
+    #[test]
+    fn acceleration_is_constant_and_the_rest_of_the_way_fits_the_rest_of_the_time() {
+        let (along, speed) = travelled(8.0, &car(8.0), 220.0, None, 200);
+        // s = 8 t + a t^2 / 2 over 20 s: a = 0.3.
+        assert!((along - (8.0 * 9.0 + 0.15 * 81.0)).abs() < 1e-3, "{along}");
+        assert!((speed - 10.7).abs() < 1e-3, "{speed}");
+    }
+
+    #[test]
+    fn stopping_short_ends_at_the_goal_and_does_not_roll_back() {
+        let (along, speed) = travelled(10.0, &car(10.0), 30.0, None, 150);
+        assert!((along - 30.0).abs() < 1e-3 && speed == 0.0, "{along} {speed}");
+    }
+
+    #[test]
+    fn both_ends_of_the_speed_are_kept() {
+        let (along, speed) = travelled(10.0, &car(10.0), 120.0, Some(2.0), 180);
+        // Mean of 10 and 2 over 18 s is 108 m; the other 12 m are a parabola's, half of it by half time.
+        assert!((along - (0.5 * (10.0 + 6.0) * 9.0 + 6.0)).abs() < 1e-2, "{along}");
+        assert!((speed - (6.0 + 12.0 * 6.0 / (18.0 * 18.0 * 18.0) * 81.0)).abs() < 1e-2, "{speed}");
+    }
+}
