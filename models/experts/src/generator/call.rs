@@ -10,7 +10,7 @@ use crate::features::{INSTANTS, MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::{Growth, Obstacle, Poses, Pullback, overlap};
 use crate::net::{Context, NetError, Prepared, schedule};
 use crate::request::{
-    Accepted, Answer, Cancel, Draft, Event, GenerateError, React, Request, Resolved, Timings, Warning,
+    Accepted, Answer, Cancel, Draft, Event, GenerateError, React, Request, Resolved, Shown, Timings, Warning,
 };
 use scene::geometry::direction;
 use scene::motion::{MotionState, Trajectory};
@@ -254,14 +254,23 @@ impl<'g> Generation<'g> {
     /// Fresh drafts for the present sample: the modes with the draw's noise.
     fn begin_sample(&mut self) -> Result<(), GenerateError> {
         let (seed, sample) = (self.request.seed, self.sample);
+        let likeliest = match self.request.stages.shown {
+            Shown::Chosen => sample == 0,
+            Shown::Likeliest => true,
+            Shown::Drawn => false,
+        };
         let key = |agent, step| Key { seed, sample, agent, window: 0, step };
-        self.standing_for = self
-            .actors
-            .iter()
-            .map(|a| {
-                if sample == 0 { a.likeliest() } else { pick(&a.probability, key(&a.id, usize::MAX).unit()) }
-            })
-            .collect();
+        self.standing_for =
+            self.actors
+                .iter()
+                .map(|a| {
+                    if likeliest {
+                        a.likeliest()
+                    } else {
+                        pick(&a.probability, key(&a.id, usize::MAX).unit())
+                    }
+                })
+                .collect();
         self.drafts = self.actors.iter().map(|a| a.residual).collect();
         let Some(&(level, _)) = self.levels().first() else {
             return Ok(());
@@ -441,8 +450,13 @@ impl<'g> Generation<'g> {
         for (actor, motions) in self.actors.iter().zip(&motions) {
             choice.agents.push(options(actor, motions, &self.map.index.graph));
         }
-        let mut chosen = choice.solve();
-        self.guide(&world, &mut choice, &mut motions, &mut chosen);
+        let mut chosen = match self.request.stages.shown {
+            Shown::Chosen => choice.solve(),
+            Shown::Likeliest | Shown::Drawn => self.unchosen(&motions, &choice),
+        };
+        if self.request.stages.guidance {
+            self.guide(&world, &mut choice, &mut motions, &mut chosen);
+        }
         let mut sample = Sample::default();
         for (i, actor) in self.actors.iter().enumerate() {
             let Some(shown) = shown_motion(actor, chosen[i]) else { continue };
@@ -475,6 +489,21 @@ impl<'g> Generation<'g> {
         }
         self.timings.choice_ms += milliseconds(started);
         sample
+    }
+
+    /// Options that are shown when nothing is chosen: each road user's own, whatever the others do.
+    fn unchosen(&self, motions: &[Vec<(f64, usize, Motion)>], choice: &Choice) -> Vec<usize> {
+        let option = |(i, motions): (usize, &Vec<(f64, usize, Motion)>)| {
+            let actor = &self.actors[i];
+            // Options of a reacting road user begin with the motion it keeps.
+            if actor.pinned.is_some() || actor.kept.is_some() || actor.rests {
+                return 0;
+            }
+            let slot = self.standing_for[i];
+            let found = motions.iter().position(|m| m.1 == slot).unwrap_or(0);
+            found.min(choice.agents[i].len().saturating_sub(1))
+        };
+        motions.iter().enumerate().map(option).collect()
     }
 
     /// Modes of an actor before guidance added to them.
