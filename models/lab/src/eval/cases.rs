@@ -154,3 +154,37 @@ pub fn blind(scene: &Scene) -> Scene {
     out.signals.retain(|signal| !signal.runs.is_empty());
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{log, scene, shifted};
+    use super::*;
+    use scene::{Signal, SignalState};
+
+    #[test]
+    fn a_blind_scene_knows_nothing_of_the_future() {
+        let mut first = scene(vec![log("a", 8.0, 91), shifted(log("b", 5.0, 91), 30.0, 3.5)]);
+        let runs = vec![(0, SignalState::Go), (40, SignalState::Stop)];
+        first.signals.push(Signal { lane: "a".into(), stop: None, stop_z_m: None, runs });
+        let mut other = first.clone();
+        for agent in &mut other.agents {
+            for state in agent.track.states.iter_mut().skip(1).flatten() {
+                (state.x_m, state.vx_mps) = (state.x_m + 17.0, 0.0);
+            }
+        }
+        other.signals[0].runs[1] = (20, SignalState::Caution);
+        // A signal that is first heard of later is not there yet.
+        let late = Signal { runs: vec![(7, SignalState::Stop)], ..first.signals[0].clone() };
+        other.signals.push(late);
+        assert_eq!(blind(&first), blind(&other));
+        assert_eq!(blind(&first).agents[0].track.valid_steps().collect::<Vec<_>>(), [0]);
+    }
+
+    #[test]
+    fn cases_move_and_are_seen() {
+        let mut short = log("short", 8.0, 91);
+        short.track.states.truncate(25);
+        let cases = cases(&scene(vec![log("stands", 0.0, 91), log("moves", 1.0, 91), short]));
+        assert_eq!(cases.iter().map(|c| (c.agent, c.goal_step)).collect::<Vec<_>>(), [(1, 90)]);
+    }
+}

@@ -135,8 +135,12 @@ pub fn is_met([position_m, heading_rad, speed_mps]: [f64; 3]) -> bool {
     position_m < 0.05 && heading_rad < 0.02 && speed_mps < 0.05
 }
 
-/// Whether a future breaks a limit of its road user.
+/// Whether a future breaks a limit of its road user. Exact rest breaks none: what little speed a standing
+/// start has is the detector's.
 pub fn is_outside_limits(agent: &Agent, start: &State, future: &Future) -> bool {
+    if start.speed_mps() < STANDING_MPS && future.states.iter().all(|s| s.position() == start.position()) {
+        return false;
+    }
     let model = MotionModel::new(agent.agent_type, agent.subtype, agent.size, *start);
     let states = std::iter::once(start).chain(&future.states);
     let trajectory: Vec<MotionState> = states
@@ -204,6 +208,9 @@ mod tests {
         let log = log("a", 10.0, 91);
         let start = log.state_at(0).unwrap();
         assert!(!is_outside_limits(&log, &start, &straight(1.0, 10.0, 0.0)));
+        let slow = State { vx_mps: 0.25, ..start };
+        let rest = Future { states: vec![State { vx_mps: 0.0, ..start }; 90], ..straight(1.0, 0.0, 0.0) };
+        assert!(!is_outside_limits(&log, &slow, &rest));
         // From 10 to 30 m/s in one step.
         assert!(is_outside_limits(&log, &start, &straight(1.0, 30.0, 0.0)));
     }

@@ -132,9 +132,9 @@ impl Sheet {
         let head: Vec<String> = self.keys.iter().cloned().chain(n).chain(self.columns.clone()).collect();
         let _ = writeln!(out, "| {} |\n|{}", head.join(" | "), "---|".repeat(head.len()));
         for line in &self.lines {
-            let most = samples(line);
-            let n = counted.then(|| if most > 0 { most.to_string() } else { "-".into() });
-            let cells = line.cells.iter().map(|c| c.markdown(most));
+            let own = samples(line);
+            let n = counted.then(|| if own > 0 { own.to_string() } else { "-".into() });
+            let cells = line.cells.iter().map(|c| c.markdown(own));
             let all: Vec<String> = line.keys.iter().cloned().chain(n).chain(cells).collect();
             let _ = writeln!(out, "| {} |", all.join(" | "));
         }
@@ -143,13 +143,13 @@ impl Sheet {
     }
 }
 
-/// Greatest sample count of a line's figures.
+/// Sample count of a line's first figure; others say theirs where it is another.
 fn samples(line: &Line) -> u64 {
     let of = |cell: &Cell| match cell {
-        Cell::Estimate { estimate, .. } => estimate.samples,
-        _ => 0,
+        Cell::Estimate { estimate, .. } => Some(estimate.samples),
+        _ => None,
     };
-    line.cells.iter().map(of).max().unwrap_or(0)
+    line.cells.iter().find_map(of).unwrap_or(0)
 }
 
 #[cfg(test)]

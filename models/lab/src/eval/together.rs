@@ -208,3 +208,47 @@ pub struct Meeting {
 pub fn logged_pairs(site: &Site<'_>) -> BTreeSet<(usize, usize)> {
     Boxes::new(site, &motions_of_log(site)).meetings().into_iter().map(|m| m.pair).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::measure::likeliest;
+    use super::super::samples::{log, scene, shifted};
+    use super::*;
+    use ::scene::Vec2;
+    use experts::Shown;
+
+    #[test]
+    fn what_is_shown_follows_the_stages() {
+        let scene = scene(vec![log("a", 8.0, 91), shifted(log("b", 7.0, 91), 30.0, 3.5)]);
+        let site = Site::new(0, &scene);
+        let generator = Generator::random(3).unwrap().with_threads(1);
+        let shown = |shown, guidance, steps, seed| {
+            let stages = Stages { shown, guidance };
+            let ask = Ask { steps, diversity: 0.0, stages, ..Ask::shipped(false, seed) };
+            scenes(&generator, &site, ask).unwrap().remove(0)
+        };
+        for futures in shown(Shown::Likeliest, false, 0, 1).agents.values() {
+            assert_eq!(futures.chosen, likeliest(&futures.modes));
+        }
+        // Drawn ones repeat for a seed, and other seeds draw others.
+        let draws: BTreeSet<Vec<usize>> = (0..8)
+            .map(|seed| {
+                let sample = shown(Shown::Drawn, false, 0, seed);
+                assert_eq!(sample, shown(Shown::Drawn, false, 0, seed));
+                sample.agents.values().map(|f| f.chosen).collect()
+            })
+            .collect();
+        assert!(draws.len() > 1);
+    }
+
+    #[test]
+    fn what_stands_is_asked_to_stay() {
+        let scene = scene(vec![log("a", 8.0, 91), shifted(log("b", 0.0, 91), 30.0, 9.0)]);
+        let site = Site::new(0, &scene);
+        assert_eq!(generated(&site), [0, 1]);
+        let goal = joint_goal(&site, 1);
+        assert_eq!((goal.position, goal.speed_mps), (Some(Vec2::new(30.0, 9.0)), Some(0.0)));
+        assert!(joint_goal(&site, 0).speed_mps.is_some_and(|v| (v - 8.0).abs() < 1e-9));
+        assert!(asked(&site, false).agents.iter().all(|a| a.conditions.goal.is_free()));
+    }
+}

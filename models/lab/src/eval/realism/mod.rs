@@ -127,7 +127,8 @@ pub fn realism(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u6
         "4b What vehicles feel",
         &[
             "Quantiles over steps of moving vehicles above 0.5 m/s, central differences over 0.2 s: acceleration \
-           along, m/s2; lateral acceleration, absolute, m/s2; jerk, absolute, m/s3.",
+           along, m/s2; lateral acceleration, absolute, m/s2; jerk, absolute, m/s3. Positions of \
+           the log shake by centimetres, which its jerk shows.",
         ],
         &["who", "what"],
         &["1 %", "5 %", "50 %", "95 %", "99 %"],

@@ -79,3 +79,31 @@ fn factor() -> SMatrix<f64, KNOTS, KNOTS> {
     });
     covariance.cholesky().map_or_else(SMatrix::identity, |c| c.l())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::samples::{east, log};
+    use super::*;
+    use scene::Vec2;
+
+    #[test]
+    fn all_variations_meet_the_goal_and_differ() {
+        let goal = Goal { position: Some(Vec2::new(60.0, 6.0)), ..Goal::default() };
+        let (agent, start) = (log("a", 8.0, 91), east(0.0, 0.0, 8.0));
+        let all = varied(&agent, &start, &goal, 90, (1, "s"), VARIATIONS);
+        assert_eq!(all.len(), 1 + VARIATIONS);
+        assert_eq!(all[0], least_effort(&agent, &start, &goal, 90));
+        for states in &all {
+            assert!((states[89].position() - Vec2::new(60.0, 6.0)).norm() < 0.05);
+        }
+        assert!((all[1][44].position() - all[2][44].position()).norm() > 0.1);
+        assert_eq!(all, varied(&agent, &start, &goal, 90, (1, "s"), VARIATIONS));
+        assert_ne!(all, varied(&agent, &start, &goal, 90, (2, "s"), VARIATIONS));
+    }
+
+    #[test]
+    fn without_a_goal_it_goes_on_as_it_is() {
+        let states = least_effort(&log("a", 8.0, 91), &east(0.0, 0.0, 8.0), &Goal::default(), 90);
+        assert!((states[89].position() - Vec2::new(72.0, 0.0)).norm() < 1e-6);
+    }
+}
