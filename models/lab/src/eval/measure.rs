@@ -211,7 +211,11 @@ mod tests {
         let slow = State { vx_mps: 0.25, ..start };
         let rest = Future { states: vec![State { vx_mps: 0.0, ..start }; 90], ..straight(1.0, 0.0, 0.0) };
         assert!(!is_outside_limits(&log, &slow, &rest));
-        // From 10 to 30 m/s in one step.
-        assert!(is_outside_limits(&log, &start, &straight(1.0, 30.0, 0.0)));
+        // Twenty metres farther from one step to the next.
+        let mut leap = straight(1.0, 10.0, 0.0);
+        for state in leap.states.iter_mut().skip(40) {
+            state.x_m += 20.0;
+        }
+        assert!(is_outside_limits(&log, &start, &leap));
     }
 }
