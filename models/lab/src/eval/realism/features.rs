@@ -19,7 +19,8 @@ const fn number(name: &'static str, low: f64, high: f64, bins: usize, weight: f6
     Feature { name, bins: Some((low, high, bins)), weight }
 }
 
-/// The challenge's features in its order, without traffic lights.
+/// The challenge's features in its order, without traffic lights. Its bound of 3.14 is no pi.
+#[allow(clippy::approx_constant, reason = "a published number")]
 pub(super) const FEATURES: [Feature; 9] = [
     number("speed", 0.0, 25.0, 10, 0.05),
     number("acceleration", -12.0, 12.0, 11, 0.05),
