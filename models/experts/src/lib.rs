@@ -9,5 +9,5 @@ pub mod request;
 pub use generator::{Generation, Generator, WeightsError, WeightsInfo};
 pub use request::{
     Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
-    React, Request, Resolved, Source, Timings, Warning,
+    React, Request, Resolved, Shown, Source, Stages, Timings, Warning,
 };

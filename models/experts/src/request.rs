@@ -48,6 +48,35 @@ pub struct Request {
     /// Futures the user picked: kept as chosen (index into last answer's modes cannot be trusted,
     /// so the picked motion itself is given).
     pub pinned: BTreeMap<AgentId, Vec<State>>,
+    /// Parts that run; all of them but in an evaluation.
+    pub stages: Stages,
+}
+
+/// Which parts of a call run. An evaluation leaves some out to see what each brings; users get all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stages {
+    /// Which future of each road user is shown.
+    pub shown: Shown,
+    /// Futures in conflict are pushed apart and offered to the choice.
+    pub guidance: bool,
+}
+
+impl Default for Stages {
+    fn default() -> Self {
+        Self { shown: Shown::Chosen, guidance: true }
+    }
+}
+
+/// How the shown future of each road user is picked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shown {
+    /// One future each so that the scene is coherent.
+    #[default]
+    Chosen,
+    /// The most probable one, whatever the others do.
+    Likeliest,
+    /// One drawn by its probability, whatever the others do.
+    Drawn,
 }
 
 impl Request {
@@ -67,6 +96,7 @@ impl Request {
             steps: 5,
             stream_all: false,
             pinned: BTreeMap::new(),
+            stages: Stages::default(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Common, Exit, Failure, output};
 use clap::{Args, ValueEnum};
+use lab::eval::{Judged, Table};
 use lab::synthesize::{self, Options, Template};
 use lab::train::Stage;
 use scene::AgentType;
@@ -170,18 +171,52 @@ enum StageWord {
     Joint,
 }
 
-/// Flags of `eval` and `bench`.
+/// Flags of `eval`.
 #[derive(Args, Clone, Debug)]
 pub struct EvalArgs {
+    #[command(flatten)]
+    scenes: SceneArgs,
+    /// Name of the weights in the tables.
+    #[arg(long, default_value = "ours")]
+    name: String,
+    /// Further weights to judge beside them.
+    #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
+    also: Vec<(String, PathBuf)>,
+    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost.
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6],
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=6))]
+    tables: Vec<usize>,
+    /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Draws noise, resamples, drags and random pictures.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+}
+
+/// Flags of `bench`.
+#[derive(Args, Clone, Debug)]
+pub struct BenchArgs {
+    #[command(flatten)]
+    scenes: SceneArgs,
+}
+
+/// Scenes to look at.
+#[derive(Args, Clone, Debug)]
+struct SceneArgs {
     /// Files or folders of scenes in any format.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
-    /// Most files.
-    #[arg(long, default_value_t = 10_000)]
-    most: usize,
-    /// Folder for pictures of futures over the map.
-    #[arg(long, value_name = "DIR")]
-    pictures: Option<PathBuf>,
+    /// Most files, in the order of their names.
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    scenes: usize,
+}
+
+fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, folder)) if !name.is_empty() && !folder.is_empty() => Ok((name.into(), folder.into())),
+        _ => Err("NAME=DIR expected".into()),
+    }
 }
 
 /// Makes training windows.
@@ -305,27 +340,45 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Judges the experts on scenes: goals met, errors against the log, and pictures.
+/// Judges the experts on scenes: the tables to stdout as Markdown, everything to the output folder.
 ///
 /// # Errors
 /// Exit 3 when nothing can be read, 7 without weights.
 pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
-    let scenes = scenes(&args)?;
-    let generator = super::generator(common)?;
-    let reach = lab::eval::reach(&generator, &scenes).map_err(failed)?;
-    let errors = lab::eval::errors(&generator, &scenes, &lab::eval::Subset::ALL).map_err(failed)?;
-    if let Some(folder) = &args.pictures {
-        lab::eval::picture::write_all(&generator, &scenes, folder).map_err(failed)?;
+    let scenes = scenes(&args.scenes)?;
+    // Scenes are judged side by side, each on one thread.
+    let one =
+        |name: String, generator: experts::Generator| Judged { name, generator: generator.with_threads(1) };
+    let mut judged = vec![one(args.name, super::generator(common)?)];
+    for (name, folder) in args.also {
+        let common = Common { weights: Some(folder), ..common.clone() };
+        judged.push(one(name, super::generator(&common)?));
     }
-    print_json(&serde_json::json!({ "reach": reach, "errors": errors }))
+    let options = lab::eval::Options {
+        tables: args.tables.into_iter().filter_map(Table::numbered).collect(),
+        seed: args.seed,
+        pictures: args.output.is_some(),
+    };
+    let quiet = common.quiet;
+    let progress = |line: &str| {
+        if !quiet {
+            output::complain(line);
+        }
+    };
+    let report = lab::eval::run(judged, &scenes, &options, &progress).map_err(failed)?;
+    if let Some(folder) = &args.output {
+        report.write(folder).map_err(failed)?;
+    }
+    let cost = report.cost.as_ref().map(|sheet| sheet.markdown()).unwrap_or_default();
+    output::print(format!("{}{cost}", report.markdown()).as_bytes())
 }
 
 /// Times answers at one thread and at two.
 ///
 /// # Errors
 /// Exit 3 when nothing can be read, 7 without weights.
-pub fn bench(args: EvalArgs, common: &Common) -> Result<(), Failure> {
-    let scenes = scenes(&args)?;
+pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
+    let scenes = scenes(&args.scenes)?;
     let mut rows = Vec::new();
     for threads in [1, 2] {
         let generator = super::generator(common)?.with_threads(threads);
@@ -335,11 +388,17 @@ pub fn bench(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     print_json(&rows)
 }
 
-fn scenes(args: &EvalArgs) -> Result<Vec<scene::Scene>, Failure> {
+/// # Errors
+/// Exit 3 when no file holds a scene.
+fn scenes(args: &SceneArgs) -> Result<Vec<scene::Scene>, Failure> {
     let unreadable = |error: anyhow::Error| Failure::new(Exit::Input, error.to_string());
     let files = lab::prepare::scene_files(&args.inputs).map_err(unreadable)?;
-    let read = files.iter().take(args.most).map(|file| lab::prepare::read_scenes(file));
-    Ok(read.filter_map(Result::ok).flatten().collect())
+    let read = files.iter().take(args.scenes).map(|file| lab::prepare::read_scenes(file));
+    let scenes: Vec<scene::Scene> = read.filter_map(Result::ok).flatten().collect();
+    if scenes.is_empty() {
+        return Err(Failure::new(Exit::Input, "no file holds a scene that can be read"));
+    }
+    Ok(scenes)
 }
 
 fn failed(error: anyhow::Error) -> Failure {

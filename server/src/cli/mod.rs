@@ -122,10 +122,10 @@ enum Command {
     Prepare(lab::PrepareArgs),
     /// Train an expert.
     Train(lab::TrainArgs),
-    /// Judge the experts on scenes: goals met, errors against the log, pictures.
+    /// Judge the experts on scenes: tables of quality, coherence, control, realism, variety and cost, pictures.
     Eval(lab::EvalArgs),
     /// Time answers: one drag, and whole scenes.
-    Bench(lab::EvalArgs),
+    Bench(lab::BenchArgs),
 }
 
 /// Parses the command line and does what it says.

@@ -34,12 +34,14 @@ pub(super) fn swept_kept(at: impl Fn(usize) -> Option<State>, size: &Size) -> Sw
     SweptBoxes::of_states(states.iter().map(Option::as_ref), size)
 }
 
+/// Mean distance of two motions, metres.
+pub(super) fn distance(a: &Trajectory, b: &Trajectory) -> f64 {
+    let sum: f64 = (5..a.len()).step_by(5).map(|i| (a[i].position - b[i].position).norm()).sum();
+    sum / 18.0
+}
+
 /// Costs of a road user's options by themselves: expected distance to its modes over the least of them.
 pub(super) fn medoid_costs(options: &[&Trajectory], modes: &[(&Trajectory, f64)]) -> Vec<f64> {
-    let distance = |a: &Trajectory, b: &Trajectory| {
-        let sum: f64 = (5..a.len()).step_by(5).map(|i| (a[i].position - b[i].position).norm()).sum();
-        sum / 18.0
-    };
     let expected: Vec<f64> =
         options.iter().map(|o| modes.iter().map(|(m, p)| p * distance(o, m)).sum::<f64>()).collect();
     let least = expected.iter().copied().fold(f64::INFINITY, f64::min).max(0.3);

@@ -61,7 +61,26 @@ pub(super) fn realise(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL]
     if planned.model.gear == Gear::Reverse {
         return backing(planned);
     }
-    let places = places(planned, slot, residual);
+    through(planned, places(planned, slot, residual))
+}
+
+/// The motion between drafts (probability, slot, residual) on one path: their mean progress and offset.
+pub(super) fn middle(planned: &Planned, drafts: &[(f64, usize, [f32; RESIDUAL])]) -> Motion {
+    let total: f64 = drafts.iter().map(|d| d.0).sum::<f64>().max(1e-12);
+    let mut mean = [(0.0, 0.0); INSTANTS];
+    for (probability, slot, residual) in drafts {
+        let own = route_coordinates(planned, *slot, residual);
+        for (mean, own) in mean.iter_mut().zip(own) {
+            mean.0 += probability / total * own.0;
+            mean.1 += probability / total * own.1;
+        }
+    }
+    let anchor = &planned.anchors[drafts[0].1];
+    through(planned, mean.map(|(along, across)| anchor.place(along, across)))
+}
+
+/// The motion that passes near these places (box centres and the path's headings) at the instants.
+fn through(planned: &Planned, places: [(Vec2, f64); INSTANTS]) -> Motion {
     let mut samples = Vec::with_capacity(INSTANTS);
     let mut last = (planned.present.start.position(), planned.present.start.heading_rad);
     for (i, (position, path_heading)) in places.into_iter().enumerate() {

@@ -2,15 +2,15 @@
 //! that the scene is coherent. What happens before and after it is [`super::rollout`]'s matter.
 
 use super::actor::{Actor, Role, come_near, kept_boxes, kept_state, kept_states};
-use super::choice::{Choice, Choosable, medoid_costs, swept};
+use super::choice::{Choice, Choosable, distance, medoid_costs, swept};
 use super::noise::Key;
-use super::realise::{Motion, PER_INSTANT, may_rest, places, realise, rest};
+use super::realise::{Motion, PER_INSTANT, may_rest, middle, places, realise, rest};
 use super::{EncodedMap, Generator, parallel};
 use crate::features::world::{Present, World};
 use crate::features::{INSTANTS, MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::{Growth, Obstacle, Poses, Pullback, overlap};
 use crate::net::{Context, NetError, Prepared, schedule};
-use crate::request::{Draft, GenerateError, React, Request};
+use crate::request::{Draft, GenerateError, React, Request, Shown};
 use scene::geometry::direction;
 use scene::motion::{MotionState, Trajectory};
 use scene::routes::LaneGraph;
@@ -232,13 +232,15 @@ impl<'g> Window<'g> {
         self.sample = sample;
         let (seed, window) = (self.request.seed, self.number);
         let key = |agent, step| Key { seed, sample, agent, window, step };
-        self.standing_for = self
-            .actors
-            .iter()
-            .map(|a| {
-                if sample == 0 { a.likeliest() } else { pick(&a.probability, key(&a.id, usize::MAX).unit()) }
-            })
-            .collect();
+        let likeliest = match self.request.stages.shown {
+            Shown::Chosen => sample == 0,
+            Shown::Likeliest => true,
+            Shown::Drawn => false,
+        };
+        let stands_for = |a: &Actor| {
+            if likeliest { a.likeliest() } else { pick(&a.probability, key(&a.id, usize::MAX).unit()) }
+        };
+        self.standing_for = self.actors.iter().map(stands_for).collect();
         self.drafts = self.actors.iter().map(|a| a.residual).collect();
         let Some(&(level, _)) = levels(&self.request).first() else {
             return Ok(());
@@ -405,7 +407,11 @@ impl<'g> Window<'g> {
     pub(super) fn decide(&self) -> Vec<Decided> {
         let indices: Vec<usize> = (0..self.actors.len()).collect();
         let mut motions: Vec<Vec<(f64, usize, Motion)>> =
-            parallel::map(self.generator.threads(), &indices, |&i| self.motions(i, MODES));
+            parallel::map(self.generator.threads(), &indices, |&i| {
+                let mut motions = self.motions(i, MODES);
+                motions.extend(self.middles(i, &motions));
+                motions
+            });
         let world = self.world();
         let acting: BTreeSet<usize> = self.actors.iter().map(|a| a.planned.present.index).collect();
         let fixed =
@@ -414,13 +420,18 @@ impl<'g> Window<'g> {
         for (actor, motions) in self.actors.iter().zip(&motions) {
             choice.agents.push(options(actor, motions, &self.map.index.graph));
         }
-        let mut chosen = choice.solve();
-        self.guide(&world, &mut choice, &mut motions, &mut chosen);
+        let mut chosen = match self.request.stages.shown {
+            Shown::Chosen => choice.solve(),
+            Shown::Likeliest | Shown::Drawn => self.unchosen(&motions, &choice),
+        };
+        if self.request.stages.guidance {
+            self.guide(&world, &mut choice, &mut motions, &mut chosen);
+        }
         let mut decided = Vec::with_capacity(self.actors.len());
         for (i, actor) in self.actors.iter().enumerate() {
             let Some(shown) = shown_motion(actor, chosen[i]) else { continue };
             let mut motions = std::mem::take(&mut motions[i]);
-            // A guided motion takes the place of the mode it was made from.
+            // A middle or guided motion takes the place of the mode it is nearest to or was made from.
             let index = match motions.get(shown) {
                 Some((_, slot, _)) if shown >= self.mode_count(i) => {
                     let slot = *slot;
@@ -445,7 +456,47 @@ impl<'g> Window<'g> {
         decided
     }
 
-    /// Modes of an actor before guidance added to them.
+    /// Options that are shown when nothing is chosen: each road user's own, whatever the others do.
+    fn unchosen(&self, motions: &[Vec<(f64, usize, Motion)>], choice: &Choice) -> Vec<usize> {
+        let option = |(i, motions): (usize, &Vec<(f64, usize, Motion)>)| {
+            let actor = &self.actors[i];
+            // Options of a reacting road user begin with the motion it keeps.
+            if actor.pinned.is_some() || actor.kept.is_some() || actor.rests {
+                return 0;
+            }
+            let slot = self.standing_for[i];
+            let found = motions.iter().position(|m| m.1 == slot).unwrap_or(0);
+            found.min(choice.agents[i].len().saturating_sub(1))
+        };
+        motions.iter().enumerate().map(option).collect()
+    }
+
+    /// Between the modes of one path lies their mean, which is nearer to all of them than any one is: a
+    /// further motion for each path that has several, under the slot of the mode it is nearest to.
+    fn middles(&self, i: usize, motions: &[(f64, usize, Motion)]) -> Vec<(f64, usize, Motion)> {
+        let actor = &self.actors[i];
+        if actor.pinned.is_some() || actor.keeps_its_path() || self.mode_count(i) == 1 {
+            return Vec::new();
+        }
+        let path = |slot: usize| actor.planned.anchors[slot].identity / 8;
+        let mut paths: Vec<Vec<&(f64, usize, Motion)>> = Vec::new();
+        for motion in motions.iter().filter(|m| m.1 < MODES) {
+            match paths.iter_mut().find(|group| path(group[0].1) == path(motion.1)) {
+                Some(group) => group.push(motion),
+                None => paths.push(vec![motion]),
+            }
+        }
+        let of_path = |group: Vec<&(f64, usize, Motion)>| {
+            let drafts: Vec<_> = group.iter().map(|m| (m.0, m.1, self.drafts[i][m.1])).collect();
+            let motion = middle(&actor.planned, &drafts);
+            let apart = |m: &(f64, usize, Motion)| distance(&m.2.states, &motion.states);
+            let nearest = group.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+            Some((nearest.0, nearest.1, motion))
+        };
+        paths.into_iter().filter(|group| group.len() > 1).filter_map(of_path).collect()
+    }
+
+    /// Modes of an actor before middles and guidance added to them.
     fn mode_count(&self, i: usize) -> usize {
         let actor = &self.actors[i];
         if actor.rests && (actor.stays_parked || !actor.planned.target.is_free()) { 1 } else { MODES }
@@ -482,7 +533,8 @@ impl<'g> Window<'g> {
             let actor = &self.actors[i];
             let others = present.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, p)| p).chain(&kept);
             let others: Vec<&(Poses, [f32; 2])> = others.collect();
-            let slots: Vec<(f64, usize)> = motions[i].iter().map(|m| (m.0, m.1)).collect();
+            let modes = motions[i].iter().take(self.mode_count(i));
+            let slots: Vec<(f64, usize)> = modes.map(|m| (m.0, m.1)).collect();
             slots
                 .into_iter()
                 .filter_map(|(p, slot)| {

@@ -1,6 +1,9 @@
 //! Which road users are judged, and under which conditions (`evaluation.md`).
 
-use scene::{Agent, AgentType, Goal, HORIZON_STEPS, STEP_S, Scene};
+use experts::features::world::MapIndex;
+use scene::score::Drivable;
+use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, State, Track};
+use std::sync::Arc;
 
 /// Fixed goal fields of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -32,6 +35,11 @@ impl Subset {
             Self::Speed => "speed",
         }
     }
+
+    /// The goal's position is fixed.
+    pub fn has_position(self) -> bool {
+        matches!(self, Self::Pos | Self::PosSpeed | Self::PosSpeedHeading)
+    }
 }
 
 /// A moving road user that is judged.
@@ -43,13 +51,15 @@ pub struct Case {
     pub agent_type: AgentType,
     /// Scene step of the goal: 90, or the last valid one before.
     pub goal_step: usize,
+    /// State at the first step.
+    pub start: State,
 }
 
 impl Case {
     /// The goal that the log gives, some fields left free.
     pub fn goal(&self, scene: &Scene, subset: Subset) -> Goal {
         let Some(state) = scene.agents[self.agent].state_at(self.goal_step) else { return Goal::default() };
-        let position = matches!(subset, Subset::Pos | Subset::PosSpeed | Subset::PosSpeedHeading);
+        let position = subset.has_position();
         let speed = matches!(subset, Subset::Speed | Subset::PosSpeed | Subset::PosSpeedHeading);
         Goal {
             position: position.then(|| state.position()),
@@ -72,5 +82,109 @@ fn case(index: usize, agent: &Agent) -> Option<Case> {
     let moved =
         |s: &usize| agent.state_at(*s).is_some_and(|q| (q.position() - start.position()).norm() > 2.0);
     let judged = agent.agent_type != AgentType::Other && steps.len() >= 30 && steps.iter().any(moved);
-    judged.then(|| Case { agent: index, agent_type: agent.agent_type, goal_step: steps[steps.len() - 1] })
+    judged.then(|| Case {
+        agent: index,
+        agent_type: agent.agent_type,
+        goal_step: steps[steps.len() - 1],
+        start,
+    })
+}
+
+/// A scene made ready to be judged.
+pub struct Site<'a> {
+    /// Place in the list of scenes: what figures are resampled by.
+    pub index: usize,
+    /// As it was recorded.
+    pub scene: &'a Scene,
+    /// What the experts may see of it: [`blind`].
+    pub blind: Scene,
+    /// Lane graph and pieces of its map.
+    pub map: Arc<MapIndex>,
+    /// Where its map lets vehicles drive.
+    pub drivable: Drivable,
+    /// Moving road users.
+    pub cases: Vec<Case>,
+}
+
+impl<'a> Site<'a> {
+    /// Works out what all tables need of a scene.
+    pub fn new(index: usize, scene: &'a Scene) -> Self {
+        Self {
+            index,
+            scene,
+            blind: blind(scene),
+            map: Arc::new(MapIndex::new(&scene.map)),
+            drivable: Drivable::new(&scene.map),
+            cases: cases(scene),
+        }
+    }
+
+    /// Name for files and seeds: the source's id where there is one.
+    pub fn name(&self) -> &str {
+        self.scene.meta.source_id.as_deref().unwrap_or(&self.scene.name)
+    }
+
+    /// Log of a case.
+    pub fn log(&self, case: &Case) -> &'a Agent {
+        &self.scene.agents[case.agent]
+    }
+
+    /// The blind scene with one road user's goal fixed, for it alone to be generated.
+    pub fn asked(&self, case: &Case, subset: Subset) -> Scene {
+        let mut scene = self.blind.clone();
+        scene.agents[case.agent].conditions.goal = case.goal(self.scene, subset);
+        scene
+    }
+}
+
+/// A copy of a scene that knows nothing after its first step: one state for each road user, the lights as
+/// they are, no conditions, no futures. Neither features nor the choice can look ahead in it.
+pub fn blind(scene: &Scene) -> Scene {
+    let mut out = scene.clone();
+    out.generated = None;
+    for agent in &mut out.agents {
+        let start = agent.track.at(0).copied();
+        let states = start.map(|s| vec![Some(s)]).unwrap_or_default();
+        agent.track = Track { first_step: 0, states, z_m: None };
+        agent.conditions = Conditions::default();
+    }
+    for signal in &mut out.signals {
+        signal.runs.retain(|(first, _)| *first == 0);
+    }
+    out.signals.retain(|signal| !signal.runs.is_empty());
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{log, scene, shifted};
+    use super::*;
+    use scene::{Signal, SignalState};
+
+    #[test]
+    fn a_blind_scene_knows_nothing_of_the_future() {
+        let mut first = scene(vec![log("a", 8.0, 91), shifted(log("b", 5.0, 91), 30.0, 3.5)]);
+        let runs = vec![(0, SignalState::Go), (40, SignalState::Stop)];
+        first.signals.push(Signal { lane: "a".into(), stop: None, stop_z_m: None, runs });
+        let mut other = first.clone();
+        for agent in &mut other.agents {
+            for state in agent.track.states.iter_mut().skip(1).flatten() {
+                (state.x_m, state.vx_mps) = (state.x_m + 17.0, 0.0);
+            }
+        }
+        other.signals[0].runs[1] = (20, SignalState::Caution);
+        // A signal that is first heard of later is not there yet.
+        let late = Signal { runs: vec![(7, SignalState::Stop)], ..first.signals[0].clone() };
+        other.signals.push(late);
+        assert_eq!(blind(&first), blind(&other));
+        assert_eq!(blind(&first).agents[0].track.valid_steps().collect::<Vec<_>>(), [0]);
+    }
+
+    #[test]
+    fn cases_move_and_are_seen() {
+        let mut short = log("short", 8.0, 91);
+        short.track.states.truncate(25);
+        let cases = cases(&scene(vec![log("stands", 0.0, 91), log("moves", 1.0, 91), short]));
+        assert_eq!(cases.iter().map(|c| (c.agent, c.goal_step)).collect::<Vec<_>>(), [(1, 90)]);
+    }
 }

@@ -1,16 +1,42 @@
-//! Judging the experts on scenes: goals met, errors against the log, latency, pictures.
+//! Judging the experts on scenes: six tables of figures with intervals, and pictures.
+//!
+//! [`run`] makes everything that `dragtraffic eval` writes. A table is a module; they share the cases, the
+//! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
+//! ([`stats`]). The same scenes, weights and seed give the same bytes, except for the clock's readings of
+//! table 6, which stand in files of their own.
 
 mod cases;
-mod errors;
+mod coherence;
+mod control;
+mod draw;
 pub mod latency;
+pub mod measure;
+mod parked;
 pub mod picture;
-mod reach;
+pub mod quality;
+mod realism;
+pub mod rivals;
+mod run;
+#[cfg(test)]
+mod samples;
+pub mod sheet;
+pub mod stats;
+pub mod together;
+mod variety;
 
-pub use cases::{Case, Subset, cases};
-pub use errors::{ErrorRow, ErrorTable, errors};
-pub use reach::{Missed, ReachTable, reach};
+pub use cases::{Case, Site, Subset, blind, cases};
+pub use quality::type_name;
+pub use run::{Options, Report, Table, run};
 
 use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};
+
+/// Weights under judgement.
+pub struct Judged {
+    /// Name in tables.
+    pub name: String,
+    /// The experts.
+    pub generator: Generator,
+}
 
 /// Runs a call to its end.
 ///

@@ -1,41 +1,78 @@
 //! Pictures of futures over the map, as SVG.
 
-use super::{Subset, answer, cases};
+use super::draw::Draw;
+use super::quality::{Method, Outcome, alone};
+use super::{Site, Subset, type_name};
 use anyhow::Result;
-use experts::{Generator, Request};
+use experts::Generator;
+use rayon::prelude::*;
 use scene::map::LaneType;
 use scene::{AgentFutures, AgentType, Scene, Vec2};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::Path;
-use std::sync::Arc;
 
-/// Pictures of every third moving road user, without a goal and with its position fixed:
-/// `SCENE-AGENT-CONDITION.svg`.
+/// Pictures of each kind.
+const EACH: usize = 10;
+
+/// The ten best, ten worst and ten random cases of each type by minADE, without a goal and with its position
+/// fixed: name (`vehicle-pos-worst-01-SCENE-AGENT.svg`) and SVG.
 ///
 /// # Errors
-/// When the generator fails or a file cannot be written.
-pub fn write_all(generator: &Generator, scenes: &[Scene], folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder)?;
-    for scene in scenes {
-        for case in cases(scene).into_iter().step_by(3) {
-            for subset in [Subset::None, Subset::Pos] {
-                let mut changed = scene.clone();
-                let agent = &mut changed.agents[case.agent];
-                agent.conditions.goal = case.goal(scene, subset);
-                let id = agent.id.clone();
-                let Some(start) = agent.state_at(0) else { continue };
-                let mut request = Request::new(Arc::new(changed.clone()));
-                request.agents = Some(BTreeSet::from([id.clone()]));
-                let answer = answer(generator, request)?;
-                let Some(sample) = answer.samples.first() else { continue };
-                let picture = futures_svg(&changed, &sample.agents, start.position());
-                let place = scene.meta.source_id.as_deref().unwrap_or(&scene.name);
-                std::fs::write(folder.join(format!("{place}-{id}-{}.svg", subset.name())), picture)?;
+/// When the generator fails.
+pub fn of_outcomes(
+    generator: &Generator,
+    sites: &[Site<'_>],
+    outcomes: &[Outcome],
+    seed: u64,
+) -> Result<Vec<(String, String)>> {
+    let mut wanted: Vec<(String, &Outcome)> = Vec::new();
+    for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
+        for subset in [Subset::None, Subset::Pos] {
+            let mine = |o: &&Outcome| {
+                o.method == Method::Refined(0) && o.agent_type == agent_type && o.subset == subset
+            };
+            let mut all: Vec<&Outcome> = outcomes.iter().filter(mine).collect();
+            all.sort_by(|a, b| a.measured.min_ade.total_cmp(&b.measured.min_ade));
+            let best: Vec<&Outcome> = all.iter().take(EACH).copied().collect();
+            let worst: Vec<&Outcome> = all.iter().rev().take(EACH).copied().collect();
+            Draw::new(seed, &["pictures", type_name(agent_type), subset.name()]).shuffle(&mut all);
+            all.truncate(EACH);
+            for (word, list) in [("best", best), ("worst", worst), ("random", all)] {
+                for (i, outcome) in list.into_iter().enumerate() {
+                    let name = format!("{}-{}-{word}-{:02}", type_name(agent_type), subset.name(), i + 1);
+                    wanted.push((name, outcome));
+                }
             }
         }
     }
-    Ok(())
+    let drawn: Result<Vec<_>> = wanted
+        .par_iter()
+        .map(|(name, outcome)| Ok((name, drawn(generator, &sites[outcome.site], outcome, seed)?)))
+        .collect();
+    let drawn = drawn?.into_iter();
+    Ok(drawn.filter_map(|(name, found)| found.map(|(who, svg)| (format!("{name}-{who}.svg"), svg))).collect())
+}
+
+/// Scene and road user as words for a file's name, and the picture.
+fn drawn(
+    generator: &Generator,
+    site: &Site<'_>,
+    outcome: &Outcome,
+    seed: u64,
+) -> Result<Option<(String, String)>> {
+    let case = &site.cases[outcome.case];
+    let Some((futures, _)) = alone(generator, site, case, outcome.subset, true, seed)? else {
+        return Ok(None);
+    };
+    // The picture shows the log, which the experts were not shown.
+    let mut scene = site.scene.clone();
+    let agent = &mut scene.agents[case.agent];
+    agent.conditions.goal = case.goal(site.scene, outcome.subset);
+    let id = agent.id.clone();
+    let plain: String = site.name().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
+    let who = format!("{}-{}", if plain.is_empty() { "scene" } else { &plain }, id.replace(':', "_"));
+    let futures = BTreeMap::from([(id, futures)]);
+    Ok(Some((who, futures_svg(&scene, &futures, case.start.position()))))
 }
 
 /// Half the side of the square that is shown, metres.

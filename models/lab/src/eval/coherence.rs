@@ -1,0 +1,219 @@
+//! Table 2: does a scene that is generated together hang together?
+
+use super::rivals::least_effort;
+use super::sheet::{Cell, Form, Sheet};
+use super::stats::{Bootstrap, Value};
+use super::together::{
+    Ask, Boxes, MOMENTS, Motions, STRIDE, logged_pairs, motions_by, motions_of, motions_of_log, scenes,
+};
+use super::{Judged, Site};
+use anyhow::Result;
+use experts::{Shown, Stages};
+use rayon::prelude::*;
+use scene::geometry::obb::OrientedBox;
+use scene::{AgentType, HORIZON_STEPS, STEP_S};
+use std::collections::BTreeSet;
+
+/// Farther from every lane is off the road, metres.
+const OFF_LANES_M: f64 = 2.5;
+
+/// What one scene comes to.
+#[derive(Clone, Debug, Default)]
+struct Verdict {
+    moving: f64,
+    /// Moving road users in an overlap that begins within 3, 6 and 9 s.
+    overlapping: [f64; 3],
+    /// Share of all generated road users in a collision by the paper's form.
+    paper: f64,
+    /// Vehicle steps looked at, away from every lane, with a corner past a road edge.
+    steps: f64,
+    off_lanes: f64,
+    past_edges: f64,
+    edge_steps: f64,
+    /// Sum of the moving road users' mean distances from the log, metres.
+    distance: f64,
+}
+
+/// Seconds within which overlaps are counted.
+const WITHIN_S: [f64; 3] = [3.0, 6.0, 9.0];
+
+fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usize, usize)>) -> Verdict {
+    let moving: BTreeSet<usize> =
+        site.cases.iter().map(|c| c.agent).filter(|i| motions[*i].is_some()).collect();
+    let meetings: Vec<_> =
+        Boxes::new(site, motions).meetings().into_iter().filter(|m| !left_out.contains(&m.pair)).collect();
+    let both = |pair: (usize, usize)| [pair.0, pair.1];
+    let within = |seconds: f64| {
+        let last = (seconds / (STRIDE as f64 * STEP_S)).round() as usize;
+        let soon = meetings.iter().filter(|m| m.first < last.min(MOMENTS));
+        let met: BTreeSet<usize> = soon.flat_map(|m| both(m.pair)).collect();
+        met.intersection(&moving).count() as f64
+    };
+    let paper: BTreeSet<usize> = meetings.iter().filter(|m| m.paper).flat_map(|m| both(m.pair)).collect();
+    let present = motions.iter().flatten().count().max(1) as f64;
+    let mut out = Verdict {
+        moving: moving.len() as f64,
+        overlapping: WITHIN_S.map(within),
+        paper: paper.len() as f64 / present,
+        ..Verdict::default()
+    };
+    let has_edges = !site.scene.map.road_edges.is_empty() || !site.scene.map.drivable.is_empty();
+    for &i in &moving {
+        let (agent, Some(states)) = (&site.scene.agents[i], &motions[i]) else { continue };
+        let known = || (1..=HORIZON_STEPS).filter_map(|step| Some((step, agent.track.at(step)?)));
+        let apart = known().map(|(step, s)| (s.position() - states[step - 1].position()).norm());
+        out.distance += apart.sum::<f64>() / known().count().max(1) as f64;
+        if agent.agent_type != AgentType::Vehicle {
+            continue;
+        }
+        for (step, _) in known().filter(|(step, _)| step % STRIDE == 0) {
+            let state = &states[step - 1];
+            let lanes = site.map.graph.nearest_for(state.position(), OFF_LANES_M, AgentType::Vehicle);
+            out.steps += 1.0;
+            out.off_lanes += f64::from(u8::from(lanes.is_empty()));
+            let outline = OrientedBox::of_state(state, &agent.size);
+            if has_edges && let Some(outside_m) = site.drivable.box_outside_m(&outline) {
+                out.edge_steps += 1.0;
+                out.past_edges += f64::from(u8::from(outside_m > 0.1));
+            }
+        }
+    }
+    out
+}
+
+/// What a line of the table runs of the product.
+const LINES: [(&str, usize, f64, Shown, bool); 5] = [
+    ("initializer, most probable", 0, 0.0, Shown::Likeliest, false),
+    ("initializer, random future", 0, 0.0, Shown::Drawn, false),
+    ("+ refinement, no choice", 5, 1.0, Shown::Drawn, false),
+    ("+ choice", 5, 1.0, Shown::Chosen, false),
+    ("+ guidance: the product", 5, 1.0, Shown::Chosen, true),
+];
+
+/// Table 2 over scenes with at least two moving road users.
+///
+/// # Errors
+/// When a generator fails.
+pub fn coherence(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Sheet> {
+    let mut sheet = Sheet::new(
+        "2 Coherence of whole scenes",
+        &[
+            "Everybody that is there at the first step is generated together, at most 128, from the states at \
+             that step alone. Boxes overlap strictly (any overlap), every third step, where the log is known; \
+             pairs that overlap in the log are left out (the log's own line shows them). Shares are of moving \
+             road users; \"paper's rate\" is the mean over scenes of the share of all road users whose boxes' \
+             intersection over union passes 0.02. Off lanes: share of vehicle steps more than 2.5 m off every \
+             lane; past edges: with a corner past a road edge. ADE of the futures shown, metres. Plans are made \
+             once for the 9 s.",
+            "With goals: position, speed and heading of the log's end for those that move; what stands keeps \
+             its place.",
+        ],
+        &["goals", "what"],
+        &[
+            "in an overlap, 9 s",
+            "within 6 s",
+            "within 3 s",
+            "scenes with any",
+            "paper's rate",
+            "off lanes",
+            "past edges",
+            "ADE",
+        ],
+    );
+    let sites: Vec<&Site<'_>> = sites.iter().filter(|s| s.cases.len() >= 2).collect();
+    let left_out: Vec<BTreeSet<(usize, usize)>> = sites.par_iter().map(|site| logged_pairs(site)).collect();
+    let nothing = BTreeSet::new();
+    let verdicts = |motions: &[Motions], logs: bool| -> Vec<Verdict> {
+        let jobs: Vec<_> = sites.iter().zip(motions).zip(&left_out).collect();
+        jobs.par_iter()
+            .map(|((site, motions), out)| judge(site, motions, if logs { &nothing } else { out }))
+            .collect()
+    };
+    for goals in [false, true] {
+        let word = if goals { "all fixed" } else { "none" };
+        let mut line = |name: &str, verdicts: &[Verdict]| {
+            sheet.push([word, name], cells(boot, &sites, verdicts));
+        };
+        let logs: Vec<Motions> = sites.iter().map(|site| motions_of_log(site)).collect();
+        line("log", &verdicts(&logs, true));
+        let prior: Vec<Motions> = sites
+            .par_iter()
+            .map(|site| {
+                motions_by(site, goals, |i, start, goal, step| {
+                    least_effort(&site.blind.agents[i], start, goal, step)
+                })
+            })
+            .collect();
+        line("prior", &verdicts(&prior, false));
+        for own in judged {
+            for (name, steps, diversity, shown, guidance) in LINES {
+                let stages = Stages { shown, guidance };
+                let ask = Ask { steps, diversity, stages, ..Ask::shipped(goals, seed) };
+                let samples: Result<Vec<_>> =
+                    sites.par_iter().map(|site| scenes(&own.generator, site, ask)).collect();
+                let motions: Vec<Motions> = sites
+                    .iter()
+                    .zip(samples?)
+                    .map(|(site, samples)| {
+                        samples
+                            .first()
+                            .map_or_else(|| vec![None; site.scene.agents.len()], |s| motions_of(site, s))
+                    })
+                    .collect();
+                line(&format!("{}: {name}", own.name), &verdicts(&motions, false));
+            }
+        }
+    }
+    Ok(sheet)
+}
+
+fn cells(boot: &Bootstrap, sites: &[&Site<'_>], verdicts: &[Verdict]) -> Vec<Cell> {
+    let share = |value: &dyn Fn(&Verdict) -> (f64, f64), form| {
+        let values = sites.iter().zip(verdicts).map(|(site, v)| {
+            let (part, whole) = value(v);
+            Value::share(site.index, part, whole)
+        });
+        Cell::of(boot.estimate(values), form)
+    };
+    vec![
+        share(&|v| (v.overlapping[2], v.moving), Form::Percent),
+        share(&|v| (v.overlapping[1], v.moving), Form::Percent),
+        share(&|v| (v.overlapping[0], v.moving), Form::Percent),
+        share(&|v| (f64::from(u8::from(v.overlapping[2] > 0.0)), 1.0), Form::Percent),
+        share(&|v| (v.paper, 1.0), Form::Percent),
+        share(&|v| (v.off_lanes, v.steps), Form::Percent),
+        share(&|v| (v.past_edges, v.edge_steps), Form::Percent),
+        share(&|v| (v.distance, v.moving), Form::Plain),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{log, scene, shifted};
+    use super::*;
+
+    #[test]
+    fn overlaps_are_counted_once_a_road_user_and_in_time() {
+        // The second catches up with the first: 4.7 m long both, 35 m behind, 5 m/s faster: after 6 s.
+        let scene = scene(vec![
+            shifted(log("a", 5.0, 91), 35.0, 0.0),
+            log("b", 5.0, 91),
+            shifted(log("c", 5.0, 91), 0.0, 40.0),
+        ]);
+        let site = Site::new(0, &scene);
+        let mut motions = motions_of_log(&site);
+        if let Some(states) = &mut motions[1] {
+            for (i, s) in states.iter_mut().enumerate() {
+                (s.x_m, s.vx_mps) = (1.0 * (i + 1) as f64, 10.0);
+            }
+        }
+        let verdict = judge(&site, &motions, &BTreeSet::new());
+        assert_eq!(verdict.moving, 3.0);
+        assert_eq!(verdict.overlapping, [0.0, 0.0, 2.0]);
+        assert!((verdict.paper - 2.0 / 3.0).abs() < 1e-9);
+        // The third drives 40 m beside the lanes.
+        assert!((verdict.off_lanes / verdict.steps - 1.0 / 3.0).abs() < 1e-9);
+        let excused = judge(&site, &motions, &BTreeSet::from([(0, 1)]));
+        assert_eq!(excused.overlapping, [0.0; 3]);
+    }
+}

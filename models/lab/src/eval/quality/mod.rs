@@ -1,0 +1,260 @@
+//! Table 1: how far futures are from what really happened, one road user at a time, nothing known of
+//! anybody's future but the goal that is stated.
+
+mod sheets;
+
+pub use sheets::Quality;
+
+use super::measure::{Measured, goal_error, is_met, is_outside_limits, measure};
+use super::rivals::Rival;
+use super::{Case, Judged, Site, Subset, answer};
+use anyhow::Result;
+use experts::{Generator, ReachReport, Request};
+use rayon::prelude::*;
+use scene::{Agent, AgentFutures, AgentType, HORIZON_STEPS, Scene, wrap_angle};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Who answers a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Method {
+    /// The product as it is shipped, with the weights of this index.
+    Refined(usize),
+    /// The same weights without refinement and noise.
+    Initializer(usize),
+    /// No learning.
+    Formula(Rival),
+}
+
+impl Method {
+    /// All, in the tables' order.
+    pub fn all(judged: usize) -> Vec<Self> {
+        let ours = (0..judged).flat_map(|i| [Self::Refined(i), Self::Initializer(i)]);
+        ours.chain(Rival::ALL.map(Self::Formula)).collect()
+    }
+
+    /// Name in tables.
+    pub fn name(self, judged: &[Judged]) -> String {
+        let of = |i: usize| judged.get(i).map_or("?", |j| j.name.as_str());
+        match self {
+            Self::Refined(i) => of(i).into(),
+            Self::Initializer(i) => format!("{}, initializer alone", of(i)),
+            Self::Formula(rival) => rival.name().into(),
+        }
+    }
+}
+
+/// What kind of motion the log shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Manner {
+    turn_deg: f64,
+    from_rest: bool,
+    stopping: bool,
+}
+
+impl Manner {
+    /// Of a log from its first step.
+    pub fn of(log: &Agent) -> Self {
+        let states: Vec<_> = (0..=HORIZON_STEPS).filter_map(|step| log.state_at(step)).collect();
+        // Headings of those who stand are noise.
+        let moving: Vec<_> = states.iter().filter(|s| s.speed_mps() > 0.5).collect();
+        let turn: f64 = moving.windows(2).map(|w| wrap_angle(w[1].heading_rad - w[0].heading_rad)).sum();
+        let speed = |s: Option<&scene::State>| s.map_or(0.0, scene::State::speed_mps);
+        let (first, last) = (speed(states.first()), speed(states.last()));
+        Self {
+            turn_deg: turn.to_degrees().abs(),
+            from_rest: first < 0.3,
+            stopping: first > 1.0 && last < 0.3,
+        }
+    }
+
+    /// Whether a log belongs to a group of the breakdown.
+    pub fn is(&self, group: Group) -> bool {
+        match group {
+            Group::All => true,
+            Group::Straight => self.turn_deg < 20.0,
+            Group::Turning => (20.0..150.0).contains(&self.turn_deg),
+            Group::UTurn => self.turn_deg >= 150.0,
+            Group::FromRest => self.from_rest,
+            Group::Stopping => self.stopping,
+        }
+    }
+}
+
+/// A line of the breakdown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Group {
+    All,
+    Straight,
+    Turning,
+    UTurn,
+    FromRest,
+    Stopping,
+}
+
+const GROUPS: [(Group, &str); 6] = [
+    (Group::All, "all"),
+    (Group::Straight, "straight, under 20 deg"),
+    (Group::Turning, "turning, 20 to 149 deg"),
+    (Group::UTurn, "U-turn, 150 deg and more"),
+    (Group::FromRest, "from rest"),
+    (Group::Stopping, "stopping"),
+];
+
+/// One answer to one case.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Index of the scene.
+    pub site: usize,
+    /// Index among the scene's cases.
+    pub case: usize,
+    /// Type of the road user.
+    pub agent_type: AgentType,
+    /// Condition.
+    pub subset: Subset,
+    /// Who answered.
+    pub method: Method,
+    /// Errors.
+    pub measured: Measured,
+    manner: Manner,
+    /// By future; empty for formulas.
+    probabilities: Vec<f64>,
+    goal: Option<GoalVerdict>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct GoalVerdict {
+    met: bool,
+    reported: bool,
+    futures: usize,
+    outside: usize,
+}
+
+/// The shipped settings, or the initializer as it is.
+fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Request {
+    let mut request = Request::new(Arc::new(scene));
+    request.agents = Some(BTreeSet::from([id.to_owned()]));
+    request.seed = seed;
+    if !refined {
+        (request.steps, request.diversity) = (0, 0.0);
+    }
+    request
+}
+
+/// Futures of one case by itself, and whether the goal was said to be out of reach.
+///
+/// # Errors
+/// When the generator fails.
+pub fn alone(
+    generator: &Generator,
+    site: &Site<'_>,
+    case: &Case,
+    subset: Subset,
+    refined: bool,
+    seed: u64,
+) -> Result<Option<(AgentFutures, bool)>> {
+    let id = &site.log(case).id;
+    let answer = answer(generator, request(site.asked(case, subset), id, refined, seed))?;
+    let reach = answer.resolved.get(id).map(|r| &r.reach);
+    let reported = matches!(reach, Some(ReachReport::Unreachable { .. }));
+    let sample = answer.samples.into_iter().next();
+    Ok(sample.and_then(|mut s| s.agents.remove(id)).map(|futures| (futures, reported)))
+}
+
+/// Answers of everybody to all cases, in order of scenes, cases, conditions, methods.
+///
+/// # Errors
+/// When a generator fails.
+pub fn collect(judged: &[Judged], sites: &[Site<'_>], seed: u64) -> Result<Vec<Outcome>> {
+    let all: Result<Vec<Vec<Outcome>>> =
+        sites.par_iter().map(|site| site_outcomes(judged, site, seed)).collect();
+    Ok(all?.into_iter().flatten().collect())
+}
+
+fn site_outcomes(judged: &[Judged], site: &Site<'_>, seed: u64) -> Result<Vec<Outcome>> {
+    let mut out = Vec::new();
+    for (index, case) in site.cases.iter().enumerate() {
+        let log = site.log(case);
+        let manner = Manner::of(log);
+        for subset in Subset::ALL {
+            for method in Method::all(judged.len()) {
+                let found = match method {
+                    Method::Refined(i) => alone(&judged[i].generator, site, case, subset, true, seed)?,
+                    Method::Initializer(i) => alone(&judged[i].generator, site, case, subset, false, seed)?,
+                    Method::Formula(rival) => {
+                        let modes = rival.futures(site, case, subset, seed);
+                        (!modes.is_empty()).then_some((AgentFutures { chosen: 0, modes }, false))
+                    }
+                };
+                let Some((futures, reported)) = found else { continue };
+                let ours = !matches!(method, Method::Formula(_));
+                out.push(Outcome {
+                    site: site.index,
+                    case: index,
+                    agent_type: case.agent_type,
+                    subset,
+                    method,
+                    measured: measure(log, case, subset, &futures.modes, futures.chosen),
+                    manner,
+                    probabilities: if ours {
+                        futures.modes.iter().map(|f| f.probability).collect()
+                    } else {
+                        Vec::new()
+                    },
+                    goal: ours.then(|| verdict(site, case, subset, &futures, reported)),
+                });
+            }
+        }
+    }
+    Ok(out)
+}
+
+fn verdict(
+    site: &Site<'_>,
+    case: &Case,
+    subset: Subset,
+    futures: &AgentFutures,
+    reported: bool,
+) -> GoalVerdict {
+    let goal = case.goal(site.scene, subset);
+    let shown = futures.modes[futures.chosen].states.get(case.goal_step - 1);
+    let agent = &site.blind.agents[case.agent];
+    let outside = |f: &&scene::Future| is_outside_limits(agent, &case.start, f);
+    GoalVerdict {
+        met: shown.is_some_and(|s| is_met(goal_error(&goal, s))),
+        reported,
+        futures: futures.modes.len(),
+        outside: futures.modes.iter().filter(outside).count(),
+    }
+}
+
+/// Name of a type in tables.
+pub fn type_name(agent_type: AgentType) -> &'static str {
+    match agent_type {
+        AgentType::Vehicle => "vehicle",
+        AgentType::Pedestrian => "pedestrian",
+        AgentType::Cyclist => "cyclist",
+        AgentType::Other => "other",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{east, log};
+    use super::*;
+
+    #[test]
+    fn manners_of_logs() {
+        let straight = Manner::of(&log("a", 10.0, 91));
+        assert!(straight.is(Group::Straight) && straight.is(Group::All) && !straight.is(Group::FromRest));
+        let mut turning = log("b", 10.0, 91);
+        for (i, state) in turning.track.states.iter_mut().flatten().enumerate() {
+            state.heading_rad = wrap_angle(0.04 * i as f64);
+        }
+        assert!(Manner::of(&turning).is(Group::UTurn));
+        let mut stopping = log("c", 10.0, 91);
+        stopping.track.states[90] = Some(east(450.0, 0.0, 0.1));
+        assert!(Manner::of(&stopping).is(Group::Stopping));
+    }
+}

@@ -1,0 +1,248 @@
+//! One run over scenes: the tables that were asked for, as sheets, Markdown and JSON, and pictures.
+
+use super::coherence::coherence;
+use super::control::control;
+use super::latency::{Row, latency};
+use super::parked::parked;
+use super::quality::{Quality, collect};
+use super::realism::realism;
+use super::sheet::{Cell, Form, Sheet};
+use super::stats::Bootstrap;
+use super::variety::variety;
+use super::{Judged, Site, picture};
+use anyhow::{Context, Result};
+use scene::Scene;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// A table of the evaluation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Table {
+    Quality,
+    Coherence,
+    Control,
+    Realism,
+    Variety,
+    Cost,
+}
+
+impl Table {
+    /// All, numbered from 1.
+    pub const ALL: [Self; 6] =
+        [Self::Quality, Self::Coherence, Self::Control, Self::Realism, Self::Variety, Self::Cost];
+
+    /// By its number, 1 to 6.
+    pub fn numbered(number: usize) -> Option<Self> {
+        Self::ALL.get(number.checked_sub(1)?).copied()
+    }
+}
+
+/// What to make.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Tables.
+    pub tables: BTreeSet<Table>,
+    /// Draws noise, resamples, drags and random pictures.
+    pub seed: u64,
+    /// Pictures of table 1's best, worst and random cases.
+    pub pictures: bool,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Seed.
+    pub seed: u64,
+    /// Scenes looked at.
+    pub scenes: usize,
+    /// Hash of each expert's weights, by name of the judged.
+    pub weights: BTreeMap<String, BTreeMap<String, String>>,
+    /// Tables 1 to 5.
+    pub sheets: Vec<Sheet>,
+    /// Table 6: the clock's readings, never the same twice.
+    #[serde(skip)]
+    pub cost: Option<Sheet>,
+    /// File name and SVG.
+    #[serde(skip)]
+    pub pictures: Vec<(String, String)>,
+}
+
+/// Makes the tables, telling `progress` what is under way. The first of `judged` is in the pictures.
+///
+/// # Errors
+/// When a generator fails.
+pub fn run(
+    judged: Vec<Judged>,
+    scenes: &[Scene],
+    options: &Options,
+    progress: &dyn Fn(&str),
+) -> Result<Report> {
+    let seed = options.seed;
+    let wants = |table: Table| options.tables.contains(&table);
+    let weights = judged.iter().map(|own| {
+        let hashes = own.generator.weights().iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
+        (own.name.clone(), hashes.collect())
+    });
+    let mut report = Report {
+        seed,
+        scenes: scenes.len(),
+        weights: weights.collect(),
+        sheets: Vec::new(),
+        cost: None,
+        pictures: Vec::new(),
+    };
+    let sites: Vec<Site<'_>> = scenes.iter().enumerate().map(|(i, scene)| Site::new(i, scene)).collect();
+    let boot = Bootstrap::new(scenes.len(), seed);
+    if wants(Table::Quality) {
+        progress("table 1: quality");
+        let outcomes = collect(&judged, &sites, seed)?;
+        report.sheets.extend(Quality::new(&judged, &outcomes, &boot).sheets());
+        report.sheets.push(parked(&judged, &sites, &boot, seed)?);
+        if let Some(own) = judged.first().filter(|_| options.pictures) {
+            progress("pictures");
+            report.pictures = picture::of_outcomes(&own.generator, &sites, &outcomes, seed)?;
+        }
+    }
+    if wants(Table::Coherence) {
+        progress("table 2: coherence");
+        report.sheets.push(coherence(&judged, &sites, &boot, seed)?);
+    }
+    if wants(Table::Control) {
+        progress("table 3: control");
+        report.sheets.extend(control(&judged, &sites, &boot, seed)?);
+    }
+    if wants(Table::Realism) {
+        progress("table 4: realism");
+        report.sheets.extend(realism(&judged, &sites, &boot, seed)?);
+    }
+    if wants(Table::Variety) {
+        progress("table 5: variety");
+        report.sheets.extend(variety(&judged, &sites, &boot, seed)?);
+    }
+    if wants(Table::Cost) {
+        progress("table 6: cost");
+        report.cost = Some(cost(judged, scenes)?);
+    }
+    Ok(report)
+}
+
+fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Sheet> {
+    let mut sheet = Sheet::new(
+        "6 Cost",
+        &["Milliseconds on this machine, whatever else it was doing: median / 95th percentile, maps warm."],
+        &["ours", "what", "threads"],
+        &["calls", "first event p50", "p95", "settled p50", "p95"],
+    );
+    for Judged { name, mut generator } in judged {
+        for threads in [1, 2] {
+            generator = generator.with_threads(threads);
+            generator.warm_up();
+            for Row { what, first_event, settled, .. } in latency(&generator, threads, scenes, 3)? {
+                let milliseconds = |value| Cell::Number { value, form: Form::Plain };
+                sheet.push(
+                    [name.clone(), what, threads.to_string()],
+                    vec![
+                        Cell::Count(settled.calls as u64),
+                        milliseconds(first_event.p50_ms),
+                        milliseconds(first_event.p95_ms),
+                        milliseconds(settled.p50_ms),
+                        milliseconds(settled.p95_ms),
+                    ],
+                );
+            }
+        }
+    }
+    Ok(sheet)
+}
+
+impl Report {
+    /// Tables 1 to 5 as Markdown.
+    pub fn markdown(&self) -> String {
+        let mut out = format!("# Evaluation\n\n{} scenes, seed {}. ", self.scenes, self.seed);
+        out += "Every figure has its 95 % bootstrap interval, resampled by scene.\n\n";
+        for (name, hashes) in &self.weights {
+            for (expert, hash) in hashes {
+                out += &format!("- {name}, {expert}: sha256 {}\n", hash.get(..16).unwrap_or(hash));
+            }
+        }
+        out.push('\n');
+        for sheet in &self.sheets {
+            out += &sheet.markdown();
+        }
+        out
+    }
+
+    /// Writes `tables.md`, `tables.json`, `cost.md`, `cost.json` and `pictures/`, as far as there are any.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        let write = |name: &str, text: &str| -> Result<()> {
+            let path = folder.join(name);
+            std::fs::write(&path, text).with_context(|| format!("write {}", path.display()))
+        };
+        std::fs::create_dir_all(folder).with_context(|| format!("make {}", folder.display()))?;
+        write("tables.md", &self.markdown())?;
+        write("tables.json", &format!("{}\n", serde_json::to_string_pretty(self)?))?;
+        if let Some(cost) = &self.cost {
+            write("cost.md", &cost.markdown())?;
+            write("cost.json", &format!("{}\n", serde_json::to_string_pretty(cost)?))?;
+        }
+        if !self.pictures.is_empty() {
+            std::fs::create_dir_all(folder.join("pictures"))?;
+            for (name, picture) in &self.pictures {
+                write(&format!("pictures/{name}"), picture)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{log, scene, shifted};
+    use super::*;
+    use experts::Generator;
+
+    fn tables(seed: u64, threads: usize) -> Report {
+        let scenes: Vec<Scene> = (0..2)
+            .map(|i| {
+                let speed = 8.0 + f64::from(i);
+                scene(vec![log("a", speed, 91), shifted(log("b", 6.0, 91), 30.0, 3.5)])
+            })
+            .collect();
+        let generator = Generator::random(1).unwrap().with_threads(threads);
+        let judged = vec![Judged { name: "random".into(), generator }];
+        let tables = Table::ALL.into_iter().filter(|t| *t != Table::Cost).collect();
+        run(judged, &scenes, &Options { tables, seed, pictures: true }, &|_| {}).unwrap()
+    }
+
+    #[test]
+    fn the_same_run_gives_the_same_bytes() {
+        let (first, again) = (tables(5, 1), tables(5, 2));
+        assert_eq!(first.markdown(), again.markdown());
+        assert_eq!(serde_json::to_string(&first).unwrap(), serde_json::to_string(&again).unwrap());
+        assert_eq!(first.pictures, again.pictures);
+        assert!(first.pictures.len() > 3);
+        for title in ["1a", "1b", "1c", "1d", "1e", "1f", "2 ", "3a", "3b", "4a", "4b", "5a", "5b"] {
+            assert!(first.sheets.iter().any(|s| s.title.starts_with(title)), "{title}");
+        }
+        assert_ne!(first.markdown(), tables(6, 1).markdown());
+    }
+
+    #[test]
+    fn writes_everything() {
+        let folder = tempfile::tempdir().unwrap();
+        let report = tables(5, 1);
+        report.write(folder.path()).unwrap();
+        assert_eq!(std::fs::read_to_string(folder.path().join("tables.md")).unwrap(), report.markdown());
+        let json = std::fs::read(folder.path().join("tables.json")).unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+        assert!(json["sheets"].as_array().is_some_and(|s| s.len() == report.sheets.len()));
+        assert!(!folder.path().join("cost.md").exists());
+        let pictures = std::fs::read_dir(folder.path().join("pictures")).unwrap().count();
+        assert_eq!(pictures, report.pictures.len());
+    }
+}

@@ -1,0 +1,71 @@
+//! Hand-made road users and scenes for tests.
+
+use scene::map::{Lane, LaneType};
+use scene::{
+    Agent, AgentType, Conditions, Future, LaneMap, Meta, STEP_S, Scene, Size, State, Subtype, Timing, Track,
+    Vec2,
+};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A state on the way east.
+pub fn east(x_m: f64, y_m: f64, speed_mps: f64) -> State {
+    State { x_m, y_m, heading_rad: 0.0, vx_mps: speed_mps, vy_mps: 0.0 }
+}
+
+/// A car that drives east from (0, 0) for so many steps.
+pub fn log(id: &str, speed_mps: f64, steps: usize) -> Agent {
+    let states = (0..steps).map(|i| Some(east(speed_mps * STEP_S * i as f64, 0.0, speed_mps)));
+    Agent {
+        id: id.into(),
+        agent_type: AgentType::Vehicle,
+        subtype: Subtype::Car,
+        role: None,
+        size: Size::default_for(AgentType::Vehicle, Subtype::Car),
+        track: Track { first_step: 0, states: states.collect(), z_m: None },
+        conditions: Conditions::default(),
+    }
+}
+
+/// The same car moved.
+pub fn shifted(mut agent: Agent, x_m: f64, y_m: f64) -> Agent {
+    for state in agent.track.states.iter_mut().flatten() {
+        (state.x_m, state.y_m) = (state.x_m + x_m, state.y_m + y_m);
+    }
+    agent
+}
+
+/// A future east from (0, left) at even speed.
+pub fn straight(probability: f64, speed_mps: f64, left_m: f64) -> Future {
+    let states = (1..=90).map(|i| east(speed_mps * STEP_S * f64::from(i), left_m, speed_mps));
+    Future { probability, anchor: None, first_step: 1, states: states.collect() }
+}
+
+/// Road users on two straight lanes east.
+pub fn scene(agents: Vec<Agent>) -> Scene {
+    let lane = |id: &str, y: f64| Lane {
+        id: id.into(),
+        lane_type: LaneType::SurfaceStreet,
+        points: (0..=30).map(|i| Vec2::new(f64::from(i) * 10.0 - 50.0, y)).collect::<Vec<_>>().into(),
+        width_m: None,
+        left_boundary: Vec::new(),
+        right_boundary: Vec::new(),
+        speed_limit_mps: Some(13.4),
+        predecessors: Vec::new(),
+        successors: Vec::new(),
+        left_neighbors: Vec::new(),
+        right_neighbors: Vec::new(),
+        interpolating: false,
+    };
+    Scene {
+        id: None,
+        name: "road".into(),
+        meta: Meta::default(),
+        time: Timing { steps: 91, now_step: 0 },
+        map: Arc::new(LaneMap { lanes: vec![lane("a", 0.0), lane("b", 3.5)], ..LaneMap::default() }),
+        signals: Vec::new(),
+        agents,
+        generated: None,
+        extra: BTreeMap::new(),
+    }
+}
