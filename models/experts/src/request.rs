@@ -59,11 +59,14 @@ pub struct Stages {
     pub shown: Shown,
     /// Futures in conflict are pushed apart and offered to the choice.
     pub guidance: bool,
+    /// Those who keep their motion are in the way. Where their motion is withheld, so that nothing leaks,
+    /// a guess at it would be an obstacle that is not there.
+    pub kept_in_the_way: bool,
 }
 
 impl Default for Stages {
     fn default() -> Self {
-        Self { shown: Shown::Chosen, guidance: true }
+        Self { shown: Shown::Chosen, guidance: true, kept_in_the_way: true }
     }
 }
 

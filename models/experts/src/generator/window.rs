@@ -237,10 +237,13 @@ impl<'g> Window<'g> {
             Shown::Likeliest => true,
             Shown::Drawn => false,
         };
-        let stands_for = |a: &Actor| {
-            if likeliest { a.likeliest() } else { pick(&a.probability, key(&a.id, usize::MAX).unit()) }
-        };
-        self.standing_for = self.actors.iter().map(stands_for).collect();
+        self.standing_for = self
+            .actors
+            .iter()
+            .map(|a| {
+                if likeliest { a.likeliest() } else { pick(&a.probability, key(&a.id, usize::MAX).unit()) }
+            })
+            .collect();
         self.drafts = self.actors.iter().map(|a| a.residual).collect();
         let Some(&(level, _)) = levels(&self.request).first() else {
             return Ok(());
@@ -332,7 +335,8 @@ impl<'g> Window<'g> {
     /// Those who keep their motion, as obstacles.
     fn kept_poses(&self, world: &World<'_>) -> Vec<(Poses, [f32; 2])> {
         let acting: BTreeSet<usize> = self.actors.iter().map(|a| a.planned.present.index).collect();
-        let kept = world.present.iter().filter(|p| !acting.contains(&p.index));
+        let in_the_way = |p: &&Present| self.request.stages.kept_in_the_way && !acting.contains(&p.index);
+        let kept = world.present.iter().filter(in_the_way);
         kept.map(|p| {
             let mut poses = [[0.0; 4]; INSTANTS];
             for (i, pose) in poses.iter_mut().enumerate() {
@@ -414,8 +418,8 @@ impl<'g> Window<'g> {
             });
         let world = self.world();
         let acting: BTreeSet<usize> = self.actors.iter().map(|a| a.planned.present.index).collect();
-        let fixed =
-            world.present.iter().filter(|p| !acting.contains(&p.index)).map(|p| kept_boxes(&world, p));
+        let in_the_way = |p: &&Present| self.request.stages.kept_in_the_way && !acting.contains(&p.index);
+        let fixed = world.present.iter().filter(in_the_way).map(|p| kept_boxes(&world, p));
         let mut choice = Choice { agents: Vec::new(), fixed: fixed.collect() };
         for (actor, motions) in self.actors.iter().zip(&motions) {
             choice.agents.push(options(actor, motions, &self.map.index.graph));

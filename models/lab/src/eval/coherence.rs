@@ -147,7 +147,7 @@ pub fn coherence(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: 
         line("prior", &verdicts(&prior, false));
         for own in judged {
             for (name, steps, diversity, shown, guidance) in LINES {
-                let stages = Stages { shown, guidance };
+                let stages = Stages { shown, guidance, ..Stages::default() };
                 let ask = Ask { steps, diversity, stages, ..Ask::shipped(goals, seed) };
                 let samples: Result<Vec<_>> =
                     sites.par_iter().map(|site| scenes(&own.generator, site, ask)).collect();

@@ -223,7 +223,7 @@ mod tests {
         let site = Site::new(0, &scene);
         let generator = Generator::random(3).unwrap().with_threads(1);
         let shown = |shown, guidance, steps, seed| {
-            let stages = Stages { shown, guidance };
+            let stages = Stages { shown, guidance, ..Stages::default() };
             let ask = Ask { steps, diversity: 0.0, stages, ..Ask::shipped(false, seed) };
             scenes(&generator, &site, ask).unwrap().remove(0)
         };
