@@ -116,7 +116,7 @@ fn paths_to_goal(
     let v0 = model.start_speed_mps();
     let end = EndPose { position: goal, heading_rad: target.heading_rad };
     if model.kind == Kind::Walk {
-        return vec![walk_to(who, model, goal)];
+        return vec![walk_to(who, model, target, goal)];
     }
     let least = project(model, &model.coasting(), target, None);
     let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));
@@ -145,10 +145,20 @@ fn paths_to_goal(
     out
 }
 
-/// Straight line on foot; the heading at the goal is the projection's matter.
-fn walk_to(who: &Present, model: &MotionModel, goal: Vec2) -> Candidate {
+/// On foot, the way of least effort: it leaves as the person walks now and arrives as the goal asks. Where
+/// that would wind, or there is hardly a way to go, the straight line.
+fn walk_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) -> Candidate {
     let start = who.start.position();
     let chord = goal - start;
+    // When to be where along it is the base's matter, so the speed stays free here.
+    let whither = Target { speed_mps: None, ..*target };
+    let least = project(model, &model.coasting(), &whither, None);
+    let steps = least.trajectory.iter().take(target.step + 1);
+    let path = Polyline::new(steps.map(|s| s.position));
+    let direct = path.length_m() < 1.25 * chord.norm() + 0.3;
+    if chord.norm() > 1.0 && direct && least.reach.is_reached() {
+        return Candidate::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2);
+    }
     let path = if chord.norm() > 0.3 {
         let n = chord.norm().ceil().max(1.0) as usize;
         Polyline::new((0..=n).map(|i| start + chord * (i as f64 / n as f64)))

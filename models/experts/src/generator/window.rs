@@ -237,13 +237,17 @@ impl<'g> Window<'g> {
             Shown::Likeliest => true,
             Shown::Drawn => false,
         };
-        self.standing_for = self
-            .actors
-            .iter()
-            .map(|a| {
-                if likeliest { a.likeliest() } else { pick(&a.probability, key(&a.id, usize::MAX).unit()) }
-            })
-            .collect();
+        self.standing_for =
+            self.actors
+                .iter()
+                .map(|a| {
+                    if likeliest {
+                        a.likeliest()
+                    } else {
+                        pick(&a.probability, key(&a.id, usize::MAX).unit())
+                    }
+                })
+                .collect();
         self.drafts = self.actors.iter().map(|a| a.residual).collect();
         let Some(&(level, _)) = levels(&self.request).first() else {
             return Ok(());
