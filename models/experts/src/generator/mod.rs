@@ -120,13 +120,18 @@ impl Generator {
         self.placement.as_ref().map(|(_, info)| info)
     }
 
+    /// The placement weights themselves.
+    pub fn placement_model(&self) -> Option<&PlacementModel> {
+        self.placement.as_ref().map(|(model, _)| model)
+    }
+
     /// Places road users. The same request gives the same answer.
     ///
     /// # Errors
     /// An unknown id among those kept, and [`GenerateError::Cancelled`].
     pub fn place(&self, request: &PlaceRequest, cancel: &Cancel) -> Result<Placement, GenerateError> {
         let map = self.encoded_map(&request.scene.map);
-        placement::place(self.placement.as_ref().map(|(model, _)| model), &map.index.graph, request, cancel)
+        placement::place(self.placement_model(), &map.index.graph, request, cancel)
     }
 
     /// The gate: which expert a type runs on.

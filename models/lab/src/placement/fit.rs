@@ -194,7 +194,8 @@ impl Sums {
                     model.sizes.insert(kind, boxes);
                 }
             }
-            let of_type = |all: &BTreeMap<(AgentType, u16), Vec<f64>>, classes: fn(u16) -> (f64, f64, usize)| {
+            let of_type = |all: &BTreeMap<(AgentType, u16), Vec<f64>>,
+                           classes: fn(u16) -> (f64, f64, usize)| {
                 let own = all.iter().filter(|((t, _), _)| *t == agent_type);
                 own.map(|((_, context), values)| (*context, histogram(values, classes(*context)))).collect()
             };
@@ -232,13 +233,16 @@ impl Sums {
                     seen[class] += count;
                     expected[class] += extent * rate.per_m * rate.factor(facts);
                 }
-                for (factor, (seen, expected)) in rate.factors[fact].iter_mut().zip(seen.iter().zip(&expected)) {
+                for (factor, (seen, expected)) in
+                    rate.factors[fact].iter_mut().zip(seen.iter().zip(&expected))
+                {
                     // The prior pulls towards one, not towards the value of the last sweep.
                     let without = (expected - PRIOR_COUNT) / *factor;
                     *factor = (seen / (without + PRIOR_COUNT)).max(1e-6);
                 }
             }
-            let expected: f64 = own().map(|((_, _, facts), (extent, _))| extent * rate.per_m * rate.factor(facts)).sum();
+            let expected: f64 =
+                own().map(|((_, _, facts), (extent, _))| extent * rate.per_m * rate.factor(facts)).sum();
             if expected > 0.0 {
                 rate.per_m *= count / expected;
             }
@@ -293,7 +297,11 @@ fn common_boxes(classes: &BTreeMap<(u32, u32), Box2>) -> Vec<[f64; 3]> {
         }
         held += one.count;
         let mean = |sum: f64| ((sum / one.count) * 100.0).round() / 100.0;
-        boxes.push([mean(one.length_m).clamp(0.3, 25.0), mean(one.width_m).clamp(0.3, 3.2), short(one.count / total)]);
+        boxes.push([
+            mean(one.length_m).clamp(0.3, 25.0),
+            mean(one.width_m).clamp(0.3, 3.2),
+            short(one.count / total),
+        ]);
     }
     boxes
 }
