@@ -32,7 +32,7 @@ pub const MAX_GAP_M: f64 = 50.0;
 /// Room around every box, metres.
 const MARGIN_M: f64 = 0.1;
 /// Draws of a cell for one road user before it is given up.
-const TRIES: usize = 64;
+const TRIES: usize = 128;
 /// Draws of a pose in one cell that may fail before the cell counts as full.
 const CELL_TRIES: u8 = 4;
 /// Braking that starts may ask of a driver at once, m/s2: no start is an emergency.

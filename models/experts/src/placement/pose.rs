@@ -116,7 +116,7 @@ pub(super) fn draw_pose(
                 half_lane_m + offset + half
             };
             // No car stands across the kerb.
-            if site.free_m.is_finite() && near + half > half_lane_m + site.free_m + 0.3 {
+            if site.free_m.is_finite() && near + half > half_lane_m + site.free_m {
                 return None;
             }
             site.side * near

@@ -219,8 +219,12 @@ impl<'a> Sites<'a> {
         }
     }
 
-    /// Strips between lanes and kerbs. Junctions and freeways have none.
+    /// Strips between lanes and kerbs. Junctions and freeways have none, nor have maps without road edges:
+    /// nothing says there where the road ends.
     fn kerbs(&mut self, region: &Region) {
+        if self.edges.is_empty() {
+            return;
+        }
         let index = EdgeIndex::new(&self.scene.map);
         let mut found = Vec::new();
         for site in self.all.iter().filter(|s| s.kind == SiteKind::Lane) {

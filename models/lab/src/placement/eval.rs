@@ -18,7 +18,7 @@ const TYPES: [AgentType; 3] = [AgentType::Vehicle, AgentType::Pedestrian, AgentT
 /// Farthest lane or neighbour that is told apart, metres.
 const FAR_M: f64 = 50.0;
 /// Draws of scenes for the intervals.
-const RESAMPLES: u64 = 500;
+const RESAMPLES: u64 = 400;
 /// Corners farther off the road than this count as off it, metres.
 const OFF_ROAD_M: f64 = 0.3;
 

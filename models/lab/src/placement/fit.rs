@@ -21,12 +21,12 @@ const PRIOR_COUNT: f64 = 2.0;
 /// The same of a speed context, towards the one without the leader.
 const PRIOR_SPEEDS: f64 = 8.0;
 /// Speeds that a context needs to be kept.
-const LEAST_SPEEDS: f64 = 5.0;
+const LEAST_SPEEDS: f64 = 20.0;
 /// Classes of boxes, metres.
 const BOX_LENGTH_M: f64 = 0.25;
 const BOX_WIDTH_M: f64 = 0.1;
 /// Boxes kept: this share of all.
-const BOX_SHARE: f64 = 0.995;
+const BOX_SHARE: f64 = 0.99;
 
 /// What to learn from.
 #[derive(Clone, Debug)]
@@ -258,12 +258,12 @@ fn contexts(context: u16) -> Vec<u16> {
     if context < 1000 { vec![context, group_context(context), ANY_CONTEXT] } else { vec![context] }
 }
 
-/// Four digits are more than the data say.
+/// Three digits are what the data say.
 fn short(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return 0.0;
     }
-    let parts = 10f64.powi(3 - value.abs().log10().floor() as i32);
+    let parts = 10f64.powi(2 - value.abs().log10().floor() as i32);
     (value * parts).round() / parts
 }
 
@@ -368,18 +368,18 @@ mod tests {
         };
         counts.insert(ANY_CONTEXT, row(10, 1000.0));
         counts.insert(group_context(3), row(10, 1000.0));
-        counts.insert(3, row(0, 8.0));
+        counts.insert(3, row(0, 24.0));
         counts.insert(4, row(0, 1.0));
         let rows = speed_rows(&counts);
-        assert_eq!((rows[&3][0], rows[&3][10]), (0.5, 0.5));
+        assert_eq!((rows[&3][0], rows[&3][10]), (0.75, 0.25));
         assert!(!rows.contains_key(&4));
         assert_eq!(rows[&ANY_CONTEXT][10], 1.0);
     }
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!([short(0.123456), short(12345.6), short(0.0), short(1.0)], [0.1235, 12350.0, 0.0, 1.0]);
+        assert_eq!([short(0.123456), short(12345.6), short(0.0), short(1.0)], [0.123, 12300.0, 0.0, 1.0]);
         let histogram = histogram(&[0.05, 0.15, 0.16, 9.0], (0.0, 0.1, 3));
-        assert_eq!(histogram.share, [0.3333, 0.6667, 0.0]);
+        assert_eq!(histogram.share, [0.333, 0.667, 0.0]);
     }
 }
