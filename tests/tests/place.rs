@@ -79,14 +79,15 @@ fn nobody_overlaps_on_any_demo_with_any_seed() {
             assert_eq!(reply["reason"].is_null(), reply["unplaced"] == 0);
             assert_eq!(reply["method"], "model");
             placed += agents.len();
-            let new: Vec<[f64; 5]> = agents.iter().map(|a| outline(a, 0, 0.05).unwrap()).collect();
+            let new: Vec<[f64; 5]> = agents.iter().map(|a| outline(a, 0, 0.0).unwrap()).collect();
             let old: Vec<[f64; 5]> = if keep.is_null() {
-                kept.iter().filter_map(|a| outline(a, 0, 0.05)).collect()
+                kept.iter().filter_map(|a| outline(a, 0, 0.0)).collect()
             } else {
                 Vec::new()
             };
-            for (i, one) in new.iter().enumerate() {
-                // Boxes grown by 5 cm each: 10 cm between them.
+            for i in 0..new.len() {
+                // 10 cm around each box are free of those who were there before it.
+                let one = &outline(&agents[i], 0, 0.0999).unwrap();
                 let others = new[..i].iter().chain(&old);
                 assert_eq!(others.filter(|o| touch(one, o)).count(), 0, "{demo} {seed} {}", agents[i]);
             }
