@@ -2,7 +2,7 @@
 //! table of codes.
 
 use crate::problem::Code;
-use crate::routes::{generate, maps, scenes, score};
+use crate::routes::{generate, maps, place, scenes, score};
 use formats::native::{MapDoc, SceneDoc};
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
@@ -76,6 +76,7 @@ fn own_codes(operation: &str) -> &'static [Code] {
             Code::ShuttingDown,
             Code::GenerateTimeout,
         ],
+        "place" => &[Code::NotFound, Code::UnknownAgent, Code::Cancelled, Code::GenerateTimeout],
         "cancelJob" => &[Code::NotFound],
         "score" => &[Code::NotFound, Code::UnknownAgent],
         "readyz" => &[Code::NotReady],
@@ -142,6 +143,7 @@ fn complete(method: &str, operation: &mut Value) {
     if body.contains("schemas/Scene\"")
         || body.contains("GenerateRequest")
         || body.contains("ScoreRequest")
+        || body.contains("PlaceBody")
         || id == "importScenes"
     {
         codes.extend(SCENES);
@@ -182,6 +184,11 @@ fn example(operation: &str) -> Option<Value> {
             "scene_id": "demo-crossing", "agents": ["5"], "seed": 7,
             "conditions": {"5": {"goal": {"x_m": 14.0, "y_m": 0.4, "speed_mps": 6.0}}},
         })),
+        "place" => Some(json!({
+            "scene_id": "demo-crossing", "density": {"count": 20}, "seed": 7, "keep": [],
+            "types": {"vehicle": 0.7, "pedestrian": 0.2, "cyclist": 0.1},
+            "region": {"circle": {"x_m": 0.0, "y_m": 0.0, "radius_m": 60.0}},
+        })),
         "score" => Some(json!({"scene_id": "demo-crossing"})),
         "renameScene" => Some(json!({"name": "left turn, late"})),
         "duplicateScene" => Some(json!({"name": "left turn, later"})),
@@ -196,6 +203,8 @@ fn schemas() -> Map<String, Value> {
     generator.subschema_for::<MapDoc>();
     generator.subschema_for::<generate::GenerateRequest>();
     generator.subschema_for::<score::ScoreRequest>();
+    generator.subschema_for::<place::PlaceBody>();
+    generator.subschema_for::<place::PlaceReply>();
     generator.subschema_for::<scenes::SceneList>();
     generator.subschema_for::<scenes::Saved>();
     generator.subschema_for::<scenes::ScenePatch>();

@@ -157,6 +157,19 @@ impl Problem {
         self
     }
 
+    /// Puts a prefix before the pointers: the problem is about a part of the body.
+    #[must_use]
+    pub fn under(mut self, prefix: &str) -> Self {
+        let errors = self.members.get_mut("errors").and_then(Value::as_array_mut);
+        for error in errors.into_iter().flatten() {
+            let pointer = error.get("pointer").and_then(Value::as_str).map(|p| format!("{prefix}{p}"));
+            if let (Some(object), Some(pointer)) = (error.as_object_mut(), pointer) {
+                object.insert("pointer".into(), pointer.into());
+            }
+        }
+        self
+    }
+
     /// Adds Retry-After in seconds.
     #[must_use]
     pub fn retry_after(mut self, seconds: u64) -> Self {

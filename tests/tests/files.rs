@@ -106,7 +106,7 @@ fn an_answer_can_be_saved_and_goes_stale_with_its_scene() {
 fn examples_of_the_document_work() {
     let server = with_demos();
     let document = server.get("/openapi.json").unwrap().json();
-    for (path, operation) in [("/v1/generate", "post"), ("/v1/score", "post")] {
+    for (path, operation) in [("/v1/generate", "post"), ("/v1/place", "post"), ("/v1/score", "post")] {
         let body =
             &document["paths"][path][operation]["requestBody"]["content"]["application/json"]["example"];
         let reply = server.post(path, body).unwrap();

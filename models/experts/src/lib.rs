@@ -1,9 +1,10 @@
 //! Scene and conditions to futures: features, the three experts behind their gate, refinement,
-//! projection and choice.
+//! projection and choice. Map to road users: placement.
 
 pub mod features;
 pub mod generator;
 pub mod net;
+pub mod placement;
 pub mod request;
 
 pub use generator::{Generation, Generator, WeightsError, WeightsInfo};

@@ -1,6 +1,8 @@
-//! How experts are made and judged: synthetic traffic, training records, training, evaluation.
+//! How experts are made and judged: synthetic traffic, training records, training, placement,
+//! evaluation.
 
 pub mod eval;
+pub mod placement;
 pub mod prepare;
 pub mod statistics;
 pub mod synthesize;

@@ -5,6 +5,7 @@ mod files;
 mod generate;
 mod lab;
 mod output;
+mod place;
 mod serve;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -79,8 +80,8 @@ pub struct Common {
     /// Say nothing but errors.
     #[arg(short, long, global = true)]
     pub quiet: bool,
-    /// Folder with vehicle.safetensors, pedestrian.safetensors and cyclist.safetensors, in place of
-    /// the weights inside the program.
+    /// Folder with vehicle.safetensors, pedestrian.safetensors, cyclist.safetensors and, if it has
+    /// them, placement.json, in place of the weights inside the program.
     #[arg(long, global = true, env = "DRAGTRAFFIC_WEIGHTS", value_name = "DIR")]
     pub weights: Option<PathBuf>,
 }
@@ -100,6 +101,8 @@ enum Command {
     Serve(serve::ServeArgs),
     /// Generate futures of a scene.
     Generate(generate::GenerateArgs),
+    /// Place road users on a scene's map.
+    Place(place::PlaceArgs),
     /// Turn a file of any known format into scene JSON.
     Import(files::ConvertArgs),
     /// Turn a file of one format into another.
@@ -122,6 +125,10 @@ enum Command {
     Prepare(lab::PrepareArgs),
     /// Train an expert.
     Train(lab::TrainArgs),
+    /// Learn the placement weights from scenes.
+    TrainPlacement(lab::TrainPlacementArgs),
+    /// Judge the placement on recorded scenes.
+    EvalPlace(lab::EvalPlaceArgs),
     /// Judge the experts on scenes: tables of quality, coherence, control, realism, variety and cost, pictures.
     Eval(lab::EvalArgs),
     /// Time answers: one drag, and whole scenes.
@@ -145,6 +152,7 @@ pub fn run() -> ExitCode {
         None => serve::run(cli.serve, &common),
         Some(Command::Serve(args)) => serve::run(args, &common),
         Some(Command::Generate(args)) => generate::run(args, &common),
+        Some(Command::Place(args)) => place::run(args, &common),
         Some(Command::Import(args)) => files::convert(args, true),
         Some(Command::Convert(args)) => files::convert(args, false),
         Some(Command::Export(args)) => files::export(args),
@@ -156,6 +164,8 @@ pub fn run() -> ExitCode {
         Some(Command::Statistics(args)) => lab::statistics(args),
         Some(Command::Prepare(args)) => lab::prepare(args, &common),
         Some(Command::Train(args)) => lab::train(args, &common),
+        Some(Command::TrainPlacement(args)) => lab::train_placement(args, &common),
+        Some(Command::EvalPlace(args)) => lab::eval_place(args, &common),
         Some(Command::Eval(args)) => lab::eval(args, &common),
         Some(Command::Bench(args)) => lab::bench(args, &common),
     };

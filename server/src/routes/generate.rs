@@ -186,7 +186,7 @@ pub async fn generate(State(app): State<App>, request: Request) -> Result<Respon
 /// The task of a body.
 async fn prepare(app: &App, mut body: GenerateRequest) -> Result<Task, Problem> {
     let scene = match (body.scene.take(), body.scene_id.take()) {
-        (Some(doc), None) => catalog::scene_of(app, doc).await.map_err(|p| under(p, "/scene"))?,
+        (Some(doc), None) => catalog::scene_of(app, doc).await.map_err(|p| p.under("/scene"))?,
         (None, Some(id)) => {
             let opened = catalog::open(app, &id).await?;
             if body.etag.as_ref().is_some_and(|etag| *etag != opened.etag) {
@@ -202,18 +202,6 @@ async fn prepare(app: &App, mut body: GenerateRequest) -> Result<Task, Problem> 
     };
     let app = app.clone();
     body::blocking(move || body.task(scene, &app.limits, &app.generator)).await
-}
-
-/// Puts a prefix before the pointers of a problem about a part of the body.
-fn under(mut problem: Problem, prefix: &str) -> Problem {
-    let errors = problem.members.get_mut("errors").and_then(|e| e.as_array_mut());
-    for error in errors.into_iter().flatten() {
-        let pointer = error.get("pointer").and_then(|p| p.as_str()).map(|p| format!("{prefix}{p}"));
-        if let (Some(object), Some(pointer)) = (error.as_object_mut(), pointer) {
-            object.insert("pointer".into(), pointer.into());
-        }
-    }
-    problem
 }
 
 impl GenerateRequest {

@@ -21,6 +21,7 @@ pub fn document(generator: &experts::Generator, limits: &crate::limits::Limits) 
         "build": {"target": env!("BUILD_TARGET"), "profile": env!("BUILD_PROFILE")},
         "device": "cpu",
         "weights": generator.weights(),
+        "placement": generator.placement(),
         "limits": limits.to_json(),
         "condition_ranges": {
             "vehicle": range(AgentType::Vehicle),

@@ -8,6 +8,7 @@ pub mod import;
 pub mod info;
 pub mod jobs;
 pub mod maps;
+pub mod place;
 pub mod scenes;
 pub mod score;
 
@@ -36,6 +37,7 @@ pub fn all() -> OpenApiRouter<App> {
         .routes(routes!(maps::read))
         .routes(routes!(generate::generate))
         .routes(routes!(jobs::cancel))
+        .routes(routes!(place::place))
         .routes(routes!(score::score))
         .routes(routes!(info::info))
         .routes(routes!(health::healthz))

@@ -16,6 +16,7 @@ pub use weights::{WeightsError, WeightsInfo};
 
 use crate::features::world::MapIndex;
 use crate::net::{Expert, NetError};
+use crate::placement::{self, PlaceRequest, Placement, PlacementInfo, PlacementModel};
 use crate::request::{Cancel, GenerateError, Request};
 use candle_core::Tensor;
 use scene::{AgentType, ContentHash, LaneMap};
@@ -34,6 +35,7 @@ pub const EXPERTS: [(AgentType, &str); 3] =
 pub struct Generator {
     experts: BTreeMap<AgentType, Expert>,
     info: BTreeMap<String, WeightsInfo>,
+    placement: Option<(PlacementModel, PlacementInfo)>,
     maps: Mutex<MapCache>,
     threads: usize,
 }
@@ -57,15 +59,18 @@ impl Generator {
     /// # Errors
     /// When a file is damaged or of another architecture.
     pub fn built_in() -> Result<Self, WeightsError> {
-        Self::from_files(weights::built_in())
+        let placement = weights::read_placement(weights::PLACEMENT)?;
+        Ok(Self { placement: Some(placement), ..Self::from_files(weights::built_in())? })
     }
 
-    /// Loads `vehicle.safetensors`, `pedestrian.safetensors` and `cyclist.safetensors` from a folder.
+    /// Loads `vehicle.safetensors`, `pedestrian.safetensors` and `cyclist.safetensors` from a folder, and
+    /// `placement.json` where it is there.
     ///
     /// # Errors
     /// When a file is missing, damaged or of another architecture.
     pub fn from_dir(dir: &Path) -> Result<Self, WeightsError> {
-        Self::from_files(weights::read_dir(dir)?)
+        let placement = weights::placement_in(dir)?;
+        Ok(Self { placement, ..Self::from_files(weights::read_dir(dir)?)? })
     }
 
     /// Random weights, for tests of everything but quality.
@@ -85,7 +90,7 @@ impl Generator {
             experts.insert(agent_type, expert);
         }
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        Ok(Self { experts, info, maps: Mutex::default(), threads })
+        Ok(Self { experts, info, placement: None, maps: Mutex::default(), threads })
     }
 
     /// Cuts whole scenes over so many threads; the answer does not depend on it.
@@ -110,6 +115,25 @@ impl Generator {
     /// What can be told before any work: unknown ids, missing starts, too many road users.
     pub fn start(&self, request: Request, cancel: Cancel) -> Result<Generation<'_>, GenerateError> {
         Generation::new(self, request, cancel)
+    }
+
+    /// Facts about the placement weights; `None` when road users are placed evenly along lanes.
+    pub fn placement(&self) -> Option<&PlacementInfo> {
+        self.placement.as_ref().map(|(_, info)| info)
+    }
+
+    /// The placement weights themselves.
+    pub fn placement_model(&self) -> Option<&PlacementModel> {
+        self.placement.as_ref().map(|(model, _)| model)
+    }
+
+    /// Places road users. The same request gives the same answer.
+    ///
+    /// # Errors
+    /// An unknown id among those kept, and [`GenerateError::Cancelled`].
+    pub fn place(&self, request: &PlaceRequest, cancel: &Cancel) -> Result<Placement, GenerateError> {
+        let map = self.encoded_map(&request.scene.map);
+        placement::place(self.placement_model(), &map.index.graph, request, cancel)
     }
 
     /// The gate: which expert a type runs on.

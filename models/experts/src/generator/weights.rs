@@ -2,6 +2,7 @@
 
 use super::{EXPERTS, Generator};
 use crate::net::Expert;
+use crate::placement::{FILE_NAME, PlacementInfo, PlacementModel};
 use crate::request::{Cancel, Request};
 use scene::map::{Lane, LaneType};
 use scene::{
@@ -71,6 +72,25 @@ pub(super) fn read_dir(dir: &Path) -> Result<Files, WeightsError> {
         }
     };
     EXPERTS.iter().map(read).collect()
+}
+
+/// The placement weights inside the program.
+pub(super) const PLACEMENT: &[u8] = include_bytes!("../../../../assets/weights/placement.json");
+
+pub(super) fn read_placement(bytes: &[u8]) -> Result<(PlacementModel, PlacementInfo), WeightsError> {
+    let model = PlacementModel::load(bytes)?;
+    let info = model.info(bytes);
+    Ok((model, info))
+}
+
+/// Placement weights of a folder, which may have none.
+pub(super) fn placement_in(dir: &Path) -> Result<Option<(PlacementModel, PlacementInfo)>, WeightsError> {
+    let path = dir.join(FILE_NAME);
+    match std::fs::read(&path) {
+        Ok(bytes) => read_placement(&bytes).map(Some),
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(e) => Err(WeightsError { path: path.display().to_string(), reason: e.to_string() }),
+    }
 }
 
 pub(super) fn random(seed: u64) -> Result<Files, WeightsError> {

@@ -107,6 +107,7 @@ fn ask(site: &Site<'_>, case: &Case, subset: Subset, seed: u64) -> Request {
     let mut request = Request::new(Arc::new(site.asked(case, subset)));
     request.agents = Some(BTreeSet::from([site.log(case).id.clone()]));
     request.seed = seed;
+    request.stages.kept_in_the_way = false;
     request
 }
 

@@ -59,9 +59,8 @@ impl<'a> Quality<'a> {
                  last frame, with a goal position at the frame before. Heading and speed are those of the future \
                  closest at its end, as in the paper, whose ADE stands under \"closest\". Log loss of the best \
                  future; six even ones give 1.79.",
-                "The others are taken to go straight on at their speed, and refinement and choice keep out of \
-                 their way even where they would in fact have turned or stopped: table 2 has the ADE of everybody \
-                 generated together, which assumes nothing of the kind.",
+                "The others' motion is withheld, so nobody is kept out of the way of: a guess at it would be an \
+                 obstacle that is not there. Table 2 has everybody generated together.",
             ],
             &["type", "condition", "method"],
             &[

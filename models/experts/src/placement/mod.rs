@@ -1,0 +1,25 @@
+//! Placement G(map): road users where there are none yet (`POST /v1/place`).
+//!
+//! Cells of lanes, kerbs, crosswalks, pavements and driveways are drawn one at a time in proportion to
+//! learned rates; who is placed changes the rates behind it. Pose and box come from learned
+//! distributions, and whatever would touch somebody is drawn again. Speeds are drawn last, those nearest
+//! to a conflict first, so that everybody knows who is in front.
+
+mod edges;
+pub mod learn;
+mod model;
+mod observe;
+mod place;
+mod pose;
+mod random;
+mod region;
+mod sites;
+mod speed;
+mod stops;
+
+pub use model::{PlacementInfo, PlacementModel};
+pub use place::{Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, place};
+pub use region::{Region, map_bounds, ring_area_m2};
+
+/// Name of the weights file, beside those of the experts.
+pub const FILE_NAME: &str = "placement.json";

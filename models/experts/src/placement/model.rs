@@ -1,0 +1,198 @@
+//! The learned numbers: how often somebody is in a cell, and how they stand and move there.
+//!
+//! Rates are log-linear: per metre (per driveway) times one factor for each fact of the cell. The rest
+//! are histograms by context. All of it is one JSON file, small enough to read.
+
+use super::sites::{FACTS, Site, SiteKind};
+use crate::generator::WeightsError;
+use scene::{AgentType, ContentHash};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Value of `format` in a weights file.
+pub const FORMAT: &str = "dragtraffic.placement";
+/// Value of `version`.
+pub const VERSION: u32 = 1;
+/// Largest weights file that is read, bytes.
+const MAX_BYTES: usize = 1 << 20;
+/// Classes of a speed histogram: standing, then shares of the speed that the place allows.
+pub const SPEED_CLASSES: usize = 24;
+/// Width of a speed class after the first, in shares.
+pub const SPEED_STEP: f64 = 0.07;
+/// Below this a road user stands, m/s.
+pub const STANDING_MPS: f64 = 0.3;
+
+/// Numbers by class, even inside a class.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Histogram {
+    /// Lower bound of the first class.
+    pub low: f64,
+    /// Width of a class.
+    pub step: f64,
+    /// Share of each class.
+    pub share: Vec<f64>,
+}
+
+/// How often cells of one kind are taken.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rate {
+    /// Road users a metre (a driveway) where all factors are one.
+    pub per_m: f64,
+    /// Factor by fact of the cell, then by its class.
+    pub factors: Vec<Vec<f64>>,
+}
+
+/// What is known about one type.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TypeModel {
+    /// By kind of place.
+    pub rates: BTreeMap<SiteKind, Rate>,
+    /// Boxes by kind of place: length and width in metres, share.
+    pub sizes: BTreeMap<SiteKind, Vec<[f64; 3]>>,
+    /// Offsets across the line of the cell by [`pose_context`], metres; on crosswalks in half widths.
+    pub lateral: BTreeMap<u16, Histogram>,
+    /// Heading against the line of the cell by [`pose_context`], radians.
+    pub heading: BTreeMap<u16, Histogram>,
+    /// Speeds as shares of what the place allows by speed context, [`SPEED_CLASSES`] each.
+    pub speed: BTreeMap<u16, Vec<f64>>,
+}
+
+/// The file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlacementModel {
+    /// [`FORMAT`].
+    pub format: String,
+    /// [`VERSION`].
+    pub version: u32,
+    /// Licence of the numbers.
+    pub licence: String,
+    /// Data they were learned from.
+    pub trained_on: String,
+    /// Scenes they were learned from.
+    pub scenes: u64,
+    /// By type.
+    pub types: BTreeMap<AgentType, TypeModel>,
+}
+
+/// Facts about placement weights.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct PlacementInfo {
+    pub sha256: String,
+    pub numbers: usize,
+    pub licence: String,
+    pub trained_on: String,
+}
+
+impl Histogram {
+    fn is_sound(&self) -> bool {
+        let total: f64 = self.share.iter().sum();
+        let finite = self.low.is_finite() && self.step > 0.0 && self.step.is_finite();
+        finite && self.share.len() <= 1_000 && shares(&self.share) && total > 0.0
+    }
+}
+
+fn shares(values: &[f64]) -> bool {
+    values.iter().all(|v| *v >= 0.0 && v.is_finite())
+}
+
+impl Rate {
+    /// Expected road users in a cell.
+    pub(super) fn of(&self, site: &Site) -> f64 {
+        site.extent() * self.per_m * self.factor(&site.facts)
+    }
+
+    /// Product of the factors of a cell's facts.
+    pub fn factor(&self, facts: &[u8; FACTS]) -> f64 {
+        let each = self.factors.iter().zip(facts);
+        each.map(|(factors, class)| factors.get(usize::from(*class)).copied().unwrap_or(0.0)).product()
+    }
+}
+
+/// Kinds of places where a type is.
+pub fn kinds(agent_type: AgentType) -> &'static [SiteKind] {
+    match agent_type {
+        AgentType::Vehicle => &[SiteKind::Lane, SiteKind::Kerb, SiteKind::Driveway],
+        AgentType::Pedestrian => &[SiteKind::Crosswalk, SiteKind::Pavement],
+        AgentType::Cyclist => &[SiteKind::Lane, SiteKind::Crosswalk, SiteKind::Pavement],
+        AgentType::Other => &[],
+    }
+}
+
+impl PlacementModel {
+    /// Reads a weights file.
+    ///
+    /// # Errors
+    /// When it is of another form, or has numbers that cannot be.
+    pub fn load(bytes: &[u8]) -> Result<Self, WeightsError> {
+        let wrong = |reason: String| WeightsError { path: super::FILE_NAME.to_owned(), reason };
+        if bytes.len() > MAX_BYTES {
+            return Err(wrong(format!("{} bytes, at most {MAX_BYTES} expected", bytes.len())));
+        }
+        let model: Self = serde_json::from_slice(bytes).map_err(|e| wrong(e.to_string()))?;
+        model.check().map_err(wrong)?;
+        Ok(model)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.format != FORMAT || self.version != VERSION {
+            return Err(format!(
+                "{} version {} found, {FORMAT} version {VERSION} expected",
+                self.format, self.version
+            ));
+        }
+        for (agent_type, model) in &self.types {
+            for (kind, rate) in &model.rates {
+                let classes = kind.classes();
+                let fits = rate.factors.len() == classes.len()
+                    && rate.factors.iter().zip(classes).all(|(f, n)| f.len() == *n && shares(f));
+                if !fits || !shares(&[rate.per_m]) {
+                    return Err(format!("{agent_type:?}: rates of {kind:?} have the wrong form"));
+                }
+            }
+            let boxes = model.sizes.values().flatten();
+            let sound =
+                |b: &[f64; 3]| (0.2..=25.0).contains(&b[0]) && (0.2..=4.0).contains(&b[1]) && b[2] >= 0.0;
+            if !boxes.into_iter().all(sound) {
+                return Err(format!("{agent_type:?}: a box is out of range"));
+            }
+            if !model.lateral.values().chain(model.heading.values()).all(Histogram::is_sound) {
+                return Err(format!("{agent_type:?}: a histogram has the wrong form"));
+            }
+            if !model.speed.values().all(|row| row.len() == SPEED_CLASSES && shares(row)) {
+                return Err(format!("{agent_type:?}: speeds have the wrong form"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The file's bytes; equal models give equal bytes.
+    ///
+    /// # Errors
+    /// When a number is not finite.
+    pub fn save(&self) -> Result<Vec<u8>, serde_json::Error> {
+        let mut bytes = serde_json::to_vec(self)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+
+    /// Facts about it.
+    pub fn info(&self, bytes: &[u8]) -> PlacementInfo {
+        let of_type = |m: &TypeModel| {
+            let rates = m.rates.values().map(|r| 1 + r.factors.iter().map(Vec::len).sum::<usize>());
+            let histograms = m.lateral.values().chain(m.heading.values()).map(|h| h.share.len());
+            let boxes = m.sizes.values().map(|s| 3 * s.len());
+            rates.chain(histograms).chain(boxes).chain(m.speed.values().map(Vec::len)).sum::<usize>()
+        };
+        PlacementInfo {
+            sha256: ContentHash::of_bytes(bytes).hex(),
+            numbers: self.types.values().map(of_type).sum(),
+            licence: self.licence.clone(),
+            trained_on: self.trained_on.clone(),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! How fast a place may be driven, and what a driver there has in front.
+
+use super::model::{SPEED_CLASSES, SPEED_STEP, STANDING_MPS};
+use super::sites::SiteKind;
+use super::stops::{Ahead, straightest};
+use scene::geometry::obb::OrientedBox;
+use scene::routes::speed::{Leader, Obstacle, leader};
+use scene::routes::{LaneGraph, Polyline};
+use scene::{AgentType, Vec2};
+
+/// How far ahead bends are braked for, metres.
+const BEND_LOOK_M: f64 = 20.0;
+/// How far ahead a leader matters, metres.
+pub(super) const LEADER_LOOK_M: f64 = 45.0;
+/// Sideways acceleration in bends and braking ahead of them, m/s2 (as routes have them).
+const BEND_MPS2: f64 = 2.2;
+/// No cyclist is expected to be faster, m/s.
+const CYCLIST_MPS: f64 = 7.0;
+
+/// Speed that limit and bends allow at a place of a lane, m/s.
+pub(super) fn allowed_mps(graph: &LaneGraph, lane: usize, s_m: f64, agent_type: AgentType) -> f64 {
+    let here = &graph.lanes()[lane];
+    let mut allowed = here.speed_limit_mps;
+    for i in 0..=5 {
+        let ahead_m = BEND_LOOK_M * f64::from(i) / 5.0;
+        if s_m + ahead_m > here.path.length_m() {
+            break;
+        }
+        let bend = here.path.curvature_at(s_m + ahead_m, 6.0).abs().max(1e-6);
+        allowed = allowed.min((BEND_MPS2 / bend + 2.0 * BEND_MPS2 * ahead_m).sqrt());
+    }
+    let most = if agent_type == AgentType::Cyclist { CYCLIST_MPS } else { f64::INFINITY };
+    allowed.min(most).max(1.0)
+}
+
+/// Speed that is usual off the lanes, m/s.
+pub(super) fn usual_mps(agent_type: AgentType) -> f64 {
+    if agent_type == AgentType::Cyclist { 4.0 } else { 2.0 }
+}
+
+/// The nearest road user in front of a place on a lane, straight on where ways part.
+pub(super) fn leader_ahead(
+    graph: &LaneGraph,
+    lane: usize,
+    s_m: f64,
+    outline: &OrientedBox,
+    others: &[Obstacle],
+) -> Option<Leader> {
+    let near = |o: &Obstacle| (o.outline.center() - outline.center()).norm() < LEADER_LOOK_M + 15.0;
+    let (index, close): (Vec<usize>, Vec<Obstacle>) =
+        others.iter().enumerate().filter(|(_, o)| near(o)).map(|(i, o)| (i, *o)).unzip();
+    if close.is_empty() {
+        return None;
+    }
+    let mut points: Vec<Vec2> = vec![graph.lanes()[lane].path.sample(s_m).position];
+    let (mut at, mut from_m, mut left_m) = (lane, s_m, LEADER_LOOK_M + 10.0);
+    for _ in 0..12 {
+        let path = &graph.lanes()[at].path;
+        let until_m = (from_m + left_m).min(path.length_m());
+        points.extend(path.slice(from_m, until_m).points().iter().skip(1));
+        left_m -= until_m - from_m;
+        let Some(next) = straightest(graph, at).filter(|_| left_m > 1.0) else { break };
+        (at, from_m) = (next, 0.0);
+    }
+    let found = leader(&Polyline::new(points), 2.0 * outline.half_length_m(), &close)?;
+    Some(Leader { index: index[found.index], ..found })
+}
+
+/// Class of what is ahead of a driver, for speeds: the place, then gap and speed of the leader.
+pub(super) fn drive_context(ahead: Ahead, leader: Option<(f64, f64)>) -> u16 {
+    let following = match leader {
+        Some((gap_m, speed_mps)) if gap_m < 40.0 => {
+            let gap = [4.0, 8.0, 15.0, 25.0].iter().filter(|b| gap_m >= **b).count();
+            let pace = if speed_mps < 0.5 { 0 } else { 1 + usize::from(speed_mps > 5.0) };
+            1 + 3 * gap + pace
+        }
+        _ => 0,
+    };
+    (16 * ahead.group() + following) as u16
+}
+
+/// The context without the leader, in place of one that was too rare.
+pub fn group_context(context: u16) -> u16 {
+    1000 + context / 16
+}
+
+/// Speeds of all contexts together.
+pub const ANY_CONTEXT: u16 = 2000;
+
+/// Context of speeds off the lanes.
+pub(super) fn walk_context(kind: SiteKind) -> u16 {
+    3000 + kind as u16
+}
+
+/// Class of a speed in units of what is allowed.
+pub fn speed_class(speed_mps: f64, unit_mps: f64) -> usize {
+    if speed_mps < STANDING_MPS {
+        return 0;
+    }
+    (1 + (speed_mps / unit_mps.max(0.1) / SPEED_STEP) as usize).min(SPEED_CLASSES - 1)
+}
+
+const _: () = assert!(16 * Ahead::GROUPS < 1000);

@@ -1,0 +1,151 @@
+//! What a driver on a lane has to stop for: lights, stop signs, junctions.
+
+use scene::routes::LaneGraph;
+use scene::{Scene, SignalState};
+use std::collections::HashMap;
+
+/// How far drivers look, metres.
+pub(super) const LOOK_M: f64 = 80.0;
+/// Most lanes looked along.
+const MAX_HOPS: usize = 12;
+/// A stop line this little behind still counts as ahead, metres.
+const PASSED_M: f64 = 0.5;
+/// Upper bounds of the distance classes, metres.
+const NEAR_M: [f64; 6] = [4.0, 10.0, 18.0, 30.0, 50.0, LOOK_M];
+
+/// What stands at the next stop line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StopKind {
+    /// A junction without lights.
+    Open,
+    /// A stop sign.
+    Sign,
+    /// Lights of which at least one way is not red.
+    Go,
+    /// Lights, all ways red.
+    Red,
+}
+
+/// A place on the road as drivers see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ahead {
+    /// Nothing to stop for within [`LOOK_M`].
+    Nothing,
+    /// A stop line at this distance, metres.
+    Stop(StopKind, f64),
+    /// Inside a junction; its light, if it has one that is lit, is red or not.
+    Inside(Option<bool>),
+}
+
+impl Ahead {
+    /// Class of the place for rates, below [`Self::CLASSES`].
+    pub(super) fn class(self) -> usize {
+        match self {
+            Self::Nothing => 0,
+            Self::Inside(None) => 1,
+            Self::Inside(Some(false)) => 2,
+            Self::Inside(Some(true)) => 3,
+            Self::Stop(kind, distance_m) => {
+                let near = NEAR_M.iter().filter(|m| distance_m >= **m).count().min(NEAR_M.len() - 1);
+                4 + kind as usize * NEAR_M.len() + near
+            }
+        }
+    }
+
+    pub(super) const CLASSES: usize = 4 + 4 * NEAR_M.len();
+
+    /// Class of the place for speeds, below [`Self::GROUPS`].
+    pub(super) fn group(self) -> usize {
+        match self {
+            Self::Nothing => 0,
+            Self::Inside(Some(true)) => 2,
+            Self::Inside(_) => 1,
+            Self::Stop(StopKind::Open | StopKind::Sign, m) if m < 12.0 => 3,
+            Self::Stop(StopKind::Open | StopKind::Sign, m) if m < 30.0 => 4,
+            Self::Stop(StopKind::Go, m) if m < 30.0 => 5,
+            Self::Stop(StopKind::Red, m) if m < 10.0 => 6,
+            Self::Stop(StopKind::Red, m) if m < 25.0 => 7,
+            Self::Stop(StopKind::Red, m) if m < 50.0 => 8,
+            Self::Stop(..) => 0,
+        }
+    }
+
+    pub(super) const GROUPS: usize = 9;
+
+    /// Distance to a stop line, metres; infinite without one.
+    pub(super) fn stop_m(self) -> f64 {
+        match self {
+            Self::Stop(_, m) => m,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Traffic queues here: a red light or a stop sign is near.
+    pub(super) fn queues(self) -> bool {
+        matches!(self, Self::Stop(StopKind::Red, m) if m < 50.0)
+            || matches!(self, Self::Stop(StopKind::Sign | StopKind::Open, m) if m < 18.0)
+    }
+}
+
+/// Lit signals by lane: state and arc length of the stop line, metres.
+pub(super) struct Lights(HashMap<usize, (SignalState, f64)>);
+
+impl Lights {
+    /// Signals of a scene at a step. Those that show nothing known are left out.
+    pub(super) fn new(scene: &Scene, graph: &LaneGraph, step: usize) -> Self {
+        let lit = scene.signals.iter().filter_map(|signal| {
+            let lane = graph.lane_index(&signal.lane)?;
+            let state = signal.at(step);
+            let stop_m = signal.stop.map_or(0.0, |stop| graph.lanes()[lane].path.project(stop).s_m);
+            (state != SignalState::Unknown).then_some((lane, (state, stop_m)))
+        });
+        Self(lit.collect())
+    }
+
+    /// What is ahead of the place at `s_m` of a lane.
+    pub(super) fn ahead(&self, graph: &LaneGraph, lane: usize, s_m: f64) -> Ahead {
+        let lanes = graph.lanes();
+        let kind = |red: bool| if red { StopKind::Red } else { StopKind::Go };
+        if lanes[lane].interpolating {
+            return Ahead::Inside(self.0.get(&lane).map(|(state, _)| state.is_stop()));
+        }
+        let (mut at, mut s, mut travelled_m) = (lane, s_m, 0.0);
+        for _ in 0..MAX_HOPS {
+            let here = &lanes[at];
+            if let Some((state, stop_m)) = self.0.get(&at).filter(|(_, stop)| *stop >= s - PASSED_M) {
+                return stop(kind(state.is_stop()), travelled_m + stop_m - s);
+            }
+            if let Some(stop_m) = here.stop_sign_m.filter(|stop| *stop >= s - PASSED_M) {
+                return stop(StopKind::Sign, travelled_m + stop_m - s);
+            }
+            travelled_m += here.path.length_m() - s;
+            if travelled_m > LOOK_M {
+                return Ahead::Nothing;
+            }
+            let lit = || here.successors.iter().filter_map(|next| self.0.get(next));
+            if let Some(line_m) = lit().map(|(_, m)| *m).reduce(f64::min) {
+                return stop(kind(lit().all(|(state, _)| state.is_stop())), travelled_m + line_m);
+            }
+            if here.successors.iter().any(|next| lanes[*next].interpolating) {
+                return stop(StopKind::Open, travelled_m);
+            }
+            let Some(next) = straightest(graph, at) else { return Ahead::Nothing };
+            (at, s) = (next, 0.0);
+        }
+        Ahead::Nothing
+    }
+}
+
+fn stop(kind: StopKind, distance_m: f64) -> Ahead {
+    if distance_m < LOOK_M { Ahead::Stop(kind, distance_m.max(0.0)) } else { Ahead::Nothing }
+}
+
+/// The successor that turns least by its end.
+pub(super) fn straightest(graph: &LaneGraph, lane: usize) -> Option<usize> {
+    let lanes = graph.lanes();
+    let turn = |next: &usize| {
+        let path = &lanes[*next].path;
+        (path.heading_at(path.length_m()) - path.heading_at(0.0)).abs()
+    };
+    lanes[lane].successors.iter().copied().min_by(|a, b| turn(a).total_cmp(&turn(b)).then(a.cmp(b)))
+}

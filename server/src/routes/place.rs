@@ -1,0 +1,340 @@
+//! `/v1/place`: road users where there are none yet.
+
+use crate::app::App;
+use crate::body::{self, Json};
+use crate::catalog;
+use crate::problem::{Code, Problem};
+use axum::extract::State;
+use experts::placement::{
+    Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, Region, map_bounds,
+    ring_area_m2,
+};
+use experts::{Cancel, GenerateError, Generator};
+use formats::native::{AgentDoc, MAX_SAFE_INTEGER, Members, SceneDoc};
+use formats::{FieldProblem, ReadError};
+use scene::{AgentType, STEP_S, Scene, Vec2};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// How far a region may reach beyond the map's box, metres: a hand-drawn ring is seldom exact.
+const REGION_MARGIN_M: f64 = 50.0;
+/// Most corners of a region.
+const MAX_CORNERS: usize = scene::MAX_POLYLINE_POINTS;
+/// Shares must sum to one within this.
+const SHARE_TOLERANCE: f64 = 1e-6;
+
+/// A circle.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CircleDoc {
+    /// Centre, metres.
+    x_m: f64,
+    /// Centre, metres.
+    y_m: f64,
+    /// Metres.
+    #[schemars(range(min = 0.5, max = 20000.0))]
+    radius_m: f64,
+}
+
+/// Where centres may lie: exactly one of the two.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RegionDoc {
+    /// Open ring of corners, metres; even-odd rule.
+    #[serde(default)]
+    pub polygon_m: Option<Vec<[f64; 2]>>,
+    /// Circle.
+    #[serde(default)]
+    pub circle: Option<CircleDoc>,
+}
+
+/// How many: exactly one of the two.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DensityDoc {
+    /// Road users for each kilometre of lane for motor vehicles in the region, junctions left out.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 200.0))]
+    per_lane_km: Option<f64>,
+    /// Road users in all.
+    #[serde(default)]
+    #[schemars(range(min = 1, max = 256))]
+    count: Option<u64>,
+}
+
+/// Body of a placement. Exactly one of `scene` and `scene_id` is given.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceBody {
+    /// The scene itself; its map may be `{"ref":"sha256:HEX"}`.
+    #[serde(default)]
+    scene: Option<SceneDoc>,
+    /// A scene of this server.
+    #[serde(default)]
+    scene_id: Option<String>,
+    /// Where; null is the whole map. It may reach 50 m beyond the map's box.
+    #[serde(default)]
+    region: Option<RegionDoc>,
+    /// How many.
+    #[serde(default = "usual_density")]
+    density: DensityDoc,
+    /// Share of `vehicle`, `pedestrian` and `cyclist`; sums to 1.
+    #[serde(default)]
+    #[schemars(with = "Option<BTreeMap<String, f64>>")]
+    types: Option<Members<f64>>,
+    /// Road users of the scene that stay; null keeps all. The others are taken to be gone.
+    #[serde(default)]
+    keep: Option<Vec<String>>,
+    /// Scene time at which they start, seconds.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 59.9))]
+    at_s: f64,
+    /// The same seed gives the same answer.
+    #[serde(default)]
+    #[schemars(range(max = 9007199254740991u64))]
+    seed: u64,
+    /// Least room along the lane between those who drive, metres. Everybody else keeps 0.1 m.
+    #[serde(default = "usual_gap")]
+    #[schemars(range(min = 0.0, max = 50.0))]
+    min_gap_m: f64,
+}
+
+fn usual_density() -> DensityDoc {
+    DensityDoc { per_lane_km: Some(12.0), count: None }
+}
+
+fn usual_gap() -> f64 {
+    2.0
+}
+
+/// What was placed.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PlaceReply {
+    /// New road users: one state at `at_s`, the same as a fixed start, goals free.
+    pub agents: Vec<AgentDoc>,
+    /// Road users asked for that found no place.
+    pub unplaced: usize,
+    /// Why, in one sentence; null when all were placed.
+    pub reason: Option<String>,
+    /// `model`, or `lane-sampler` where the weights folder has no placement weights.
+    #[schemars(with = "MethodWord")]
+    pub method: Method,
+}
+
+/// Words of [`Method`].
+#[derive(JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[allow(dead_code, reason = "stands for experts::placement::Method in the document")]
+enum MethodWord {
+    Model,
+    LaneSampler,
+}
+
+impl From<&Placement> for PlaceReply {
+    fn from(placement: &Placement) -> Self {
+        Self {
+            agents: placement.agents.iter().map(AgentDoc::from_agent).collect(),
+            unplaced: placement.unplaced.values().sum(),
+            reason: placement.reason.clone(),
+            method: placement.method,
+        }
+    }
+}
+
+/// Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
+/// cyclists on bike lanes or on the right. Boxes keep 0.1 m apart and all centres lie in the region. Fewer
+/// than asked is no error. Stores nothing.
+#[utoipa::path(post, path = "/v1/place", operation_id = "place", tag = "generate",
+    request_body(content = ref("#/components/schemas/PlaceBody"), content_type = "application/json"),
+    responses((status = 200, body = ref("#/components/schemas/PlaceReply"))))]
+pub async fn place(
+    State(app): State<App>,
+    Json(mut body): Json<PlaceBody>,
+) -> Result<axum::Json<PlaceReply>, Problem> {
+    let scene = match (body.scene.take(), body.scene_id.take()) {
+        (Some(doc), None) => Arc::new(catalog::scene_of(&app, doc).await.map_err(|p| p.under("/scene"))?),
+        (None, Some(id)) => catalog::open(&app, &id).await?.scene,
+        _ => {
+            let detail = "exactly one of scene and scene_id is needed";
+            return Err(Problem::field("/scene", Code::InvalidField, detail));
+        }
+    };
+    let cancel = Cancel::default();
+    let (limit_s, stop) = (app.limits.generate_s, cancel.clone());
+    let work = body::blocking(move || {
+        let placement = body.run(&scene, &app.generator, &cancel)?;
+        Ok(axum::Json(PlaceReply::from(&placement)))
+    });
+    // The wait ends with the limit or the connection; the work ends with it.
+    let _guard = StopOnDrop(stop);
+    tokio::time::timeout(Duration::from_secs(limit_s), work).await.unwrap_or_else(|_| {
+        let detail = format!("The placement took longer than {limit_s} s.");
+        Err(Problem::new(Code::GenerateTimeout, detail).with("limit", limit_s))
+    })
+}
+
+/// Cancels when the reply is no longer waited for.
+struct StopOnDrop(Cancel);
+
+impl Drop for StopOnDrop {
+    fn drop(&mut self) {
+        self.0.cancel();
+    }
+}
+
+impl PlaceBody {
+    /// Checks the options and places.
+    ///
+    /// # Errors
+    /// Every fault of the options; a cancelled call.
+    pub fn run(
+        &self,
+        scene: &Arc<Scene>,
+        generator: &Generator,
+        cancel: &Cancel,
+    ) -> Result<Placement, Problem> {
+        let request = self.request(scene)?;
+        generator.place(&request, cancel).map_err(|error| match error {
+            GenerateError::UnknownAgent(_) => Problem::field("/keep", Code::UnknownAgent, error.to_string()),
+            other => other.into(),
+        })
+    }
+
+    fn request(&self, scene: &Arc<Scene>) -> Result<PlaceRequest, Problem> {
+        let mut faults = Vec::new();
+        let last_s = (scene.time.steps - 1) as f64 * STEP_S;
+        let numbers = [
+            ("/at_s", 0.0, last_s, self.at_s),
+            ("/seed", 0.0, MAX_SAFE_INTEGER as f64, self.seed as f64),
+            ("/min_gap_m", 0.0, MAX_GAP_M, self.min_gap_m),
+        ];
+        for (pointer, min, max, got) in numbers {
+            in_range(&mut faults, pointer, (min, max), got);
+        }
+        let amount = amount(&self.density, &mut faults);
+        let types = match &self.types {
+            Some(types) => shares(types, &mut faults),
+            None => PlaceRequest::new(Arc::clone(scene)).types,
+        };
+        let region = self.region.as_ref().map_or(Region::Everywhere, |doc| region(doc, scene, &mut faults));
+        for (i, id) in self.keep.iter().flatten().enumerate().filter(|(_, id)| scene.agent(id).is_none()) {
+            let shown: String = id.chars().take(64).collect();
+            let detail = format!("the scene has no road user \"{shown}\"");
+            faults.push(FieldProblem::new(format!("/keep/{i}"), "unknown-agent", detail));
+        }
+        if !faults.is_empty() {
+            faults.truncate(32);
+            return Err(ReadError::invalid(faults).into());
+        }
+        Ok(PlaceRequest {
+            step: (self.at_s / STEP_S).round() as usize,
+            region,
+            amount,
+            types,
+            keep: self.keep.as_ref().map(|ids| ids.iter().cloned().collect::<BTreeSet<_>>()),
+            seed: self.seed,
+            min_gap_m: self.min_gap_m,
+            ..PlaceRequest::new(Arc::clone(scene))
+        })
+    }
+}
+
+fn in_range(faults: &mut Vec<FieldProblem>, pointer: &str, (min, max): (f64, f64), got: f64) {
+    // The last step's time has a rounding of its own.
+    if !(got >= min && got <= max + 1e-9) {
+        faults.push(FieldProblem::range(pointer, min, max, got));
+    }
+}
+
+fn amount(density: &DensityDoc, faults: &mut Vec<FieldProblem>) -> Amount {
+    match (density.per_lane_km, density.count) {
+        (Some(per_km), None) => {
+            in_range(faults, "/density/per_lane_km", (0.0, MAX_PER_LANE_KM), per_km);
+            Amount::PerLaneKm(per_km)
+        }
+        (None, Some(count)) => {
+            in_range(faults, "/density/count", (1.0, MAX_COUNT as f64), count as f64);
+            Amount::Count(count as usize)
+        }
+        _ => {
+            let detail = "exactly one of per_lane_km and count is needed";
+            faults.push(FieldProblem::new("/density", "invalid-field", detail));
+            Amount::Count(0)
+        }
+    }
+}
+
+fn shares(types: &Members<f64>, faults: &mut Vec<FieldProblem>) -> BTreeMap<AgentType, f64> {
+    let mut shares = BTreeMap::new();
+    for (name, share) in &types.0 {
+        let agent_type = match name.as_str() {
+            "vehicle" => AgentType::Vehicle,
+            "pedestrian" => AgentType::Pedestrian,
+            "cyclist" => AgentType::Cyclist,
+            _ => {
+                let detail = "vehicle, pedestrian and cyclist can be placed";
+                let pointer = format!("/types/{}", name.replace('~', "~0").replace('/', "~1"));
+                faults.push(FieldProblem::new(pointer, "invalid-field", detail));
+                continue;
+            }
+        };
+        in_range(faults, &format!("/types/{name}"), (0.0, 1.0), *share);
+        shares.insert(agent_type, *share);
+    }
+    let sum: f64 = types.0.iter().map(|(_, share)| share).sum();
+    if (sum - 1.0).abs() > SHARE_TOLERANCE || sum.is_nan() {
+        let detail = format!("the shares sum to {sum}; 1 expected");
+        faults.push(FieldProblem::new("/types", "out-of-range", detail));
+    }
+    shares
+}
+
+fn region(doc: &RegionDoc, scene: &Scene, faults: &mut Vec<FieldProblem>) -> Region {
+    let Some((low, high)) = map_bounds(&scene.map) else {
+        faults.push(FieldProblem::new(
+            "/region",
+            "invalid-field",
+            "the map is empty: it has no place for a region",
+        ));
+        return Region::Everywhere;
+    };
+    let (low, high) = (low - Vec2::repeat(REGION_MARGIN_M), high + Vec2::repeat(REGION_MARGIN_M));
+    let before = faults.len();
+    match (&doc.polygon_m, &doc.circle) {
+        (Some(corners), None) => {
+            if !(3..=MAX_CORNERS).contains(&corners.len()) {
+                let detail = format!("{} corners found, 3 to {MAX_CORNERS} expected", corners.len());
+                faults.push(FieldProblem::new("/region/polygon_m", "invalid-field", detail));
+            }
+            for (i, [x, y]) in corners.iter().enumerate().take(MAX_CORNERS) {
+                in_range(faults, &format!("/region/polygon_m/{i}/0"), (low.x, high.x), *x);
+                in_range(faults, &format!("/region/polygon_m/{i}/1"), (low.y, high.y), *y);
+            }
+            let ring: Vec<Vec2> = corners.iter().map(|[x, y]| Vec2::new(*x, *y)).collect();
+            if faults.len() == before && ring_area_m2(&ring) < 0.1 {
+                let detail = "a ring that encloses some area expected";
+                faults.push(FieldProblem::new("/region/polygon_m", "invalid-field", detail));
+            }
+            Region::Polygon(ring)
+        }
+        (None, Some(circle)) => {
+            in_range(faults, "/region/circle/x_m", (low.x, high.x), circle.x_m);
+            in_range(faults, "/region/circle/y_m", (low.y, high.y), circle.y_m);
+            in_range(
+                faults,
+                "/region/circle/radius_m",
+                (0.5, 2.0 * scene::MAX_COORDINATE_M),
+                circle.radius_m,
+            );
+            Region::Circle { center: Vec2::new(circle.x_m, circle.y_m), radius_m: circle.radius_m }
+        }
+        _ => {
+            let detail = "exactly one of polygon_m and circle is needed";
+            faults.push(FieldProblem::new("/region", "invalid-field", detail));
+            Region::Everywhere
+        }
+    }
+}
