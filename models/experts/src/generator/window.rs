@@ -6,14 +6,14 @@ use super::choice::{Choice, Choosable, distance, medoid_costs, swept};
 use super::noise::Key;
 use super::realise::{Motion, PER_INSTANT, may_rest, middle, places, realise, rest};
 use super::{EncodedMap, Generator, parallel};
-use crate::features::world::{Present, World};
+use crate::features::world::{MapIndex, Present, World};
 use crate::features::{INSTANTS, MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::{Growth, Obstacle, Poses, Pullback, overlap};
 use crate::net::{Context, NetError, Prepared, schedule};
 use crate::request::{Draft, GenerateError, React, Request, Shown};
 use scene::geometry::direction;
+use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionState, Trajectory};
-use scene::routes::LaneGraph;
 use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, Scene, State, Vec2};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -27,6 +27,9 @@ const GUIDANCE: (usize, f32) = (12, 0.35);
 
 /// Cost of a motion that is off the lanes all the time.
 const OFF_LANES: f64 = 8.0;
+/// The same for one with a corner beyond the road's edges, and how far beyond counts, metres.
+const PAST_EDGES: f64 = 8.0;
+const PAST_EDGE_M: f64 = 0.1;
 
 type Residuals = [[f32; RESIDUAL]; MODES];
 
@@ -426,7 +429,7 @@ impl<'g> Window<'g> {
         let fixed = world.present.iter().filter(in_the_way).map(|p| kept_boxes(&world, p));
         let mut choice = Choice { agents: Vec::new(), fixed: fixed.collect() };
         for (actor, motions) in self.actors.iter().zip(&motions) {
-            choice.agents.push(options(actor, motions, &self.map.index.graph));
+            choice.agents.push(options(actor, motions, &self.map.index));
         }
         let mut chosen = match self.request.stages.shown {
             Shown::Chosen => choice.solve(),
@@ -552,7 +555,7 @@ impl<'g> Window<'g> {
         });
         for (i, guided) in concerned.into_iter().zip(guided) {
             motions[i].extend(guided);
-            choice.agents[i] = options(&self.actors[i], &motions[i], &self.map.index.graph);
+            choice.agents[i] = options(&self.actors[i], &motions[i], &self.map.index);
         }
         *chosen = choice.solve();
     }
@@ -658,7 +661,7 @@ fn actor_poses(actor: &Actor, mode: usize, residual: &[f32; RESIDUAL]) -> Poses 
 }
 
 /// What an actor can do: its motions, after what it keeps (reacting) or has pinned.
-fn options(actor: &Actor, motions: &[(f64, usize, Motion)], graph: &LaneGraph) -> Vec<Choosable> {
+fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &MapIndex) -> Vec<Choosable> {
     let size = &actor.planned.present.size;
     if let Some(pinned) = &actor.pinned {
         let boxes = super::choice::swept_kept(|step| pinned.get(step - 1).copied(), size);
@@ -672,7 +675,7 @@ fn options(actor: &Actor, motions: &[(f64, usize, Motion)], graph: &LaneGraph) -
             for (motion, cost) in motions.iter().zip(medoid_costs(&all, &modes)) {
                 // A goal missed is worse than anything but an overlap.
                 let missed = if motion.2.reach.is_reached() { 0.0 } else { 3.0 };
-                let off = OFF_LANES * off_lanes(actor, &motion.2.states, graph);
+                let off = off_road(actor, &motion.2.states, map);
                 out.push(Choosable { boxes: swept(&motion.2.states, size), cost: cost + missed + off });
             }
         }
@@ -681,7 +684,7 @@ fn options(actor: &Actor, motions: &[(f64, usize, Motion)], graph: &LaneGraph) -
             out.push(Choosable { boxes, cost: 0.0 });
             for motion in motions {
                 let boxes = swept(&motion.2.states, size);
-                let off = OFF_LANES * off_lanes(actor, &motion.2.states, graph);
+                let off = off_road(actor, &motion.2.states, map);
                 out.push(Choosable { boxes, cost: 0.6 + deviation_m(&motion.2.states, kept) / 4.0 + off });
             }
         }
@@ -689,15 +692,27 @@ fn options(actor: &Actor, motions: &[(f64, usize, Motion)], graph: &LaneGraph) -
     out
 }
 
-/// Share of a vehicle's motion that is away from every lane, for one that starts on a lane.
-fn off_lanes(actor: &Actor, states: &Trajectory, graph: &LaneGraph) -> f64 {
-    let agent_type = actor.planned.present.agent_type;
-    let away = |s: &MotionState| graph.nearest_for(s.position, 2.5, agent_type).is_empty();
-    if agent_type != AgentType::Vehicle || states.first().is_none_or(away) {
+/// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the
+/// road's edges to have a corner beyond them.
+fn off_road(actor: &Actor, states: &Trajectory, map: &MapIndex) -> f64 {
+    let present = &actor.planned.present;
+    if present.agent_type != AgentType::Vehicle || states.is_empty() {
         return 0.0;
     }
-    let looked_at = states.iter().step_by(PER_INSTANT);
-    looked_at.filter(|s| away(s)).count() as f64 / (INSTANTS + 1) as f64
+    let away = |s: &MotionState| map.graph.nearest_for(s.position, 2.5, present.agent_type).is_empty();
+    let beyond = |s: &MotionState| {
+        let outline = OrientedBox::of_state(&State::from(s), &present.size);
+        map.drivable.box_outside_m(&outline).is_some_and(|outside| outside > PAST_EDGE_M)
+    };
+    let looked_at = || states.iter().step_by(PER_INSTANT);
+    let share = |off: &dyn Fn(&MotionState) -> bool| {
+        if off(&states[0]) {
+            0.0
+        } else {
+            looked_at().filter(|s| off(s)).count() as f64 / (INSTANTS + 1) as f64
+        }
+    };
+    OFF_LANES * share(&away) + PAST_EDGES * share(&beyond)
 }
 
 /// Mean distance of a motion from the kept one, metres.
