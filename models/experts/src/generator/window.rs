@@ -420,7 +420,7 @@ impl<'g> Window<'g> {
         let mut motions: Vec<Vec<(f64, usize, Motion)>> =
             parallel::map(self.generator.threads(), &indices, |&i| {
                 let mut motions = self.motions(i, MODES);
-                motions.extend(self.middles(i, &motions));
+                motions.extend(self.extras(i, &motions));
                 motions
             });
         let world = self.world();
@@ -442,7 +442,7 @@ impl<'g> Window<'g> {
         for (i, actor) in self.actors.iter().enumerate() {
             let Some(shown) = shown_motion(actor, chosen[i]) else { continue };
             let mut motions = std::mem::take(&mut motions[i]);
-            // A middle or guided motion takes the place of the mode it is nearest to or was made from.
+            // Any other motion takes the place of the mode it is nearest to or was made from.
             let index = match motions.get(shown) {
                 Some((_, slot, _)) if shown >= self.mode_count(i) => {
                     let slot = *slot;
@@ -482,12 +482,25 @@ impl<'g> Window<'g> {
         motions.iter().enumerate().map(option).collect()
     }
 
-    /// Between the modes of one path lies their mean, which is nearer to all of them than any one is: a
-    /// further motion for each path that has several, under the slot of the mode it is nearest to.
-    fn middles(&self, i: usize, motions: &[(f64, usize, Motion)]) -> Vec<(f64, usize, Motion)> {
+    /// Motions that may be shown beside the modes, each under the slot of the mode it is nearest to.
+    ///
+    /// On the way to a goal that is the first anchor's own base, the formula's answer: it counts among the modes
+    /// with a weight of its own. Without one it is, for each path that has several modes, their mean, which is
+    /// nearer to all of them than any one is.
+    fn extras(&self, i: usize, motions: &[(f64, usize, Motion)]) -> Vec<(f64, usize, Motion)> {
         let actor = &self.actors[i];
         if actor.pinned.is_some() || actor.keeps_its_path() || self.mode_count(i) == 1 {
             return Vec::new();
+        }
+        let under = |group: &[&(f64, usize, Motion)], weight: f64, motion: Motion| {
+            let apart = |m: &(f64, usize, Motion)| distance(&m.2.states, &motion.states);
+            let nearest = group.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?.1;
+            Some((weight, nearest, motion))
+        };
+        if has_base(actor) {
+            let group: Vec<&(f64, usize, Motion)> = motions.iter().collect();
+            let motion = realise(&actor.planned, 0, &[0.0; RESIDUAL]);
+            return under(&group, base_weight(actor), motion).into_iter().collect();
         }
         let path = |slot: usize| actor.planned.anchors[slot].identity / 8;
         let mut paths: Vec<Vec<&(f64, usize, Motion)>> = Vec::new();
@@ -499,15 +512,12 @@ impl<'g> Window<'g> {
         }
         let of_path = |group: Vec<&(f64, usize, Motion)>| {
             let drafts: Vec<_> = group.iter().map(|m| (m.0, m.1, self.drafts[i][m.1])).collect();
-            let motion = middle(&actor.planned, &drafts);
-            let apart = |m: &(f64, usize, Motion)| distance(&m.2.states, &motion.states);
-            let nearest = group.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
-            Some((nearest.0, nearest.1, motion))
+            under(&group, 0.0, middle(&actor.planned, &drafts))
         };
         paths.into_iter().filter(|group| group.len() > 1).filter_map(of_path).collect()
     }
 
-    /// Modes of an actor before middles and guidance added to them.
+    /// Modes of an actor before extras and guidance added to them.
     fn mode_count(&self, i: usize) -> usize {
         let actor = &self.actors[i];
         if actor.rests && (actor.stays_parked || !actor.planned.target.is_free()) { 1 } else { MODES }
@@ -660,6 +670,18 @@ fn actor_poses(actor: &Actor, mode: usize, residual: &[f32; RESIDUAL]) -> Poses 
     poses_of(&places(&actor.planned, mode, residual))
 }
 
+/// Whether the base of the first anchor is an option: it is one motion of its own where there is a place to go.
+fn has_base(actor: &Actor) -> bool {
+    let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
+    moves && actor.planned.target.position.is_some()
+}
+
+/// What the base counts beside the modes, whose probabilities sum to 1. People on foot take the way of least
+/// effort more often than anything learned from simulated walkers says.
+fn base_weight(actor: &Actor) -> f64 {
+    if actor.planned.present.agent_type == AgentType::Pedestrian { 1.0 } else { 0.25 }
+}
+
 /// What an actor can do: its motions, after what it keeps (reacting) or has pinned.
 fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &MapIndex) -> Vec<Choosable> {
     let size = &actor.planned.present.size;
@@ -668,7 +690,8 @@ fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &MapIndex) -> V
         return vec![Choosable { boxes, cost: 0.0 }];
     }
     let all: Vec<&Trajectory> = motions.iter().map(|m| &m.2.states).collect();
-    let modes: Vec<(&Trajectory, f64)> = motions.iter().take(MODES).map(|m| (&m.2.states, m.0)).collect();
+    let counted = MODES + usize::from(has_base(actor));
+    let modes: Vec<(&Trajectory, f64)> = motions.iter().take(counted).map(|m| (&m.2.states, m.0)).collect();
     let mut out = Vec::with_capacity(motions.len() + 1);
     match &actor.kept {
         None => {
