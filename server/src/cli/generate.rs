@@ -49,8 +49,8 @@ pub struct GenerateArgs {
     /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9 (9 when absent).
     #[arg(long)]
     replan: Option<f64>,
-    /// Scale of the noise.
-    #[arg(long, default_value_t = 1.0)]
+    /// Scale of the noise, which makes seeds differ; 0 is the best guess.
+    #[arg(long, default_value_t = 0.5)]
     diversity: f64,
     /// File to write the scene with its futures to; - or absent is stdout.
     #[arg(short, long)]

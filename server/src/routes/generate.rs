@@ -125,8 +125,8 @@ pub struct GenerateRequest {
     #[serde(default = "six")]
     #[schemars(range(min = 1, max = 6))]
     modes: u64,
-    /// Scale of the noise; 0 is deterministic.
-    #[serde(default = "unit")]
+    /// Scale of the noise, which makes seeds differ; 0 is the best guess, the same for every seed.
+    #[serde(default = "half")]
     #[schemars(range(min = 0.0, max = 2.0))]
     diversity: f64,
     /// Denoising steps; 0 returns the first guess.
@@ -150,8 +150,8 @@ fn nobody() -> Reacting {
 fn nine() -> f64 {
     9.0
 }
-fn unit() -> f64 {
-    1.0
+fn half() -> f64 {
+    0.5
 }
 fn one() -> u64 {
     1

@@ -38,7 +38,7 @@ function nameField(c: Context): HTMLElement {
 
 function controls(c: Context): HTMLElement {
   const { editor } = c;
-  const percent = () => Math.round((editor.scene.value?.diversity ?? 1) * 100);
+  const percent = () => Math.round((editor.scene.value?.diversity ?? 0.5) * 100);
   const seed = h('input', {
     type: 'text', inputmode: 'numeric', 'aria-label': 'Seed', maxlength: '16', value: () => String(editor.scene.value?.seed ?? 0),
     onchange: () => {

@@ -24,7 +24,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     id: json.id ?? '', name: json.name ?? 'Untitled', source: json.meta?.source ?? 'drawn', licence: json.meta?.licence ?? '',
     steps, duration: durationOf(length, steps), length, replan: readReplan(ed.replan_s), map,
     signals: (json.signals ?? []).map((s) => ({ lane: s.lane, stop: s.stop_m ? ([s.stop_m[0], s.stop_m[1]] as Vec) : null, states: s.states })),
-    agents, seed: ed.seed ?? 0, diversity: ed.diversity ?? 1, others: readOthers(ed.others),
+    agents, seed: ed.seed ?? 0, diversity: ed.diversity ?? 0.5, others: readOthers(ed.others),
   });
 }
 
