@@ -2,6 +2,7 @@
 
 use super::{Common, Exit, Failure, output};
 use clap::{Args, ValueEnum};
+use lab::crop::Crop;
 use lab::eval::{Judged, Table};
 use lab::synthesize::{self, Options, Template};
 use lab::train::Stage;
@@ -121,6 +122,13 @@ pub struct PrepareArgs {
     /// Stop after so many records.
     #[arg(long, default_value_t = 200_000)]
     most: u64,
+    /// Side of a square about the ego (else the first road user), metres: those outside are left out. The
+    /// paper's is 120.
+    #[arg(long, value_name = "METRES", value_parser = metres)]
+    crop: Option<f64>,
+    /// Leave out scenes with fewer road users at the first step. The paper's least is 32.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    least_agents: usize,
 }
 
 /// Flags of `train`.
@@ -245,6 +253,13 @@ struct SceneArgs {
     scenes: usize,
 }
 
+fn metres(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(metres) if f64::is_finite(metres) && metres > 0.0 => Ok(metres),
+        _ => Err("a length above 0 in metres expected".into()),
+    }
+}
+
 fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
     match text.split_once('=') {
         Some((name, folder)) if !name.is_empty() && !folder.is_empty() => Ok((name.into(), folder.into())),
@@ -330,6 +345,7 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
         per_scene: args.per_scene,
         draws: args.draws,
         most_records: args.most,
+        crop: Crop { side_m: args.crop, least_agents: args.least_agents },
     };
     let progress = |report: &lab::prepare::Report| {
         if !common.quiet {

@@ -18,7 +18,7 @@ mod realism;
 pub mod rivals;
 mod run;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 pub mod sheet;
 pub mod stats;
 pub mod together;
