@@ -1,5 +1,6 @@
 //! What is asked of the generator, and the events it answers with.
 
+use crate::features::world::Sight;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -63,11 +64,13 @@ pub struct Stages {
     /// Those who keep their motion are in the way. Where their motion is withheld, so that nothing leaks,
     /// a guess at it would be an obstacle that is not there.
     pub kept_in_the_way: bool,
+    /// What of the map the experts are shown. The choice knows the whole map either way.
+    pub sight: Sight,
 }
 
 impl Default for Stages {
     fn default() -> Self {
-        Self { shown: Shown::Chosen, guidance: true, kept_in_the_way: true }
+        Self { shown: Shown::Chosen, guidance: true, kept_in_the_way: true, sight: Sight::default() }
     }
 }
 

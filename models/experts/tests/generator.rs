@@ -14,6 +14,8 @@ use std::sync::{Arc, LazyLock};
 mod leaks;
 #[path = "generator/rollouts.rs"]
 mod rollouts;
+#[path = "generator/sight.rs"]
+mod sight;
 
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::random(3).unwrap().with_threads(1));
 

@@ -2,6 +2,7 @@
 
 use super::{Common, Exit, Failure, output};
 use clap::{Args, ValueEnum};
+use lab::crop::Crop;
 use lab::eval::{Judged, Table};
 use lab::synthesize::{self, Options, Template};
 use lab::train::Stage;
@@ -121,6 +122,13 @@ pub struct PrepareArgs {
     /// Stop after so many records.
     #[arg(long, default_value_t = 200_000)]
     most: u64,
+    /// Side of a square about the ego (else the first road user), metres: those outside are left out. The
+    /// paper's is 120.
+    #[arg(long, value_name = "METRES", value_parser = metres)]
+    crop: Option<f64>,
+    /// Leave out scenes with fewer road users at the first step. The paper's least is 32.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    least_agents: usize,
 }
 
 /// Flags of `train`.
@@ -215,9 +223,9 @@ pub struct EvalArgs {
     /// Further weights to judge beside them.
     #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
     also: Vec<(String, PathBuf)>,
-    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost.
-    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6],
-          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=6))]
+    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations.
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7],
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=7))]
     tables: Vec<usize>,
     /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
     #[arg(short, long, value_name = "DIR")]
@@ -225,6 +233,13 @@ pub struct EvalArgs {
     /// Draws noise, resamples, drags and random pictures.
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    /// Table 2: lines for the product re-planned every so many seconds, 0.1 to 9 each.
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values = ["3", "6", "9"],
+          value_parser = replan_steps)]
+    replan: Vec<usize>,
+    /// The paper's crop: road users of a 120 m square about the ego alone, scenes with at least 32 of them.
+    #[arg(long)]
+    paper_crop: bool,
 }
 
 /// Flags of `bench`.
@@ -243,6 +258,22 @@ struct SceneArgs {
     /// Most files, in the order of their names.
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     scenes: usize,
+}
+
+/// Seconds as steps of the scene.
+fn replan_steps(text: &str) -> Result<usize, String> {
+    let steps = text.parse::<f64>().map(|seconds| (seconds / scene::STEP_S).round());
+    match steps {
+        Ok(steps) if (1.0..=scene::HORIZON_STEPS as f64).contains(&steps) => Ok(steps as usize),
+        _ => Err("0.1 to 9 seconds expected".into()),
+    }
+}
+
+fn metres(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(metres) if f64::is_finite(metres) && metres > 0.0 => Ok(metres),
+        _ => Err("a length above 0 in metres expected".into()),
+    }
 }
 
 fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
@@ -330,6 +361,7 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
         per_scene: args.per_scene,
         draws: args.draws,
         most_records: args.most,
+        crop: Crop { side_m: args.crop, least_agents: args.least_agents },
     };
     let progress = |report: &lab::prepare::Report| {
         if !common.quiet {
@@ -420,6 +452,8 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
         tables: args.tables.into_iter().filter_map(Table::numbered).collect(),
         seed: args.seed,
         pictures: args.output.is_some(),
+        replan_steps: args.replan,
+        crop: if args.paper_crop { Crop::PAPER } else { Crop::default() },
     };
     let quiet = common.quiet;
     let progress = |line: &str| {

@@ -217,6 +217,9 @@ fn encode_neighbour(world: &World<'_>, other: &Present, frame: &Frame) -> [f32; 
 }
 
 fn seen_pieces(world: &World<'_>, frame: &Frame, target: &Target) -> Vec<SeenPiece> {
+    if !world.sight.pieces {
+        return Vec::new();
+    }
     let pieces = &world.map.pieces;
     let goal = target.position.map(|p| frame.point(p));
     let mut order: Vec<(f64, usize, Vec2)> = pieces

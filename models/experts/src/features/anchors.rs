@@ -129,7 +129,8 @@ fn paths_to_goal(
         least_effort_m: Some(least_path.length_m()),
     };
     let mut out: Vec<Candidate> = Vec::new();
-    for found in routes_to_goal(&world.map.graph, &query) {
+    let routes = if world.sight.routes { routes_to_goal(&world.map.graph, &query) } else { Vec::new() };
+    for found in routes {
         let path = base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end));
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
         let identity = identity_of(&found.route);
@@ -219,7 +220,8 @@ fn paths_ahead(world: &World<'_>, who: &Present, model: &MotionModel) -> Vec<Can
     let graph = &world.map.graph;
     let walking = model.kind == Kind::Walk;
     let length = if walking { 9.0 * v0.max(1.4) * 1.3 + 4.0 } else { route_length_m(v0) };
-    let routes = routes_ahead(graph, who.pose(), who.agent_type, length);
+    let routes =
+        if world.sight.routes { routes_ahead(graph, who.pose(), who.agent_type, length) } else { Vec::new() };
     let mut out: Vec<Candidate> = Vec::with_capacity(MODES);
     if walking || routes.is_empty() {
         out.push(straight_on(who, model, length));

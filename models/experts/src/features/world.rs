@@ -27,6 +27,21 @@ impl MapIndex {
     }
 }
 
+/// What of the map the experts are shown. An evaluation takes some away to see what it brings; users get all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sight {
+    /// Map pieces (lanes, edges, crosswalks, stop signs as lines) are among the features.
+    pub pieces: bool,
+    /// Anchors follow lanes; otherwise they are those of a road user with no lane near.
+    pub routes: bool,
+}
+
+impl Default for Sight {
+    fn default() -> Self {
+        Self { pieces: true, routes: true }
+    }
+}
+
 /// A road user at the start of a window.
 #[derive(Clone, Debug)]
 pub struct Present {
@@ -56,6 +71,8 @@ pub struct World<'a> {
     pub signals: Vec<LaneSignal>,
     /// Seconds each signal has been in its state.
     pub signal_ages_s: Vec<f64>,
+    /// What of the map is shown: all.
+    pub sight: Sight,
 }
 
 impl<'a> World<'a> {
@@ -85,7 +102,8 @@ impl<'a> World<'a> {
                 signal_ages_s.push(signal.age_steps(step) as f64 * scene::STEP_S);
             }
         }
-        Self { scene, map, step, present, conditions, signals, signal_ages_s }
+        let sight = Sight::default();
+        Self { scene, map, step, present, conditions, signals, signal_ages_s, sight }
     }
 
     /// The scene's agent behind a present road user.

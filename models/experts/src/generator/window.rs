@@ -129,7 +129,8 @@ impl<'g> Window<'g> {
             pullback: Pullback::default(),
         };
         let scene = window.scene.clone();
-        let world = World::new(&scene, window.map.index.clone(), spec.step);
+        let mut world = World::new(&scene, window.map.index.clone(), spec.step);
+        world.sight = window.request.stages.sight;
         let role = |index| spec.moving.iter().find(|m| m.0 == index).map(|m| m.1);
         let wanted: Vec<_> =
             world.present.iter().filter_map(|p| role(p.index).map(|role| (p, role))).collect();

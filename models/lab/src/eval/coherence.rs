@@ -1,6 +1,7 @@
 //! Table 2: does a scene that is generated together hang together?
 
 use super::rivals::least_effort;
+use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::together::{
@@ -10,12 +11,8 @@ use super::{Judged, Site};
 use anyhow::Result;
 use experts::{Shown, Stages};
 use rayon::prelude::*;
-use scene::geometry::obb::OrientedBox;
-use scene::{AgentType, HORIZON_STEPS, STEP_S};
+use scene::{HORIZON_STEPS, STEP_S};
 use std::collections::BTreeSet;
-
-/// Farther from every lane is off the road, metres.
-const OFF_LANES_M: f64 = 2.5;
 
 /// What one scene comes to.
 #[derive(Clone, Debug, Default)]
@@ -25,14 +22,14 @@ struct Verdict {
     overlapping: [f64; 3],
     /// Share of all generated road users in a collision by the paper's form.
     paper: f64,
-    /// Vehicle steps looked at, away from every lane, with a corner past a road edge.
-    steps: f64,
-    off_lanes: f64,
-    past_edges: f64,
-    edge_steps: f64,
+    /// Of the moving vehicles.
+    road: OffRoad,
     /// Sum of the moving road users' mean distances from the log, metres.
     distance: f64,
 }
+
+/// Of scenes.
+const STEPS_A_SECOND: f64 = 10.0;
 
 /// Seconds within which overlaps are counted.
 const WITHIN_S: [f64; 3] = [3.0, 6.0, 9.0];
@@ -57,26 +54,12 @@ fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usize, usize)>
         paper: paper.len() as f64 / present,
         ..Verdict::default()
     };
-    let has_edges = !site.scene.map.road_edges.is_empty() || !site.scene.map.drivable.is_empty();
     for &i in &moving {
         let (agent, Some(states)) = (&site.scene.agents[i], &motions[i]) else { continue };
         let known = || (1..=HORIZON_STEPS).filter_map(|step| Some((step, agent.track.at(step)?)));
         let apart = known().map(|(step, s)| (s.position() - states[step - 1].position()).norm());
         out.distance += apart.sum::<f64>() / known().count().max(1) as f64;
-        if agent.agent_type != AgentType::Vehicle {
-            continue;
-        }
-        for (step, _) in known().filter(|(step, _)| step % STRIDE == 0) {
-            let state = &states[step - 1];
-            let lanes = site.map.graph.nearest_for(state.position(), OFF_LANES_M, AgentType::Vehicle);
-            out.steps += 1.0;
-            out.off_lanes += f64::from(u8::from(lanes.is_empty()));
-            let outline = OrientedBox::of_state(state, &agent.size);
-            if has_edges && let Some(outside_m) = site.drivable.box_outside_m(&outline) {
-                out.edge_steps += 1.0;
-                out.past_edges += f64::from(u8::from(outside_m > 0.1));
-            }
-        }
+        out.road.add(&OffRoad::of(site, i, states));
     }
     out
 }
@@ -92,9 +75,17 @@ const LINES: [(&str, usize, f64, Shown, bool); 5] = [
 
 /// Table 2 over scenes with at least two moving road users.
 ///
+/// The product also has a line for each of `replan_steps`, after which all plan anew (1..=90).
+///
 /// # Errors
 /// When a generator fails.
-pub fn coherence(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Sheet> {
+pub fn coherence(
+    judged: &[Judged],
+    sites: &[Site<'_>],
+    boot: &Bootstrap,
+    replan_steps: &[usize],
+    seed: u64,
+) -> Result<Sheet> {
     let mut sheet = Sheet::new(
         "2 Coherence of whole scenes",
         &[
@@ -104,7 +95,7 @@ pub fn coherence(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: 
              road users; \"paper's rate\" is the mean over scenes of the share of all road users whose boxes' \
              intersection over union passes 0.02. Off lanes: share of vehicle steps more than 2.5 m off every \
              lane; past edges: with a corner past a road edge. ADE of the futures shown, metres. Plans are made \
-             once for the 9 s.",
+             once for the 9 s, but in the lines that say how often everybody plans anew from the states reached.",
             "With goals: position, speed and heading of the log's end for those that move; what stands keeps \
              its place.",
         ],
@@ -146,25 +137,35 @@ pub fn coherence(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: 
             .collect();
         line("prior", &verdicts(&prior, false));
         for own in judged {
+            let mut product = Vec::new();
             for (name, steps, diversity, shown, guidance) in LINES {
                 let stages = Stages { shown, guidance, ..Stages::default() };
                 let ask = Ask { steps, diversity, stages, ..Ask::shipped(goals, seed) };
-                let samples: Result<Vec<_>> =
-                    sites.par_iter().map(|site| scenes(&own.generator, site, ask)).collect();
-                let motions: Vec<Motions> = sites
-                    .iter()
-                    .zip(samples?)
-                    .map(|(site, samples)| {
-                        samples
-                            .first()
-                            .map_or_else(|| vec![None; site.scene.agents.len()], |s| motions_of(site, s))
-                    })
-                    .collect();
-                line(&format!("{}: {name}", own.name), &verdicts(&motions, false));
+                product = verdicts(&generated_motions(own, &sites, ask)?, false);
+                line(&format!("{}: {name}", own.name), &product);
+            }
+            for &steps in replan_steps {
+                let name = format!("{}: re-planned every {} s", own.name, steps as f64 / STEPS_A_SECOND);
+                // Every 9 s is once: the product as it is.
+                if steps == HORIZON_STEPS {
+                    line(&name, &product);
+                    continue;
+                }
+                let ask = Ask { replan_steps: Some(steps), ..Ask::shipped(goals, seed) };
+                line(&name, &verdicts(&generated_motions(own, &sites, ask)?, false));
             }
         }
     }
     Ok(sheet)
+}
+
+/// What is shown of everybody, by site.
+fn generated_motions(own: &Judged, sites: &[&Site<'_>], ask: Ask) -> Result<Vec<Motions>> {
+    let of = |site: &&Site<'_>| {
+        let samples = scenes(&own.generator, site, ask)?;
+        Ok(samples.first().map_or_else(|| vec![None; site.scene.agents.len()], |s| motions_of(site, s)))
+    };
+    sites.par_iter().map(of).collect()
 }
 
 fn cells(boot: &Bootstrap, sites: &[&Site<'_>], verdicts: &[Verdict]) -> Vec<Cell> {
@@ -181,8 +182,8 @@ fn cells(boot: &Bootstrap, sites: &[&Site<'_>], verdicts: &[Verdict]) -> Vec<Cel
         share(&|v| (v.overlapping[0], v.moving), Form::Percent),
         share(&|v| (f64::from(u8::from(v.overlapping[2] > 0.0)), 1.0), Form::Percent),
         share(&|v| (v.paper, 1.0), Form::Percent),
-        share(&|v| (v.off_lanes, v.steps), Form::Percent),
-        share(&|v| (v.past_edges, v.edge_steps), Form::Percent),
+        share(&|v| (v.road.off_lanes, v.road.steps), Form::Percent),
+        share(&|v| (v.road.past_edges, v.road.edge_steps), Form::Percent),
         share(&|v| (v.distance, v.moving), Form::Plain),
     ]
 }
@@ -212,7 +213,7 @@ mod tests {
         assert_eq!(verdict.overlapping, [0.0, 0.0, 2.0]);
         assert!((verdict.paper - 2.0 / 3.0).abs() < 1e-9);
         // The third drives 40 m beside the lanes.
-        assert!((verdict.off_lanes / verdict.steps - 1.0 / 3.0).abs() < 1e-9);
+        assert!((verdict.road.off_lanes / verdict.road.steps - 1.0 / 3.0).abs() < 1e-9);
         let excused = judge(&site, &motions, &BTreeSet::from([(0, 1)]));
         assert_eq!(excused.overlapping, [0.0; 3]);
     }

@@ -96,6 +96,13 @@ pub fn likeliest(futures: &[Future]) -> usize {
     best
 }
 
+/// Negative log likelihood of the best future; `None` where there was one alone, or for formulas, which give
+/// no probabilities.
+pub fn log_loss(probabilities: &[f64], best: usize) -> Option<f64> {
+    let p = probabilities.get(best)?;
+    (probabilities.len() > 1).then(|| -p.max(1e-6).ln())
+}
+
 /// A future's state at a scene step.
 pub fn at(future: &Future, step: usize) -> Option<&State> {
     future.states.get(step.checked_sub(future.first_step)?)
@@ -201,6 +208,13 @@ mod tests {
         let [position, heading, speed] = goal_error(&goal, &state);
         assert!(position == 0.0 && heading < 0.024 && speed < 1e-9);
         assert!(is_met([0.049, 0.019, 0.049]) && !is_met([0.051, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn log_loss_needs_a_choice() {
+        assert_eq!(log_loss(&[0.5, 0.5], 1), Some(2.0_f64.ln()));
+        assert_eq!(log_loss(&[1.0], 0), None);
+        assert_eq!(log_loss(&[], 0), None);
     }
 
     #[test]

@@ -1,10 +1,11 @@
-//! Judging the experts on scenes: six tables of figures with intervals, and pictures.
+//! Judging the experts on scenes: seven tables of figures with intervals, and pictures.
 //!
 //! [`run`] makes everything that `dragtraffic eval` writes. A table is a module; they share the cases, the
 //! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
 //! ([`stats`]). The same scenes, weights and seed give the same bytes, except for the clock's readings of
 //! table 6, which stand in files of their own.
 
+mod ablation;
 mod cases;
 mod coherence;
 mod control;
@@ -16,9 +17,10 @@ pub mod picture;
 pub mod quality;
 mod realism;
 pub mod rivals;
+mod roads;
 mod run;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 pub mod sheet;
 pub mod stats;
 pub mod together;

@@ -1,5 +1,6 @@
 //! One run over scenes: the tables that were asked for, as sheets, Markdown and JSON, and pictures.
 
+use super::ablation::ablation;
 use super::coherence::coherence;
 use super::control::control;
 use super::latency::{Row, latency};
@@ -10,9 +11,11 @@ use super::sheet::{Cell, Form, Sheet};
 use super::stats::Bootstrap;
 use super::variety::variety;
 use super::{Judged, Site, picture};
+use crate::crop::{Crop, Cropped};
 use anyhow::{Context, Result};
 use scene::Scene;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -26,14 +29,22 @@ pub enum Table {
     Realism,
     Variety,
     Cost,
+    Ablation,
 }
 
 impl Table {
     /// All, numbered from 1.
-    pub const ALL: [Self; 6] =
-        [Self::Quality, Self::Coherence, Self::Control, Self::Realism, Self::Variety, Self::Cost];
+    pub const ALL: [Self; 7] = [
+        Self::Quality,
+        Self::Coherence,
+        Self::Control,
+        Self::Realism,
+        Self::Variety,
+        Self::Cost,
+        Self::Ablation,
+    ];
 
-    /// By its number, 1 to 6.
+    /// By its number, 1 to 7.
     pub fn numbered(number: usize) -> Option<Self> {
         Self::ALL.get(number.checked_sub(1)?).copied()
     }
@@ -48,6 +59,22 @@ pub struct Options {
     pub seed: u64,
     /// Pictures of table 1's best, worst and random cases.
     pub pictures: bool,
+    /// Table 2 has a line for the product re-planned after so many steps each, 1..=90.
+    pub replan_steps: Vec<usize>,
+    /// Which road users count, and how many a scene must have.
+    pub crop: Crop,
+}
+
+/// What a crop did.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CropReport {
+    /// The crop.
+    #[serde(flatten)]
+    pub crop: Crop,
+    /// Scenes left out for having too few road users.
+    pub scenes_left_out: usize,
+    /// Road users outside, in the scenes that were kept.
+    pub road_users_outside: usize,
 }
 
 /// What was found.
@@ -57,9 +84,12 @@ pub struct Report {
     pub seed: u64,
     /// Scenes looked at.
     pub scenes: usize,
+    /// What was left out beforehand; `None` when nothing was asked to be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crop: Option<CropReport>,
     /// Hash of each expert's weights, by name of the judged.
     pub weights: BTreeMap<String, BTreeMap<String, String>>,
-    /// Tables 1 to 5.
+    /// Tables 1 to 5 and 7.
     pub sheets: Vec<Sheet>,
     /// Table 6: the clock's readings, never the same twice.
     #[serde(skip)]
@@ -72,7 +102,7 @@ pub struct Report {
 /// Makes the tables, telling `progress` what is under way. The first of `judged` is in the pictures.
 ///
 /// # Errors
-/// When a generator fails.
+/// When a generator fails, or the crop leaves no scene.
 pub fn run(
     judged: Vec<Judged>,
     scenes: &[Scene],
@@ -80,6 +110,8 @@ pub fn run(
     progress: &dyn Fn(&str),
 ) -> Result<Report> {
     let seed = options.seed;
+    let (scenes, crop) = cropped(scenes, options.crop)?;
+    let scenes = scenes.as_ref();
     let wants = |table: Table| options.tables.contains(&table);
     let weights = judged.iter().map(|own| {
         let hashes = own.generator.weights().iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
@@ -88,6 +120,7 @@ pub fn run(
     let mut report = Report {
         seed,
         scenes: scenes.len(),
+        crop,
         weights: weights.collect(),
         sheets: Vec::new(),
         cost: None,
@@ -107,7 +140,7 @@ pub fn run(
     }
     if wants(Table::Coherence) {
         progress("table 2: coherence");
-        report.sheets.push(coherence(&judged, &sites, &boot, seed)?);
+        report.sheets.push(coherence(&judged, &sites, &boot, &options.replan_steps, seed)?);
     }
     if wants(Table::Control) {
         progress("table 3: control");
@@ -121,11 +154,35 @@ pub fn run(
         progress("table 5: variety");
         report.sheets.extend(variety(&judged, &sites, &boot, seed)?);
     }
+    if wants(Table::Ablation) {
+        progress("table 7: ablations");
+        report.sheets.extend(ablation(&judged, &sites, &boot, seed)?);
+    }
     if wants(Table::Cost) {
         progress("table 6: cost");
         report.cost = Some(cost(judged, scenes)?);
     }
     Ok(report)
+}
+
+/// The scenes that a crop leaves, and what it did.
+fn cropped(scenes: &[Scene], crop: Crop) -> Result<(Cow<'_, [Scene]>, Option<CropReport>)> {
+    if crop == Crop::default() {
+        return Ok((scenes.into(), None));
+    }
+    let mut report = CropReport { crop, scenes_left_out: 0, road_users_outside: 0 };
+    let mut kept = Vec::new();
+    for scene in scenes {
+        match crop.apply(scene.clone()) {
+            Cropped::Kept(scene, outside) => {
+                report.road_users_outside += outside;
+                kept.push(*scene);
+            }
+            Cropped::TooFew(_) => report.scenes_left_out += 1,
+        }
+    }
+    anyhow::ensure!(!kept.is_empty(), "no scene has {} road users that count", crop.least_agents);
+    Ok((kept.into(), Some(report)))
 }
 
 fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Sheet> {
@@ -158,9 +215,21 @@ fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Sheet> {
 }
 
 impl Report {
-    /// Tables 1 to 5 as Markdown.
+    /// Tables 1 to 5 and 7 as Markdown.
     pub fn markdown(&self) -> String {
         let mut out = format!("# Evaluation\n\n{} scenes, seed {}. ", self.scenes, self.seed);
+        if let Some(CropReport { crop, scenes_left_out, road_users_outside }) = &self.crop {
+            if let Some(side_m) = crop.side_m {
+                out += &format!(
+                    "Road users of a {side_m} m square about the ego alone, {road_users_outside} outside left \
+                     out. "
+                );
+            }
+            out += &format!(
+                "Scenes with fewer than {} road users at the first step left out: {scenes_left_out}. ",
+                crop.least_agents
+            );
+        }
         out += "Every figure has its 95 % bootstrap interval, resampled by scene.\n\n";
         for (name, hashes) in &self.weights {
             for (expert, hash) in hashes {
@@ -207,6 +276,10 @@ mod tests {
     use experts::Generator;
 
     fn tables(tables: &[Table], seed: u64, threads: usize) -> Report {
+        judge(tables, seed, threads, Crop::default()).unwrap()
+    }
+
+    fn judge(tables: &[Table], seed: u64, threads: usize, crop: Crop) -> Result<Report> {
         let scenes: Vec<Scene> = (0..2)
             .map(|i| {
                 let speed = 8.0 + f64::from(i);
@@ -216,22 +289,54 @@ mod tests {
         let generator = Generator::random(1).unwrap().with_threads(threads);
         let judged = vec![Judged { name: "random".into(), generator }];
         let tables = tables.iter().copied().collect();
-        run(judged, &scenes, &Options { tables, seed, pictures: true }, &|_| {}).unwrap()
+        let options = Options { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
+        run(judged, &scenes, &options, &|_| {})
     }
 
     #[test]
     fn the_same_run_gives_the_same_bytes() {
-        let all = &Table::ALL[..5];
-        let (first, again) = (tables(all, 5, 1), tables(all, 5, 2));
+        let timeless: Vec<Table> = Table::ALL.into_iter().filter(|t| *t != Table::Cost).collect();
+        let (first, again) = (tables(&timeless, 5, 1), tables(&timeless, 5, 2));
         assert_eq!(first.markdown(), again.markdown());
         assert_eq!(serde_json::to_string(&first).unwrap(), serde_json::to_string(&again).unwrap());
         assert_eq!(first.pictures, again.pictures);
         assert!(first.pictures.len() > 3);
-        for title in ["1a", "1b", "1c", "1d", "1e", "1f", "2 ", "3a", "3b", "4a", "4b", "5a", "5b"] {
+        for title in
+            ["1a", "1b", "1c", "1d", "1e", "1f", "2 ", "3a", "3b", "4a", "4b", "5a", "5b", "7a", "7b"]
+        {
             assert!(first.sheets.iter().any(|s| s.title.starts_with(title)), "{title}");
         }
         let alone = |seed| tables(&[Table::Coherence], seed, 1).markdown();
         assert_ne!(alone(5), alone(6));
+    }
+
+    #[test]
+    fn plans_are_made_anew_as_often_as_asked() {
+        let report = tables(&[Table::Coherence], 5, 1);
+        let cells = |goals: &str, name: &str| {
+            let mut lines = report.sheets[0].lines.iter();
+            let found = lines.find(|l| l.keys[0] == goals && l.keys[1].ends_with(name));
+            found.map(|l| l.cells.clone()).unwrap()
+        };
+        for goals in ["none", "all fixed"] {
+            assert_eq!(cells(goals, "re-planned every 9 s"), cells(goals, "the product"));
+        }
+        assert_ne!(cells("none", "re-planned every 3 s"), cells("none", "the product"));
+    }
+
+    #[test]
+    fn crops_are_told() {
+        let crop = Crop { side_m: Some(50.0), least_agents: 1 };
+        let report = judge(&[Table::Coherence], 5, 1, crop).unwrap();
+        // The second car of each scene is 30 m ahead of the first.
+        let told = CropReport { crop, scenes_left_out: 0, road_users_outside: 2 };
+        assert_eq!((report.scenes, report.crop), (2, Some(told)));
+        let text = report.markdown();
+        assert!(text.contains("50 m square about the ego alone, 2 outside left out"), "{text}");
+        let json = serde_json::to_value(&report).unwrap();
+        assert_eq!(json["crop"]["side_m"].as_f64(), Some(50.0));
+        assert!(judge(&[Table::Coherence], 5, 1, Crop::PAPER).is_err());
+        assert!(serde_json::to_value(tables(&[], 5, 1)).unwrap().get("crop").is_none());
     }
 
     #[test]

@@ -3,8 +3,14 @@
 
 mod conditions;
 mod record;
+mod report;
+#[cfg(test)]
+mod tests;
 
-use crate::train::{Record, Writer};
+pub use report::{Fit, LeftOut, Report, Split};
+
+use crate::crop::{Crop, Cropped};
+use crate::train::{FitError, Record, Writer};
 use anyhow::{Context, Result};
 use conditions::Draw;
 use experts::features::STANDING_SHARE;
@@ -31,18 +37,8 @@ pub struct Options {
     pub draws: usize,
     /// Stop after so many records.
     pub most_records: u64,
-}
-
-/// What was prepared and what was left out.
-#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
-#[allow(missing_docs, reason = "the names say it")]
-pub struct Report {
-    pub files: usize,
-    pub scenes: usize,
-    pub records: u64,
-    pub unreadable: usize,
-    pub too_short: usize,
-    pub standing_left_out: usize,
+    /// Which road users count, and how many a scene must have.
+    pub crop: Crop,
 }
 
 /// Reads scenes, writes records; files in order of their names, so the same input gives the same bytes.
@@ -53,20 +49,28 @@ pub fn run(options: &Options, mut progress: impl FnMut(&Report)) -> Result<Repor
     let files = scene_files(&options.inputs)?;
     let mut writer = Writer::create(&options.out)?;
     let mut report = Report::default();
+    let mut distances = Vec::new();
     for chunk in files.chunks(32) {
         let batches: Vec<Vec<SceneRecords>> =
             chunk.par_iter().map(|file| file_records(file, options)).collect();
         for batch in batches {
             report.files += 1;
-            report.unreadable += usize::from(batch.is_empty());
+            report.left_out.unreadable_files += usize::from(batch.is_empty());
             for scene in batch {
                 report.scenes += 1;
-                report.too_short += scene.too_short;
-                report.standing_left_out += scene.standing;
-                if scene.records.is_empty() || report.records >= options.most_records {
+                report.road_users += scene.road_users;
+                report.left_out.add(&scene.left_out);
+                if scene.records.is_empty() {
                     continue;
                 }
+                if report.records >= options.most_records {
+                    report.left_out.over_the_files_limit += scene.used;
+                    continue;
+                }
+                report.used += scene.used;
                 report.records += scene.records.len() as u64;
+                report.split.add(scene.key, scene.records.len());
+                distances.extend(scene.distances);
                 writer.scene(scene.key, &scene.map.pieces.features, &scene.records)?;
             }
         }
@@ -75,7 +79,8 @@ pub fn run(options: &Options, mut progress: impl FnMut(&Report)) -> Result<Repor
             break;
         }
     }
-    writer.finish()?;
+    report.blake3 = writer.finish()?.to_hex().to_string();
+    report.fit = Fit::of(distances);
     Ok(report)
 }
 
@@ -114,13 +119,47 @@ struct SceneRecords {
     key: u64,
     map: Arc<MapIndex>,
     records: Vec<Record>,
-    too_short: usize,
-    standing: usize,
+    /// By record, metres; see [`FitError`].
+    distances: Vec<f64>,
+    road_users: usize,
+    used: usize,
+    left_out: LeftOut,
+}
+
+impl SceneRecords {
+    fn new(scene: &Scene, map: Arc<MapIndex>) -> Self {
+        Self {
+            key: place_key(scene),
+            map,
+            records: Vec::new(),
+            distances: Vec::new(),
+            road_users: scene.agents.len(),
+            used: 0,
+            left_out: LeftOut::default(),
+        }
+    }
 }
 
 fn file_records(path: &Path, options: &Options) -> Vec<SceneRecords> {
     let scenes = read_scenes(path).unwrap_or_default();
-    scenes.iter().map(|scene| scene_records(scene, options)).collect()
+    scenes.into_iter().map(|scene| cropped_records(scene, options)).collect()
+}
+
+/// Records of the part of a scene that is asked for.
+fn cropped_records(scene: Scene, options: &Options) -> SceneRecords {
+    let map = Arc::new(MapIndex::new(&scene.map));
+    let mut out = SceneRecords::new(&scene, map);
+    match options.crop.apply(scene) {
+        Cropped::Kept(scene, outside) => {
+            out.left_out.outside_the_crop = outside;
+            scene_records(&scene, options, &mut out);
+        }
+        Cropped::TooFew(_) => {
+            out.left_out.scenes_with_too_few = 1;
+            out.left_out.in_scenes_with_too_few = out.road_users;
+        }
+    }
+    out
 }
 
 /// Scenes of one place share a key: the source id without its window number.
@@ -131,28 +170,36 @@ fn place_key(scene: &Scene) -> u64 {
     hash.as_bytes()[..8].iter().fold(0, |key, byte| (key << 8) | u64::from(*byte))
 }
 
-fn scene_records(scene: &Scene, options: &Options) -> SceneRecords {
-    let map = Arc::new(MapIndex::new(&scene.map));
-    let key = place_key(scene);
-    let mut out = SceneRecords { key, map: map.clone(), records: Vec::new(), too_short: 0, standing: 0 };
+fn scene_records(scene: &Scene, options: &Options, out: &mut SceneRecords) {
+    let map = out.map.clone();
     let mut draw = Draw::new(options.seed, scene.meta.source_id.as_deref().unwrap_or(&scene.name));
     let base = World::new(scene, map.clone(), 0);
-    let mut candidates: Vec<usize> = (0..scene.agents.len())
-        .filter(|i| scene.agents[*i].agent_type == options.agent_type)
-        .filter(|i| base.present.iter().any(|p| p.index == *i))
-        .collect();
+    let fit = FitError::new();
+    let mut candidates: Vec<usize> = Vec::new();
+    for (i, agent) in scene.agents.iter().enumerate() {
+        if agent.agent_type != options.agent_type {
+            out.left_out.wrong_type += 1;
+        } else if base.present.iter().any(|p| p.index == i) {
+            candidates.push(i);
+        } else {
+            out.left_out.absent_at_the_start += 1;
+        }
+    }
     draw.shuffle(&mut candidates);
-    let mut used = 0;
-    for index in candidates {
+    for (looked_at, &index) in candidates.iter().enumerate() {
+        if out.used >= options.per_scene.max(1) {
+            out.left_out.over_the_scenes_limit = candidates.len() - looked_at;
+            break;
+        }
         let agent = &scene.agents[index];
         let valid = agent.track.valid_steps().filter(|s| *s > 0 && *s <= HORIZON_STEPS).count();
         if valid < 30 {
-            out.too_short += 1;
+            out.left_out.too_short += 1;
             continue;
         }
         let standing = agent.track.extent_m() < 2.0;
         if standing && !draw.chance(STANDING_SHARE) {
-            out.standing += 1;
+            out.left_out.standing += 1;
             continue;
         }
         for _ in 0..if standing { 1 } else { options.draws } {
@@ -160,12 +207,11 @@ fn scene_records(scene: &Scene, options: &Options) -> SceneRecords {
             conditions[index].goal = draw.goal(agent, standing);
             draw.others(scene, index, &mut conditions);
             let world = World::with_conditions(scene, map.clone(), 0, conditions);
-            out.records.extend(record::record(&world, index));
+            if let Some(record) = record::record(&world, index) {
+                out.distances.extend(fit.of(&record));
+                out.records.push(record);
+            }
         }
-        used += 1;
-        if used >= options.per_scene {
-            break;
-        }
+        out.used += 1;
     }
-    out
 }

@@ -134,11 +134,11 @@ impl Writer {
         Ok(())
     }
 
-    /// Writes counts and hash and gives the file its name. Returns (scenes, records).
+    /// Writes counts and hash and gives the file its name. Returns the hash of the whole file.
     ///
     /// # Errors
     /// When the file cannot be written or renamed.
-    pub fn finish(mut self) -> Result<(u32, u64), TrainError> {
+    pub fn finish(mut self) -> Result<blake3::Hash, TrainError> {
         let mut sink = Sink::default();
         sink.count(self.scenes as usize);
         sink.u64(self.records);
@@ -147,7 +147,7 @@ impl Writer {
         self.file.flush().map_err(TrainError::io(&self.partial))?;
         self.file.get_ref().sync_all().map_err(TrainError::io(&self.partial))?;
         std::fs::rename(&self.partial, &self.path).map_err(TrainError::io(&self.path))?;
-        Ok((self.scenes, self.records))
+        Ok(self.hash.finalize())
     }
 
     fn block(&mut self, tag: u8, payload: &[u8]) -> Result<(), TrainError> {

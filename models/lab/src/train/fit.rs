@@ -3,6 +3,7 @@
 use experts::features::{AgentFeatures, INSTANTS, MODES, RESIDUAL, Target};
 use scene::KNOTS;
 
+use super::Record;
 use super::route::Route;
 
 /// Ridge, square metres per square of a normalised knot: what noise in the recording costs.
@@ -28,6 +29,43 @@ pub(super) fn recorded(route: &Route, agent: &AgentFeatures, target: &Target) ->
         }
     }
     residual
+}
+
+/// How far recordings are from the best that a residual can say of them: what no training can mend.
+pub struct FitError(Route);
+
+impl FitError {
+    /// Ready to measure.
+    pub fn new() -> Self {
+        Self(Route::new())
+    }
+
+    /// Mean distance over the recorded instants, metres, of a recording from its own residual (the one that
+    /// training is shown) on the anchor where that is least. `None` where no instant is recorded.
+    pub fn of(&self, record: &Record) -> Option<f64> {
+        let target = &record.target;
+        let valid: Vec<usize> = (0..INSTANTS).filter(|i| target.valid[*i] > 0.0).collect();
+        if valid.is_empty() {
+            return None;
+        }
+        let residual = recorded(&self.0, &record.agent, target);
+        let apart = |mode: usize| {
+            let found = self.0.coordinates(&target.base_along[mode], &residual[mode]);
+            let distance = |&i: &usize| {
+                let along = f64::from(found[i][0]) - f64::from(target.along[mode][i]);
+                let across = f64::from(found[i][1]) - f64::from(target.across[mode][i]);
+                along.hypot(across)
+            };
+            valid.iter().map(distance).sum::<f64>() / valid.len() as f64
+        };
+        (0..MODES).map(apart).min_by(f64::total_cmp)
+    }
+}
+
+impl Default for FitError {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 type Matrix = [[f64; KNOTS]; KNOTS];
@@ -114,6 +152,28 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn errors_are_those_of_the_best_anchor() {
+        let fit = FitError::new();
+        let mut record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
+        let good = fit.of(&record).unwrap();
+        assert!(good < 0.2, "{good}");
+        // A metre to and fro from one half second to the next is no motion that one knot a second can say;
+        // with all other anchors as bad, the one left as it was counts.
+        let zigzag = |record: &mut Record, mode: usize| {
+            for (i, across) in record.target.across[mode].iter_mut().enumerate() {
+                *across += if i % 2 == 0 { 1.0 } else { -1.0 };
+            }
+        };
+        (1..MODES).for_each(|mode| zigzag(&mut record, mode));
+        assert!((fit.of(&record).unwrap() - good).abs() < 0.1);
+        zigzag(&mut record, 0);
+        let bad = fit.of(&record).unwrap();
+        assert!((0.5..1.5).contains(&bad), "{bad}");
+        record.target.valid = [0.0; INSTANTS];
+        assert_eq!(fit.of(&record), None);
     }
 
     #[test]

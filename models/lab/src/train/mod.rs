@@ -28,7 +28,8 @@ pub(crate) mod toy;
 
 pub use dataset::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record, Records, Writer};
 pub use error::TrainError;
+pub use fit::FitError;
 pub use metrics::Metrics;
 pub use run::{Options, Progress, checkpoint_path, run};
-pub use sample::Mirror;
+pub use sample::{Mirror, is_held_out};
 pub use stages::Stage;

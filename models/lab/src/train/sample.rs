@@ -13,6 +13,12 @@ use super::{Record, Records, TrainError};
 /// One scene in this many is held out.
 const HELD_OUT: u64 = 10;
 
+/// Whether scenes of this key are for validation alone, whatever file they are in.
+pub fn is_held_out(key: u64) -> bool {
+    let hash = blake3::hash(&key.to_le_bytes());
+    u64::from(hash.as_bytes()[0]) * HELD_OUT < 256
+}
+
 /// Signs that turn features into those of the mirrored world (left and right swapped), one a number.
 #[derive(Clone, Debug)]
 pub struct Mirror {
@@ -43,8 +49,7 @@ impl Split {
         let mut sum = 0.0;
         for index in 0..records.len() {
             let (key, _) = records.scene_of(index);
-            let hash = blake3::hash(&key.to_le_bytes());
-            if u64::from(hash.as_bytes()[0]) * HELD_OUT < 256 {
+            if is_held_out(key) {
                 split.held_out.push(index);
             } else {
                 sum += f64::from(records.get(index)?.weight);

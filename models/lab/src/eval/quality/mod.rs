@@ -132,7 +132,7 @@ struct GoalVerdict {
 }
 
 /// The shipped settings, or the initializer as it is.
-fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Request {
+pub(super) fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Request {
     let mut request = Request::new(Arc::new(scene));
     request.agents = Some(BTreeSet::from([id.to_owned()]));
     request.seed = seed;

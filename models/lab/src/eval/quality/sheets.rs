@@ -1,6 +1,6 @@
 //! The sheets of table 1.
 
-use super::super::measure::Measured;
+use super::super::measure::{Measured, log_loss};
 use super::super::rivals::Rival;
 use super::super::sheet::{Cell, Form, Sheet};
 use super::super::stats::{Bootstrap, Estimate, Value};
@@ -96,7 +96,10 @@ impl<'a> Quality<'a> {
                             plain(|m| m.closest_ade),
                             Cell::of(self.mean(all(), |o| o.measured.heading_rad), Form::Fine),
                             plain(|m| m.speed_mps),
-                            Cell::of(self.mean(all(), log_loss), Form::Plain),
+                            Cell::of(
+                                self.mean(all(), |o| log_loss(&o.probabilities, o.measured.best)),
+                                Form::Plain,
+                            ),
                         ],
                     );
                 }
@@ -315,10 +318,4 @@ impl<'a> Quality<'a> {
         }
         sheet
     }
-}
-
-/// Negative log likelihood of the best future; `None` where there was one alone, or for formulas.
-fn log_loss(outcome: &Outcome) -> Option<f64> {
-    let p = outcome.probabilities.get(outcome.measured.best)?;
-    (outcome.probabilities.len() > 1).then(|| -p.max(1e-6).ln())
 }
