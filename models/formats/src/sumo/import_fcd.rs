@@ -97,7 +97,7 @@ impl<'a> Windows<'a> {
         self.step += 1;
         let last_s = self.start_s() + (STEPS - 1) as f64 * STEP_S;
         if before_s < last_s - SAME_S {
-            if time_s - before_s <= MAX_FILLED_S + SAME_S || time_s < last_s {
+            if time_s - before_s <= MAX_FILLED_S + SAME_S || time_s <= last_s + SAME_S {
                 self.coarsest_s = self.coarsest_s.max(time_s - before_s);
                 return None;
             }

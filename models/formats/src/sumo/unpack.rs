@@ -63,7 +63,7 @@ pub(super) fn head(bytes: &[u8]) -> Vec<u8> {
     const HEAD: u64 = 32 << 10;
     let mut decoded = Vec::new();
     // A broken file is recognised by what comes before the fault.
-    let _ = open(bytes, HEAD + 1).take(HEAD).read_to_end(&mut decoded);
+    let _ = open(bytes, 1 << 20).take(HEAD).read_to_end(&mut decoded);
     decoded
 }
 

@@ -33,8 +33,8 @@ impl Element {
 pub(super) enum Event {
     /// Also for an element without content, which has an end too.
     Start(Element),
-    /// Name of the element that ends.
-    End(String),
+    /// The end of an element.
+    End,
 }
 
 /// Reads events one by one.
@@ -44,7 +44,7 @@ pub(super) struct Scanner<R> {
     offset: u64,
     open: Vec<String>,
     /// End of an element that had no content.
-    pending: Option<String>,
+    pending: bool,
     seen_root: bool,
     max_tag: usize,
     tag: Vec<u8>,
@@ -58,7 +58,7 @@ impl<R: BufRead> Scanner<R> {
             line: 1,
             offset: 0,
             open: Vec::new(),
-            pending: None,
+            pending: false,
             seen_root: false,
             max_tag,
             tag: Vec::new(),
@@ -70,8 +70,8 @@ impl<R: BufRead> Scanner<R> {
     /// # Errors
     /// `malformed-file` with the byte and the line of the tag; the bounds of the reader.
     pub fn next(&mut self) -> Result<Option<Event>, ReadError> {
-        if let Some(name) = self.pending.take() {
-            return Ok(Some(Event::End(name)));
+        if std::mem::take(&mut self.pending) {
+            return Ok(Some(Event::End));
         }
         loop {
             if !self.until(b'<', false)? {
@@ -173,7 +173,7 @@ impl<R: BufRead> Scanner<R> {
         let text = std::str::from_utf8(&self.tag).map_err(|_| "a tag that is not UTF-8".to_owned())?;
         let name = text.trim_start_matches('/').trim_end_matches('>').trim_end();
         match self.open.pop() {
-            Some(open) if open == name => Ok(Event::End(open)),
+            Some(open) if open == name => Ok(Event::End),
             Some(open) => Err(format!("</{}> found, </{}> expected", shown(name), shown(&open))),
             None => Err(format!("</{}> found where nothing is open", shown(name))),
         }
@@ -215,7 +215,7 @@ impl<R: BufRead> Scanner<R> {
         }
         self.seen_root = true;
         if empty {
-            self.pending = Some(element.name.clone());
+            self.pending = true;
         } else {
             self.open.push(element.name.clone());
         }
@@ -300,7 +300,7 @@ mod tests {
                     out.push_str(&e.name);
                     e.attributes.iter().for_each(|(n, v)| out.push_str(&format!("[{n}:{v}]")));
                 }
-                Event::End(_) => out.push(';'),
+                Event::End => out.push(';'),
             }
         }
         Ok(out)
