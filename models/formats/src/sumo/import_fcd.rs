@@ -96,18 +96,17 @@ impl<'a> Windows<'a> {
         };
         self.step += 1;
         let last_s = self.start_s() + (STEPS - 1) as f64 * STEP_S;
-        if before_s < last_s - SAME_S {
-            if time_s - before_s <= MAX_FILLED_S + SAME_S || time_s <= last_s + SAME_S {
-                self.coarsest_s = self.coarsest_s.max(time_s - before_s);
-                return None;
-            }
-            // Nothing more can be filled: this window ends with what it has.
+        // A pause past the window's end cannot be filled: then the window ends with what it has.
+        let filled = time_s - before_s <= MAX_FILLED_S + SAME_S;
+        if before_s < last_s - SAME_S && (filled || time_s <= last_s + SAME_S) {
+            self.coarsest_s = self.coarsest_s.max(time_s - before_s);
+            return None;
         }
         let scene = self.scene(before_s);
         self.coarsest_s = time_s - before_s;
         // Windows in which nothing was written are passed over in one go.
         self.window = (self.window + 1).max(self.window_of(before_s));
-        if time_s - before_s > MAX_FILLED_S + SAME_S && before_s < self.start_s() {
+        if !filled && before_s < self.start_s() {
             self.window = self.window.max(self.window_of(time_s));
         }
         let keep = self.step.saturating_sub(2);
