@@ -201,7 +201,8 @@ fn read(place: &Place) -> Result<Scene, Problem> {
 fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let read = crate::transfer::read(&bytes, None, &name, 0, MOST_FILES).map_err(|problem| problem.detail)?;
+    let read = crate::transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
+    let read = read.map_err(|problem| problem.detail)?;
     Ok((bytes, read.scenes.into_iter().map(|s| s.scene).collect()))
 }
 

@@ -65,23 +65,29 @@ fn known(name: &str) -> &str {
 }
 
 /// Reads a file; the format is recognised from its content when `format` is `None`. `skip` scenes
-/// are passed over and at most `most` given.
+/// are passed over and at most `most` given. `net` is the network that a recording belongs to.
 ///
 /// # Errors
-/// `format-unknown`, or why not one scene of the file can be read.
+/// `format-unknown`, `invalid-field` for a network beside a file that takes none, or why not one scene
+/// of the file can be read.
 pub fn read(
     bytes: &[u8],
     format: Option<&str>,
     name: &str,
     skip: usize,
     most: usize,
+    net: Option<Vec<u8>>,
 ) -> Result<Read, Problem> {
     let id = match format {
         Some(format) => known(format),
         None => registry::sniff(bytes, name).map_or("auto", |format| format.info().id),
     };
     let format = names().into_iter().find(|known| *known == id).unwrap_or("auto");
-    let options = ImportOptions { skip, max_scenes: most, ..ImportOptions::default() };
+    if net.is_some() && registry::by_id(id).is_some_and(|format| !format.info().takes_net) {
+        let detail = format!("a file of format {id} comes without a network");
+        return Err(Problem::field(registry::NET_POINTER, Code::InvalidField, detail));
+    }
+    let options = ImportOptions { skip, max_scenes: most, net, ..ImportOptions::default() };
     let mut scenes = Vec::new();
     let mut skipped = Vec::new();
     for (index, result) in registry::import(bytes, name, id, &options)?.into_iter().enumerate() {

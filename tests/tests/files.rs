@@ -215,6 +215,36 @@ fn scoring_takes_given_motion() {
     assert_eq!(server.post("/v1/score", &stranger).unwrap().code(), "unknown-agent");
 }
 
+/// A form with parts of these names.
+fn form(parts: &[(&str, &str)]) -> Request {
+    let part = |(name, text): &(&str, &str)| {
+        format!(
+            "--cut\r\ncontent-disposition: form-data; name=\"{name}\"; filename=\"{name}.xml\"\r\n\r\n{text}\r\n"
+        )
+    };
+    let body: String = parts.iter().map(part).collect();
+    let request = Request::new("POST", "/v1/import?dry_run=true");
+    request.header("content-type", "multipart/form-data; boundary=cut").body(body + "--cut--\r\n")
+}
+
+#[test]
+fn sumo_files_are_imported_with_their_network() {
+    let fixture = |name: &str| {
+        std::fs::read_to_string(root().join("models/formats/tests/fixtures").join(name)).unwrap()
+    };
+    let (net, fcd) = (fixture("street.net.xml"), fixture("street.fcd.xml"));
+    let server = Server::start(&[]).unwrap();
+    let made = server.send(&upload("/v1/import", net.clone().into_bytes())).unwrap();
+    assert_eq!((made.status, made.json()["format"].as_str()), (201, Some("sumo-net")), "{}", made.text());
+    let both = server.send(&form(&[("net", &net), ("file", &fcd)])).unwrap();
+    assert_eq!(both.status, 200, "{}", both.text());
+    let scenes = both.json()["scenes"].as_array().unwrap().clone();
+    assert_eq!((scenes.len(), both.json()["format"].as_str()), (2, Some("sumo-fcd")));
+    assert!(!scenes[0]["scene"]["map"]["lanes"].as_array().unwrap().is_empty());
+    let wrong = server.send(&form(&[("net", &net), ("file", &net)])).unwrap();
+    assert_eq!((wrong.status, wrong.code()), (422, "invalid-field".to_owned()));
+}
+
 #[test]
 fn commands_and_their_exit_codes() {
     let folder = tempfile::tempdir().unwrap();

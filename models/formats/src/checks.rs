@@ -3,6 +3,7 @@
 #![allow(clippy::panic, clippy::expect_used, reason = "a panic is how a promise is reported broken")]
 
 use crate::native::{self, ConditionsDoc, Context, Window};
+use crate::registry::{self, ImportOptions};
 use crate::womd::{self, Mode, Options};
 use scene::{AgentType, State};
 
@@ -31,6 +32,20 @@ pub fn womd(bytes: &[u8]) {
         womd::write(&[&scene], &mut file, false, Mode::Log).expect("a vector takes all");
         let mut list = womd::read_all(&file, &Options::default());
         assert!(matches!(list.pop(), Some(Ok(_))), "what was written is not read");
+    }
+}
+
+/// A network or a recording of SUMO that is read is a scene that the native format holds.
+///
+/// # Panics
+/// When it is not.
+pub fn sumo(bytes: &[u8]) {
+    let options = ImportOptions { max_scenes: 4, ..ImportOptions::default() };
+    for format in ["sumo-net", "sumo-fcd"] {
+        let format = registry::by_id(format).expect("the format is in the table");
+        for (scene, _) in format.import(bytes, &options).into_iter().flatten() {
+            native::read(&native::write(&scene)).expect("what was written is read");
+        }
     }
 }
 

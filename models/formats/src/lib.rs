@@ -1,7 +1,7 @@
 //! Files to and from scenes.
 //!
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
-//! record; [`sumo`] reads what the traffic simulator writes. No format knows another. Readers are
+//! record; [`sumo`] reads what the traffic simulator writes: networks and recordings. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 
 pub mod checks;

@@ -3,6 +3,7 @@
 use crate::limits::MAX_SCENES;
 use crate::loss::{Loss, code as loss_code};
 use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::sumo::formats::{SumoFcd, SumoNet};
 use crate::{native, womd};
 use scene::Scene;
 use serde::Serialize;
@@ -25,6 +26,8 @@ pub struct Info {
     pub export: bool,
     /// Holds many scenes in one file.
     pub many: bool,
+    /// May come with the network it belongs to ([`ImportOptions::net`]).
+    pub takes_net: bool,
 }
 
 /// How to read a file of any format.
@@ -38,11 +41,17 @@ pub struct ImportOptions {
     pub licence: Option<String>,
     /// Check the checksums that the format has.
     pub verify: bool,
+    /// The network that a recording belongs to, for formats whose info has `takes_net`: a SUMO `net.xml`,
+    /// plain or gzip. Faults in it are reported under [`NET_POINTER`].
+    pub net: Option<Vec<u8>>,
 }
+
+/// Pointer of faults in [`ImportOptions::net`].
+pub const NET_POINTER: &str = "/net";
 
 impl Default for ImportOptions {
     fn default() -> Self {
-        Self { skip: 0, max_scenes: MAX_SCENES, licence: None, verify: true }
+        Self { skip: 0, max_scenes: MAX_SCENES, licence: None, verify: true, net: None }
     }
 }
 
@@ -94,6 +103,7 @@ impl Format for Native {
             import: true,
             export: true,
             many: false,
+            takes_net: false,
         }
     }
 
@@ -137,6 +147,7 @@ impl Format for Womd {
             import: true,
             export: true,
             many: true,
+            takes_net: false,
         }
     }
 
@@ -166,7 +177,7 @@ impl Format for Womd {
 }
 
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 2] = [&Native, &Womd];
+pub static FORMATS: [&dyn Format; 4] = [&Native, &Womd, &SumoNet, &SumoFcd];
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {

@@ -54,6 +54,7 @@ fn corpus_and_fixtures_keep_the_promises() {
         let bytes = std::fs::read(&path).unwrap();
         checks::native(&bytes);
         checks::womd(&bytes);
+        checks::sumo(&bytes);
         checks::conditions(&bytes);
         count += 1;
     }

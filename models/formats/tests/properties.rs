@@ -354,6 +354,16 @@ proptest! {
     }
 
     #[test]
+    fn mutated_sumo_files_never_panic(
+        edits in proptest::collection::vec((any::<usize>(), any::<u8>(), any::<u8>()), 1..6),
+    ) {
+        let net = mutated(include_bytes!("fixtures/street.net.xml"), &edits);
+        formats::checks::sumo(&net);
+        formats::checks::sumo(&mutated(include_bytes!("fixtures/street.fcd.xml"), &edits));
+        formats::checks::sumo(&mutated(include_bytes!("fixtures/street.fcd.csv"), &edits));
+    }
+
+    #[test]
     fn mutated_records_never_panic(
         edits in proptest::collection::vec((12..usize::MAX, any::<u8>(), any::<u8>()), 1..6),
     ) {

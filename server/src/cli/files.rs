@@ -23,6 +23,9 @@ pub struct ConvertArgs {
     /// Format of the input; recognised from its content when absent.
     #[arg(long)]
     from: Option<String>,
+    /// Network that a SUMO recording belongs to.
+    #[arg(long)]
+    net: Option<PathBuf>,
     /// Format of the output.
     #[arg(long, default_value = "dragtraffic")]
     to: String,
@@ -96,11 +99,22 @@ pub fn refused(path: &Path, problem: &Problem) -> Failure {
 /// # Errors
 /// Exit 3.
 pub fn read_scenes(path: &Path, from: Option<&str>, index: Option<&str>) -> Result<Vec<Imported>, Failure> {
+    read_with_net(path, from, index, None)
+}
+
+fn read_with_net(
+    path: &Path,
+    from: Option<&str>,
+    index: Option<&str>,
+    net: Option<&Path>,
+) -> Result<Vec<Imported>, Failure> {
     let bytes = output::read(path)?;
+    let net = net.map(output::read).transpose()?;
     let wanted = index.map(range).transpose().map_err(|p| Failure::new(Exit::Usage, p.detail))?;
     let (skip, most) = wanted.map_or((0, usize::MAX), |range| (range.start, range.len()));
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let read = transfer::read(&bytes, from, &name, skip, most).map_err(|problem| refused(path, &problem))?;
+    let read = transfer::read(&bytes, from, &name, skip, most, net);
+    let read = read.map_err(|problem| refused(path, &problem))?;
     for (index, problem) in &read.skipped {
         output::complain(&format!("{}: scene {index} left out: {}", path.display(), problem.detail));
     }
@@ -134,7 +148,7 @@ pub fn convert(args: ConvertArgs, to_native: bool) -> Result<(), Failure> {
         return output::print(format!("{text}\n").as_bytes());
     };
     let to = if to_native { "dragtraffic".to_owned() } else { args.to };
-    let scenes = read_scenes(&input, args.from.as_deref(), args.index.as_deref())?;
+    let scenes = read_with_net(&input, args.from.as_deref(), args.index.as_deref(), args.net.as_deref())?;
     let folder = args.output.as_deref().filter(|path| path.is_dir());
     if scenes.len() > 1 && folder.is_none() {
         let message = format!("{} scenes; give --index, or a folder as --output", scenes.len());

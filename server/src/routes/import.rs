@@ -43,23 +43,46 @@ const UPLOADS: &[&str] = &[
     "application/x-protobuf",
     "application/xml",
     "text/xml",
+    "text/csv",
     MULTIPART,
 ];
 const MULTIPART: &str = "multipart/form-data";
 
-/// The part `file` of a form, and the name it was given. Names are labels; nothing is opened.
-async fn file_of(request: Request) -> Result<(Bytes, Option<String>), Problem> {
+/// What was uploaded.
+#[derive(Default)]
+struct Upload {
+    file: Bytes,
+    /// Name that the file was given: a label, nothing is opened.
+    label: Option<String>,
+    /// The network that the file belongs to.
+    net: Option<Vec<u8>>,
+}
+
+/// The parts `file` and, where there is one, `net` of a form.
+async fn form_of(request: Request) -> Result<Upload, Problem> {
     let broken = |error: String| Problem::new(Code::MalformedFile, error).with("offset", 0);
     let form = Multipart::from_request(request, &()).await;
     let mut form = form.map_err(|error| broken(error.body_text()))?;
+    let mut file = None;
+    let mut upload = Upload::default();
     while let Some(part) = form.next_field().await.map_err(|error| broken(error.body_text()))? {
-        if part.name() == Some("file") {
-            let name = part.file_name().map(str::to_owned);
-            let bytes = part.bytes().await.map_err(|error| broken(error.body_text()))?;
-            return Ok((bytes, name));
+        let name = part.name().map(str::to_owned);
+        let label = part.file_name().map(str::to_owned);
+        match name.as_deref() {
+            Some("file") if file.is_none() => {
+                upload.label = label;
+                file = Some(part.bytes().await.map_err(|error| broken(error.body_text()))?);
+            }
+            Some("net") if upload.net.is_none() => {
+                let bytes = part.bytes().await.map_err(|error| broken(error.body_text()))?;
+                upload.net = Some(bytes.to_vec());
+            }
+            _ => {}
         }
     }
-    Err(Problem::field("/file", Code::InvalidField, "the form needs a part named file"))
+    upload.file =
+        file.ok_or_else(|| Problem::field("/file", Code::InvalidField, "the form needs a part named file"))?;
+    Ok(upload)
 }
 
 /// Stores the scenes of a file.
@@ -76,18 +99,19 @@ pub async fn import(
     let wanted = params.index.as_deref().map(range).transpose()?;
     let (mut parts, unread) = request.into_parts();
     let bytes = body::read_upload(Request::from_parts(parts.clone(), unread), &app.limits).await?;
-    let (bytes, label) = if media_type == MULTIPART {
+    let Upload { file, label, net } = if media_type == MULTIPART {
         parts.headers.remove(header::CONTENT_ENCODING);
-        file_of(Request::from_parts(parts, bytes.into())).await?
+        form_of(Request::from_parts(parts, bytes.into())).await?
     } else {
-        (bytes, None)
+        Upload { file: bytes, ..Upload::default() }
     };
     let format = params.format.filter(|f| f != "auto");
     let name = params.name.or(label).unwrap_or_default();
     let most = app.limits.import_scenes as usize;
     let asked = format.clone().unwrap_or_else(|| "auto".into());
     let (skip, count) = wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1)));
-    let read = body::blocking(move || transfer::read(&bytes, format.as_deref(), &name, skip, count)).await;
+    let read =
+        body::blocking(move || transfer::read(&file, format.as_deref(), &name, skip, count, net)).await;
     let read = read.inspect_err(|_| metrics::transfer(false, known(&asked), "error"))?;
     if read.scenes.len() > most {
         let detail =

@@ -63,17 +63,22 @@ pub fn read_csv(input: impl BufRead) -> Result<BTreeMap<String, Record>, SumoErr
     Ok(records)
 }
 
-struct Columns {
-    id: usize,
-    x: usize,
-    y: usize,
-    angle: usize,
-    speed: usize,
-    kind: Option<usize>,
+/// Where a group's fields stand in a row.
+pub(super) struct Columns {
+    pub id: usize,
+    pub x: usize,
+    pub y: usize,
+    pub angle: usize,
+    pub speed: usize,
+    pub kind: Option<usize>,
+    pub lane: Option<usize>,
+    pub edge: Option<usize>,
+    pub length: Option<usize>,
+    pub width: Option<usize>,
 }
 
 impl Columns {
-    fn find(names: &[&str], group: &str) -> Option<Self> {
+    pub fn find(names: &[&str], group: &str) -> Option<Self> {
         let column = |what: &str| {
             names.iter().position(|n| n.strip_prefix(group).and_then(|n| n.strip_prefix('_')) == Some(what))
         };
@@ -84,6 +89,10 @@ impl Columns {
             angle: column("angle")?,
             speed: column("speed")?,
             kind: column("type"),
+            lane: column("lane"),
+            edge: column("edge"),
+            length: column("length"),
+            width: column("width"),
         })
     }
 }

@@ -49,6 +49,11 @@ pub struct JunctionArea {
 pub fn borders(net: &Net) -> Vec<Borders> {
     let carriageway = |i: usize| {
         let edge = &net.edges[i];
+        // Rails and the like alone are no carriageway.
+        let closed = |l: &usize| matches!(net.lanes[*l].kind, LaneKind::Sidewalk | LaneKind::Closed);
+        if edge.lanes.iter().all(closed) {
+            return None;
+        }
         let mut lanes = edge.lanes.iter().filter(|&&l| net.lanes[l].kind != LaneKind::Sidewalk);
         let (first, last) = (*lanes.next()?, lanes.next_back());
         let (right, left) = (&net.lanes[first], &net.lanes[last.copied().unwrap_or(first)]);
@@ -59,7 +64,8 @@ pub fn borders(net: &Net) -> Vec<Borders> {
         })
     };
     let normal = |i: &usize| net.edges[*i].function == EdgeFunction::Normal;
-    (0..net.edges.len()).filter(normal).filter_map(carriageway).filter(|b| b.right.len() > 1).collect()
+    let lines = |b: &Borders| b.right.len() > 1 && b.left.len() > 1;
+    (0..net.edges.len()).filter(normal).filter_map(carriageway).filter(lines).collect()
 }
 
 /// One side of an arm at a junction, seen from outside.

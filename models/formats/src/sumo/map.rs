@@ -5,10 +5,17 @@ use super::net::{EdgeFunction, LaneKind, Net};
 use super::polyline::{length, offset_right, resample, simplify};
 use scene::Vec2;
 use scene::map::{Area, Lane, LaneMap, LaneType, Neighbor, StopSign};
+use std::cell::Cell;
 use std::collections::HashMap;
 
 /// Spacing of lane points, metres: on roads and within junctions.
 const SPACING_M: (f64, f64) = (2.0, 1.0);
+/// Most pieces of a lane; those of longer lanes are longer.
+const MAX_PIECES: f64 = 4_000.0;
+/// Most comparisons of left borders with each other: ten times what a large town needs. A network where
+/// everything overlaps would need their square.
+const MOST_LEFT_CHECKS: u64 = 100_000_000;
+
 /// What a lane map of a network carries besides traffic lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct MapOptions {
@@ -44,8 +51,14 @@ pub struct NetMap {
 pub fn lane_map(net: &Net, options: MapOptions) -> NetMap {
     let links = net.lanes.iter().enumerate().flat_map(|(i, l)| l.successors.iter().map(move |s| (*s, i)));
     let before = links.filter(|(lane, from)| lane != from).collect();
-    let mut builder =
-        Builder { net, out: NetMap::default(), next_id: net.lanes.len(), tapers: tapers(net), before };
+    let mut builder = Builder {
+        net,
+        out: NetMap::default(),
+        next_id: net.lanes.len(),
+        tapers: tapers(net),
+        before,
+        left_checks: Cell::new(MOST_LEFT_CHECKS),
+    };
     builder.lanes(options);
     builder.crosswalks();
     builder.signs();
@@ -70,6 +83,8 @@ pub(super) struct Builder<'a> {
     pub(super) tapers: HashMap<usize, (usize, usize)>,
     /// For lanes within a junction, a lane that leads there.
     before: HashMap<usize, usize>,
+    /// Comparisons of left borders that may still be made.
+    pub(super) left_checks: Cell<u64>,
 }
 
 /// Lanes within nodes where nobody crosses: from the only edge into a node to the only edge out of it.
@@ -148,7 +163,9 @@ impl Builder<'_> {
         for (i, lane) in net.lanes.iter().enumerate() {
             let Some(lane_type) = types[i].filter(|_| lane.shape.len() > 1) else { continue };
             let internal = net.edge_of(i).function == EdgeFunction::Internal;
-            let step = if internal { SPACING_M.1 } else { SPACING_M.0 };
+            let spacing = if internal { SPACING_M.1 } else { SPACING_M.0 };
+            let step_of = |l: usize| spacing.max(length(&net.lanes[l].shape) / MAX_PIECES);
+            let step = step_of(i);
             let drives = |t: LaneType| t.carries_vehicles() || t.carries_cyclists();
             let travelled = drives(lane_type);
             let points =
@@ -157,7 +174,7 @@ impl Builder<'_> {
             let beside = |other: Option<usize>| -> Vec<Neighbor> {
                 let other = other.and_then(|index| net.edge_of(i).lanes.get(index).copied());
                 let other = other.filter(|&o| !internal && travelled && types[o].is_some_and(drives));
-                let count = |l: usize| (length(&net.lanes[l].shape) / step).round();
+                let count = |l: usize| (length(&net.lanes[l].shape) / step_of(l)).round();
                 other
                     .map(|o| Neighbor {
                         lane: lane_id(o),

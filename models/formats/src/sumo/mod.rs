@@ -1,13 +1,27 @@
 //! Files of the traffic simulator SUMO: road networks (`net.xml`), floating-car data (FCD) and recorded
 //! signal states. The program itself is never linked.
+//!
+//! [`formats`] has the two formats that users import; they take any bytes. The other modules serve
+//! `synthesize` too, which trusts what SUMO has just written.
 
 pub mod fcd;
+pub mod formats;
+mod import_fcd;
+mod import_net;
 pub mod kerb;
+mod kinds;
 pub mod map;
 pub mod net;
 mod paint;
 pub mod polyline;
+pub mod programs;
+mod rows;
 pub mod signals;
+mod unpack;
+mod window;
+mod xml;
+
+use crate::problem::{FieldProblem, ReadError, code};
 
 /// Why a SUMO file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -48,5 +62,20 @@ pub enum SumoError {
 impl SumoError {
     fn value(found: &str, expected: &'static str, line: u32) -> Self {
         Self::Value { found: found.chars().take(40).collect(), expected, line }
+    }
+}
+
+impl From<SumoError> for ReadError {
+    fn from(error: SumoError) -> Self {
+        let detail = error.to_string();
+        match error {
+            // A file that is broken has been refused with its byte before; what is left are oddities of
+            // namespaces, which have a line and column in their text.
+            SumoError::Xml(_) => Self::malformed(0, detail),
+            SumoError::Missing { .. } | SumoError::Value { .. } => {
+                FieldProblem::new("", code::INVALID_FIELD, detail).into()
+            }
+            SumoError::Content { .. } => FieldProblem::new("", code::CANNOT_REPRESENT, detail).into(),
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Reader of `net.xml`, the network that `netconvert` writes.
 
 use super::SumoError;
+use super::programs::Program;
 use roxmltree::{Document, Node, ParsingOptions};
 use scene::Vec2;
 use std::collections::HashMap;
@@ -102,6 +103,21 @@ pub struct Net {
     pub edges: Vec<NetEdge>,
     /// Junctions, without the internal ones.
     pub junctions: Vec<NetJunction>,
+    /// Signal programs in the order of the file.
+    pub programs: Vec<Program>,
+    /// What the file says that the fields above do not hold.
+    pub notes: NetNotes,
+}
+
+/// What a network has that is not read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NetNotes {
+    /// Some shape has heights.
+    pub heights: bool,
+    /// Traffic keeps to the left: the lanes of an edge are counted from the left.
+    pub left_hand: bool,
+    /// Coordinates are projected from the globe.
+    pub projected: bool,
 }
 
 impl Net {
@@ -118,8 +134,15 @@ impl Net {
             return Err(SumoError::Content { expected: "a SUMO network (<net>)", found });
         }
         let mut net = Self::default();
+        net.notes.left_hand = root.attribute("lefthand") == Some("true");
+        for node in root.children().filter(|n| n.has_tag_name("location")) {
+            net.notes.projected = !matches!(node.attribute("projParameter"), None | Some("!" | "-" | ""));
+        }
         for node in root.children().filter(|n| n.has_tag_name("edge")) {
             net.add_edge(node)?;
+        }
+        for node in root.children().filter(|n| n.has_tag_name("tlLogic")) {
+            net.programs.push(program(node)?);
         }
         for node in root.children().filter(|n| n.has_tag_name("junction")) {
             if node.attribute("type") != Some("internal") {
@@ -172,7 +195,7 @@ impl Net {
                 kind: kind_of(function, lane),
                 speed_mps: number(lane, "speed")?,
                 width_m: if lane.has_attribute("width") { number(lane, "width")? } else { 3.2 },
-                shape: shape(lane)?,
+                shape: shape(lane, &mut self.notes.heights)?,
                 successors: Vec::new(),
                 signal: None,
                 stops: false,
@@ -261,10 +284,37 @@ fn number(node: Node<'_, '_>, attribute: &'static str) -> Result<f64, SumoError>
     value.ok_or_else(|| SumoError::value(text, "a number", line_of(node)))
 }
 
-fn shape(node: Node<'_, '_>) -> Result<Vec<Vec2>, SumoError> {
-    let point = |text: &str| {
+fn program(node: Node<'_, '_>) -> Result<Program, SumoError> {
+    let mut phases = Vec::new();
+    let mut jumps = false;
+    for phase in node.children().filter(|n| n.has_tag_name("phase")) {
+        let duration_s = number(phase, "duration")?;
+        if duration_s < 0.0 {
+            let found = phase.attribute("duration").unwrap_or_default();
+            return Err(SumoError::value(found, "a duration in seconds", line_of(phase)));
+        }
+        jumps |= phase.has_attribute("next");
+        phases.push((duration_s, required(phase, "state")?.as_bytes().to_vec()));
+    }
+    Ok(Program {
+        id: required(node, "id")?.to_owned(),
+        kind: node.attribute("type").unwrap_or("static").to_owned(),
+        offset_s: match node.attribute("offset") {
+            // The word means the time at which the simulation begins.
+            None | Some("begin") => 0.0,
+            Some(_) => number(node, "offset")?,
+        },
+        phases,
+        jumps,
+    })
+}
+
+fn shape(node: Node<'_, '_>, heights: &mut bool) -> Result<Vec<Vec2>, SumoError> {
+    let mut point = |text: &str| {
         let mut values = text.split(',').map(|v| v.parse::<f64>().ok().filter(|v| v.is_finite()));
-        Some(Vec2::new(values.next()??, values.next()??))
+        let point = Vec2::new(values.next()??, values.next()??);
+        *heights |= values.next().is_some();
+        Some(point)
     };
     let read = |text: &str| {
         point(text).ok_or_else(|| SumoError::value(text, "a point such as 1.5,-2.0", line_of(node)))

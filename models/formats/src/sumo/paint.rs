@@ -7,6 +7,7 @@ use super::polyline::{offset_right, resample, simplify, tangents};
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::map::TypedLine;
+use std::cell::Cell;
 
 /// Left borders nearer than this to those of oncoming traffic are one painted line, metres.
 const TOUCHING_M: f64 = 0.6;
@@ -73,8 +74,11 @@ impl Builder<'_> {
             }
             let line = resample(&borders.left, 2.0);
             let ways = tangents(&line);
-            let sides: Vec<LeftSide> =
-                line.iter().zip(&ways).map(|(p, way)| left_side(*p, *way, Some(b), all, &extents)).collect();
+            let sides: Vec<LeftSide> = line
+                .iter()
+                .zip(&ways)
+                .map(|(p, way)| left_side(*p, *way, Some(b), all, &extents, &self.left_checks))
+                .collect();
             let mut from = 0;
             for to in 1..=sides.len() {
                 if to < sides.len() && sides[to].kind() == sides[from].kind() {
@@ -115,7 +119,7 @@ impl Builder<'_> {
                     continue;
                 }
                 let way = (first - last) / (first - last).norm().max(1e-9);
-                match left_side((first + last) / 2.0, way, None, all, &extents) {
+                match left_side((first + last) / 2.0, way, None, all, &extents, &self.left_checks) {
                     LeftSide::Oncoming(_) => self.line("solid_double_yellow", points.clone()),
                     LeftSide::Median => self.edge("median", points.clone()),
                     LeftSide::Open => self.edge("boundary", points.clone()),
@@ -152,14 +156,27 @@ fn extents(all: &[Borders]) -> Vec<(Vec2, Vec2)> {
     all.iter().map(|b| (fold(b, f64::min) - margin, fold(b, f64::max) + margin)).collect()
 }
 
-/// What lies to the left of the point `p` of a left border that goes along `way`.
-fn left_side(p: Vec2, way: Vec2, own: Option<usize>, all: &[Borders], extents: &[(Vec2, Vec2)]) -> LeftSide {
+/// What lies to the left of the point `p` of a left border that goes along `way`. `checks` counts the
+/// comparisons that may still be made; without any left, nothing lies there.
+fn left_side(
+    p: Vec2,
+    way: Vec2,
+    own: Option<usize>,
+    all: &[Borders],
+    extents: &[(Vec2, Vec2)],
+    checks: &Cell<u64>,
+) -> LeftSide {
     let mut best = (MEDIAN_M, None);
     for (b, other) in all.iter().enumerate().filter(|(b, _)| Some(*b) != own) {
         let (low, high) = extents[b];
         if p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y {
             continue;
         }
+        let cost = other.left.len() as u64;
+        if checks.get() < cost {
+            return LeftSide::Open;
+        }
+        checks.set(checks.get() - cost);
         for w in other.left.windows(2) {
             let along = w[1] - w[0];
             let share = ((p - w[0]).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);

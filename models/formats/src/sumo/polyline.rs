@@ -124,6 +124,9 @@ pub fn contains(ring: &[Vec2], p: Vec2) -> bool {
     inside
 }
 
+/// Most points that [`simplify`] drops in a row, so that time does not grow with their square.
+const LONGEST_RUN: usize = 256;
+
 /// Drops points that lie within `tolerance` of the line without them, keeping gaps under `longest`.
 pub fn simplify(points: &[Vec2], tolerance: f64, longest: f64) -> Vec<Vec2> {
     let mut kept: Vec<Vec2> = Vec::new();
@@ -134,9 +137,9 @@ pub fn simplify(points: &[Vec2], tolerance: f64, longest: f64) -> Vec<Vec2> {
             continue;
         }
         let chord = [points[anchor], *p];
-        let straight = points[anchor + 1..i].iter().all(|q| distance_to(&chord, *q) <= tolerance);
-        let short = (p - points[anchor]).norm() <= longest;
-        if !(straight && short) && i - 1 > anchor {
+        let straight = || points[anchor + 1..i].iter().all(|q| distance_to(&chord, *q) <= tolerance);
+        let short = (p - points[anchor]).norm() <= longest && i - anchor <= LONGEST_RUN;
+        if !(short && straight()) && i - 1 > anchor {
             anchor = i - 1;
             kept.push(points[anchor]);
         }

@@ -65,7 +65,7 @@ impl SignalLog {
 }
 
 /// SUMO's link state letter as a signal state.
-fn state_of(letter: u8) -> SignalState {
+pub(super) fn state_of(letter: u8) -> SignalState {
     match letter {
         b'G' | b'g' => SignalState::Go,
         b'y' | b'Y' | b'u' => SignalState::Caution,

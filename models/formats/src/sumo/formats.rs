@@ -1,0 +1,125 @@
+//! The two formats of SUMO that users import: a road network, and a recording (FCD) with or without the
+//! network it belongs to.
+
+use super::import_fcd::{Common, NOW_STEP, STEPS, Windows};
+use super::rows::Rows;
+use super::{import_net, unpack, xml};
+use crate::limits::MAX_DECODED_BYTES;
+use crate::problem::{FieldProblem, Imported, ReadError};
+use crate::registry::{self, ExportOptions, Exported, Format, ImportOptions, Info};
+use scene::{Meta, Origin, Scene, Timing};
+use std::collections::BTreeMap;
+use std::io;
+
+/// A network (`net.xml`), plain or gzip: a scene with a map and signals, without road users. The frame
+/// is the network's, moved by whole metres so that the network's middle is the origin.
+pub struct SumoNet;
+
+/// A recording (`--fcd-output`), XML or CSV, plain or gzip: scenes of 9.1 s. Angles are degrees clockwise
+/// from north and points the middle of the front bumper, as SUMO's documentation of FCD output says.
+pub struct SumoFcd;
+
+fn only_read(info: &Info) -> io::Error {
+    io::Error::new(io::ErrorKind::Unsupported, format!("{} is read, not written", info.name))
+}
+
+impl Format for SumoNet {
+    fn info(&self) -> Info {
+        Info {
+            id: "sumo-net",
+            name: "SUMO network",
+            media_type: "application/xml",
+            extensions: &["net.xml", "net.xml.gz"],
+            import: true,
+            export: false,
+            many: false,
+            takes_net: false,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], name: &str) -> u8 {
+        if xml::root_of(&unpack::head(head)).is_some_and(|root| root == "net") {
+            return 2;
+        }
+        let name = name.to_ascii_lowercase();
+        u8::from(name.ends_with(".net.xml") || name.ends_with(".net.xml.gz"))
+    }
+
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+        if options.skip > 0 || options.max_scenes == 0 {
+            return Vec::new();
+        }
+        vec![net_scene(bytes, options)]
+    }
+
+    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
+        Err(only_read(&self.info()))
+    }
+}
+
+fn net_scene(bytes: &[u8], options: &ImportOptions) -> Result<Imported, ReadError> {
+    let net = import_net::read(bytes)?;
+    let scene = Scene {
+        id: None,
+        name: "SUMO network".into(),
+        meta: Meta {
+            source: "sumo".into(),
+            licence: options.licence.clone(),
+            origin: Origin { x_m: net.origin.x, y_m: net.origin.y, ..Origin::default() },
+            ..Meta::default()
+        },
+        time: Timing { steps: STEPS, now_step: NOW_STEP },
+        signals: net.signals(0.0, STEPS),
+        map: net.map,
+        agents: Vec::new(),
+        generated: None,
+        extra: BTreeMap::new(),
+    };
+    match scene.checked() {
+        Ok(scene) => Ok((scene, net.warnings)),
+        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+    }
+}
+
+impl Format for SumoFcd {
+    fn info(&self) -> Info {
+        Info {
+            id: "sumo-fcd",
+            name: "SUMO floating-car data (XML or CSV)",
+            media_type: "application/xml",
+            extensions: &["fcd.xml", "fcd.xml.gz", "fcd.csv", "fcd.csv.gz"],
+            import: true,
+            export: false,
+            many: true,
+            takes_net: true,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], name: &str) -> u8 {
+        let head = unpack::head(head);
+        let first = head.split(|b| *b == b'\n').next().unwrap_or_default();
+        let has = |text: &[u8]| first.windows(text.len()).any(|w| w == text);
+        let columns = has(b"timestep_time") && (has(b"vehicle_") || has(b"person_"));
+        if columns || xml::root_of(&head).is_some_and(|root| root == "fcd-export") {
+            return 2;
+        }
+        let name = name.to_ascii_lowercase();
+        u8::from(self.info().extensions.iter().any(|end| name.ends_with(end)))
+    }
+
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+        let net = match options.net.as_deref().map(import_net::read).transpose() {
+            Ok(net) => net,
+            Err(error) => return vec![Err(error.under(registry::NET_POINTER))],
+        };
+        let common = Common { net: net.as_ref(), licence: options.licence.clone() };
+        match Rows::open(bytes, MAX_DECODED_BYTES) {
+            Ok(rows) => Windows::new(rows, common).skip(options.skip).take(options.max_scenes).collect(),
+            Err(error) => vec![Err(error)],
+        }
+    }
+
+    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
+        Err(only_read(&self.info()))
+    }
+}

@@ -1,0 +1,391 @@
+//! From FCD to scenes: windows of 9.1 s, one after the other. Only the window that is being read is in
+//! memory.
+
+use super::import_net::NetScene;
+use super::kinds::{self, Kind};
+use super::rows::{Item, Row, Rows};
+use super::window::{Between, MAX_FILLED_S, SAME_S, Sample, between, track};
+use crate::limits::MAX_AGENTS;
+use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use scene::geometry::direction;
+use scene::{Agent, AgentType, Conditions, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene, Timing, Vec2};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Steps of a scene: 9.1 s, as recordings of other sources have.
+pub(super) const STEPS: usize = 91;
+/// The step that is the present of a scene, as in recordings of other sources.
+pub(super) const NOW_STEP: usize = 10;
+/// Most positions that one window may hold.
+const MAX_SAMPLES: usize = 1_000_000;
+/// Most road users of one window of which 256 are chosen.
+const MAX_USERS: usize = 50_000;
+/// How far outside the network's box positions are still its own, metres.
+const BESIDE_M: f64 = 500.0;
+
+/// What scenes have in common.
+pub(super) struct Common<'n> {
+    pub net: Option<&'n NetScene>,
+    pub licence: Option<String>,
+}
+
+/// One road user over the window.
+struct User {
+    kind: Kind,
+    /// The file gives its size.
+    measured: bool,
+    samples: Vec<Sample>,
+}
+
+/// Persons and vehicles may share an id.
+type Key = (String, bool);
+
+/// Scenes of a recording, one a window in which anybody is seen.
+pub(super) struct Windows<'a> {
+    rows: Rows<'a>,
+    common: Common<'a>,
+    users: BTreeMap<Key, User>,
+    samples: usize,
+    /// Number and time of the time step that is being read.
+    step: u64,
+    time_s: Option<f64>,
+    first_s: f64,
+    /// Number of the window that is being read.
+    window: u64,
+    coarsest_s: f64,
+    left_out: usize,
+    heights: bool,
+    given: bool,
+    ended: bool,
+}
+
+impl<'a> Windows<'a> {
+    pub fn new(rows: Rows<'a>, common: Common<'a>) -> Self {
+        Self {
+            rows,
+            common,
+            users: BTreeMap::new(),
+            samples: 0,
+            step: 0,
+            time_s: None,
+            first_s: 0.0,
+            window: 0,
+            coarsest_s: 0.0,
+            left_out: 0,
+            heights: false,
+            given: false,
+            ended: false,
+        }
+    }
+
+    fn start_s(&self) -> f64 {
+        self.first_s + self.window as f64 * STEPS as f64 * STEP_S
+    }
+
+    /// The window that a time lies in.
+    fn window_of(&self, time_s: f64) -> u64 {
+        // A float becomes a whole number by saturation: nothing below zero.
+        ((time_s - self.first_s + SAME_S) / (STEPS as f64 * STEP_S)).floor() as u64
+    }
+
+    /// A new time step; gives the window's scene when the one before was its last.
+    fn begin_step(&mut self, time_s: f64) -> Option<Result<Imported, ReadError>> {
+        let Some(before_s) = self.time_s.replace(time_s) else {
+            self.first_s = time_s;
+            return None;
+        };
+        self.step += 1;
+        let last_s = self.start_s() + (STEPS - 1) as f64 * STEP_S;
+        // A pause past the window's end cannot be filled: then the window ends with what it has.
+        let filled = time_s - before_s <= MAX_FILLED_S + SAME_S;
+        if before_s < last_s - SAME_S && (filled || time_s <= last_s + SAME_S) {
+            self.coarsest_s = self.coarsest_s.max(time_s - before_s);
+            return None;
+        }
+        let scene = self.scene(before_s);
+        self.coarsest_s = time_s - before_s;
+        // Windows in which nothing was written are passed over in one go.
+        self.window = (self.window + 1).max(self.window_of(before_s));
+        if !filled && before_s < self.start_s() {
+            self.window = self.window.max(self.window_of(time_s));
+        }
+        let keep = self.step.saturating_sub(2);
+        self.users.retain(|_, user| {
+            user.samples.retain(|s| s.step >= keep);
+            !user.samples.is_empty()
+        });
+        self.samples = self.users.values().map(|user| user.samples.len()).sum();
+        scene
+    }
+
+    fn add(&mut self, row: Row) -> Result<(), ReadError> {
+        let Some(time_s) = self.time_s else { return Ok(()) };
+        let users = self.users.len();
+        let user = self.users.entry((row.id, row.person)).or_insert_with(|| {
+            let mut kind = kinds::of(&row.type_name, row.person);
+            let (length_m, width_m) = row.size_m;
+            kind.size.length_m = length_m.unwrap_or(kind.size.length_m).min(60.0);
+            kind.size.width_m = width_m.unwrap_or(kind.size.width_m).min(60.0);
+            User { kind, measured: length_m.is_some() && width_m.is_some(), samples: Vec::new() }
+        });
+        // SUMO's point is the middle of the front bumper; that of a person is the centre.
+        let on_foot = user.kind.agent_type == AgentType::Pedestrian;
+        let back_m = if on_foot { 0.0 } else { user.kind.size.length_m / 2.0 };
+        let centre = row.point - direction(row.heading_rad) * back_m;
+        let sample = Sample {
+            step: self.step,
+            time_s,
+            centre,
+            heading_rad: row.heading_rad,
+            speed_mps: row.speed_mps,
+        };
+        // A row that comes twice in a step counts once.
+        if user.samples.last().is_none_or(|last| last.step != self.step) {
+            user.samples.push(sample);
+            self.samples += 1;
+        }
+        if self.samples > MAX_SAMPLES || users > MAX_USERS {
+            let detail = format!(
+                "{:.1} s: more than {MAX_SAMPLES} positions or {MAX_USERS} road users within {:.1} s; record \
+                 fewer (fcd-output.filter-edges.input-file, device.fcd.probability)",
+                time_s,
+                STEPS as f64 * STEP_S
+            );
+            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, detail).into());
+        }
+        Ok(())
+    }
+
+    /// The scene of the window up to a time; `None` where nobody is seen.
+    fn scene(&mut self, last_s: f64) -> Option<Result<Imported, ReadError>> {
+        let start_s = self.start_s();
+        let steps = ((last_s - start_s + SAME_S) / STEP_S).floor() as i64 + 1;
+        let steps = usize::try_from(steps).unwrap_or(0).min(STEPS);
+        // A single step at the end is the beginning of a window that was not recorded.
+        if steps == 0 || (steps == 1 && self.given) {
+            return None;
+        }
+        let end_s = start_s + (steps - 1) as f64 * STEP_S;
+        let seen = |s: &&Sample| s.time_s >= start_s - SAME_S && s.time_s <= end_s + SAME_S;
+        let now_s = start_s + NOW_STEP.min(steps - 1) as f64 * STEP_S;
+        let nearest = |user: &User| {
+            let near =
+                |a: &&Sample, b: &&Sample| (a.time_s - now_s).abs().total_cmp(&(b.time_s - now_s).abs());
+            user.samples.iter().filter(seen).min_by(near).map(|s| s.centre)
+        };
+        let present = |(key, user)| nearest(user).map(|at| (key, user, at));
+        let all: Vec<(&Key, &User, Vec2)> = self.users.iter().filter_map(present).collect();
+        if all.is_empty() {
+            return None;
+        }
+        let middle = middle(all.iter().map(|(_, _, at)| *at));
+        let origin = self.common.net.map_or(middle.map(f64::round), |net| net.origin);
+        let mut warnings = self.common.net.map_or_else(Vec::new, |net| net.warnings.clone());
+        let kept = self.kept(&all, middle, origin, &mut warnings);
+        let mut ids = Ids::default();
+        let mut agents = Vec::new();
+        let (mut assumed, mut jumps) = (0, 0);
+        for (key, user) in kept {
+            let track = track(&user.samples, start_s, steps, origin);
+            if track.states.iter().all(Option::is_none) {
+                continue;
+            }
+            assumed += usize::from(!user.measured);
+            let pairs =
+                user.samples.windows(2).filter(|w| matches!(w, [a, b] if between(a, b) == Between::Jump));
+            jumps += pairs.count();
+            agents.push(Agent {
+                id: ids.take(&key.0),
+                agent_type: user.kind.agent_type,
+                subtype: user.kind.subtype,
+                role: None,
+                size: user.kind.size,
+                track,
+                conditions: Conditions::default(),
+            });
+        }
+        if agents.is_empty() {
+            return None;
+        }
+        self.warn(assumed, jumps, ids.changed, &mut warnings);
+        self.given = true;
+        let scene = Scene {
+            id: None,
+            name: format!("FCD {start_s:.1} s"),
+            meta: Meta {
+                source: "sumo".into(),
+                licence: self.common.licence.clone(),
+                origin: Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
+                timestamps_s: (start_s != 0.0)
+                    .then(|| (0..steps).map(|i| start_s + i as f64 * STEP_S).collect()),
+                ..Meta::default()
+            },
+            time: Timing { steps, now_step: NOW_STEP.min(steps - 1) },
+            map: self.common.net.map_or_else(Arc::default, |net| net.map.clone()),
+            signals: self.common.net.map_or_else(Vec::new, |net| net.signals(start_s, steps)),
+            agents,
+            generated: None,
+            extra: BTreeMap::new(),
+        };
+        Some(match scene.checked() {
+            Ok(scene) => Ok((scene, warnings)),
+            Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+        })
+    }
+
+    /// Those that a scene has room for: near enough to its origin, and nearest to the middle of all.
+    fn kept<'u>(
+        &self,
+        all: &[(&'u Key, &'u User, Vec2)],
+        middle: Vec2,
+        origin: Vec2,
+        warnings: &mut Vec<Warning>,
+    ) -> Vec<(&'u Key, &'u User)> {
+        if let Some(net) = self.common.net {
+            let beside =
+                |(_, _, at): &&(&Key, &User, Vec2)| ((at - net.origin).abs() - net.half).max() > BESIDE_M;
+            let count = all.iter().filter(beside).count();
+            if count > 0 {
+                let detail = format!(
+                    "{count} of {} road users lie outside the network: another network, or degrees \
+                     (fcd-output.geo) in place of metres",
+                    all.len()
+                );
+                warnings.push(Warning::new("outside-network", detail));
+            }
+        }
+        let far = |s: &Sample| (s.centre - origin).amax() > MAX_COORDINATE_M;
+        let mut order: Vec<(f64, &Key, &User)> = all
+            .iter()
+            .filter(|(_, user, _)| !user.samples.iter().any(far))
+            .map(|(key, user, at)| ((at - middle).norm(), *key, *user))
+            .collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(b.1)));
+        order.truncate(MAX_AGENTS);
+        if order.len() < all.len() {
+            let detail = format!(
+                "{} road users; the {} nearest their middle are kept, within {MAX_COORDINATE_M} m of the origin",
+                all.len(),
+                order.len()
+            );
+            warnings.push(Warning::new("agents-dropped", detail));
+        }
+        let mut kept: Vec<(&Key, &User)> = order.into_iter().map(|(_, key, user)| (key, user)).collect();
+        kept.sort_by(|a, b| a.0.cmp(b.0));
+        kept
+    }
+
+    fn warn(&self, assumed: usize, jumps: usize, ids_changed: usize, warnings: &mut Vec<Warning>) {
+        let mut warn = |said: bool, code, detail: String| {
+            if said {
+                warnings.push(Warning::new(code, detail));
+            }
+        };
+        let detail = "no network was given with the recording; the scene has no lanes and no signals";
+        warn(self.common.net.is_none(), "no-network", detail.into());
+        let detail = format!("{assumed} road users have the default size of their type's name");
+        warn(assumed > 0, "sizes-assumed", detail);
+        let detail = format!("{ids_changed} ids have other letters or a suffix");
+        warn(ids_changed > 0, "ids-changed", detail);
+        warn(jumps > 0, "jumps", format!("{jumps} times somebody was put elsewhere; such gaps stay gaps"));
+        let detail =
+            format!("time steps {:.1} s apart; more than {MAX_FILLED_S} s stay gaps", self.coarsest_s);
+        warn(self.coarsest_s > MAX_FILLED_S + SAME_S, "steps-coarse", detail);
+        let detail = format!("{} containers and passengers so far", self.left_out);
+        warn(self.left_out > 0, "left-out", detail);
+        warn(self.heights, "heights-dropped", "the recording has heights; the scene is flat".into());
+    }
+
+    /// The scene that is left at the end of the file; there may be another after it.
+    fn finish(&mut self) -> Option<Result<Imported, ReadError>> {
+        let last_s = self.time_s?;
+        while !self.ended {
+            let scene = self.scene(last_s);
+            let last_window = self.window_of(last_s);
+            self.ended = last_window <= self.window;
+            self.window = last_window;
+            if scene.is_some() {
+                return scene;
+            }
+        }
+        None
+    }
+
+    fn advance(&mut self) -> Option<Result<Imported, ReadError>> {
+        loop {
+            let item = match self.rows.next() {
+                Ok(Some(item)) => item,
+                Ok(None) => {
+                    if let Some(scene) = self.finish() {
+                        return Some(scene);
+                    }
+                    let detail = "a recording without road users";
+                    let empty = || FieldProblem::new("", code::CANNOT_REPRESENT, detail);
+                    self.ended = true;
+                    return (!self.given).then(|| Err(empty().into()));
+                }
+                Err(error) => {
+                    self.ended = true;
+                    return Some(Err(error));
+                }
+            };
+            match item {
+                Item::Step(time_s) => {
+                    if let Some(scene) = self.begin_step(time_s) {
+                        return Some(scene);
+                    }
+                }
+                Item::Row(row) => {
+                    if let Err(error) = self.add(row) {
+                        self.ended = true;
+                        return Some(Err(error));
+                    }
+                }
+                Item::LeftOut => self.left_out += 1,
+                Item::Height => self.heights = true,
+            }
+        }
+    }
+}
+
+impl Iterator for Windows<'_> {
+    type Item = Result<Imported, ReadError>;
+
+    /// After a fault of the file nothing follows.
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.ended { None } else { self.advance() }
+    }
+}
+
+/// The median of each coordinate: a few stragglers do not move it.
+fn middle(points: impl Iterator<Item = Vec2>) -> Vec2 {
+    let (mut x, mut y): (Vec<f64>, Vec<f64>) = points.map(|p| (p.x, p.y)).unzip();
+    let median = |list: &mut Vec<f64>| {
+        list.sort_by(f64::total_cmp);
+        list.get(list.len() / 2).copied().unwrap_or(0.0)
+    };
+    Vec2::new(median(&mut x), median(&mut y))
+}
+
+/// Ids as a scene can have them, each once.
+#[derive(Default)]
+struct Ids {
+    taken: BTreeSet<String>,
+    changed: usize,
+}
+
+impl Ids {
+    fn take(&mut self, id: &str) -> String {
+        let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
+        let clean: String = id.chars().map(legal).take(56).collect();
+        let mut name = clean.clone();
+        let mut count = 1;
+        while self.taken.contains(&name) {
+            count += 1;
+            name = format!("{clean}.{count}");
+        }
+        self.changed += usize::from(name != id);
+        self.taken.insert(name.clone());
+        name
+    }
+}

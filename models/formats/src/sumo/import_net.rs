@@ -1,0 +1,204 @@
+//! From a network file to a map about the origin, with its signals.
+
+use super::map::{MapOptions, SignalPlace, lane_map};
+use super::net::{LaneKind, Net, NetLane};
+use super::polyline::length;
+use super::programs::Program;
+use super::xml::{Event, Scanner};
+use super::{SumoError, unpack};
+use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS};
+use crate::problem::{FieldProblem, ReadError, Warning, code};
+use scene::map::LaneMap;
+use scene::{MAX_COORDINATE_M, STEP_S, Signal, Vec2};
+use std::collections::{BTreeSet, HashMap};
+use std::io::Read;
+use std::sync::Arc;
+
+/// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
+const MAX_BYTES: u64 = 64 << 20;
+/// Most bytes of one tag: a shape with the most points a polyline may have, twice (`outlineShape`).
+const MAX_TAG: usize = 1 << 20;
+/// Most elements of a network.
+const MAX_ELEMENTS: usize = 600_000;
+/// Most attributes in a network.
+const MAX_ATTRIBUTES: usize = 4_000_000;
+/// Farthest a network's coordinate may lie from its own origin, metres.
+pub(super) const MAX_SOURCE_M: f64 = 1e8;
+
+/// A network as a scene shows it.
+#[derive(Clone, Debug)]
+pub(super) struct NetScene {
+    /// About the origin.
+    pub map: Arc<LaneMap>,
+    /// Where the origin lies in the network's frame, whole metres.
+    pub origin: Vec2,
+    /// Half the size of the box round all lanes, metres.
+    pub half: Vec2,
+    pub warnings: Vec<Warning>,
+    places: Vec<SignalPlace>,
+    programs: HashMap<String, Program>,
+}
+
+/// Reads a network, plain or gzip.
+///
+/// # Errors
+/// `malformed-file` for broken XML or gzip, the bounds of a file, `invalid-field` with the line for a
+/// value that cannot be read, `cannot-represent` for another sort of file or one without lanes,
+/// `map-too-large` and `out-of-range` for what no scene can hold.
+pub(super) fn read(bytes: &[u8]) -> Result<NetScene, ReadError> {
+    let mut text = Vec::new();
+    let read = unpack::open(bytes, MAX_BYTES).read_to_end(&mut text);
+    read.map_err(|error| unpack::fault(&error, text.len() as u64))?;
+    check_xml(&text)?;
+    let text = String::from_utf8(text)
+        .map_err(|e| ReadError::malformed(e.utf8_error().valid_up_to() as u64, "not UTF-8"))?;
+    let mut net = Net::read(&text)?;
+    drop(text);
+    let (origin, half) = check_net(&net)?;
+    for lane in &mut net.lanes {
+        lane.shape.iter_mut().for_each(|p| *p -= origin);
+    }
+    for junction in &mut net.junctions {
+        junction.position -= origin;
+    }
+    let drawn = lane_map(&net, MapOptions { sidewalks: true, parking: false });
+    let mut warnings = warnings_of(&net);
+    let mut places = drawn.signals;
+    if places.len() > MAX_SIGNALS {
+        let detail = format!("{} signals; the {MAX_SIGNALS} nearest the middle are kept", places.len());
+        warnings.push(Warning::new("signals-dropped", detail));
+        places.sort_by(|a, b| a.stop.norm().total_cmp(&b.stop.norm()));
+        places.truncate(MAX_SIGNALS);
+    }
+    // Of programs with the same id the simulation runs the one loaded last.
+    let programs = net.programs.into_iter().map(|p| (p.id.clone(), p)).collect();
+    Ok(NetScene { map: Arc::new(drawn.map), origin, half, warnings, places, programs })
+}
+
+impl NetScene {
+    /// Signals over `steps` steps from `start_s`, seconds of the simulation. Links without a program are
+    /// left out.
+    pub fn signals(&self, start_s: f64, steps: usize) -> Vec<Signal> {
+        let signal = |place: &SignalPlace| {
+            let runs = self.programs.get(&place.program)?.runs(place.link, start_s, STEP_S, steps);
+            Some(Signal { lane: place.feature.clone(), stop: Some(place.stop), stop_z_m: None, runs })
+        };
+        self.places.iter().filter_map(signal).collect()
+    }
+}
+
+/// The tree that [`Net::read`] builds is bounded only if this has looked first: it grows with elements
+/// and attributes, and looks for twins among the attributes of an element.
+fn check_xml(text: &[u8]) -> Result<(), ReadError> {
+    let mut scanner = Scanner::new(text, MAX_TAG);
+    let (mut elements, mut attributes) = (0, 0);
+    while let Some(event) = scanner.next()? {
+        let Event::Start(element) = event else { continue };
+        elements += 1;
+        attributes += element.attributes.len();
+        if elements == 1 && element.name != "net" {
+            let found = format!("<{}>", element.name.chars().take(40).collect::<String>());
+            return Err(SumoError::Content { expected: "a SUMO network (<net>)", found }.into());
+        }
+        if elements > MAX_ELEMENTS || attributes > MAX_ATTRIBUTES {
+            return Err(too_large(format!(
+                "line {}: more than {MAX_ELEMENTS} elements or {MAX_ATTRIBUTES} attributes",
+                element.line
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn too_large(detail: String) -> ReadError {
+    let advice = "cut a part out with netconvert --keep-edges.in-boundary";
+    FieldProblem::new("", code::MAP_TOO_LARGE, format!("{detail}; {advice}")).into()
+}
+
+/// Finds what no scene can hold before anything is drawn. Gives the middle of the network in whole
+/// metres and half its size.
+fn check_net(net: &Net) -> Result<(Vec2, Vec2), ReadError> {
+    if net.lanes.is_empty() {
+        let detail = "a network without lanes";
+        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+    }
+    // Each edge gives two borders and an area besides its lanes.
+    let polylines = net.lanes.len() + 2 * net.edges.len();
+    if polylines > MAX_POLYLINES {
+        let (lanes, edges) = (net.lanes.len(), net.edges.len());
+        return Err(too_large(format!(
+            "{lanes} lanes of {edges} edges; a map has {MAX_POLYLINES} polylines"
+        )));
+    }
+    let mut corners: Option<(Vec2, Vec2)> = None;
+    for lane in &net.lanes {
+        check_lane(lane)?;
+        for p in &lane.shape {
+            corners = Some(corners.map_or((*p, *p), |(low, high)| (low.inf(p), high.sup(p))));
+        }
+    }
+    let (low, high) = corners.unwrap_or_default();
+    let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
+    if half.amax() > MAX_COORDINATE_M - 100.0 {
+        let (width, height) = (2.0 * half.x, 2.0 * half.y);
+        return Err(too_large(format!(
+            "{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle"
+        )));
+    }
+    let points: f64 = net.lanes.iter().map(|l| l.shape.len() as f64 + length(&l.shape) / 2.0).sum();
+    if points > MAX_MAP_POINTS as f64 {
+        return Err(too_large(format!("about {points:.0} points; a map has {MAX_MAP_POINTS}")));
+    }
+    Ok((middle, half))
+}
+
+fn check_lane(lane: &NetLane) -> Result<(), ReadError> {
+    let name: String = lane.id.chars().take(40).collect();
+    if lane.shape.len() > MAX_POLYLINE_POINTS {
+        let count = lane.shape.len();
+        return Err(too_large(format!("lane \"{name}\" has {count} points, at most {MAX_POLYLINE_POINTS}")));
+    }
+    let problem = |what: &str, min: f64, max: f64, got: f64| {
+        let mut problem = FieldProblem::range("", min, max, got);
+        problem.detail = format!("lane \"{name}\", {what}: {}", problem.detail);
+        Err(problem.into())
+    };
+    let far = lane.shape.iter().flat_map(|p| [p.x, p.y]).find(|v| v.abs() > MAX_SOURCE_M);
+    if let Some(value) = far {
+        return problem("coordinate in metres", -MAX_SOURCE_M, MAX_SOURCE_M, value);
+    }
+    if !(0.1..=50.0).contains(&lane.width_m) {
+        return problem("width in metres", 0.1, 50.0, lane.width_m);
+    }
+    if !(0.0..=100.0).contains(&lane.speed_mps) {
+        return problem("speed in m/s", 0.0, 100.0, lane.speed_mps);
+    }
+    Ok(())
+}
+
+fn warnings_of(net: &Net) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut warn = |said: bool, code, detail: String| {
+        if said {
+            warnings.push(Warning::new(code, detail));
+        }
+    };
+    warn(true, "ids-renumbered", "lanes and junctions have numbers in place of SUMO's ids".into());
+    warn(net.notes.heights, "heights-dropped", "the network has heights; the map is flat".into());
+    let detail = "positions stay in the network's own frame; its projection is not kept";
+    warn(net.notes.projected, "projection-dropped", detail.into());
+    let detail = "traffic keeps to the left; kerbs and middle lines are drawn as if it kept to the right";
+    warn(net.notes.left_hand, "left-hand", detail.into());
+    let closed = net.lanes.iter().filter(|l| l.kind == LaneKind::Closed).count();
+    warn(closed > 0, "lanes-dropped", format!("{closed} lanes open to no road user (rails, strips)"));
+    let ids: BTreeSet<&str> = net.programs.iter().map(|p| p.id.as_str()).collect();
+    let detail = "a signal has several programs; the last one is shown";
+    warn(ids.len() < net.programs.len(), "programs-dropped", detail.into());
+    let held = net.programs.iter().filter(|p| !p.is_simple()).count();
+    let detail = format!("{held} signals react to traffic; they stay in the phase of their plan");
+    warn(held > 0, "signals-held", detail);
+    let ruled = net.lanes.iter().filter_map(|l| l.signal.as_ref());
+    let missing = ruled.filter(|(program, _)| !ids.contains(program.as_str())).count();
+    warn(missing > 0, "signals-dropped", format!("{missing} links of signals without a program"));
+    warnings
+}

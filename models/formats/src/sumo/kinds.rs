@@ -1,0 +1,82 @@
+//! What a vehicle type's name says about a road user. FCD gives the name alone; classes and default
+//! sizes are SUMO's (`Vehicle_Type_Parameter_Defaults` of its documentation).
+
+use scene::{AgentType, Size, Subtype};
+
+/// Kind and default size of a road user of SUMO.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Kind {
+    pub agent_type: AgentType,
+    pub subtype: Subtype,
+    pub size: Size,
+}
+
+type Row = (&'static [&'static str], AgentType, Subtype, (f64, f64, f64));
+
+/// Parts of names, the first row that fits; length, width, height in metres.
+const ROWS: &[Row] = &[
+    (
+        &["pedestrian", "pedtype", "person", "walker"],
+        AgentType::Pedestrian,
+        Subtype::Adult,
+        (0.85, 0.85, 1.75),
+    ),
+    (&["wheelchair"], AgentType::Pedestrian, Subtype::Wheelchair, (1.1, 0.7, 1.3)),
+    (&["motorcycle", "motorbike", "moped"], AgentType::Vehicle, Subtype::Motorcycle, (2.2, 0.9, 1.5)),
+    (&["bicycle", "bike", "cycl"], AgentType::Cyclist, Subtype::Bicycle, (1.6, 0.65, 1.7)),
+    (&["scooter"], AgentType::Cyclist, Subtype::Scooter, (1.2, 0.5, 1.7)),
+    (&["trailer", "semi"], AgentType::Vehicle, Subtype::Truck, (16.5, 2.55, 4.0)),
+    (&["truck", "lorry", "hgv"], AgentType::Vehicle, Subtype::Truck, (7.1, 2.4, 2.4)),
+    (&["coach"], AgentType::Vehicle, Subtype::Bus, (14.0, 2.6, 4.0)),
+    (&["tram"], AgentType::Other, Subtype::Unknown, (22.0, 2.4, 3.2)),
+    (&["rail", "train", "subway"], AgentType::Other, Subtype::Unknown, (36.5, 3.0, 3.6)),
+    (&["bus"], AgentType::Vehicle, Subtype::Bus, (12.0, 2.5, 3.4)),
+    (&["delivery", "van"], AgentType::Vehicle, Subtype::Van, (6.5, 2.16, 2.86)),
+    (
+        &["emergency", "ambulance", "police", "fire"],
+        AgentType::Vehicle,
+        Subtype::Emergency,
+        (6.5, 2.16, 2.86),
+    ),
+    (&["ship", "aircraft", "drone", "container"], AgentType::Other, Subtype::Unknown, (6.0, 2.5, 3.0)),
+];
+
+/// The kind that a type's name tells; a passenger car where it tells nothing. `person` is what FCD lists
+/// as one, whatever the name.
+pub(super) fn of(type_name: &str, person: bool) -> Kind {
+    let name = type_name.to_ascii_lowercase();
+    let fits = |row: &&Row| row.0.iter().any(|part| name.contains(part));
+    let on_foot = |row: &&Row| row.1 == AgentType::Pedestrian;
+    let found = match person {
+        true => ROWS.iter().filter(on_foot).find(fits).or(ROWS.first()),
+        false => ROWS.iter().find(fits),
+    };
+    let car = (AgentType::Vehicle, Subtype::Car, (5.0, 1.8, 1.5));
+    let (agent_type, subtype, (length_m, width_m, height_m)) = found.map_or(car, |row| (row.1, row.2, row.3));
+    Kind { agent_type, subtype, size: Size { length_m, width_m, height_m: Some(height_m) } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_tell_kinds() {
+        let kinds = [
+            ("DEFAULT_VEHTYPE", false, AgentType::Vehicle, Subtype::Car),
+            ("DEFAULT_BIKETYPE", false, AgentType::Cyclist, Subtype::Bicycle),
+            ("motorbike3", false, AgentType::Vehicle, Subtype::Motorcycle),
+            ("veh_Truck", false, AgentType::Vehicle, Subtype::Truck),
+            ("bus", false, AgentType::Vehicle, Subtype::Bus),
+            ("tram_7", false, AgentType::Other, Subtype::Unknown),
+            ("DEFAULT_PEDTYPE", false, AgentType::Pedestrian, Subtype::Adult),
+            ("", true, AgentType::Pedestrian, Subtype::Adult),
+            ("truck", true, AgentType::Pedestrian, Subtype::Adult),
+            ("a_wheelchair", true, AgentType::Pedestrian, Subtype::Wheelchair),
+        ];
+        for (name, person, agent_type, subtype) in kinds {
+            let kind = of(name, person);
+            assert_eq!((kind.agent_type, kind.subtype), (agent_type, subtype), "{name}");
+        }
+    }
+}

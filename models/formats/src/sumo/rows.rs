@@ -1,0 +1,308 @@
+//! FCD as a stream of rows, from XML (`fcd-export`, SUMO's default) and from CSV.
+
+use super::fcd::Columns;
+use super::import_net::MAX_SOURCE_M;
+use super::xml::{Element, Event, Scanner};
+use super::{SumoError, unpack};
+use crate::problem::ReadError;
+use scene::Vec2;
+use std::io::{BufRead, Read};
+
+/// Most bytes of one line or tag.
+const MAX_ROW: usize = 64 << 10;
+/// Longest id that is read, bytes.
+const MAX_ID: usize = 256;
+/// Latest time, seconds.
+const MAX_TIME_S: f64 = 1e9;
+
+/// What was recorded of one road user at one time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Row {
+    pub id: String,
+    /// Listed as a person; CSV lists persons among the vehicles.
+    pub person: bool,
+    /// Name of the vehicle type, cut at the `@` of a distribution.
+    pub type_name: String,
+    /// Middle of the front bumper of a vehicle, centre of a person; metres, network frame.
+    pub point: Vec2,
+    /// Radians counter-clockwise from +x.
+    pub heading_rad: f64,
+    pub speed_mps: f64,
+    /// Length and width, metres, where they are given.
+    pub size_m: (Option<f64>, Option<f64>),
+}
+
+/// What comes next.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Item {
+    /// A time step begins, seconds. Times rise.
+    Step(f64),
+    Row(Row),
+    /// Something without a place in a scene, such as a container, or a person inside a vehicle.
+    LeftOut,
+    /// A height is given.
+    Height,
+}
+
+/// Reads items one by one.
+pub(super) enum Rows<'a> {
+    Xml(XmlRows<'a>),
+    Csv(CsvRows<'a>),
+}
+
+impl<'a> Rows<'a> {
+    /// Opens a file, plain or gzip, of at most `most` decoded bytes.
+    ///
+    /// # Errors
+    /// `cannot-represent` for a file that is no FCD; the faults of its first bytes.
+    pub fn open(bytes: &'a [u8], most: u64) -> Result<Self, ReadError> {
+        let head = unpack::head(bytes);
+        let first = head.iter().find(|b| !b.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(b));
+        let input = unpack::open(bytes, most);
+        if matches!(first, None | Some(b'<')) {
+            let scanner = Scanner::new(input, MAX_ROW);
+            return Ok(Self::Xml(XmlRows { scanner, root: false, time_s: None, pending: None }));
+        }
+        CsvRows::new(input).map(Self::Csv)
+    }
+
+    /// The next item; `None` at the end.
+    ///
+    /// # Errors
+    /// `malformed-file` for broken XML or gzip, `invalid-field` with the line for a value that cannot be
+    /// read, the bounds of a file. Nothing can be read after a fault.
+    pub fn next(&mut self) -> Result<Option<Item>, ReadError> {
+        match self {
+            Self::Xml(rows) => rows.next(),
+            Self::Csv(rows) => rows.next(),
+        }
+    }
+}
+
+fn number(text: &str, range: (f64, f64), expected: &'static str, line: u32) -> Result<f64, SumoError> {
+    let value = text.trim().parse::<f64>().ok().filter(|v| (range.0..=range.1).contains(v));
+    value.ok_or_else(|| SumoError::value(text, expected, line))
+}
+
+fn coordinate(text: &str, line: u32) -> Result<f64, SumoError> {
+    number(text, (-MAX_SOURCE_M, MAX_SOURCE_M), "a coordinate in metres", line)
+}
+
+/// Degrees clockwise from north as radians counter-clockwise from +x.
+fn heading(text: &str, line: u32) -> Result<f64, SumoError> {
+    let angle_deg = number(text, (-720.0, 720.0), "an angle in degrees", line)?;
+    Ok(scene::wrap_angle((90.0 - angle_deg).to_radians()))
+}
+
+fn speed(text: &str, line: u32) -> Result<f64, SumoError> {
+    number(text, (0.0, 150.0), "a speed in m/s", line)
+}
+
+fn side(text: Option<&str>, line: u32) -> Result<Option<f64>, SumoError> {
+    let text = text.filter(|t| !t.is_empty());
+    text.map(|t| number(t, (0.05, 500.0), "a size in metres", line)).transpose()
+}
+
+fn id(text: &str, line: u32) -> Result<String, SumoError> {
+    if text.is_empty() || text.len() > MAX_ID {
+        return Err(SumoError::value(text, "an id of 1 to 256 bytes", line));
+    }
+    Ok(text.to_owned())
+}
+
+fn type_name(text: &str) -> String {
+    text.split('@').next().unwrap_or_default().chars().take(MAX_ID).collect()
+}
+
+/// A time that must lie after the one before.
+fn time(text: &str, before_s: Option<f64>, line: u32) -> Result<f64, SumoError> {
+    let time_s = number(text, (-MAX_TIME_S, MAX_TIME_S), "a time in seconds", line)?;
+    if before_s.is_some_and(|before_s| time_s <= before_s) {
+        return Err(SumoError::value(text, "a time after that of the time step before", line));
+    }
+    Ok(time_s)
+}
+
+/// Rows of `<fcd-export>`: `<timestep time>` with `<vehicle>`, `<person>`, `<container>`.
+pub(super) struct XmlRows<'a> {
+    scanner: Scanner<Box<dyn BufRead + 'a>>,
+    root: bool,
+    time_s: Option<f64>,
+    pending: Option<Item>,
+}
+
+impl XmlRows<'_> {
+    fn next(&mut self) -> Result<Option<Item>, ReadError> {
+        if let Some(item) = self.pending.take() {
+            return Ok(Some(item));
+        }
+        while let Some(event) = self.scanner.next()? {
+            let Event::Start(element) = event else { continue };
+            if !self.root {
+                self.root = true;
+                if element.name != "fcd-export" {
+                    let found = format!("<{}>", element.name.chars().take(40).collect::<String>());
+                    return Err(SumoError::Content { expected: "SUMO's FCD (<fcd-export>)", found }.into());
+                }
+                continue;
+            }
+            match element.name.as_str() {
+                "timestep" => {
+                    let time_s = time(required(&element, "time")?, self.time_s, element.line)?;
+                    self.time_s = Some(time_s);
+                    return Ok(Some(Item::Step(time_s)));
+                }
+                "vehicle" | "person" if self.time_s.is_some() => {
+                    if element.get("vehicle").is_some_and(|v| !v.is_empty()) {
+                        return Ok(Some(Item::LeftOut));
+                    }
+                    let row = row_of(&element)?;
+                    if element.get("z").is_some() {
+                        self.pending = Some(Item::Row(row));
+                        return Ok(Some(Item::Height));
+                    }
+                    return Ok(Some(Item::Row(row)));
+                }
+                "container" => return Ok(Some(Item::LeftOut)),
+                _ => {}
+            }
+        }
+        Ok(None)
+    }
+}
+
+fn required<'e>(element: &'e Element, attribute: &'static str) -> Result<&'e str, SumoError> {
+    element.get(attribute).ok_or_else(|| SumoError::Missing {
+        element: element.name.chars().take(40).collect(),
+        attribute,
+        line: element.line,
+    })
+}
+
+fn row_of(element: &Element) -> Result<Row, SumoError> {
+    let line = element.line;
+    let text = |attribute| required(element, attribute);
+    Ok(Row {
+        id: id(text("id")?, line)?,
+        person: element.name == "person",
+        type_name: type_name(element.get("type").unwrap_or_default()),
+        point: Vec2::new(coordinate(text("x")?, line)?, coordinate(text("y")?, line)?),
+        heading_rad: heading(text("angle")?, line)?,
+        speed_mps: speed(text("speed")?, line)?,
+        size_m: (side(element.get("length"), line)?, side(element.get("width"), line)?),
+    })
+}
+
+/// Rows of CSV, separated by `;`, with the columns' names in the first line.
+pub(super) struct CsvRows<'a> {
+    input: Box<dyn BufRead + 'a>,
+    groups: Vec<(bool, Columns)>,
+    time: usize,
+    heights: bool,
+    time_s: Option<f64>,
+    time_text: String,
+    pending: Option<Item>,
+    line: u32,
+    offset: u64,
+}
+
+impl<'a> CsvRows<'a> {
+    fn new(input: Box<dyn BufRead + 'a>) -> Result<Self, ReadError> {
+        let mut rows = Self {
+            input,
+            groups: Vec::new(),
+            time: 0,
+            heights: false,
+            time_s: None,
+            time_text: String::new(),
+            pending: None,
+            line: 0,
+            offset: 0,
+        };
+        let header = rows.read_line()?.unwrap_or_default();
+        let names: Vec<&str> = header.trim_start_matches('\u{feff}').split(';').collect();
+        let group = |name| Columns::find(&names, name).map(|columns| (name == "person", columns));
+        rows.groups = ["vehicle", "person"].into_iter().filter_map(group).collect();
+        let time = names.iter().position(|n| *n == "timestep_time");
+        let (Some(time), false) = (time, rows.groups.is_empty()) else {
+            let found = header.chars().take(80).collect();
+            let expected = "columns timestep_time, vehicle_id, vehicle_x, vehicle_y, vehicle_angle, \
+                            vehicle_speed, separated by ;";
+            return Err(SumoError::Content { expected, found }.into());
+        };
+        rows.time = time;
+        rows.heights = names.iter().any(|n| n.ends_with("_z"));
+        Ok(rows)
+    }
+
+    fn read_line(&mut self) -> Result<Option<String>, ReadError> {
+        let mut bytes = Vec::new();
+        let read = self.input.by_ref().take(MAX_ROW as u64 + 1).read_until(b'\n', &mut bytes);
+        read.map_err(|error| unpack::fault(&error, self.offset))?;
+        self.line += 1;
+        let (start, line) = (self.offset, self.line);
+        let broken = |detail| Err(ReadError::malformed(start, format!("line {line}: {detail}")));
+        if bytes.len() > MAX_ROW {
+            return broken(format!("a line of more than {MAX_ROW} bytes"));
+        }
+        self.offset += bytes.len() as u64;
+        match String::from_utf8(bytes) {
+            Ok(text) if text.is_empty() => Ok(None),
+            Ok(text) => Ok(Some(text.trim_end_matches(['\r', '\n']).to_owned())),
+            Err(_) => broken("not UTF-8".into()),
+        }
+    }
+
+    fn next(&mut self) -> Result<Option<Item>, ReadError> {
+        loop {
+            if let Some(item) = self.pending.take() {
+                return Ok(Some(item));
+            }
+            if self.heights {
+                self.heights = false;
+                return Ok(Some(Item::Height));
+            }
+            let Some(text) = self.read_line()? else { return Ok(None) };
+            if text.trim().is_empty() {
+                continue;
+            }
+            let line = self.line;
+            let fields: Vec<&str> = text.split(';').collect();
+            let field = |column: usize| fields.get(column).copied().unwrap_or_default();
+            let found = self.groups.iter().find(|(_, columns)| !field(columns.id).is_empty());
+            self.pending = match found {
+                Some((person, columns)) => Some(Item::Row(csv_row(*person, columns, &field, line)?)),
+                None => None,
+            };
+            // Rows of one step repeat its time letter by letter.
+            let now = field(self.time);
+            if self.time_s.is_none() || now != self.time_text {
+                let time_s = time(now, self.time_s, line)?;
+                self.time_text = now.to_owned();
+                self.time_s = Some(time_s);
+                return Ok(Some(Item::Step(time_s)));
+            }
+        }
+    }
+}
+
+fn csv_row<'t>(
+    person: bool,
+    columns: &Columns,
+    field: &impl Fn(usize) -> &'t str,
+    line: u32,
+) -> Result<Row, SumoError> {
+    let optional = |column: Option<usize>| column.map(field);
+    let type_name = type_name(optional(columns.kind).unwrap_or_default());
+    // SUMO 1.28 puts persons in the vehicles' columns; they have an edge in place of a lane.
+    let walks = optional(columns.lane) == Some("") && optional(columns.edge).is_some_and(|e| !e.is_empty());
+    Ok(Row {
+        id: id(field(columns.id), line)?,
+        person: person || walks,
+        type_name,
+        point: Vec2::new(coordinate(field(columns.x), line)?, coordinate(field(columns.y), line)?),
+        heading_rad: heading(field(columns.angle), line)?,
+        speed_mps: speed(field(columns.speed), line)?,
+        size_m: (side(optional(columns.length), line)?, side(optional(columns.width), line)?),
+    })
+}

@@ -1,0 +1,345 @@
+//! A pull scanner for the XML that SUMO writes: elements and attributes, no text.
+//!
+//! XML 1.0 without document type definitions (so there are no entities but the five of section 4.6 and
+//! character references), bounded in depth, in attributes and in the length of a tag. Memory does not
+//! grow with the file.
+
+use super::unpack;
+use crate::problem::ReadError;
+use std::io::{self, BufRead};
+
+/// Deepest nesting that is read; SUMO's files have up to four levels.
+const MAX_DEPTH: usize = 32;
+/// Most attributes of one element.
+const MAX_ATTRIBUTES: usize = 128;
+
+/// A start tag.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Element {
+    pub name: String,
+    pub attributes: Vec<(String, String)>,
+    /// Line in the file, from 1.
+    pub line: u32,
+}
+
+impl Element {
+    pub fn get(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(n, _)| n == name).map(|(_, value)| value.as_str())
+    }
+}
+
+/// What comes next.
+#[derive(Clone, Debug)]
+pub(super) enum Event {
+    /// Also for an element without content, which has an end too.
+    Start(Element),
+    /// The end of an element.
+    End,
+}
+
+/// Reads events one by one.
+pub(super) struct Scanner<R> {
+    input: R,
+    line: u32,
+    offset: u64,
+    open: Vec<String>,
+    /// End of an element that had no content.
+    pending: bool,
+    seen_root: bool,
+    max_tag: usize,
+    tag: Vec<u8>,
+}
+
+impl<R: BufRead> Scanner<R> {
+    /// `max_tag`: most bytes of one tag.
+    pub fn new(input: R, max_tag: usize) -> Self {
+        Self {
+            input,
+            line: 1,
+            offset: 0,
+            open: Vec::new(),
+            pending: false,
+            seen_root: false,
+            max_tag,
+            tag: Vec::new(),
+        }
+    }
+
+    /// The next event; `None` after the root's end.
+    ///
+    /// # Errors
+    /// `malformed-file` with the byte and the line of the tag; the bounds of the reader.
+    pub fn next(&mut self) -> Result<Option<Event>, ReadError> {
+        if std::mem::take(&mut self.pending) {
+            return Ok(Some(Event::End));
+        }
+        loop {
+            if !self.until(b'<', false)? {
+                return match self.open.last() {
+                    Some(name) => Err(self.wrong(format!("the file ends inside <{}>", shown(name)))),
+                    None if !self.seen_root => Err(self.wrong("no XML element in the file".into())),
+                    None => Ok(None),
+                };
+            }
+            let (start, line) = (self.offset.saturating_sub(1), self.line);
+            self.tag.clear();
+            self.until_tag_end(start, line)?;
+            let result = match self.tag.first() {
+                Some(b'?' | b'!') => continue,
+                Some(b'/') => self.end(),
+                _ => self.start(line),
+            };
+            return result.map(Some).map_err(|detail| at(start, line, &detail));
+        }
+    }
+
+    fn wrong(&self, detail: String) -> ReadError {
+        at(self.offset, self.line, &detail)
+    }
+
+    /// Passes over everything up to and with `byte`, keeping it in `self.tag` when asked to. False at
+    /// the end of the file.
+    fn until(&mut self, byte: u8, keep: bool) -> Result<bool, ReadError> {
+        loop {
+            let chunk = match self.input.fill_buf() {
+                Ok(chunk) => chunk,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                Err(error) => return Err(unpack::fault(&error, self.offset)),
+            };
+            let found = chunk.iter().position(|b| *b == byte);
+            let length = found.map_or(chunk.len(), |i| i + 1);
+            let part = chunk.get(..length).unwrap_or(chunk);
+            self.line += part.iter().filter(|b| **b == b'\n').count() as u32;
+            if keep {
+                self.tag.extend_from_slice(part);
+            }
+            let ended = part.is_empty();
+            self.input.consume(length);
+            self.offset += length as u64;
+            if ended || found.is_some() {
+                return Ok(found.is_some());
+            }
+            if keep && self.tag.len() > self.max_tag {
+                return Err(self.wrong(format!("a tag of more than {} bytes", self.max_tag)));
+            }
+        }
+    }
+
+    /// Reads to the `>` that ends the tag: not one in a quoted value, nor one in a comment.
+    fn until_tag_end(&mut self, start: u64, line: u32) -> Result<(), ReadError> {
+        let mut quote = None;
+        let mut checked = 0;
+        loop {
+            if !self.until(b'>', true)? {
+                return Err(at(start, line, "the file ends within a tag"));
+            }
+            if self.tag.len() > self.max_tag {
+                return Err(at(start, line, &format!("a tag of more than {} bytes", self.max_tag)));
+            }
+            if self.tag.starts_with(b"!--") {
+                // Comments may be of any length: only their last bytes are needed.
+                if self.tag.len() >= 6 && self.tag.ends_with(b"-->") {
+                    return Ok(());
+                }
+                let last = self.tag.len().saturating_sub(2).max(3);
+                self.tag.drain(3..last);
+                continue;
+            }
+            if self.tag.first() == Some(&b'!') {
+                let detail = "a document type definition or CDATA section; SUMO writes none and none is read";
+                return Err(at(start, line, detail));
+            }
+            if self.tag.first() == Some(&b'?') {
+                if self.tag.ends_with(b"?>") {
+                    return Ok(());
+                }
+                continue;
+            }
+            for byte in self.tag.get(checked..).unwrap_or_default() {
+                match (quote, byte) {
+                    (None, b'"' | b'\'') => quote = Some(*byte),
+                    (Some(open), close) if open == *close => quote = None,
+                    _ => {}
+                }
+            }
+            checked = self.tag.len();
+            if quote.is_none() {
+                return Ok(());
+            }
+        }
+    }
+
+    fn end(&mut self) -> Result<Event, String> {
+        let text = std::str::from_utf8(&self.tag).map_err(|_| "a tag that is not UTF-8".to_owned())?;
+        let name = text.trim_start_matches('/').trim_end_matches('>').trim_end();
+        match self.open.pop() {
+            Some(open) if open == name => Ok(Event::End),
+            Some(open) => Err(format!("</{}> found, </{}> expected", shown(name), shown(&open))),
+            None => Err(format!("</{}> found where nothing is open", shown(name))),
+        }
+    }
+
+    fn start(&mut self, line: u32) -> Result<Event, String> {
+        let text = std::str::from_utf8(&self.tag).map_err(|_| "a tag that is not UTF-8".to_owned())?;
+        let text = text.trim_end_matches('>');
+        let (text, empty) = match text.strip_suffix('/') {
+            Some(rest) => (rest, true),
+            None => (text, false),
+        };
+        let split = text.find(char::is_whitespace).unwrap_or(text.len());
+        let (name, mut rest) = text.split_at(split);
+        if !is_name(name) {
+            return Err(format!("\"<{}\" found, an element expected", shown(name)));
+        }
+        if self.open.is_empty() && self.seen_root {
+            return Err(format!("<{}> after the end of the document", shown(name)));
+        }
+        if self.open.len() >= MAX_DEPTH {
+            return Err(format!("elements nested deeper than {MAX_DEPTH}"));
+        }
+        let mut element = Element { name: name.to_owned(), attributes: Vec::new(), line };
+        loop {
+            rest = rest.trim_start();
+            if rest.is_empty() {
+                break;
+            }
+            let (attribute, after) = attribute(rest)?;
+            if element.get(&attribute.0).is_some() {
+                return Err(format!("attribute \"{}\" appears twice", shown(&attribute.0)));
+            }
+            if element.attributes.len() >= MAX_ATTRIBUTES {
+                return Err(format!("more than {MAX_ATTRIBUTES} attributes"));
+            }
+            element.attributes.push(attribute);
+            rest = after;
+        }
+        self.seen_root = true;
+        if empty {
+            self.pending = true;
+        } else {
+            self.open.push(element.name.clone());
+        }
+        Ok(Event::Start(element))
+    }
+}
+
+fn at(offset: u64, line: u32, detail: &str) -> ReadError {
+    ReadError::malformed(offset, format!("line {line}: {detail}"))
+}
+
+fn shown(text: &str) -> String {
+    text.chars().take(40).collect()
+}
+
+fn is_name(text: &str) -> bool {
+    let first = text.chars().next().is_some_and(|c| c.is_alphabetic() || c == '_' || c == ':');
+    first && !text.contains(['<', '>', '"', '\'', '=', '&', '/'])
+}
+
+/// One `name="value"` and what follows it.
+fn attribute(text: &str) -> Result<((String, String), &str), String> {
+    let wrong = || format!("\"{}\" found, an attribute such as x=\"1.5\" expected", shown(text));
+    let (name, rest) = text.split_once('=').ok_or_else(wrong)?;
+    let (name, rest) = (name.trim_end(), rest.trim_start());
+    let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\'')).ok_or_else(wrong)?;
+    let rest = rest.get(1..).ok_or_else(wrong)?;
+    let (value, rest) = rest.split_once(quote).ok_or_else(wrong)?;
+    if !is_name(name) || value.contains('<') {
+        return Err(wrong());
+    }
+    Ok(((name.to_owned(), unescaped(value)?), rest))
+}
+
+/// Replaces references (XML 1.0, 4.1 and 4.6); none can refer to another, so nothing grows.
+fn unescaped(value: &str) -> Result<String, String> {
+    let mut text = String::with_capacity(value.len());
+    let mut rest = value;
+    while let Some((before, after)) = rest.split_once('&') {
+        text.push_str(before);
+        let wrong =
+            || format!("reference \"&{}\" is not known", shown(after).split(';').next().unwrap_or(""));
+        let (name, after) = after.split_once(';').ok_or_else(wrong)?;
+        let number = name.strip_prefix('#').map(|n| match n.strip_prefix('x') {
+            Some(hex) => u32::from_str_radix(hex, 16),
+            None => n.parse(),
+        });
+        let found = match (name, number) {
+            ("lt", _) => Some('<'),
+            ("gt", _) => Some('>'),
+            ("amp", _) => Some('&'),
+            ("quot", _) => Some('"'),
+            ("apos", _) => Some('\''),
+            (_, Some(Ok(number))) => char::from_u32(number),
+            _ => None,
+        };
+        text.push(found.ok_or_else(wrong)?);
+        rest = after;
+    }
+    text.push_str(rest);
+    Ok(text)
+}
+
+/// Name of the first element, for recognising a file. Looks no further than `head`.
+pub(super) fn root_of(head: &[u8]) -> Option<String> {
+    match Scanner::new(head, head.len().max(1)).next() {
+        Ok(Some(Event::Start(element))) => Some(element.name),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(text: &str) -> Result<String, ReadError> {
+        let mut scanner = Scanner::new(text.as_bytes(), 200);
+        let mut out = String::new();
+        while let Some(event) = scanner.next()? {
+            match event {
+                Event::Start(e) => {
+                    out.push_str(&e.name);
+                    e.attributes.iter().for_each(|(n, v)| out.push_str(&format!("[{n}:{v}]")));
+                }
+                Event::End => out.push(';'),
+            }
+        }
+        Ok(out)
+    }
+
+    #[test]
+    fn reads_elements_and_attributes() {
+        let text = "\u{feff}<?xml version=\"1.0\"?>\n<!-- a > b --> <a x = '1>\"' y=\"&lt;&#65;&#x42;&amp;\">t<b/></a>\n<!---->";
+        assert_eq!(all(text).unwrap(), "a[x:1>\"][y:<AB&]b;;");
+    }
+
+    #[test]
+    fn long_comments_are_passed_over() {
+        let text = format!("<!--{}--><a/>", "> - -- <x> ".repeat(1_000));
+        assert_eq!(all(&text).unwrap(), "a;");
+    }
+
+    #[test]
+    fn says_where_it_breaks() {
+        for (text, expected) in [
+            ("", "line 1: no XML element"),
+            ("text", "line 1: no XML element"),
+            ("<a>\n<b></a>", "line 2: </a> found, </b> expected"),
+            ("<a>\n<b>", "line 2: the file ends inside <b>"),
+            ("<a x=1/>", "line 1: \"x=1\" found, an attribute"),
+            ("<a x='1' x='2'/>", "line 1: attribute \"x\" appears twice"),
+            ("<a\nx='", "line 1: the file ends within a tag"),
+            ("<a/><b/>", "line 1: <b> after the end"),
+            ("</a>", "line 1: </a> found where nothing"),
+            ("<a x='&who;'/>", "line 1: reference \"&who\""),
+            ("<!DOCTYPE a [<!ENTITY b 'c'>]><a/>", "line 1: a document type"),
+            ("<!-- never", "line 1: the file ends within a tag"),
+            ("< a/>", "line 1: \"<\" found"),
+        ] {
+            let error = all(text).unwrap_err();
+            let detail = &error.problems[0].detail;
+            assert!(detail.starts_with(expected), "{text}: {detail}");
+        }
+        assert!(all(&"<a>".repeat(100)).unwrap_err().to_string().contains("nested deeper than 32"));
+        assert!(all(&format!("<a x='{}'/>", "1".repeat(300))).unwrap_err().to_string().contains("200 bytes"));
+    }
+}
