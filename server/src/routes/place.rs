@@ -284,7 +284,7 @@ fn shares(types: &Members<f64>, faults: &mut Vec<FieldProblem>) -> BTreeMap<Agen
         in_range(faults, &format!("/types/{name}"), (0.0, 1.0), *share);
         shares.insert(agent_type, *share);
     }
-    let sum: f64 = types.0.iter().map(|(_, share)| share).sum();
+    let sum: f64 = types.0.values().sum();
     if (sum - 1.0).abs() > SHARE_TOLERANCE || sum.is_nan() {
         let detail = format!("the shares sum to {sum}; 1 expected");
         faults.push(FieldProblem::new("/types", "out-of-range", detail));
