@@ -84,6 +84,21 @@ impl Server {
         Ok(server)
     }
 
+    /// Starts one with an empty store, and waits until its demos are listed.
+    ///
+    /// # Errors
+    /// When it does not start, or they are not there after ten seconds.
+    pub fn with_demos() -> anyhow::Result<Self> {
+        let server = Self::start(&[])?;
+        for _ in 0..200 {
+            if server.get("/v1/scenes/demo-crossing?map=ref")?.status == 200 {
+                return Ok(server);
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        anyhow::bail!("demo-crossing is not listed")
+    }
+
     /// Starts one on a given store.
     ///
     /// # Errors

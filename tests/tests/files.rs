@@ -45,21 +45,9 @@ fn a_scene_goes_through_the_native_format_unchanged() {
     }
 }
 
-/// A server whose demos are listed.
-fn with_demos() -> Server {
-    let server = Server::start(&[]).unwrap();
-    for _ in 0..200 {
-        if server.get("/v1/scenes/demo-crossing?map=ref").unwrap().status == 200 {
-            return server;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(50));
-    }
-    panic!("demo-crossing is not listed");
-}
-
 #[test]
 fn demos_can_be_used_and_copied_but_not_changed() {
-    let server = with_demos();
+    let server = Server::with_demos().unwrap();
     let demo = server.get("/v1/scenes/demo-crossing").unwrap();
     let mut scene = demo.json();
     let change = Request::new("PUT", "/v1/scenes/demo-crossing").header("if-match", demo.header("etag"));
@@ -85,7 +73,7 @@ fn demos_can_be_used_and_copied_but_not_changed() {
 
 #[test]
 fn an_answer_can_be_saved_and_goes_stale_with_its_scene() {
-    let server = with_demos();
+    let server = Server::with_demos().unwrap();
     let mut scene = server.get("/v1/scenes/demo-crossing").unwrap().json();
     let answer = server.post("/v1/generate", &json!({"scene": scene, "agents": ["5"]})).unwrap().json();
     scene["generated"] = answer["generated"].clone();
@@ -104,7 +92,7 @@ fn an_answer_can_be_saved_and_goes_stale_with_its_scene() {
 
 #[test]
 fn examples_of_the_document_work() {
-    let server = with_demos();
+    let server = Server::with_demos().unwrap();
     let document = server.get("/openapi.json").unwrap().json();
     for (path, operation) in [("/v1/generate", "post"), ("/v1/place", "post"), ("/v1/score", "post")] {
         let body =

@@ -11,18 +11,6 @@ use std::process::Command;
 const DEMOS: [&str; 5] =
     ["demo-crossing", "demo-arterial", "demo-motorway", "demo-residential", "demo-roundabout"];
 
-/// A server whose demos are listed.
-fn with_demos() -> Server {
-    let server = Server::start(&[]).unwrap();
-    for _ in 0..200 {
-        if server.get("/v1/scenes/demo-crossing?map=ref").unwrap().status == 200 {
-            return server;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(50));
-    }
-    panic!("demo-crossing is not listed");
-}
-
 fn place(server: &Server, body: &Value) -> Value {
     let reply = server.post("/v1/place", body).unwrap();
     assert_eq!(reply.status, 200, "{}", reply.text());
@@ -62,7 +50,7 @@ fn ids(list: &Value) -> Vec<String> {
 
 #[test]
 fn nobody_overlaps_on_any_demo_with_any_seed() {
-    let server = with_demos();
+    let server = Server::with_demos().unwrap();
     let mut placed = 0;
     for demo in DEMOS {
         let scene = server.get(&format!("/v1/scenes/{demo}")).unwrap().json();
@@ -104,7 +92,7 @@ fn nobody_overlaps_on_any_demo_with_any_seed() {
 
 #[test]
 fn placed_road_users_are_starts_of_futures() {
-    let server = with_demos();
+    let server = Server::with_demos().unwrap();
     for demo in ["demo-crossing", "demo-roundabout"] {
         let body = json!({"scene_id": demo, "density": {"count": 24}, "seed": 3, "keep": []});
         let placed = place(&server, &body);
@@ -142,7 +130,7 @@ fn placed_road_users_are_starts_of_futures() {
 
 #[test]
 fn centres_lie_in_the_region_and_the_seed_repeats_them() {
-    let server = with_demos();
+    let server = Server::with_demos().unwrap();
     let ring = json!([[-40.0, -30.0], [40.0, -30.0], [40.0, 5.0], [0.0, 5.0], [0.0, 40.0], [-40.0, 40.0]]);
     let body = json!({"scene_id": "demo-crossing", "density": {"per_lane_km": 120}, "seed": 11,
         "region": {"polygon_m": ring}, "keep": []});

@@ -5,7 +5,6 @@ use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
 use scene::routes::speed::{LaneSignal, Obstacle};
 use scene::routes::{LaneGraph, Pose};
-use scene::score::Drivable;
 use scene::{Agent, AgentType, Conditions, HORIZON_STEPS, LaneMap, Scene, Size, State, Vec2};
 use std::sync::Arc;
 
@@ -16,14 +15,12 @@ pub struct MapIndex {
     pub graph: LaneGraph,
     /// Pieces for the map encoder.
     pub pieces: MapPieces,
-    /// Where vehicles may drive.
-    pub drivable: Drivable,
 }
 
 impl MapIndex {
-    /// Works out graph, pieces and drivable ground.
+    /// Works out graph and pieces.
     pub fn new(map: &LaneMap) -> Self {
-        Self { graph: LaneGraph::new(map), pieces: MapPieces::new(map), drivable: Drivable::new(map) }
+        Self { graph: LaneGraph::new(map), pieces: MapPieces::new(map) }
     }
 }
 

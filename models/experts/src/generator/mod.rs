@@ -19,6 +19,7 @@ use crate::net::{Expert, NetError};
 use crate::placement::{self, PlaceRequest, Placement, PlacementInfo, PlacementModel};
 use crate::request::{Cancel, GenerateError, Request};
 use candle_core::Tensor;
+use scene::score::Drivable;
 use scene::{AgentType, ContentHash, LaneMap};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -43,6 +44,8 @@ pub struct Generator {
 /// A map as the experts know it, worked out once.
 pub(crate) struct EncodedMap {
     pub(crate) index: Arc<MapIndex>,
+    /// Where vehicles may drive.
+    pub(crate) drivable: Drivable,
     encodings: [OnceLock<Tensor>; EXPERTS.len()],
 }
 
@@ -159,6 +162,7 @@ impl Generator {
         }
         let encoded = Arc::new(EncodedMap {
             index: Arc::new(MapIndex::new(map)),
+            drivable: Drivable::new(map),
             encodings: std::array::from_fn(|_| OnceLock::new()),
         });
         lock().insert(hash, map, encoded.clone());

@@ -6,7 +6,7 @@ use super::choice::{Choice, Choosable, distance, medoid_costs, swept};
 use super::noise::Key;
 use super::realise::{Motion, PER_INSTANT, may_rest, middle, places, realise, rest};
 use super::{EncodedMap, Generator, parallel};
-use crate::features::world::{MapIndex, Present, World};
+use crate::features::world::{Present, World};
 use crate::features::{INSTANTS, MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::{Growth, Obstacle, Poses, Pullback, overlap};
 use crate::net::{Context, NetError, Prepared, schedule};
@@ -342,10 +342,7 @@ impl<'g> Window<'g> {
 
     /// Those who keep their motion, as obstacles.
     fn kept_poses(&self, world: &World<'_>) -> Vec<(Poses, [f32; 2])> {
-        let acting: BTreeSet<usize> = self.actors.iter().map(|a| a.planned.present.index).collect();
-        let in_the_way = |p: &&Present| self.request.stages.kept_in_the_way && !acting.contains(&p.index);
-        let kept = world.present.iter().filter(in_the_way);
-        kept.map(|p| {
+        let pose = |p: &Present| {
             let mut poses = [[0.0; 4]; INSTANTS];
             for (i, pose) in poses.iter_mut().enumerate() {
                 let step = (i + 1) * PER_INSTANT;
@@ -354,8 +351,15 @@ impl<'g> Window<'g> {
                 }
             }
             (poses, half_size(p))
-        })
-        .collect()
+        };
+        self.in_the_way(world).map(pose).collect()
+    }
+
+    /// Those who keep their motion and count.
+    fn in_the_way<'w>(&self, world: &'w World<'_>) -> impl Iterator<Item = &'w Present> {
+        let acting: BTreeSet<usize> = self.actors.iter().map(|a| a.planned.present.index).collect();
+        let count = self.request.stages.kept_in_the_way;
+        world.present.iter().filter(move |p| count && !acting.contains(&p.index))
     }
 
     /// The present drafts as futures that can be shown.
@@ -425,12 +429,10 @@ impl<'g> Window<'g> {
                 motions
             });
         let world = self.world();
-        let acting: BTreeSet<usize> = self.actors.iter().map(|a| a.planned.present.index).collect();
-        let in_the_way = |p: &&Present| self.request.stages.kept_in_the_way && !acting.contains(&p.index);
-        let fixed = world.present.iter().filter(in_the_way).map(|p| kept_boxes(&world, p));
-        let mut choice = Choice { agents: Vec::new(), fixed: fixed.collect() };
+        let fixed = self.in_the_way(&world).map(|p| kept_boxes(&world, p)).collect();
+        let mut choice = Choice { agents: Vec::new(), fixed };
         for (actor, motions) in self.actors.iter().zip(&motions) {
-            choice.agents.push(options(actor, motions, &self.map.index));
+            choice.agents.push(options(actor, motions, &self.map));
         }
         let mut chosen = match self.request.stages.shown {
             Shown::Chosen => choice.solve(),
@@ -566,7 +568,7 @@ impl<'g> Window<'g> {
         });
         for (i, guided) in concerned.into_iter().zip(guided) {
             motions[i].extend(guided);
-            choice.agents[i] = options(&self.actors[i], &motions[i], &self.map.index);
+            choice.agents[i] = options(&self.actors[i], &motions[i], &self.map);
         }
         *chosen = choice.solve();
     }
@@ -684,7 +686,7 @@ fn base_weight(actor: &Actor) -> f64 {
 }
 
 /// What an actor can do: its motions, after what it keeps (reacting) or has pinned.
-fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &MapIndex) -> Vec<Choosable> {
+fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &EncodedMap) -> Vec<Choosable> {
     let size = &actor.planned.present.size;
     if let Some(pinned) = &actor.pinned {
         let boxes = super::choice::swept_kept(|step| pinned.get(step - 1).copied(), size);
@@ -718,12 +720,12 @@ fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &MapIndex) -> V
 
 /// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the
 /// road's edges to have a corner beyond them.
-fn off_road(actor: &Actor, states: &Trajectory, map: &MapIndex) -> f64 {
+fn off_road(actor: &Actor, states: &Trajectory, map: &EncodedMap) -> f64 {
     let present = &actor.planned.present;
     if present.agent_type != AgentType::Vehicle || states.is_empty() {
         return 0.0;
     }
-    let away = |s: &MotionState| map.graph.nearest_for(s.position, 2.5, present.agent_type).is_empty();
+    let away = |s: &MotionState| map.index.graph.nearest_for(s.position, 2.5, present.agent_type).is_empty();
     let beyond = |s: &MotionState| {
         let outline = OrientedBox::of_state(&State::from(s), &present.size);
         map.drivable.box_outside_m(&outline).is_some_and(|outside| outside > PAST_EDGE_M)

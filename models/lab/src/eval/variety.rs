@@ -1,6 +1,7 @@
 //! Table 5: are the futures different, and does asking for more variety give it?
 
 use super::measure::measure;
+use super::quality::request;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::{Case, Judged, Site, Subset, answer, type_name};
@@ -11,7 +12,6 @@ use rayon::prelude::*;
 use scene::routes::{Polyline, Pose, Route, route_length_m, routes_ahead};
 use scene::{AgentFutures, AgentType, Future, State, wrap_angle};
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 /// Settings of diversity that are compared.
 const DIVERSITIES: [f64; 4] = [0.0, 0.5, 1.0, 2.0];
@@ -104,11 +104,7 @@ struct Spread {
 }
 
 fn ask(site: &Site<'_>, case: &Case, subset: Subset, seed: u64) -> Request {
-    let mut request = Request::new(Arc::new(site.asked(case, subset)));
-    request.agents = Some(BTreeSet::from([site.log(case).id.clone()]));
-    request.seed = seed;
-    request.stages.kept_in_the_way = false;
-    request
+    request(site.asked(case, subset), &site.log(case).id, true, seed)
 }
 
 fn of_case(

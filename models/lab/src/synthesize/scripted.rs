@@ -14,6 +14,7 @@ use formats::sumo::polyline::{arc_lengths, length, part, point_at, resample};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, signed_gap};
 use scene::{AgentType, State, Subtype, Vec2, wrap_angle};
+use std::ops::Range;
 
 /// Share of parked cars that try to leave, and of free places that somebody tries to take.
 const LEAVING: f64 = 0.10;
@@ -196,11 +197,11 @@ impl<'a> Lanes<'a> {
         }
         let way = heading_at(&line, &lengths, join);
         let mut path = hermite(front, state.heading_rad, point_at(&line, &lengths, join), way)?;
+        let slow_until = length(&path);
         path.extend(part(&line, join + 0.5, lengths[lengths.len() - 1]));
         let start = draw.uniform(1.0, RECORDED_S - 25.0);
         let (accel, top) = (draw.clipped(1.3, 0.4, 0.6, 2.4), draw.clipped(9.0, 2.0, 5.0, 13.0));
         let slow = draw.uniform(2.2, 4.2);
-        let slow_until = length(&hermite(front, state.heading_rad, point_at(&line, &lengths, join), way)?);
         // Creeps out, then picks up speed.
         let speeds = progress(&path, |s, v| {
             if s < slow_until { slow.min(v + accel * DT_S) } else { (v + accel * DT_S).min(top) }
@@ -232,14 +233,11 @@ impl<'a> Lanes<'a> {
             if s == 0.0 { top.min(may) } else { top.min(may).max(v - 3.0 * DT_S) }
         });
         let start = draw.uniform(0.0, RECORDED_S - 30.0);
-        let mut record = record(&path, heading_at(&line, &lengths, 0.0), start, &speeds, top);
+        let record = record(&path, heading_at(&line, &lengths, 0.0), start, &speeds, top);
         // Comes from somewhere: nothing is recorded of it before it enters the lane.
         let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start)?;
-        record.times_s.drain(..first);
-        record.positions.drain(..first);
-        record.headings_rad.drain(..first);
-        record.speeds_mps.drain(..first);
-        Some(record)
+        let all = record.times_s.len();
+        Some(cut(&record, first..all))
     }
 
     /// A person across the road, away from crosswalks.
@@ -277,14 +275,10 @@ impl<'a> Lanes<'a> {
         let end = length(&path);
         let speeds = progress(&path, |s, _| if s + 0.05 < end { pace } else { 0.0 });
         let start = draw.uniform(0.0, RECORDED_S - end / pace - 1.0);
-        let mut record = record(&path, heading_at(&path, &arc_lengths(&path), 0.0), start, &speeds, pace);
+        let record = record(&path, heading_at(&path, &arc_lengths(&path), 0.0), start, &speeds, pace);
         let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start)?;
         let last = record.speeds_mps.iter().rposition(|v| *v > 0.0)?;
-        for series in [&mut record.times_s, &mut record.headings_rad, &mut record.speeds_mps] {
-            *series = series[first..=last].to_vec();
-        }
-        record.positions = record.positions[first..=last].to_vec();
-        Some(record)
+        Some(cut(&record, first..last + 1))
     }
 }
 
@@ -337,6 +331,17 @@ fn progress(path: &[Vec2], next: impl Fn(f64, f64) -> f64) -> Vec<f64> {
         out.push(s);
     }
     out
+}
+
+/// A part of a recording.
+fn cut(record: &Record, range: Range<usize>) -> Record {
+    Record {
+        vehicle_type: record.vehicle_type.clone(),
+        times_s: record.times_s[range.clone()].to_vec(),
+        positions: record.positions[range.clone()].to_vec(),
+        headings_rad: record.headings_rad[range.clone()].to_vec(),
+        speeds_mps: record.speeds_mps[range].to_vec(),
+    }
 }
 
 /// A recording that stands at the path's start until `start_s`, follows the path, and stands at its end
