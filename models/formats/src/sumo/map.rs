@@ -111,7 +111,8 @@ fn tapers(net: &Net) -> HashMap<usize, (usize, usize)> {
     found
 }
 
-fn lane_id(lane: usize) -> String {
+/// Id in the map of a network's lane, by its index.
+pub fn lane_id(lane: usize) -> String {
     (lane + 1).to_string()
 }
 

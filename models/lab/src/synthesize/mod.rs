@@ -86,6 +86,9 @@ impl Template {
     }
 }
 
+/// Share of parking lots whose lanes the map does not have.
+const UNMAPPED_LOTS: f64 = 0.4;
+
 /// What to make, and how.
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -177,7 +180,10 @@ fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Res
     let shares = Template::SHARES.map(|s| s.1);
     let drawn = Template::SHARES[draw.weighted(&shares)].0;
     let network = template.unwrap_or(drawn).build(&mut draw);
-    let recording = recording::record(sumo, network, None, seed)?;
+    let mut recording = recording::record(sumo, network, None, seed)?;
+    if Draw::new(seed, Purpose::Map).chance(UNMAPPED_LOTS) {
+        recording.unmap_lots();
+    }
     let (scenes, _) = windows::cut(&recording, seed, count, &mut Draw::new(seed, Purpose::Windows));
     Ok(scenes)
 }

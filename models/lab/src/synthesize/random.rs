@@ -22,6 +22,8 @@ pub enum Purpose {
     Windows = 5,
     /// Manoeuvres that SUMO does not know.
     Scripted = 6,
+    /// What the map leaves out.
+    Map = 7,
 }
 
 /// A stream of random draws.

@@ -3,20 +3,21 @@
 use super::demand::{self, Crowd};
 use super::fleet::Fleet;
 use super::footpath::Kerbs;
-use super::network::Network;
+use super::network::{Network, Rank};
 use super::programs::{ProgramError, Sumo};
 use super::random::{Draw, Purpose};
 use super::tracks::{self, Cleaned};
 use super::{DT_S, RECORDED_S, parked, scripted};
 use formats::sumo::SumoError;
 use formats::sumo::fcd;
-use formats::sumo::map::{MapOptions, NetMap, lane_map};
+use formats::sumo::map::{MapOptions, NetMap, lane_id, lane_map};
 use formats::sumo::net::{LaneKind, Net};
 use formats::sumo::polyline::resample;
 use formats::sumo::signals::SignalLog;
 use scene::geometry::obb::{OrientedBox, signed_gap};
 use scene::map::Area;
 use scene::{AgentType, Size, Subtype, Vec2};
+use std::collections::HashSet;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -74,6 +75,16 @@ pub struct Recording {
     pub actors: Vec<Actor>,
     /// Signal states.
     pub signals: SignalLog,
+    /// Lanes of the map in parking lots.
+    lot_lanes: HashSet<String>,
+}
+
+impl Recording {
+    /// Takes the lanes of parking lots off the map: recorded maps seldom have them, and cars drive there
+    /// all the same.
+    pub fn unmap_lots(&mut self) {
+        self.map.map.lanes.retain(|lane| !self.lot_lanes.contains(&lane.id));
+    }
 }
 
 /// A folder that is removed at the end.
@@ -152,7 +163,9 @@ pub fn record(
     standing(&net, &mut actors, &mut Draw::new(seed ^ 0x5eed, Purpose::Motion));
     scripted::add(&net, &fleet, &mut actors, &mut Draw::new(seed, Purpose::Scripted));
     find_overlaps(&mut actors);
-    Ok(Recording { network, map, actors, signals })
+    let in_lot = |lane: &usize| net.edge_of(*lane).road_type == Rank::Lot.name();
+    let lot_lanes = (0..net.lanes.len()).filter(in_lot).map(lane_id).collect();
+    Ok(Recording { network, map, actors, signals, lot_lanes })
 }
 
 fn moving(path: &Path, fleet: &Fleet, seed: u64) -> Result<Vec<Actor>, RecordError> {

@@ -1,6 +1,8 @@
-//! What SUMO's drivers and walkers never do: pulling out of parking places and driveways, parking, and
-//! crossing the road away from crosswalks. Each is driven along a path of its own, cleaned like the rest,
+//! What SUMO's drivers and walkers never do: pulling out of parking places and driveways, parking, turning
+//! back in mid-block, and crossing the road away from crosswalks. Each is driven along a path of its own, cleaned like the rest,
 //! and kept only where it comes near nobody, since the simulated ones do not know of it.
+
+mod turning;
 
 use super::filters::interpolate;
 use super::fleet::{Fleet, Kind};
@@ -13,11 +15,13 @@ use formats::sumo::net::{EdgeFunction, LaneKind, Net};
 use formats::sumo::polyline::{arc_lengths, length, part, point_at, resample};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, signed_gap};
-use scene::{AgentType, State, Subtype, Vec2, wrap_angle};
+use scene::{AgentType, State, Vec2, wrap_angle};
 use std::ops::Range;
 
 /// Share of parked cars that try to leave, and of free places that somebody tries to take.
 const LEAVING: f64 = 0.10;
+/// Expected number of cars that try to turn back.
+const TURNING_BACK: f64 = 6.0;
 /// Distance that scripted cars keep from everybody, metres.
 const CLEAR_M: f64 = 0.8;
 /// The same for people who cross.
@@ -53,22 +57,34 @@ pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Draw) {
             actors[i].parked = false;
         }
     }
+    for _ in 0..draw.poisson(TURNING_BACK) {
+        let Some(kind) = fleet.kinds.get(fleet.pick(draw, "car")) else { return };
+        let Some(record) = (0..40).find_map(|_| lanes.turning_back(draw)) else { continue };
+        let Some(track) = tracks::clean(&record, kind, draw) else { continue };
+        if free(&track, None, &kind.size, actors, CLEAR_M) {
+            actors.push(newcomer(kind, track));
+        }
+    }
     let walkers = actors.iter().filter(|a| a.agent_type == AgentType::Pedestrian).count();
     for _ in 0..draw.poisson(2.0 + 0.15 * walkers as f64) {
         let Some(kind) = fleet.kinds.get(fleet.pick(draw, "walker")) else { return };
         let Some(record) = lanes.crossing(draw) else { continue };
         let Some(track) = tracks::clean(&record, kind, draw) else { continue };
         if free(&track, None, &kind.size, actors, WALK_CLEAR_M) {
-            actors.push(Actor {
-                agent_type: kind.agent_type,
-                subtype: Subtype::Adult,
-                size: kind.size,
-                parked: false,
-                on_foot: true,
-                track,
-                overlaps: Vec::new(),
-            });
+            actors.push(newcomer(kind, track));
         }
+    }
+}
+
+fn newcomer(kind: &Kind, track: Cleaned) -> Actor {
+    Actor {
+        agent_type: kind.agent_type,
+        subtype: kind.subtype,
+        size: kind.size,
+        parked: false,
+        on_foot: kind.on_foot,
+        track,
+        overlaps: Vec::new(),
     }
 }
 
@@ -295,7 +311,12 @@ fn heading_at(line: &[Vec2], lengths: &[f64], s: f64) -> f64 {
 
 /// A cubic from one pose to another; `None` when it bends too sharply.
 fn hermite(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64) -> Option<Vec<Vec2>> {
-    let reach = (to - from).norm();
+    let points = cubic(from, from_rad, to, to_rad, (to - from).norm());
+    (sharpest(&points) < SHARPEST).then_some(points)
+}
+
+/// A Hermite cubic from one pose to another, its tangents `reach` long.
+fn cubic(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64, reach: f64) -> Vec<Vec2> {
     let (a, b) = (direction(from_rad) * reach, direction(to_rad) * reach);
     let at = |t: f64| {
         let (t2, t3) = (t * t, t * t * t);
@@ -304,16 +325,17 @@ fn hermite(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64) -> Option<Vec<Vec2>
             + to * (3.0 * t2 - 2.0 * t3)
             + b * (t3 - t2)
     };
-    let points: Vec<Vec2> = (0..=40).map(|i| at(f64::from(i) / 40.0)).collect();
-    let sharpest = points
-        .windows(3)
-        .map(|w| {
-            let (p, q) = (w[1] - w[0], w[2] - w[1]);
-            let bend = wrap_angle(q.y.atan2(q.x) - p.y.atan2(p.x)).abs();
-            bend / (0.5 * (p.norm() + q.norm())).max(1e-6)
-        })
-        .fold(0.0, f64::max);
-    (sharpest < SHARPEST).then_some(points)
+    (0..=40).map(|i| at(f64::from(i) / 40.0)).collect()
+}
+
+/// Greatest curvature of a line, 1/m.
+fn sharpest(points: &[Vec2]) -> f64 {
+    let bend = |w: &[Vec2]| {
+        let (p, q) = (w[1] - w[0], w[2] - w[1]);
+        let turned = wrap_angle(q.y.atan2(q.x) - p.y.atan2(p.x)).abs();
+        turned / (0.5 * (p.norm() + q.norm())).max(1e-6)
+    };
+    points.windows(3).map(bend).fold(0.0, f64::max)
 }
 
 /// Arc length at every step, from a rule for the next speed; ends with the path or the recording.

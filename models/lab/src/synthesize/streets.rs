@@ -76,7 +76,7 @@ fn control<const N: usize>(draw: &mut Draw, signals: f64, others: [&'static str;
 pub fn character(draw: &mut Draw, name: &str, reach: f64) -> Character {
     Character {
         name: name.to_owned(),
-        actuated: draw.chance(0.5),
+        actuated: draw.chance(0.75),
         opposites: draw.chance(0.67),
         cycle_s: 45 + draw.below(50) as u32,
         crosswalk: draw.uniform(3.0, 4.5),
@@ -99,7 +99,7 @@ pub fn crossing(draw: &mut Draw) -> Network {
         _ => control(draw, 0.05, QUIET),
     };
     let mut net = Network::new(character(draw, &format!("cross{arms}_{}", main_rank.name()), 140.0));
-    net.node("c", Vec2::zeros(), kind, Some(draw.uniform(3.5, 9.0)));
+    net.node("c", Vec2::zeros(), kind, Some(draw.uniform(2.5, 7.5)));
     let skew = draw.normal(0.0, 0.18);
     let angles = match arms {
         3 => vec![0.0, PI, FRAC_PI_2 + draw.normal(0.0, 0.2)],
@@ -138,7 +138,7 @@ fn arm(draw: &mut Draw, net: &mut Network, i: usize, angle: f64, section_: Secti
         &middle,
         place,
         if draw.chance(0.6) { "priority" } else { "priority_stop" },
-        Some(draw.uniform(4.0, 7.0)),
+        Some(draw.uniform(3.0, 6.0)),
     );
     net.road("c", &middle, part(&line, 0.0, at), section_, (turn, false));
     net.road(&middle, &fringe, part(&line, at, total), section_, (false, false));
@@ -195,7 +195,7 @@ pub fn grid(draw: &mut Draw) -> Network {
                     0.0
                 };
                 let kind = control(draw, signals, QUIET);
-                net.node(&name(i, j), place, kind, Some(draw.uniform(4.0, 8.0)));
+                net.node(&name(i, j), place, kind, Some(draw.uniform(3.0, 7.0)));
             } else {
                 net.end(&name(i, j), place);
             }

@@ -105,8 +105,8 @@ impl Habit {
             smoothing: 2.2,
             wander: (38.0, 0.16),
             offset: draw.normal(0.0, 0.24),
-            // Long vehicles swing out rather than cut.
-            cutting: if long { 0.0 } else { draw.clipped(4.0, 4.0, 0.0, 12.0) },
+            // Ten is what brings lane centres closest to recorded bends. Long vehicles swing out.
+            cutting: if long { 0.0 } else { draw.clipped(10.0, 5.0, 0.0, 20.0) },
             ripple: 1.0,
         }
     }
@@ -204,7 +204,7 @@ fn smooth_path(
     let path = (0..count)
         .map(|i| {
             let right = Vec2::new(way[i].sin(), -way[i].cos());
-            let cut = (pull[i] * habit.cutting).clamp(-1.3, 1.3);
+            let cut = (pull[i] * habit.cutting).clamp(-1.6, 1.6);
             blended[i] + right * (wander[i] + habit.offset - cut)
         })
         .collect();
