@@ -21,6 +21,13 @@ const BLEND_CURVATURE: f64 = 0.7;
 /// The road user's foot is looked for on this much of the path's beginning, metres.
 const START_SEARCH_M: f64 = 15.0;
 
+/// How far drivers keep to the inside of a bend: metres for a curvature of 1/m, and at most. Fitted to
+/// recorded turns, whose mean distance from the path it lowers by a fifth.
+const INSIDE_M2: f64 = 10.0;
+const MAX_INSIDE_M: f64 = 1.5;
+/// Half of the way over which a bend's curvature is felt, metres: cutting begins before the bend.
+const FELT_M: f64 = 5.0;
+
 /// Where a path should end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndPose {
@@ -75,7 +82,7 @@ impl Manner {
 }
 
 /// `path` (a route's, or any lane centre) bent so that it begins exactly at `start` and, with a goal, ends
-/// exactly there.
+/// exactly there. Vehicles keep to the inside of bends.
 ///
 /// The road user's offset and heading fade onto the path over about 3 s of travel, and the goal's fade in
 /// over the last part, both as quintics across the path, so that curvature stays continuous. Where an
@@ -90,6 +97,8 @@ pub fn base_path(
     goal: Option<EndPose>,
 ) -> Polyline {
     let manner = Manner::of(agent_type, speed_mps);
+    let inside = (agent_type == AgentType::Vehicle).then(|| inside(path, manner.step_m));
+    let path = inside.as_ref().unwrap_or(path);
     let foot = path.project_between(start.position, 0.0, START_SEARCH_M);
     let Some(goal) = goal else {
         let rest = path.slice(foot.s_m, path.length_m());
@@ -107,6 +116,22 @@ pub fn base_path(
     let bent = ended(&entered, goal, manner, room);
     let met = (bent.first().position - start.position).norm() < 1e-6;
     if met { bent.resample(manner.step_m) } else { direct(start, goal, manner) }
+}
+
+/// `path` as drivers take it: towards the inside of its bends.
+fn inside(path: &Polyline, step_m: f64) -> Polyline {
+    let even = path.resample(step_m);
+    let curvature = even.curvatures(FELT_M);
+    let mean = |i: usize| {
+        let half = (FELT_M / step_m) as usize;
+        let felt = &curvature[i.saturating_sub(half)..(i + half + 1).min(curvature.len())];
+        felt.iter().sum::<f64>() / felt.len() as f64
+    };
+    let points = even.points().iter().zip(even.headings_rad()).enumerate().map(|(i, (point, heading))| {
+        let left = Vec2::new(-heading.sin(), heading.cos());
+        point + left * (INSIDE_M2 * mean(i)).clamp(-MAX_INSIDE_M, MAX_INSIDE_M)
+    });
+    Polyline::new(points)
 }
 
 /// `path`, whose end is beside `goal`, bent over at most `room_m` so that it ends there.
