@@ -2,7 +2,7 @@
 
 use super::{Case, Subset};
 use scene::geometry::direction;
-use scene::motion::{MotionModel, MotionState, limit_excess};
+use scene::motion::{MotionModel, MotionState, Sampled, fit, limit_excess};
 use scene::{Agent, Future, Goal, HORIZON_STEPS, State, wrap_angle};
 
 /// Errors of one road user's futures. Distances in metres, over the steps at which the log is known.
@@ -31,6 +31,11 @@ pub struct Measured {
     /// Index of the best future by mean distance.
     pub best: usize,
 }
+
+/// Greatest mean distance of a motion that follows a log, metres.
+const FOLLOWED_M: f64 = 0.3;
+/// Greatest difference of its last speed, m/s.
+const ARRIVED_MPS: f64 = 1.5;
 
 /// A log that stands has a heading that means nothing, m/s.
 const STANDING_MPS: f64 = 0.3;
@@ -142,6 +147,25 @@ pub fn is_met([position_m, heading_rad, speed_mps]: [f64; 3]) -> bool {
     position_m < 0.05 && heading_rad < 0.02 && speed_mps < 0.05
 }
 
+/// Whether its road user can have moved as the log says: some motion within the limits stays within
+/// [`FOLLOWED_M`] of it on average and arrives within [`ARRIVED_MPS`] of its last speed. Trackers that lose
+/// or mix up road users leave logs that nobody can follow.
+pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
+    let model = MotionModel::new(log.agent_type, log.subtype, log.size, case.start);
+    let sampled = |step: usize| {
+        let state = log.state_at(step)?;
+        Some(Sampled { step, position: state.position(), heading_rad: state.heading_rad })
+    };
+    let samples: Vec<Sampled> = (1..=HORIZON_STEPS / 5).filter_map(|i| sampled(5 * i)).collect();
+    let drive = model.rollout(&fit(&model, &samples));
+    let known = (1..=HORIZON_STEPS).filter_map(|s| Some((log.state_at(s)?, &drive[s])));
+    let apart = mean(known.map(|(logged, driven)| (logged.position() - driven.position).norm()));
+    let arrives = log.state_at(case.goal_step).is_none_or(|last| {
+        (last.speed_mps() - drive[case.goal_step].velocity.norm()).abs() < ARRIVED_MPS
+    });
+    apart < FOLLOWED_M && arrives
+}
+
 /// Whether a future breaks a limit of its road user. Exact rest breaks none: what little speed a standing
 /// start has is the detector's.
 pub fn is_outside_limits(agent: &Agent, start: &State, future: &Future) -> bool {
@@ -215,6 +239,24 @@ mod tests {
         assert_eq!(log_loss(&[0.5, 0.5], 1), Some(2.0_f64.ln()));
         assert_eq!(log_loss(&[1.0], 0), None);
         assert_eq!(log_loss(&[], 0), None);
+    }
+
+    #[test]
+    fn logs_that_nobody_can_follow_are_told() {
+        let steady = log("a", 10.0, 91);
+        assert!(can_be_followed(&steady, &case(&steady)));
+        // The tracker takes up another vehicle, 30 m ahead.
+        let mut leap = steady.clone();
+        for state in leap.track.states.iter_mut().skip(50).flatten() {
+            state.x_m += 30.0;
+        }
+        assert!(!can_be_followed(&leap, &case(&leap)));
+        // Its last speed is a glitch.
+        let mut glitch = steady.clone();
+        if let Some(state) = &mut glitch.track.states[90] {
+            state.vx_mps = 100.0;
+        }
+        assert!(!can_be_followed(&glitch, &case(&glitch)));
     }
 
     #[test]

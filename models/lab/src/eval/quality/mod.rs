@@ -5,7 +5,7 @@ mod sheets;
 
 pub use sheets::Quality;
 
-use super::measure::{Measured, goal_error, is_met, is_outside_limits, measure};
+use super::measure::{Measured, can_be_followed, goal_error, is_met, is_outside_limits, measure};
 use super::rivals::Rival;
 use super::{Case, Judged, Site, Subset, answer};
 use anyhow::Result;
@@ -50,11 +50,13 @@ pub struct Manner {
     turn_deg: f64,
     from_rest: bool,
     stopping: bool,
+    seen_throughout: bool,
+    followable: bool,
 }
 
 impl Manner {
-    /// Of a log from its first step.
-    pub fn of(log: &Agent) -> Self {
+    /// Of a case's log from its first step.
+    pub fn of(log: &Agent, case: &Case) -> Self {
         let states: Vec<_> = (0..=HORIZON_STEPS).filter_map(|step| log.state_at(step)).collect();
         // Headings of those who stand are noise.
         let moving: Vec<_> = states.iter().filter(|s| s.speed_mps() > 0.5).collect();
@@ -65,6 +67,8 @@ impl Manner {
             turn_deg: turn.to_degrees().abs(),
             from_rest: first < 0.3,
             stopping: first > 1.0 && last < 0.3,
+            seen_throughout: case.goal_step == HORIZON_STEPS,
+            followable: can_be_followed(log, case),
         }
     }
 
@@ -77,6 +81,9 @@ impl Manner {
             Group::UTurn => self.turn_deg >= 150.0,
             Group::FromRest => self.from_rest,
             Group::Stopping => self.stopping,
+            Group::SeenThroughout => self.seen_throughout,
+            Group::Followable => self.followable,
+            Group::Clean => self.seen_throughout && self.followable,
         }
     }
 }
@@ -91,15 +98,21 @@ pub enum Group {
     UTurn,
     FromRest,
     Stopping,
+    SeenThroughout,
+    Followable,
+    Clean,
 }
 
-const GROUPS: [(Group, &str); 6] = [
+const GROUPS: [(Group, &str); 9] = [
     (Group::All, "all"),
     (Group::Straight, "straight, under 20 deg"),
     (Group::Turning, "turning, 20 to 149 deg"),
     (Group::UTurn, "U-turn, 150 deg and more"),
     (Group::FromRest, "from rest"),
     (Group::Stopping, "stopping"),
+    (Group::SeenThroughout, "logged at 9 s"),
+    (Group::Followable, "log within limits"),
+    (Group::Clean, "logged at 9 s, within limits"),
 ];
 
 /// One answer to one case.
@@ -178,7 +191,7 @@ fn site_outcomes(judged: &[Judged], site: &Site<'_>, seed: u64) -> Result<Vec<Ou
     let mut out = Vec::new();
     for (index, case) in site.cases.iter().enumerate() {
         let log = site.log(case);
-        let manner = Manner::of(log);
+        let manner = Manner::of(log, case);
         for subset in Subset::ALL {
             for method in Method::all(judged.len()) {
                 let found = match method {
@@ -248,15 +261,19 @@ mod tests {
 
     #[test]
     fn manners_of_logs() {
-        let straight = Manner::of(&log("a", 10.0, 91));
-        assert!(straight.is(Group::Straight) && straight.is(Group::All) && !straight.is(Group::FromRest));
+        let of = |log: &Agent| {
+            let start = log.state_at(0).unwrap();
+            Manner::of(log, &Case { agent: 0, agent_type: log.agent_type, goal_step: 90, start })
+        };
+        let straight = of(&log("a", 10.0, 91));
+        assert!(straight.is(Group::Straight) && straight.is(Group::Clean) && !straight.is(Group::FromRest));
         let mut turning = log("b", 10.0, 91);
         for (i, state) in turning.track.states.iter_mut().flatten().enumerate() {
             state.heading_rad = wrap_angle(0.04 * i as f64);
         }
-        assert!(Manner::of(&turning).is(Group::UTurn));
+        assert!(of(&turning).is(Group::UTurn));
         let mut stopping = log("c", 10.0, 91);
         stopping.track.states[90] = Some(east(450.0, 0.0, 0.1));
-        assert!(Manner::of(&stopping).is(Group::Stopping));
+        assert!(of(&stopping).is(Group::Stopping));
     }
 }

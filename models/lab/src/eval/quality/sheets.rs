@@ -192,10 +192,22 @@ impl<'a> Quality<'a> {
             "1c Vehicles by manner",
             &[
                 "Metres. \"Along\" and \"across\" are the mean absolute errors of the future shown in the log's \
-                 heading; their shares are of its ADE. A vehicle may be in several lines.",
+                 heading; their shares are of its ADE. A vehicle may be in several lines. \"Within limits\": a \
+                 vehicle can have driven what is logged (some motion stays within 0.3 m of it and arrives \
+                 within 1.5 m/s of its last speed); the other logs are a tracker's mistakes. The best formula \
+                 of each figure stands beside ours, over the same vehicles.",
             ],
             &["ours", "condition", "manner"],
-            &["minADE6", "first ADE", "along", "across", "along, share", "across, share"],
+            &[
+                "minADE6",
+                "first ADE",
+                "best formula, min",
+                "best formula, first",
+                "along",
+                "across",
+                "along, share",
+                "across, share",
+            ],
         );
         for (i, own) in self.judged.iter().enumerate() {
             for subset in Subset::ALL {
@@ -209,6 +221,15 @@ impl<'a> Quality<'a> {
                     }
                     let plain =
                         |value: Figure| Cell::of(self.mean(all(), |o| Some(value(&o.measured))), Form::Plain);
+                    let formula = |value: Figure| {
+                        let of = |rival| {
+                            let theirs = self.of(AgentType::Vehicle, subset, Method::Formula(rival));
+                            self.mean(theirs.filter(|o| o.manner.is(group)), |o| Some(value(&o.measured)))
+                        };
+                        let found = Rival::ALL.into_iter().filter_map(of);
+                        let complete = found.filter(|e| e.samples == all().count() as u64);
+                        Cell::of(complete.min_by(|a, b| a.mean.total_cmp(&b.mean)), Form::Plain)
+                    };
                     let share = |value: Figure| {
                         let of = |o: &Outcome| Value::share(o.site, value(&o.measured), o.measured.first_ade);
                         let found = self.boot.estimate(all().map(of));
@@ -221,6 +242,8 @@ impl<'a> Quality<'a> {
                         vec![
                             plain(|m| m.min_ade),
                             plain(|m| m.first_ade),
+                            formula(|m| m.min_ade),
+                            formula(|m| m.first_ade),
                             plain(|m| m.along),
                             plain(|m| m.across),
                             share(|m| m.along),
