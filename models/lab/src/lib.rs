@@ -3,6 +3,7 @@
 
 pub mod crop;
 pub mod eval;
+pub mod mirror;
 pub mod placement;
 pub mod prepare;
 pub mod statistics;

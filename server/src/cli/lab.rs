@@ -129,6 +129,9 @@ pub struct PrepareArgs {
     /// Leave out scenes with fewer road users at the first step. The paper's least is 32.
     #[arg(long, value_name = "N", default_value_t = 0)]
     least_agents: usize,
+    /// Take each scene's mirror image too: twice the records from few scenes.
+    #[arg(long)]
+    mirror: bool,
 }
 
 /// Flags of `train`.
@@ -362,6 +365,7 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
         draws: args.draws,
         most_records: args.most,
         crop: Crop { side_m: args.crop, least_agents: args.least_agents },
+        mirror: args.mirror,
     };
     let progress = |report: &lab::prepare::Report| {
         if !common.quiet {

@@ -160,9 +160,9 @@ pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
     let drive = model.rollout(&fit(&model, &samples));
     let known = (1..=HORIZON_STEPS).filter_map(|s| Some((log.state_at(s)?, &drive[s])));
     let apart = mean(known.map(|(logged, driven)| (logged.position() - driven.position).norm()));
-    let arrives = log.state_at(case.goal_step).is_none_or(|last| {
-        (last.speed_mps() - drive[case.goal_step].velocity.norm()).abs() < ARRIVED_MPS
-    });
+    let arrives = log
+        .state_at(case.goal_step)
+        .is_none_or(|last| (last.speed_mps() - drive[case.goal_step].velocity.norm()).abs() < ARRIVED_MPS);
     apart < FOLLOWED_M && arrives
 }
 

@@ -10,6 +10,7 @@ mod tests;
 pub use report::{Fit, LeftOut, Report, Split};
 
 use crate::crop::{Crop, Cropped};
+use crate::mirror::mirrored;
 use crate::train::{FitError, Record, Writer};
 use anyhow::{Context, Result};
 use conditions::Draw;
@@ -39,6 +40,8 @@ pub struct Options {
     pub most_records: u64,
     /// Which road users count, and how many a scene must have.
     pub crop: Crop,
+    /// Each scene's mirror image is a scene too.
+    pub mirror: bool,
 }
 
 /// Reads scenes, writes records; files in order of their names, so the same input gives the same bytes.
@@ -142,7 +145,11 @@ impl SceneRecords {
 
 fn file_records(path: &Path, options: &Options) -> Vec<SceneRecords> {
     let scenes = read_scenes(path).unwrap_or_default();
-    scenes.into_iter().map(|scene| cropped_records(scene, options)).collect()
+    let images = |scene: Scene| {
+        let image = options.mirror.then(|| mirrored(&scene));
+        std::iter::once(scene).chain(image)
+    };
+    scenes.into_iter().flat_map(images).map(|scene| cropped_records(scene, options)).collect()
 }
 
 /// Records of the part of a scene that is asked for.

@@ -13,6 +13,7 @@ fn options(folder: &Path) -> Options {
         draws: 2,
         most_records: 1000,
         crop: Crop::default(),
+        mirror: false,
     }
 }
 

@@ -27,7 +27,7 @@ impl Crowd {
     /// Draws one.
     pub fn new(draw: &mut Draw) -> Self {
         Self {
-            traffic: draw.uniform(0.35, 1.65),
+            traffic: draw.uniform(0.5, 2.0),
             cyclists: draw.one_of([3.0, 8.0, 18.0]),
             people: draw.one_of([5.0, 18.0, 65.0]),
             buses: 0.02,
@@ -163,7 +163,7 @@ impl Trips<'_> {
                 let (p, q) = (position(&edge.from), position(&net.edges[*goal].to));
                 let straight = -p.dot(&q) / (p.norm() * q.norm() + 1e-6);
                 let lanes = self.lanes(&net.edges[*goal], LaneKind::Vehicle) as f64;
-                (rate(&net.edges[*goal].road_type) * lanes).sqrt() * (-0.5 * straight).exp()
+                (rate(&net.edges[*goal].road_type) * lanes).sqrt() * (-0.4 * straight).exp()
             };
             let weights: Vec<f64> = goals.iter().map(weight).collect();
             let lanes = self.lanes(edge, LaneKind::Vehicle) as f64;

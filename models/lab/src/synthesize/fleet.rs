@@ -73,17 +73,17 @@ impl Fleet {
         let width = draw.clipped(if big { 2.19 } else { 2.04 }, 0.09, 1.81, 2.46);
         // How pressing the driver is; moves all parameters together.
         let g = draw.gauss();
-        let accel = draw.clipped(2.8 + 0.35 * g, 0.5, 1.4, 4.5);
-        let decel = draw.clipped(1.35 + 0.3 * g, 0.35, 0.8, 3.0);
+        let accel = draw.clipped(2.6 + 0.35 * g, 0.5, 1.4, 4.5);
+        let decel = draw.clipped(2.2 + 0.4 * g, 0.45, 1.2, 4.0);
         let tau = draw.clipped(0.95 - 0.2 * g, 0.2, 0.55, 1.9);
         let gap = draw.clipped(2.9 - 0.2 * g, 0.6, 1.4, 5.0);
         let rest = format!(
-            "carFollowModel=\"EIDM\" accel=\"{accel:.2}\" decel=\"{decel:.2}\" emergencyDecel=\"8\" tau=\"{tau:.2}\" \
+            "carFollowModel=\"IDM\" accel=\"{accel:.2}\" decel=\"{decel:.2}\" emergencyDecel=\"8\" tau=\"{tau:.2}\" \
              delta=\"4\" minGap=\"{gap:.2}\" stepping=\"0.1\" speedFactor=\"normc({:.2},0.08,0.65,1.4)\" \
              laneChangeModel=\"SL2015\" lcKeepRight=\"0\" lcSublane=\"1\" lcStrategic=\"{}\" \
              lcSpeedGain=\"{:.2}\" maxSpeedLat=\"{:.2}\" lcAccelLat=\"0.7\" minGapLat=\"0.5\" latAlignment=\"{}\" \
              impatience=\"{:.2}\" jmDriveAfterYellowTime=\"{:.2}\" jmTimegapMinor=\"{:.2}\"",
-            1.07 + 0.07 * g,
+            1.03 + 0.07 * g,
             self.strategic,
             draw.clipped(0.12, 0.12, 0.0, 0.6),
             draw.clipped(0.9, 0.2, 0.5, 1.4),

@@ -49,7 +49,7 @@ pub fn park(network: &Network, net: &Net, draw: &mut Draw) -> ParkedCars {
         match lane.kind {
             LaneKind::Closed => {
                 let fill =
-                    if edge.road_type == "arterial" { draw.beta(1.4, 2.4) } else { draw.beta(1.8, 2.6) };
+                    if edge.road_type == "arterial" { draw.beta(1.5, 2.0) } else { draw.beta(2.0, 2.3) };
                 cars.along(&lane.shape, lane.width_m, fill, draw);
             }
             LaneKind::Sidewalk if edge.road_type == "residential" && draw.chance(0.8) => {
@@ -59,7 +59,7 @@ pub fn park(network: &Network, net: &Net, draw: &mut Draw) -> ParkedCars {
             _ => {}
         }
     }
-    let (fill, backed) = (draw.beta(1.5, 2.4), draw.uniform(0.05, 0.3));
+    let (fill, backed) = (draw.beta(1.7, 1.8), draw.uniform(0.05, 0.3));
     for (line, heading) in &network.stalls {
         cars.stalls(line, *heading, fill, backed, draw);
     }

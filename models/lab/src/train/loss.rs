@@ -6,10 +6,10 @@ use scene::KNOTS;
 
 use super::route::Route;
 
-/// Temperature of the soft targets of the scores, as a share of the modes' mean distance: a metre says much
-/// where a goal is fixed and little where none is. At least so many metres.
-const TEMPERATURE: f32 = 0.25;
-const LEAST_TEMPERATURE: f32 = 0.1;
+/// Temperature of the soft targets of the scores, metres; where no goal holds the modes together, this share
+/// of their mean distance.
+const TEMPERATURE: f32 = 1.0;
+const TEMPERATURE_SHARE: f32 = 0.25;
 /// Added under the root of a distance, square metres.
 const ROUND: f32 = 0.01;
 /// Mean distance above which a losing mode is not pulled, metres.
@@ -132,7 +132,7 @@ pub(super) fn initial(
 /// Cross-entropy of the scores against soft targets from the distances.
 fn scores(ade: &[f32; MODES], score: &[f32; MODES], weight: f32, grad: &mut [f32; MODES]) -> f32 {
     let mean = ade.iter().sum::<f32>() / MODES as f32;
-    let temperature = (TEMPERATURE * mean).max(LEAST_TEMPERATURE);
+    let temperature = (TEMPERATURE_SHARE * mean).max(TEMPERATURE);
     let wanted = softmax(&ade.map(|ade| -ade / temperature));
     let given = softmax(score);
     let mut nll = 0.0;
