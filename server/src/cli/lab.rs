@@ -164,6 +164,12 @@ pub struct TrainArgs {
     /// Draws records and first weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Parts of refinement to leave out, to see what they bring.
+    #[arg(long, value_enum, value_delimiter = ',')]
+    without: Vec<PartWord>,
+    /// In the joint stage half of the neighbours go faster or slower than they were recorded.
+    #[arg(long)]
+    wander: bool,
     /// Go on from the checkpoint.
     #[arg(long)]
     resume: bool,
@@ -177,6 +183,14 @@ enum StageWord {
     Denoiser,
     Initializer,
     Joint,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PartWord {
+    /// The way downhill in the scene's energy.
+    Push,
+    /// Attention to what the road user sees.
+    Attention,
 }
 
 /// Flags of `train-placement`.
@@ -393,6 +407,9 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
     options.rate = args.rate;
     options.threads = args.workers;
     options.seed = args.seed;
+    options.refining.push = !args.without.contains(&PartWord::Push);
+    options.refining.attention = !args.without.contains(&PartWord::Attention);
+    options.wander = args.wander;
     options.resume = args.resume;
     options.trained_on = args.trained_on;
     let quiet = common.quiet;
