@@ -237,9 +237,10 @@ pub struct EvalArgs {
     /// Further weights to judge beside them.
     #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
     also: Vec<(String, PathBuf)>,
-    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations.
-    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7],
-          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=7))]
+    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations,
+    /// 8 refinement.
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7, 8],
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=8))]
     tables: Vec<usize>,
     /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
     #[arg(short, long, value_name = "DIR")]
@@ -482,7 +483,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     if let Some(folder) = &args.output {
         report.write(folder).map_err(failed)?;
     }
-    let cost = report.cost.as_ref().map(|sheet| sheet.markdown()).unwrap_or_default();
+    let cost: String = report.cost.iter().map(|sheet| sheet.markdown()).collect();
     output::print(format!("{}{cost}", report.markdown()).as_bytes())
 }
 
