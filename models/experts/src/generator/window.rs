@@ -95,6 +95,8 @@ pub(super) struct Window<'g> {
     order: Vec<[usize; MODES]>,
     /// The mode that stands for each actor while the others refine.
     standing_for: Vec<usize>,
+    /// Where settling led those drafts that it moved.
+    settled: Vec<Option<[f32; RESIDUAL]>>,
     sample: usize,
     pullback: Pullback,
 }
@@ -119,6 +121,7 @@ impl<'g> Window<'g> {
             drafts: Vec::new(),
             order: Vec::new(),
             standing_for: Vec::new(),
+            settled: Vec::new(),
             sample: 0,
             pullback: Pullback::default(),
         };
@@ -252,6 +255,7 @@ impl<'g> Window<'g> {
                 })
                 .collect();
         self.drafts = self.actors.iter().map(|a| a.residual).collect();
+        self.settled = vec![None; self.actors.len()];
         let Some(&(level, _)) = levels(&self.request).first() else {
             return Ok(());
         };

@@ -17,6 +17,10 @@ impl Window<'_> {
             parallel::map(self.generator.threads(), &indices, |&i| {
                 let mut motions = self.motions(i, MODES);
                 motions.extend(self.extras(i, &motions));
+                if let Some(residual) = &self.settled[i] {
+                    let (planned, slot) = (&self.actors[i].planned, self.standing_for[i]);
+                    motions.push((0.0, slot, realise(planned, slot, residual)));
+                }
                 motions
             });
         let world = self.world();
@@ -70,7 +74,8 @@ impl Window<'_> {
                 return 0;
             }
             let slot = self.standing_for[i];
-            let found = motions.iter().position(|m| m.1 == slot).unwrap_or(0);
+            let settled = self.settled[i].and(motions.len().checked_sub(1));
+            let found = settled.or_else(|| motions.iter().position(|m| m.1 == slot)).unwrap_or(0);
             found.min(choice.agents[i].len().saturating_sub(1))
         };
         motions.iter().enumerate().map(option).collect()

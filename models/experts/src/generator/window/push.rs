@@ -148,9 +148,9 @@ impl Window<'_> {
         .collect()
     }
 
-    /// Plain steps downhill for the drafts that stand for their road users, one after the other, so that of
+    /// Plain steps downhill from the drafts that stand for their road users, one after the other, so that of
     /// two in each other's way the second sees where the first has gone. What does not lower the energy is
-    /// not taken.
+    /// not taken. The drafts stay as they are: where they lead is one more thing that each could do.
     pub(super) fn settle(&mut self) {
         let kept = self.kept_poses(&self.world());
         let mut moving = self.standing();
@@ -169,11 +169,9 @@ impl Window<'_> {
                 let (actor, mode) = (&self.actors[i], self.standing_for[i]);
                 let others = moving.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
                 let others: Vec<&Outline> = others.chain(&kept).collect();
-                let Some((residual, poses)) = self.downhill(actor, mode, &self.drafts[i][mode], &others)
-                else {
-                    continue;
-                };
-                self.drafts[i][mode] = residual;
+                let from = self.settled[i].unwrap_or(self.drafts[i][mode]);
+                let Some((residual, poses)) = self.downhill(actor, mode, &from, &others) else { continue };
+                self.settled[i] = Some(residual);
                 let settled = Outline::new(poses, moving[i].half);
                 let left = std::mem::replace(&mut moving[i], settled);
                 for (k, looks) in looks.iter_mut().enumerate() {
