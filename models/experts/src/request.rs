@@ -80,7 +80,8 @@ pub struct Refining {
     pub push: bool,
     /// They attend to what the road user sees.
     pub attention: bool,
-    /// After the last step, futures that still conflict are moved downhill without the networks.
+    /// After the last step, drawn futures that still conflict are moved downhill without the networks; not
+    /// those of a first sample that is chosen.
     pub settle: bool,
 }
 

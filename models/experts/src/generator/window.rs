@@ -296,7 +296,9 @@ impl<'g> Window<'g> {
                 self.drafts[*i] = draft;
             }
         }
-        if self.request.stages.refining.settle && step == levels(&self.request).len() {
+        // A first scene that is chosen does without: choice and guidance clear it, and its user waits.
+        let drawn = self.sample > 0 || self.request.stages.shown != Shown::Chosen;
+        if drawn && self.request.stages.refining.settle && step == levels(&self.request).len() {
             self.settle();
         }
         Ok(())
