@@ -278,6 +278,10 @@ impl Window<'_> {
         let mut moved = *residual;
         let mut pushed = false;
         for _ in 0..GUIDANCE.0 {
+            // Out of the boxes' way is far enough; on the way there the road counts too.
+            if self.push(actor, slot, &moved, others, Terms::Boxes).is_none() {
+                break;
+            }
             let Some((_, push)) = self.push(actor, slot, &moved, others, Terms::All) else { break };
             pushed = true;
             for (value, push) in moved.iter_mut().zip(push) {
