@@ -11,5 +11,5 @@ pub use features::world::Sight;
 pub use generator::{Generation, Generator, WeightsError, WeightsInfo};
 pub use request::{
     Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
-    React, Request, Resolved, Shown, Source, Stages, Timings, Warning,
+    React, Refining, Request, Resolved, Shown, Source, Stages, Timings, Warning,
 };

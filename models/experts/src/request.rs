@@ -1,6 +1,7 @@
 //! What is asked of the generator, and the events it answers with.
 
 use crate::features::world::Sight;
+use crate::net::schedule;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -66,11 +67,39 @@ pub struct Stages {
     pub kept_in_the_way: bool,
     /// What of the map the experts are shown. The choice knows the whole map either way.
     pub sight: Sight,
+    /// How refinement goes about its steps.
+    pub refining: Refining,
+}
+
+/// How refinement goes about its steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Refining {
+    /// Noise level, of 100, at which it begins; with more steps than that, as many levels as steps.
+    pub start: usize,
+    /// The networks are shown the way downhill in the scene's energy and take their share of it.
+    pub push: bool,
+    /// They attend to what the road user sees.
+    pub attention: bool,
+    /// After the last step, drawn futures that still conflict are moved downhill without the networks; not
+    /// those of a first sample that is chosen.
+    pub settle: bool,
+}
+
+impl Default for Refining {
+    fn default() -> Self {
+        Self { start: schedule::START, push: true, attention: true, settle: true }
+    }
 }
 
 impl Default for Stages {
     fn default() -> Self {
-        Self { shown: Shown::Chosen, guidance: true, kept_in_the_way: true, sight: Sight::default() }
+        Self {
+            shown: Shown::Chosen,
+            guidance: true,
+            kept_in_the_way: true,
+            sight: Sight::default(),
+            refining: Refining::default(),
+        }
     }
 }
 

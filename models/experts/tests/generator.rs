@@ -12,6 +12,8 @@ use std::sync::{Arc, LazyLock};
 
 #[path = "generator/leaks.rs"]
 mod leaks;
+#[path = "generator/refining.rs"]
+mod refining;
 #[path = "generator/rollouts.rs"]
 mod rollouts;
 #[path = "generator/sight.rs"]

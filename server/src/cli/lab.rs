@@ -167,6 +167,12 @@ pub struct TrainArgs {
     /// Draws records and first weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Parts of refinement to leave out, to see what they bring.
+    #[arg(long, value_enum, value_delimiter = ',')]
+    without: Vec<PartWord>,
+    /// In the joint stage half of the neighbours go faster or slower than they were recorded.
+    #[arg(long)]
+    wander: bool,
     /// Go on from the checkpoint.
     #[arg(long)]
     resume: bool,
@@ -180,6 +186,14 @@ enum StageWord {
     Denoiser,
     Initializer,
     Joint,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PartWord {
+    /// The way downhill in the scene's energy.
+    Push,
+    /// Attention to what the road user sees.
+    Attention,
 }
 
 /// Flags of `train-placement`.
@@ -226,9 +240,10 @@ pub struct EvalArgs {
     /// Further weights to judge beside them.
     #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
     also: Vec<(String, PathBuf)>,
-    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations.
-    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7],
-          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=7))]
+    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations,
+    /// 8 refinement.
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7, 8],
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=8))]
     tables: Vec<usize>,
     /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
     #[arg(short, long, value_name = "DIR")]
@@ -397,6 +412,9 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
     options.rate = args.rate;
     options.threads = args.workers;
     options.seed = args.seed;
+    options.refining.push = !args.without.contains(&PartWord::Push);
+    options.refining.attention = !args.without.contains(&PartWord::Attention);
+    options.wander = args.wander;
     options.resume = args.resume;
     options.trained_on = args.trained_on;
     let quiet = common.quiet;
@@ -469,7 +487,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     if let Some(folder) = &args.output {
         report.write(folder).map_err(failed)?;
     }
-    let cost = report.cost.as_ref().map(|sheet| sheet.markdown()).unwrap_or_default();
+    let cost: String = report.cost.iter().map(|sheet| sheet.markdown()).collect();
     output::print(format!("{}{cost}", report.markdown()).as_bytes())
 }
 

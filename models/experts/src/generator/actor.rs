@@ -39,6 +39,8 @@ pub(super) struct Actor {
     /// It was parked when the call began and has not been asked to go anywhere.
     pub(super) stays_parked: bool,
     pub(super) stays_probability: f64,
+    /// A vehicle that starts within the road's edges.
+    pub(super) keeps_to_the_road: bool,
 }
 
 impl Actor {
@@ -69,6 +71,7 @@ impl Actor {
             rests: false,
             stays_parked: false,
             stays_probability: 0.0,
+            keeps_to_the_road: false,
         }
     }
 

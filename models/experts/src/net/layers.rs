@@ -173,7 +173,14 @@ impl CrossBlock {
     /// When the shapes do not fit.
     pub fn forward(&self, x: &Tensor, keys_values: &Tensor, mask: &Tensor) -> Result<Tensor> {
         let q = self.query.forward(&self.query_norm.forward(x)?)?;
-        let x = (x + self.out.forward(&ops::attention(&q, keys_values, mask, self.heads)?)?)?;
-        &x + self.mlp.forward(&self.mlp_norm.forward(&x)?)?
+        self.alone(&(x + self.out.forward(&ops::attention(&q, keys_values, mask, self.heads)?)?)?)
+    }
+
+    /// The block without its attention: nothing of the context's tokens enters.
+    ///
+    /// # Errors
+    /// When the shape does not fit.
+    pub fn alone(&self, x: &Tensor) -> Result<Tensor> {
+        x + self.mlp.forward(&self.mlp_norm.forward(x)?)?
     }
 }

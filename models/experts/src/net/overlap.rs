@@ -13,6 +13,8 @@ const MARGIN: f32 = 0.5;
 /// Longest push, in normalised knots.
 const LONGEST: f32 = 0.8;
 const WEIGHT: f32 = 0.3;
+/// Time between two instants, seconds.
+const INSTANT_S: f32 = 0.5;
 
 /// Centre x and y, cosine and sine of the heading at each instant. All zero: nobody there.
 pub type Poses = [[f32; 4]; INSTANTS];
@@ -77,6 +79,34 @@ pub fn overlap<'a>(
         }
     }
     result
+}
+
+/// Where boxes would be `ahead_s` later if each went on, headings held, as it has moved since the instant
+/// before. Nobody is there at the first instant, and where one of the two says so.
+pub fn carried_on(poses: &Poses, ahead_s: f32) -> Poses {
+    let share = ahead_s / INSTANT_S;
+    let mut out = [[0.0; 4]; INSTANTS];
+    for instant in 1..INSTANTS {
+        let (before, now) = (&poses[instant - 1], &poses[instant]);
+        if !absent(before) && !absent(now) {
+            let on = |axis: usize| now[axis] + share * (now[axis] - before[axis]);
+            out[instant] = [on(0), on(1), now[2], now[3]];
+        }
+    }
+    out
+}
+
+/// A gradient to the centres of [`carried_on`] boxes as one to the centres they were made from.
+pub fn carried_back(gradient: &[[f32; 2]; INSTANTS], ahead_s: f32) -> [[f32; 2]; INSTANTS] {
+    let share = ahead_s / INSTANT_S;
+    let mut out = [[0.0; 2]; INSTANTS];
+    for instant in 1..INSTANTS {
+        for axis in 0..2 {
+            out[instant][axis] += (1.0 + share) * gradient[instant][axis];
+            out[instant - 1][axis] -= share * gradient[instant][axis];
+        }
+    }
+    out
 }
 
 /// Whether a pose says that nobody is there.
@@ -227,6 +257,38 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn gradients_of_boxes_carried_on_match_differences() {
+        let (c, s) = (0.3f32.cos(), 0.3f32.sin());
+        let poses = [[16.0, 1.9, c, s]; INSTANTS];
+        let soon = |knots: &[f32; RESIDUAL]| {
+            let own = carried_on(&drive(knots), 1.0);
+            overlap(&own, [2.2, 0.9], [Obstacle { poses: &poses, half: [2.0, 1.0] }], Growth::Square)
+        };
+        let knots = [0.05; RESIDUAL];
+        let gradient = Pullback::default().knots(&carried_back(&soon(&knots).gradient, 1.0));
+        assert!(soon(&knots).energy > 0.0);
+        for knot in 0..RESIDUAL {
+            let at = |delta: f32| {
+                let mut moved = knots;
+                moved[knot] += delta;
+                f64::from(soon(&moved).energy)
+            };
+            let slope = (at(1e-3) - at(-1e-3)) / 2e-3;
+            let expected = f64::from(gradient[knot]);
+            assert!((slope - expected).abs() < 0.03 * slope.abs().max(1.0), "{knot}: {slope} {expected}");
+        }
+    }
+
+    #[test]
+    fn boxes_are_carried_on_as_they_moved() {
+        let mut poses: Poses = std::array::from_fn(|i| [2.0 * i as f32, 1.0, 1.0, 0.0]);
+        poses[5] = [0.0; 4];
+        let on = carried_on(&poses, 1.5);
+        assert_eq!(on[1], [8.0, 1.0, 1.0, 0.0]);
+        assert!([0, 5, 6].iter().all(|i| absent(&on[*i])));
     }
 
     #[test]

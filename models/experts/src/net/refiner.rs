@@ -23,17 +23,25 @@ const SPREAD: f64 = 1.5;
 pub struct Prepared {
     /// Anchors and context, [batch, MODES, width].
     base: Tensor,
-    keys_values: Vec<Tensor>,
+    /// One a block; none where attention is left out.
+    keys_values: Vec<Option<Tensor>>,
     mask: Tensor,
     tangent: Tensor,
 }
 
 impl Prepared {
+    /// The same without attention to the tokens, to see what that brings.
+    #[must_use]
+    pub fn without_attention(mut self) -> Self {
+        self.keys_values.fill(None);
+        self
+    }
+
     /// The same numbers without their history, so that nothing flows back through them.
     pub fn detach(&self) -> Self {
         Self {
             base: self.base.detach(),
-            keys_values: self.keys_values.iter().map(Tensor::detach).collect(),
+            keys_values: self.keys_values.iter().map(|kv| kv.as_ref().map(Tensor::detach)).collect(),
             mask: self.mask.clone(),
             tangent: self.tangent.clone(),
         }
@@ -85,7 +93,11 @@ impl Refiner {
         let known = self.context.forward(&context.vector)?.unsqueeze(1)?;
         Ok(Prepared {
             base: self.anchor.forward(&anchors)?.broadcast_add(&known)?,
-            keys_values: self.blocks.iter().map(|b| b.keys_values(&context.tokens)).collect::<Result<_>>()?,
+            keys_values: self
+                .blocks
+                .iter()
+                .map(|b| b.keys_values(&context.tokens).map(Some))
+                .collect::<Result<_>>()?,
             mask: context.mask.clone(),
             tangent: context.tangent.clone(),
         })
@@ -140,7 +152,10 @@ impl Refiner {
         let times = Tensor::from_vec(times, (batch, modes, LEVEL), device)?;
         let mut x = (self.draft.forward(&Tensor::cat(&[residual, push, &times], 2)?)? + &prepared.base)?;
         for (block, keys_values) in self.blocks.iter().zip(&prepared.keys_values) {
-            x = block.forward(&x, keys_values, &prepared.mask)?;
+            x = match keys_values {
+                Some(keys_values) => block.forward(&x, keys_values, &prepared.mask)?,
+                None => block.alone(&x)?,
+            };
         }
         let said = self.head.forward(&self.norm.forward(&x)?)?;
         let correction = (self.smoothed(&said.narrow(2, 0, RESIDUAL)?)? * SPREAD)?;

@@ -11,21 +11,22 @@ use super::{Judged, Site};
 use anyhow::Result;
 use experts::{Shown, Stages};
 use rayon::prelude::*;
-use scene::{HORIZON_STEPS, STEP_S};
+use scene::{HORIZON_STEPS, STEP_S, State};
 use std::collections::BTreeSet;
 
 /// What one scene comes to.
 #[derive(Clone, Debug, Default)]
-struct Verdict {
-    moving: f64,
-    /// Moving road users in an overlap that begins within 3, 6 and 9 s.
-    overlapping: [f64; 3],
+pub(super) struct Verdict {
+    /// Moving road users.
+    pub(super) moving: f64,
+    /// Those in an overlap that begins within 3, 6 and 9 s.
+    pub(super) overlapping: [f64; 3],
     /// Share of all generated road users in a collision by the paper's form.
     paper: f64,
     /// Of the moving vehicles.
-    road: OffRoad,
+    pub(super) road: OffRoad,
     /// Sum of the moving road users' mean distances from the log, metres.
-    distance: f64,
+    pub(super) distance: f64,
 }
 
 /// Of scenes.
@@ -34,7 +35,8 @@ const STEPS_A_SECOND: f64 = 10.0;
 /// Seconds within which overlaps are counted.
 const WITHIN_S: [f64; 3] = [3.0, 6.0, 9.0];
 
-fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usize, usize)>) -> Verdict {
+/// Judges one scene; pairs that are left out may overlap.
+pub(super) fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usize, usize)>) -> Verdict {
     let moving: BTreeSet<usize> =
         site.cases.iter().map(|c| c.agent).filter(|i| motions[*i].is_some()).collect();
     let meetings: Vec<_> =
@@ -55,13 +57,19 @@ fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usize, usize)>
         ..Verdict::default()
     };
     for &i in &moving {
-        let (agent, Some(states)) = (&site.scene.agents[i], &motions[i]) else { continue };
-        let known = || (1..=HORIZON_STEPS).filter_map(|step| Some((step, agent.track.at(step)?)));
-        let apart = known().map(|(step, s)| (s.position() - states[step - 1].position()).norm());
-        out.distance += apart.sum::<f64>() / known().count().max(1) as f64;
+        let Some(states) = &motions[i] else { continue };
+        out.distance += from_log_m(site, i, states);
         out.road.add(&OffRoad::of(site, i, states));
     }
     out
+}
+
+/// Mean distance of states at steps 1 ..= 90 from an agent's log, metres.
+pub(super) fn from_log_m(site: &Site<'_>, agent: usize, states: &[State]) -> f64 {
+    let agent = &site.scene.agents[agent];
+    let known = || (1..=HORIZON_STEPS).filter_map(|step| Some((step, agent.track.at(step)?)));
+    let apart = known().map(|(step, s)| (s.position() - states[step - 1].position()).norm());
+    apart.sum::<f64>() / known().count().max(1) as f64
 }
 
 /// What a line of the table runs of the product.

@@ -1,4 +1,4 @@
-//! Judging the experts on scenes: seven tables of figures with intervals, and pictures.
+//! Judging the experts on scenes: eight tables of figures with intervals, and pictures.
 //!
 //! [`run`] makes everything that `dragtraffic eval` writes. A table is a module; they share the cases, the
 //! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
@@ -16,6 +16,7 @@ mod parked;
 pub mod picture;
 pub mod quality;
 mod realism;
+mod refining;
 pub mod rivals;
 mod roads;
 mod run;

@@ -7,6 +7,7 @@ use super::latency::{Row, latency};
 use super::parked::parked;
 use super::quality::{Quality, collect};
 use super::realism::realism;
+use super::refining::refining;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::Bootstrap;
 use super::variety::variety;
@@ -30,11 +31,12 @@ pub enum Table {
     Variety,
     Cost,
     Ablation,
+    Refining,
 }
 
 impl Table {
     /// All, numbered from 1.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Quality,
         Self::Coherence,
         Self::Control,
@@ -42,9 +44,10 @@ impl Table {
         Self::Variety,
         Self::Cost,
         Self::Ablation,
+        Self::Refining,
     ];
 
-    /// By its number, 1 to 7.
+    /// By its number, 1 to 8.
     pub fn numbered(number: usize) -> Option<Self> {
         Self::ALL.get(number.checked_sub(1)?).copied()
     }
@@ -89,11 +92,11 @@ pub struct Report {
     pub crop: Option<CropReport>,
     /// Hash of each expert's weights, by name of the judged.
     pub weights: BTreeMap<String, BTreeMap<String, String>>,
-    /// Tables 1 to 5 and 7.
+    /// Tables 1 to 5, 7 and 8.
     pub sheets: Vec<Sheet>,
-    /// Table 6: the clock's readings, never the same twice.
+    /// Table 6 and the times of table 8: the clock's readings, never the same twice.
     #[serde(skip)]
-    pub cost: Option<Sheet>,
+    pub cost: Vec<Sheet>,
     /// File name and SVG.
     #[serde(skip)]
     pub pictures: Vec<(String, String)>,
@@ -123,7 +126,7 @@ pub fn run(
         crop,
         weights: weights.collect(),
         sheets: Vec::new(),
-        cost: None,
+        cost: Vec::new(),
         pictures: Vec::new(),
     };
     let sites: Vec<Site<'_>> = scenes.iter().enumerate().map(|(i, scene)| Site::new(i, scene)).collect();
@@ -158,9 +161,15 @@ pub fn run(
         progress("table 7: ablations");
         report.sheets.extend(ablation(&judged, &sites, &boot, seed)?);
     }
+    if wants(Table::Refining) {
+        progress("table 8: refinement");
+        let (sheets, times) = refining(&judged, &sites, &boot, seed)?;
+        report.sheets.extend(sheets);
+        report.cost.push(times);
+    }
     if wants(Table::Cost) {
         progress("table 6: cost");
-        report.cost = Some(cost(judged, scenes)?);
+        report.cost.push(cost(judged, scenes)?);
     }
     Ok(report)
 }
@@ -215,7 +224,7 @@ fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Sheet> {
 }
 
 impl Report {
-    /// Tables 1 to 5 and 7 as Markdown.
+    /// Tables 1 to 5, 7 and 8 as Markdown.
     pub fn markdown(&self) -> String {
         let mut out = format!("# Evaluation\n\n{} scenes, seed {}. ", self.scenes, self.seed);
         if let Some(CropReport { crop, scenes_left_out, road_users_outside }) = &self.crop {
@@ -255,9 +264,9 @@ impl Report {
         std::fs::create_dir_all(folder).with_context(|| format!("make {}", folder.display()))?;
         write("tables.md", &self.markdown())?;
         write("tables.json", &format!("{}\n", serde_json::to_string_pretty(self)?))?;
-        if let Some(cost) = &self.cost {
-            write("cost.md", &cost.markdown())?;
-            write("cost.json", &format!("{}\n", serde_json::to_string_pretty(cost)?))?;
+        if !self.cost.is_empty() {
+            write("cost.md", &self.cost.iter().map(Sheet::markdown).collect::<String>())?;
+            write("cost.json", &format!("{}\n", serde_json::to_string_pretty(&self.cost)?))?;
         }
         if !self.pictures.is_empty() {
             std::fs::create_dir_all(folder.join("pictures"))?;
@@ -301,9 +310,10 @@ mod tests {
         assert_eq!(serde_json::to_string(&first).unwrap(), serde_json::to_string(&again).unwrap());
         assert_eq!(first.pictures, again.pictures);
         assert!(first.pictures.len() > 3);
-        for title in
-            ["1a", "1b", "1c", "1d", "1e", "1f", "2 ", "3a", "3b", "4a", "4b", "5a", "5b", "7a", "7b"]
-        {
+        for title in [
+            "1a", "1b", "1c", "1d", "1e", "1f", "2 ", "3a", "3b", "4a", "4b", "5a", "5b", "7a", "7b", "8a",
+            "8b",
+        ] {
             assert!(first.sheets.iter().any(|s| s.title.starts_with(title)), "{title}");
         }
         let alone = |seed| tables(&[Table::Coherence], seed, 1).markdown();

@@ -16,6 +16,8 @@ pub enum Form {
     Percent,
     /// With its sign: differences.
     Signed,
+    /// With three decimals and its sign.
+    SignedFine,
     /// In percent with its sign: differences of shares, in percentage points.
     SignedPercent,
 }
@@ -27,6 +29,7 @@ impl Form {
             Self::Fine => format!("{x:.3}"),
             Self::Percent => format!("{:.1} %", 100.0 * x),
             Self::Signed => format!("{x:+.2}"),
+            Self::SignedFine => format!("{x:+.3}"),
             Self::SignedPercent => format!("{:+.1} %", 100.0 * x),
         }
     }

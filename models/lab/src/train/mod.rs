@@ -15,6 +15,7 @@ mod fit;
 mod loss;
 mod metrics;
 mod optim;
+mod others;
 mod route;
 mod run;
 mod sample;

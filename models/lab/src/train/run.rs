@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use candle_core::Device;
+use experts::Refining;
 use experts::net::{Architecture, Card, Expert};
 
 use super::checkpoint::{self, Resumed, State};
@@ -58,6 +59,10 @@ pub struct Options {
     pub mirror: Option<Mirror>,
     /// Sizes of a new expert.
     pub architecture: Architecture,
+    /// What the refiner is given: parts are left out to see what they bring.
+    pub refining: Refining,
+    /// In the joint stage half of the neighbours go faster or slower than they were recorded.
+    pub wander: bool,
 }
 
 impl Options {
@@ -81,6 +86,8 @@ impl Options {
             validate_every: 1000,
             mirror: None,
             architecture: Architecture::default(),
+            refining: Refining::default(),
+            wander: false,
         }
     }
 }
@@ -157,7 +164,7 @@ pub fn run(options: &Options, report: &mut dyn FnMut(&Progress)) -> Result<Metri
     });
     let workers = Workers {
         records: &records,
-        tools: Tools::new(),
+        tools: Tools::new(options.refining, options.wander),
         stage: options.stage,
         seed: options.seed,
         threads: options.threads,

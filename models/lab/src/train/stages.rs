@@ -1,6 +1,7 @@
 //! The three stages' losses of a shard, and what is measured on records held out.
 
 use candle_core::{Device, Result, Tensor};
+use experts::Refining;
 use experts::features::{AgentFeatures, MODES, RESIDUAL};
 use experts::net::inputs::{Inputs, pieces};
 use experts::net::overlap::{Growth, Obstacle, Pullback, absent, gap, overlap};
@@ -10,6 +11,7 @@ use rand_chacha::rand_core::Rng;
 
 use super::loss::{self, InitialParts, Said};
 use super::metrics::Metrics;
+use super::others;
 use super::route::{Placed, Route};
 use super::sample::{Shard, normal, unit};
 use super::{Record, TrainError};
@@ -41,11 +43,20 @@ pub enum Stage {
 pub(super) struct Tools {
     pub(super) route: Route,
     pullback: Pullback,
+    /// What the refiner is given.
+    refining: Refining,
+    /// In the joint stage some neighbours go at another pace than they were recorded at.
+    wander: bool,
 }
 
 impl Tools {
-    pub(super) fn new() -> Self {
-        Self { route: Route::new(), pullback: Pullback::default() }
+    pub(super) fn new(refining: Refining, wander: bool) -> Self {
+        Self { route: Route::new(), pullback: Pullback::default(), refining, wander }
+    }
+
+    fn prepare(&self, expert: &Expert, context: &Context) -> Result<Prepared> {
+        let prepared = expert.refiner.prepare(context)?;
+        Ok(if self.refining.attention { prepared } else { prepared.without_attention() })
     }
 }
 
@@ -83,6 +94,9 @@ fn energy(
 
 /// The refiner's second input for drafts.
 fn pushes(tools: &Tools, shard: &Shard, counts: &[Vec<bool>], drafts: &[Modes]) -> Vec<Modes> {
+    if !tools.refining.push {
+        return vec![[[0.0; RESIDUAL]; MODES]; drafts.len()];
+    }
     let all = shard.records.iter().zip(counts).zip(drafts);
     all.map(|((record, counted), draft)| {
         std::array::from_fn(|mode| {
@@ -194,7 +208,7 @@ fn denoiser(
     rng: &mut ChaCha12Rng,
     metrics: &mut Metrics,
 ) -> std::result::Result<Tensor, TrainError> {
-    let prepared = expert.refiner.prepare(context)?;
+    let prepared = tools.prepare(expert, context)?;
     let count = shard.records.len();
     // Half of the levels are those that refinement walks through.
     let levels: Vec<usize> = (0..count)
@@ -250,10 +264,13 @@ fn joint(
     rng: &mut ChaCha12Rng,
     metrics: &mut Metrics,
 ) -> std::result::Result<Tensor, TrainError> {
-    let prepared = expert.refiner.prepare(context)?;
+    let prepared = tools.prepare(expert, context)?;
     let drafts = initial.residual.detach();
     let counts: Vec<Vec<bool>> =
         shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(tools, r, log)).collect();
+    // Those that the recording overlaps are left out by the recording itself.
+    let wandering = tools.wander.then(|| others::wandering(shard, rng));
+    let shard = wandering.as_ref().unwrap_or(shard);
     let scale = [0.0, unit(rng) as f32, 1.0][rng.next_u32() as usize % 3];
     let start = if unit(rng) < 0.2 { 0 } else { schedule::START };
     let walk = Walk { expert, tools, shard, counts: &counts, prepared: prepared.detach() };
@@ -351,7 +368,7 @@ pub(super) fn validate(
     }
     let counts: Vec<Vec<bool>> =
         shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(tools, r, log)).collect();
-    let prepared = expert.refiner.prepare(&context)?.detach();
+    let prepared = tools.prepare(expert, &context)?.detach();
     let walk = Walk { expert, tools, shard, counts: &counts, prepared };
     let drafts = initial.residual.detach();
     let steps = schedule::ddim(schedule::START, schedule::STEPS);

@@ -92,7 +92,7 @@ fn losses_fall_on_a_toy_world() {
 fn every_trained_variable_gets_a_gradient() {
     let folder = tempfile::tempdir().unwrap();
     let records = Records::load(&[records(folder.path(), 2)]).unwrap();
-    let tools = Tools::new();
+    let tools = Tools::new(experts::Refining::default(), true);
     let indices: Vec<usize> = (0..records.len()).collect();
     let shard = Shard::new(&records, &indices, &tools.route, None).unwrap();
     let card = Expert::random(1).unwrap().card;

@@ -99,6 +99,26 @@ impl Drivable {
         Some(corners.into_iter().fold(0.0, f64::max))
     }
 
+    /// How far a point lies off the road, metres, and the way (a unit vector) in which that grows; `None`
+    /// on the road and where the map does not say.
+    pub fn beyond(&self, point: Vec2) -> Option<(f64, Vec2)> {
+        let outside_m = self.outside_m(point).filter(|m| *m > 0.0)?;
+        let foot = if !self.area_sides.is_empty() {
+            self.area_sides.nearest(point, FAR_M)?.1
+        } else if !self.edges.is_empty() {
+            self.edges.nearest(point, FAR_M)?.1
+        } else {
+            let beside = |lane: &&Segment| {
+                let half = self.bands.get(lane.owner as usize).map_or(0.0, |b| b.half_width_m);
+                (lane.foot(point) - point).norm() - half
+            };
+            let lanes = self.centers.near(point, outside_m + LANE_REACH_M);
+            lanes.min_by(|a, b| beside(a).total_cmp(&beside(b)))?.foot(point)
+        };
+        let away = point - foot;
+        (away.norm() > 1e-9).then(|| (outside_m, away / away.norm()))
+    }
+
     /// Distance beyond the nearest lane's own side.
     fn beside_lanes_m(&self, point: Vec2) -> f64 {
         let mut least = FAR_M;

@@ -33,6 +33,9 @@ pub(super) const FEATURES: [Feature; 9] = [
     Feature { name: "off-road", bins: None, weight: 0.25 },
 ];
 
+/// Index of time to collision among the features.
+const TIME_TO_COLLISION: usize = 6;
+
 /// Time to collision is looked for so far, seconds.
 const HORIZON_S: f64 = 5.0;
 /// Nothing farther is nearest, metres.
@@ -47,6 +50,11 @@ pub(super) struct Motion {
 }
 
 impl Motion {
+    /// Least time to collision; `None` where it was not looked at.
+    pub(super) fn time_to_collision_s(&self) -> Option<f64> {
+        self.values[TIME_TO_COLLISION].iter().copied().reduce(f64::min)
+    }
+
     /// Acceleration along, lateral acceleration and jerk above 0.5 m/s.
     pub(super) fn felt(&self) -> [Vec<f64>; 3] {
         self.felt.clone()

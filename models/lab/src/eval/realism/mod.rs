@@ -105,6 +105,19 @@ fn look(roller: &Roller<'_>, site: &Site<'_>, seed: u64) -> Result<Seen> {
     Ok(Seen { site: site.index, likelihoods: likelihoods(&log, &seen), motions })
 }
 
+/// How far the log is from rollouts of a scene: the composite likelihood, and the share of moving road users
+/// that come within `soon_s` of a collision, summed over rollouts with their count.
+pub(super) fn closeness(site: &Site<'_>, rollouts: &[Motions], soon_s: f64) -> (Option<f64>, (f64, f64)) {
+    let edges = RoadEdges::new(&site.scene.map);
+    let cases: Vec<usize> = site.cases.iter().map(|c| c.agent).collect();
+    let log = observe(site, &edges, &motions_of_log(site), &cases);
+    let seen: Vec<Vec<Motion>> = rollouts.iter().map(|m| observe(site, &edges, m, &cases)).collect();
+    let soon = |motion: &Motion| motion.time_to_collision_s().is_some_and(|s| s < soon_s);
+    let all = seen.iter().flatten();
+    let (near, count) = all.fold((0.0, 0.0), |(near, n), m| (near + f64::from(u8::from(soon(m))), n + 1.0));
+    (likelihoods(&log, &seen).composite(), (near, count))
+}
+
 /// Table 4.
 ///
 /// # Errors

@@ -1,0 +1,111 @@
+//! What a road user can do, and what each of it costs by itself.
+
+use super::super::EncodedMap;
+use super::super::actor::{Actor, Role};
+use super::super::choice::{Choosable, medoid_costs, swept, swept_kept};
+use super::super::realise::{Motion, PER_INSTANT};
+use crate::features::{INSTANTS, MODES};
+use scene::geometry::obb::OrientedBox;
+use scene::motion::{MotionState, Trajectory};
+use scene::{AgentType, State};
+
+/// Cost of a motion that is off the lanes all the time.
+const OFF_LANES: f64 = 8.0;
+/// The same for one with a corner beyond the road's edges, and how far beyond counts, metres.
+const PAST_EDGES: f64 = 8.0;
+const PAST_EDGE_M: f64 = 0.1;
+
+/// Whether the base of the first anchor is an option: it is one motion of its own where there is a place to go.
+pub(super) fn has_base(actor: &Actor) -> bool {
+    let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
+    moves && actor.planned.target.position.is_some()
+}
+
+/// What the base counts beside the modes, whose probabilities sum to 1. People on foot take the way of least
+/// effort more often than anything learned from simulated walkers says.
+pub(super) fn base_weight(actor: &Actor) -> f64 {
+    if actor.planned.present.agent_type == AgentType::Pedestrian { 1.0 } else { 0.25 }
+}
+
+/// What an actor can do: its motions, after what it keeps (reacting) or has pinned.
+pub(super) fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &EncodedMap) -> Vec<Choosable> {
+    let size = &actor.planned.present.size;
+    if let Some(pinned) = &actor.pinned {
+        let boxes = swept_kept(|step| pinned.get(step - 1).copied(), size);
+        return vec![Choosable { boxes, cost: 0.0 }];
+    }
+    let all: Vec<&Trajectory> = motions.iter().map(|m| &m.2.states).collect();
+    let counted = MODES + usize::from(has_base(actor));
+    let modes: Vec<(&Trajectory, f64)> = motions.iter().take(counted).map(|m| (&m.2.states, m.0)).collect();
+    let mut out = Vec::with_capacity(motions.len() + 1);
+    match &actor.kept {
+        None => {
+            for (motion, cost) in motions.iter().zip(medoid_costs(&all, &modes)) {
+                // A goal missed is worse than anything but an overlap.
+                let missed = if motion.2.reach.is_reached() { 0.0 } else { 3.0 };
+                let off = off_road(actor, &motion.2.states, map);
+                out.push(Choosable { boxes: swept(&motion.2.states, size), cost: cost + missed + off });
+            }
+        }
+        Some(kept) => {
+            let boxes = swept_kept(|step| kept.get(step - 1).copied(), size);
+            out.push(Choosable { boxes, cost: 0.0 });
+            for motion in motions {
+                let boxes = swept(&motion.2.states, size);
+                let off = off_road(actor, &motion.2.states, map);
+                out.push(Choosable { boxes, cost: 0.6 + deviation_m(&motion.2.states, kept) / 4.0 + off });
+            }
+        }
+    }
+    out
+}
+
+/// A vehicle whose box lies within the road's edges at the start.
+pub(super) fn starts_on_the_road(actor: &Actor, map: &EncodedMap) -> bool {
+    let present = &actor.planned.present;
+    let outline = OrientedBox::of_state(&present.start, &present.size);
+    present.agent_type == AgentType::Vehicle
+        && map.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= PAST_EDGE_M)
+}
+
+/// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the
+/// road's edges to have a corner beyond them.
+fn off_road(actor: &Actor, states: &Trajectory, map: &EncodedMap) -> f64 {
+    let present = &actor.planned.present;
+    if present.agent_type != AgentType::Vehicle || states.is_empty() {
+        return 0.0;
+    }
+    let away = |s: &MotionState| map.index.graph.nearest_for(s.position, 2.5, present.agent_type).is_empty();
+    let beyond = |s: &MotionState| {
+        let outline = OrientedBox::of_state(&State::from(s), &present.size);
+        map.drivable.box_outside_m(&outline).is_some_and(|outside| outside > PAST_EDGE_M)
+    };
+    let looked_at = || states.iter().step_by(PER_INSTANT);
+    let share = |off: &dyn Fn(&MotionState) -> bool| {
+        if off(&states[0]) {
+            0.0
+        } else {
+            looked_at().filter(|s| off(s)).count() as f64 / (INSTANTS + 1) as f64
+        }
+    };
+    OFF_LANES * share(&away) + PAST_EDGES * share(&beyond)
+}
+
+/// Mean distance of a motion from the kept one, metres.
+fn deviation_m(states: &Trajectory, kept: &[State]) -> f64 {
+    let pairs = states.iter().skip(1).zip(kept).step_by(5);
+    let (sum, n) =
+        pairs.fold((0.0, 0.0), |(sum, n), (a, b)| (sum + (a.position - b.position()).norm(), n + 1.0));
+    if n > 0.0 { sum / n } else { 0.0 }
+}
+
+/// Which of an actor's motions a chosen option is; `None` for what is kept or pinned.
+pub(super) fn shown_motion(actor: &Actor, option: usize) -> Option<usize> {
+    if actor.pinned.is_some() {
+        return None;
+    }
+    match actor.role {
+        Role::Reacting if actor.kept.is_some() => option.checked_sub(1),
+        _ => Some(option),
+    }
+}
