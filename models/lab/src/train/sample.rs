@@ -43,19 +43,35 @@ pub(super) struct Split {
 }
 
 impl Split {
-    /// Splits by the hash of the scenes' keys; `most_held_out` bounds the cost of a validation.
-    pub(super) fn new(records: &Records, most_held_out: usize) -> Result<Self, TrainError> {
+    /// Splits those that `takes` wants by the hash of the scenes' keys; `most_held_out` bounds the cost of a
+    /// validation. With `even` each file has the same chance to be drawn from.
+    pub(super) fn new(
+        records: &Records,
+        most_held_out: usize,
+        even: bool,
+        takes: impl Fn(&Record) -> bool,
+    ) -> Result<Self, TrainError> {
         let mut split = Self { train: Vec::new(), sums: Vec::new(), held_out: Vec::new() };
-        let mut sum = 0.0;
+        let mut weights = Vec::new();
+        let mut by_file = vec![0.0; records.files()];
         for index in 0..records.len() {
+            let record = records.get(index)?;
             let (key, _) = records.scene_of(index);
+            if !takes(&record) {
+                continue;
+            }
             if is_held_out(key) {
                 split.held_out.push(index);
             } else {
-                sum += f64::from(records.get(index)?.weight);
                 split.train.push(index);
-                split.sums.push(sum);
+                weights.push(f64::from(record.weight));
+                by_file[records.file_of(index)] += f64::from(record.weight);
             }
+        }
+        let mut sum = 0.0;
+        for (&index, weight) in split.train.iter().zip(weights) {
+            sum += if even { weight / by_file[records.file_of(index)] } else { weight };
+            split.sums.push(sum);
         }
         if split.train.is_empty() {
             return Err(TrainError::Invalid(format!("no record of {} is left to train on", records.len())));
@@ -83,28 +99,28 @@ impl Split {
 }
 
 /// The random numbers of a part of a step.
-pub(super) fn stream(seed: u64, step: u64, part: u64) -> ChaCha12Rng {
+pub(crate) fn stream(seed: u64, step: u64, part: u64) -> ChaCha12Rng {
     let mut rng = ChaCha12Rng::seed_from_u64(seed);
     rng.set_stream(step << 16 | part);
     rng
 }
 
 /// Uniform in 0..1.
-pub(super) fn unit(rng: &mut ChaCha12Rng) -> f64 {
+pub(crate) fn unit(rng: &mut ChaCha12Rng) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// A standard normal draw.
-pub(super) fn normal(rng: &mut ChaCha12Rng) -> f32 {
+pub(crate) fn normal(rng: &mut ChaCha12Rng) -> f32 {
     let (a, b) = (1.0 - unit(rng), unit(rng));
     ((-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()) as f32
 }
 
 /// Records that go through the networks together.
-pub(super) struct Shard {
-    pub(super) records: Vec<Record>,
+pub(crate) struct Shard {
+    pub(crate) records: Vec<Record>,
     /// Map pieces that they see; the records' piece indices are rows of this.
-    pub(super) pieces: Vec<[f32; PIECE]>,
+    pub(crate) pieces: Vec<[f32; PIECE]>,
     /// The recording on each mode's anchor.
     pub(super) recorded: Vec<[[f32; RESIDUAL]; MODES]>,
 }
@@ -179,14 +195,14 @@ mod tests {
     #[test]
     fn scenes_are_held_out_whole_and_batches_repeat() {
         let records = records(60);
-        let split = Split::new(&records, 1000).unwrap();
+        let split = Split::new(&records, 1000, false, |_| true).unwrap();
         assert_eq!(split.train() + split.held_out.len(), records.len());
         assert!(!split.held_out.is_empty() && split.held_out.len() < 60);
         let scene = |index: &usize| records.scene_of(*index).1;
         assert!(split.held_out.iter().all(|held| !split.train.iter().any(|t| scene(t) == scene(held))));
         assert_eq!(split.batch(1, 5, 32), split.batch(1, 5, 32));
         assert_ne!(split.batch(1, 5, 32), split.batch(1, 6, 32));
-        assert_eq!(Split::new(&records, 2).unwrap().held_out.len(), 2);
+        assert_eq!(Split::new(&records, 2, false, |_| true).unwrap().held_out.len(), 2);
     }
 
     #[test]
