@@ -1,6 +1,7 @@
 //! How experts are made and judged: synthetic traffic, training records, training, placement,
 //! evaluation.
 
+pub mod baselines;
 pub mod crop;
 pub mod eval;
 pub mod mirror;

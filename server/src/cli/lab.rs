@@ -2,6 +2,8 @@
 
 use super::{Common, Exit, Failure, output};
 use clap::{Args, ValueEnum};
+use experts::Refining;
+use lab::baselines::{self, Baseline, Kind};
 use lab::crop::Crop;
 use lab::eval::{Judged, Table};
 use lab::synthesize::{self, Options, Template};
@@ -141,11 +143,15 @@ pub struct TrainArgs {
     #[arg(required = true)]
     records: Vec<PathBuf>,
     /// denoiser, then initializer, then joint.
-    #[arg(long, value_enum)]
-    stage: StageWord,
+    #[arg(long, value_enum, required_unless_present = "baseline")]
+    stage: Option<StageWord>,
     /// Which expert.
+    #[arg(long, value_enum, required_unless_present = "baseline")]
+    expert: Option<ExpertWord>,
+    /// Train a rival of the experts in their place, for `eval --baseline`. trafficgen takes vehicles' records,
+    /// trafficgen-conditional a file of each type, paper an --expert and the three stages.
     #[arg(long, value_enum)]
-    expert: ExpertWord,
+    baseline: Option<BaselineWord>,
     /// Weights file to write; its checkpoint lies beside it.
     #[arg(short, long)]
     output: PathBuf,
@@ -173,6 +179,9 @@ pub struct TrainArgs {
     /// In the joint stage half of the neighbours go faster or slower than they were recorded.
     #[arg(long)]
     wander: bool,
+    /// End after this time, the rate falling accordingly; the result then depends on the machine's speed.
+    #[arg(long, value_name = "MINUTES")]
+    minutes: Option<f64>,
     /// Go on from the checkpoint.
     #[arg(long)]
     resume: bool,
@@ -194,6 +203,33 @@ enum PartWord {
     Push,
     /// Attention to what the road user sees.
     Attention,
+}
+
+impl From<StageWord> for Stage {
+    fn from(word: StageWord) -> Self {
+        match word {
+            StageWord::Denoiser => Self::Denoiser,
+            StageWord::Initializer => Self::Initializer,
+            StageWord::Joint => Self::Joint,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum BaselineWord {
+    Trafficgen,
+    TrafficgenConditional,
+    Paper,
+}
+
+impl From<BaselineWord> for Kind {
+    fn from(word: BaselineWord) -> Self {
+        match word {
+            BaselineWord::Trafficgen => Self::TrafficGen,
+            BaselineWord::TrafficgenConditional => Self::TrafficGenConditional,
+            BaselineWord::Paper => Self::Paper,
+        }
+    }
 }
 
 /// Flags of `train-placement`.
@@ -240,6 +276,10 @@ pub struct EvalArgs {
     /// Further weights to judge beside them.
     #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
     also: Vec<(String, PathBuf)>,
+    /// Learned rivals to stand beside them in tables 1, 2 and 4: weights made by `train --baseline`, a file or
+    /// a folder with one for each type.
+    #[arg(long, value_name = "NAME=PATH", value_parser = named_folder)]
+    baseline: Vec<(String, PathBuf)>,
     /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations,
     /// 8 refinement.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7, 8],
@@ -399,32 +439,54 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
 /// # Errors
 /// Exit 1 with the reason.
 pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
-    let stage = match args.stage {
-        StageWord::Denoiser => Stage::Denoiser,
-        StageWord::Initializer => Stage::Initializer,
-        StageWord::Joint => Stage::Joint,
-    };
-    let mut options = lab::train::Options::new(args.records, stage, args.output);
-    options.expert = args.expert.name().to_owned();
-    options.init = args.init;
-    options.steps = args.steps;
-    options.batch = args.batch;
-    options.rate = args.rate;
-    options.threads = args.workers;
-    options.seed = args.seed;
-    options.refining.push = !args.without.contains(&PartWord::Push);
-    options.refining.attention = !args.without.contains(&PartWord::Attention);
-    options.wander = args.wander;
-    options.resume = args.resume;
-    options.trained_on = args.trained_on;
+    let stage = args.stage.map_or(Stage::Initializer, Stage::from);
+    let (records, output) = (args.records.clone(), args.output.clone());
     let quiet = common.quiet;
-    lab::train::run(&options, &mut |line| {
+    let mut report = |line: &lab::train::Progress| {
         if !quiet {
             output::complain(&line.to_string());
         }
-    })
-    .map_err(|error| Failure::new(Exit::Failure, error.to_string()))?;
-    Ok(())
+    };
+    let expert = args.expert.map(ExpertWord::name);
+    let done = match args.baseline.map(Kind::from) {
+        None => {
+            let options = lab::train::Options::new(records, stage, output);
+            lab::train::run(&args.set(options, expert.unwrap_or_default()), &mut report)
+        }
+        Some(kind) => {
+            let expert = kind.expert().or(expert);
+            let expert = expert
+                .ok_or_else(|| Failure::new(Exit::Usage, "--baseline paper: --expert says whose it is"))?;
+            let options = baselines::options(kind, records, stage, output);
+            baselines::train(&args.set(options, expert), &mut report)
+        }
+    };
+    done.map(drop).map_err(|error| Failure::new(Exit::Failure, error.to_string()))
+}
+
+impl TrainArgs {
+    /// Fills in what all trainings have.
+    fn set<A>(self, options: lab::train::Options<A>, expert: &str) -> lab::train::Options<A> {
+        lab::train::Options {
+            expert: expert.to_owned(),
+            init: self.init,
+            steps: self.steps,
+            batch: self.batch,
+            rate: self.rate,
+            threads: self.workers,
+            seed: self.seed,
+            refining: Refining {
+                push: !self.without.contains(&PartWord::Push),
+                attention: !self.without.contains(&PartWord::Attention),
+                ..options.refining
+            },
+            wander: self.wander,
+            minutes: self.minutes,
+            resume: self.resume,
+            trained_on: self.trained_on,
+            ..options
+        }
+    }
 }
 
 /// Learns the placement weights.
@@ -470,6 +532,14 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
         let common = Common { weights: Some(folder), ..common.clone() };
         judged.push(one(name, super::generator(&common)?));
     }
+    let baselines: Result<Vec<Baseline>, Failure> = args
+        .baseline
+        .iter()
+        .map(|(name, path)| {
+            Baseline::load(name, path).map_err(|e| Failure::new(Exit::Weights, format!("{e:#}")))
+        })
+        .collect();
+    let baselines = baselines?;
     let options = lab::eval::Options {
         tables: args.tables.into_iter().filter_map(Table::numbered).collect(),
         seed: args.seed,
@@ -483,7 +553,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
             output::complain(line);
         }
     };
-    let report = lab::eval::run(judged, &scenes, &options, &progress).map_err(failed)?;
+    let report = lab::eval::run(judged, &baselines, &scenes, &options, &progress).map_err(failed)?;
     if let Some(folder) = &args.output {
         report.write(folder).map_err(failed)?;
     }

@@ -13,6 +13,7 @@ use scene::geometry::{direction, rotate};
 use scene::motion::{MotionModel, Target};
 use scene::routes::speed;
 use scene::{AgentType, HORIZON_STEPS, KNOTS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
+use std::ops::Range;
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
@@ -28,6 +29,13 @@ pub struct Planned {
     /// For the networks.
     pub features: AgentFeatures,
 }
+
+/// Which of the numbers about the road user itself speak of its goal: time, masks, values.
+pub const OWN_GOAL: Range<usize> = 11..25;
+/// The mask bit of the goal's position among them.
+pub const OWN_GOAL_POSITION: usize = 12;
+/// Which of a neighbour's numbers speak of its goal.
+pub const NEIGHBOUR_GOAL: Range<usize> = 15..19;
 
 /// Farthest map piece that is seen, metres.
 const SIGHT_M: f64 = 90.0;

@@ -66,14 +66,65 @@ struct GatingBlock {
     pooled: Linear,
 }
 
-/// Embeds all tokens, then gates them by a context that is the maximum over each kind of token.
+/// Multi-context gating: tokens gated by a context, which takes in the maximum over each kind of token.
+#[derive(Clone, Debug)]
+pub struct Gating {
+    blocks: Vec<GatingBlock>,
+    kinds: Vec<usize>,
+}
+
+impl Gating {
+    /// Blocks of a width for tokens of some kinds, so many of each, under the name `name.blocks`.
+    ///
+    /// # Errors
+    /// When the parameters cannot be had.
+    pub fn new(
+        p: &mut Params,
+        name: &str,
+        (blocks, width): (usize, usize),
+        kinds: &[usize],
+    ) -> std::result::Result<Self, NetError> {
+        let d = width;
+        let blocks = (0..blocks)
+            .map(|block| {
+                let name = |part: &str| format!("{name}.blocks.{block}.{part}");
+                Ok(GatingBlock {
+                    token: Linear::new(p, &name("token"), d, d, RELU_GAIN)?.relu(),
+                    gate: Linear::new(p, &name("gate"), d, d, 0.5)?,
+                    pooled: Linear::new(p, &name("pooled"), kinds.len() * d, d, RELU_GAIN)?.relu(),
+                })
+            })
+            .collect::<std::result::Result<_, NetError>>()?;
+        Ok(Self { blocks, kinds: kinds.to_vec() })
+    }
+
+    /// Context [batch, width] and tokens [batch, tokens, width] after all blocks; `mask` [batch, tokens] is
+    /// 0, or -1e4 at padding.
+    ///
+    /// # Errors
+    /// When the shapes do not fit.
+    pub fn forward(&self, context: &Tensor, tokens: Tensor, mask: &Tensor) -> Result<(Tensor, Tensor)> {
+        let (mut context, mut tokens) = (context.clone(), tokens);
+        for (index, block) in self.blocks.iter().enumerate() {
+            // Running means over the blocks so far, as in the paper.
+            let keep = (index + 1) as f64 / (index + 2) as f64;
+            let gate = (candle_nn::ops::sigmoid(&block.gate.forward(&context)?)? * 2.0)?;
+            tokens = ops::gate_mix(&tokens, &block.token.forward(&tokens)?, &gate, keep)?;
+            let pooled = ops::segment_max(&tokens, mask, &self.kinds)?;
+            context = ((context * keep)? + (block.pooled.forward(&pooled)? * (1.0 - keep))?)?;
+        }
+        Ok((context, tokens))
+    }
+}
+
+/// Embeds all tokens, then gates them.
 #[derive(Clone, Debug)]
 pub struct ContextEncoder {
     own: Mlp,
     piece: Mlp,
     neighbour: Mlp,
     anchor: Mlp,
-    blocks: Vec<GatingBlock>,
+    gating: Gating,
     mix: Mlp,
     context_norm: Norm,
     token_norm: Norm,
@@ -86,22 +137,14 @@ impl ContextEncoder {
     /// When the parameters cannot be had.
     pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
         let d = a.width;
-        let blocks = (0..a.gating_blocks)
-            .map(|block| {
-                let name = |part: &str| format!("context.blocks.{block}.{part}");
-                Ok(GatingBlock {
-                    token: Linear::new(p, &name("token"), d, d, RELU_GAIN)?.relu(),
-                    gate: Linear::new(p, &name("gate"), d, d, 0.5)?,
-                    pooled: Linear::new(p, &name("pooled"), 3 * d, d, RELU_GAIN)?.relu(),
-                })
-            })
-            .collect::<std::result::Result<_, NetError>>()?;
+        let kinds = [PIECES, NEIGHBOURS, MODES];
+        let gating = Gating::new(p, "context", (a.gating_blocks, d), &kinds)?;
         Ok(Self {
             own: Mlp::new(p, "context.own", [OWN, d, d], RELU_GAIN)?.relu(),
             piece: Mlp::new(p, "context.piece", [a.piece_width + PIECE_POSE, d, d], RELU_GAIN)?.relu(),
             neighbour: Mlp::new(p, "context.neighbour", [NEIGHBOUR, d, d], RELU_GAIN)?.relu(),
             anchor: Mlp::new(p, "context.anchor", [ANCHOR, d, d], RELU_GAIN)?.relu(),
-            blocks,
+            gating,
             mix: Mlp::new(p, "context.mix", [2 * d, d, d], 1.0)?,
             context_norm: Norm::new(p, "context.norm", d)?,
             token_norm: Norm::new(p, "context.token_norm", d)?,
@@ -118,17 +161,9 @@ impl ContextEncoder {
         let seen = Tensor::cat(&[&map.index_select(&inputs.piece, 0)?, &inputs.pose], 1)?;
         let pieces = self.piece.forward(&seen)?.reshape((batch, PIECES, ()))?;
         let plain_anchors = self.anchor.forward(&inputs.anchors)?;
-        let mut tokens =
+        let tokens =
             Tensor::cat(&[&pieces, &self.neighbour.forward(&inputs.neighbours)?, &plain_anchors], 1)?;
-        let mut context = own.clone();
-        for (index, block) in self.blocks.iter().enumerate() {
-            // Running means over the blocks so far, as in the paper.
-            let keep = (index + 1) as f64 / (index + 2) as f64;
-            let gate = (candle_nn::ops::sigmoid(&block.gate.forward(&context)?)? * 2.0)?;
-            tokens = ops::gate_mix(&tokens, &block.token.forward(&tokens)?, &gate, keep)?;
-            let pooled = ops::segment_max(&tokens, &inputs.mask, &[PIECES, NEIGHBOURS, MODES])?;
-            context = ((context * keep)? + (block.pooled.forward(&pooled)? * (1.0 - keep))?)?;
-        }
+        let (context, tokens) = self.gating.forward(&own, tokens, &inputs.mask)?;
         let vector = self.context_norm.forward(&self.mix.forward(&Tensor::cat(&[&own, &context], 1)?)?)?;
         let tokens = self.token_norm.forward(&tokens)?;
         let anchors = tokens.narrow(1, PIECES + NEIGHBOURS, MODES)?.contiguous()?;

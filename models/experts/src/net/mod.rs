@@ -15,7 +15,7 @@ mod error;
 mod expert;
 mod initializer;
 pub mod inputs;
-mod layers;
+pub mod layers;
 pub mod ops;
 pub mod overlap;
 mod params;
@@ -24,7 +24,7 @@ pub mod schedule;
 pub mod smooth;
 
 pub use architecture::{Architecture, FeatureSizes, TOKENS};
-pub use encoder::{Context, ContextEncoder, MapEncoder};
+pub use encoder::{Context, ContextEncoder, Gating, MapEncoder};
 pub use error::NetError;
 pub use expert::{Card, Expert, InitialOutput};
 pub use initializer::{Initial, Initializer};

@@ -1,13 +1,13 @@
 //! Table 2: does a scene that is generated together hang together?
 
-use super::rivals::least_effort;
+use super::rivals::{Together, least_effort};
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::together::{
     Ask, Boxes, MOMENTS, Motions, STRIDE, logged_pairs, motions_by, motions_of, motions_of_log, scenes,
 };
-use super::{Judged, Site};
+use super::{Entrants, Judged, Site};
 use anyhow::Result;
 use experts::{Shown, Stages};
 use rayon::prelude::*;
@@ -88,7 +88,7 @@ const LINES: [(&str, usize, f64, Shown, bool); 5] = [
 /// # Errors
 /// When a generator fails.
 pub fn coherence(
-    judged: &[Judged],
+    entrants: Entrants<'_>,
     sites: &[Site<'_>],
     boot: &Bootstrap,
     replan_steps: &[usize],
@@ -106,6 +106,7 @@ pub fn coherence(
              once for the 9 s, but in the lines that say how often everybody plans anew from the states reached.",
             "With goals: position, speed and heading of the log's end for those that move; what stands keeps \
              its place.",
+            "A learned rival that knows vehicles alone has the others go the way of least effort.",
         ],
         &["goals", "what"],
         &[
@@ -144,7 +145,16 @@ pub fn coherence(
             })
             .collect();
         line("prior", &verdicts(&prior, false));
-        for own in judged {
+        for baseline in entrants.baselines.iter().filter(|b| !goals || b.has_condition()) {
+            let all: Result<Vec<Together<'_>>> =
+                sites.par_iter().map(|site| Together::new(baseline, site, goals)).collect();
+            let all = all?;
+            let likeliest: Vec<Motions> = all.iter().map(Together::likeliest).collect();
+            line(&format!("{}: most probable", baseline.name), &verdicts(&likeliest, false));
+            let drawn: Vec<Motions> = all.iter().map(|scene| scene.drawn(seed, 0)).collect();
+            line(&format!("{}: random future", baseline.name), &verdicts(&drawn, false));
+        }
+        for own in entrants.judged {
             let mut product = Vec::new();
             for (name, steps, diversity, shown, guidance) in LINES {
                 let stages = Stages { shown, guidance, ..Stages::default() };

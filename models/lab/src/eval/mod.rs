@@ -31,6 +31,7 @@ pub use cases::{Case, Site, Subset, blind, cases};
 pub use quality::type_name;
 pub use run::{Options, Report, Table, run};
 
+use crate::baselines::Baseline;
 use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};
 
 /// Weights under judgement.
@@ -39,6 +40,15 @@ pub struct Judged {
     pub name: String,
     /// The experts.
     pub generator: Generator,
+}
+
+/// Everybody who learned to answer.
+#[derive(Clone, Copy)]
+pub struct Entrants<'a> {
+    /// The experts.
+    pub judged: &'a [Judged],
+    /// Their learned rivals.
+    pub baselines: &'a [Baseline],
 }
 
 /// Runs a call to its end.

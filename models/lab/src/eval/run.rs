@@ -11,7 +11,8 @@ use super::refining::refining;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::Bootstrap;
 use super::variety::variety;
-use super::{Judged, Site, picture};
+use super::{Entrants, Judged, Site, picture};
+use crate::baselines::Baseline;
 use crate::crop::{Crop, Cropped};
 use anyhow::{Context, Result};
 use scene::Scene;
@@ -102,12 +103,14 @@ pub struct Report {
     pub pictures: Vec<(String, String)>,
 }
 
-/// Makes the tables, telling `progress` what is under way. The first of `judged` is in the pictures.
+/// Makes the tables, telling `progress` what is under way. The first of `judged` is in the pictures, and
+/// `baselines` stand beside them in tables 1, 2 and 4.
 ///
 /// # Errors
 /// When a generator fails, or the crop leaves no scene.
 pub fn run(
     judged: Vec<Judged>,
+    baselines: &[Baseline],
     scenes: &[Scene],
     options: &Options,
     progress: &dyn Fn(&str),
@@ -131,10 +134,11 @@ pub fn run(
     };
     let sites: Vec<Site<'_>> = scenes.iter().enumerate().map(|(i, scene)| Site::new(i, scene)).collect();
     let boot = Bootstrap::new(scenes.len(), seed);
+    let entrants = Entrants { judged: &judged, baselines };
     if wants(Table::Quality) {
         progress("table 1: quality");
-        let outcomes = collect(&judged, &sites, seed)?;
-        report.sheets.extend(Quality::new(&judged, &outcomes, &boot).sheets());
+        let outcomes = collect(entrants, &sites, seed)?;
+        report.sheets.extend(Quality::new(entrants, &outcomes, &boot).sheets());
         report.sheets.push(parked(&judged, &sites, &boot, seed)?);
         if let Some(own) = judged.first().filter(|_| options.pictures) {
             progress("pictures");
@@ -143,7 +147,7 @@ pub fn run(
     }
     if wants(Table::Coherence) {
         progress("table 2: coherence");
-        report.sheets.push(coherence(&judged, &sites, &boot, &options.replan_steps, seed)?);
+        report.sheets.push(coherence(entrants, &sites, &boot, &options.replan_steps, seed)?);
     }
     if wants(Table::Control) {
         progress("table 3: control");
@@ -151,7 +155,7 @@ pub fn run(
     }
     if wants(Table::Realism) {
         progress("table 4: realism");
-        report.sheets.extend(realism(&judged, &sites, &boot, seed)?);
+        report.sheets.extend(realism(entrants, &sites, &boot, seed)?);
     }
     if wants(Table::Variety) {
         progress("table 5: variety");
@@ -299,7 +303,7 @@ mod tests {
         let judged = vec![Judged { name: "random".into(), generator }];
         let tables = tables.iter().copied().collect();
         let options = Options { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
-        run(judged, &scenes, &options, &|_| {})
+        run(judged, &[], &scenes, &options, &|_| {})
     }
 
     #[test]

@@ -4,20 +4,21 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use candle_core::{Device, Tensor};
-use experts::net::{Architecture, Card, Expert};
+use experts::net::Card;
 use serde::{Deserialize, Serialize};
 
 use super::TrainError;
 use super::optim::{AdamW, Moments};
 use super::stages::Stage;
+use super::trainee::Trainee;
 
 const HEADER: &str = "dragtraffic-training";
 
 /// Where a run stands, beside its numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct State {
-    pub(super) architecture: Architecture,
+pub(super) struct State<A> {
+    pub(super) architecture: A,
     pub(super) card: Card,
     pub(super) stage: Stage,
     pub(super) seed: u64,
@@ -41,9 +42,14 @@ pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
     std::fs::rename(partial, path).map_err(TrainError::io(path))
 }
 
-pub(super) fn save(path: &Path, state: &State, expert: &Expert, adam: &AdamW) -> Result<(), TrainError> {
+pub(super) fn save<T: Trainee>(
+    path: &Path,
+    state: &State<T::Architecture>,
+    trained: &T,
+    adam: &AdamW,
+) -> Result<(), TrainError> {
     let mut tensors = BTreeMap::new();
-    for (name, tensor) in expert.tensors() {
+    for (name, tensor) in trained.tensors() {
         tensors.insert(format!("weights/{name}"), tensor.clone());
     }
     for (name, moments) in &adam.moments {
@@ -62,22 +68,23 @@ pub(super) fn save(path: &Path, state: &State, expert: &Expert, adam: &AdamW) ->
 }
 
 /// A run that can go on.
-pub(super) struct Resumed {
-    pub(super) state: State,
-    pub(super) expert: Expert,
+pub(super) struct Resumed<T: Trainee> {
+    pub(super) state: State<T::Architecture>,
+    pub(super) trained: T,
     pub(super) adam: AdamW,
 }
 
-pub(super) fn load(path: &Path) -> Result<Resumed, TrainError> {
+pub(super) fn load<T: Trainee>(path: &Path) -> Result<Resumed<T>, TrainError> {
     let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
     let damaged = |reason: String| TrainError::damaged(path, reason);
     let (_, metadata) =
         safetensors::SafeTensors::read_metadata(&bytes).map_err(|e| damaged(e.to_string()))?;
     let text = metadata.metadata().as_ref().and_then(|m| m.get(HEADER));
     let text = text.ok_or_else(|| damaged("not a checkpoint of a training run".into()))?;
-    let state: State = serde_json::from_str(text).map_err(|error| damaged(error.to_string()))?;
+    let state: State<T::Architecture> =
+        serde_json::from_str(text).map_err(|error| damaged(error.to_string()))?;
     let mut tensors = candle_core::safetensors::load_buffer(&bytes, &Device::Cpu)?;
-    let expert = Expert::trainable(state.architecture.clone(), state.card.clone(), 0, &Device::Cpu)?;
+    let trained = T::random(state.architecture.clone(), state.card.clone(), 0)?;
     let mut take = |kind: &str, name: &str, count: usize| -> Result<Tensor, TrainError> {
         let tensor = tensors.remove(&format!("{kind}/{name}"));
         let tensor =
@@ -90,9 +97,9 @@ pub(super) fn load(path: &Path) -> Result<Resumed, TrainError> {
         }
         Ok(tensor)
     };
-    let mut adam = AdamW::new(expert.vars(), state.stage)?;
+    let mut adam = AdamW::new(trained.vars(), state.stage)?;
     adam.step = state.step;
-    for (name, var) in expert.vars() {
+    for (name, var) in trained.vars() {
         let count = var.elem_count();
         var.set(&take("weights", name, count)?.reshape(var.shape())?)?;
         let mut values = |kind: &str| -> Result<Vec<f32>, TrainError> {
@@ -101,5 +108,5 @@ pub(super) fn load(path: &Path) -> Result<Resumed, TrainError> {
         let moments = Moments { first: values("first")?, second: values("second")?, mean: values("mean")? };
         adam.moments.insert(name.clone(), moments);
     }
-    Ok(Resumed { state, expert, adam })
+    Ok(Resumed { state, trained, adam })
 }

@@ -381,6 +381,16 @@ impl Records {
         self.scenes.len()
     }
 
+    /// Number of files.
+    pub fn files(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Index of the file that a record is in.
+    pub fn file_of(&self, index: usize) -> usize {
+        self.entries[index].file
+    }
+
     /// Hash over all files.
     pub fn hash(&self) -> blake3::Hash {
         self.hash

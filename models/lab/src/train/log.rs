@@ -1,10 +1,10 @@
 //! What a run reported, as a file of JSON lines and as curves.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 use super::run::Progress;
 use super::{TrainError, checkpoint};
@@ -99,7 +99,8 @@ impl Log {
             height * names.len().max(1) as f64
         );
         for (row, name) in names.iter().enumerate() {
-            let _ = write!(out, r#"<g transform="translate({},{})">"#, EDGE[0], height * row as f64 + EDGE[1]);
+            let _ =
+                write!(out, r#"<g transform="translate({},{})">"#, EDGE[0], height * row as f64 + EDGE[1]);
             self.panel(name, &mut out);
             out.push_str("</g>");
         }
@@ -134,7 +135,8 @@ impl Log {
             PANEL[1] + 16.0
         );
         for (points, stroke, thick) in [(&curves[0], "#9db4d0", 1.2), (&curves[1], "#0b5cad", 2.2)] {
-            let line: Vec<String> = points.iter().map(|(s, v)| format!("{:.1},{:.1}", x(*s), y(*v))).collect();
+            let line: Vec<String> =
+                points.iter().map(|(s, v)| format!("{:.1},{:.1}", x(*s), y(*v))).collect();
             let _ = write!(
                 out,
                 r#"<polyline points="{}" fill="none" stroke="{stroke}" stroke-width="{thick}"/>"#,
@@ -142,7 +144,8 @@ impl Log {
             );
         }
         for (step, value) in &curves[1] {
-            let _ = write!(out, r##"<circle cx="{:.1}" cy="{:.1}" r="3" fill="#0b5cad"/>"##, x(*step), y(*value));
+            let _ =
+                write!(out, r##"<circle cx="{:.1}" cy="{:.1}" r="3" fill="#0b5cad"/>"##, x(*step), y(*value));
         }
     }
 }

@@ -88,7 +88,7 @@ pub(super) fn speed_weight(target: &Target) -> f32 {
 }
 
 /// The index of the least value.
-pub(super) fn least(values: &[f32]) -> usize {
+pub(crate) fn least(values: &[f32]) -> usize {
     (0..values.len()).fold(0, |best, i| if values[i] < values[best] { i } else { best })
 }
 
@@ -143,7 +143,7 @@ fn scores(ade: &[f32; MODES], score: &[f32; MODES], weight: f32, grad: &mut [f32
     nll
 }
 
-fn softmax(values: &[f32; MODES]) -> [f32; MODES] {
+pub(crate) fn softmax(values: &[f32; MODES]) -> [f32; MODES] {
     let top = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let parts = values.map(|value| (value - top).exp());
     let total: f32 = parts.iter().sum();

@@ -12,6 +12,7 @@ mod codec;
 pub mod dataset;
 mod error;
 mod fit;
+mod log;
 mod loss;
 mod metrics;
 mod optim;
@@ -20,6 +21,7 @@ mod route;
 mod run;
 mod sample;
 mod stages;
+mod trainee;
 mod workers;
 
 #[cfg(test)]
@@ -32,5 +34,14 @@ pub use error::TrainError;
 pub use fit::FitError;
 pub use metrics::Metrics;
 pub use run::{Options, Progress, checkpoint_path, run};
-pub use sample::{Mirror, is_held_out};
+pub use sample::is_held_out;
 pub use stages::Stage;
+
+pub(crate) use loss::{least, softmax};
+pub(crate) use route::Placed;
+pub(crate) use run::run_of;
+#[cfg(test)]
+pub(crate) use sample::stream;
+pub(crate) use sample::{Shard, normal, unit};
+pub(crate) use stages::{Tools, seeded};
+pub(crate) use trainee::Trainee;

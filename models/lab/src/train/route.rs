@@ -7,7 +7,7 @@ use scene::KNOTS;
 use super::{AnchorPath, Record};
 
 /// Progress and offset at the instants, metres.
-pub(super) type RouteCoordinates = [[f32; 2]; INSTANTS];
+pub(crate) type RouteCoordinates = [[f32; 2]; INSTANTS];
 
 /// The basis, with the scales of normalised residuals in it.
 #[derive(Clone, Debug)]
@@ -47,14 +47,14 @@ impl Route {
 }
 
 /// A draft as boxes, and the path's directions (cosine, sine) where they are.
-pub(super) struct Placed {
-    pub(super) poses: Poses,
+pub(crate) struct Placed {
+    pub(crate) poses: Poses,
     pub(super) directions: [[f32; 2]; INSTANTS],
 }
 
 impl Placed {
     /// Boxes of route coordinates on a mode's path.
-    pub(super) fn new(record: &Record, mode: usize, coordinates: &RouteCoordinates) -> Self {
+    pub(crate) fn new(record: &Record, mode: usize, coordinates: &RouteCoordinates) -> Self {
         let mut placed = Self { poses: [[0.0; 4]; INSTANTS], directions: [[1.0, 0.0]; INSTANTS] };
         for (i, &[along, across]) in coordinates.iter().enumerate() {
             let (point, [c, s]) = at(&record.paths[mode], along);

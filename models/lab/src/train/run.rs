@@ -4,15 +4,17 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use candle_core::Device;
+use candle_core::Tensor;
 use experts::Refining;
 use experts::net::{Architecture, Card, Expert};
 
 use super::checkpoint::{self, Resumed, State};
+use super::log::Log;
 use super::metrics::Metrics;
 use super::optim::{AdamW, rate};
-use super::sample::{Mirror, Split};
+use super::sample::Split;
 use super::stages::{Stage, Tools};
+use super::trainee::Trainee;
 use super::workers::Workers;
 use super::{Records, TrainError};
 
@@ -23,7 +25,7 @@ const HELD_OUT: usize = 2048;
 
 /// What to train on, how, and where to put the result.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct Options<A = Architecture> {
     /// Files of records.
     pub records: Vec<PathBuf>,
     /// Name of the expert: vehicle, pedestrian or cyclist.
@@ -44,7 +46,8 @@ pub struct Options {
     pub rate: f64,
     /// Threads; the result does not depend on it.
     pub threads: usize,
-    /// Where the weights go (their running mean). The checkpoint goes beside it, with `.checkpoint` added.
+    /// Where the weights go (their running mean). Beside it go the checkpoint and the log, as JSON lines and
+    /// as curves: `.checkpoint`, `.jsonl` and `.svg` are added to its name.
     pub out: PathBuf,
     /// Whether to go on from the checkpoint when there is one.
     pub resume: bool,
@@ -55,10 +58,8 @@ pub struct Options {
     pub minutes: Option<f64>,
     /// Steps between two validations, each followed by a save.
     pub validate_every: u64,
-    /// Mirrors records by an even chance.
-    pub mirror: Option<Mirror>,
-    /// Sizes of a new expert.
-    pub architecture: Architecture,
+    /// Sizes of new networks.
+    pub architecture: A,
     /// What the refiner is given: parts are left out to see what they bring.
     pub refining: Refining,
     /// In the joint stage half of the neighbours go faster or slower than they were recorded.
@@ -68,6 +69,13 @@ pub struct Options {
 impl Options {
     /// Usual values for the three things that have none.
     pub fn new(records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> Self {
+        Self::of(records, stage, out, Architecture::default())
+    }
+}
+
+impl<A> Options<A> {
+    /// Usual values for networks of an architecture.
+    pub(crate) fn of(records: Vec<PathBuf>, stage: Stage, out: PathBuf, architecture: A) -> Self {
         Self {
             records,
             expert: "vehicle".into(),
@@ -84,8 +92,7 @@ impl Options {
             seed: 1,
             minutes: None,
             validate_every: 1000,
-            mirror: None,
-            architecture: Architecture::default(),
+            architecture,
             refining: Refining::default(),
             wander: false,
         }
@@ -149,17 +156,26 @@ impl fmt::Display for Progress {
     }
 }
 
-/// Trains and writes the weights; `report` gets each line. Gives the last validation.
+/// Trains an expert and writes the weights; `report` gets each line. Gives the last validation.
 ///
 /// # Errors
 /// When files cannot be read or written, or a checkpoint belongs to another run.
 pub fn run(options: &Options, report: &mut dyn FnMut(&Progress)) -> Result<Metrics, TrainError> {
+    run_of::<Expert>(options, report)
+}
+
+/// [`run`] of whatever can be trained.
+pub(crate) fn run_of<T: Trainee>(
+    options: &Options<T::Architecture>,
+    report: &mut dyn FnMut(&Progress),
+) -> Result<Metrics, TrainError> {
     let records = Records::load(&options.records)?;
-    let split = Split::new(&records, HELD_OUT)?;
-    let mut run = Run::begin(options, &records)?;
+    let mut run = Run::<T>::begin(options, &records)?;
+    let even = run.trained.draws_files_evenly();
+    let split = Split::new(&records, HELD_OUT, even, |record| run.trained.takes(record))?;
     report(&Progress::Begin {
         records: (split.train(), split.held_out.len()),
-        parameters: run.expert.parameters(),
+        parameters: run.trained.tensors().values().map(Tensor::elem_count).sum(),
         step: run.adam.step,
     });
     let workers = Workers {
@@ -168,30 +184,34 @@ pub fn run(options: &Options, report: &mut dyn FnMut(&Progress)) -> Result<Metri
         stage: options.stage,
         seed: options.seed,
         threads: options.threads,
-        mirror: options.mirror.as_ref(),
+    };
+    let mut log = Log::open(&options.out, run.adam.step)?;
+    let mut report = |line: &Progress| {
+        report(line);
+        log.add(line)
     };
     let mut since = Since::new();
     let mut validated = None;
     while run.progress() < 1.0 {
         let rate = rate(options.rate, run.adam.step, options.steps.min(200), run.progress());
         let batch = split.batch(options.seed, run.adam.step, options.batch);
-        let (gradients, metrics) = workers.train(&run.expert, &batch, run.adam.step)?;
-        let length = run.adam.apply(run.expert.vars(), &gradients, rate)?;
-        run.adam.average(run.expert.vars())?;
+        let (gradients, metrics) = workers.train(&run.trained, &batch, run.adam.step)?;
+        let length = run.adam.apply(run.trained.vars(), &gradients, rate)?;
+        run.adam.average(run.trained.vars())?;
         since.add(&metrics, length);
         let step = run.adam.step;
         if step.is_multiple_of(REPORT) {
-            report(&since.line(step, rate));
+            report(&since.line(step, rate))?;
             since = Since::new();
         }
         if step.is_multiple_of(options.validate_every.max(1)) {
-            validated = Some((step, run.finish(&workers, &split, report)?));
+            validated = Some((step, run.finish(&workers, &split, &mut report)?));
             since = Since::new();
         }
     }
     match validated {
         Some((step, metrics)) if step == run.adam.step => Ok(metrics),
-        _ => run.finish(&workers, &split, report),
+        _ => run.finish(&workers, &split, &mut report),
     }
 }
 
@@ -225,37 +245,37 @@ impl Since {
     }
 }
 
-struct Run<'a> {
-    options: &'a Options,
-    /// What is trained.
-    expert: Expert,
-    /// The running mean of the weights.
-    mean: Expert,
+struct Run<'a, T: Trainee> {
+    options: &'a Options<T::Architecture>,
+    trained: T,
+    /// The same with the running mean of the weights.
+    mean: T,
     adam: AdamW,
     records: String,
     clock: Instant,
     seconds_before: f64,
 }
 
-impl<'a> Run<'a> {
-    fn begin(options: &'a Options, records: &Records) -> Result<Self, TrainError> {
+impl<'a, T: Trainee> Run<'a, T> {
+    fn begin(options: &'a Options<T::Architecture>, records: &Records) -> Result<Self, TrainError> {
         let path = checkpoint_path(&options.out);
         let hash = records.hash().to_hex().to_string();
-        let resumed = if options.resume && path.exists() { Some(checkpoint::load(&path)?) } else { None };
-        let (expert, adam, seconds_before) = match resumed {
+        let resumed =
+            if options.resume && path.exists() { Some(checkpoint::load::<T>(&path)?) } else { None };
+        let (trained, adam, seconds_before) = match resumed {
             Some(resumed) => {
                 same_run(&path, options, &hash, &resumed.state)?;
-                let Resumed { state, expert, adam } = resumed;
-                (expert, adam, state.seconds)
+                let Resumed { state, trained, adam } = resumed;
+                (trained, adam, state.seconds)
             }
             None => {
-                let expert = first_weights(options)?;
-                let adam = AdamW::new(expert.vars(), options.stage)?;
-                (expert, adam, 0.0)
+                let trained: T = first_weights(options)?;
+                let adam = AdamW::new(trained.vars(), options.stage)?;
+                (trained, adam, 0.0)
             }
         };
-        let mean = Expert::trainable(expert.architecture.clone(), expert.card.clone(), 0, &Device::Cpu)?;
-        Ok(Self { options, expert, mean, adam, records: hash, clock: Instant::now(), seconds_before })
+        let mean = T::random(trained.architecture().clone(), trained.card().clone(), 0)?;
+        Ok(Self { options, trained, mean, adam, records: hash, clock: Instant::now(), seconds_before })
     }
 
     fn seconds(&self) -> f64 {
@@ -276,25 +296,25 @@ impl<'a> Run<'a> {
         &mut self,
         workers: &Workers<'_>,
         split: &Split,
-        report: &mut dyn FnMut(&Progress),
+        report: &mut dyn FnMut(&Progress) -> Result<(), TrainError>,
     ) -> Result<Metrics, TrainError> {
         self.adam.write_means(self.mean.vars())?;
         let metrics = workers.validate(&self.mean, &split.held_out)?;
-        report(&Progress::Validation { step: self.adam.step, metrics: metrics.clone() });
+        report(&Progress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
         self.save()?;
         Ok(metrics)
     }
 
     fn save(&mut self) -> Result<(), TrainError> {
         let options = self.options;
-        let notes = &mut self.mean.card.notes;
+        let notes = &mut self.mean.card_mut().notes;
         notes.insert(format!("{:?} steps", options.stage).to_lowercase(), self.adam.step.to_string());
         notes.insert("records".into(), self.records.clone());
         self.adam.write_means(self.mean.vars())?;
-        checkpoint::replace(&options.out, &self.mean.save()?)?;
+        checkpoint::replace(&options.out, &self.mean.write()?)?;
         let state = State {
-            architecture: self.expert.architecture.clone(),
-            card: self.expert.card.clone(),
+            architecture: self.trained.architecture().clone(),
+            card: self.trained.card().clone(),
             stage: options.stage,
             seed: options.seed,
             batch: options.batch,
@@ -302,15 +322,15 @@ impl<'a> Run<'a> {
             seconds: self.seconds(),
             records: self.records.clone(),
         };
-        checkpoint::save(&checkpoint_path(&options.out), &state, &self.expert, &self.adam)
+        checkpoint::save(&checkpoint_path(&options.out), &state, &self.trained, &self.adam)
     }
 }
 
-fn first_weights(options: &Options) -> Result<Expert, TrainError> {
-    let mut expert = match &options.init {
+fn first_weights<T: Trainee>(options: &Options<T::Architecture>) -> Result<T, TrainError> {
+    let mut trained = match &options.init {
         Some(path) => {
             let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
-            Expert::load_trainable(&bytes, &Device::Cpu)?
+            T::read(&bytes)?
         }
         None => {
             let card = Card {
@@ -320,17 +340,23 @@ fn first_weights(options: &Options) -> Result<Expert, TrainError> {
                 untrained: false,
                 notes: Default::default(),
             };
-            Expert::trainable(options.architecture.clone(), card, options.seed, &Device::Cpu)?
+            T::random(options.architecture.clone(), card, options.seed)?
         }
     };
-    expert.card.expert.clone_from(&options.expert);
-    expert.card.licence.clone_from(&options.licence);
-    expert.card.trained_on.clone_from(&options.trained_on);
-    expert.card.untrained = false;
-    Ok(expert)
+    let card = trained.card_mut();
+    card.expert.clone_from(&options.expert);
+    card.licence.clone_from(&options.licence);
+    card.trained_on.clone_from(&options.trained_on);
+    card.untrained = false;
+    Ok(trained)
 }
 
-fn same_run(path: &Path, options: &Options, records: &str, state: &State) -> Result<(), TrainError> {
+fn same_run<A: PartialEq>(
+    path: &Path,
+    options: &Options<A>,
+    records: &str,
+    state: &State<A>,
+) -> Result<(), TrainError> {
     let differs = |what: &str| {
         Err(TrainError::damaged(path, format!("the checkpoint is of a run with another {what}")))
     };
@@ -340,6 +366,7 @@ fn same_run(path: &Path, options: &Options, records: &str, state: &State) -> Res
         () if state.seed != options.seed => differs("seed"),
         () if state.batch != options.batch => differs("batch"),
         () if state.card.expert != options.expert => differs("expert"),
+        () if options.init.is_none() && state.architecture != options.architecture => differs("architecture"),
         () => Ok(()),
     }
 }

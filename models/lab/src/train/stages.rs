@@ -40,7 +40,7 @@ pub enum Stage {
 }
 
 /// Constants of all shards.
-pub(super) struct Tools {
+pub(crate) struct Tools {
     pub(super) route: Route,
     pullback: Pullback,
     /// What the refiner is given.
@@ -124,7 +124,7 @@ fn arrays(tensor: &Tensor) -> Result<Vec<Modes>> {
 }
 
 /// `sum(output * gradient)`: its backward pass hands `gradient` on to `output`.
-fn seeded(output: &Tensor, gradient: Vec<f32>) -> Result<Tensor> {
+pub(crate) fn seeded(output: &Tensor, gradient: Vec<f32>) -> Result<Tensor> {
     (output * Tensor::from_vec(gradient, output.shape(), output.device())?)?.sum_all()
 }
 

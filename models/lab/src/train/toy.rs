@@ -9,7 +9,9 @@ use experts::features::{
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::{AnchorPath, LoggedBox, Record, Writer};
+use super::sample::Shard;
+use super::stages::Tools;
+use super::{AnchorPath, LoggedBox, Record, Records, Writer};
 
 /// Key, map and records of a scene.
 pub(crate) type ToyScene = (u64, MapFeatures, Vec<Record>);
@@ -36,6 +38,14 @@ pub(crate) fn write(path: &Path, scenes: &[ToyScene]) {
         writer.scene(*key, map, records).unwrap();
     }
     writer.finish().unwrap();
+}
+
+/// All records of a file as one shard, and the constants that losses need.
+pub(crate) fn shard(path: &Path) -> (Tools, Shard) {
+    let (tools, records) = (Tools::new(), Records::load(&[path.into()]).unwrap());
+    let indices: Vec<usize> = (0..records.len()).collect();
+    let shard = Shard::new(&records, &indices, &tools.route, None).unwrap();
+    (tools, shard)
 }
 
 fn between(rng: &mut ChaCha8Rng, low: f32, high: f32) -> f32 {

@@ -4,12 +4,11 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use experts::net::Expert;
-
 use super::metrics::Metrics;
 use super::optim::Gradients;
-use super::sample::{Mirror, Shard, stream};
-use super::stages::{self, Stage, Tools};
+use super::sample::{Shard, stream};
+use super::stages::{Stage, Tools};
+use super::trainee::Trainee;
 use super::{Records, TrainError};
 
 /// Records in a shard.
@@ -22,21 +21,20 @@ pub(super) struct Workers<'a> {
     pub(super) stage: Stage,
     pub(super) seed: u64,
     pub(super) threads: usize,
-    pub(super) mirror: Option<&'a Mirror>,
 }
 
 impl Workers<'_> {
     /// The mean gradient of a batch, and what was measured on it.
     pub(super) fn train(
         &self,
-        expert: &Expert,
+        trained: &impl Trainee,
         indices: &[usize],
         step: u64,
     ) -> Result<(Gradients, Metrics), TrainError> {
         let results =
-            self.each_shard(indices, |number, shard| self.shard_gradient(expert, shard, step, number))?;
+            self.each_shard(indices, |number, shard| self.shard_gradient(trained, shard, step, number))?;
         let mut metrics = Metrics::default();
-        let mut sums: Gradients = vec![None; expert.vars().len()];
+        let mut sums: Gradients = vec![None; trained.vars().len()];
         for (gradients, measured) in results {
             metrics.merge(&measured);
             for (sum, gradient) in sums.iter_mut().zip(gradients) {
@@ -54,17 +52,16 @@ impl Workers<'_> {
 
     fn shard_gradient(
         &self,
-        expert: &Expert,
+        trained: &impl Trainee,
         indices: &[usize],
         step: u64,
         number: usize,
     ) -> Result<(Gradients, Metrics), TrainError> {
         let mut rng = stream(self.seed, step, 1 + number as u64);
-        let mirror = self.mirror.map(|mirror| (mirror, &mut rng));
-        let shard = Shard::new(self.records, indices, &self.tools.route, mirror)?;
-        let (loss, metrics) = stages::train(expert, &self.tools, &shard, self.stage, &mut rng)?;
+        let shard = Shard::new(self.records, indices, &self.tools.route)?;
+        let (loss, metrics) = trained.loss(&self.tools, &shard, self.stage, &mut rng)?;
         let mut store = loss.backward()?;
-        let gradients = expert.vars().values().map(|var| match store.remove(var.as_tensor()) {
+        let gradients = trained.vars().values().map(|var| match store.remove(var.as_tensor()) {
             Some(gradient) => Ok(Some(gradient.flatten_all()?.to_vec1::<f32>()?)),
             None => Ok(None),
         });
@@ -72,11 +69,11 @@ impl Workers<'_> {
     }
 
     /// What is measured on records held out; the same draws every time.
-    pub(super) fn validate(&self, expert: &Expert, indices: &[usize]) -> Result<Metrics, TrainError> {
+    pub(super) fn validate(&self, trained: &impl Trainee, indices: &[usize]) -> Result<Metrics, TrainError> {
         let results = self.each_shard(indices, |number, indices| {
-            let shard = Shard::new(self.records, indices, &self.tools.route, None)?;
+            let shard = Shard::new(self.records, indices, &self.tools.route)?;
             let mut rng = stream(self.seed, u64::MAX >> 16, number as u64);
-            stages::validate(expert, &self.tools, &shard, self.stage, &mut rng)
+            trained.validate(&self.tools, &shard, self.stage, &mut rng)
         })?;
         let mut metrics = Metrics::default();
         results.iter().for_each(|measured| metrics.merge(measured));

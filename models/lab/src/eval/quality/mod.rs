@@ -6,12 +6,12 @@ mod sheets;
 pub use sheets::Quality;
 
 use super::measure::{Measured, can_be_followed, goal_error, is_met, is_outside_limits, measure};
-use super::rivals::Rival;
-use super::{Case, Judged, Site, Subset, answer};
+use super::rivals::{Rival, learned};
+use super::{Case, Entrants, Site, Subset, answer};
 use anyhow::Result;
 use experts::{Generator, ReachReport, Request};
 use rayon::prelude::*;
-use scene::{Agent, AgentFutures, AgentType, HORIZON_STEPS, Scene, wrap_angle};
+use scene::{Agent, AgentFutures, AgentType, Future, HORIZON_STEPS, Scene, wrap_angle};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -22,23 +22,38 @@ pub enum Method {
     Refined(usize),
     /// The same weights without refinement and noise.
     Initializer(usize),
+    /// The learned rival of this index.
+    Learned(usize),
     /// No learning.
     Formula(Rival),
 }
 
 impl Method {
     /// All, in the tables' order.
-    pub fn all(judged: usize) -> Vec<Self> {
-        let ours = (0..judged).flat_map(|i| [Self::Refined(i), Self::Initializer(i)]);
-        ours.chain(Rival::ALL.map(Self::Formula)).collect()
+    pub fn all(entrants: Entrants<'_>) -> Vec<Self> {
+        let ours = (0..entrants.judged.len()).flat_map(|i| [Self::Refined(i), Self::Initializer(i)]);
+        ours.chain(Self::rivals(entrants)).collect()
+    }
+
+    /// All that are not ours.
+    pub fn rivals(entrants: Entrants<'_>) -> Vec<Self> {
+        let learned = (0..entrants.baselines.len()).map(Self::Learned);
+        learned.chain(Rival::ALL.map(Self::Formula)).collect()
+    }
+
+    /// All with probabilities, by their final answers.
+    pub fn answering(entrants: Entrants<'_>) -> Vec<Self> {
+        let ours = (0..entrants.judged.len()).map(Self::Refined);
+        ours.chain((0..entrants.baselines.len()).map(Self::Learned)).collect()
     }
 
     /// Name in tables.
-    pub fn name(self, judged: &[Judged]) -> String {
-        let of = |i: usize| judged.get(i).map_or("?", |j| j.name.as_str());
+    pub fn name(self, entrants: Entrants<'_>) -> String {
+        let of = |i: usize| entrants.judged.get(i).map_or("?", |j| j.name.as_str());
         match self {
             Self::Refined(i) => of(i).into(),
             Self::Initializer(i) => format!("{}, initializer alone", of(i)),
+            Self::Learned(i) => entrants.baselines.get(i).map_or("?", |b| b.name.as_str()).into(),
             Self::Formula(rival) => rival.name().into(),
         }
     }
@@ -142,6 +157,8 @@ struct GoalVerdict {
     reported: bool,
     futures: usize,
     outside: usize,
+    /// Metres from the future shown to the goal's position, where that is fixed.
+    left_m: Option<f64>,
 }
 
 /// The shipped settings, or the initializer as it is.
@@ -181,29 +198,30 @@ pub fn alone(
 ///
 /// # Errors
 /// When a generator fails.
-pub fn collect(judged: &[Judged], sites: &[Site<'_>], seed: u64) -> Result<Vec<Outcome>> {
+pub fn collect(entrants: Entrants<'_>, sites: &[Site<'_>], seed: u64) -> Result<Vec<Outcome>> {
     let all: Result<Vec<Vec<Outcome>>> =
-        sites.par_iter().map(|site| site_outcomes(judged, site, seed)).collect();
+        sites.par_iter().map(|site| site_outcomes(entrants, site, seed)).collect();
     Ok(all?.into_iter().flatten().collect())
 }
 
-fn site_outcomes(judged: &[Judged], site: &Site<'_>, seed: u64) -> Result<Vec<Outcome>> {
+fn site_outcomes(entrants: Entrants<'_>, site: &Site<'_>, seed: u64) -> Result<Vec<Outcome>> {
+    let judged = entrants.judged;
+    let first =
+        |modes: Vec<Future>| (!modes.is_empty()).then_some((AgentFutures { chosen: 0, modes }, false));
     let mut out = Vec::new();
     for (index, case) in site.cases.iter().enumerate() {
         let log = site.log(case);
         let manner = Manner::of(log, case);
         for subset in Subset::ALL {
-            for method in Method::all(judged.len()) {
+            for method in Method::all(entrants) {
                 let found = match method {
                     Method::Refined(i) => alone(&judged[i].generator, site, case, subset, true, seed)?,
                     Method::Initializer(i) => alone(&judged[i].generator, site, case, subset, false, seed)?,
-                    Method::Formula(rival) => {
-                        let modes = rival.futures(site, case, subset, seed);
-                        (!modes.is_empty()).then_some((AgentFutures { chosen: 0, modes }, false))
-                    }
+                    Method::Learned(i) => first(learned(&entrants.baselines[i], site, case, subset)?),
+                    Method::Formula(rival) => first(rival.futures(site, case, subset, seed)),
                 };
                 let Some((futures, reported)) = found else { continue };
-                let ours = !matches!(method, Method::Formula(_));
+                let learned = !matches!(method, Method::Formula(_));
                 out.push(Outcome {
                     site: site.index,
                     case: index,
@@ -212,12 +230,12 @@ fn site_outcomes(judged: &[Judged], site: &Site<'_>, seed: u64) -> Result<Vec<Ou
                     method,
                     measured: measure(log, case, subset, &futures.modes, futures.chosen),
                     manner,
-                    probabilities: if ours {
+                    probabilities: if learned {
                         futures.modes.iter().map(|f| f.probability).collect()
                     } else {
                         Vec::new()
                     },
-                    goal: ours.then(|| verdict(site, case, subset, &futures, reported)),
+                    goal: learned.then(|| verdict(site, case, subset, &futures, reported)),
                 });
             }
         }
@@ -235,8 +253,9 @@ fn verdict(
     let goal = case.goal(site.scene, subset);
     let shown = futures.modes[futures.chosen].states.get(case.goal_step - 1);
     let agent = &site.blind.agents[case.agent];
-    let outside = |f: &&scene::Future| is_outside_limits(agent, &case.start, f);
+    let outside = |f: &&Future| is_outside_limits(agent, &case.start, f);
     GoalVerdict {
+        left_m: shown.filter(|_| subset.has_position()).map(|s| goal_error(&goal, s)[0]),
         met: shown.is_some_and(|s| is_met(goal_error(&goal, s))),
         reported,
         futures: futures.modes.len(),

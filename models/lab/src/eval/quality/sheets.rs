@@ -4,7 +4,7 @@ use super::super::measure::{Measured, log_loss};
 use super::super::rivals::Rival;
 use super::super::sheet::{Cell, Form, Sheet};
 use super::super::stats::{Bootstrap, Estimate, Value};
-use super::super::{Judged, Subset, type_name};
+use super::super::{Entrants, Subset, type_name};
 use super::{GROUPS, GoalVerdict, Method, Outcome};
 use scene::AgentType;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ type Figure = fn(&Measured) -> f64;
 
 /// Everything that table 1 prints.
 pub struct Quality<'a> {
-    judged: &'a [Judged],
+    entrants: Entrants<'a>,
     outcomes: &'a [Outcome],
     boot: &'a Bootstrap,
     types: Vec<AgentType>,
@@ -22,9 +22,9 @@ pub struct Quality<'a> {
 
 impl<'a> Quality<'a> {
     /// Over these outcomes.
-    pub fn new(judged: &'a [Judged], outcomes: &'a [Outcome], boot: &'a Bootstrap) -> Self {
+    pub fn new(entrants: Entrants<'a>, outcomes: &'a [Outcome], boot: &'a Bootstrap) -> Self {
         let types: BTreeSet<AgentType> = outcomes.iter().map(|o| o.agent_type).collect();
-        Self { judged, outcomes, boot, types: types.into_iter().collect() }
+        Self { entrants, outcomes, boot, types: types.into_iter().collect() }
     }
 
     /// The sheets, in order.
@@ -77,7 +77,7 @@ impl<'a> Quality<'a> {
         );
         for &agent_type in &self.types {
             for subset in Subset::ALL {
-                for method in Method::all(self.judged.len()) {
+                for method in Method::all(self.entrants) {
                     let all = || self.of(agent_type, subset, method);
                     if all().next().is_none() {
                         continue;
@@ -86,7 +86,7 @@ impl<'a> Quality<'a> {
                         |value: Figure| Cell::of(self.mean(all(), |o| Some(value(&o.measured))), Form::Plain);
                     let likely = matches!(method, Method::Formula(_));
                     sheet.push(
-                        [type_name(agent_type).into(), subset.name().into(), method.name(self.judged)],
+                        [type_name(agent_type).into(), subset.name().into(), method.name(self.entrants)],
                         vec![
                             plain(|m| m.min_ade),
                             plain(|m| m.min_fde),
@@ -134,14 +134,14 @@ impl<'a> Quality<'a> {
     }
 
     /// The rival with the least mean, of those that answered every case.
-    fn best_rival(&self, agent_type: AgentType, subset: Subset, value: Figure) -> Option<Rival> {
-        let count = |rival| self.of(agent_type, subset, Method::Formula(rival)).count();
-        let most = Rival::ALL.into_iter().map(count).max()?;
-        let mean = |rival: Rival| {
-            let all = self.by_case(agent_type, subset, Method::Formula(rival), value);
+    fn best_rival(&self, agent_type: AgentType, subset: Subset, value: Figure) -> Option<Method> {
+        let rivals = Method::rivals(self.entrants);
+        let most = rivals.iter().map(|rival| self.of(agent_type, subset, *rival).count()).max()?;
+        let mean = |rival: Method| {
+            let all = self.by_case(agent_type, subset, rival, value);
             (all.len() == most && most > 0).then(|| (all.values().sum::<f64>() / most as f64, rival))
         };
-        let least = Rival::ALL.into_iter().filter_map(mean).min_by(|a, b| a.0.total_cmp(&b.0));
+        let least = rivals.into_iter().filter_map(mean).min_by(|a, b| a.0.total_cmp(&b.0));
         least.map(|(_, rival)| rival)
     }
 
@@ -150,7 +150,7 @@ impl<'a> Quality<'a> {
             "1b Paired differences of ADE, ours minus theirs",
             &[
                 "Metres, over the same cases; below zero ours is better. A rival with one answer has it as both \
-                 its best and its first. \"Best rival\" is the formula with the least mean among those that \
+                 its best and its first. \"Best rival\" is the one with the least mean among those that \
                  answer every case, picked for each figure by itself. The last line of a block says what \
                  refinement brings: the shipped settings minus the initializer alone.",
             ],
@@ -160,7 +160,7 @@ impl<'a> Quality<'a> {
         let (min, first): (Figure, Figure) = (|m| m.min_ade, |m| m.first_ade);
         for &agent_type in &self.types {
             for subset in Subset::ALL {
-                for (i, own) in self.judged.iter().enumerate() {
+                for (i, own) in self.entrants.judged.iter().enumerate() {
                     let ours = Method::Refined(i);
                     let mut line = |name: &str, a: Option<Estimate>, b: Option<Estimate>, best: Cell| {
                         let keys = [type_name(agent_type), subset.name(), &own.name, name];
@@ -171,13 +171,13 @@ impl<'a> Quality<'a> {
                     };
                     let against = |method, value| self.difference(agent_type, subset, [ours, method], value);
                     let best = [min, first].map(|value| self.best_rival(agent_type, subset, value));
-                    let [a, b] = [(best[0], min), (best[1], first)]
-                        .map(|(rival, value)| against(Method::Formula(rival?), value));
-                    let names = best.map(|r| r.map_or("-", Rival::name)).join(", ");
+                    let [a, b] =
+                        [(best[0], min), (best[1], first)].map(|(rival, value)| against(rival?, value));
+                    let names = best.map(|r| r.map_or("-".into(), |r| r.name(self.entrants))).join(", ");
                     line("best rival", a, b, Cell::Text(names));
-                    for rival in Rival::ALL {
-                        let method = Method::Formula(rival);
-                        line(rival.name(), against(method, min), against(method, first), Cell::Nothing);
+                    for rival in Method::rivals(self.entrants) {
+                        let name = rival.name(self.entrants);
+                        line(&name, against(rival, min), against(rival, first), Cell::Nothing);
                     }
                     let alone = Method::Initializer(i);
                     line("initializer alone", against(alone, min), against(alone, first), Cell::Nothing);
@@ -209,7 +209,7 @@ impl<'a> Quality<'a> {
                 "across, share",
             ],
         );
-        for (i, own) in self.judged.iter().enumerate() {
+        for (i, own) in self.entrants.judged.iter().enumerate() {
             for subset in Subset::ALL {
                 for (group, name) in GROUPS {
                     let all = || {
@@ -260,15 +260,13 @@ impl<'a> Quality<'a> {
         let mut sheet = Sheet::new(
             "1d Do the probabilities mean what they say?",
             &["Futures of all types and conditions by the probability given to them; right is the best one."],
-            &["ours", "bin"],
+            &["who", "bin"],
             &["mean probability", "right"],
         );
-        for (i, own) in self.judged.iter().enumerate() {
-            let mine: Vec<&Outcome> = self
-                .outcomes
-                .iter()
-                .filter(|o| o.method == Method::Refined(i) && o.probabilities.len() > 1)
-                .collect();
+        for method in Method::answering(self.entrants) {
+            let name = method.name(self.entrants);
+            let mine = |o: &&Outcome| o.method == method && o.probabilities.len() > 1;
+            let mine: Vec<&Outcome> = self.outcomes.iter().filter(mine).collect();
             for bin in 0..10 {
                 let futures = || {
                     mine.iter().flat_map(|o| {
@@ -279,7 +277,7 @@ impl<'a> Quality<'a> {
                 let inside = || futures().filter(|(_, p, _)| ((p * 10.0) as usize).min(9) == bin);
                 let low = f64::from(bin as u32) / 10.0;
                 sheet.push(
-                    [own.name.clone(), format!("{low:.1} to {:.1}", low + 0.1)],
+                    [name.clone(), format!("{low:.1} to {:.1}", low + 0.1)],
                     vec![
                         Cell::of(
                             self.boot.estimate(inside().map(|(s, p, _)| Value::new(s, p))),
@@ -301,18 +299,17 @@ impl<'a> Quality<'a> {
             "1e Goals met, limits kept",
             &[
                 "A goal is met within 0.05 m, 0.02 rad and 0.05 m/s by the future shown. \"Silent\" counts goals \
-                 that were neither met nor reported unreachable.",
+                 that were neither met nor reported unreachable. \"Left\" is the distance from the future shown to \
+                 the goal's position, metres.",
             ],
-            &["ours", "type", "condition"],
-            &["met", "met or reported", "silent", "futures", "outside limits"],
+            &["who", "type", "condition"],
+            &["met", "met or reported", "silent", "left", "futures", "outside limits"],
         );
-        for (i, own) in self.judged.iter().enumerate() {
+        for method in Method::answering(self.entrants) {
             for &agent_type in &self.types {
                 for subset in Subset::ALL {
-                    let all: Vec<(usize, GoalVerdict)> = self
-                        .of(agent_type, subset, Method::Refined(i))
-                        .filter_map(|o| Some((o.site, o.goal?)))
-                        .collect();
+                    let all: Vec<(usize, GoalVerdict)> =
+                        self.of(agent_type, subset, method).filter_map(|o| Some((o.site, o.goal?))).collect();
                     if all.is_empty() {
                         continue;
                     }
@@ -323,15 +320,17 @@ impl<'a> Quality<'a> {
                         }
                         Cell::of(self.boot.estimate(flags), Form::Percent)
                     };
+                    let left = all.iter().filter_map(|(s, g)| Some(Value::new(*s, g.left_m?)));
                     let sum = |count: fn(&GoalVerdict) -> usize| {
                         Cell::Count(all.iter().map(|(_, g)| count(g)).sum::<usize>() as u64)
                     };
                     sheet.push(
-                        [own.name.as_str(), type_name(agent_type), subset.name()],
+                        [method.name(self.entrants).as_str(), type_name(agent_type), subset.name()],
                         vec![
                             share(|g| g.met),
                             share(|g| g.met || g.reported),
                             sum(|g| usize::from(!g.met && !g.reported)),
+                            Cell::of(self.boot.estimate(left), Form::Plain),
                             sum(|g| g.futures),
                             sum(|g| g.outside),
                         ],

@@ -6,11 +6,12 @@ mod edges;
 mod features;
 mod likelihood;
 
-use super::rivals::{constant_velocity, varied};
+use super::rivals::{Together, constant_velocity, varied};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value, quantile};
 use super::together::{Ask, Motions, generated, joint_goal, motions_by, motions_of, motions_of_log, scenes};
-use super::{Judged, Site};
+use super::{Entrants, Judged, Site};
+use crate::baselines::Baseline;
 use anyhow::Result;
 use edges::RoadEdges;
 use features::{FEATURES, Motion, observe};
@@ -28,6 +29,7 @@ enum Roller<'a> {
     ConstantVelocity,
     /// With and without goals.
     PriorNoise(bool),
+    Learned(&'a Baseline, bool),
     Ours(&'a Judged, bool),
 }
 
@@ -38,6 +40,7 @@ impl Roller<'_> {
             Self::Log => "log oracle".into(),
             Self::ConstantVelocity => "constant velocity".into(),
             Self::PriorNoise(on) => format!("prior + noise{}", goals(*on)),
+            Self::Learned(baseline, on) => format!("{}{}", baseline.name, goals(*on)),
             Self::Ours(own, on) => format!("{}{}", own.name, goals(*on)),
         }
     }
@@ -49,6 +52,10 @@ impl Roller<'_> {
                 vec![motions_by(site, false, |_, start, _, _| constant_velocity(start))]
             }
             Self::PriorNoise(goals) => noisy(site, *goals, seed),
+            Self::Learned(baseline, goals) => {
+                let together = Together::new(baseline, site, *goals)?;
+                (0..ROLLOUTS).map(|rollout| together.drawn(seed, rollout)).collect()
+            }
             Self::Ours(own, goals) => {
                 let ask = Ask { samples: ROLLOUTS, ..Ask::shipped(*goals, seed) };
                 scenes(&own.generator, site, ask)?.iter().map(|s| motions_of(site, s)).collect()
@@ -122,7 +129,12 @@ pub(super) fn closeness(site: &Site<'_>, rollouts: &[Motions], soon_s: f64) -> (
 ///
 /// # Errors
 /// When a generator fails.
-pub fn realism(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
+pub fn realism(
+    entrants: Entrants<'_>,
+    sites: &[Site<'_>],
+    boot: &Bootstrap,
+    seed: u64,
+) -> Result<Vec<Sheet>> {
     let names: Vec<&str> = FEATURES.iter().map(|f| f.name).collect();
     let columns: Vec<&str> = ["composite"].into_iter().chain(names).collect();
     let mut sheet = Sheet::new(
@@ -149,7 +161,12 @@ pub fn realism(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u6
     let sites: Vec<&Site<'_>> = sites.iter().filter(|s| !s.cases.is_empty()).collect();
     let mut rollers =
         vec![Roller::Log, Roller::ConstantVelocity, Roller::PriorNoise(false), Roller::PriorNoise(true)];
-    rollers.extend(judged.iter().flat_map(|own| [Roller::Ours(own, false), Roller::Ours(own, true)]));
+    for baseline in entrants.baselines {
+        rollers.push(Roller::Learned(baseline, false));
+        rollers.extend(baseline.has_condition().then_some(Roller::Learned(baseline, true)));
+    }
+    rollers
+        .extend(entrants.judged.iter().flat_map(|own| [Roller::Ours(own, false), Roller::Ours(own, true)]));
     for roller in rollers {
         let seen: Result<Vec<Seen>> = sites.par_iter().map(|site| look(&roller, site, seed)).collect();
         let seen = seen?;

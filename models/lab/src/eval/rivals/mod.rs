@@ -1,10 +1,13 @@
-//! Formulas that the experts are judged against: what can be had without any learning.
+//! Whom the experts are judged against: formulas, which are what can be had without any learning, and
+//! networks of others ([`learned`]).
 
 mod lane;
+mod learned;
 mod prior;
 mod spline;
 
 pub use lane::intelligent_driver;
+pub use learned::{Together, learned};
 pub use prior::{VARIATIONS, least_effort, varied};
 pub use spline::hermite;
 
