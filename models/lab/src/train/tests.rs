@@ -94,7 +94,7 @@ fn every_trained_variable_gets_a_gradient() {
     let records = Records::load(&[records(folder.path(), 2)]).unwrap();
     let tools = Tools::new(experts::Refining::default(), true);
     let indices: Vec<usize> = (0..records.len()).collect();
-    let shard = Shard::new(&records, &indices, &tools.route, None).unwrap();
+    let shard = Shard::new(&records, &indices, &tools.route).unwrap();
     let card = Expert::random(1).unwrap().card;
     let expert = Expert::trainable(small(), card, 3, &candle_core::Device::Cpu).unwrap();
     for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
