@@ -47,6 +47,13 @@ impl Baseline {
         Ok(Self { name: name.into(), kind, networks })
     }
 
+    /// Small random networks for tests.
+    #[cfg(test)]
+    pub(crate) fn random(name: &str, kind: Kind) -> Self {
+        let networks = vec![super::tests::random(kind, kind.expert().unwrap_or("vehicle"), 1)];
+        Self { name: name.into(), kind, networks }
+    }
+
     /// It sees goals; otherwise it answers only where there is none.
     pub fn has_condition(&self) -> bool {
         self.kind.has_condition()

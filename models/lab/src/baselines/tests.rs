@@ -30,7 +30,7 @@ fn card(expert: &str) -> Card {
     }
 }
 
-fn random(kind: Kind, expert: &str, seed: u64) -> Networks {
+pub(super) fn random(kind: Kind, expert: &str, seed: u64) -> Networks {
     Networks::build(plan(kind), card(expert), Params::random(seed, true, &Device::Cpu)).unwrap()
 }
 

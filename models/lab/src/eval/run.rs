@@ -286,13 +286,20 @@ impl Report {
 mod tests {
     use super::super::samples::{log, scene, shifted};
     use super::*;
+    use crate::baselines::Kind;
     use experts::Generator;
 
     fn tables(tables: &[Table], seed: u64, threads: usize) -> Report {
-        judge(tables, seed, threads, Crop::default()).unwrap()
+        judge(tables, seed, threads, Crop::default(), &[]).unwrap()
     }
 
-    fn judge(tables: &[Table], seed: u64, threads: usize, crop: Crop) -> Result<Report> {
+    fn judge(
+        tables: &[Table],
+        seed: u64,
+        threads: usize,
+        crop: Crop,
+        baselines: &[Baseline],
+    ) -> Result<Report> {
         let scenes: Vec<Scene> = (0..2)
             .map(|i| {
                 let speed = 8.0 + f64::from(i);
@@ -303,7 +310,7 @@ mod tests {
         let judged = vec![Judged { name: "random".into(), generator }];
         let tables = tables.iter().copied().collect();
         let options = Options { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
-        run(judged, &[], &scenes, &options, &|_| {})
+        run(judged, baselines, &scenes, &options, &|_| {})
     }
 
     #[test]
@@ -339,9 +346,42 @@ mod tests {
     }
 
     #[test]
+    fn learned_rivals_stand_beside_the_experts() {
+        let baselines = [
+            Baseline::random("free", Kind::TrafficGen),
+            Baseline::random("asked", Kind::TrafficGenConditional),
+        ];
+        let made = |threads| {
+            let tables = [Table::Quality, Table::Coherence, Table::Realism];
+            judge(&tables, 5, threads, Crop::default(), &baselines).unwrap()
+        };
+        let report = made(1);
+        assert_eq!(report.markdown(), made(2).markdown());
+        // Sheet, a word of the line's keys beside the name, and whether each of the two has such a line.
+        for (title, word, expected) in [
+            ("1a", "none", [true, true]),
+            ("1a", "pos", [false, true]),
+            ("1b", "none", [true, true]),
+            ("1e", "speed", [false, true]),
+            ("2 ", "none", [true, true]),
+            ("2 ", "all fixed", [false, true]),
+            ("4a", "", [true, true]),
+            ("4a", ", goals", [false, true]),
+        ] {
+            let sheet = report.sheets.iter().find(|s| s.title.starts_with(title)).unwrap();
+            let has = |name: &str| {
+                let named = |keys: &[String]| keys.iter().any(|k| k.starts_with(name));
+                let fits = |keys: &[String]| keys.iter().any(|k| k == word || k.ends_with(word));
+                sheet.lines.iter().any(|l| named(&l.keys) && fits(&l.keys))
+            };
+            assert_eq!(["free", "asked"].map(has), expected, "{title} {word}");
+        }
+    }
+
+    #[test]
     fn crops_are_told() {
         let crop = Crop { side_m: Some(50.0), least_agents: 1 };
-        let report = judge(&[Table::Coherence], 5, 1, crop).unwrap();
+        let report = judge(&[Table::Coherence], 5, 1, crop, &[]).unwrap();
         // The second car of each scene is 30 m ahead of the first.
         let told = CropReport { crop, scenes_left_out: 0, road_users_outside: 2 };
         assert_eq!((report.scenes, report.crop), (2, Some(told)));
@@ -349,7 +389,7 @@ mod tests {
         assert!(text.contains("50 m square about the ego alone, 2 outside left out"), "{text}");
         let json = serde_json::to_value(&report).unwrap();
         assert_eq!(json["crop"]["side_m"].as_f64(), Some(50.0));
-        assert!(judge(&[Table::Coherence], 5, 1, Crop::PAPER).is_err());
+        assert!(judge(&[Table::Coherence], 5, 1, Crop::PAPER, &[]).is_err());
         assert!(serde_json::to_value(tables(&[], 5, 1)).unwrap().get("crop").is_none());
     }
 
