@@ -1,7 +1,7 @@
 //! Ten knots hold what real vehicles do: fit, roll out, compare.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test stops at the first surprise")]
 
-use scene::motion::{MotionModel, Sampled, fit};
+use lab::eval::measure::{following, mean_distance_m};
 use scene::{Agent, AgentType, HORIZON_STEPS};
 use std::path::Path;
 
@@ -16,17 +16,8 @@ fn fit_error_m(agent: &Agent) -> Option<f64> {
     if agent.agent_type != AgentType::Vehicle || seen < 85 || agent.track.extent_m() < 2.0 || backwards {
         return None;
     }
-    let model = MotionModel::new(agent.agent_type, agent.subtype, agent.size, start);
-    let samples: Vec<Sampled> = (1..=HORIZON_STEPS / 5)
-        .filter_map(|i| {
-            let state = agent.state_at(5 * i)?;
-            Some(Sampled { step: 5 * i, position: state.position(), heading_rad: state.heading_rad })
-        })
-        .collect();
-    let rollout = model.rollout(&fit(&model, &samples));
-    let known = (1..=HORIZON_STEPS).filter_map(|s| Some((agent.state_at(s)?, rollout[s].position)));
-    let (sum, n) = known.fold((0.0, 0.0), |(sum, n), (s, p)| (sum + (s.position() - p).norm(), n + 1.0));
-    Some(sum / n)
+    let motion = following(agent, start);
+    Some(mean_distance_m(agent, |step| motion[step].position))
 }
 
 #[test]

@@ -21,6 +21,8 @@ use scene::KNOTS;
 pub const MODES: usize = 6;
 /// Instants at which route coordinates are compared: 0.5, 1.0, .. 9.0 s.
 pub const INSTANTS: usize = 18;
+/// Seconds from an instant to the next.
+pub const INSTANT_S: f64 = scene::HORIZON_STEPS as f64 / INSTANTS as f64 * scene::STEP_S;
 /// Numbers of one future in route coordinates: along knots, then across knots.
 pub const RESIDUAL: usize = 2 * KNOTS;
 /// Numbers about the road user itself and its condition.
@@ -115,7 +117,7 @@ impl Basis {
     pub fn new() -> Self {
         let mut basis = Self { along: [[0.0; KNOTS]; INSTANTS], across: [[0.0; KNOTS]; INSTANTS] };
         for instant in 0..INSTANTS {
-            let t = 0.5 * (instant + 1) as f64;
+            let t = INSTANT_S * (instant + 1) as f64;
             for knot in 0..KNOTS {
                 basis.along[instant][knot] = twice_integrated_hat(knot, t) as f32;
                 if knot > 0 {

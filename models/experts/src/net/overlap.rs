@@ -5,7 +5,7 @@
 //! another box than half a metre.
 
 use super::smooth;
-use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
+use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, RESIDUAL};
 use scene::KNOTS;
 
 /// Gap below which the energy grows, metres.
@@ -13,8 +13,6 @@ const MARGIN: f32 = 0.5;
 /// Longest push, in normalised knots.
 const LONGEST: f32 = 0.8;
 const WEIGHT: f32 = 0.3;
-/// Time between two instants, seconds.
-const INSTANT_S: f32 = 0.5;
 
 /// Centre x and y, cosine and sine of the heading at each instant. All zero: nobody there.
 pub type Poses = [[f32; 4]; INSTANTS];
@@ -84,7 +82,7 @@ pub fn overlap<'a>(
 /// Where boxes would be `ahead_s` later if each went on, headings held, as it has moved since the instant
 /// before. Nobody is there at the first instant, and where one of the two says so.
 pub fn carried_on(poses: &Poses, ahead_s: f32) -> Poses {
-    let share = ahead_s / INSTANT_S;
+    let share = ahead_s / INSTANT_S as f32;
     let mut out = [[0.0; 4]; INSTANTS];
     for instant in 1..INSTANTS {
         let (before, now) = (&poses[instant - 1], &poses[instant]);
@@ -98,7 +96,7 @@ pub fn carried_on(poses: &Poses, ahead_s: f32) -> Poses {
 
 /// A gradient to the centres of [`carried_on`] boxes as one to the centres they were made from.
 pub fn carried_back(gradient: &[[f32; 2]; INSTANTS], ahead_s: f32) -> [[f32; 2]; INSTANTS] {
-    let share = ahead_s / INSTANT_S;
+    let share = ahead_s / INSTANT_S as f32;
     let mut out = [[0.0; 2]; INSTANTS];
     for instant in 1..INSTANTS {
         for axis in 0..2 {

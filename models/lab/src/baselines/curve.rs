@@ -1,10 +1,9 @@
 //! Eighteen points to states at 10 Hz.
 
-use experts::features::INSTANTS;
+use experts::features::{INSTANT_S, INSTANTS};
 use scene::geometry::rotate;
 use scene::{HORIZON_STEPS, STEP_S, State, Vec2};
 
-use super::regressor::INSTANT_S;
 use super::sight::Points;
 
 /// Below this speed the curve's direction says nothing about the heading, m/s.

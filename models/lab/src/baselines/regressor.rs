@@ -3,7 +3,7 @@
 
 use candle_core::{Result, Tensor};
 use experts::features::{
-    AgentFeatures, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE, PIECES,
+    AgentFeatures, INSTANT_S, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE, PIECES,
 };
 use experts::net::inputs::{Inputs, pieces};
 use experts::net::layers::{Linear, Mlp, Norm, RELU_GAIN};
@@ -15,8 +15,6 @@ pub(super) const NUMBERS: usize = 2 * INSTANTS;
 const QUERY_BLOCKS: usize = 3;
 /// A coordinate grows with time by this when the last layer says 1, m/s.
 const SPREAD_MPS: f64 = 8.0;
-/// Seconds from an instant to the next.
-pub(super) const INSTANT_S: f64 = 0.5;
 
 /// What a batch of road users sees.
 pub(super) struct Seen {

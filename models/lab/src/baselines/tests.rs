@@ -13,7 +13,7 @@ use super::sight::{Truth, forget_goals};
 use super::*;
 use crate::eval::blind;
 use crate::eval::samples::{log, scene, shifted};
-use crate::train::{Record, Trainee, toy};
+use crate::train::{Record, toy};
 
 fn plan(kind: Kind) -> Plan {
     let sizes = Architecture { width: 32, piece_width: 16, gating_blocks: 2, ..Architecture::default() };
@@ -203,21 +203,7 @@ fn every_variable_gets_a_gradient_in_its_stages() {
     toy::write(&path, &toy::scenes(2, 8, 7));
     let (tools, shard) = toy::shard(&path);
     let networks = random(Kind::Paper, "vehicle", 3);
-    for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
-        let (loss, _) = networks.loss(&tools, &shard, stage, &mut train::stream(1, 1, 1)).unwrap();
-        let grads = loss.backward().unwrap();
-        for (name, var) in networks.vars() {
-            let expected = match stage {
-                Stage::Denoiser => !name.starts_with("initializer."),
-                Stage::Initializer => !name.starts_with("refiner."),
-                Stage::Joint => true,
-            };
-            let norm = grads
-                .get(var.as_tensor())
-                .map_or(0.0, |g| g.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap());
-            assert!(norm.is_finite() && (norm > 0.0) == expected, "{stage:?}: {name} has {norm}");
-        }
-    }
+    toy::assert_gradients_by_stage(&networks, &tools, &shard);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Table 2: does a scene that is generated together hang together?
 
+use super::measure::mean_distance_m;
 use super::rivals::{Together, least_effort};
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
@@ -66,10 +67,7 @@ pub(super) fn judge(site: &Site<'_>, motions: &Motions, left_out: &BTreeSet<(usi
 
 /// Mean distance of states at steps 1 ..= 90 from an agent's log, metres.
 pub(super) fn from_log_m(site: &Site<'_>, agent: usize, states: &[State]) -> f64 {
-    let agent = &site.scene.agents[agent];
-    let known = || (1..=HORIZON_STEPS).filter_map(|step| Some((step, agent.track.at(step)?)));
-    let apart = known().map(|(step, s)| (s.position() - states[step - 1].position()).norm());
-    apart.sum::<f64>() / known().count().max(1) as f64
+    mean_distance_m(&site.scene.agents[agent], |step| states[step - 1].position())
 }
 
 /// What a line of the table runs of the product.

@@ -2,8 +2,8 @@
 
 use super::{Case, Subset};
 use scene::geometry::direction;
-use scene::motion::{MotionModel, MotionState, Sampled, fit, limit_excess};
-use scene::{Agent, Future, Goal, HORIZON_STEPS, State, wrap_angle};
+use scene::motion::{MotionModel, MotionState, Sampled, Trajectory, fit, limit_excess};
+use scene::{Agent, Future, Goal, HORIZON_STEPS, State, Vec2, wrap_angle};
 
 /// Errors of one road user's futures. Distances in metres, over the steps at which the log is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -147,23 +147,32 @@ pub fn is_met([position_m, heading_rad, speed_mps]: [f64; 3]) -> bool {
     position_m < 0.05 && heading_rad < 0.02 && speed_mps < 0.05
 }
 
-/// Whether its road user can have moved as the log says: some motion within the limits stays within
-/// [`FOLLOWED_M`] of it on average and arrives within [`ARRIVED_MPS`] of its last speed. Trackers that lose
-/// or mix up road users leave logs that nobody can follow.
-pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
-    let model = MotionModel::new(log.agent_type, log.subtype, log.size, case.start);
+/// The motion within the limits that follows a log most closely from its start.
+pub fn following(log: &Agent, start: State) -> Trajectory {
+    let model = MotionModel::new(log.agent_type, log.subtype, log.size, start);
     let sampled = |step: usize| {
         let state = log.state_at(step)?;
         Some(Sampled { step, position: state.position(), heading_rad: state.heading_rad })
     };
     let samples: Vec<Sampled> = (1..=HORIZON_STEPS / 5).filter_map(|i| sampled(5 * i)).collect();
-    let drive = model.rollout(&fit(&model, &samples));
-    let known = (1..=HORIZON_STEPS).filter_map(|s| Some((log.state_at(s)?, &drive[s])));
-    let apart = mean(known.map(|(logged, driven)| (logged.position() - driven.position).norm()));
+    model.rollout(&fit(&model, &samples))
+}
+
+/// Mean distance from a log, metres, of whoever is `at` a place at each step.
+pub fn mean_distance_m(log: &Agent, at: impl Fn(usize) -> Vec2) -> f64 {
+    let known = (1..=HORIZON_STEPS).filter_map(|step| Some((step, log.state_at(step)?)));
+    mean(known.map(|(step, logged)| (logged.position() - at(step)).norm()))
+}
+
+/// Whether its road user can have moved as the log says: the motion that follows it stays within
+/// [`FOLLOWED_M`] of it on average and arrives within [`ARRIVED_MPS`] of its last speed. Trackers that lose
+/// or mix up road users leave logs that nobody can follow.
+pub fn can_be_followed(log: &Agent, case: &Case) -> bool {
+    let motion = following(log, case.start);
     let arrives = log
         .state_at(case.goal_step)
-        .is_none_or(|last| (last.speed_mps() - drive[case.goal_step].velocity.norm()).abs() < ARRIVED_MPS);
-    apart < FOLLOWED_M && arrives
+        .is_none_or(|last| (last.speed_mps() - motion[case.goal_step].velocity.norm()).abs() < ARRIVED_MPS);
+    mean_distance_m(log, |step| motion[step].position) < FOLLOWED_M && arrives
 }
 
 /// Whether a future breaks a limit of its road user. Exact rest breaks none: what little speed a standing

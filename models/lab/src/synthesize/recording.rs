@@ -1,7 +1,7 @@
 //! One seed from its network to cleaned tracks of everybody on it.
 
 use super::demand::{self, Crowd};
-use super::fleet::Fleet;
+use super::fleet::{Fleet, Kind};
 use super::footpath::Kerbs;
 use super::network::{Network, Rank};
 use super::programs::{ProgramError, Sumo};
@@ -62,6 +62,21 @@ pub struct Actor {
     pub track: Cleaned,
     /// Steps (multiples of [`CHECK_EVERY`]) at which it overlaps somebody.
     pub overlaps: Vec<usize>,
+}
+
+impl Actor {
+    /// One of a kind that is not parked.
+    pub fn of(kind: &Kind, track: Cleaned) -> Self {
+        Self {
+            agent_type: kind.agent_type,
+            subtype: kind.subtype,
+            size: kind.size,
+            parked: false,
+            on_foot: kind.on_foot,
+            track,
+            overlaps: Vec::new(),
+        }
+    }
 }
 
 /// Everything of one seed, in the network's frame.
@@ -176,15 +191,7 @@ fn moving(path: &Path, fleet: &Fleet, seed: u64) -> Result<Vec<Actor>, RecordErr
     for record in records.into_values() {
         let Some(kind) = fleet.kinds.get(&record.vehicle_type) else { continue };
         let Some(track) = tracks::clean(&record, kind, &mut draw) else { continue };
-        actors.push(Actor {
-            agent_type: kind.agent_type,
-            subtype: kind.subtype,
-            size: kind.size,
-            parked: false,
-            on_foot: kind.on_foot,
-            track,
-            overlaps: Vec::new(),
-        });
+        actors.push(Actor::of(kind, track));
     }
     Ok(actors)
 }

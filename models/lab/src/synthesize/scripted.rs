@@ -11,6 +11,7 @@ use super::recording::Actor;
 use super::tracks::{self, Cleaned};
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::sumo::fcd::Record;
+use formats::sumo::kerb::s_curve;
 use formats::sumo::net::{EdgeFunction, LaneKind, Net};
 use formats::sumo::polyline::{arc_lengths, length, part, point_at, resample};
 use scene::geometry::direction;
@@ -62,7 +63,7 @@ pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Draw) {
         let Some(record) = (0..40).find_map(|_| lanes.turning_back(draw)) else { continue };
         let Some(track) = tracks::clean(&record, kind, draw) else { continue };
         if free(&track, None, &kind.size, actors, CLEAR_M) {
-            actors.push(newcomer(kind, track));
+            actors.push(Actor::of(kind, track));
         }
     }
     let walkers = actors.iter().filter(|a| a.agent_type == AgentType::Pedestrian).count();
@@ -71,20 +72,8 @@ pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Draw) {
         let Some(record) = lanes.crossing(draw) else { continue };
         let Some(track) = tracks::clean(&record, kind, draw) else { continue };
         if free(&track, None, &kind.size, actors, WALK_CLEAR_M) {
-            actors.push(newcomer(kind, track));
+            actors.push(Actor::of(kind, track));
         }
-    }
-}
-
-fn newcomer(kind: &Kind, track: Cleaned) -> Actor {
-    Actor {
-        agent_type: kind.agent_type,
-        subtype: kind.subtype,
-        size: kind.size,
-        parked: false,
-        on_foot: kind.on_foot,
-        track,
-        overlaps: Vec::new(),
     }
 }
 
@@ -250,10 +239,7 @@ impl<'a> Lanes<'a> {
         });
         let start = draw.uniform(0.0, RECORDED_S - 30.0);
         let record = record(&path, heading_at(&line, &lengths, 0.0), start, &speeds, top);
-        // Comes from somewhere: nothing is recorded of it before it enters the lane.
-        let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start)?;
-        let all = record.times_s.len();
-        Some(cut(&record, first..all))
+        entering(&record, start)
     }
 
     /// A person across the road, away from crosswalks.
@@ -315,17 +301,9 @@ fn hermite(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64) -> Option<Vec<Vec2>
     (sharpest(&points) < SHARPEST).then_some(points)
 }
 
-/// A Hermite cubic from one pose to another, its tangents `reach` long.
+/// A cubic from one pose to another, its tangents `reach` long.
 fn cubic(from: Vec2, from_rad: f64, to: Vec2, to_rad: f64, reach: f64) -> Vec<Vec2> {
-    let (a, b) = (direction(from_rad) * reach, direction(to_rad) * reach);
-    let at = |t: f64| {
-        let (t2, t3) = (t * t, t * t * t);
-        from * (2.0 * t3 - 3.0 * t2 + 1.0)
-            + a * (t3 - 2.0 * t2 + t)
-            + to * (3.0 * t2 - 2.0 * t3)
-            + b * (t3 - t2)
-    };
-    (0..=40).map(|i| at(f64::from(i) / 40.0)).collect()
+    s_curve(from, direction(from_rad) * reach, to, direction(to_rad) * reach, 40)
 }
 
 /// Greatest curvature of a line, 1/m.
@@ -353,6 +331,12 @@ fn progress(path: &[Vec2], next: impl Fn(f64, f64) -> f64) -> Vec<f64> {
         out.push(s);
     }
     out
+}
+
+/// A recording of somebody who comes from elsewhere: nothing is known of it before `start_s`.
+fn entering(record: &Record, start_s: f64) -> Option<Record> {
+    let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start_s)?;
+    Some(cut(record, first..record.times_s.len()))
 }
 
 /// A part of a recording.

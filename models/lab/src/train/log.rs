@@ -1,6 +1,6 @@
 //! What a run reported, as a file of JSON lines and as curves.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -87,12 +87,7 @@ impl Log {
 
     /// One panel a measure: thin the training's, thick with dots that of records held out.
     fn svg(&self) -> String {
-        let mut names: Vec<&str> = Vec::new();
-        for name in self.lines.iter().flat_map(|line| line.means.keys()) {
-            if !names.contains(&name.as_str()) {
-                names.push(name);
-            }
-        }
+        let names: BTreeSet<&String> = self.lines.iter().flat_map(|line| line.means.keys()).collect();
         let (width, height) = (PANEL[0] + 2.0 * EDGE[0], PANEL[1] + 2.0 * EDGE[1]);
         let mut out = format!(
             r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{}" font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="#fff"/>"##,

@@ -40,8 +40,6 @@ pub use stages::Stage;
 pub(crate) use loss::{least, softmax};
 pub(crate) use route::Placed;
 pub(crate) use run::run_of;
-#[cfg(test)]
-pub(crate) use sample::stream;
 pub(crate) use sample::{Shard, normal, unit};
 pub(crate) use stages::{Tools, seeded};
 pub(crate) use trainee::Trainee;

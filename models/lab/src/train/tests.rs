@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use experts::net::{Architecture, Expert};
 
-use super::sample::{Shard, stream};
-use super::stages::{self, Tools};
+use super::sample::Shard;
+use super::stages::Tools;
 use super::*;
 
 fn small() -> Architecture {
@@ -97,19 +97,5 @@ fn every_trained_variable_gets_a_gradient() {
     let shard = Shard::new(&records, &indices, &tools.route).unwrap();
     let card = Expert::random(1).unwrap().card;
     let expert = Expert::trainable(small(), card, 3, &candle_core::Device::Cpu).unwrap();
-    for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
-        let (loss, _) = stages::train(&expert, &tools, &shard, stage, &mut stream(1, 1, 1)).unwrap();
-        let grads = loss.backward().unwrap();
-        for (name, var) in expert.vars() {
-            let expected = match stage {
-                Stage::Denoiser => !name.starts_with("initializer."),
-                Stage::Initializer => !name.starts_with("refiner."),
-                Stage::Joint => true,
-            };
-            let norm = grads
-                .get(var.as_tensor())
-                .map_or(0.0, |g| g.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap());
-            assert!(norm.is_finite() && (norm > 0.0) == expected, "{stage:?}: {name} has {norm}");
-        }
-    }
+    toy::assert_gradients_by_stage(&expert, &tools, &shard);
 }

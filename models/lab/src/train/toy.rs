@@ -10,8 +10,9 @@ use experts::features::{
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::sample::Shard;
-use super::stages::Tools;
+use super::sample::{Shard, stream};
+use super::stages::{Stage, Tools};
+use super::trainee::Trainee;
 use super::{AnchorPath, LoggedBox, Record, Records, Writer};
 
 /// Key, map and records of a scene.
@@ -47,6 +48,25 @@ pub(crate) fn shard(path: &Path) -> (Tools, Shard) {
     let indices: Vec<usize> = (0..records.len()).collect();
     let shard = Shard::new(&records, &indices, &tools.route).unwrap();
     (tools, shard)
+}
+
+/// Asserts that each stage's loss reaches just the variables that the stage trains.
+pub(crate) fn assert_gradients_by_stage(trainee: &impl Trainee, tools: &Tools, shard: &Shard) {
+    for stage in [Stage::Denoiser, Stage::Initializer, Stage::Joint] {
+        let (loss, _) = trainee.loss(tools, shard, stage, &mut stream(1, 1, 1)).unwrap();
+        let grads = loss.backward().unwrap();
+        for (name, var) in trainee.vars() {
+            let expected = match stage {
+                Stage::Denoiser => !name.starts_with("initializer."),
+                Stage::Initializer => !name.starts_with("refiner."),
+                Stage::Joint => true,
+            };
+            let norm = grads
+                .get(var.as_tensor())
+                .map_or(0.0, |g| g.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap());
+            assert!(norm.is_finite() && (norm > 0.0) == expected, "{stage:?}: {name} has {norm}");
+        }
+    }
 }
 
 fn between(rng: &mut ChaCha8Rng, low: f32, high: f32) -> f32 {

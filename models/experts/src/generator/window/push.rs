@@ -279,7 +279,8 @@ impl Window<'_> {
         let mut pushed = false;
         for _ in 0..GUIDANCE.0 {
             // Out of the boxes' way is far enough; on the way there the road counts too.
-            if self.push(actor, slot, &moved, others, Terms::Boxes).is_none() {
+            let places = places(&actor.planned, slot, &moved);
+            if self.energy(actor, &places, others, Terms::Boxes).0 == 0.0 {
                 break;
             }
             let Some((_, push)) = self.push(actor, slot, &moved, others, Terms::All) else { break };

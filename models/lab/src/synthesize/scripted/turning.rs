@@ -1,8 +1,8 @@
 //! U-turns in mid-block, which networks without turnarounds do not have.
 
-use super::{Lanes, Place, cubic, heading_at, length, part, progress, record, sharpest};
+use super::{Lanes, Place, cubic, entering, heading_at, length, part, progress, record, sharpest};
 use crate::synthesize::random::Draw;
-use crate::synthesize::{DT_S, RECORDED_S, WARM_UP_S};
+use crate::synthesize::{DT_S, RECORDED_S};
 use formats::sumo::fcd::Record;
 use formats::sumo::polyline::arc_lengths;
 use scene::geometry::{cross, direction};
@@ -52,10 +52,7 @@ impl Lanes<'_> {
         });
         let start = draw.uniform(0.0, RECORDED_S - 25.0);
         let record = record(&path, heading_at(&path, &arc_lengths(&path), 0.0), start, &speeds, top);
-        // It comes from somewhere: nothing is recorded of it before it enters the lane.
-        let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start)?;
-        let all = record.times_s.len();
-        Some(super::cut(&record, first..all))
+        entering(&record, start)
     }
 
     /// A place to the left on a lane that leads back.
