@@ -6,6 +6,7 @@ pub mod crop;
 pub mod eval;
 pub mod mirror;
 pub mod placement;
+pub mod polylines;
 pub mod prepare;
 pub mod statistics;
 pub mod synthesize;

@@ -77,7 +77,8 @@ mod tests {
     use super::*;
     use crate::eval::samples::{log, scene, shifted};
     use experts::features::agent::plan;
-    use experts::features::world::{MapIndex, World};
+    use experts::features::world::World;
+    use scene::routes::LaneGraph;
 
     #[test]
     fn twice_is_the_scene_again() {
@@ -93,7 +94,7 @@ mod tests {
         let mut first = scene(vec![log("a", 8.0, 91)]);
         first.agents[0].conditions.goal.position = Some(Vec2::new(60.0, 3.5));
         let ends = |scene: &Scene| -> Vec<Vec2> {
-            let world = World::new(scene, Arc::new(MapIndex::new(&scene.map)), 0);
+            let world = World::new(scene, Arc::new(LaneGraph::new(&scene.map)), 0);
             let planned = plan(&world, &world.present[0]);
             planned.anchors.iter().map(|a| a.path.last().position).collect()
         };

@@ -44,7 +44,7 @@ impl Limits {
                 brake_mps2: 2.0,
                 lateral_mps2: 2.0,
                 curvature_per_m: f64::INFINITY,
-                speed_mps: 4.5,
+                speed_mps: 6.0,
                 comfort_lateral_mps2: 1.0,
                 reference_offset: 0.0,
             },

@@ -571,7 +571,7 @@ pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
     for threads in [1, 2] {
         let generator = super::generator(common)?.with_threads(threads);
         generator.warm_up();
-        rows.extend(lab::eval::latency::latency(&generator, threads, &scenes, 3).map_err(failed)?);
+        rows.extend(lab::eval::cost::latency(&generator, threads, &scenes).map_err(failed)?);
     }
     print_json(&rows)
 }

@@ -1,12 +1,11 @@
-//! What an expert sees of one road user: its own state and condition, the others, the map pieces that
-//! matter, its anchors, and the projections that keep a fixed goal.
+//! What an expert sees of one road user: its own state and condition, the others, its anchors, and the
+//! projections that keep a fixed goal.
 
 use super::anchors::{Anchor, PathKind, anchors};
 use super::profile::speed_at;
 use super::world::{Present, World};
 use super::{
-    ANCHOR, AgentFeatures, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE_POSE, PIECES, SeenPiece, hat,
-    integrated_hat, twice_integrated_hat,
+    ANCHOR, AgentFeatures, MODES, NEIGHBOUR, NEIGHBOURS, OWN, hat, integrated_hat, twice_integrated_hat,
 };
 use nalgebra::DMatrix;
 use scene::geometry::{direction, rotate};
@@ -37,9 +36,6 @@ pub const OWN_GOAL_POSITION: usize = 12;
 /// Which of a neighbour's numbers speak of its goal.
 pub const NEIGHBOUR_GOAL: Range<usize> = 15..19;
 
-/// Farthest map piece that is seen, metres.
-const SIGHT_M: f64 = 90.0;
-
 /// Works out anchors and features of one road user.
 pub fn plan(world: &World<'_>, who: &Present) -> Planned {
     let anchors = anchors(world, who, &world.model(who), &world.target(who));
@@ -66,7 +62,6 @@ pub fn plan_with(world: &World<'_>, who: &Present, anchors: Vec<Anchor>) -> Plan
     }
     let features = AgentFeatures {
         own: encode_own(world, who, &model, &target, &frame),
-        pieces: seen_pieces(world, &frame, &target),
         neighbours: neighbours(world, who, &frame),
         anchors: encoded,
         tangent: Box::new(tangent(&target)),
@@ -169,7 +164,7 @@ fn encode_own(
     out.vector(heading, 1.0);
     out.push(target.speed_mps.unwrap_or(0.0) / 10.0);
     out.push(target.speed_mps.map_or(0.0, |v| (v - v0) / 5.0));
-    let lanes = world.map.graph.nearest_for(who.start.position(), 6.0, who.agent_type);
+    let lanes = world.graph.nearest_for(who.start.position(), 6.0, who.agent_type);
     let nearest = lanes.first();
     out.flag(nearest.is_some());
     out.push(nearest.map_or(3.0, |l| l.lateral_m) / 3.0);
@@ -224,47 +219,6 @@ fn encode_neighbour(world: &World<'_>, other: &Present, frame: &Frame) -> [f32; 
     out.values
 }
 
-fn seen_pieces(world: &World<'_>, frame: &Frame, target: &Target) -> Vec<SeenPiece> {
-    if !world.sight.pieces {
-        return Vec::new();
-    }
-    let pieces = &world.map.pieces;
-    let goal = target.position.map(|p| frame.point(p));
-    let mut order: Vec<(f64, usize, Vec2)> = pieces
-        .poses
-        .iter()
-        .enumerate()
-        .filter_map(|(i, pose)| {
-            let local = frame.point(pose.position);
-            let distance = local.norm();
-            if distance > SIGHT_M {
-                return None;
-            }
-            let to_goal = goal.map_or(f64::INFINITY, |g| (g - local).norm() + 10.0);
-            Some(((distance - 0.35 * local.x).min(to_goal), i, local))
-        })
-        .collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    order.truncate(PIECES);
-    order.into_iter().map(|(_, i, local)| seen_piece(world, frame, i, local)).collect()
-}
-
-fn seen_piece(world: &World<'_>, frame: &Frame, piece: usize, local: Vec2) -> SeenPiece {
-    let mut out = Filler::<PIECE_POSE>::new();
-    let pieces = &world.map.pieces;
-    out.vector(local, 30.0);
-    out.push(local.norm() / 30.0);
-    out.vector(frame.heading(pieces.poses[piece].heading_rad), 1.0);
-    out.flag(local.x > 0.0);
-    out.flag(local.norm() < 8.0);
-    let lane = pieces.lanes[piece].as_deref().and_then(|id| world.map.graph.lane_index(id));
-    let signal = lane.and_then(|lane| world.signals.iter().position(|s| s.lane == lane));
-    let state = signal.map(|i| world.signals[i].state);
-    signal_flags(&mut out, state);
-    out.push(signal.map_or(0.0, |i| world.signal_ages_s[i] / 10.0));
-    SeenPiece { piece, pose: out.values }
-}
-
 fn signal_flags<const N: usize>(out: &mut Filler<N>, state: Option<SignalState>) {
     out.flag(state.is_some());
     out.flag(state.is_some_and(SignalState::is_stop));
@@ -291,11 +245,11 @@ struct PathFacts {
 impl PathFacts {
     fn of(world: &World<'_>, who: &Present, anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Self {
         let light = anchor.route.as_ref().and_then(|route| {
-            let ahead = speed::first_signal(route, &world.map.graph, &world.signals)?;
+            let ahead = speed::first_signal(route, &world.graph, &world.signals)?;
             Some((ahead.state, ahead.distance_m, world.signal_ages_s.get(ahead.index).copied()?))
         });
         let stop_sign_m =
-            anchor.route.as_ref().and_then(|route| speed::stop_sign_distance_m(route, &world.map.graph));
+            anchor.route.as_ref().and_then(|route| speed::stop_sign_distance_m(route, &world.graph));
         let ahead = speed::leaders(&anchor.path, who.size.length_m, obstacles);
         let waits = |l: &&speed::Leader| l.gap_m < QUEUE_M && obstacles[l.index].speed_mps < 0.5;
         Self {

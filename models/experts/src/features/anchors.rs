@@ -7,7 +7,7 @@ use super::MODES;
 use super::profile::{Caps, Progress, arriving, cruising, reaching_speed};
 use super::world::{Present, World};
 use scene::geometry::direction;
-use scene::motion::{Kind, MotionModel, Target, project};
+use scene::motion::{Hermite, Kind, MotionModel, Target, project};
 use scene::routes::{
     EndPose, GoalQuery, Polyline, Route, RouteKind, SpeedRules, base_path, route_length_m, routes_ahead,
     routes_to_goal, speed,
@@ -21,7 +21,8 @@ pub enum PathKind {
     Route,
     /// By a curve onto or off the lanes.
     Joined,
-    /// The motion of least effort to the goal.
+    /// The motion of least effort to the goal: projected, or by one cubic in time where no wheel steers or a
+    /// rider balances.
     LeastEffort,
     /// Straight on: no lane is known.
     Straight,
@@ -58,6 +59,9 @@ const SLOTS: [[usize; MODES]; MODES] = [
 /// The first path to a goal gets more of the slots than the others.
 const GOAL_SLOTS: [[usize; 3]; 3] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
 
+/// How far a rider's smooth way to a goal may be from the route's, metres.
+const RIDERS_BERTH_M: f64 = 3.0;
+
 /// A path before it has timings.
 struct Candidate {
     path: Polyline,
@@ -66,6 +70,8 @@ struct Candidate {
     kind: PathKind,
     route: Option<Route>,
     identity: u64,
+    /// Base progress that comes with the path.
+    pace: Option<Progress>,
 }
 
 /// The six anchors of a road user.
@@ -90,8 +96,8 @@ fn anchors_to_goal(
     let slots = GOAL_SLOTS[candidates.len().clamp(1, 3) - 1];
     for (candidate, count) in candidates.into_iter().zip(slots) {
         let length = goal_progress(&candidate.path, goal);
-        let caps = Caps::new(candidate.path.arc_m(), &candidate.caps_mps);
-        let base = arriving(v0, length, seconds, target.speed_mps, &caps);
+        // Whoever must be there in time takes bends as fast as that asks.
+        let base = candidate.pace.unwrap_or_else(|| arriving(v0, length, seconds, target.speed_mps));
         for timing in 0..count {
             out.push(candidate.anchor(base, (timing, count)));
         }
@@ -129,37 +135,48 @@ fn paths_to_goal(
         least_effort_m: Some(least_path.length_m()),
     };
     let mut out: Vec<Candidate> = Vec::new();
-    let routes = if world.sight.routes { routes_to_goal(&world.map.graph, &query) } else { Vec::new() };
+    let routes = if world.sight.routes { routes_to_goal(&world.graph, &query) } else { Vec::new() };
     for found in routes {
         let path = base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end));
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
         let identity = identity_of(&found.route);
         out.push(Candidate::new(path, 3.5, f64::INFINITY, kind, Some(found.route), identity));
     }
+    // Riders keep to no lane's middle and use pavements: the smooth way serves unless a route with the traffic
+    // goes elsewhere.
+    if who.agent_type == AgentType::Cyclist
+        && let Some(mut smooth) = smooth_to(who, model, target, goal)
+        && out.first().is_none_or(|c| {
+            c.kind != PathKind::Route || greatest_distance(&smooth.path, &c.path) < RIDERS_BERTH_M
+        })
+    {
+        smooth.route = if out.is_empty() { None } else { out.remove(0).route };
+        out.insert(0, smooth);
+        out.truncate(3);
+        return out;
+    }
     let near = out.first().is_some_and(|c| greatest_distance(&least_path, &c.path) < 1.0);
-    if out.is_empty() || near {
+    let joined = out.first().is_some_and(|c| c.kind == PathKind::Joined);
+    let direct = least.reach.is_reached() && is_direct(least_path.length_m(), who, goal);
+    if out.is_empty() || near || (joined && direct) {
         let path = with_tail(least_path, who);
         let route = if near { out.remove(0).route } else { None };
-        out.insert(0, Candidate::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, route, 1));
+        // Off the lanes a goal with a heading is met straight away; without one the lanes say how.
+        let place = usize::from(joined && !near && target.heading_rad.is_none());
+        out.insert(place, Candidate::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, route, 1));
     }
     out.truncate(3);
     out
 }
 
-/// On foot, the way of least effort: it leaves as the person walks now and arrives as the goal asks. Where
-/// that would wind, or there is hardly a way to go, the straight line.
+/// On foot, one cubic in time: it leaves as the person walks now and arrives as the goal asks. Where that
+/// would wind, or there is hardly a way to go, the straight line.
 fn walk_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) -> Candidate {
+    if let Some(smooth) = smooth_to(who, model, target, goal) {
+        return smooth;
+    }
     let start = who.start.position();
     let chord = goal - start;
-    // When to be where along it is the base's matter, so the speed stays free here.
-    let whither = Target { speed_mps: None, ..*target };
-    let least = project(model, &model.coasting(), &whither, None);
-    let steps = least.trajectory.iter().take(target.step + 1);
-    let path = Polyline::new(steps.map(|s| s.position));
-    let direct = path.length_m() < 1.25 * chord.norm() + 0.3;
-    if chord.norm() > 1.0 && direct && least.reach.is_reached() {
-        return Candidate::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2);
-    }
     let path = if chord.norm() > 0.3 {
         let n = chord.norm().ceil().max(1.0) as usize;
         Polyline::new((0..=n).map(|i| start + chord * (i as f64 / n as f64)))
@@ -167,6 +184,31 @@ fn walk_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) -> C
         Polyline::new([start, start + direction(who.start.heading_rad)])
     };
     Candidate::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2)
+}
+
+/// The cubic in time to the goal, as a path with its pace; `None` where it would wind or hardly move.
+fn smooth_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) -> Option<Candidate> {
+    let from = (who.start.position(), who.start.velocity());
+    let curve = Hermite::to_target(from, target)?;
+    let mut pace = [0.0; HORIZON_STEPS + 1];
+    let mut points = vec![from.0];
+    for step in 1..=HORIZON_STEPS {
+        let (here, _) = curve.at(step as f64 * STEP_S);
+        pace[step] = pace[step - 1] + (here - points[step - 1]).norm();
+        points.push(here);
+    }
+    if (goal - from.0).norm() <= 1.0 || !is_direct(pace[target.step], who, goal) {
+        return None;
+    }
+    points.truncate(target.step + 1);
+    let path = Polyline::new(points);
+    let candidate = Candidate::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2);
+    Some(Candidate { pace: Some(pace), ..candidate })
+}
+
+/// Whether a way of this length to the goal does not wind.
+fn is_direct(length_m: f64, who: &Present, goal: Vec2) -> bool {
+    length_m < 1.25 * (goal - who.start.position()).norm() + 0.3
 }
 
 /// A path long enough to have a direction: very short ones go on along the start heading.
@@ -217,7 +259,7 @@ fn walking_speed(v0: f64, timing: usize, count: usize) -> f64 {
 
 fn paths_ahead(world: &World<'_>, who: &Present, model: &MotionModel) -> Vec<Candidate> {
     let v0 = model.start_speed_mps();
-    let graph = &world.map.graph;
+    let graph = &world.graph;
     let walking = model.kind == Kind::Walk;
     let length = if walking { 9.0 * v0.max(1.4) * 1.3 + 4.0 } else { route_length_m(v0) };
     let routes =
@@ -315,7 +357,7 @@ impl Candidate {
         let rules = SpeedRules { lateral_mps2, ..SpeedRules::default() };
         let caps_mps = speed::speed_caps(&path, &limits, rules);
         let limit_mps = if limit_mps.is_finite() { limit_mps } else { 15.0 };
-        Self { path, caps_mps, limit_mps, kind, route, identity }
+        Self { path, caps_mps, limit_mps, kind, route, identity, pace: None }
     }
 
     fn anchor(&self, base: Progress, timing: (usize, usize)) -> Anchor {

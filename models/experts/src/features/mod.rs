@@ -1,5 +1,5 @@
-//! What the experts see and what they say, as plain numbers: one [`AgentFeatures`] per road user,
-//! one [`MapFeatures`] per map. The tensors of `net` are these arrays stacked.
+//! What the experts see and what they say, as plain numbers: one [`AgentFeatures`] per road user. The
+//! tensors of `net` are these arrays stacked. What they know of the map is what its anchors say.
 //!
 //! Futures are spoken of relative to *anchors*. An anchor is a path (a route along the lane graph, or
 //! a straight line on foot) with a base progress along it; a future is the anchor plus
@@ -11,7 +11,6 @@
 
 pub mod agent;
 pub mod anchors;
-pub mod map;
 pub mod profile;
 pub mod world;
 
@@ -27,12 +26,6 @@ pub const INSTANT_S: f64 = scene::HORIZON_STEPS as f64 / INSTANTS as f64 * scene
 pub const RESIDUAL: usize = 2 * KNOTS;
 /// Numbers about the road user itself and its condition.
 pub const OWN: usize = 48;
-/// Most map pieces seen.
-pub const PIECES: usize = 48;
-/// Numbers of a map piece in its own frame.
-pub const PIECE: usize = 60;
-/// Numbers of a map piece relative to the road user (pose, distance, signal state, time in state).
-pub const PIECE_POSE: usize = 14;
 /// Most other road users seen.
 pub const NEIGHBOURS: usize = 16;
 /// Numbers of another road user.
@@ -57,29 +50,11 @@ pub const ALONG_SCALE: f32 = 1.0;
 /// Scale of the across knots, metres.
 pub const ACROSS_SCALE: f32 = 1.0;
 
-/// All pieces of one map, encoded once and kept by the map's hash.
-#[derive(Clone, Debug, Default)]
-pub struct MapFeatures {
-    /// `PIECE` numbers each.
-    pub pieces: Vec<[f32; PIECE]>,
-}
-
-/// One map piece as a road user sees it.
-#[derive(Clone, Debug)]
-pub struct SeenPiece {
-    /// Index into [`MapFeatures::pieces`].
-    pub piece: usize,
-    /// Relative pose and present signal.
-    pub pose: [f32; PIECE_POSE],
-}
-
 /// What an expert sees of one road user.
 #[derive(Clone, Debug)]
 pub struct AgentFeatures {
     /// State, size, kind, condition values with their masks.
     pub own: [f32; OWN],
-    /// At most [`PIECES`], nearest first.
-    pub pieces: Vec<SeenPiece>,
     /// At most [`NEIGHBOURS`], nearest first.
     pub neighbours: Vec<[f32; NEIGHBOUR]>,
     /// One slot a mode.

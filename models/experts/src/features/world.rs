@@ -1,41 +1,22 @@
 //! One moment of a scene as the experts read it: who stands where at the start, on which lane graph.
 
-use super::map::MapPieces;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
 use scene::routes::speed::{LaneSignal, Obstacle};
 use scene::routes::{LaneGraph, Pose};
-use scene::{Agent, AgentType, Conditions, HORIZON_STEPS, LaneMap, Scene, Size, State, Vec2};
+use scene::{Agent, AgentType, Conditions, HORIZON_STEPS, Scene, Size, State, Vec2};
 use std::sync::Arc;
-
-/// Everything about a map that is worked out once.
-#[derive(Debug)]
-pub struct MapIndex {
-    /// Lanes with links.
-    pub graph: LaneGraph,
-    /// Pieces for the map encoder.
-    pub pieces: MapPieces,
-}
-
-impl MapIndex {
-    /// Works out graph and pieces.
-    pub fn new(map: &LaneMap) -> Self {
-        Self { graph: LaneGraph::new(map), pieces: MapPieces::new(map) }
-    }
-}
 
 /// What of the map the experts are shown. An evaluation takes some away to see what it brings; users get all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
-    /// Map pieces (lanes, edges, crosswalks, stop signs as lines) are among the features.
-    pub pieces: bool,
     /// Anchors follow lanes; otherwise they are those of a road user with no lane near.
     pub routes: bool,
 }
 
 impl Default for Sight {
     fn default() -> Self {
-        Self { pieces: true, routes: true }
+        Self { routes: true }
     }
 }
 
@@ -56,8 +37,8 @@ pub struct Present {
 pub struct World<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Its map's index.
-    pub map: Arc<MapIndex>,
+    /// Its map's lanes with their links.
+    pub graph: Arc<LaneGraph>,
     /// Start of the window, scene step.
     pub step: usize,
     /// Road users present at the start, by id.
@@ -74,15 +55,15 @@ pub struct World<'a> {
 
 impl<'a> World<'a> {
     /// The scene at `step` with the conditions' start fields applied.
-    pub fn new(scene: &'a Scene, map: Arc<MapIndex>, step: usize) -> Self {
+    pub fn new(scene: &'a Scene, graph: Arc<LaneGraph>, step: usize) -> Self {
         let conditions = scene.agents.iter().map(|a| a.conditions.clone()).collect();
-        Self::with_conditions(scene, map, step, conditions)
+        Self::with_conditions(scene, graph, step, conditions)
     }
 
     /// The scene at `step` under other conditions than its own, one entry an agent.
     pub fn with_conditions(
         scene: &'a Scene,
-        map: Arc<MapIndex>,
+        graph: Arc<LaneGraph>,
         step: usize,
         conditions: Vec<Conditions>,
     ) -> Self {
@@ -94,13 +75,13 @@ impl<'a> World<'a> {
         let mut signals = Vec::new();
         let mut signal_ages_s = Vec::new();
         for signal in &scene.signals {
-            if let Some(lane) = map.graph.lane_index(&signal.lane) {
+            if let Some(lane) = graph.lane_index(&signal.lane) {
                 signals.push(LaneSignal { lane, state: signal.at(step), stop: signal.stop });
                 signal_ages_s.push(signal.age_steps(step) as f64 * scene::STEP_S);
             }
         }
         let sight = Sight::default();
-        Self { scene, map, step, present, conditions, signals, signal_ages_s, sight }
+        Self { scene, graph, step, present, conditions, signals, signal_ages_s, sight }
     }
 
     /// The scene's agent behind a present road user.

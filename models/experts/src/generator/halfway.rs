@@ -74,7 +74,7 @@ fn path_to(world: &World<'_>, who: &Present, model: &MotionModel, goal: &Goal, p
         least_effort_m: None,
     };
     let end = EndPose { position, heading_rad: goal.heading_rad };
-    match routes_to_goal(&world.map.graph, &query).into_iter().next() {
+    match routes_to_goal(&world.graph, &query).into_iter().next() {
         Some(found) => base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end)),
         None => straight(),
     }

@@ -14,18 +14,17 @@ mod window;
 pub use rollout::Generation;
 pub use weights::{WeightsError, WeightsInfo};
 
-use crate::features::world::MapIndex;
-use crate::net::{Expert, NetError};
+use crate::net::Expert;
 use crate::placement::{self, PlaceRequest, Placement, PlacementInfo, PlacementModel};
 use crate::request::{Cancel, GenerateError, Request};
-use candle_core::Tensor;
+use scene::routes::LaneGraph;
 use scene::score::Drivable;
 use scene::{AgentType, ContentHash, LaneMap};
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// Maps kept encoded.
+/// Maps kept.
 const MAPS: usize = 32;
 
 /// Types with an expert, in the order of their weights files.
@@ -41,19 +40,19 @@ pub struct Generator {
     threads: usize,
 }
 
-/// A map as the experts know it, worked out once.
-pub(crate) struct EncodedMap {
-    pub(crate) index: Arc<MapIndex>,
+/// What is worked out about a map once.
+pub(crate) struct KnownMap {
+    /// Lanes with their links.
+    pub(crate) graph: Arc<LaneGraph>,
     /// Where vehicles may drive.
     pub(crate) drivable: Drivable,
-    encodings: [OnceLock<Tensor>; EXPERTS.len()],
 }
 
-/// Encoded maps by content hash, and by the very map that was handed in (which saves the hashing).
+/// Known maps by content hash, and by the very map that was handed in (which saves the hashing).
 #[derive(Default)]
 struct MapCache {
-    by_hash: Vec<(ContentHash, Arc<EncodedMap>)>,
-    by_handle: Vec<(Weak<LaneMap>, Arc<EncodedMap>)>,
+    by_hash: Vec<(ContentHash, Arc<KnownMap>)>,
+    by_handle: Vec<(Weak<LaneMap>, Arc<KnownMap>)>,
 }
 
 impl Generator {
@@ -120,6 +119,11 @@ impl Generator {
         Generation::new(self, request, cancel)
     }
 
+    /// Forgets what was worked out about maps: the next call on each works it out again.
+    pub fn forget_maps(&self) {
+        *self.maps.lock().unwrap_or_else(PoisonError::into_inner) = MapCache::default();
+    }
+
     /// Facts about the placement weights; `None` when road users are placed evenly along lanes.
     pub fn placement(&self) -> Option<&PlacementInfo> {
         self.placement.as_ref().map(|(_, info)| info)
@@ -135,8 +139,8 @@ impl Generator {
     /// # Errors
     /// An unknown id among those kept, and [`GenerateError::Cancelled`].
     pub fn place(&self, request: &PlaceRequest, cancel: &Cancel) -> Result<Placement, GenerateError> {
-        let map = self.encoded_map(&request.scene.map);
-        placement::place(self.placement_model(), &map.index.graph, request, cancel)
+        let map = self.known_map(&request.scene.map);
+        placement::place(self.placement_model(), &map.graph, request, cancel)
     }
 
     /// The gate: which expert a type runs on.
@@ -150,8 +154,8 @@ impl Generator {
         self.threads
     }
 
-    /// The map's index, from the cache where it is known.
-    pub(crate) fn encoded_map(&self, map: &Arc<LaneMap>) -> Arc<EncodedMap> {
+    /// What is known about a map, from the cache where it is there.
+    pub(crate) fn known_map(&self, map: &Arc<LaneMap>) -> Arc<KnownMap> {
         let lock = || self.maps.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = lock().by_handle(map) {
             return known;
@@ -160,54 +164,38 @@ impl Generator {
         if let Some(known) = lock().by_hash(hash, map) {
             return known;
         }
-        let encoded = Arc::new(EncodedMap {
-            index: Arc::new(MapIndex::new(map)),
-            drivable: Drivable::new(map),
-            encodings: std::array::from_fn(|_| OnceLock::new()),
-        });
-        lock().insert(hash, map, encoded.clone());
-        encoded
+        let found = Arc::new(KnownMap { graph: Arc::new(LaneGraph::new(map)), drivable: Drivable::new(map) });
+        lock().insert(hash, map, found.clone());
+        found
     }
 }
 
 impl MapCache {
-    fn by_handle(&self, map: &Arc<LaneMap>) -> Option<Arc<EncodedMap>> {
+    fn by_handle(&self, map: &Arc<LaneMap>) -> Option<Arc<KnownMap>> {
         let same = |weak: &Weak<LaneMap>| weak.upgrade().is_some_and(|m| Arc::ptr_eq(&m, map));
-        self.by_handle.iter().find(|(weak, _)| same(weak)).map(|(_, encoded)| encoded.clone())
+        self.by_handle.iter().find(|(weak, _)| same(weak)).map(|(_, known)| known.clone())
     }
 
-    fn by_hash(&mut self, hash: ContentHash, map: &Arc<LaneMap>) -> Option<Arc<EncodedMap>> {
-        let encoded = self.by_hash.iter().find(|(h, _)| *h == hash)?.1.clone();
-        self.remember(map, encoded.clone());
-        Some(encoded)
+    fn by_hash(&mut self, hash: ContentHash, map: &Arc<LaneMap>) -> Option<Arc<KnownMap>> {
+        let known = self.by_hash.iter().find(|(h, _)| *h == hash)?.1.clone();
+        self.remember(map, known.clone());
+        Some(known)
     }
 
-    fn insert(&mut self, hash: ContentHash, map: &Arc<LaneMap>, encoded: Arc<EncodedMap>) {
+    fn insert(&mut self, hash: ContentHash, map: &Arc<LaneMap>, known: Arc<KnownMap>) {
         self.by_hash.retain(|(h, _)| *h != hash);
         if self.by_hash.len() >= MAPS {
             self.by_hash.remove(0);
         }
-        self.by_hash.push((hash, encoded.clone()));
-        self.remember(map, encoded);
+        self.by_hash.push((hash, known.clone()));
+        self.remember(map, known);
     }
 
-    fn remember(&mut self, map: &Arc<LaneMap>, encoded: Arc<EncodedMap>) {
+    fn remember(&mut self, map: &Arc<LaneMap>, known: Arc<KnownMap>) {
         self.by_handle.retain(|(weak, _)| weak.strong_count() > 0);
         if self.by_handle.len() >= MAPS {
             self.by_handle.remove(0);
         }
-        self.by_handle.push((Arc::downgrade(map), encoded));
-    }
-}
-
-impl EncodedMap {
-    /// The map's pieces as the expert of this type encodes them.
-    pub(crate) fn encoding(&self, agent_type: AgentType, expert: &Expert) -> Result<&Tensor, NetError> {
-        let slot = EXPERTS.iter().position(|(t, _)| *t == agent_type).unwrap_or(0);
-        if let Some(known) = self.encodings[slot].get() {
-            return Ok(known);
-        }
-        let tensor = expert.encode_map(&self.index.pieces.features)?;
-        Ok(self.encodings[slot].get_or_init(|| tensor))
+        self.by_handle.push((Arc::downgrade(map), known));
     }
 }

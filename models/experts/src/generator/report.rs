@@ -158,8 +158,8 @@ pub(super) fn warnings<'a>(
         };
         let off_road = |point| {
             present.agent_type != AgentType::Pedestrian
-                && !world.map.graph.lanes().is_empty()
-                && world.map.graph.nearest_for(point, 6.0, present.agent_type).is_empty()
+                && !world.graph.lanes().is_empty()
+                && world.graph.nearest_for(point, 6.0, present.agent_type).is_empty()
         };
         if let Some(position) = conditions.goal.position {
             if off_road(position) {

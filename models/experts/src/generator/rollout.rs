@@ -10,7 +10,7 @@ mod scenes;
 use super::actor::{Guessed, Role};
 use super::report::{self, Outcome};
 use super::window::{Decided, MOST_ACTORS, Spec, Window, steps};
-use super::{EncodedMap, Generator};
+use super::{Generator, KnownMap};
 use crate::features::world::World;
 use crate::request::{
     Accepted, Answer, Cancel, Event, GenerateError, Intermediate, ReachReport, React, Request, Resolved,
@@ -57,7 +57,7 @@ pub struct Generation<'g> {
     generator: &'g Generator,
     request: Arc<Request>,
     cancel: Cancel,
-    map: Arc<EncodedMap>,
+    map: Arc<KnownMap>,
     stage: Stage,
     /// Steps after the call's start that each window executes.
     spans: Vec<Range<usize>>,
@@ -104,8 +104,8 @@ impl<'g> Generation<'g> {
         request.horizon_steps = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
         let started = Instant::now();
         let scene = request.scene.clone();
-        let map = generator.encoded_map(&scene.map);
-        let world = World::new(&scene, map.index.clone(), request.start_step);
+        let map = generator.known_map(&scene.map);
+        let world = World::new(&scene, map.graph.clone(), request.start_step);
         let movable: BTreeSet<usize> =
             world.present.iter().filter(|p| p.agent_type != AgentType::Other).map(|p| p.index).collect();
         let regenerated = match &request.agents {
@@ -213,7 +213,7 @@ impl<'g> Generation<'g> {
         let step = self.request.start_step + self.spans[number].start;
         let mut scene = if number == 0 { self.base.clone() } else { Arc::new(self.reached(number)) };
         self.aim(number, &mut scene);
-        let world = World::new(&scene, self.map.index.clone(), step);
+        let world = World::new(&scene, self.map.graph.clone(), step);
         let answering = self.progress.iter().filter(|(i, _)| !self.regenerated.contains(i));
         // A picked future is kept: after the first window it is a motion like any other that is.
         let picked =

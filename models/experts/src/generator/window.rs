@@ -4,7 +4,7 @@
 use super::actor::{Actor, Role, come_near, kept_states};
 use super::noise::Key;
 use super::realise::{Motion, may_rest, realise, rest};
-use super::{EncodedMap, Generator, parallel};
+use super::{Generator, KnownMap, parallel};
 use crate::features::world::World;
 use crate::features::{MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::Pullback;
@@ -89,7 +89,7 @@ pub(super) struct Window<'g> {
     generator: &'g Generator,
     request: Arc<Request>,
     scene: Arc<Scene>,
-    map: Arc<EncodedMap>,
+    map: Arc<KnownMap>,
     number: usize,
     step: usize,
     pub(super) actors: Vec<Actor>,
@@ -110,7 +110,7 @@ impl<'g> Window<'g> {
     pub(super) fn plan(
         generator: &'g Generator,
         request: Arc<Request>,
-        map: Arc<EncodedMap>,
+        map: Arc<KnownMap>,
         spec: Spec<'_>,
     ) -> Result<Self, GenerateError> {
         let mut window = Self {
@@ -130,7 +130,7 @@ impl<'g> Window<'g> {
             pullback: Pullback::default(),
         };
         let scene = window.scene.clone();
-        let mut world = World::new(&scene, window.map.index.clone(), spec.step);
+        let mut world = World::new(&scene, window.map.graph.clone(), spec.step);
         world.sight = window.request.stages.sight;
         let role = |index| spec.moving.iter().find(|m| m.0 == index).map(|m| m.1);
         let wanted: Vec<_> =
@@ -161,7 +161,7 @@ impl<'g> Window<'g> {
 
     /// The scene at the window's start.
     pub(super) fn world(&self) -> World<'_> {
-        World::new(&self.scene, self.map.index.clone(), self.step)
+        World::new(&self.scene, self.map.graph.clone(), self.step)
     }
 
     /// Candidates that come near what the regenerated ones are about to do.
@@ -208,9 +208,8 @@ impl<'g> Window<'g> {
         let shared = &*actors;
         let results = parallel::map(threads, &groups, |(agent_type, members)| {
             let expert = self.generator.expert(*agent_type)?;
-            let map = self.map.encoding(*agent_type, expert)?;
             let features: Vec<_> = members.iter().map(|i| &shared[*i].planned.features).collect();
-            let context: Context = expert.encode(map, &features)?;
+            let context: Context = expert.encode(&features)?;
             let said = expert.initialize(&context)?;
             let prepared = expert.prepare_refine(&context)?;
             let attention = self.request.stages.refining.attention;
@@ -316,7 +315,9 @@ impl<'g> Window<'g> {
         let shown = parallel::map(self.generator.threads(), &indices, |&i| {
             let modes = if all { self.request.modes } else { 1 };
             let motions = self.motions(i, modes);
-            (self.actors[i].id.clone(), self.futures(0, &motions))
+            // The first mode is the middle of what may happen on the way to a goal.
+            let middle = motions.iter().position(|m| m.1 == 0 && options::has_middle(&self.actors[i]));
+            (self.actors[i].id.clone(), self.futures(middle.unwrap_or(0), &motions))
         });
         Draft {
             window: self.number,

@@ -3,15 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::NetError;
-use crate::features::{
-    ANCHOR, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE, PIECES, RESIDUAL,
-};
+use crate::features::{ANCHOR, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, RESIDUAL};
 
-/// Tokens of a context: map pieces, neighbours, anchors.
-pub const TOKENS: usize = PIECES + NEIGHBOURS + MODES;
+/// Tokens of a context: neighbours, anchors.
+pub const TOKENS: usize = NEIGHBOURS + MODES;
 
 /// Generation of what features mean and of the networks' arithmetic.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Everything that decides the shapes of an expert's tensors and what they mean.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,8 +19,6 @@ pub struct Architecture {
     pub version: u32,
     /// Width of tokens and of the context vector.
     pub width: usize,
-    /// Width of a map piece's encoding.
-    pub piece_width: usize,
     /// Multi-context-gating blocks.
     pub gating_blocks: usize,
     /// Cross-attention blocks of the refiner.
@@ -39,9 +35,6 @@ pub struct Architecture {
 #[allow(missing_docs, reason = "the constants of `features` by their names")]
 pub struct FeatureSizes {
     pub own: usize,
-    pub pieces: usize,
-    pub piece: usize,
-    pub piece_pose: usize,
     pub neighbours: usize,
     pub neighbour: usize,
     pub anchor: usize,
@@ -54,9 +47,6 @@ impl FeatureSizes {
     /// Those of this program.
     pub const CURRENT: Self = Self {
         own: OWN,
-        pieces: PIECES,
-        piece: PIECE,
-        piece_pose: PIECE_POSE,
         neighbours: NEIGHBOURS,
         neighbour: NEIGHBOUR,
         anchor: ANCHOR,
@@ -71,7 +61,6 @@ impl Default for Architecture {
         Self {
             version: VERSION,
             width: 128,
-            piece_width: 64,
             gating_blocks: 4,
             refiner_blocks: 2,
             heads: 4,
@@ -97,9 +86,9 @@ impl Architecture {
                 FeatureSizes::CURRENT
             ));
         }
-        let sizes = [self.width, self.piece_width, self.gating_blocks, self.refiner_blocks, self.heads];
+        let sizes = [self.width, self.gating_blocks, self.refiner_blocks, self.heads];
         if sizes.iter().any(|&size| size == 0 || size > 4096) || !self.width.is_multiple_of(self.heads) {
-            return refuse(format!("sizes {sizes:?} (width, piece width, blocks, heads) cannot be"));
+            return refuse(format!("sizes {sizes:?} (width, blocks, heads) cannot be"));
         }
         Ok(())
     }

@@ -9,38 +9,14 @@ use super::inputs::Inputs;
 use super::layers::{Linear, Mlp, Norm, RELU_GAIN};
 use super::ops;
 use super::params::Params;
-use crate::features::{ANCHOR, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE, PIECES};
-
-/// Map pieces in their own frames to encodings that any road user can use.
-#[derive(Clone, Debug)]
-pub struct MapEncoder {
-    mlp: Mlp,
-}
-
-impl MapEncoder {
-    /// Puts the encoder together.
-    ///
-    /// # Errors
-    /// When the parameters cannot be had.
-    pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
-        Ok(Self { mlp: Mlp::new(p, "map", [PIECE, a.piece_width, a.piece_width], RELU_GAIN)?.relu() })
-    }
-
-    /// [N, PIECE] to [N, piece width].
-    ///
-    /// # Errors
-    /// When the shape does not fit.
-    pub fn forward(&self, pieces: &Tensor) -> Result<Tensor> {
-        self.mlp.forward(pieces)
-    }
-}
+use crate::features::{ANCHOR, MODES, NEIGHBOUR, NEIGHBOURS, OWN};
 
 /// What the initializer and the refiner know about a batch of road users.
 #[derive(Clone, Debug)]
 pub struct Context {
     /// Context vector [batch, width].
     pub vector: Tensor,
-    /// Tokens [batch, 1 + TOKENS, width]: the context vector, map pieces, neighbours, anchors.
+    /// Tokens [batch, 1 + TOKENS, width]: the context vector, neighbours, anchors.
     pub tokens: Tensor,
     /// Additive mask [batch, 1 + TOKENS].
     pub mask: Tensor,
@@ -121,7 +97,6 @@ impl Gating {
 #[derive(Clone, Debug)]
 pub struct ContextEncoder {
     own: Mlp,
-    piece: Mlp,
     neighbour: Mlp,
     anchor: Mlp,
     gating: Gating,
@@ -137,11 +112,10 @@ impl ContextEncoder {
     /// When the parameters cannot be had.
     pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
         let d = a.width;
-        let kinds = [PIECES, NEIGHBOURS, MODES];
+        let kinds = [NEIGHBOURS, MODES];
         let gating = Gating::new(p, "context", (a.gating_blocks, d), &kinds)?;
         Ok(Self {
             own: Mlp::new(p, "context.own", [OWN, d, d], RELU_GAIN)?.relu(),
-            piece: Mlp::new(p, "context.piece", [a.piece_width + PIECE_POSE, d, d], RELU_GAIN)?.relu(),
             neighbour: Mlp::new(p, "context.neighbour", [NEIGHBOUR, d, d], RELU_GAIN)?.relu(),
             anchor: Mlp::new(p, "context.anchor", [ANCHOR, d, d], RELU_GAIN)?.relu(),
             gating,
@@ -151,22 +125,19 @@ impl ContextEncoder {
         })
     }
 
-    /// Encodes a batch; `map` [N, piece width] comes from [`MapEncoder::forward`].
+    /// Encodes a batch.
     ///
     /// # Errors
     /// When the shapes do not fit.
-    pub fn forward(&self, map: &Tensor, inputs: &Inputs) -> Result<Context> {
+    pub fn forward(&self, inputs: &Inputs) -> Result<Context> {
         let batch = inputs.own.dim(0)?;
         let own = self.own.forward(&inputs.own)?;
-        let seen = Tensor::cat(&[&map.index_select(&inputs.piece, 0)?, &inputs.pose], 1)?;
-        let pieces = self.piece.forward(&seen)?.reshape((batch, PIECES, ()))?;
         let plain_anchors = self.anchor.forward(&inputs.anchors)?;
-        let tokens =
-            Tensor::cat(&[&pieces, &self.neighbour.forward(&inputs.neighbours)?, &plain_anchors], 1)?;
+        let tokens = Tensor::cat(&[&self.neighbour.forward(&inputs.neighbours)?, &plain_anchors], 1)?;
         let (context, tokens) = self.gating.forward(&own, tokens, &inputs.mask)?;
         let vector = self.context_norm.forward(&self.mix.forward(&Tensor::cat(&[&own, &context], 1)?)?)?;
         let tokens = self.token_norm.forward(&tokens)?;
-        let anchors = tokens.narrow(1, PIECES + NEIGHBOURS, MODES)?.contiguous()?;
+        let anchors = tokens.narrow(1, NEIGHBOURS, MODES)?.contiguous()?;
         let seen_by_all = Tensor::zeros((batch, 1), inputs.mask.dtype(), inputs.mask.device())?;
         Ok(Context {
             tokens: Tensor::cat(&[&vector.unsqueeze(1)?, &tokens], 1)?,

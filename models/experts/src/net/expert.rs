@@ -1,4 +1,4 @@
-//! One expert: four networks and what their file says about them.
+//! One expert: three networks and what their file says about them.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::NetError;
 use super::architecture::Architecture;
-use super::encoder::{Context, ContextEncoder, MapEncoder};
+use super::encoder::{Context, ContextEncoder};
 use super::initializer::{Initial, Initializer};
-use super::inputs::{self, Inputs};
+use super::inputs::Inputs;
 use super::params::Params;
 use super::refiner::{Prepared, Refiner};
-use crate::features::{AgentFeatures, MODES, MapFeatures, RESIDUAL};
+use crate::features::{AgentFeatures, MODES, RESIDUAL};
 
 /// The one member of the file's metadata. One, because the order of several would be by chance and the
 /// file's hash is its name.
@@ -62,8 +62,6 @@ pub struct Expert {
     pub architecture: Architecture,
     /// What the file says.
     pub card: Card,
-    /// Map pieces to encodings.
-    pub map: MapEncoder,
     /// What a road user sees to a context.
     pub context: ContextEncoder,
     /// Context to first futures.
@@ -135,12 +133,11 @@ impl Expert {
     fn build(architecture: Architecture, card: Card, mut p: Params) -> Result<Self, NetError> {
         architecture.check()?;
         let device = p.device().clone();
-        let map = MapEncoder::new(&mut p, &architecture)?;
         let context = ContextEncoder::new(&mut p, &architecture)?;
         let initializer = Initializer::new(&mut p, &architecture)?;
         let refiner = Refiner::new(&mut p, &architecture)?;
         let (tensors, vars) = p.finish()?;
-        Ok(Self { architecture, card, map, context, initializer, refiner, device, tensors, vars })
+        Ok(Self { architecture, card, context, initializer, refiner, device, tensors, vars })
     }
 
     /// The bytes of a weights file: the same bytes for the same weights and card.
@@ -175,23 +172,13 @@ impl Expert {
         &self.device
     }
 
-    /// Encodings [N, piece width] of a map's pieces, to be kept by the map's hash. A map without pieces
-    /// gives one row that nobody sees.
+    /// Contexts of a batch of road users. A road user's context is the same, bit for bit, alone and in a
+    /// batch.
     ///
     /// # Errors
     /// When the tensor library fails.
-    pub fn encode_map(&self, map: &MapFeatures) -> Result<Tensor, NetError> {
-        Ok(self.map.forward(&inputs::pieces(&map.pieces, &self.device)?)?)
-    }
-
-    /// Contexts of a batch of road users on one encoded map. A road user's context is the same, bit for
-    /// bit, alone and in a batch.
-    ///
-    /// # Errors
-    /// When a road user sees a piece that the map does not have.
-    pub fn encode(&self, map: &Tensor, agents: &[&AgentFeatures]) -> Result<Context, NetError> {
-        let inputs = Inputs::stack(agents, map.dim(0)?, &self.device)?;
-        Ok(self.context.forward(map, &inputs)?)
+    pub fn encode(&self, agents: &[&AgentFeatures]) -> Result<Context, NetError> {
+        Ok(self.context.forward(&Inputs::stack(agents, &self.device)?)?)
     }
 
     /// First futures of a batch as tensors.

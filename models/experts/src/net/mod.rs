@@ -1,8 +1,7 @@
 //! The networks: arrays of `features` in, residuals and probabilities out.
 //!
 //! ```text
-//! MapFeatures -> MapEncoder -> encodings (kept by the map's hash)
-//! encodings, AgentFeatures -> ContextEncoder -> Context -> Initializer -> six first futures
+//! AgentFeatures -> ContextEncoder -> Context -> Initializer -> six first futures
 //!                                                       -> Refiner, five steps -> six better ones
 //! ```
 //!
@@ -24,7 +23,7 @@ pub mod schedule;
 pub mod smooth;
 
 pub use architecture::{Architecture, FeatureSizes, TOKENS};
-pub use encoder::{Context, ContextEncoder, Gating, MapEncoder};
+pub use encoder::{Context, ContextEncoder, Gating};
 pub use error::NetError;
 pub use expert::{Card, Expert, InitialOutput};
 pub use initializer::{Initial, Initializer};

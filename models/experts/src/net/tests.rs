@@ -4,18 +4,12 @@ use candle_core::{DType, Device, Tensor};
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::inputs::Inputs;
 use super::params::normal;
 use super::*;
-use crate::features::{AgentFeatures, MODES, MapFeatures, NEIGHBOURS, PIECES, RESIDUAL, SeenPiece};
+use crate::features::{AgentFeatures, MODES, NEIGHBOURS, RESIDUAL};
 
-fn map(pieces: usize, seed: u64) -> MapFeatures {
-    let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    MapFeatures { pieces: (0..pieces).map(|_| std::array::from_fn(|_| normal(&mut rng) as f32)).collect() }
-}
-
-/// A road user that sees `pieces` and `neighbours`, whose last along knot is held by a goal.
-fn agent(pieces: usize, neighbours: usize, seed: u64) -> AgentFeatures {
+/// A road user that sees `neighbours`, whose last along knot is held by a goal.
+fn agent(neighbours: usize, seed: u64) -> AgentFeatures {
     let mut rng = ChaCha12Rng::seed_from_u64(seed);
     let mut draw = || normal(&mut rng) as f32;
     let mut tangent = Box::new([[[0.0; scene::KNOTS]; scene::KNOTS]; 2]);
@@ -25,7 +19,6 @@ fn agent(pieces: usize, neighbours: usize, seed: u64) -> AgentFeatures {
     }
     AgentFeatures {
         own: std::array::from_fn(|_| draw()),
-        pieces: (0..pieces).map(|piece| SeenPiece { piece, pose: std::array::from_fn(|_| draw()) }).collect(),
         neighbours: (0..neighbours).map(|_| std::array::from_fn(|_| draw())).collect(),
         anchors: Box::new(std::array::from_fn(|_| std::array::from_fn(|_| draw()))),
         tangent,
@@ -33,8 +26,7 @@ fn agent(pieces: usize, neighbours: usize, seed: u64) -> AgentFeatures {
 }
 
 fn agents() -> Vec<AgentFeatures> {
-    let sizes = [(5, 2), (PIECES, NEIGHBOURS), (0, 0), (PIECES - 1, 1), (1, NEIGHBOURS)];
-    sizes.iter().enumerate().map(|(i, &(pieces, others))| agent(pieces, others, i as u64)).collect()
+    [2, NEIGHBOURS, 0, 1, NEIGHBOURS - 1].iter().zip(0..).map(|(others, seed)| agent(*others, seed)).collect()
 }
 
 fn drafts(batch: usize, seed: u64) -> Vec<[[f32; RESIDUAL]; MODES]> {
@@ -48,8 +40,7 @@ fn answers(
     agents: &[&AgentFeatures],
     noise: &[[[f32; RESIDUAL]; MODES]],
 ) -> (InitialOutput, Vec<[[f32; RESIDUAL]; MODES]>) {
-    let map = expert.encode_map(&map(PIECES, 77)).unwrap();
-    let context = expert.encode(&map, agents).unwrap();
+    let context = expert.encode(agents).unwrap();
     let initial = expert.initialize(&context).unwrap();
     let prepared = expert.prepare_refine(&context).unwrap();
     let mut draft = expert.add_noise(&prepared, &initial.residual, noise, 20).unwrap();
@@ -113,7 +104,7 @@ fn wrong_files_are_refused_with_the_reason() {
     let tensor = Tensor::zeros((2, 3), DType::F32, &Device::Cpu).unwrap();
     let alone = |header: Option<&str>| {
         let header = header.map(|text| [("dragtraffic".to_owned(), text.to_owned())].into());
-        safetensors::serialize([("map.0.weight", &tensor)], header).unwrap()
+        safetensors::serialize([("context.own.0.weight", &tensor)], header).unwrap()
     };
     assert!(reason(&alone(None)).contains("not an expert's weights"));
     assert!(reason(&alone(Some("{}"))).contains("architecture"));
@@ -121,17 +112,15 @@ fn wrong_files_are_refused_with_the_reason() {
     let mut architecture = serde_json::to_value(&expert.architecture).unwrap();
     let header = serde_json::json!({ "architecture": architecture, "card": card }).to_string();
     let message = reason(&alone(Some(&header)));
-    assert!(message.contains("map.0.weight") && message.contains("[2, 3]"), "{message}");
+    assert!(message.contains("context.own.0.weight") && message.contains("[2, 3]"), "{message}");
     architecture["version"] = 9.into();
     let header = serde_json::json!({ "architecture": architecture, "card": card }).to_string();
     assert!(reason(&alone(Some(&header))).contains("version 9"));
 }
 
 /// A scalar that depends on everything an expert says.
-fn probe(expert: &Expert, agents: &[&AgentFeatures], map: &MapFeatures) -> Tensor {
-    let pieces = expert.encode_map(map).unwrap();
-    let inputs = Inputs::stack(agents, pieces.dim(0).unwrap(), expert.device()).unwrap();
-    let context = expert.context.forward(&pieces, &inputs).unwrap();
+fn probe(expert: &Expert, agents: &[&AgentFeatures]) -> Tensor {
+    let context = expert.encode(agents).unwrap();
     let initial = expert.initializer.forward(&context).unwrap();
     let prepared = expert.refiner.prepare(&context).unwrap();
     let weigh = |tensor: &Tensor, seed: u64| {
@@ -152,7 +141,7 @@ fn probe(expert: &Expert, agents: &[&AgentFeatures], map: &MapFeatures) -> Tenso
 }
 
 fn small() -> Architecture {
-    Architecture { width: 16, piece_width: 8, gating_blocks: 2, heads: 2, ..Architecture::default() }
+    Architecture { width: 16, gating_blocks: 2, heads: 2, ..Architecture::default() }
 }
 
 #[test]
@@ -160,9 +149,8 @@ fn every_variable_has_a_gradient_that_matches_differences() {
     let expert = Expert::trainable(small(), Expert::random(1).unwrap().card, 11, &Device::Cpu).unwrap();
     let agents = agents();
     let all: Vec<&AgentFeatures> = agents.iter().take(3).collect();
-    let map = map(PIECES, 7);
-    let value = || f64::from(probe(&expert, &all, &map).to_scalar::<f32>().unwrap());
-    let grads = probe(&expert, &all, &map).backward().unwrap();
+    let value = || f64::from(probe(&expert, &all).to_scalar::<f32>().unwrap());
+    let grads = probe(&expert, &all).backward().unwrap();
     let mut rng = ChaCha12Rng::seed_from_u64(2);
     for (name, var) in expert.vars() {
         let grad = grads.get(var.as_tensor()).unwrap_or_else(|| panic!("{name} has no gradient"));

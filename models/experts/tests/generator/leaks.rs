@@ -10,8 +10,9 @@
 //! the program that the scene gives them.
 
 use super::*;
+use ::scene::routes::LaneGraph;
 use experts::features::agent::plan;
-use experts::features::world::{MapIndex, World};
+use experts::features::world::World;
 
 /// Every logged state after the first step moved somewhere else.
 fn other_future(mut scene: Scene, who: impl Fn(&Agent) -> bool) -> Scene {
@@ -40,7 +41,7 @@ fn with_start(mut scene: Scene, id: &str, subset: u8) -> Scene {
 
 /// Everything that the experts see of everybody, as text that tells apart any two numbers.
 fn features(scene: &Scene) -> String {
-    let map = Arc::new(MapIndex::new(&scene.map));
+    let map = Arc::new(LaneGraph::new(&scene.map));
     let world = World::new(scene, map, 0);
     let planned = world.present.iter().map(|who| {
         let planned = plan(&world, who);

@@ -1,17 +1,17 @@
 //! A trained baseline as a rival: weights of a file or a folder, and their futures of road users in a scene.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use anyhow::{Context, Result, ensure};
 use experts::features::agent::plan_with;
-use experts::features::world::{MapIndex, World};
+use experts::features::world::World;
 use experts::features::{AgentFeatures, MODES};
-use scene::{Future, Scene, State};
+use scene::{Future, State};
 
 use super::sight::{Points, forget_goals};
 use super::stages::{points, refine};
 use super::{Kind, Networks, curve};
+use crate::polylines::{Polylines, SeenPiece};
 use crate::train::{least, softmax};
 
 /// A learned rival.
@@ -59,22 +59,27 @@ impl Baseline {
         self.kind.has_condition()
     }
 
-    /// Six futures each of some agents of a scene under the scene's conditions, the most probable first; none
-    /// for a type that it does not know.
+    /// Six futures each of some agents of a world under its conditions, the most probable first; none for a
+    /// type that it does not know. `polylines` are those of the world's map.
     ///
     /// # Errors
     /// When the tensor library fails.
-    pub fn futures(&self, scene: &Scene, map: &Arc<MapIndex>, agents: &[usize]) -> Result<Vec<Vec<Future>>> {
-        let world = World::new(scene, map.clone(), 0);
+    pub fn futures(
+        &self,
+        world: &World<'_>,
+        polylines: &Polylines,
+        agents: &[usize],
+    ) -> Result<Vec<Vec<Future>>> {
         let mut out = vec![Vec::new(); agents.len()];
         for networks in &self.networks {
             let types = networks.types()?;
-            let (mut slots, mut features): (Vec<_>, Vec<AgentFeatures>) = (Vec::new(), Vec::new());
+            let (mut slots, mut lines, mut features) = (Vec::new(), Vec::new(), Vec::<AgentFeatures>::new());
             for (slot, agent) in agents.iter().enumerate() {
                 let who = world.present.iter().find(|p| p.index == *agent);
                 if let Some(who) = who.filter(|who| types.contains(&who.agent_type)) {
                     slots.push((slot, who));
-                    features.push(plan_with(&world, who, Vec::new()).features);
+                    lines.push(polylines.seen(world, who));
+                    features.push(plan_with(world, who, Vec::new()).features);
                 }
             }
             if slots.is_empty() {
@@ -83,8 +88,9 @@ impl Baseline {
             if !self.has_condition() {
                 features.iter_mut().for_each(forget_goals);
             }
-            let seen =
-                networks.regressor.see(&map.pieces.features.pieces, &features.iter().collect::<Vec<_>>())?;
+            let lines: Vec<&[SeenPiece]> = lines.iter().map(Vec::as_slice).collect();
+            let features: Vec<&AgentFeatures> = features.iter().collect();
+            let seen = networks.regressor.see(&polylines.pieces, &lines, &features)?;
             let regressed = networks.regressor.forward(&seen)?;
             let found = match &networks.refiner {
                 Some(refiner) => refine(refiner, &seen, &regressed.points)?,

@@ -3,7 +3,7 @@
 use experts::features::{INSTANTS, MODES};
 
 use super::sight::{Points, Truth};
-use crate::train::{least, softmax};
+use crate::train::least;
 
 /// Distances are counted in this unit, metres: squared errors then weigh about as much as the likelihood.
 pub(super) const UNIT_M: f32 = 5.0;
@@ -56,17 +56,10 @@ pub(super) fn squared(truth: &Truth, futures: &[Points; MODES]) -> Fared {
     fared
 }
 
-/// Negative log likelihood of the best future's index, and its gradient.
-pub(super) fn index(score: &[f32; MODES], best: usize) -> (f32, [f32; MODES]) {
-    let given = softmax(score);
-    let mut gradient = given;
-    gradient[best] -= 1.0;
-    (-given[best].max(1e-20).ln(), gradient)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::train::index;
 
     #[test]
     fn gradients_are_those_of_the_losses() {

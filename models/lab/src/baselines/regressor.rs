@@ -1,18 +1,20 @@
 //! Multi-context gating over what a road user sees, then over six learned queries (Varadarajan et al.,
 //! "MultiPath++", 2021), to points and scores.
 
-use candle_core::{Result, Tensor};
-use experts::features::{
-    AgentFeatures, INSTANT_S, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE, PIECES,
-};
-use experts::net::inputs::{Inputs, pieces};
+use candle_core::{Device, Result, Tensor};
+use experts::features::{AgentFeatures, INSTANT_S, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN};
+use experts::net::inputs::{Inputs, NO};
 use experts::net::layers::{Linear, Mlp, Norm, RELU_GAIN};
-use experts::net::{Architecture, Gating, Init, MapEncoder, NetError, Params};
+use experts::net::{Architecture, Gating, Init, NetError, Params};
+
+use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
 
 /// Numbers of a future: x and y at the instants.
 pub(super) const NUMBERS: usize = 2 * INSTANTS;
 /// Gating blocks over the six queries.
 const QUERY_BLOCKS: usize = 3;
+/// Width of a map piece's encoding.
+const PIECE_WIDTH: usize = 64;
 /// A coordinate grows with time by this when the last layer says 1, m/s.
 const SPREAD_MPS: f64 = 8.0;
 
@@ -34,9 +36,38 @@ pub(super) struct Regressed {
     pub(super) score: Tensor,
 }
 
+/// Map pieces that a batch sees, padded.
+struct Lines {
+    /// [batch * PIECES], rows of the encoded map; 0 at padding.
+    piece: Tensor,
+    /// [batch * PIECES, PIECE_POSE]
+    pose: Tensor,
+    /// [batch, PIECES], 0 or -1e4 at padding.
+    mask: Tensor,
+}
+
+impl Lines {
+    fn stack(seen: &[&[SeenPiece]], device: &Device) -> Result<Self> {
+        let batch = seen.len();
+        let mut piece = vec![0u32; batch * PIECES];
+        let mut pose = vec![[0f32; PIECE_POSE]; batch * PIECES];
+        let mut mask = vec![NO; batch * PIECES];
+        for (at, seen) in seen.iter().enumerate() {
+            for (slot, seen) in (at * PIECES..).zip(seen.iter().take(PIECES)) {
+                (piece[slot], pose[slot], mask[slot]) = (seen.piece as u32, seen.pose, 0.0);
+            }
+        }
+        Ok(Self {
+            piece: Tensor::from_vec(piece, batch * PIECES, device)?,
+            pose: Tensor::from_slice(pose.as_flattened(), (batch * PIECES, PIECE_POSE), device)?,
+            mask: Tensor::from_vec(mask, (batch, PIECES), device)?,
+        })
+    }
+}
+
 /// Features to futures.
 pub(super) struct Regressor {
-    map: MapEncoder,
+    map: Mlp,
     own: Mlp,
     piece: Mlp,
     neighbour: Mlp,
@@ -57,9 +88,9 @@ impl Regressor {
         let spread: Vec<f32> =
             (0..NUMBERS).map(|i| (SPREAD_MPS * INSTANT_S * (i / 2 + 1) as f64) as f32).collect();
         Ok(Self {
-            map: MapEncoder::new(p, a)?,
+            map: Mlp::new(p, "map", [PIECE, PIECE_WIDTH, PIECE_WIDTH], RELU_GAIN)?.relu(),
             own: Mlp::new(p, "context.own", [OWN, d, d], RELU_GAIN)?.relu(),
-            piece: Mlp::new(p, "context.piece", [a.piece_width + PIECE_POSE, d, d], RELU_GAIN)?.relu(),
+            piece: Mlp::new(p, "context.piece", [PIECE_WIDTH + PIECE_POSE, d, d], RELU_GAIN)?.relu(),
             neighbour: Mlp::new(p, "context.neighbour", [NEIGHBOUR, d, d], RELU_GAIN)?.relu(),
             gating: Gating::new(p, "context", (a.gating_blocks, d), &[PIECES, NEIGHBOURS])?,
             mix: Mlp::new(p, "context.mix", [2 * d, d, d], 1.0)?,
@@ -72,14 +103,24 @@ impl Regressor {
         })
     }
 
-    /// Reads a batch; `map` are the pieces that its features speak of.
-    pub(super) fn see(&self, map: &[[f32; PIECE]], agents: &[&AgentFeatures]) -> Result<Seen> {
+    /// Reads a batch: features of road users, which map pieces each sees, and the pieces.
+    pub(super) fn see(
+        &self,
+        map: &[[f32; PIECE]],
+        seen: &[&[SeenPiece]],
+        agents: &[&AgentFeatures],
+    ) -> Result<Seen> {
         let device = self.queries.device();
-        let map = self.map.forward(&pieces(map, device)?)?;
-        let inputs = Inputs::stack(agents, map.dim(0)?, device)?;
-        let mask = inputs.mask.narrow(1, 0, PIECES + NEIGHBOURS)?.contiguous()?;
+        // One row of zeros for a map without pieces.
+        let none = [[0.0; PIECE]];
+        let map = if map.is_empty() { &none } else { map };
+        let map = Tensor::from_slice(map.as_flattened(), (map.len(), PIECE), device)?;
+        let map = self.map.forward(&map)?;
+        let inputs = Inputs::stack(agents, device)?;
+        let lines = Lines::stack(seen, device)?;
+        let mask = Tensor::cat(&[&lines.mask, &inputs.mask.narrow(1, 0, NEIGHBOURS)?], 1)?;
         let own = self.own.forward(&inputs.own)?;
-        let lines = Tensor::cat(&[&map.index_select(&inputs.piece, 0)?, &inputs.pose], 1)?;
+        let lines = Tensor::cat(&[&map.index_select(&lines.piece, 0)?, &lines.pose], 1)?;
         let lines = self.piece.forward(&lines)?.reshape((agents.len(), PIECES, ()))?;
         let tokens = Tensor::cat(&[&lines, &self.neighbour.forward(&inputs.neighbours)?], 1)?;
         let (context, tokens) = self.gating.forward(&own, tokens, &mask)?;

@@ -12,7 +12,8 @@ use super::regressor::{NUMBERS, Regressed, Seen};
 use super::sight::{Points, Truth, asks_for_a_place, forget_goals};
 use super::unet::{Unet, steps};
 use super::{Kind, Networks, Plan};
-use crate::train::{Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, normal, seeded, unit};
+use crate::polylines::SeenPiece;
+use crate::train::{Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, index, normal, seeded, unit};
 
 impl Trainee for Networks {
     type Architecture = Plan;
@@ -107,7 +108,8 @@ impl Networks {
         if !self.plan.kind.has_condition() {
             agents.iter_mut().for_each(forget_goals);
         }
-        self.regressor.see(&shard.pieces, &agents.iter().collect::<Vec<_>>())
+        let seen: Vec<&[SeenPiece]> = shard.records.iter().map(|r| r.pieces.as_slice()).collect();
+        self.regressor.see(&shard.pieces, &seen, &agents.iter().collect::<Vec<_>>())
     }
 
     fn regressor(&self, seen: &Seen, truths: &[Truth], metrics: &mut Metrics) -> Result<(Tensor, Regressed)> {
@@ -117,7 +119,7 @@ impl Networks {
         let all = truths.iter().zip(points(&regressed.points)?).zip(scores.as_chunks::<MODES>().0);
         for ((truth, futures), score) in all {
             let fared = loss::squared(truth, &futures);
-            let (likelihood, nudge) = loss::index(score, fared.best);
+            let (likelihood, nudge) = index(score, fared.best);
             let first = crate::train::least(&score.map(|score| -score));
             metrics.add("loss", fared.loss + likelihood);
             metrics.add("min", fared.ade.into_iter().fold(f32::INFINITY, f32::min));

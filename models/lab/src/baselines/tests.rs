@@ -3,9 +3,10 @@ use std::sync::Arc;
 
 use candle_core::{DType, Device, Tensor};
 use experts::features::agent::plan_with;
-use experts::features::world::{MapIndex, World};
+use experts::features::world::World;
 use experts::features::{AgentFeatures, MODES};
 use experts::net::{Architecture, Params};
+use scene::routes::LaneGraph;
 use scene::{Goal, Scene, Vec2};
 
 use super::regressor::NUMBERS;
@@ -13,10 +14,11 @@ use super::sight::{Truth, forget_goals};
 use super::*;
 use crate::eval::blind;
 use crate::eval::samples::{log, scene, shifted};
+use crate::polylines::Polylines;
 use crate::train::{Record, toy};
 
 fn plan(kind: Kind) -> Plan {
-    let sizes = Architecture { width: 32, piece_width: 16, gating_blocks: 2, ..Architecture::default() };
+    let sizes = Architecture { width: 32, gating_blocks: 2, ..Architecture::default() };
     Plan { kind, sizes }
 }
 
@@ -47,8 +49,8 @@ fn answers(networks: &Networks, scene: &Scene, goal: Goal) -> Vec<scene::Future>
     let baseline = Baseline::load("a", &path).unwrap();
     let mut asked = blind(scene);
     asked.agents[0].conditions.goal = goal;
-    let map = Arc::new(MapIndex::new(&scene.map));
-    baseline.futures(&asked, &map, &[0]).unwrap().remove(0)
+    let world = World::new(&asked, Arc::new(LaneGraph::new(&scene.map)), 0);
+    baseline.futures(&world, &Polylines::new(&scene.map), &[0]).unwrap().remove(0)
 }
 
 fn two_cars() -> Scene {
@@ -63,13 +65,12 @@ fn goal() -> Goal {
 fn shapes_are_those_of_six_futures() {
     let features = AgentFeatures {
         own: [0.1; experts::features::OWN],
-        pieces: Vec::new(),
         neighbours: Vec::new(),
         anchors: Box::new([[0.0; experts::features::ANCHOR]; MODES]),
         tangent: Box::new([[[0.0; scene::KNOTS]; scene::KNOTS]; 2]),
     };
     let networks = random(Kind::Paper, "vehicle", 1);
-    let seen = networks.regressor.see(&[], &[&features, &features]).unwrap();
+    let seen = networks.regressor.see(&[], &[&[], &[]], &[&features, &features]).unwrap();
     let regressed = networks.regressor.forward(&seen).unwrap();
     assert_eq!(regressed.points.dims(), [2, MODES, NUMBERS]);
     assert_eq!(regressed.score.dims(), [2, MODES]);
@@ -104,13 +105,12 @@ fn nothing_but_start_and_goal_changes_an_answer() {
 #[test]
 fn goals_can_be_forgotten() {
     let scene = two_cars();
-    let map = Arc::new(MapIndex::new(&scene.map));
+    let graph = Arc::new(LaneGraph::new(&scene.map));
     let features = |goal: Goal| {
         let mut scene = scene.clone();
-        // Heading and speed alone choose no map pieces.
         scene.agents.iter_mut().for_each(|a| a.conditions.goal = Goal { position: None, ..goal });
         scene.agents[1].conditions.goal = goal;
-        let world = World::new(&scene, map.clone(), 0);
+        let world = World::new(&scene, graph.clone(), 0);
         let who = world.present.iter().find(|p| p.index == 0).unwrap();
         plan_with(&world, who, Vec::new()).features
     };

@@ -15,7 +15,6 @@ use scene::AgentType;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Without {
     Nothing,
-    Pieces,
     Neighbours,
     Signals,
     Routes,
@@ -24,20 +23,12 @@ enum Without {
 }
 
 impl Without {
-    const ALL: [Self; 7] = [
-        Self::Nothing,
-        Self::Pieces,
-        Self::Neighbours,
-        Self::Signals,
-        Self::Routes,
-        Self::Refinement,
-        Self::Choice,
-    ];
+    const ALL: [Self; 6] =
+        [Self::Nothing, Self::Neighbours, Self::Signals, Self::Routes, Self::Refinement, Self::Choice];
 
     fn name(self) -> &'static str {
         match self {
             Self::Nothing => "complete",
-            Self::Pieces => "no map polylines",
             Self::Neighbours => "no neighbours",
             Self::Signals => "no signals",
             Self::Routes => "no route anchors",
@@ -57,7 +48,6 @@ impl Without {
         }
         let mut request = request(scene, id, self != Self::Refinement, seed);
         match self {
-            Self::Pieces => request.stages.sight.pieces = false,
             Self::Routes => request.stages.sight.routes = false,
             Self::Choice => (request.stages.shown, request.stages.guidance) = (Shown::Likeliest, false),
             _ => {}
@@ -147,9 +137,7 @@ pub fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u
              even ones give 1.79. Off lanes: share of the shown future's steps more than 2.5 m off every lane; \
              past edges: with a corner past a road edge; n counts steps there (every third one at which the \
              log is known).",
-            "No map polylines: the expert sees no piece of the map; anchors still follow lanes and know their \
-             lights, and the choice knows lanes and edges. No neighbours: the others are not there at all, \
-             neither as features nor as leaders. No signals: the lights are not there. No route anchors: those \
+            "No neighbours: the others are not there at all, neither as features nor as leaders. No signals: the lights are not there. No route anchors: those \
              of a vehicle with no lane near (straight on and two arcs; least effort to a goal); one at rest \
              then counts as parked. No refinement: the initializer's futures without noise. No choice: the \
              most probable future is shown.",
@@ -224,7 +212,6 @@ mod tests {
             let differs = [
                 request.scene.agents.len() != 3,
                 request.scene.signals.is_empty(),
-                !request.stages.sight.pieces,
                 !request.stages.sight.routes,
                 request.steps == 0 && request.diversity == 0.0,
                 request.stages.shown == Shown::Likeliest,
@@ -254,7 +241,7 @@ mod tests {
             _ => panic!("no figure"),
         };
         for (k, line) in differences.lines.iter().enumerate() {
-            let (block, part) = (k / 6 * 7, k % 6 + 1);
+            let (block, part) = (k / 5 * 6, k % 5 + 1);
             assert_eq!(line.keys, figures.lines[block + part].keys);
             for column in [0, 1, 3] {
                 let (difference, counted) = mean(differences, k, column);

@@ -1,6 +1,7 @@
 //! Which road users are judged, and under which conditions (`evaluation.md`).
 
-use experts::features::world::MapIndex;
+use crate::polylines::Polylines;
+use scene::routes::LaneGraph;
 use scene::score::Drivable;
 use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, State, Track};
 use std::sync::Arc;
@@ -98,8 +99,10 @@ pub struct Site<'a> {
     pub scene: &'a Scene,
     /// What the experts may see of it: [`blind`].
     pub blind: Scene,
-    /// Lane graph and pieces of its map.
-    pub map: Arc<MapIndex>,
+    /// Lanes of its map with their links.
+    pub graph: Arc<LaneGraph>,
+    /// Its map for those who read lines.
+    pub polylines: Polylines,
     /// Where its map lets vehicles drive.
     pub drivable: Drivable,
     /// Moving road users.
@@ -113,7 +116,8 @@ impl<'a> Site<'a> {
             index,
             scene,
             blind: blind(scene),
-            map: Arc::new(MapIndex::new(&scene.map)),
+            graph: Arc::new(LaneGraph::new(&scene.map)),
+            polylines: Polylines::new(&scene.map),
             drivable: Drivable::new(&scene.map),
             cases: cases(scene),
         }

@@ -128,11 +128,11 @@ fn moved(
     metres: f64,
 ) -> (Vec2, f64) {
     let heading = heading.unwrap_or(case.start.heading_rad);
-    let hits = site.map.graph.nearest_for(base, 3.0, case.agent_type);
+    let hits = site.graph.nearest_for(base, 3.0, case.agent_type);
     let lane = hits.into_iter().find(|hit| wrap_angle(hit.heading_rad - heading).abs() < 0.8);
     match (way, lane) {
         (Way::Along, Some(hit)) => {
-            let pose = site.map.graph.lanes()[hit.lane].path.extrapolate(hit.s_m + metres);
+            let pose = site.graph.lanes()[hit.lane].path.extrapolate(hit.s_m + metres);
             let left = direction(pose.heading_rad + FRAC_PI_2);
             let turned = wrap_angle(heading + pose.heading_rad - hit.heading_rad);
             (pose.position + left * hit.lateral_m, turned)
@@ -176,7 +176,7 @@ fn drag(
     };
     let agent = &site.blind.agents[case.agent];
     let modes = said.samples.first().and_then(|s| s.agents.get(id)).map_or(&[][..], |f| &f.modes);
-    let away = |s: &&State| site.map.graph.nearest_for(s.position(), 2.5, AgentType::Vehicle).is_empty();
+    let away = |s: &&State| site.graph.nearest_for(s.position(), 2.5, AgentType::Vehicle).is_empty();
     let driven = case.agent_type == AgentType::Vehicle && !away(&&case.start);
     let looked_at = || states.iter().take(case.goal_step).step_by(STRIDE).filter(|_| driven);
     Ok(Drag {

@@ -35,7 +35,7 @@ impl OffRoad {
         let has_edges = !site.scene.map.road_edges.is_empty() || !site.scene.map.drivable.is_empty();
         let known = (1..=HORIZON_STEPS).filter(|step| step % STRIDE == 0 && agent.track.at(*step).is_some());
         for state in known.filter_map(|step| states.get(step - 1)) {
-            let lanes = site.map.graph.nearest_for(state.position(), OFF_LANES_M, AgentType::Vehicle);
+            let lanes = site.graph.nearest_for(state.position(), OFF_LANES_M, AgentType::Vehicle);
             out.steps += 1.0;
             out.off_lanes += f64::from(u8::from(lanes.is_empty()));
             let outline = OrientedBox::of_state(state, &agent.size);

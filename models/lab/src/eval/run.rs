@@ -3,12 +3,12 @@
 use super::ablation::ablation;
 use super::coherence::coherence;
 use super::control::control;
-use super::latency::{Row, latency};
+use super::cost::cost;
 use super::parked::parked;
 use super::quality::{Quality, collect};
 use super::realism::realism;
 use super::refining::refining;
-use super::sheet::{Cell, Form, Sheet};
+use super::sheet::Sheet;
 use super::stats::Bootstrap;
 use super::variety::variety;
 use super::{Entrants, Judged, Site, picture};
@@ -173,7 +173,7 @@ pub fn run(
     }
     if wants(Table::Cost) {
         progress("table 6: cost");
-        report.cost.push(cost(judged, scenes)?);
+        report.cost.extend(cost(judged, scenes)?);
     }
     Ok(report)
 }
@@ -196,35 +196,6 @@ fn cropped(scenes: &[Scene], crop: Crop) -> Result<(Cow<'_, [Scene]>, Option<Cro
     }
     anyhow::ensure!(!kept.is_empty(), "no scene has {} road users that count", crop.least_agents);
     Ok((kept.into(), Some(report)))
-}
-
-fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Sheet> {
-    let mut sheet = Sheet::new(
-        "6 Cost",
-        &["Milliseconds on this machine, whatever else it was doing: median / 95th percentile, maps warm."],
-        &["ours", "what", "threads"],
-        &["calls", "first event p50", "p95", "settled p50", "p95"],
-    );
-    for Judged { name, mut generator } in judged {
-        for threads in [1, 2] {
-            generator = generator.with_threads(threads);
-            generator.warm_up();
-            for Row { what, first_event, settled, .. } in latency(&generator, threads, scenes, 3)? {
-                let milliseconds = |value| Cell::Number { value, form: Form::Plain };
-                sheet.push(
-                    [name.clone(), what, threads.to_string()],
-                    vec![
-                        Cell::Count(settled.calls as u64),
-                        milliseconds(first_event.p50_ms),
-                        milliseconds(first_event.p95_ms),
-                        milliseconds(settled.p50_ms),
-                        milliseconds(settled.p95_ms),
-                    ],
-                );
-            }
-        }
-    }
-    Ok(sheet)
 }
 
 impl Report {

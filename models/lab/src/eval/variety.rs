@@ -6,10 +6,9 @@ use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::{Case, Judged, Site, Subset, answer, type_name};
 use anyhow::Result;
-use experts::features::world::MapIndex;
 use experts::{Generator, Request};
 use rayon::prelude::*;
-use scene::routes::{Polyline, Pose, Route, route_length_m, routes_ahead};
+use scene::routes::{LaneGraph, Polyline, Pose, Route, route_length_m, routes_ahead};
 use scene::{AgentFutures, AgentType, Future, State, wrap_angle};
 use std::collections::BTreeSet;
 
@@ -148,7 +147,7 @@ struct Crossing {
 }
 
 fn crossing(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> Result<Option<Crossing>> {
-    let exits = exits(&site.map, case);
+    let exits = exits(&site.graph, case);
     if exits.len() < 2 {
         return Ok(None);
     }
@@ -172,11 +171,11 @@ fn crossing(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> R
 }
 
 /// Routes ahead by the direction in which they leave.
-fn exits(map: &MapIndex, case: &Case) -> Vec<Vec<Polyline>> {
+fn exits(graph: &LaneGraph, case: &Case) -> Vec<Vec<Polyline>> {
     let pose = Pose::new(case.start.position(), case.start.heading_rad);
     let length = route_length_m(case.start.speed_mps());
     let mut out: Vec<Vec<Polyline>> = Vec::new();
-    for Route { path, .. } in routes_ahead(&map.graph, pose, case.agent_type, length) {
+    for Route { path, .. } in routes_ahead(graph, pose, case.agent_type, length) {
         let heading = path.last().heading_rad;
         let same = |group: &&mut Vec<Polyline>| {
             wrap_angle(group[0].last().heading_rad - heading).abs() < SAME_EXIT_RAD

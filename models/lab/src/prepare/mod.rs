@@ -11,12 +11,14 @@ pub use report::{Fit, LeftOut, Report, Split};
 
 use crate::crop::{Crop, Cropped};
 use crate::mirror::mirrored;
+use crate::polylines::Polylines;
 use crate::train::{FitError, Record, Writer};
 use anyhow::{Context, Result};
 use conditions::Draw;
 use experts::features::STANDING_SHARE;
-use experts::features::world::{MapIndex, World};
+use experts::features::world::World;
 use rayon::prelude::*;
+use scene::routes::LaneGraph;
 use scene::{AgentType, HORIZON_STEPS, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -74,7 +76,7 @@ pub fn run(options: &Options, mut progress: impl FnMut(&Report)) -> Result<Repor
                 report.records += scene.records.len() as u64;
                 report.split.add(scene.key, scene.records.len());
                 distances.extend(scene.distances);
-                writer.scene(scene.key, &scene.map.pieces.features, &scene.records)?;
+                writer.scene(scene.key, &scene.polylines.pieces, &scene.records)?;
             }
         }
         progress(&report);
@@ -120,7 +122,7 @@ pub fn read_scenes(path: &Path) -> Result<Vec<Scene>> {
 
 struct SceneRecords {
     key: u64,
-    map: Arc<MapIndex>,
+    polylines: Polylines,
     records: Vec<Record>,
     /// By record, metres; see [`FitError`].
     distances: Vec<f64>,
@@ -130,10 +132,10 @@ struct SceneRecords {
 }
 
 impl SceneRecords {
-    fn new(scene: &Scene, map: Arc<MapIndex>) -> Self {
+    fn new(scene: &Scene) -> Self {
         Self {
             key: place_key(scene),
-            map,
+            polylines: Polylines::new(&scene.map),
             records: Vec::new(),
             distances: Vec::new(),
             road_users: scene.agents.len(),
@@ -154,8 +156,7 @@ fn file_records(path: &Path, options: &Options) -> Vec<SceneRecords> {
 
 /// Records of the part of a scene that is asked for.
 fn cropped_records(scene: Scene, options: &Options) -> SceneRecords {
-    let map = Arc::new(MapIndex::new(&scene.map));
-    let mut out = SceneRecords::new(&scene, map);
+    let mut out = SceneRecords::new(&scene);
     match options.crop.apply(scene) {
         Cropped::Kept(scene, outside) => {
             out.left_out.outside_the_crop = outside;
@@ -178,9 +179,9 @@ fn place_key(scene: &Scene) -> u64 {
 }
 
 fn scene_records(scene: &Scene, options: &Options, out: &mut SceneRecords) {
-    let map = out.map.clone();
+    let graph = Arc::new(LaneGraph::new(&scene.map));
     let mut draw = Draw::new(options.seed, scene.meta.source_id.as_deref().unwrap_or(&scene.name));
-    let base = World::new(scene, map.clone(), 0);
+    let base = World::new(scene, graph.clone(), 0);
     let fit = FitError::new();
     let mut candidates: Vec<usize> = Vec::new();
     for (i, agent) in scene.agents.iter().enumerate() {
@@ -213,8 +214,8 @@ fn scene_records(scene: &Scene, options: &Options, out: &mut SceneRecords) {
             let mut conditions = base.conditions.clone();
             conditions[index].goal = draw.goal(agent, standing);
             draw.others(scene, index, &mut conditions);
-            let world = World::with_conditions(scene, map.clone(), 0, conditions);
-            if let Some(record) = record::record(&world, index) {
+            let world = World::with_conditions(scene, graph.clone(), 0, conditions);
+            if let Some(record) = record::record(&world, &out.polylines, index) {
                 out.distances.extend(fit.of(&record));
                 out.records.push(record);
             }

@@ -1,5 +1,6 @@
 //! One road user's record: features from the start alone, targets from the recording.
 
+use crate::polylines::Polylines;
 use crate::train::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record};
 use experts::features::agent::{Planned, plan};
 use experts::features::anchors::Anchor;
@@ -12,7 +13,7 @@ use scene::{Agent, HORIZON_STEPS};
 const PER_INSTANT: usize = HORIZON_STEPS / INSTANTS;
 
 /// `None` when the road user is not there at the start.
-pub(super) fn record(world: &World<'_>, index: usize) -> Option<Record> {
+pub(super) fn record(world: &World<'_>, polylines: &Polylines, index: usize) -> Option<Record> {
     let who = world.present.iter().find(|p| p.index == index)?;
     let planned = plan(world, who);
     let agent = world.agent(who);
@@ -27,6 +28,7 @@ pub(super) fn record(world: &World<'_>, index: usize) -> Option<Record> {
         paths: Box::new(std::array::from_fn(|i| path(&planned.anchors[i], who))),
         weight: if turned > 0.35 { 2.0 } else { 1.0 },
         agent: planned.features,
+        pieces: polylines.seen(world, who),
         target,
     })
 }

@@ -10,20 +10,20 @@ use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use experts::features::{
-    ANCHOR, AgentFeatures, INSTANTS, MODES, MapFeatures, NEIGHBOUR, NEIGHBOURS, OWN, PIECE, PIECE_POSE,
-    PIECES, RESIDUAL, SeenPiece, Target,
+    ANCHOR, AgentFeatures, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, RESIDUAL, Target,
 };
 use scene::KNOTS;
 
 use super::codec::{Cursor, Sink};
 use super::error::TrainError;
+use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
 
 /// Most neighbours whose recorded boxes are kept for the overlap energy.
 pub const BOXES: usize = 8;
 /// Most points of an anchor's path, one a metre.
 pub const PATH_POINTS: usize = 160;
 
-const MAGIC: &[u8; 8] = b"DTRECS1\n";
+const MAGIC: &[u8; 8] = b"DTRECS2\n";
 const DIMENSIONS: [usize; 10] =
     [MODES, INSTANTS, RESIDUAL, OWN, PIECES, PIECE, PIECE_POSE, NEIGHBOURS, NEIGHBOUR, ANCHOR];
 
@@ -49,8 +49,10 @@ pub struct AnchorPath {
 /// One road user under one choice of conditions.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// What the expert sees. Piece indices are those of the scene's [`MapFeatures`].
+    /// What the expert sees.
     pub agent: AgentFeatures,
+    /// What a baseline sees of the map. Indices are those of the scene's pieces.
+    pub pieces: Vec<SeenPiece>,
     /// What happened.
     pub target: Target,
     /// Recorded neighbours, at most [`BOXES`], nearest first.
@@ -105,12 +107,12 @@ impl Writer {
     ///
     /// # Errors
     /// When a record breaks the limits of its struct, or the file cannot be written.
-    pub fn scene(&mut self, key: u64, map: &MapFeatures, records: &[Record]) -> Result<(), TrainError> {
-        let mut renamed: Vec<Option<usize>> = vec![None; map.pieces.len()];
+    pub fn scene(&mut self, key: u64, map: &[[f32; PIECE]], records: &[Record]) -> Result<(), TrainError> {
+        let mut renamed: Vec<Option<usize>> = vec![None; map.len()];
         let mut used = Vec::new();
         for record in records {
-            check(record, map.pieces.len()).map_err(|reason| TrainError::damaged(&self.path, reason))?;
-            for seen in &record.agent.pieces {
+            check(record, map.len()).map_err(|reason| TrainError::damaged(&self.path, reason))?;
+            for seen in &record.pieces {
                 if renamed[seen.piece].is_none() {
                     renamed[seen.piece] = Some(used.len());
                     used.push(seen.piece);
@@ -121,7 +123,7 @@ impl Writer {
         sink.u64(key);
         sink.count(used.len());
         for &piece in &used {
-            sink.floats(&map.pieces[piece]);
+            sink.floats(&map[piece]);
         }
         self.block(b'M', sink.as_slice())?;
         for record in records {
@@ -164,15 +166,15 @@ impl Writer {
 
 fn check(record: &Record, pieces: usize) -> Result<(), String> {
     let agent = &record.agent;
-    if agent.pieces.len() > PIECES || agent.neighbours.len() > NEIGHBOURS || record.boxes.len() > BOXES {
+    if record.pieces.len() > PIECES || agent.neighbours.len() > NEIGHBOURS || record.boxes.len() > BOXES {
         return Err(format!(
             "a record has {} pieces, {} neighbours, {} boxes; at most {PIECES}, {NEIGHBOURS}, {BOXES} fit",
-            agent.pieces.len(),
+            record.pieces.len(),
             agent.neighbours.len(),
             record.boxes.len()
         ));
     }
-    if let Some(seen) = agent.pieces.iter().find(|seen| seen.piece >= pieces) {
+    if let Some(seen) = record.pieces.iter().find(|seen| seen.piece >= pieces) {
         return Err(format!("a record sees piece {} of a map of {pieces}", seen.piece));
     }
     if let Some(path) = record.paths.iter().find(|p| !(2..=PATH_POINTS).contains(&p.points.len())) {
@@ -188,8 +190,8 @@ fn encode(record: &Record, renamed: &[Option<usize>], sink: &mut Sink) {
     let (agent, target) = (&record.agent, &record.target);
     sink.floats(&[record.weight]);
     sink.floats(&agent.own);
-    sink.count(agent.pieces.len());
-    for seen in &agent.pieces {
+    sink.count(record.pieces.len());
+    for seen in &record.pieces {
         sink.count(renamed.get(seen.piece).copied().flatten().unwrap_or(0));
         sink.floats(&seen.pose);
     }
@@ -250,8 +252,8 @@ fn decode(bytes: &[u8]) -> Result<Record, String> {
         *path = decode_path(&mut cursor)?;
     }
     cursor.end()?;
-    let agent = AgentFeatures { own, pieces, neighbours, anchors, tangent };
-    Ok(Record { agent, target, boxes, half, centre_ahead, paths, weight })
+    let agent = AgentFeatures { own, neighbours, anchors, tangent };
+    Ok(Record { agent, pieces, target, boxes, half, centre_ahead, paths, weight })
 }
 
 fn decode_box(cursor: &mut Cursor<'_>) -> Result<LoggedBox, String> {
@@ -444,9 +446,9 @@ mod tests {
             assert_eq!(read.target.along, written.target.along);
             let (key, scene) = records.scene_of(index);
             assert_eq!((key, scene), (scenes[index / 4].0, index / 4));
-            for (seen, original) in read.agent.pieces.iter().zip(&written.agent.pieces) {
+            for (seen, original) in read.pieces.iter().zip(&written.pieces) {
                 assert_eq!(seen.pose, original.pose);
-                assert_eq!(records.piece(scene, seen.piece), scenes[index / 4].1.pieces[original.piece]);
+                assert_eq!(records.piece(scene, seen.piece), scenes[index / 4].1[original.piece]);
             }
         }
     }

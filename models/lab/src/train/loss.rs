@@ -6,12 +6,11 @@ use scene::KNOTS;
 
 use super::route::Route;
 
-/// Temperature of the soft targets of the scores, metres; where no goal holds the modes together, this share
-/// of their mean distance.
-const TEMPERATURE: f32 = 1.0;
-const TEMPERATURE_SHARE: f32 = 0.25;
 /// Added under the root of a distance, square metres.
 const ROUND: f32 = 0.01;
+/// How much the first mode is pulled to the recording, won or lost, where a goal's position is fixed: there it is
+/// the middle of what may happen, and the answer to be shown.
+const MIDDLE: f32 = 0.3;
 /// Mean distance above which a losing mode is not pulled, metres.
 const FAR: f32 = 60.0;
 
@@ -92,12 +91,14 @@ pub(crate) fn least(values: &[f32]) -> usize {
     (0..values.len()).fold(0, |best, i| if values[i] < values[best] { i } else { best })
 }
 
-/// Winner takes all on positions, soft scores, scales of the winner, and whether the road user stays.
-/// `recorded` are the residuals of [`super::fit::recorded`]. Gives the parts and the gradient.
+/// Winner takes all on positions, likelihood of the winner's score, scales of the winner, and whether the road user stays.
+/// `recorded` are the residuals of [`super::fit::recorded`]; `bound` road users have a goal position. Gives the
+/// parts and the gradient.
 pub(super) fn initial(
     route: &Route,
     target: &Target,
     recorded: &[[f32; RESIDUAL]; MODES],
+    bound: bool,
     said: &Said,
 ) -> (InitialParts, Said) {
     let mut grad = Said::zero();
@@ -113,34 +114,35 @@ pub(super) fn initial(
         if *ade < FAR {
             pull += weight * 0.01 / MODES as f32;
         }
+        if bound && mode == 0 {
+            total += weight * MIDDLE * ade;
+            pull += weight * MIDDLE;
+        }
         let size = (said.residual[mode].iter().map(|r| r * r).sum::<f32>() + 1e-3).sqrt();
         total += 0.004 * size / MODES as f32;
         for i in 0..RESIDUAL {
             grad.residual[mode][i] = pull * slope[i] + 0.004 / MODES as f32 * said.residual[mode][i] / size;
         }
     }
-    let score_nll = scores(&ade, &said.score, 0.5, &mut grad.score);
+    let (score_nll, score_grad) = index(&said.score, best);
+    grad.score = score_grad.map(|g| 0.5 * g);
     let (stays_bce, stays_grad) = binary(said.stays, target.stays);
     grad.stays = 0.2 * stays_grad;
     let scale_nll =
         scales(&recorded[best], &said.residual[best], &said.log_scale[best], 0.02, &mut grad.log_scale[best]);
     total += 0.5 * score_nll + 0.2 * stays_bce + 0.02 * scale_nll;
-    let first_ade = ade[least(&said.score.map(|score| -score))];
+    let first_ade = if bound { ade[0] } else { ade[least(&said.score.map(|score| -score))] };
     (InitialParts { total, min_ade: ade[best], first_ade, score_nll, stays_bce, scale_nll }, grad)
 }
 
-/// Cross-entropy of the scores against soft targets from the distances.
-fn scores(ade: &[f32; MODES], score: &[f32; MODES], weight: f32, grad: &mut [f32; MODES]) -> f32 {
-    let mean = ade.iter().sum::<f32>() / MODES as f32;
-    let temperature = (TEMPERATURE_SHARE * mean).max(TEMPERATURE);
-    let wanted = softmax(&ade.map(|ade| -ade / temperature));
+/// Negative logarithm of the likelihood of the best mode's score, with its gradient, so that the scores say how
+/// often each mode comes nearest. Which answer to show is another question: the choice asks for the least
+/// expected distance.
+pub(crate) fn index(score: &[f32; MODES], best: usize) -> (f32, [f32; MODES]) {
     let given = softmax(score);
-    let mut nll = 0.0;
-    for mode in 0..MODES {
-        nll -= wanted[mode] * given[mode].max(1e-20).ln();
-        grad[mode] += weight * (given[mode] - wanted[mode]);
-    }
-    nll
+    let mut gradient = given;
+    gradient[best] -= 1.0;
+    (-given[best].max(1e-20).ln(), gradient)
 }
 
 pub(crate) fn softmax(values: &[f32; MODES]) -> [f32; MODES] {
@@ -242,12 +244,13 @@ mod tests {
         for (seed, record) in toy::scenes(1, 5, 3)[0].2.iter().enumerate() {
             let recorded = fit::recorded(&route, &record.agent, &record.target);
             let said = said(seed as u64 + 1);
-            let (_, grad) = initial(&route, &record.target, &recorded, &said);
+            let bound = seed % 2 == 1;
+            let (_, grad) = initial(&route, &record.target, &recorded, bound, &said);
             let slope = |change: &dyn Fn(&mut Said, f32)| {
                 let at = |delta: f32| {
                     let mut moved = said.clone();
                     change(&mut moved, delta);
-                    let (parts, _) = initial(&route, &record.target, &recorded, &moved);
+                    let (parts, _) = initial(&route, &record.target, &recorded, bound, &moved);
                     // Scales and scores do not move the residual: their losses are held apart.
                     (f64::from(parts.total), f64::from(0.02 * parts.scale_nll + 0.5 * parts.score_nll))
                 };

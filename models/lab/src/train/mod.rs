@@ -37,7 +37,7 @@ pub use run::{Options, Progress, checkpoint_path, run};
 pub use sample::is_held_out;
 pub use stages::Stage;
 
-pub(crate) use loss::{least, softmax};
+pub(crate) use loss::{index, least, softmax};
 pub(crate) use route::Placed;
 pub(crate) use run::run_of;
 pub(crate) use sample::{Shard, normal, unit};

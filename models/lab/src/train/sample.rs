@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 
-use experts::features::{MODES, PIECE, RESIDUAL};
+use experts::features::{MODES, RESIDUAL};
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::fit;
 use super::route::Route;
 use super::{Record, Records, TrainError};
+use crate::polylines::PIECE;
 
 /// One scene in this many is held out.
 const HELD_OUT: u64 = 10;
@@ -118,7 +119,7 @@ impl Shard {
         for &index in indices {
             let (_, scene) = records.scene_of(index);
             let mut record = records.get(index)?;
-            for seen in &mut record.agent.pieces {
+            for seen in &mut record.pieces {
                 seen.piece = *rows.entry((scene, seen.piece)).or_insert_with(|| {
                     shard.pieces.push(records.piece(scene, seen.piece));
                     shard.pieces.len() - 1

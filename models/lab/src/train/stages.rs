@@ -2,8 +2,8 @@
 
 use candle_core::{Device, Result, Tensor};
 use experts::Refining;
+use experts::features::agent::OWN_GOAL_POSITION;
 use experts::features::{AgentFeatures, MODES, RESIDUAL};
-use experts::net::inputs::{Inputs, pieces};
 use experts::net::overlap::{Growth, Obstacle, Pullback, absent, gap, overlap};
 use experts::net::{Context, Expert, Initial, Prepared, schedule};
 use rand_chacha::ChaCha12Rng;
@@ -108,10 +108,8 @@ fn pushes(tools: &Tools, shard: &Shard, counts: &[Vec<bool>], drafts: &[Modes]) 
 }
 
 fn context(expert: &Expert, shard: &Shard) -> std::result::Result<Context, TrainError> {
-    let map = expert.map.forward(&pieces(&shard.pieces, expert.device())?)?;
     let agents: Vec<&AgentFeatures> = shard.records.iter().map(|record| &record.agent).collect();
-    let inputs = Inputs::stack(&agents, map.dim(0)?, expert.device())?;
-    Ok(expert.context.forward(&map, &inputs)?)
+    Ok(expert.encode(&agents)?)
 }
 
 fn tensor(values: &[Modes], device: &Device) -> Result<Tensor> {
@@ -168,8 +166,9 @@ fn initializer(
     let initial = expert.initializer.forward(context)?;
     let mut grads = Vec::with_capacity(shard.records.len());
     for (index, said) in said(&initial)?.iter().enumerate() {
-        let target = &shard.records[index].target;
-        let (parts, grad) = loss::initial(&tools.route, target, &shard.recorded[index], said);
+        let Record { agent, target, .. } = &shard.records[index];
+        let bound = agent.own[OWN_GOAL_POSITION] > 0.0;
+        let (parts, grad) = loss::initial(&tools.route, target, &shard.recorded[index], bound, said);
         add_parts(metrics, &parts);
         grads.push(grad);
     }

@@ -4,9 +4,7 @@
 use std::path::Path;
 
 use experts::Refining;
-use experts::features::{
-    ANCHOR, AgentFeatures, INSTANTS, MODES, MapFeatures, NEIGHBOUR, OWN, PIECE, PIECE_POSE, SeenPiece, Target,
-};
+use experts::features::{ANCHOR, AgentFeatures, INSTANTS, MODES, NEIGHBOUR, OWN, Target};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -14,20 +12,21 @@ use super::sample::{Shard, stream};
 use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
 use super::{AnchorPath, LoggedBox, Record, Records, Writer};
+use crate::polylines::{PIECE, PIECE_POSE, SeenPiece};
 
-/// Key, map and records of a scene.
-pub(crate) type ToyScene = (u64, MapFeatures, Vec<Record>);
+/// Key, map pieces and records of a scene.
+pub(crate) type ToyScene = (u64, Vec<[f32; PIECE]>, Vec<Record>);
 
 /// Seeded scenes with some records each.
 pub(crate) fn scenes(count: usize, records: usize, seed: u64) -> Vec<ToyScene> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     (0..count)
         .map(|scene| {
-            let mut map = MapFeatures::default();
+            let mut map = Vec::new();
             for _ in 0..7 {
-                map.pieces.push(std::array::from_fn::<f32, PIECE, _>(|_| between(&mut rng, -1.0, 1.0)));
+                map.push(std::array::from_fn::<f32, PIECE, _>(|_| between(&mut rng, -1.0, 1.0)));
             }
-            let records = (0..records).map(|_| record(&mut rng, map.pieces.len())).collect();
+            let records = (0..records).map(|_| record(&mut rng, map.len())).collect();
             (scene as u64, map, records)
         })
         .collect()
@@ -91,10 +90,11 @@ fn record(rng: &mut ChaCha8Rng, pieces: usize) -> Record {
         anchor[..2].copy_from_slice(&[mode as f32 / 6.0, speed / 10.0]);
     }
     let identity = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }));
-    let agent = AgentFeatures { own, pieces, neighbours, anchors, tangent: Box::new([identity, identity]) };
+    let agent = AgentFeatures { own, neighbours, anchors, tangent: Box::new([identity, identity]) };
     let path = AnchorPath { start: -2.0, points: (0..150).map(|i| [i as f32 - 2.0, 0.0]).collect() };
     Record {
         agent,
+        pieces,
         target: target(speed, accel, aside),
         boxes: vec![crossing(speed, between(rng, 4.0, 8.0)), parked(between(rng, 5.0, 60.0))],
         half: [2.2, 0.9],

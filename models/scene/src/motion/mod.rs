@@ -6,11 +6,13 @@
 
 pub mod drive;
 pub mod fit;
+pub mod hermite;
 pub mod project;
 pub mod walk;
 mod whiten;
 
 pub use fit::{Sampled, fit};
+pub use hermite::Hermite;
 pub use project::{Limiting, Projection, Reach, Residuals, Target, project};
 
 use crate::geometry::{direction, rotate};

@@ -56,7 +56,7 @@ impl Generation<'_> {
         let mut goals: Vec<(usize, Goal)> = Vec::new();
         {
             let shared = scene.clone();
-            let world = World::new(&shared, self.map.index.clone(), step);
+            let world = World::new(&shared, self.map.graph.clone(), step);
             for (i, agent) in self.request.scene.agents.iter().enumerate() {
                 let goal = &agent.conditions.goal;
                 let left = self.due(i) - from as isize;

@@ -3,9 +3,9 @@
 use super::super::actor::kept_boxes;
 use super::super::choice::{Choice, distance};
 use super::super::realise::{Motion, middle, realise};
-use super::options::{base_weight, has_base, options, shown_motion};
+use super::options::{MIDDLE_WEIGHT, has_middle, learned_share, options, shown_motion};
 use super::{Decided, Window};
-use crate::features::{MODES, RESIDUAL};
+use crate::features::MODES;
 use crate::generator::parallel;
 use crate::request::Shown;
 
@@ -83,9 +83,10 @@ impl Window<'_> {
 
     /// Motions that may be shown beside the modes, each under the slot of the mode it is nearest to.
     ///
-    /// On the way to a goal that is the first anchor's own base, the formula's answer: it counts among the modes
-    /// with a weight of its own. Without one it is, for each path that has several modes, their mean, which is
-    /// nearer to all of them than any one is.
+    /// On the way to a goal that is the first mode, which was trained to be the middle of what may happen, drawn
+    /// towards the formula's answer (its anchor's own base): it counts among the modes with a weight of its own.
+    /// Without one it is, for each path that has several modes, their mean, which is nearer to all of them than
+    /// any one is.
     fn extras(&self, i: usize, motions: &[(f64, usize, Motion)]) -> Vec<(f64, usize, Motion)> {
         let actor = &self.actors[i];
         if actor.pinned.is_some() || actor.keeps_its_path() || self.mode_count(i) == 1 {
@@ -96,10 +97,10 @@ impl Window<'_> {
             let nearest = group.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?.1;
             Some((weight, nearest, motion))
         };
-        if has_base(actor) {
+        if has_middle(actor) {
             let group: Vec<&(f64, usize, Motion)> = motions.iter().collect();
-            let motion = realise(&actor.planned, 0, &[0.0; RESIDUAL]);
-            return under(&group, base_weight(actor), motion).into_iter().collect();
+            let motion = realise(&actor.planned, 0, &self.drafts[i][0].map(|r| r * learned_share(actor)));
+            return under(&group, MIDDLE_WEIGHT, motion).into_iter().collect();
         }
         let path = |slot: usize| actor.planned.anchors[slot].identity / 8;
         let mut paths: Vec<Vec<&(f64, usize, Motion)>> = Vec::new();

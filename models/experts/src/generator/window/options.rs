@@ -1,6 +1,6 @@
 //! What a road user can do, and what each of it costs by itself.
 
-use super::super::EncodedMap;
+use super::super::KnownMap;
 use super::super::actor::{Actor, Role};
 use super::super::choice::{Choosable, medoid_costs, swept, swept_kept};
 use super::super::realise::{Motion, PER_INSTANT};
@@ -15,27 +15,34 @@ const OFF_LANES: f64 = 8.0;
 const PAST_EDGES: f64 = 8.0;
 const PAST_EDGE_M: f64 = 0.1;
 
-/// Whether the base of the first anchor is an option: it is one motion of its own where there is a place to go.
-pub(super) fn has_base(actor: &Actor) -> bool {
+/// What the middle of the modes counts beside them, whose probabilities sum to 1: it is shown unless it is in
+/// the way, and then what is near to it.
+pub(super) const MIDDLE_WEIGHT: f64 = 2.0;
+
+/// Whether there is one middle of what may happen: where there is a place to go.
+pub(super) fn has_middle(actor: &Actor) -> bool {
     let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
     moves && actor.planned.target.position.is_some()
 }
 
-/// What the base counts beside the modes, whose probabilities sum to 1. People on foot take the way of least
-/// effort more often than anything learned from simulated walkers says.
-pub(super) fn base_weight(actor: &Actor) -> f64 {
-    if actor.planned.present.agent_type == AgentType::Pedestrian { 1.0 } else { 0.25 }
+/// How much of what was learned there is in the middle; the rest is the formula's. Recorded road users keep
+/// nearer to the formula than simulated ones do, people on foot nearest.
+pub(super) fn learned_share(actor: &Actor) -> f32 {
+    match actor.planned.present.agent_type {
+        AgentType::Pedestrian => 0.4,
+        _ => 0.5,
+    }
 }
 
 /// What an actor can do: its motions, after what it keeps (reacting) or has pinned.
-pub(super) fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &EncodedMap) -> Vec<Choosable> {
+pub(super) fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &KnownMap) -> Vec<Choosable> {
     let size = &actor.planned.present.size;
     if let Some(pinned) = &actor.pinned {
         let boxes = swept_kept(|step| pinned.get(step - 1).copied(), size);
         return vec![Choosable { boxes, cost: 0.0 }];
     }
     let all: Vec<&Trajectory> = motions.iter().map(|m| &m.2.states).collect();
-    let counted = MODES + usize::from(has_base(actor));
+    let counted = MODES + usize::from(has_middle(actor));
     let modes: Vec<(&Trajectory, f64)> = motions.iter().take(counted).map(|m| (&m.2.states, m.0)).collect();
     let mut out = Vec::with_capacity(motions.len() + 1);
     match &actor.kept {
@@ -61,7 +68,7 @@ pub(super) fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &Enc
 }
 
 /// A vehicle whose box lies within the road's edges at the start.
-pub(super) fn starts_on_the_road(actor: &Actor, map: &EncodedMap) -> bool {
+pub(super) fn starts_on_the_road(actor: &Actor, map: &KnownMap) -> bool {
     let present = &actor.planned.present;
     let outline = OrientedBox::of_state(&present.start, &present.size);
     present.agent_type == AgentType::Vehicle
@@ -70,12 +77,12 @@ pub(super) fn starts_on_the_road(actor: &Actor, map: &EncodedMap) -> bool {
 
 /// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the
 /// road's edges to have a corner beyond them.
-fn off_road(actor: &Actor, states: &Trajectory, map: &EncodedMap) -> f64 {
+fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap) -> f64 {
     let present = &actor.planned.present;
     if present.agent_type != AgentType::Vehicle || states.is_empty() {
         return 0.0;
     }
-    let away = |s: &MotionState| map.index.graph.nearest_for(s.position, 2.5, present.agent_type).is_empty();
+    let away = |s: &MotionState| map.graph.nearest_for(s.position, 2.5, present.agent_type).is_empty();
     let beyond = |s: &MotionState| {
         let outline = OrientedBox::of_state(&State::from(s), &present.size);
         map.drivable.box_outside_m(&outline).is_some_and(|outside| outside > PAST_EDGE_M)

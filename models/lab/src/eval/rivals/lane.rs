@@ -31,7 +31,7 @@ struct Ahead {
 pub fn intelligent_driver(world: &World<'_>, agent: usize) -> Option<Vec<State>> {
     let who = world.present.iter().find(|p| p.index == agent)?;
     let v0 = world.model(who).start_speed_mps();
-    let graph = &world.map.graph;
+    let graph = &world.graph;
     // Someone who speeds up to the limit gets farther than the present speed says.
     let length = route_length_m(v0.max(15.0));
     let route = routes_ahead(graph, who.pose(), who.agent_type, length).into_iter().next()?;
@@ -53,7 +53,7 @@ fn everything_ahead(world: &World<'_>, who: &Present, route: &Route, path: &Poly
     let length_m = who.size.length_m;
     let leader = speed::leader(path, length_m, &world.obstacles(who.index))
         .map(|l| Ahead { gap_m: l.gap_m, speed_mps: l.speed_mps });
-    let light = speed::first_signal(route, &world.map.graph, &world.signals)
+    let light = speed::first_signal(route, &world.graph, &world.signals)
         .filter(|light| light.state.is_stop())
         .map(|light| light.distance_m - 0.5 * length_m)
         .filter(|gap| v0 * v0 / (2.0 * gap.max(0.1)) < TOO_LATE)

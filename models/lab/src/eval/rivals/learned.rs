@@ -6,6 +6,7 @@ use crate::eval::draw::Draw;
 use crate::eval::together::{Motions, asked, generated, joint_goal};
 use crate::eval::{Case, Site, Subset};
 use anyhow::Result;
+use experts::features::world::World;
 use scene::{Future, Goal, State};
 
 /// Futures of a case, the most probable first; none under a condition that the baseline does not see, or of a
@@ -17,7 +18,9 @@ pub fn learned(baseline: &Baseline, site: &Site<'_>, case: &Case, subset: Subset
     if subset != Subset::None && !baseline.has_condition() {
         return Ok(Vec::new());
     }
-    let found = baseline.futures(&site.asked(case, subset), &site.map, &[case.agent])?;
+    let asked = site.asked(case, subset);
+    let world = World::new(&asked, site.graph.clone(), 0);
+    let found = baseline.futures(&world, &site.polylines, &[case.agent])?;
     Ok(found.into_iter().next().unwrap_or_default())
 }
 
@@ -35,7 +38,9 @@ impl<'a> Together<'a> {
     /// When the tensor library fails.
     pub fn new(baseline: &Baseline, site: &'a Site<'a>, goals: bool) -> Result<Self> {
         let whom = generated(site);
-        let mut futures = baseline.futures(&asked(site, goals), &site.map, &whom)?;
+        let scene = asked(site, goals);
+        let world = World::new(&scene, site.graph.clone(), 0);
+        let mut futures = baseline.futures(&world, &site.polylines, &whom)?;
         for (&i, modes) in whom.iter().zip(&mut futures).filter(|(_, modes)| modes.is_empty()) {
             let agent = &site.blind.agents[i];
             let Some(start) = agent.state_at(0) else { continue };

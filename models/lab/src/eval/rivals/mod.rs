@@ -62,7 +62,7 @@ impl Rival {
                 varied(agent, &case.start, &goal, case.goal_step, seed, VARIATIONS)
             }
             Self::LaneDriver if may_follow_lane(agent, &goal) => {
-                let world = World::new(&site.blind, site.map.clone(), 0);
+                let world = World::new(&site.blind, site.graph.clone(), 0);
                 intelligent_driver(&world, case.agent).into_iter().collect()
             }
             Self::LaneDriver => Vec::new(),

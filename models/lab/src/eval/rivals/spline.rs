@@ -2,63 +2,45 @@
 
 use super::state;
 use scene::geometry::direction;
-use scene::{Goal, HORIZON_STEPS, STEP_S, State, Vec2};
+use scene::motion::{Hermite, Target};
+use scene::{Goal, HORIZON_STEPS, STEP_S, State};
 
 /// Below this speed the curve's direction says nothing about the heading, m/s.
 const STANDING_MPS: f64 = 0.2;
 
 /// States at steps 1 ..= 90 on the cubic in position from `start` to `goal`, met at `goal_step`.
 ///
-/// The velocity at the end follows the goal's speed and heading where they are fixed; a free end has no
-/// acceleration, and its direction alone is taken where only the speed is fixed. Without a position the way
-/// is straight with even acceleration to the speed. Beyond the goal it goes on unchanged.
+/// Without a position the way is straight with even acceleration to the speed. Beyond the goal it goes on
+/// unchanged.
 pub fn hermite(start: &State, goal: &Goal, goal_step: usize) -> Vec<State> {
-    let seconds = goal_step.max(1) as f64 * STEP_S;
-    let (p0, v0) = (start.position(), start.velocity());
-    let (p1, v1) = ending(start, goal, seconds);
+    let from = (start.position(), start.velocity());
+    let Goal { position, heading_rad, speed_mps, .. } = *goal;
+    let target = Target { step: goal_step, position, heading_rad, speed_mps };
+    let curve = Hermite::to_target(from, &target).unwrap_or_else(|| straight(start, speed_mps, goal_step));
     let mut heading_rad = start.heading_rad;
-    let mut out = Vec::with_capacity(HORIZON_STEPS);
-    for step in 1..=HORIZON_STEPS {
-        let t = step as f64 * STEP_S;
-        let s = t.min(seconds) / seconds;
-        let (s2, s3) = (s * s, s * s * s);
-        let along = p0 * (2.0 * s3 - 3.0 * s2 + 1.0)
-            + v0 * (seconds * (s3 - 2.0 * s2 + s))
-            + p1 * (3.0 * s2 - 2.0 * s3)
-            + v1 * (seconds * (s3 - s2));
-        let velocity = p0 * (6.0 * (s2 - s) / seconds)
-            + v0 * (3.0 * s2 - 4.0 * s + 1.0)
-            + p1 * (6.0 * (s - s2) / seconds)
-            + v1 * (3.0 * s2 - 2.0 * s);
+    let state_at = |step: usize| {
+        let (position, velocity) = curve.at(step as f64 * STEP_S);
         if velocity.norm() > STANDING_MPS {
             heading_rad = velocity.y.atan2(velocity.x);
         }
-        out.push(state(along + velocity * (t - seconds).max(0.0), heading_rad, velocity));
-    }
-    out
+        state(position, heading_rad, velocity)
+    };
+    (1..=HORIZON_STEPS).map(state_at).collect()
 }
 
-/// Place and velocity at the goal.
-fn ending(start: &State, goal: &Goal, seconds: f64) -> (Vec2, Vec2) {
+/// Straight on, to a speed where one is asked for.
+fn straight(start: &State, speed_mps: Option<f64>, goal_step: usize) -> Hermite {
     let (p0, v0) = (start.position(), start.velocity());
-    let Some(p1) = goal.position else {
-        let ahead = if v0.norm() > STANDING_MPS { v0.normalize() } else { direction(start.heading_rad) };
-        let v1 = ahead * goal.speed_mps.unwrap_or_else(|| v0.norm());
-        return (p0 + (v0 + v1) * (0.5 * seconds), v1);
-    };
-    // No acceleration at the end.
-    let natural = (p1 - p0) * (1.5 / seconds) - v0 * 0.5;
-    let v1 = match (goal.heading_rad, goal.speed_mps) {
-        (Some(heading), speed) => direction(heading) * speed.unwrap_or_else(|| natural.norm()),
-        (None, Some(speed)) => natural * (speed / natural.norm().max(0.1)),
-        (None, None) => natural,
-    };
-    (p1, v1)
+    let seconds = goal_step.max(1) as f64 * STEP_S;
+    let ahead = if v0.norm() > STANDING_MPS { v0.normalize() } else { direction(start.heading_rad) };
+    let v1 = ahead * speed_mps.unwrap_or_else(|| v0.norm());
+    Hermite::new((p0, v0), (p0 + (v0 + v1) * (0.5 * seconds), v1), seconds)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::Vec2;
 
     fn start() -> State {
         state(Vec2::new(1.0, 2.0), 0.0, Vec2::new(6.0, 0.0))
