@@ -7,7 +7,7 @@ use lab::baselines::{self, Baseline, Kind};
 use lab::crop::Crop;
 use lab::eval::{Judged, Table};
 use lab::synthesize::{self, Options, Template};
-use lab::train::Stage;
+use lab::train::{Processor, Stage};
 use scene::AgentType;
 use std::path::PathBuf;
 
@@ -167,7 +167,11 @@ pub struct TrainArgs {
     /// Greatest learning rate.
     #[arg(long, default_value_t = 1e-3)]
     rate: f64,
-    /// Threads that share a step; the result does not depend on it.
+    /// What computes the networks. cuda is the first NVIDIA graphics card, in a program built with the feature
+    /// cuda; only the CPU gives the same bits again.
+    #[arg(long, value_enum, default_value_t = DeviceWord::Cpu)]
+    device: DeviceWord,
+    /// Threads that share a step on the CPU; the result does not depend on it.
     #[arg(long, default_value_t = 1)]
     workers: usize,
     /// Draws records and first weights.
@@ -195,6 +199,21 @@ enum StageWord {
     Denoiser,
     Initializer,
     Joint,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum DeviceWord {
+    Cpu,
+    Cuda,
+}
+
+impl From<DeviceWord> for Processor {
+    fn from(word: DeviceWord) -> Self {
+        match word {
+            DeviceWord::Cpu => Self::Cpu,
+            DeviceWord::Cuda => Self::Cuda,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -473,6 +492,7 @@ impl TrainArgs {
             steps: self.steps,
             batch: self.batch,
             rate: self.rate,
+            processor: self.device.into(),
             threads: self.workers,
             seed: self.seed,
             refining: Refining {

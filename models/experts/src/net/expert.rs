@@ -147,8 +147,8 @@ impl Expert {
     pub fn save(&self) -> Result<Vec<u8>, NetError> {
         let header = Header { architecture: self.architecture.clone(), card: self.card.clone() };
         let text = serde_json::to_string(&header).map_err(|error| NetError::Format(error.to_string()))?;
-        let tensors = self.tensors.iter().map(|(name, tensor)| (name.as_str(), tensor));
-        safetensors::serialize(tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
+        let tensors = on_cpu(&self.tensors)?;
+        safetensors::serialize(&tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
             .map_err(|error| NetError::Format(error.to_string()))
     }
 
@@ -254,6 +254,14 @@ impl Expert {
         let flat = values.as_flattened().as_flattened();
         Ok(Tensor::from_slice(flat, (values.len(), MODES, RESIDUAL), &self.device)?)
     }
+}
+
+/// Tensors where a file can be written from, wherever they were.
+///
+/// # Errors
+/// When a tensor cannot be read back.
+pub fn on_cpu(tensors: &BTreeMap<String, Tensor>) -> Result<BTreeMap<&str, Tensor>, NetError> {
+    tensors.iter().map(|(name, tensor)| Ok((name.as_str(), tensor.to_device(&Device::Cpu)?))).collect()
 }
 
 fn blocks(values: &[f32]) -> Vec<[[f32; RESIDUAL]; MODES]> {

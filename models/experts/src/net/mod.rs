@@ -25,7 +25,7 @@ pub mod smooth;
 pub use architecture::{Architecture, FeatureSizes, TOKENS};
 pub use encoder::{Context, ContextEncoder, Gating};
 pub use error::NetError;
-pub use expert::{Card, Expert, InitialOutput};
+pub use expert::{Card, Expert, InitialOutput, on_cpu};
 pub use initializer::{Initial, Initializer};
 pub use params::{Init, Params};
 pub use refiner::{Prepared, Refiner};

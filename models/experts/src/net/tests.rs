@@ -140,6 +140,30 @@ fn probe(expert: &Expert, agents: &[&AgentFeatures]) -> Tensor {
     parts.into_iter().reduce(|a, b| (a + b).unwrap()).unwrap()
 }
 
+#[test]
+fn stock_forms_make_the_same_network() {
+    let expert = Expert::trainable(small(), Expert::random(1).unwrap().card, 11, &Device::Cpu).unwrap();
+    let agents = agents();
+    let all: Vec<&AgentFeatures> = agents.iter().collect();
+    let map = map(PIECES, 7);
+    let run = || {
+        let value = probe(&expert, &all, &map);
+        (value.to_scalar::<f32>().unwrap(), value.backward().unwrap())
+    };
+    let ((own, own_grads), (stock, stock_grads)) = (run(), ops::check::with_stock_forms(run));
+    assert!((own - stock).abs() < 1e-4 * own.abs().max(1.0), "{own} {stock}");
+    for (name, var) in expert.vars() {
+        let numbers = |grads: &candle_core::backprop::GradStore| -> Vec<f32> {
+            let grad = grads.get(var.as_tensor()).unwrap_or_else(|| panic!("{name} has no gradient"));
+            grad.flatten_all().unwrap().to_vec1().unwrap()
+        };
+        let (own, stock) = (numbers(&own_grads), numbers(&stock_grads));
+        let length = own.iter().map(|g| g * g).sum::<f32>().sqrt();
+        let apart = own.iter().zip(&stock).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt();
+        assert!(length > 0.0 && apart < 1e-4 * length, "{name}: {apart} of {length}");
+    }
+}
+
 fn small() -> Architecture {
     Architecture { width: 16, gating_blocks: 2, heads: 2, ..Architecture::default() }
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
+use candle_core::Device;
 use experts::features::agent::plan_with;
 use experts::features::world::World;
 use experts::features::{AgentFeatures, MODES};
@@ -33,7 +34,7 @@ impl Baseline {
         for file in files(path)? {
             let told = || format!("baseline {}", file.display());
             let found = std::fs::read(&file).with_context(told)?;
-            let found = Networks::load(&found, false).with_context(told)?;
+            let found = Networks::load(&found, false, &Device::Cpu).with_context(told)?;
             let types = found.types().with_context(told)?;
             for other in &networks {
                 ensure!(other.plan.kind == found.plan.kind, "{}: of another method than the rest", told());

@@ -30,7 +30,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 
 use candle_core::{Device, Tensor, Var};
-use experts::net::{Architecture, Card, NetError, Params};
+use experts::net::{Architecture, Card, NetError, Params, on_cpu};
 use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
@@ -112,7 +112,7 @@ impl Networks {
         Ok(Self { plan, card, regressor, refiner, tensors, vars })
     }
 
-    fn load(bytes: &[u8], trainable: bool) -> Result<Self, NetError> {
+    fn load(bytes: &[u8], trainable: bool, device: &Device) -> Result<Self, NetError> {
         let format = |error: safetensors::SafeTensorError| NetError::Format(error.to_string());
         let header = |reason: String| NetError::Header { member: HEADER, reason };
         let (_, metadata) = safetensors::SafeTensors::read_metadata(bytes).map_err(format)?;
@@ -120,14 +120,14 @@ impl Networks {
         let text = text.ok_or_else(|| header("absent: these are not a baseline's weights".into()))?;
         let Header { plan, card } = serde_json::from_str(text).map_err(|e| header(e.to_string()))?;
         let tensors = candle_core::safetensors::load_buffer(bytes, &Device::Cpu)?.into_iter().collect();
-        Self::build(plan, card, Params::given(tensors, trainable, &Device::Cpu))
+        Self::build(plan, card, Params::given(tensors, trainable, device))
     }
 
     fn save(&self) -> Result<Vec<u8>, NetError> {
         let header = Header { plan: self.plan.clone(), card: self.card.clone() };
         let text = serde_json::to_string(&header).map_err(|error| NetError::Format(error.to_string()))?;
-        let tensors = self.tensors.iter().map(|(name, tensor)| (name.as_str(), tensor));
-        safetensors::serialize(tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
+        let tensors = on_cpu(&self.tensors)?;
+        safetensors::serialize(&tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
             .map_err(|error| NetError::Format(error.to_string()))
     }
 

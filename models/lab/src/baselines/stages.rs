@@ -18,12 +18,12 @@ use crate::train::{Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, in
 impl Trainee for Networks {
     type Architecture = Plan;
 
-    fn random(plan: Plan, card: Card, seed: u64) -> std::result::Result<Self, NetError> {
-        Self::build(plan, card, Params::random(seed, true, &Device::Cpu))
+    fn random(plan: Plan, card: Card, seed: u64, device: &Device) -> std::result::Result<Self, NetError> {
+        Self::build(plan, card, Params::random(seed, true, device))
     }
 
-    fn read(bytes: &[u8]) -> std::result::Result<Self, NetError> {
-        Self::load(bytes, true)
+    fn read(bytes: &[u8], device: &Device) -> std::result::Result<Self, NetError> {
+        Self::load(bytes, true, device)
     }
 
     fn write(&self) -> std::result::Result<Vec<u8>, NetError> {

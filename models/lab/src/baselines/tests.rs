@@ -212,7 +212,7 @@ fn files_come_back_and_bad_ones_are_refused() {
     let networks = random(Kind::Paper, "vehicle", 5);
     let path = written(folder.path(), "vehicle.safetensors", &networks);
     let bytes = std::fs::read(&path).unwrap();
-    assert_eq!(Networks::load(&bytes, false).unwrap().save().unwrap(), bytes);
+    assert_eq!(Networks::load(&bytes, false, &Device::Cpu).unwrap().save().unwrap(), bytes);
     let refused = |path: &Path| Baseline::load("x", path).err().map(|e| format!("{e:#}")).unwrap();
     assert!(Baseline::load("x", folder.path()).is_ok());
     written(folder.path(), "twice.safetensors", &random(Kind::Paper, "vehicle", 6));

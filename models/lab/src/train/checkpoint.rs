@@ -50,7 +50,7 @@ pub(super) fn save<T: Trainee>(
 ) -> Result<(), TrainError> {
     let mut tensors = BTreeMap::new();
     for (name, tensor) in trained.tensors() {
-        tensors.insert(format!("weights/{name}"), tensor.clone());
+        tensors.insert(format!("weights/{name}"), tensor.to_device(&Device::Cpu)?);
     }
     for (name, moments) in &adam.moments {
         for (kind, values) in
@@ -74,7 +74,8 @@ pub(super) struct Resumed<T: Trainee> {
     pub(super) adam: AdamW,
 }
 
-pub(super) fn load<T: Trainee>(path: &Path) -> Result<Resumed<T>, TrainError> {
+/// Reads a run; its networks come to be where `device` says, wherever they were before.
+pub(super) fn load<T: Trainee>(path: &Path, device: &Device) -> Result<Resumed<T>, TrainError> {
     let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
     let damaged = |reason: String| TrainError::damaged(path, reason);
     let (_, metadata) =
@@ -84,7 +85,7 @@ pub(super) fn load<T: Trainee>(path: &Path) -> Result<Resumed<T>, TrainError> {
     let state: State<T::Architecture> =
         serde_json::from_str(text).map_err(|error| damaged(error.to_string()))?;
     let mut tensors = candle_core::safetensors::load_buffer(&bytes, &Device::Cpu)?;
-    let trained = T::random(state.architecture.clone(), state.card.clone(), 0)?;
+    let trained = T::random(state.architecture.clone(), state.card.clone(), 0, device)?;
     let mut take = |kind: &str, name: &str, count: usize| -> Result<Tensor, TrainError> {
         let tensor = tensors.remove(&format!("{kind}/{name}"));
         let tensor =
@@ -101,7 +102,7 @@ pub(super) fn load<T: Trainee>(path: &Path) -> Result<Resumed<T>, TrainError> {
     adam.step = state.step;
     for (name, var) in trained.vars() {
         let count = var.elem_count();
-        var.set(&take("weights", name, count)?.reshape(var.shape())?)?;
+        var.set(&take("weights", name, count)?.reshape(var.shape())?.to_device(device)?)?;
         let mut values = |kind: &str| -> Result<Vec<f32>, TrainError> {
             Ok(take(kind, name, count)?.flatten_all()?.to_vec1::<f32>()?)
         };

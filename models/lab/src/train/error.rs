@@ -24,6 +24,9 @@ pub enum TrainError {
     /// Options or data that do not make sense together.
     #[error("{0}")]
     Invalid(String),
+    /// No graphics card can be used.
+    #[error("no CUDA device to train on: {0}")]
+    Device(String),
     /// The network library failed.
     #[error(transparent)]
     Tensor(#[from] candle_core::Error),

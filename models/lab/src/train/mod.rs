@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A run is a function of its records, options and seed: every draw comes from a stream keyed by seed
-//! and step, and sums are taken in a fixed order.
+//! and step, and sums are taken in a fixed order. On a graphics card the same holds but for the last bits.
 
 mod checkpoint;
 mod codec;
@@ -17,6 +17,7 @@ mod loss;
 mod metrics;
 mod optim;
 mod others;
+mod processor;
 mod route;
 mod run;
 mod sample;
@@ -33,6 +34,7 @@ pub use dataset::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record, Records, Wr
 pub use error::TrainError;
 pub use fit::FitError;
 pub use metrics::Metrics;
+pub use processor::Processor;
 pub use run::{Options, Progress, checkpoint_path, run};
 pub use sample::is_held_out;
 pub use stages::Stage;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use candle_core::Tensor;
+use candle_core::{Device, Tensor};
 use experts::Refining;
 use experts::net::{Architecture, Card, Expert};
 
@@ -12,10 +12,11 @@ use super::checkpoint::{self, Resumed, State};
 use super::log::Log;
 use super::metrics::Metrics;
 use super::optim::{AdamW, rate};
+use super::processor::Processor;
 use super::sample::Split;
 use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
-use super::workers::Workers;
+use super::workers::{SHARD, Workers};
 use super::{Records, TrainError};
 
 /// Steps between two lines of a report.
@@ -44,7 +45,9 @@ pub struct Options<A = Architecture> {
     pub batch: usize,
     /// Top learning rate.
     pub rate: f64,
-    /// Threads; the result does not depend on it.
+    /// What computes the networks; only on the CPU does a run repeat bit for bit.
+    pub processor: Processor,
+    /// Threads on the CPU; the result does not depend on it.
     pub threads: usize,
     /// Where the weights go (their running mean). Beside it go the checkpoint and the log, as JSON lines and
     /// as curves: `.checkpoint`, `.jsonl` and `.svg` are added to its name.
@@ -86,6 +89,7 @@ impl<A> Options<A> {
             steps: 20_000,
             batch: 64,
             rate: 1e-3,
+            processor: Processor::default(),
             threads: 1,
             out,
             resume: false,
@@ -169,8 +173,9 @@ pub(crate) fn run_of<T: Trainee>(
     options: &Options<T::Architecture>,
     report: &mut dyn FnMut(&Progress),
 ) -> Result<Metrics, TrainError> {
+    let device = options.processor.device()?;
     let records = Records::load(&options.records)?;
-    let mut run = Run::<T>::begin(options, &records)?;
+    let mut run = Run::<T>::begin(options, &records, &device)?;
     let even = run.trained.draws_files_evenly();
     let split = Split::new(&records, HELD_OUT, even, |record| run.trained.takes(record))?;
     report(&Progress::Begin {
@@ -178,12 +183,15 @@ pub(crate) fn run_of<T: Trainee>(
         parameters: run.trained.tensors().values().map(Tensor::elem_count).sum(),
         step: run.adam.step,
     });
+    // A graphics card is busiest with whole batches, and they come to it one after another.
+    let (shard, threads) = if device.is_cpu() { (SHARD, options.threads) } else { (options.batch, 1) };
     let workers = Workers {
         records: &records,
         tools: Tools::new(options.refining, options.wander),
         stage: options.stage,
         seed: options.seed,
-        threads: options.threads,
+        shard,
+        threads,
     };
     let mut log = Log::open(&options.out, run.adam.step)?;
     let mut report = |line: &Progress| {
@@ -257,11 +265,15 @@ struct Run<'a, T: Trainee> {
 }
 
 impl<'a, T: Trainee> Run<'a, T> {
-    fn begin(options: &'a Options<T::Architecture>, records: &Records) -> Result<Self, TrainError> {
+    fn begin(
+        options: &'a Options<T::Architecture>,
+        records: &Records,
+        device: &Device,
+    ) -> Result<Self, TrainError> {
         let path = checkpoint_path(&options.out);
         let hash = records.hash().to_hex().to_string();
         let resumed =
-            if options.resume && path.exists() { Some(checkpoint::load::<T>(&path)?) } else { None };
+            if options.resume && path.exists() { Some(checkpoint::load::<T>(&path, device)?) } else { None };
         let (trained, adam, seconds_before) = match resumed {
             Some(resumed) => {
                 same_run(&path, options, &hash, &resumed.state)?;
@@ -269,12 +281,12 @@ impl<'a, T: Trainee> Run<'a, T> {
                 (trained, adam, state.seconds)
             }
             None => {
-                let trained: T = first_weights(options)?;
+                let trained: T = first_weights(options, device)?;
                 let adam = AdamW::new(trained.vars(), options.stage)?;
                 (trained, adam, 0.0)
             }
         };
-        let mean = T::random(trained.architecture().clone(), trained.card().clone(), 0)?;
+        let mean = T::random(trained.architecture().clone(), trained.card().clone(), 0, device)?;
         Ok(Self { options, trained, mean, adam, records: hash, clock: Instant::now(), seconds_before })
     }
 
@@ -326,11 +338,11 @@ impl<'a, T: Trainee> Run<'a, T> {
     }
 }
 
-fn first_weights<T: Trainee>(options: &Options<T::Architecture>) -> Result<T, TrainError> {
+fn first_weights<T: Trainee>(options: &Options<T::Architecture>, device: &Device) -> Result<T, TrainError> {
     let mut trained = match &options.init {
         Some(path) => {
             let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
-            T::read(&bytes)?
+            T::read(&bytes, device)?
         }
         None => {
             let card = Card {
@@ -340,7 +352,7 @@ fn first_weights<T: Trainee>(options: &Options<T::Architecture>) -> Result<T, Tr
                 untrained: false,
                 notes: Default::default(),
             };
-            T::random(options.architecture.clone(), card, options.seed)?
+            T::random(options.architecture.clone(), card, options.seed, device)?
         }
     };
     let card = trained.card_mut();

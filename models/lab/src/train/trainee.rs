@@ -20,9 +20,14 @@ pub(crate) trait Trainee: Sized + Sync {
     type Architecture: Clone + PartialEq + Serialize + DeserializeOwned;
 
     /// Random weights from a seed.
-    fn random(architecture: Self::Architecture, card: Card, seed: u64) -> Result<Self, NetError>;
+    fn random(
+        architecture: Self::Architecture,
+        card: Card,
+        seed: u64,
+        device: &Device,
+    ) -> Result<Self, NetError>;
     /// Weights of a file, to be trained further.
-    fn read(bytes: &[u8]) -> Result<Self, NetError>;
+    fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError>;
     /// The bytes of a weights file.
     fn write(&self) -> Result<Vec<u8>, NetError>;
     /// What the networks are.
@@ -63,12 +68,12 @@ pub(crate) trait Trainee: Sized + Sync {
 impl Trainee for Expert {
     type Architecture = Architecture;
 
-    fn random(architecture: Architecture, card: Card, seed: u64) -> Result<Self, NetError> {
-        Self::trainable(architecture, card, seed, &Device::Cpu)
+    fn random(architecture: Architecture, card: Card, seed: u64, device: &Device) -> Result<Self, NetError> {
+        Self::trainable(architecture, card, seed, device)
     }
 
-    fn read(bytes: &[u8]) -> Result<Self, NetError> {
-        Self::load_trainable(bytes, &Device::Cpu)
+    fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError> {
+        Self::load_trainable(bytes, device)
     }
 
     fn write(&self) -> Result<Vec<u8>, NetError> {

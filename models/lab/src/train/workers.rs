@@ -11,8 +11,8 @@ use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
 use super::{Records, TrainError};
 
-/// Records in a shard.
-const SHARD: usize = 32;
+/// Records in a shard on the CPU.
+pub(super) const SHARD: usize = 32;
 
 /// What every shard needs.
 pub(super) struct Workers<'a> {
@@ -20,6 +20,8 @@ pub(super) struct Workers<'a> {
     pub(super) tools: Tools,
     pub(super) stage: Stage,
     pub(super) seed: u64,
+    /// Records in a shard.
+    pub(super) shard: usize,
     pub(super) threads: usize,
 }
 
@@ -86,7 +88,7 @@ impl Workers<'_> {
         indices: &[usize],
         work: impl Fn(usize, &[usize]) -> Result<T, TrainError> + Sync,
     ) -> Result<Vec<T>, TrainError> {
-        let shards: Vec<&[usize]> = indices.chunks(SHARD).collect();
+        let shards: Vec<&[usize]> = indices.chunks(self.shard.max(1)).collect();
         let next = AtomicUsize::new(0);
         let results: Mutex<Vec<Option<Result<T, TrainError>>>> =
             Mutex::new(std::iter::repeat_with(|| None).take(shards.len()).collect());

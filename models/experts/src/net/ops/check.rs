@@ -1,8 +1,27 @@
 //! Holds an operation against its stock form and against differences, for tests.
 
+use std::cell::Cell;
+
 use candle_core::{DType, Device, Result, Tensor, Var};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+
+thread_local! {
+    static STOCK: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs something with the stock forms in place of our own loops, as on a graphics card.
+pub(crate) fn with_stock_forms<T>(run: impl FnOnce() -> T) -> T {
+    STOCK.set(true);
+    let result = run();
+    STOCK.set(false);
+    result
+}
+
+/// Whether this thread is within [`with_stock_forms`].
+pub(super) fn stock_forms_wanted() -> bool {
+    STOCK.get()
+}
 
 /// Seeded numbers in -1..1, no two alike.
 pub(crate) fn random(shape: &[usize], seed: u64) -> Tensor {
@@ -41,15 +60,19 @@ fn largest_difference(a: &Tensor, b: &Tensor) -> f64 {
     (a - b).unwrap().abs().unwrap().flatten_all().unwrap().max(0).unwrap().to_scalar::<f64>().unwrap()
 }
 
-/// Our loops (f32) must equal the stock form (f64) in value and gradient, and the stock form's
-/// gradient must equal central differences in f64.
+/// Our loops and the stock form, both in f32, must equal the stock form in f64 in value and gradient, and
+/// its gradient must equal central differences in f64.
 pub(crate) fn compare(inputs: &[Tensor], run: impl Fn(&[Tensor]) -> Result<Tensor>) {
-    let (own, own_grads) = gradients(inputs, DType::F32, &run);
     let (stock, stock_grads) = gradients(inputs, DType::F64, &run);
-    assert!(largest_difference(&own, &stock) < 1e-5, "values differ by {}", largest_difference(&own, &stock));
-    for (index, (own, stock)) in own_grads.iter().zip(&stock_grads).enumerate() {
-        let difference = largest_difference(own, stock);
-        assert!(difference < 2e-5, "gradient of input {index} differs from the stock form's by {difference}");
+    let own = gradients(inputs, DType::F32, &run);
+    let single = with_stock_forms(|| gradients(inputs, DType::F32, &run));
+    for (form, (value, grads)) in [("our own", own), ("the stock form's", single)] {
+        let difference = largest_difference(&value, &stock);
+        assert!(difference < 1e-5, "{form} values differ by {difference}");
+        for (index, (grad, stock)) in grads.iter().zip(&stock_grads).enumerate() {
+            let difference = largest_difference(grad, stock);
+            assert!(difference < 2e-5, "{form} gradient of input {index} differs by {difference}");
+        }
     }
     let doubles: Vec<Tensor> = inputs.iter().map(|t| t.to_dtype(DType::F64).unwrap()).collect();
     for (index, grad) in stock_grads.iter().enumerate() {

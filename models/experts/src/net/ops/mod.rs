@@ -2,7 +2,9 @@
 //!
 //! candle's own fused norm and softmax have no gradient, its broadcasts are slow backwards, and its
 //! maximum gives tied elements the full gradient each. On another device, or for another type, each
-//! function here is made of stock operations instead; both forms are tested against each other.
+//! function here is made of stock operations instead, of those alone that have a right gradient; both
+//! forms are tested against each other on the CPU, so that training on a graphics card rests on
+//! arithmetic that is tested without one.
 
 mod attention;
 mod gate;

@@ -9,7 +9,7 @@ const PADDING: f32 = -1e3;
 
 /// Maximum over each segment of the tokens. `x` is [batch, tokens, n]; `mask` [batch, tokens] is 0 or,
 /// at padding, -1e4; `segments` are lengths that sum to `tokens`. Gives [batch, segments * n]; a
-/// segment of padding alone gives 0. Of tied tokens the first gets the gradient.
+/// segment of padding alone gives 0. Of tied tokens one gets the gradient, on the CPU the first.
 ///
 /// # Errors
 /// When the shapes do not fit.
@@ -21,7 +21,9 @@ pub fn segment_max(x: &Tensor, mask: &Tensor, segments: &[usize]) -> Result<Tens
     let (masked, mut start, mut parts) = (x.broadcast_add(&mask.unsqueeze(2)?)?, 0, Vec::new());
     for &length in segments {
         let any = mask.narrow(1, start, length)?.max_keepdim(1)?.ge(f64::from(PADDING))?;
-        let best = masked.narrow(1, start, length)?.contiguous()?.max(1)?;
+        // Gathered, so that one of tied tokens gets the gradient; the maximum's would go to each.
+        let set = masked.narrow(1, start, length)?.contiguous()?;
+        let best = set.gather(&set.argmax_keepdim(1)?, 1)?.squeeze(1)?;
         parts.push(best.broadcast_mul(&any.to_dtype(x.dtype())?)?);
         start += length;
     }
@@ -119,7 +121,7 @@ impl CustomOp2 for SegmentMax {
 mod tests {
     use candle_core::{Device, Tensor, Var};
 
-    use super::super::check::{compare, random};
+    use super::super::check::{compare, random, with_stock_forms};
     use super::segment_max;
 
     #[test]
@@ -133,9 +135,13 @@ mod tests {
     fn one_of_tied_tokens_gets_the_gradient() {
         let x = Var::ones((1, 3, 2), candle_core::DType::F32, &Device::Cpu).unwrap();
         let mask = Tensor::new(&[[-1e4f32, 0.0, 0.0]], &Device::Cpu).unwrap();
-        let y = segment_max(x.as_tensor(), &mask, &[3]).unwrap();
-        let grads = y.sum_all().unwrap().backward().unwrap();
-        let grad = grads.get(x.as_tensor()).unwrap().squeeze(0).unwrap().to_vec2::<f32>().unwrap();
-        assert_eq!(grad, [[0.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);
+        let gradient = || {
+            let y = segment_max(x.as_tensor(), &mask, &[3]).unwrap();
+            let grads = y.sum_all().unwrap().backward().unwrap();
+            grads.get(x.as_tensor()).unwrap().squeeze(0).unwrap().to_vec2::<f32>().unwrap()
+        };
+        let first = [[0.0, 0.0], [1.0, 1.0], [0.0, 0.0]];
+        assert_eq!(gradient(), first);
+        assert_eq!(with_stock_forms(gradient), first);
     }
 }
