@@ -180,9 +180,6 @@ pub struct TrainArgs {
     /// Parts of refinement to leave out, to see what they bring.
     #[arg(long, value_enum, value_delimiter = ',')]
     without: Vec<PartWord>,
-    /// In the joint stage half of the neighbours go faster or slower than they were recorded.
-    #[arg(long)]
-    wander: bool,
     /// End after this time, the rate falling accordingly; the result then depends on the machine's speed.
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
@@ -500,7 +497,6 @@ impl TrainArgs {
                 attention: !self.without.contains(&PartWord::Attention),
                 ..options.refining
             },
-            wander: self.wander,
             minutes: self.minutes,
             resume: self.resume,
             trained_on: self.trained_on,

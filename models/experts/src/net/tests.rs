@@ -104,7 +104,7 @@ fn wrong_files_are_refused_with_the_reason() {
     let tensor = Tensor::zeros((2, 3), DType::F32, &Device::Cpu).unwrap();
     let alone = |header: Option<&str>| {
         let header = header.map(|text| [("dragtraffic".to_owned(), text.to_owned())].into());
-        safetensors::serialize([("context.own.0.weight", &tensor)], header).unwrap()
+        safetensors::serialize([("context.blocks.0.token.weight", &tensor)], header).unwrap()
     };
     assert!(reason(&alone(None)).contains("not an expert's weights"));
     assert!(reason(&alone(Some("{}"))).contains("architecture"));
@@ -112,7 +112,7 @@ fn wrong_files_are_refused_with_the_reason() {
     let mut architecture = serde_json::to_value(&expert.architecture).unwrap();
     let header = serde_json::json!({ "architecture": architecture, "card": card }).to_string();
     let message = reason(&alone(Some(&header)));
-    assert!(message.contains("context.own.0.weight") && message.contains("[2, 3]"), "{message}");
+    assert!(message.contains("context.blocks.0.token.weight") && message.contains("[2, 3]"), "{message}");
     architecture["version"] = 9.into();
     let header = serde_json::json!({ "architecture": architecture, "card": card }).to_string();
     assert!(reason(&alone(Some(&header))).contains("version 9"));
@@ -145,9 +145,8 @@ fn stock_forms_make_the_same_network() {
     let expert = Expert::trainable(small(), Expert::random(1).unwrap().card, 11, &Device::Cpu).unwrap();
     let agents = agents();
     let all: Vec<&AgentFeatures> = agents.iter().collect();
-    let map = map(PIECES, 7);
     let run = || {
-        let value = probe(&expert, &all, &map);
+        let value = probe(&expert, &all);
         (value.to_scalar::<f32>().unwrap(), value.backward().unwrap())
     };
     let ((own, own_grads), (stock, stock_grads)) = (run(), ops::check::with_stock_forms(run));

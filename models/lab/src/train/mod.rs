@@ -16,7 +16,6 @@ mod log;
 mod loss;
 mod metrics;
 mod optim;
-mod others;
 mod processor;
 mod route;
 mod run;

@@ -65,8 +65,6 @@ pub struct Options<A = Architecture> {
     pub architecture: A,
     /// What the refiner is given: parts are left out to see what they bring.
     pub refining: Refining,
-    /// In the joint stage half of the neighbours go faster or slower than they were recorded.
-    pub wander: bool,
 }
 
 impl Options {
@@ -98,7 +96,6 @@ impl<A> Options<A> {
             validate_every: 1000,
             architecture,
             refining: Refining::default(),
-            wander: false,
         }
     }
 }
@@ -187,7 +184,7 @@ pub(crate) fn run_of<T: Trainee>(
     let (shard, threads) = if device.is_cpu() { (SHARD, options.threads) } else { (options.batch, 1) };
     let workers = Workers {
         records: &records,
-        tools: Tools::new(options.refining, options.wander),
+        tools: Tools::new(options.refining),
         stage: options.stage,
         seed: options.seed,
         shard,

@@ -11,7 +11,6 @@ use rand_chacha::rand_core::Rng;
 
 use super::loss::{self, InitialParts, Said};
 use super::metrics::Metrics;
-use super::others;
 use super::route::{Placed, Route};
 use super::sample::{Shard, normal, unit};
 use super::{Record, TrainError};
@@ -45,13 +44,11 @@ pub(crate) struct Tools {
     pullback: Pullback,
     /// What the refiner is given.
     refining: Refining,
-    /// In the joint stage some neighbours go at another pace than they were recorded at.
-    wander: bool,
 }
 
 impl Tools {
-    pub(super) fn new(refining: Refining, wander: bool) -> Self {
-        Self { route: Route::new(), pullback: Pullback::default(), refining, wander }
+    pub(super) fn new(refining: Refining) -> Self {
+        Self { route: Route::new(), pullback: Pullback::default(), refining }
     }
 
     fn prepare(&self, expert: &Expert, context: &Context) -> Result<Prepared> {
@@ -61,11 +58,10 @@ impl Tools {
 }
 
 /// Which recorded neighbours count for a record: not those that overlap the road user in the recording.
-fn counted(tools: &Tools, record: &Record, recorded: &Modes) -> Vec<bool> {
+fn counted(record: &Record, recorded: &Modes) -> Vec<bool> {
     let mode = loss::least(&recorded.map(|r| r.iter().map(|x| x * x).sum::<f32>()));
     let coordinates = std::array::from_fn(|i| [record.target.along[mode][i], record.target.across[mode][i]]);
     let placed = Placed::new(record, mode, &coordinates);
-    let _ = tools;
     let clear = |logged: &super::LoggedBox| {
         let pairs = placed.poses.iter().zip(&logged.poses).zip(&record.target.valid);
         pairs
@@ -221,7 +217,7 @@ fn denoiser(
     let noisy =
         expert.refiner.add_noise(&prepared, &clean, &tensor(&noise(rng, count, 1.0), device)?, &levels)?;
     let counts: Vec<Vec<bool>> =
-        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(tools, r, log)).collect();
+        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
     let push = tensor(&pushes(tools, shard, &counts, &arrays(&noisy)?), device)?;
     let denoised = expert.refiner.denoise(&prepared, &noisy, &push, &levels)?;
     let mut grads = Vec::with_capacity(count);
@@ -266,10 +262,7 @@ fn joint(
     let prepared = tools.prepare(expert, context)?;
     let drafts = initial.residual.detach();
     let counts: Vec<Vec<bool>> =
-        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(tools, r, log)).collect();
-    // Those that the recording overlaps are left out by the recording itself.
-    let wandering = tools.wander.then(|| others::wandering(shard, rng));
-    let shard = wandering.as_ref().unwrap_or(shard);
+        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
     let scale = [0.0, unit(rng) as f32, 1.0][rng.next_u32() as usize % 3];
     let start = if unit(rng) < 0.2 { 0 } else { schedule::START };
     let walk = Walk { expert, tools, shard, counts: &counts, prepared: prepared.detach() };
@@ -366,7 +359,7 @@ pub(super) fn validate(
         return Ok(metrics);
     }
     let counts: Vec<Vec<bool>> =
-        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(tools, r, log)).collect();
+        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
     let prepared = tools.prepare(expert, &context)?.detach();
     let walk = Walk { expert, tools, shard, counts: &counts, prepared };
     let drafts = initial.residual.detach();

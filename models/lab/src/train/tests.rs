@@ -9,7 +9,7 @@ use super::stages::Tools;
 use super::*;
 
 fn small() -> Architecture {
-    Architecture { width: 32, piece_width: 16, gating_blocks: 2, ..Architecture::default() }
+    Architecture { width: 32, gating_blocks: 2, ..Architecture::default() }
 }
 
 fn records(folder: &Path, scenes: usize) -> PathBuf {
@@ -92,7 +92,7 @@ fn losses_fall_on_a_toy_world() {
 fn every_trained_variable_gets_a_gradient() {
     let folder = tempfile::tempdir().unwrap();
     let records = Records::load(&[records(folder.path(), 2)]).unwrap();
-    let tools = Tools::new(experts::Refining::default(), true);
+    let tools = Tools::new(experts::Refining::default());
     let indices: Vec<usize> = (0..records.len()).collect();
     let shard = Shard::new(&records, &indices, &tools.route).unwrap();
     let card = Expert::random(1).unwrap().card;

@@ -43,7 +43,7 @@ pub(crate) fn write(path: &Path, scenes: &[ToyScene]) {
 
 /// All records of a file as one shard, and the constants that losses need.
 pub(crate) fn shard(path: &Path) -> (Tools, Shard) {
-    let (tools, records) = (Tools::new(Refining::default(), false), Records::load(&[path.into()]).unwrap());
+    let (tools, records) = (Tools::new(Refining::default()), Records::load(&[path.into()]).unwrap());
     let indices: Vec<usize> = (0..records.len()).collect();
     let shard = Shard::new(&records, &indices, &tools.route).unwrap();
     (tools, shard)

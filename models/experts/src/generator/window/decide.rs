@@ -81,7 +81,7 @@ impl Window<'_> {
         motions.iter().enumerate().map(option).collect()
     }
 
-    /// Motions that may be shown beside the modes, each under the slot of the mode it is nearest to.
+    /// Motions that may be shown beside the modes, each under the slot of the mode that it would stand for.
     ///
     /// On the way to a goal that is the first mode, which was trained to be the middle of what may happen, drawn
     /// towards the formula's answer (its anchor's own base): it counts among the modes with a weight of its own.
@@ -92,15 +92,9 @@ impl Window<'_> {
         if actor.pinned.is_some() || actor.keeps_its_path() || self.mode_count(i) == 1 {
             return Vec::new();
         }
-        let under = |group: &[&(f64, usize, Motion)], weight: f64, motion: Motion| {
-            let apart = |m: &(f64, usize, Motion)| distance(&m.2.states, &motion.states);
-            let nearest = group.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?.1;
-            Some((weight, nearest, motion))
-        };
         if has_middle(actor) {
-            let group: Vec<&(f64, usize, Motion)> = motions.iter().collect();
             let motion = realise(&actor.planned, 0, &self.drafts[i][0].map(|r| r * learned_share(actor)));
-            return under(&group, MIDDLE_WEIGHT, motion).into_iter().collect();
+            return vec![(MIDDLE_WEIGHT, 0, motion)];
         }
         let path = |slot: usize| actor.planned.anchors[slot].identity / 8;
         let mut paths: Vec<Vec<&(f64, usize, Motion)>> = Vec::new();
@@ -112,7 +106,10 @@ impl Window<'_> {
         }
         let of_path = |group: Vec<&(f64, usize, Motion)>| {
             let drafts: Vec<_> = group.iter().map(|m| (m.0, m.1, self.drafts[i][m.1])).collect();
-            under(&group, 0.0, middle(&actor.planned, &drafts))
+            let motion = middle(&actor.planned, &drafts);
+            let apart = |m: &(f64, usize, Motion)| distance(&m.2.states, &motion.states);
+            let nearest = group.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?.1;
+            Some((0.0, nearest, motion))
         };
         paths.into_iter().filter(|group| group.len() > 1).filter_map(of_path).collect()
     }
