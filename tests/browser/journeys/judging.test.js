@@ -1,15 +1,14 @@
 // What the editor makes of a scene in which somebody runs into somebody.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
-import { carOnTheMove, inTheWayOf } from '../support/casting.js';
+import { carBehindAnother } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
 journeys('judging', (stage) => {
   it('marks a collision on the timeline, lists it and leads to it', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    const car = await carOnTheMove(e);
-    const obstacle = await inTheWayOf(e, car);
+    const { car, obstacle } = await carBehindAnother(e);
     await e.page.getByRole('group', { name: 'What the others do' }).first().getByRole('button', { name: 'Hold still' }).click();
     await e.settled();
     await e.choose(car.id);

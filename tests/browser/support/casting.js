@@ -56,13 +56,22 @@ export async function cyclistOnTheMove(e) {
   return find(e, (await e.roadUsers()).filter((u) => u.kind === 'Cyclist' && u.speed > 1.5), () => true);
 }
 
-/** A vehicle that stands or drives ahead of another one, near enough to be run into. */
-export async function inTheWayOf(e, car) {
-  const others = (await e.roadUsers()).filter((u) => u.id !== car.id && ['Car', 'Bus', 'Truck'].includes(u.kind) && !u.words.includes('parked'));
-  return find(e, others, (who) => {
+/** A car on the move, and a vehicle ahead of it, near enough to be run into. */
+export async function carBehindAnother(e) {
+  const vehicles = [];
+  for (const u of (await e.roadUsers()).filter((u) => ['Car', 'Bus', 'Truck'].includes(u.kind) && !u.words.includes('parked'))) {
+    await e.choose(u.id);
+    vehicles.push(await look(e, u));
+    await e.letGo();
+  }
+  const ahead = (car, who) => {
     const far = distance(car.start, who.start);
     const bearing = Math.atan2(who.start.y - car.start.y, who.start.x - car.start.x);
-    if (far < 12 || far > 70) return `is ${far.toFixed(0)} m away`;
-    return turn(bearing, car.start.heading) < 0.6 || 'is not ahead';
-  });
+    return far > 12 && far < 70 && turn(bearing, car.start.heading) < 0.6;
+  };
+  for (const car of vehicles.filter((u) => u.kind === 'Car' && u.speed > 2.5)) {
+    const obstacle = vehicles.find((who) => who.id !== car.id && ahead(car, who));
+    if (obstacle) return { car, obstacle };
+  }
+  throw new Error('nobody drives behind anybody');
 }
