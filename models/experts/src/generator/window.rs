@@ -343,7 +343,9 @@ impl<'g> Window<'g> {
             share = 1.0 - p;
         }
         for &slot in self.order[i].iter().take(count.saturating_sub(out.len())) {
-            let motion = realise(&actor.planned, slot, &self.drafts[i][slot]);
+            let middle = slot == 0 && options::has_middle(actor);
+            let learned = if middle { options::learned_share(actor) } else { 1.0 };
+            let motion = realise(&actor.planned, slot, &self.drafts[i][slot].map(|r| learned * r));
             out.push((share * actor.probability[slot], slot, motion));
         }
         out

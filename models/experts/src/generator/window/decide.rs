@@ -3,7 +3,7 @@
 use super::super::actor::kept_boxes;
 use super::super::choice::{Choice, distance};
 use super::super::realise::{Motion, middle, realise};
-use super::options::{MIDDLE_WEIGHT, has_middle, learned_share, options, shown_motion};
+use super::options::{has_middle, options, shown_motion};
 use super::{Decided, Window};
 use crate::features::MODES;
 use crate::generator::parallel;
@@ -27,7 +27,8 @@ impl Window<'_> {
         let fixed = self.in_the_way(&world).map(|p| kept_boxes(&world, p)).collect();
         let mut choice = Choice { agents: Vec::new(), fixed };
         for (actor, motions) in self.actors.iter().zip(&motions) {
-            choice.agents.push(options(actor, motions, &self.map));
+            let around = self.around(choice.agents.len());
+            choice.agents.push(options(actor, motions, around, &self.map));
         }
         let mut chosen = match self.request.stages.shown {
             Shown::Chosen => choice.solve(),
@@ -81,20 +82,14 @@ impl Window<'_> {
         motions.iter().enumerate().map(option).collect()
     }
 
-    /// Motions that may be shown beside the modes, each under the slot of the mode that it would stand for.
-    ///
-    /// On the way to a goal that is the first mode, which was trained to be the middle of what may happen, drawn
-    /// towards the formula's answer (its anchor's own base): it counts among the modes with a weight of its own.
-    /// Without one it is, for each path that has several modes, their mean, which is nearer to all of them than
-    /// any one is.
+    /// Motions that may be shown beside the modes, each under the slot of the mode that it is nearest to: where
+    /// no mode is the middle of what may happen, the mean of each path's modes, which is nearer to all of them
+    /// than any one is.
     fn extras(&self, i: usize, motions: &[(f64, usize, Motion)]) -> Vec<(f64, usize, Motion)> {
         let actor = &self.actors[i];
-        if actor.pinned.is_some() || actor.keeps_its_path() || self.mode_count(i) == 1 {
+        let has_none = has_middle(actor) || actor.pinned.is_some() || actor.keeps_its_path();
+        if has_none || self.mode_count(i) == 1 {
             return Vec::new();
-        }
-        if has_middle(actor) {
-            let motion = realise(&actor.planned, 0, &self.drafts[i][0].map(|r| r * learned_share(actor)));
-            return vec![(MIDDLE_WEIGHT, 0, motion)];
         }
         let path = |slot: usize| actor.planned.anchors[slot].identity / 8;
         let mut paths: Vec<Vec<&(f64, usize, Motion)>> = Vec::new();
@@ -112,6 +107,16 @@ impl Window<'_> {
             Some((0.0, nearest, motion))
         };
         paths.into_iter().filter(|group| group.len() > 1).filter_map(of_path).collect()
+    }
+
+    /// The mode that the scene is built around: in the first scene the middle of what may happen, where a mode is
+    /// that; in further ones the mode that was drawn, so that each is one of its own.
+    pub(super) fn around(&self, i: usize) -> Option<usize> {
+        let actor = &self.actors[i];
+        match self.sample {
+            0 => has_middle(actor).then_some(0),
+            _ => (!actor.rests && !actor.keeps_its_path()).then(|| self.standing_for[i]),
+        }
     }
 
     /// Modes of an actor before extras and guidance added to them.

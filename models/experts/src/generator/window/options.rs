@@ -15,18 +15,19 @@ const OFF_LANES: f64 = 8.0;
 const PAST_EDGES: f64 = 8.0;
 const PAST_EDGE_M: f64 = 0.1;
 
-/// What the middle of the modes counts beside them, whose probabilities sum to 1: it is shown unless it is in
-/// the way, and then what is near to it.
-pub(super) const MIDDLE_WEIGHT: f64 = 2.0;
+/// What the mode that a scene is built around counts more than the others, whose probabilities sum to 1: it is
+/// shown unless it is in the way, and then what is near to it.
+const AROUND: f64 = 2.0;
 
-/// Whether there is one middle of what may happen: where there is a place to go.
+/// Whether the first mode is the middle of what may happen: it was trained to be that where there is a place to
+/// go.
 pub(super) fn has_middle(actor: &Actor) -> bool {
     let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
     moves && actor.planned.target.position.is_some()
 }
 
-/// How much of what was learned there is in the middle; the rest is the formula's. Recorded road users keep
-/// nearer to the formula than simulated ones do, people on foot nearest.
+/// How much of what was learned there is in the middle; the rest is the formula's answer, its anchor's own base.
+/// Recorded road users keep nearer to the formula than simulated ones do, people on foot nearest.
 pub(super) fn learned_share(actor: &Actor) -> f32 {
     match actor.planned.present.agent_type {
         AgentType::Pedestrian => 0.4,
@@ -34,16 +35,23 @@ pub(super) fn learned_share(actor: &Actor) -> f32 {
     }
 }
 
-/// What an actor can do: its motions, after what it keeps (reacting) or has pinned.
-pub(super) fn options(actor: &Actor, motions: &[(f64, usize, Motion)], map: &KnownMap) -> Vec<Choosable> {
+/// What an actor can do: its motions, after what it keeps (reacting) or has pinned. `around` is the slot of
+/// the mode that the scene is built around.
+pub(super) fn options(
+    actor: &Actor,
+    motions: &[(f64, usize, Motion)],
+    around: Option<usize>,
+    map: &KnownMap,
+) -> Vec<Choosable> {
     let size = &actor.planned.present.size;
     if let Some(pinned) = &actor.pinned {
         let boxes = swept_kept(|step| pinned.get(step - 1).copied(), size);
         return vec![Choosable { boxes, cost: 0.0 }];
     }
     let all: Vec<&Trajectory> = motions.iter().map(|m| &m.2.states).collect();
-    let counted = MODES + usize::from(has_middle(actor));
-    let modes: Vec<(&Trajectory, f64)> = motions.iter().take(counted).map(|m| (&m.2.states, m.0)).collect();
+    let weight = |m: &(f64, usize, Motion)| m.0 + if around == Some(m.1) { AROUND } else { 0.0 };
+    let modes: Vec<(&Trajectory, f64)> =
+        motions.iter().take(MODES).map(|m| (&m.2.states, weight(m))).collect();
     let mut out = Vec::with_capacity(motions.len() + 1);
     match &actor.kept {
         None => {

@@ -262,7 +262,7 @@ impl Window<'_> {
         });
         for (i, guided) in concerned.into_iter().zip(guided) {
             motions[i].extend(guided);
-            choice.agents[i] = options(&self.actors[i], &motions[i], &self.map);
+            choice.agents[i] = options(&self.actors[i], &motions[i], self.around(i), &self.map);
         }
         *chosen = choice.solve();
     }
