@@ -21,8 +21,7 @@ pub enum PathKind {
     Route,
     /// By a curve onto or off the lanes.
     Joined,
-    /// The motion of least effort to the goal: projected, or by one cubic in time where no wheel steers or a
-    /// rider balances.
+    /// The motion of least effort to the goal: projected for vehicles, one cubic in time for people and riders.
     LeastEffort,
     /// Straight on: no lane is known.
     Straight,
