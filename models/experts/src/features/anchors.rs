@@ -94,9 +94,10 @@ fn anchors_to_goal(
     let mut out = Vec::with_capacity(MODES);
     let slots = GOAL_SLOTS[candidates.len().clamp(1, 3) - 1];
     for (candidate, count) in candidates.into_iter().zip(slots) {
-        let length = goal_progress(&candidate.path, goal);
         // Whoever must be there in time takes bends as fast as that asks.
-        let base = candidate.pace.unwrap_or_else(|| arriving(v0, length, seconds, target.speed_mps));
+        let base = candidate
+            .pace
+            .unwrap_or_else(|| arriving(v0, goal_progress(&candidate.path, goal), seconds, target.speed_mps));
         for timing in 0..count {
             out.push(candidate.anchor(base, (timing, count)));
         }

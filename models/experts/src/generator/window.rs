@@ -315,9 +315,9 @@ impl<'g> Window<'g> {
         let shown = parallel::map(self.generator.threads(), &indices, |&i| {
             let modes = if all { self.request.modes } else { 1 };
             let motions = self.motions(i, modes);
-            // The first mode is the middle of what may happen on the way to a goal.
-            let middle = motions.iter().position(|m| m.1 == 0 && options::has_middle(&self.actors[i]));
-            (self.actors[i].id.clone(), self.futures(middle.unwrap_or(0), &motions))
+            let middle = options::middle_slot(&self.actors[i]);
+            let shown = motions.iter().position(|m| middle == Some(m.1)).unwrap_or(0);
+            (self.actors[i].id.clone(), self.futures(shown, &motions))
         });
         Draft {
             window: self.number,
@@ -343,8 +343,8 @@ impl<'g> Window<'g> {
             share = 1.0 - p;
         }
         for &slot in self.order[i].iter().take(count.saturating_sub(out.len())) {
-            let middle = slot == 0 && options::has_middle(actor);
-            let learned = if middle { options::learned_share(actor) } else { 1.0 };
+            let is_middle = options::middle_slot(actor) == Some(slot);
+            let learned = if is_middle { options::learned_share(actor) } else { 1.0 };
             let motion = realise(&actor.planned, slot, &self.drafts[i][slot].map(|r| learned * r));
             out.push((share * actor.probability[slot], slot, motion));
         }

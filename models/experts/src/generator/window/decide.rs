@@ -3,7 +3,7 @@
 use super::super::actor::kept_boxes;
 use super::super::choice::{Choice, distance};
 use super::super::realise::{Motion, middle, realise};
-use super::options::{has_middle, options, shown_motion};
+use super::options::{middle_slot, options, shown_motion};
 use super::{Decided, Window};
 use crate::features::MODES;
 use crate::generator::parallel;
@@ -87,7 +87,7 @@ impl Window<'_> {
     /// than any one is.
     fn extras(&self, i: usize, motions: &[(f64, usize, Motion)]) -> Vec<(f64, usize, Motion)> {
         let actor = &self.actors[i];
-        let has_none = has_middle(actor) || actor.pinned.is_some() || actor.keeps_its_path();
+        let has_none = middle_slot(actor).is_some() || actor.pinned.is_some() || actor.keeps_its_path();
         if has_none || self.mode_count(i) == 1 {
             return Vec::new();
         }
@@ -114,7 +114,7 @@ impl Window<'_> {
     pub(super) fn around(&self, i: usize) -> Option<usize> {
         let actor = &self.actors[i];
         match self.sample {
-            0 => has_middle(actor).then_some(0),
+            0 => middle_slot(actor),
             _ => (!actor.rests && !actor.keeps_its_path()).then(|| self.standing_for[i]),
         }
     }

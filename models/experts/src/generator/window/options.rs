@@ -19,11 +19,11 @@ const PAST_EDGE_M: f64 = 0.1;
 /// shown unless it is in the way, and then what is near to it.
 const AROUND: f64 = 2.0;
 
-/// Whether the first mode is the middle of what may happen: it was trained to be that where there is a place to
-/// go.
-pub(super) fn has_middle(actor: &Actor) -> bool {
+/// The slot of the mode that is the middle of what may happen: the first, which was trained to be that where
+/// there is a place to go.
+pub(super) fn middle_slot(actor: &Actor) -> Option<usize> {
     let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
-    moves && actor.planned.target.position.is_some()
+    (moves && actor.planned.target.position.is_some()).then_some(0)
 }
 
 /// How much of what was learned there is in the middle; the rest is the formula's answer, its anchor's own base.
