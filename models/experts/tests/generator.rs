@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
 use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request};
-use scene::map::{Lane, LaneMap, LaneType};
+use scene::map::{Lane, LaneMap};
 use scene::motion::{MotionModel, MotionState, limit_excess};
 use scene::{
     Agent, AgentType, Conditions, Future, Goal, Meta, Scene, Size, State, Subtype, Timing, Track, Vec2,
@@ -25,18 +25,10 @@ fn lane(id: &str, from: Vec2, to: Vec2, successors: &[&str]) -> Lane {
     let n = (to - from).norm().ceil() as usize;
     let points: Vec<Vec2> = (0..=n).map(|i| from + (to - from) * (i as f64 / n as f64)).collect();
     Lane {
-        id: id.into(),
-        lane_type: LaneType::SurfaceStreet,
-        points: points.into(),
         width_m: Some(3.5),
-        left_boundary: Vec::new(),
-        right_boundary: Vec::new(),
         speed_limit_mps: Some(13.4),
-        predecessors: Vec::new(),
         successors: successors.iter().map(|s| (*s).to_owned()).collect(),
-        left_neighbors: Vec::new(),
-        right_neighbors: Vec::new(),
-        interpolating: false,
+        ..Lane::street(id, points)
     }
 }
 

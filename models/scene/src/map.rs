@@ -101,6 +101,24 @@ pub struct Lane {
 }
 
 impl Lane {
+    /// A street of which nothing but its centre line is known.
+    pub fn street(id: impl Into<String>, points: impl Into<Points>) -> Self {
+        Self {
+            id: id.into(),
+            lane_type: LaneType::SurfaceStreet,
+            points: points.into(),
+            width_m: None,
+            left_boundary: Vec::new(),
+            right_boundary: Vec::new(),
+            speed_limit_mps: None,
+            predecessors: Vec::new(),
+            successors: Vec::new(),
+            left_neighbors: Vec::new(),
+            right_neighbors: Vec::new(),
+            interpolating: false,
+        }
+    }
+
     /// Width, assumed from the type where the source gives none, metres.
     pub fn width_or_assumed_m(&self) -> f64 {
         self.width_m.unwrap_or_else(|| self.lane_type.assumed_width_m())

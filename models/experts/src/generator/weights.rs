@@ -4,7 +4,7 @@ use super::{EXPERTS, Generator};
 use crate::net::Expert;
 use crate::placement::{FILE_NAME, PlacementInfo, PlacementModel};
 use crate::request::{Cancel, Request};
-use scene::map::{Lane, LaneType};
+use scene::map::Lane;
 use scene::{
     Agent, AgentType, Conditions, ContentHash, LaneMap, Meta, Scene, Size, State, Subtype, Timing, Track,
     Vec2,
@@ -105,20 +105,7 @@ pub(super) fn random(seed: u64) -> Result<Files, WeightsError> {
 
 /// A small scene through all three experts: fills the heap and the caches of the tensor library.
 pub(super) fn warm_up(generator: &Generator) {
-    let lane = Lane {
-        id: "1".into(),
-        lane_type: LaneType::SurfaceStreet,
-        points: (0..40).map(|i| Vec2::new(5.0 * f64::from(i), 0.0)).collect::<Vec<_>>().into(),
-        width_m: None,
-        left_boundary: Vec::new(),
-        right_boundary: Vec::new(),
-        speed_limit_mps: None,
-        predecessors: Vec::new(),
-        successors: Vec::new(),
-        left_neighbors: Vec::new(),
-        right_neighbors: Vec::new(),
-        interpolating: false,
-    };
+    let lane = Lane::street("1", (0..40).map(|i| Vec2::new(5.0 * f64::from(i), 0.0)).collect::<Vec<_>>());
     let agent = |i: usize| {
         let agent_type = EXPERTS[i % 3].0;
         let state = State { x_m: 6.0 * i as f64, vx_mps: 1.0, ..State::default() };

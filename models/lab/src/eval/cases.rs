@@ -4,7 +4,7 @@ use crate::polylines::Polylines;
 use scene::routes::LaneGraph;
 use scene::score::Drivable;
 use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, State, Track};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Fixed goal fields of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -101,8 +101,7 @@ pub struct Site<'a> {
     pub blind: Scene,
     /// Lanes of its map with their links.
     pub graph: Arc<LaneGraph>,
-    /// Its map for those who read lines.
-    pub polylines: Polylines,
+    polylines: OnceLock<Polylines>,
     /// Where its map lets vehicles drive.
     pub drivable: Drivable,
     /// Moving road users.
@@ -117,7 +116,7 @@ impl<'a> Site<'a> {
             scene,
             blind: blind(scene),
             graph: Arc::new(LaneGraph::new(&scene.map)),
-            polylines: Polylines::new(&scene.map),
+            polylines: OnceLock::new(),
             drivable: Drivable::new(&scene.map),
             cases: cases(scene),
         }
@@ -126,6 +125,11 @@ impl<'a> Site<'a> {
     /// Name for files and seeds: the source's id where there is one.
     pub fn name(&self) -> &str {
         self.scene.meta.source_id.as_deref().unwrap_or(&self.scene.name)
+    }
+
+    /// Its map for those who read lines, worked out when the first does.
+    pub fn polylines(&self) -> &Polylines {
+        self.polylines.get_or_init(|| Polylines::new(&self.scene.map))
     }
 
     /// Log of a case.

@@ -1,6 +1,6 @@
 //! Hand-made road users and scenes for tests.
 
-use scene::map::{Lane, LaneType};
+use scene::map::Lane;
 use scene::{
     Agent, AgentType, Conditions, Future, LaneMap, Meta, STEP_S, Scene, Size, State, Subtype, Timing, Track,
     Vec2,
@@ -43,19 +43,9 @@ pub fn straight(probability: f64, speed_mps: f64, left_m: f64) -> Future {
 
 /// Road users on two straight lanes east.
 pub fn scene(agents: Vec<Agent>) -> Scene {
-    let lane = |id: &str, y: f64| Lane {
-        id: id.into(),
-        lane_type: LaneType::SurfaceStreet,
-        points: (0..=30).map(|i| Vec2::new(f64::from(i) * 10.0 - 50.0, y)).collect::<Vec<_>>().into(),
-        width_m: None,
-        left_boundary: Vec::new(),
-        right_boundary: Vec::new(),
-        speed_limit_mps: Some(13.4),
-        predecessors: Vec::new(),
-        successors: Vec::new(),
-        left_neighbors: Vec::new(),
-        right_neighbors: Vec::new(),
-        interpolating: false,
+    let lane = |id: &str, y: f64| {
+        let points = (0..=30).map(|i| Vec2::new(f64::from(i) * 10.0 - 50.0, y)).collect::<Vec<_>>();
+        Lane { speed_limit_mps: Some(13.4), ..Lane::street(id, points) }
     };
     Scene {
         id: None,

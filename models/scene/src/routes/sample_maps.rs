@@ -2,24 +2,11 @@
 
 use super::{Polyline, Pose};
 use crate::geometry::{direction, rotate};
-use crate::map::{Area, Lane, LaneType, Points};
+use crate::map::{Area, Lane, LaneType};
 use crate::{LaneMap, Vec2};
 
 pub(crate) fn lane(id: impl Into<String>, points: Vec<Vec2>) -> Lane {
-    Lane {
-        id: id.into(),
-        lane_type: LaneType::SurfaceStreet,
-        points: Points::from(points),
-        width_m: None,
-        left_boundary: Vec::new(),
-        right_boundary: Vec::new(),
-        speed_limit_mps: None,
-        predecessors: Vec::new(),
-        successors: Vec::new(),
-        left_neighbors: Vec::new(),
-        right_neighbors: Vec::new(),
-        interpolating: false,
-    }
+    Lane::street(id, points)
 }
 
 pub(crate) fn map(lanes: Vec<Lane>) -> LaneMap {

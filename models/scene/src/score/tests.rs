@@ -82,20 +82,7 @@ pub(super) fn edge(points: &[(f64, f64)]) -> TypedLine {
 
 /// A street lane without a width.
 pub(super) fn lane(id: &str, points: &[(f64, f64)]) -> Lane {
-    Lane {
-        id: id.into(),
-        lane_type: crate::map::LaneType::SurfaceStreet,
-        points: xy(points).into(),
-        width_m: None,
-        left_boundary: Vec::new(),
-        right_boundary: Vec::new(),
-        speed_limit_mps: None,
-        predecessors: Vec::new(),
-        successors: Vec::new(),
-        left_neighbors: Vec::new(),
-        right_neighbors: Vec::new(),
-        interpolating: false,
-    }
+    Lane::street(id, xy(points))
 }
 
 #[test]

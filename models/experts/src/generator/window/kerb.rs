@@ -31,27 +31,14 @@ pub(super) fn kerb(ground: &Drivable, size: &Size, places: &[(Vec2, f64); INSTAN
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::map::{Lane, LaneMap, LaneType, TypedLine};
+    use scene::map::{Lane, LaneMap, TypedLine};
 
     const CAR: Size = Size { length_m: 4.6, width_m: 2.0, height_m: None };
 
     /// A street eastwards with an edge 4 m to its right, straight or slanting.
     fn street(slant: f64) -> Drivable {
         let points = vec![Vec2::new(-50.0, 0.0), Vec2::new(150.0, 0.0)];
-        let lane = Lane {
-            id: "a".into(),
-            lane_type: LaneType::SurfaceStreet,
-            points: points.into(),
-            width_m: Some(3.5),
-            left_boundary: Vec::new(),
-            right_boundary: Vec::new(),
-            speed_limit_mps: None,
-            predecessors: Vec::new(),
-            successors: Vec::new(),
-            left_neighbors: Vec::new(),
-            right_neighbors: Vec::new(),
-            interpolating: false,
-        };
+        let lane = Lane { width_m: Some(3.5), ..Lane::street("a", points) };
         let edge = vec![Vec2::new(-50.0, -4.0), Vec2::new(150.0, -4.0 + slant)];
         let edge = TypedLine { id: "edge".into(), line_type: "boundary".into(), points: edge.into() };
         Drivable::new(&LaneMap { lanes: vec![lane], road_edges: vec![edge], ..LaneMap::default() })

@@ -20,7 +20,7 @@ pub fn learned(baseline: &Baseline, site: &Site<'_>, case: &Case, subset: Subset
     }
     let asked = site.asked(case, subset);
     let world = World::new(&asked, site.graph.clone(), 0);
-    let found = baseline.futures(&world, &site.polylines, &[case.agent])?;
+    let found = baseline.futures(&world, site.polylines(), &[case.agent])?;
     Ok(found.into_iter().next().unwrap_or_default())
 }
 
@@ -40,7 +40,7 @@ impl<'a> Together<'a> {
         let whom = generated(site);
         let scene = asked(site, goals);
         let world = World::new(&scene, site.graph.clone(), 0);
-        let mut futures = baseline.futures(&world, &site.polylines, &whom)?;
+        let mut futures = baseline.futures(&world, site.polylines(), &whom)?;
         for (&i, modes) in whom.iter().zip(&mut futures).filter(|(_, modes)| modes.is_empty()) {
             let agent = &site.blind.agents[i];
             let Some(start) = agent.state_at(0) else { continue };
