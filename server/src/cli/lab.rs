@@ -24,7 +24,7 @@ pub struct SynthesizeArgs {
     #[arg(short, long)]
     output: PathBuf,
     /// Windows of 9 seconds cut from each seed's two minutes.
-    #[arg(long, default_value_t = 28)]
+    #[arg(long, default_value_t = 40)]
     per_seed: usize,
     /// Seeds worked on at the same time; 0 means one a core.
     #[arg(long, default_value_t = 0)]
@@ -45,6 +45,7 @@ enum TemplateWord {
     Lot,
     Roundabout,
     Motorway,
+    Quarter,
 }
 
 impl From<TemplateWord> for Template {
@@ -56,6 +57,7 @@ impl From<TemplateWord> for Template {
             TemplateWord::Lot => Self::Lot,
             TemplateWord::Roundabout => Self::Roundabout,
             TemplateWord::Motorway => Self::Motorway,
+            TemplateWord::Quarter => Self::Quarter,
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{
 use nalgebra::DMatrix;
 use scene::geometry::{direction, rotate};
 use scene::motion::{MotionModel, Target};
-use scene::routes::speed;
+use scene::routes::{Beside, LaneGraph, Leg, Route, speed};
 use scene::{AgentType, HORIZON_STEPS, KNOTS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
 use std::ops::Range;
 
@@ -240,6 +240,19 @@ struct PathFacts {
     stop_sign_m: Option<f64>,
     /// Nearest crossing road user: distance along the path, its time to get there, its speed.
     crossing: Option<(f64, f64, f64)>,
+    junction: Option<Junction>,
+    /// Lanes that run beside the first one: the same way on its left and on its right, the other way.
+    beside: [usize; 3],
+}
+
+/// The first junction on a path, as the map's connecting lanes say.
+struct Junction {
+    from_m: f64,
+    to_m: f64,
+    /// How far the path turns in it, radians to the left.
+    turn_rad: f64,
+    /// Ways that the lane before it leads on.
+    ways: usize,
 }
 
 impl PathFacts {
@@ -259,8 +272,32 @@ impl PathFacts {
             light,
             stop_sign_m,
             crossing: crossing(anchor, obstacles),
+            junction: anchor.route.as_ref().and_then(|route| junction(route, &world.graph)),
+            beside: anchor.route.as_ref().map_or([0; 3], |route| beside(route, &world.graph)),
         }
     }
+}
+
+/// The first junction that a route passes, or in which it begins.
+fn junction(route: &Route, graph: &LaneGraph) -> Option<Junction> {
+    let connects = |leg: &Leg| graph.lanes()[leg.lane].interpolating;
+    let first = route.legs.iter().position(connects)?;
+    let through = route.legs[first..].iter().take_while(|leg| connects(leg)).count();
+    let last = &route.legs[first + through - 1];
+    let (from_m, to_m) = (route.legs[first].path_from_m, last.path_from_m + last.to_m - last.from_m);
+    let heading = |s_m: f64| route.path.sample(s_m).heading_rad;
+    let ways = first.checked_sub(1).map_or(1, |k| graph.lanes()[route.legs[k].lane].successors.len());
+    Some(Junction { from_m, to_m, turn_rad: wrap_angle(heading(to_m) - heading(from_m)), ways })
+}
+
+/// Lanes beside the start of a route: see [`PathFacts::beside`].
+fn beside(route: &Route, graph: &LaneGraph) -> [usize; 3] {
+    let Some(leg) = route.legs.first() else { return [0; 3] };
+    let lane = &graph.lanes()[leg.lane];
+    let count = |side: &[Beside], same_way: bool| {
+        side.iter().filter(|b| b.same_direction == same_way && b.across(leg.from_m).is_some()).count()
+    };
+    [count(&lane.left, true), count(&lane.right, true), count(&lane.left, false)]
 }
 
 /// The road user whose straight way on meets the path soonest.
@@ -343,6 +380,18 @@ fn encode_anchor(frame: &Frame, anchor: &Anchor, facts: &PathFacts, slot: usize)
     out.push(seconds_of(met) / 9.0);
     let there = facts.crossing.and_then(|c| first_step(|step| anchor.base[step] >= c.0));
     out.push(there.zip(facts.crossing).map_or(1.0, |(step, c)| (step as f64 * STEP_S - c.1) / 9.0));
+    let junction = facts.junction.as_ref();
+    out.flag(junction.is_some());
+    out.push(junction.map_or(100.0, |j| j.from_m) / 30.0);
+    out.push(junction.map_or(100.0, |j| j.to_m) / 30.0);
+    out.push(junction.map_or(0.0, |j| j.turn_rad));
+    out.push(junction.map_or(1.0, |j| j.ways as f64) / 3.0);
+    let entered = junction.and_then(|j| first_step(|step| anchor.base[step] >= j.from_m));
+    out.push(seconds_of(entered) / 9.0);
+    out.push(entered.map_or(0.0, |step| speed_at(&anchor.base, step)) / 10.0);
+    for lanes in facts.beside {
+        out.push(lanes as f64 / 2.0);
+    }
     out.values
 }
 

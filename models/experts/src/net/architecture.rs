@@ -9,7 +9,7 @@ use crate::features::{ANCHOR, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, RESID
 pub const TOKENS: usize = NEIGHBOURS + MODES;
 
 /// Generation of what features mean and of the networks' arithmetic.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// Everything that decides the shapes of an expert's tensors and what they mean.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

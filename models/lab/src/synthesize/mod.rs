@@ -17,6 +17,7 @@ mod programs;
 mod random;
 mod recording;
 mod scripted;
+mod sight;
 mod streets;
 mod tracks;
 mod ways;
@@ -59,17 +60,20 @@ pub enum Template {
     Roundabout,
     /// Motorway with ramps.
     Motorway,
+    /// Quarter of a town: arterials that cross among streets of homes.
+    Quarter,
 }
 
 impl Template {
     /// All of them, with the share of seeds that gets each when none is asked for.
-    pub const SHARES: [(Self, f64); 6] = [
-        (Self::Crossing, 0.36),
-        (Self::Grid, 0.24),
-        (Self::Arterial, 0.20),
+    pub const SHARES: [(Self, f64); 7] = [
+        (Self::Crossing, 0.32),
+        (Self::Grid, 0.20),
+        (Self::Arterial, 0.22),
         (Self::Lot, 0.10),
         (Self::Roundabout, 0.07),
         (Self::Motorway, 0.03),
+        (Self::Quarter, 0.06),
     ];
 
     fn build(self, draw: &mut Draw) -> Network {
@@ -80,6 +84,7 @@ impl Template {
             Self::Lot => streets::parking_lot(draw),
             Self::Roundabout => ways::roundabout(draw),
             Self::Motorway => ways::motorway(draw),
+            Self::Quarter => streets::quarter(draw),
         };
         network.expand(draw);
         network
@@ -113,7 +118,7 @@ impl Default for Options {
             out_dir: PathBuf::new(),
             threads: 0,
             sumo_home: None,
-            per_seed: 28,
+            per_seed: 40,
             template: None,
         }
     }

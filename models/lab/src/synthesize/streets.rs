@@ -121,7 +121,7 @@ pub fn crossing(draw: &mut Draw) -> Network {
 fn arm(draw: &mut Draw, net: &mut Network, i: usize, angle: f64, section_: Section) {
     let (way, across) = (direction(angle), left_of(direction(angle)));
     let drift = if section_.rank == Rank::Arterial { 12.0 } else { 27.0 };
-    let end = way * draw.uniform(210.0, 290.0) + across * draw.normal(0.0, drift);
+    let end = way * draw.uniform(230.0, 340.0) + across * draw.normal(0.0, drift);
     let line = hermite(Vec2::zeros(), way, end, unit(way + across * draw.normal(0.0, 0.4)));
     let turn = section_.median > 3.0 && draw.chance(0.85);
     let fringe = format!("f{i}");
@@ -154,23 +154,92 @@ fn arm(draw: &mut Draw, net: &mut Network, i: usize, angle: f64, section_: Secti
     }
 }
 
-/// A warped grid of homes, or of a town's centre with one-way streets.
-pub fn grid(draw: &mut Draw) -> Network {
-    let town = draw.chance(0.45);
-    let mut net =
-        Network::new(character(draw, if town { "grid_downtown" } else { "grid_residential" }, 150.0));
-    let size = [3 + draw.below(2) as i32, 3 + draw.below(2) as i32];
-    let pitch = [draw.uniform(75.0, 120.0), draw.uniform(70.0, 120.0)];
-    let turn = draw.uniform(0.0, TAU);
-    let phase = [draw.uniform(0.0, TAU), draw.uniform(0.0, TAU)];
-    let warp = if town { 0.0 } else { draw.uniform(0.0, 12.0) };
-    let street = |draw: &mut Draw, busy: f64| {
+/// What a grid of streets is filled with.
+#[derive(Clone, Copy, PartialEq)]
+enum District {
+    /// Homes.
+    Homes,
+    /// A town's centre with one-way streets.
+    Centre,
+    /// A quarter of a town: arterials that cross among streets of homes.
+    Quarter,
+}
+
+impl District {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Homes => "grid_residential",
+            Self::Centre => "grid_downtown",
+            Self::Quarter => "quarter",
+        }
+    }
+
+    /// Streets each way, least and how many more there may be.
+    fn size(self) -> (i32, usize) {
+        if self == Self::Quarter { (5, 2) } else { (3, 2) }
+    }
+
+    /// Distances of streets, metres.
+    fn pitch(self) -> [(f64, f64); 2] {
+        if self == Self::Quarter { [(100.0, 150.0); 2] } else { [(75.0, 120.0), (70.0, 120.0)] }
+    }
+
+    /// Section of the streets of one direction; the first direction is the busier one.
+    fn street(self, draw: &mut Draw, first: bool, main: bool) -> Section {
+        if main && self == Self::Quarter {
+            let arterial = section(draw, Rank::Arterial);
+            return Section { median: arterial.median.max(arterial.lane), ..arterial };
+        }
+        let busy = match (self, first) {
+            (Self::Homes, true) | (Self::Quarter, _) => 0.3,
+            (Self::Homes, false) => 0.0,
+            (Self::Centre, true) => 1.0,
+            (Self::Centre, false) => 0.7,
+        };
         let rank = if draw.chance(busy) { Rank::Collector } else { Rank::Residential };
         Section { median: 0.0, ..section(draw, rank) }
-    };
-    let columns: Vec<Section> = (0..size[0]).map(|_| street(draw, if town { 1.0 } else { 0.3 })).collect();
-    let rows: Vec<Section> = (0..size[1]).map(|_| street(draw, if town { 0.7 } else { 0.0 })).collect();
-    let one_way: Vec<bool> = (0..size[0]).map(|_| town && draw.chance(0.35)).collect();
+    }
+
+    fn control(self, draw: &mut Draw, a: Rank, b: Rank) -> &'static str {
+        let arterials = [a, b].into_iter().filter(|r| *r == Rank::Arterial).count();
+        let collector = a == Rank::Collector || b == Rank::Collector;
+        match (self, arterials, collector) {
+            (_, 2, _) => control(draw, 0.97, ["priority_stop"]),
+            (_, 1, true) => control(draw, 0.8, ["priority_stop"]),
+            (_, 1, false) => control(draw, 0.3, ["priority_stop"]),
+            (Self::Centre, ..) => control(draw, 0.75, QUIET),
+            (_, _, true) => control(draw, 0.25, QUIET),
+            _ => control(draw, 0.0, QUIET),
+        }
+    }
+}
+
+/// A warped grid of homes, or of a town's centre with one-way streets.
+pub fn grid(draw: &mut Draw) -> Network {
+    let district = if draw.chance(0.45) { District::Centre } else { District::Homes };
+    blocks(draw, district, 150.0)
+}
+
+/// A quarter of a town, 600 to 900 m across: traffic comes from far and has spread out by the time it is seen.
+pub fn quarter(draw: &mut Draw) -> Network {
+    blocks(draw, District::Quarter, 260.0)
+}
+
+fn blocks(draw: &mut Draw, district: District, reach_m: f64) -> Network {
+    let centre = district == District::Centre;
+    let mut net = Network::new(character(draw, district.name(), reach_m));
+    let (least, more) = district.size();
+    let size = [least + draw.below(more) as i32, least + draw.below(more) as i32];
+    let pitch = district.pitch().map(|(low, high)| draw.uniform(low, high));
+    let turn = draw.uniform(0.0, TAU);
+    let phase = [draw.uniform(0.0, TAU), draw.uniform(0.0, TAU)];
+    let warp = if centre { 0.0 } else { draw.uniform(0.0, 12.0) };
+    // Arterials of a quarter: one each way, off its rim.
+    let mains = size.map(|n| 1 + draw.below(n as usize - 2) as i32);
+    let mut streets =
+        |axis: usize| (0..size[axis]).map(|i| district.street(draw, axis == 0, i == mains[axis])).collect();
+    let (columns, rows): (Vec<Section>, Vec<Section>) = (streets(0), streets(1));
+    let one_way: Vec<bool> = (0..size[0]).map(|_| centre && draw.chance(0.35)).collect();
     let name = |i: i32, j: i32| format!("n{}_{}", i + 1, j + 1);
     for i in -1..=size[0] {
         for j in -1..=size[1] {
@@ -185,28 +254,21 @@ pub fn grid(draw: &mut Draw) -> Network {
             let wave = Vec2::new((flat.y / 60.0 + phase[0]).sin(), (flat.x / 60.0 + phase[1]).sin());
             let place = rotate(flat + wave * warp + draw.gauss_point(2.5), turn);
             if in_x && in_y {
-                let busy =
-                    columns[i as usize].rank == Rank::Collector || rows[j as usize].rank == Rank::Collector;
-                let signals = if town {
-                    0.75
-                } else if busy {
-                    0.25
-                } else {
-                    0.0
-                };
-                let kind = control(draw, signals, QUIET);
+                let kind = district.control(draw, columns[i as usize].rank, rows[j as usize].rank);
                 net.node(&name(i, j), place, kind, Some(draw.uniform(3.0, 7.0)));
             } else {
                 net.end(&name(i, j), place);
             }
         }
     }
-    let missing = if town { 0.04 } else { 0.12 };
-    let swing = if town { 0.01 } else { 0.1 };
+    let missing = if centre { 0.04 } else { 0.12 };
+    let swing = if centre { 0.01 } else { 0.1 };
     for (count, other, down) in [(size[0], size[1], true), (size[1], size[0], false)] {
         for line in 0..count {
+            let street = if down { columns[line as usize] } else { rows[line as usize] };
+            let main = street.rank == Rank::Arterial;
             for k in -1..other {
-                if (0..other - 1).contains(&k) && draw.chance(missing) {
+                if !main && (0..other - 1).contains(&k) && draw.chance(missing) {
                     continue;
                 }
                 let (a, b) = if down {
@@ -214,12 +276,13 @@ pub fn grid(draw: &mut Draw) -> Network {
                 } else {
                     (name(k, line), name(k + 1, line))
                 };
-                let mut s = if down { columns[line as usize] } else { rows[line as usize] };
+                let mut s = street;
                 if down && one_way[line as usize] {
                     (s.forward, s.backward) = if line % 2 == 0 { (2, 0) } else { (0, 2) };
                 }
                 let line = bent(draw, net.position(&a), net.position(&b), swing);
-                net.road(&a, &b, line, s, (false, false));
+                let turn_lanes = (main && k >= 0, main && k + 1 < other);
+                net.road(&a, &b, line, s, turn_lanes);
             }
         }
     }
@@ -233,20 +296,20 @@ pub fn arterial(draw: &mut Draw) -> Network {
     main.median = main.median.max(main.lane);
     let (turn, wave, phase) = (draw.uniform(0.0, TAU), draw.uniform(0.0, 30.0), draw.uniform(0.0, TAU));
     let place = |x: f64| rotate(Vec2::new(x, wave * (x / 110.0 + phase).sin()), turn);
-    let mut xs = vec![-300.0];
-    let mut x = -150.0 + draw.uniform(-20.0, 20.0);
-    while x < 175.0 {
+    let mut xs = vec![-360.0];
+    let mut x = -200.0 + draw.uniform(-20.0, 20.0);
+    while x < 225.0 {
         xs.push(x);
-        x += draw.uniform(90.0, 170.0);
+        x += draw.uniform(100.0, 260.0);
     }
-    xs.push(310.0);
+    xs.push(370.0);
     let last = xs.len() - 1;
     let name = |k: usize| format!("a{k}");
     for (k, &x) in xs.iter().enumerate() {
         if k == 0 || k == last {
             net.end(&name(k), place(x));
         } else {
-            let kind = control(draw, 0.7, ["priority_stop"]);
+            let kind = control(draw, 0.6, ["priority_stop"]);
             net.node(&name(k), place(x), kind, Some(draw.uniform(5.0, 10.0)));
         }
     }

@@ -27,7 +27,7 @@ pub fn roundabout(draw: &mut Draw) -> Network {
     ring(&mut net, &angles, radius, lanes, 0.0);
     for (i, &angle) in angles.iter().enumerate() {
         let s = bare(if i % 2 == 0 { main } else { side });
-        let (reach, lean, bend) = (draw.uniform(140.0, 200.0), draw.normal(0.0, 18.0), draw.normal(0.0, 0.2));
+        let (reach, lean, bend) = (draw.uniform(180.0, 270.0), draw.normal(0.0, 18.0), draw.normal(0.0, 0.2));
         approach(&mut net, i, angle, radius, lanes, s, 0.0, [reach, lean, bend]);
     }
     net

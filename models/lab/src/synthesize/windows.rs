@@ -2,6 +2,7 @@
 
 use super::random::Draw;
 use super::recording::{Actor, CHECK_EVERY, Recording};
+use super::sight;
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::sumo::map::NetMap;
 use scene::map::{Area, Lane, LaneMap, Points, TypedLine};
@@ -21,6 +22,8 @@ const SEEN_M: f64 = 200.0;
 const MAP_M: f64 = 210.0;
 /// Most road users of a window.
 const MAX_AGENTS: usize = 256;
+/// Road users with fewer states in a window are left out of it.
+const FEWEST_STATES: usize = 5;
 /// Whoever has not moved after so many steps is no starter.
 const SOON: usize = 25;
 /// Who the windows of a seed are centred on, in turn: people and cyclists more often than their share.
@@ -145,7 +148,7 @@ fn cast(recording: &Recording, start: usize, centre: usize, drops: &mut Drops) -
                 .filter_map(|step| recording.actors[i].track.at(step))
                 .map(|s| (s.position() - origin).norm())
                 .fold(f64::INFINITY, f64::min);
-            Some((nearest, i)).filter(|_| seen(&recording.actors[i], start, origin).count() >= 5)
+            Some((nearest, i)).filter(|_| seen(&recording.actors[i], start, origin).count() >= FEWEST_STATES)
         })
         .collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -190,6 +193,8 @@ fn window(recording: &Recording, start: usize, cast: &Cast, id: String, name: St
             conditions: Conditions::default(),
         });
     }
+    sight::hide_unseen(&mut agents, STEPS);
+    agents.retain(|a| a.track.states.iter().flatten().count() >= FEWEST_STATES);
     let map = crop(&recording.map.map, cast.origin);
     let signals = signals(recording, start, &map, cast.origin);
     let moves = |a: &Agent| a.track.extent_m() > 3.0 && a.track.states.iter().all(Option::is_some);

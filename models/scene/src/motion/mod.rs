@@ -6,14 +6,14 @@
 
 pub mod drive;
 pub mod fit;
-pub mod hermite;
 pub mod project;
+pub mod tension;
 pub mod walk;
 mod whiten;
 
 pub use fit::{Sampled, fit};
-pub use hermite::Hermite;
 pub use project::{Limiting, Projection, Reach, Residuals, Target, project};
+pub use tension::Tension;
 
 use crate::geometry::{direction, rotate};
 use crate::limits::Limits;

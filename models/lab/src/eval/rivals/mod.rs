@@ -1,6 +1,7 @@
 //! Whom the experts are judged against: formulas, which are what can be had without any learning, and
 //! networks of others ([`learned`]).
 
+mod hermite;
 mod lane;
 mod learned;
 mod prior;

@@ -1,8 +1,9 @@
 //! Cubic Hermite spline: what an animation tool would draw between two key frames.
 
+use super::hermite::Hermite;
 use super::state;
 use scene::geometry::direction;
-use scene::motion::{Hermite, Target};
+use scene::motion::Target;
 use scene::{Goal, HORIZON_STEPS, STEP_S, State};
 
 /// Below this speed the curve's direction says nothing about the heading, m/s.

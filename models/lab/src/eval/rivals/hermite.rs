@@ -1,9 +1,9 @@
 //! Cubic Hermite curves in time: from a place and a velocity to a place and a velocity, what an animation
 //! tool draws between two key frames.
 
-use super::Target;
-use crate::geometry::direction;
-use crate::{STEP_S, Vec2};
+use scene::geometry::direction;
+use scene::motion::Target;
+use scene::{STEP_S, Vec2};
 
 /// A cubic in time between two places with their velocities.
 #[derive(Clone, Copy, Debug)]
