@@ -7,7 +7,7 @@ pub mod net;
 pub mod placement;
 pub mod request;
 
-pub use features::world::Sight;
+pub use features::world::Planning;
 pub use generator::{Generation, Generator, WeightsError, WeightsInfo};
 pub use request::{
     Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,

@@ -1,6 +1,6 @@
 //! What is asked of the generator, and the events it answers with.
 
-use crate::features::world::Sight;
+use crate::features::world::Planning;
 use crate::net::schedule;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
 use serde::Serialize;
@@ -65,8 +65,8 @@ pub struct Stages {
     /// Those who keep their motion are in the way. Where their motion is withheld, so that nothing leaks,
     /// a guess at it would be an obstacle that is not there.
     pub kept_in_the_way: bool,
-    /// What of the map the experts are shown. The choice knows the whole map either way.
-    pub sight: Sight,
+    /// How each road user's futures are planned. The choice knows the whole map either way.
+    pub planning: Planning,
     /// How refinement goes about its steps.
     pub refining: Refining,
 }
@@ -97,7 +97,7 @@ impl Default for Stages {
             shown: Shown::Chosen,
             guidance: true,
             kept_in_the_way: true,
-            sight: Sight::default(),
+            planning: Planning::default(),
             refining: Refining::default(),
         }
     }

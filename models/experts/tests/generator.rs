@@ -12,12 +12,12 @@ use std::sync::{Arc, LazyLock};
 
 #[path = "generator/leaks.rs"]
 mod leaks;
+#[path = "generator/planning.rs"]
+mod planning;
 #[path = "generator/refining.rs"]
 mod refining;
 #[path = "generator/rollouts.rs"]
 mod rollouts;
-#[path = "generator/sight.rs"]
-mod sight;
 
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::random(3).unwrap().with_threads(1));
 

@@ -41,3 +41,7 @@ pub const HORIZON_STEPS: usize = 90;
 pub const MAX_HORIZON_STEPS: usize = 200;
 /// Control knots of a future, one a second from 0 to 9 s (`model.md` section 1: more bring nothing).
 pub const KNOTS: usize = 10;
+/// Steps from a knot to the next.
+pub const KNOT_STEPS: usize = HORIZON_STEPS / (KNOTS - 1);
+/// Seconds from a knot to the next.
+pub const KNOT_S: f64 = KNOT_STEPS as f64 * STEP_S;

@@ -11,7 +11,7 @@ use nalgebra::DMatrix;
 use scene::geometry::{direction, rotate};
 use scene::motion::{MotionModel, Target};
 use scene::routes::{Beside, LaneGraph, Leg, Route, speed};
-use scene::{AgentType, HORIZON_STEPS, KNOTS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
+use scene::{AgentType, HORIZON_STEPS, KNOT_S, KNOTS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
 use std::ops::Range;
 
 /// A road user ready for its expert.
@@ -27,6 +27,8 @@ pub struct Planned {
     pub anchors: Vec<Anchor>,
     /// For the networks.
     pub features: AgentFeatures,
+    /// Motions are projected onto the goal: see [`Planning::projection`](super::world::Planning).
+    pub projected: bool,
 }
 
 /// Which of the numbers about the road user itself speak of its goal: time, masks, values.
@@ -66,7 +68,8 @@ pub fn plan_with(world: &World<'_>, who: &Present, anchors: Vec<Anchor>) -> Plan
         anchors: encoded,
         tangent: Box::new(tangent(&target)),
     };
-    Planned { present: who.clone(), model, target, anchors, features }
+    let projected = world.planning.projection;
+    Planned { present: who.clone(), model, target, anchors, features, projected }
 }
 
 /// The road user's frame: x ahead, y left.
@@ -424,7 +427,7 @@ fn tangent(target: &Target) -> [[[f32; KNOTS]; KNOTS]; 2] {
         across.push(row(hat));
     }
     if target.position.is_some() && target.heading_rad.is_some() {
-        let last = (t - 1e-9).floor() as usize;
+        let last = (t / KNOT_S - 1e-9).floor() as usize;
         let drift = (0..KNOTS).map(|k| match k {
             k if k == last => -1.0,
             k if k == last + 1 => 1.0,

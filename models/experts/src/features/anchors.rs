@@ -140,7 +140,7 @@ fn paths_to_goal(
         least_effort_m: Some(least_path.length_m()),
     };
     let mut out: Vec<Candidate> = Vec::new();
-    let routes = if world.sight.routes { routes_to_goal(&world.graph, &query) } else { Vec::new() };
+    let routes = if world.planning.routes { routes_to_goal(&world.graph, &query) } else { Vec::new() };
     for found in routes {
         let path = base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end));
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
@@ -268,8 +268,11 @@ fn paths_ahead(world: &World<'_>, who: &Present, model: &MotionModel) -> Vec<Can
     let graph = &world.graph;
     let walking = model.kind == Kind::Walk;
     let length = if walking { 9.0 * v0.max(1.4) * 1.3 + 4.0 } else { route_length_m(v0) };
-    let routes =
-        if world.sight.routes { routes_ahead(graph, who.pose(), who.agent_type, length) } else { Vec::new() };
+    let routes = if world.planning.routes {
+        routes_ahead(graph, who.pose(), who.agent_type, length)
+    } else {
+        Vec::new()
+    };
     let mut out: Vec<Candidate> = Vec::with_capacity(MODES);
     if walking || routes.is_empty() {
         out.push(straight_on(who, model, length));

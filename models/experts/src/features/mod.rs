@@ -14,7 +14,7 @@ pub mod anchors;
 pub mod profile;
 pub mod world;
 
-use scene::KNOTS;
+use scene::{KNOT_S, KNOTS};
 
 /// Modes of an answer, one anchor slot each.
 pub const MODES: usize = 6;
@@ -110,9 +110,9 @@ impl Default for Basis {
     }
 }
 
-/// Hat function of a knot (one a second) at time `t`, seconds.
+/// Hat function of a knot at time `t`, seconds.
 pub fn hat(knot: usize, t: f64) -> f64 {
-    (1.0 - (t - knot as f64).abs()).max(0.0)
+    (1.0 - (t / KNOT_S - knot as f64).abs()).max(0.0)
 }
 
 /// Integral of [`hat`] from 0 to `t`.
@@ -123,7 +123,7 @@ pub fn integrated_hat(knot: usize, t: f64) -> f64 {
         x if x <= 1.0 => 1.0 - 0.5 * (1.0 - x) * (1.0 - x),
         _ => 1.0,
     };
-    primitive(t - knot as f64) - primitive(-(knot as f64))
+    KNOT_S * (primitive(t / KNOT_S - knot as f64) - primitive(-(knot as f64)))
 }
 
 /// Integral of [`integrated_hat`] from 0 to `t`.
@@ -138,7 +138,8 @@ pub fn twice_integrated_hat(knot: usize, t: f64) -> f64 {
         x if x <= -1.0 => 0.0,
         x => 0.5 * (x + 1.0) * (x + 1.0),
     };
-    primitive(t - knot as f64) - primitive(-(knot as f64)) - slope_at_start * t
+    let t = t / KNOT_S;
+    KNOT_S * KNOT_S * (primitive(t - knot as f64) - primitive(-(knot as f64)) - slope_at_start * t)
 }
 
 #[cfg(test)]

@@ -7,16 +7,19 @@ use scene::routes::{LaneGraph, Pose};
 use scene::{Agent, AgentType, Conditions, HORIZON_STEPS, Scene, Size, State, Vec2};
 use std::sync::Arc;
 
-/// What of the map the experts are shown. An evaluation takes some away to see what it brings; users get all.
+/// How the futures of one road user are planned. An evaluation leaves parts out to see what they bring; users
+/// get all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sight {
+pub struct Planning {
     /// Anchors follow lanes; otherwise they are those of a road user with no lane near.
     pub routes: bool,
+    /// Motions are projected onto the goal; otherwise onto the limits alone, and the goal is only seen.
+    pub projection: bool,
 }
 
-impl Default for Sight {
+impl Default for Planning {
     fn default() -> Self {
-        Self { routes: true }
+        Self { routes: true, projection: true }
     }
 }
 
@@ -49,8 +52,8 @@ pub struct World<'a> {
     pub signals: Vec<LaneSignal>,
     /// Seconds each signal has been in its state.
     pub signal_ages_s: Vec<f64>,
-    /// What of the map is shown: all.
-    pub sight: Sight,
+    /// How its road users' futures are planned.
+    pub planning: Planning,
 }
 
 impl<'a> World<'a> {
@@ -80,8 +83,8 @@ impl<'a> World<'a> {
                 signal_ages_s.push(signal.age_steps(step) as f64 * scene::STEP_S);
             }
         }
-        let sight = Sight::default();
-        Self { scene, graph, step, present, conditions, signals, signal_ages_s, sight }
+        let planning = Planning::default();
+        Self { scene, graph, step, present, conditions, signals, signal_ages_s, planning }
     }
 
     /// The scene's agent behind a present road user.

@@ -5,7 +5,7 @@ use crate::features::agent::Planned;
 use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
 use scene::geometry::direction;
 use scene::motion::{
-    Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Trajectory, fit, project,
+    Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Target, Trajectory, fit, project,
 };
 use scene::{HORIZON_STEPS, KNOTS, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -93,6 +93,10 @@ fn through(planned: &Planned, places: [(Vec2, f64); INSTANTS]) -> Motion {
         last = (position, heading_rad);
     }
     let knots = fit(&planned.model, &samples);
+    if !planned.projected {
+        let free = Target { step: planned.target.step, ..Target::default() };
+        return project(&planned.model, &knots, &free, None).into();
+    }
     let motion = project(&planned.model, &knots, &planned.target, None);
     if motion.reach.is_reached() {
         return motion.into();

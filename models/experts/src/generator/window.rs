@@ -131,7 +131,7 @@ impl<'g> Window<'g> {
         };
         let scene = window.scene.clone();
         let mut world = World::new(&scene, window.map.graph.clone(), spec.step);
-        world.sight = window.request.stages.sight;
+        world.planning = window.request.stages.planning;
         let role = |index| spec.moving.iter().find(|m| m.0 == index).map(|m| m.1);
         let wanted: Vec<_> =
             world.present.iter().filter_map(|p| role(p.index).map(|role| (p, role))).collect();

@@ -4,15 +4,15 @@
 use candle_core::{Device, Result, Tensor};
 
 use crate::features::RESIDUAL;
-use scene::KNOTS;
+use scene::{KNOT_S, KNOTS};
 
-/// Length of the squared-exponential correlation, seconds (knots are one a second apart).
+/// Length of the squared-exponential correlation, seconds.
 const LENGTH: f64 = 1.5;
 
 /// Lower Cholesky factor of the knots' correlation, `[KNOTS][KNOTS]`; its rows have length 1.
 pub fn factor() -> [[f64; KNOTS]; KNOTS] {
     let correlation = |i: usize, j: usize| {
-        let gap = (i as f64 - j as f64) / LENGTH;
+        let gap = (i as f64 - j as f64) * KNOT_S / LENGTH;
         let nugget = if i == j { 1e-4 } else { 0.0 };
         ((-0.5 * gap * gap).exp() + nugget) / (1.0 + 1e-4)
     };

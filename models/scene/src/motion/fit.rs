@@ -7,7 +7,7 @@
 use super::drive::{rollout, sensitivities};
 use super::walk::position_row;
 use super::{CONTROLS, Gear, Kind, Knots, MotionModel};
-use crate::{KNOTS, STEP_S, Vec2, wrap_angle};
+use crate::{KNOT_S, KNOTS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
 
 /// One wanted state of the box centre, scene frame.
@@ -41,9 +41,11 @@ pub fn fit(model: &MotionModel, samples: &[Sampled]) -> Knots {
     }
 }
 
-/// `weight` times the second-difference penalty plus `size` on the diagonal.
+/// `weight` times the integral of the squared second derivative over time, by second differences, plus `size` times
+/// that of the squared values.
 fn smoothness(weight: f64, size: f64) -> Square<KNOTS> {
-    let mut out = Square::<KNOTS>::identity() * size;
+    let weight = weight / KNOT_S.powi(3);
+    let mut out = Square::<KNOTS>::identity() * (size * KNOT_S);
     for i in 1..KNOTS - 1 {
         for (a, ca) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {
             for (b, cb) in [(i - 1, 1.0), (i, -2.0), (i + 1, 1.0)] {

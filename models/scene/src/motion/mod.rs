@@ -17,12 +17,12 @@ pub use tension::Tension;
 
 use crate::geometry::{direction, rotate};
 use crate::limits::Limits;
-use crate::{AgentType, HORIZON_STEPS, KNOTS, STEP_S, Size, State, Subtype, Vec2, wrap_angle};
+use crate::{AgentType, KNOT_STEPS, KNOTS, STEP_S, Size, State, Subtype, Vec2, wrap_angle};
 
 /// Number of control values of one future.
 pub const CONTROLS: usize = 2 * KNOTS;
 
-/// Two channels of control values, one a second from 0 to 9 s, piecewise linear between.
+/// Two channels of control values, one every [`KNOT_S`](crate::KNOT_S) from 0 to 9 s, piecewise linear between.
 ///
 /// Drive: acceleration (m/s2) and curvature (1/m). Walk: velocity along and left of the start heading (m/s).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,9 +36,8 @@ pub struct Knots {
 impl Knots {
     /// Value of a channel in the middle of step `i`: left knot, its weight, right weight.
     pub(crate) fn mid_weights(step: usize) -> (usize, f64, f64) {
-        let per_knot = HORIZON_STEPS / (KNOTS - 1);
-        let f = ((step % per_knot) as f64 + 0.5) / per_knot as f64;
-        (step / per_knot, 1.0 - f, f)
+        let f = ((step % KNOT_STEPS) as f64 + 0.5) / KNOT_STEPS as f64;
+        (step / KNOT_STEPS, 1.0 - f, f)
     }
 
     /// All values are finite.

@@ -9,7 +9,7 @@ use super::walk::{STANDING_MPS, position_row, velocity_row};
 use super::whiten::Whitening;
 use super::{CONTROLS, Kind, Knots, MotionModel, MotionState, Trajectory};
 use crate::geometry::direction;
-use crate::{HORIZON_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
+use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
 
 /// What must hold at one step; `None` leaves a field free. Scene frame.
@@ -29,6 +29,16 @@ impl Target {
     /// Nothing is asked.
     pub fn is_free(&self) -> bool {
         self.position.is_none() && self.heading_rad.is_none() && self.speed_mps.is_none()
+    }
+
+    /// The velocity that is asked for at the end, m/s; what is not fixed of its length and direction is as in
+    /// `natural`. `None` when neither is fixed.
+    pub fn end_velocity(&self, natural: Vec2) -> Option<Vec2> {
+        match (self.heading_rad, self.speed_mps) {
+            (Some(heading), speed) => Some(direction(heading) * speed.unwrap_or_else(|| natural.norm())),
+            (None, Some(speed)) => Some(natural * (speed / natural.norm().max(0.1))),
+            (None, None) => None,
+        }
     }
 }
 
@@ -167,9 +177,8 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
 /// What the goal asked for ends with the goal: later knots go back to the wanted ones (on foot, the
 /// velocity at the goal is kept), so that a hurry to reach it does not carry on beyond.
 fn calm_after(model: &MotionModel, mut knots: Knots, near: &Knots, target: &Target) -> Knots {
-    let per_knot = HORIZON_STEPS / (KNOTS - 1);
     // Up to this knot the motion before the goal depends on them.
-    let last = target.step.div_ceil(per_knot);
+    let last = target.step.div_ceil(KNOT_STEPS);
     for i in last + 1..KNOTS {
         (knots.first[i], knots.second[i]) = match model.kind {
             Kind::Drive => (near.first[i], near.second[i]),
@@ -441,7 +450,7 @@ fn arc_guess(model: &MotionModel, target: &Target) -> Knots {
     let v0 = model.start_speed_mps();
     let mut knots = Knots { second: [if length > 1.5 { curvature } else { 0.0 }; KNOTS], ..Knots::default() };
     for (i, a) in knots.first.iter_mut().enumerate() {
-        let t = i as f64 * (HORIZON_STEPS as f64 * STEP_S) / (KNOTS - 1) as f64;
+        let t = i as f64 * KNOT_S;
         *a = match target.speed_mps {
             Some(v) => {
                 let slope = ((v - v0) * seconds / 2.0 - (length - v0 * seconds)) * 12.0 / seconds.powi(3);

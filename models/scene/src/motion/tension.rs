@@ -6,7 +6,6 @@
 //! Schweikert 1966, in time). It is a straight line where that time is short and the cubic where it is long.
 
 use super::Target;
-use crate::geometry::direction;
 use crate::{STEP_S, Vec2};
 
 /// A spline under tension between two places: an even velocity, and departures from it that fade away from
@@ -30,13 +29,8 @@ impl Tension {
         let to = target.position?;
         let seconds = target.step.max(1) as f64 * STEP_S;
         let free = Self::new(from, to, None, seconds, relax_s);
-        let natural = free.at(seconds).1;
-        let end = match (target.heading_rad, target.speed_mps) {
-            (Some(heading), speed) => direction(heading) * speed.unwrap_or_else(|| natural.norm()),
-            (None, Some(speed)) => natural * (speed / natural.norm().max(0.1)),
-            (None, None) => return Some(free),
-        };
-        Some(Self::new(from, to, Some(end), seconds, relax_s))
+        let end = target.end_velocity(free.at(seconds).1);
+        Some(end.map_or(free, |end| Self::new(from, to, Some(end), seconds, relax_s)))
     }
 
     /// The place is origin + even t + fading0 e^(-t/r) + fading1 e^(-(T-t)/r); both ends and their velocities

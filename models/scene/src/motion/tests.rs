@@ -1,5 +1,5 @@
 use super::*;
-use crate::{AgentType, Size, State, Subtype};
+use crate::{AgentType, HORIZON_STEPS, Size, State, Subtype};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 

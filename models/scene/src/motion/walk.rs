@@ -6,7 +6,7 @@
 
 use super::{Knots, MotionModel, MotionState, Trajectory};
 use crate::geometry::rotate;
-use crate::{HORIZON_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
+use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
 
 /// Below this speed the heading says nothing about the motion, m/s.
 pub(crate) const STANDING_MPS: f64 = 0.3;
@@ -32,8 +32,9 @@ pub(crate) fn legal(model: &MotionModel, knots: &Knots) -> Knots {
             v *= top / v.norm();
         }
         let change = v - last;
-        if change.norm() > model.limits.accel_mps2 {
-            v = last + change * (model.limits.accel_mps2 / change.norm());
+        let most = model.limits.accel_mps2 * KNOT_S;
+        if change.norm() > most {
+            v = last + change * (most / change.norm());
         }
         (out.first[i], out.second[i]) = (v.x, v.y);
         last = v;
@@ -41,11 +42,15 @@ pub(crate) fn legal(model: &MotionModel, knots: &Knots) -> Knots {
     out
 }
 
-/// Velocity at a step's end; knots are one a second.
+/// The knot before a step's end and how far the end is towards the next, 0 to 1.
+fn end_weight(step: usize) -> (usize, f64) {
+    let j = (step / KNOT_STEPS).min(KNOTS - 2);
+    (j, (step - j * KNOT_STEPS) as f64 / KNOT_STEPS as f64)
+}
+
+/// Velocity at a step's end.
 fn velocity_at(knots: &Knots, step: usize) -> Vec2 {
-    let per_knot = HORIZON_STEPS / (KNOTS - 1);
-    let j = (step / per_knot).min(KNOTS - 2);
-    let f = (step - j * per_knot) as f64 / per_knot as f64;
+    let (j, f) = end_weight(step);
     Vec2::new(
         (1.0 - f) * knots.first[j] + f * knots.first[j + 1],
         (1.0 - f) * knots.second[j] + f * knots.second[j + 1],
@@ -112,9 +117,7 @@ pub(crate) fn position_row(step: usize) -> [f64; KNOTS] {
 
 /// Row of the linear map from velocity knots to the velocity at the end of `step`.
 pub(crate) fn velocity_row(step: usize) -> [f64; KNOTS] {
-    let per_knot = HORIZON_STEPS / (KNOTS - 1);
-    let j = (step / per_knot).min(KNOTS - 2);
-    let f = (step - j * per_knot) as f64 / per_knot as f64;
+    let (j, f) = end_weight(step);
     let mut row = [0.0; KNOTS];
     row[j] = 1.0 - f;
     row[j + 1] = f;

@@ -2,7 +2,7 @@
 //! the more the faster the road user is (`prototype.md` Q2: 4 s for acceleration, 1.5 s for curvature).
 
 use super::{CONTROLS, Kind, MotionModel};
-use crate::KNOTS;
+use crate::{KNOT_S, KNOTS};
 use nalgebra::SMatrix;
 use std::sync::LazyLock;
 
@@ -11,7 +11,7 @@ type Square = SMatrix<f64, KNOTS, KNOTS>;
 /// Lower Cholesky factor of a squared-exponential correlation over knots.
 fn factor(correlation_s: f64) -> Square {
     let covariance = Square::from_fn(|i, j| {
-        let d = (i as f64 - j as f64) / correlation_s;
+        let d = (i as f64 - j as f64) * KNOT_S / correlation_s;
         (-0.5 * d * d).exp() + if i == j { 1e-4 } else { 0.0 }
     });
     covariance.cholesky().map_or_else(Square::identity, |c| c.l())
@@ -22,7 +22,7 @@ static CURVATURE: LazyLock<Square> = LazyLock::new(|| factor(1.5));
 /// Walking: the first knot is the start velocity and never moves, so the rest is conditioned on it.
 static VELOCITY: LazyLock<Square> = LazyLock::new(|| {
     let correlation = |i: usize, j: usize| {
-        let d = i as f64 - j as f64;
+        let d = (i as f64 - j as f64) * KNOT_S;
         (-0.5 * d * d).exp() + if i == j { 1e-3 } else { 0.0 }
     };
     let rest = SMatrix::<f64, { KNOTS - 1 }, { KNOTS - 1 }>::from_fn(|i, j| {

@@ -1,7 +1,6 @@
 //! Cubic Hermite curves in time: from a place and a velocity to a place and a velocity, what an animation
 //! tool draws between two key frames.
 
-use scene::geometry::direction;
 use scene::motion::Target;
 use scene::{STEP_S, Vec2};
 
@@ -26,11 +25,7 @@ impl Hermite {
         let ((p0, v0), p1) = (from, target.position?);
         let seconds = target.step.max(1) as f64 * STEP_S;
         let natural = (p1 - p0) * (1.5 / seconds) - v0 * 0.5;
-        let v1 = match (target.heading_rad, target.speed_mps) {
-            (Some(heading), speed) => direction(heading) * speed.unwrap_or_else(|| natural.norm()),
-            (None, Some(speed)) => natural * (speed / natural.norm().max(0.1)),
-            (None, None) => natural,
-        };
+        let v1 = target.end_velocity(natural).unwrap_or(natural);
         Some(Self::new(from, (p1, v1), seconds))
     }
 
