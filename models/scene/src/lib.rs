@@ -39,7 +39,8 @@ pub const STEP_S: f64 = 0.1;
 pub const HORIZON_STEPS: usize = 90;
 /// Most steps of one answer, planned window after window (20 s).
 pub const MAX_HORIZON_STEPS: usize = 200;
-/// Control knots of a future, one a second from 0 to 9 s (`model.md` section 1: more bring nothing).
+/// Control knots of a future, one a second from 0 to 9 s (`model.md` section 1: more bring nothing). One
+/// less than them divides the horizon's steps.
 pub const KNOTS: usize = 10;
 /// Steps from a knot to the next.
 pub const KNOT_STEPS: usize = HORIZON_STEPS / (KNOTS - 1);

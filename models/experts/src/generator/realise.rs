@@ -79,6 +79,12 @@ pub(super) fn middle(planned: &Planned, drafts: &[(f64, usize, [f32; RESIDUAL])]
     through(planned, mean.map(|(along, across)| anchor.place(along, across)))
 }
 
+/// What motions are projected onto: the goal, or nothing but the limits.
+fn projected_onto(planned: &Planned) -> Target {
+    let target = planned.target;
+    if planned.projected { target } else { Target { step: target.step, ..Target::default() } }
+}
+
 /// The motion that passes near these places (box centres and the path's headings) at the instants.
 fn through(planned: &Planned, places: [(Vec2, f64); INSTANTS]) -> Motion {
     let mut samples = Vec::with_capacity(INSTANTS);
@@ -93,11 +99,7 @@ fn through(planned: &Planned, places: [(Vec2, f64); INSTANTS]) -> Motion {
         last = (position, heading_rad);
     }
     let knots = fit(&planned.model, &samples);
-    if !planned.projected {
-        let free = Target { step: planned.target.step, ..Target::default() };
-        return project(&planned.model, &knots, &free, None).into();
-    }
-    let motion = project(&planned.model, &knots, &planned.target, None);
+    let motion = project(&planned.model, &knots, &projected_onto(planned), None);
     if motion.reach.is_reached() {
         return motion.into();
     }
@@ -111,7 +113,7 @@ const BACKING_BRAKE_MPS2: f64 = 1.5;
 /// never changes the gear of a vehicle in motion.
 fn backing(planned: &Planned) -> Motion {
     let braking = Knots { first: [-BACKING_BRAKE_MPS2; KNOTS], ..Knots::default() };
-    project(&planned.model, &braking, &planned.target, None).into()
+    project(&planned.model, &braking, &projected_onto(planned), None).into()
 }
 
 /// A goal behind a standing vehicle may be met backwards.

@@ -1,6 +1,6 @@
 //! Table 7: what each part brings, by leaving it out.
 
-use super::measure::{goal_error, is_met, log_loss, measure};
+use super::measure::{is_met, left_to_goal, log_loss, measure};
 use super::quality::request;
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
@@ -91,9 +91,9 @@ impl Found {
     /// The table's columns for the scene of this index: value and weight.
     fn values(&self, site: usize) -> [Option<Value>; COLUMNS.len()] {
         let [off, past] = self.road.shares(site).map(|v| (v.weight > 0.0).then_some(v));
-        let plain = |x| Value::new(site, x);
-        let distances = [self.min_ade, self.first_ade].map(|d| Some(plain(d)));
-        [distances[0], distances[1], self.log_loss.map(plain), self.met.map(plain), off, past]
+        let plain = |x| Some(Value::new(site, x));
+        let [log_loss, met] = [self.log_loss, self.met].map(|x| x.and_then(plain));
+        [plain(self.min_ade), plain(self.first_ade), log_loss, met, off, past]
     }
 }
 
@@ -116,7 +116,7 @@ fn found(
     let m = measure(log, case, subset, &futures.modes, futures.chosen);
     let probabilities: Vec<f64> = futures.modes.iter().map(|f| f.probability).collect();
     let goal = case.goal(site.scene, subset);
-    let met = shown.states.get(case.goal_step - 1).is_some_and(|s| is_met(goal_error(&goal, s)));
+    let met = left_to_goal(&goal, case, shown).is_some_and(is_met);
     Ok(Some(Found {
         min_ade: m.min_ade,
         first_ade: m.first_ade,
@@ -179,10 +179,8 @@ pub fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u
                 let keys = [own.name.as_str(), subset.name(), without.name()];
                 let cell = |column: usize| {
                     let values = mine().filter_map(|r| r.found[index]?.values(r.site)[column]);
-                    Cell::of(
-                        boot.estimate(values),
-                        if column < FIRST_SHARE { Form::Plain } else { Form::Percent },
-                    )
+                    let form = if column < FIRST_SHARE { Form::Plain } else { Form::Percent };
+                    Cell::of(boot.estimate(values), form)
                 };
                 if mine().any(|row| row.found[index].is_some()) {
                     figures.push(keys, (0..COLUMNS.len()).map(cell).collect());

@@ -133,6 +133,11 @@ fn least(values: &[f64]) -> usize {
     (0..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0)
 }
 
+/// What a future leaves to a case's goal when it is due, as [`goal_error`]; `None` where it ends before.
+pub fn left_to_goal(goal: &Goal, case: &Case, future: &Future) -> Option<[f64; 3]> {
+    future.states.get(case.goal_step - 1).map(|state| goal_error(goal, state))
+}
+
 /// What is left to a goal: metres, radians, m/s; zero for free fields.
 pub fn goal_error(goal: &Goal, state: &State) -> [f64; 3] {
     [

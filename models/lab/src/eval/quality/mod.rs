@@ -5,7 +5,7 @@ mod sheets;
 
 pub use sheets::Quality;
 
-use super::measure::{Measured, can_be_followed, goal_error, is_met, is_outside_limits, measure};
+use super::measure::{Measured, can_be_followed, is_met, is_outside_limits, left_to_goal, measure};
 use super::rivals::{Rival, learned};
 use super::{Case, Entrants, Site, Subset, answer};
 use anyhow::Result;
@@ -251,12 +251,12 @@ fn verdict(
     reported: bool,
 ) -> GoalVerdict {
     let goal = case.goal(site.scene, subset);
-    let shown = futures.modes[futures.chosen].states.get(case.goal_step - 1);
+    let left = left_to_goal(&goal, case, &futures.modes[futures.chosen]);
     let agent = &site.blind.agents[case.agent];
     let outside = |f: &&Future| is_outside_limits(agent, &case.start, f);
     GoalVerdict {
-        left_m: shown.filter(|_| subset.has_position()).map(|s| goal_error(&goal, s)[0]),
-        met: shown.is_some_and(|s| is_met(goal_error(&goal, s))),
+        left_m: left.filter(|_| subset.has_position()).map(|left| left[0]),
+        met: left.is_some_and(is_met),
         reported,
         futures: futures.modes.len(),
         outside: futures.modes.iter().filter(outside).count(),
