@@ -65,6 +65,8 @@ pub struct Stages {
     /// Those who keep their motion are in the way. Where their motion is withheld, so that nothing leaks,
     /// a guess at it would be an obstacle that is not there.
     pub kept_in_the_way: bool,
+    /// Of futures that coincide one takes another course; otherwise both stay as the initializer has them.
+    pub parted: bool,
     /// How each road user's futures are planned. The choice knows the whole map either way.
     pub planning: Planning,
     /// How refinement goes about its steps.
@@ -78,8 +80,6 @@ pub struct Refining {
     pub start: usize,
     /// The networks are shown the way downhill in the scene's energy and take their share of it.
     pub push: bool,
-    /// They attend to what the road user sees.
-    pub attention: bool,
     /// After the last step, drawn futures that still conflict are moved downhill without the networks; not
     /// those of a first sample that is chosen.
     pub settle: bool,
@@ -87,7 +87,7 @@ pub struct Refining {
 
 impl Default for Refining {
     fn default() -> Self {
-        Self { start: schedule::START, push: true, attention: true, settle: true }
+        Self { start: schedule::START, push: true, settle: true }
     }
 }
 
@@ -97,6 +97,7 @@ impl Default for Stages {
             shown: Shown::Chosen,
             guidance: true,
             kept_in_the_way: true,
+            parted: true,
             planning: Planning::default(),
             refining: Refining::default(),
         }

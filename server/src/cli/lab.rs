@@ -3,6 +3,7 @@
 use super::{Common, Exit, Failure, output};
 use clap::{Args, ValueEnum};
 use experts::Refining;
+use experts::net::Architecture;
 use lab::baselines::{self, Baseline, Kind};
 use lab::crop::Crop;
 use lab::eval::{Judged, Table};
@@ -219,8 +220,6 @@ impl From<DeviceWord> for Processor {
 enum PartWord {
     /// The way downhill in the scene's energy.
     Push,
-    /// Attention to what the road user sees.
-    Attention,
 }
 
 impl From<StageWord> for Stage {
@@ -468,7 +467,10 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
     let expert = args.expert.map(ExpertWord::name);
     let done = match args.baseline.map(Kind::from) {
         None => {
-            let options = lab::train::Options::new(records, stage, output);
+            let mut options = lab::train::Options::new(records, stage, output);
+            options.architecture = args
+                .expert
+                .map_or_else(Architecture::default, |expert| Architecture::of(expert.agent_type()));
             lab::train::run(&args.set(options, expert.unwrap_or_default()), &mut report)
         }
         Some(kind) => {
@@ -494,11 +496,7 @@ impl TrainArgs {
             processor: self.device.into(),
             threads: self.workers,
             seed: self.seed,
-            refining: Refining {
-                push: !self.without.contains(&PartWord::Push),
-                attention: !self.without.contains(&PartWord::Attention),
-                ..options.refining
-            },
+            refining: Refining { push: !self.without.contains(&PartWord::Push), ..options.refining },
             minutes: self.minutes,
             resume: self.resume,
             trained_on: self.trained_on,

@@ -41,8 +41,14 @@ fn integrate(v0: f64, caps: &Caps<'_>, brake: f64, wish: impl Fn(f64) -> f64) ->
 
 /// Approaches `speed_mps` by at most 1.5 m/s2 up and 2.5 down and keeps it, under the caps.
 pub fn cruising(v0: f64, speed_mps: f64, caps: &Caps<'_>) -> Progress {
-    let wish =
-        |t: f64| if speed_mps > v0 { (v0 + 1.5 * t).min(speed_mps) } else { (v0 - 2.5 * t).max(speed_mps) };
+    approaching(v0, speed_mps, if speed_mps > v0 { 1.5 } else { 2.5 }, caps)
+}
+
+/// Approaches `speed_mps` by `rate_mps2`, up or down, and keeps it, under the caps.
+pub fn approaching(v0: f64, speed_mps: f64, rate_mps2: f64, caps: &Caps<'_>) -> Progress {
+    let wish = |t: f64| {
+        if speed_mps > v0 { (v0 + rate_mps2 * t).min(speed_mps) } else { (v0 - rate_mps2 * t).max(speed_mps) }
+    };
     integrate(v0, caps, 4.0, wish)
 }
 

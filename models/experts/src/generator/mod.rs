@@ -8,6 +8,7 @@ mod parallel;
 mod realise;
 mod report;
 mod rollout;
+mod twins;
 mod weights;
 mod window;
 

@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 /// Steps between two instants.
 pub(super) const PER_INSTANT: usize = HORIZON_STEPS / INSTANTS;
 
-static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
+pub(super) static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
 
 /// One future as motion.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@
 use super::actor::{Actor, Role, come_near, kept_states};
 use super::noise::Key;
 use super::realise::{Motion, may_rest, realise, rest};
-use super::{Generator, KnownMap, parallel};
+use super::{Generator, KnownMap, parallel, twins};
 use crate::features::world::World;
 use crate::features::{MODES, RESIDUAL, stays_in_the_world};
 use crate::net::overlap::Pullback;
@@ -212,8 +212,7 @@ impl<'g> Window<'g> {
             let context: Context = expert.encode(&features)?;
             let said = expert.initialize(&context)?;
             let prepared = expert.prepare_refine(&context)?;
-            let attention = self.request.stages.refining.attention;
-            Ok::<_, GenerateError>((said, if attention { prepared } else { prepared.without_attention() }))
+            Ok::<_, GenerateError>((said, prepared))
         });
         let mut batches = Vec::with_capacity(groups.len());
         for ((agent_type, members), result) in groups.into_iter().zip(results) {
@@ -225,6 +224,9 @@ impl<'g> Window<'g> {
                     actor.residual = said.residual[row];
                     let sure = actor.planned.target.position.is_some();
                     actor.probability = softmax(&said.log_prob[row], if sure { 1.0 } else { DOUBT });
+                    if self.request.stages.parted {
+                        twins::part(&actor.planned, &mut actor.residual, &mut actor.probability);
+                    }
                 }
                 actor.stays_probability = stays_in_the_world(f64::from(said.stays[row]));
                 let free = actor.planned.target.is_free();

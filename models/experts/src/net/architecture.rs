@@ -1,5 +1,6 @@
 //! Sizes of an expert, kept in the header of its weights.
 
+use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
 use super::NetError;
@@ -9,7 +10,7 @@ use crate::features::{ANCHOR, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, RESID
 pub const TOKENS: usize = NEIGHBOURS + MODES;
 
 /// Generation of what features mean and of the networks' arithmetic.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Everything that decides the shapes of an expert's tensors and what they mean.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,10 +22,12 @@ pub struct Architecture {
     pub width: usize,
     /// Multi-context-gating blocks.
     pub gating_blocks: usize,
-    /// Cross-attention blocks of the refiner.
+    /// Blocks of the refiner.
     pub refiner_blocks: usize,
     /// Heads of every attention.
     pub heads: usize,
+    /// Scale of a draw's noise, percent of 1 m/s2 along and 1 m across.
+    pub noise_percent: u32,
     /// Sizes of the features the expert was trained on.
     pub features: FeatureSizes,
 }
@@ -64,12 +67,19 @@ impl Default for Architecture {
             gating_blocks: 4,
             refiner_blocks: 2,
             heads: 4,
+            noise_percent: 100,
             features: FeatureSizes::CURRENT,
         }
     }
 }
 
 impl Architecture {
+    /// For road users of a type: what is a shade of driving is a stagger on foot.
+    pub fn of(agent_type: AgentType) -> Self {
+        let noise_percent = if agent_type == AgentType::Pedestrian { 30 } else { 100 };
+        Self { noise_percent, ..Self::default() }
+    }
+
     /// Whether this program can run it.
     ///
     /// # Errors
@@ -87,6 +97,9 @@ impl Architecture {
             ));
         }
         let sizes = [self.width, self.gating_blocks, self.refiner_blocks, self.heads];
+        if !(1..=1000).contains(&self.noise_percent) {
+            return refuse(format!("noise of {} percent; 1 to 1000 can be", self.noise_percent));
+        }
         if sizes.iter().any(|&size| size == 0 || size > 4096) || !self.width.is_multiple_of(self.heads) {
             return refuse(format!("sizes {sizes:?} (width, blocks, heads) cannot be"));
         }

@@ -85,7 +85,7 @@ impl Initializer {
         let anchors = Tensor::cat(&[&context.anchors, &context.plain_anchors], 2)?;
         let known = self.context.forward(&context.vector)?.unsqueeze(1)?;
         let x = self.anchor.forward(&anchors)?.broadcast_add(&self.queries)?.broadcast_add(&known)?;
-        let x = self.block.forward(&x, &self.block.keys_values(&context.tokens)?, &context.mask)?;
+        let x = self.block.forward(&x, &context.tokens, &context.mask)?;
         // The modes see each other: gated by the context, whose update is their maximum.
         let gate = (candle_nn::ops::sigmoid(&self.gate.forward(&context.vector)?)? * 2.0)?;
         let x = self.norm.forward(&ops::gate_mix(&x, &self.token.forward(&x)?, &gate, 0.5)?)?;

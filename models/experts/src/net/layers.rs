@@ -124,7 +124,35 @@ impl Norm {
     }
 }
 
-/// Attention of queries to a context's tokens, then an MLP, each added to its input (pre-norm).
+/// An MLP added to its input (pre-norm), place by place.
+#[derive(Clone, Debug)]
+pub struct MlpBlock {
+    norm: Norm,
+    mlp: Mlp,
+}
+
+impl MlpBlock {
+    /// A block of a width.
+    ///
+    /// # Errors
+    /// When the parameters cannot be had.
+    pub fn new(p: &mut Params, name: &str, width: usize) -> std::result::Result<Self, NetError> {
+        Ok(Self {
+            norm: Norm::new(p, &format!("{name}_norm"), width)?,
+            mlp: Mlp::new(p, name, [width, 2 * width, width], 0.3)?,
+        })
+    }
+
+    /// `x` [.., width] to the same shape.
+    ///
+    /// # Errors
+    /// When the shape does not fit.
+    pub fn forward(&self, x: &Tensor) -> Result<Tensor> {
+        x + self.mlp.forward(&self.norm.forward(x)?)?
+    }
+}
+
+/// Attention of queries to a context's tokens, added to its input (pre-norm), then an [`MlpBlock`].
 #[derive(Clone, Debug)]
 pub struct CrossBlock {
     heads: usize,
@@ -132,8 +160,7 @@ pub struct CrossBlock {
     query: Linear,
     key_value: Linear,
     out: Linear,
-    mlp_norm: Norm,
-    mlp: Mlp,
+    mlp: MlpBlock,
 }
 
 impl CrossBlock {
@@ -153,34 +180,18 @@ impl CrossBlock {
             query: Linear::new(p, &format!("{name}.query"), width, width, 1.0)?,
             key_value: Linear::new(p, &format!("{name}.key_value"), width, 2 * width, 1.0)?,
             out: Linear::new(p, &format!("{name}.out"), width, width, 0.3)?,
-            mlp_norm: Norm::new(p, &format!("{name}.mlp_norm"), width)?,
-            mlp: Mlp::new(p, &format!("{name}.mlp"), [width, 2 * width, width], 0.3)?,
+            mlp: MlpBlock::new(p, &format!("{name}.mlp"), width)?,
         })
     }
 
-    /// Keys and values [batch, tokens, 2 width] of tokens [batch, tokens, width]: once for any number
-    /// of [`CrossBlock::forward`] calls.
-    ///
-    /// # Errors
-    /// When the shape does not fit.
-    pub fn keys_values(&self, tokens: &Tensor) -> Result<Tensor> {
-        self.key_value.forward(tokens)
-    }
-
-    /// `x` [batch, queries, width] to the same shape; `mask` [batch, tokens] is additive.
+    /// `x` [batch, queries, width] to the same shape, attending to `tokens` [batch, tokens, width]; `mask`
+    /// [batch, tokens] is additive.
     ///
     /// # Errors
     /// When the shapes do not fit.
-    pub fn forward(&self, x: &Tensor, keys_values: &Tensor, mask: &Tensor) -> Result<Tensor> {
+    pub fn forward(&self, x: &Tensor, tokens: &Tensor, mask: &Tensor) -> Result<Tensor> {
         let q = self.query.forward(&self.query_norm.forward(x)?)?;
-        self.alone(&(x + self.out.forward(&ops::attention(&q, keys_values, mask, self.heads)?)?)?)
-    }
-
-    /// The block without its attention: nothing of the context's tokens enters.
-    ///
-    /// # Errors
-    /// When the shape does not fit.
-    pub fn alone(&self, x: &Tensor) -> Result<Tensor> {
-        x + self.mlp.forward(&self.mlp_norm.forward(x)?)?
+        let seen = ops::attention(&q, &self.key_value.forward(tokens)?, mask, self.heads)?;
+        self.mlp.forward(&(x + self.out.forward(&seen)?)?)
     }
 }

@@ -8,7 +8,7 @@ use candle_core::{Result, Tensor};
 use super::NetError;
 use super::architecture::Architecture;
 use super::encoder::Context;
-use super::layers::{CrossBlock, Linear, Mlp, Norm, RELU_GAIN};
+use super::layers::{Linear, Mlp, MlpBlock, Norm, RELU_GAIN};
 use super::params::Params;
 use super::{ops, schedule, smooth};
 use crate::features::{MODES, RESIDUAL};
@@ -23,41 +23,28 @@ const SPREAD: f64 = 1.5;
 pub struct Prepared {
     /// Anchors and context, [batch, MODES, width].
     base: Tensor,
-    /// One a block; none where attention is left out.
-    keys_values: Vec<Option<Tensor>>,
-    mask: Tensor,
     tangent: Tensor,
 }
 
 impl Prepared {
-    /// The same without attention to the tokens, to see what that brings.
-    #[must_use]
-    pub fn without_attention(mut self) -> Self {
-        self.keys_values.fill(None);
-        self
-    }
-
     /// The same numbers without their history, so that nothing flows back through them.
     pub fn detach(&self) -> Self {
-        Self {
-            base: self.base.detach(),
-            keys_values: self.keys_values.iter().map(|kv| kv.as_ref().map(Tensor::detach)).collect(),
-            mask: self.mask.clone(),
-            tangent: self.tangent.clone(),
-        }
+        Self { base: self.base.detach(), tangent: self.tangent.clone() }
     }
 }
 
-/// Denoises residuals by cross-attention to condition, map, neighbours and anchors.
+/// Denoises residuals given their anchors and the context vector. Attention to the context's tokens at each
+/// step, as in the paper, brought nothing beside the push and is left to the initializer.
 #[derive(Clone, Debug)]
 pub struct Refiner {
     draft: Linear,
     anchor: Linear,
     context: Linear,
-    blocks: Vec<CrossBlock>,
+    blocks: Vec<MlpBlock>,
     norm: Norm,
     head: Mlp,
     smooth: Tensor,
+    noise_scale: f64,
 }
 
 impl Refiner {
@@ -68,7 +55,7 @@ impl Refiner {
     pub fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
         let d = a.width;
         let blocks = (0..a.refiner_blocks)
-            .map(|block| CrossBlock::new(p, &format!("refiner.blocks.{block}"), d, a.heads))
+            .map(|block| MlpBlock::new(p, &format!("refiner.blocks.{block}.mlp"), d))
             .collect::<std::result::Result<_, _>>()?;
         let draft = Linear::new(p, "refiner.draft", 2 * RESIDUAL + LEVEL, d, RELU_GAIN)?;
         let head = Mlp::new(p, "refiner.head", [d, d, RESIDUAL + 2], 0.02)?;
@@ -81,10 +68,11 @@ impl Refiner {
             norm,
             head,
             smooth: smooth::matrix(p.device())?,
+            noise_scale: f64::from(a.noise_percent) / 100.0,
         })
     }
 
-    /// Keys, values and what else does not change between steps.
+    /// What does not change between steps.
     ///
     /// # Errors
     /// When the shapes do not fit.
@@ -93,12 +81,6 @@ impl Refiner {
         let known = self.context.forward(&context.vector)?.unsqueeze(1)?;
         Ok(Prepared {
             base: self.anchor.forward(&anchors)?.broadcast_add(&known)?,
-            keys_values: self
-                .blocks
-                .iter()
-                .map(|b| b.keys_values(&context.tokens).map(Some))
-                .collect::<Result<_>>()?,
-            mask: context.mask.clone(),
             tangent: context.tangent.clone(),
         })
     }
@@ -122,7 +104,7 @@ impl Refiner {
     }
 
     fn shape_noise(&self, prepared: &Prepared, noise: &Tensor) -> Result<Tensor> {
-        ops::project(&self.smoothed(noise)?, &prepared.tangent)
+        ops::project(&(self.smoothed(noise)? * self.noise_scale)?, &prepared.tangent)
     }
 
     fn smoothed(&self, z: &Tensor) -> Result<Tensor> {
@@ -151,11 +133,8 @@ impl Refiner {
             levels.iter().flat_map(|&level| std::iter::repeat_n(embed(level), modes)).flatten().collect();
         let times = Tensor::from_vec(times, (batch, modes, LEVEL), device)?;
         let mut x = (self.draft.forward(&Tensor::cat(&[residual, push, &times], 2)?)? + &prepared.base)?;
-        for (block, keys_values) in self.blocks.iter().zip(&prepared.keys_values) {
-            x = match keys_values {
-                Some(keys_values) => block.forward(&x, keys_values, &prepared.mask)?,
-                None => block.alone(&x)?,
-            };
+        for block in &self.blocks {
+            x = block.forward(&x)?;
         }
         let said = self.head.forward(&self.norm.forward(&x)?)?;
         let correction = (self.smoothed(&said.narrow(2, 0, RESIDUAL)?)? * SPREAD)?;

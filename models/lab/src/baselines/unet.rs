@@ -125,7 +125,7 @@ impl Unet {
         coarse = coarse.reshape((batch, MODES * points, ()))?;
         let tokens = self.token_norm.forward(&seen.tokens)?;
         for block in &self.attention {
-            coarse = block.forward(&coarse, &block.keys_values(&tokens)?, &seen.mask)?;
+            coarse = block.forward(&coarse, &tokens, &seen.mask)?;
         }
         let coarse = self.spread[1].forward(&coarse.reshape((lines, points, ()))?)?;
         let joined = Tensor::cat(&[&coarse.reshape(middle.shape())?, &middle], 2)?;

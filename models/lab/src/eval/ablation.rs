@@ -19,17 +19,19 @@ enum Without {
     Signals,
     Routes,
     Projection,
+    Parting,
     Refinement,
     Choice,
 }
 
 impl Without {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Nothing,
         Self::Neighbours,
         Self::Signals,
         Self::Routes,
         Self::Projection,
+        Self::Parting,
         Self::Refinement,
         Self::Choice,
     ];
@@ -41,6 +43,7 @@ impl Without {
             Self::Signals => "no signals",
             Self::Routes => "no route anchors",
             Self::Projection => "no projection",
+            Self::Parting => "no parting",
             Self::Refinement => "no refinement",
             Self::Choice => "no choice",
         }
@@ -59,6 +62,7 @@ impl Without {
         match self {
             Self::Routes => request.stages.planning.routes = false,
             Self::Projection => request.stages.planning.projection = false,
+            Self::Parting => request.stages.parted = false,
             Self::Choice => (request.stages.shown, request.stages.guidance) = (Shown::Likeliest, false),
             _ => {}
         }
@@ -158,7 +162,8 @@ pub fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u
             "No neighbours: the others are not there at all, neither as features nor as leaders. No signals: \
              the lights are not there. No route anchors: those of a vehicle with no lane near (straight on and \
              two arcs; least effort to a goal); one at rest then counts as parked. No projection: motions keep \
-             the limits, but what is left to the goal is left. No refinement: the initializer's futures \
+             the limits, but what is left to the goal is left. No parting: \
+             futures that coincide stay so. No refinement: the initializer's futures \
              without noise. No choice: the most probable future is shown.",
         ],
         &keys,
@@ -234,6 +239,7 @@ mod tests {
                 request.scene.signals.is_empty(),
                 !request.stages.planning.routes,
                 !request.stages.planning.projection,
+                !request.stages.parted,
                 request.steps == 0 && request.diversity == 0.0,
                 request.stages.shown == Shown::Likeliest,
             ];

@@ -39,7 +39,6 @@ fn ways() -> Vec<Way> {
         way("start level 5", 5, Refining { start: 5, ..full }),
         way("start level 20", 5, Refining { start: 20, ..full }),
         way("no push", 5, Refining { push: false, ..full }),
-        way("no attention", 5, Refining { attention: false, ..full }),
         way("no settling", 5, Refining { settle: false, ..full }),
     ]
 }
@@ -130,8 +129,7 @@ pub fn refining(
              edge. ADE of a draw and of the best of 12 for each road user, metres. Composite: table 4's realism, \
              of the 12 draws. Chosen: the scene shown, after choice and guidance.",
             "The same weights throughout, none trained for what is left out. No push: the way downhill in the \
-             scene's energy is zero. No attention: refinement sees nothing of map, others and anchors but what \
-             the draft's own anchor and the context vector say. No settling: the plain steps downhill in boxes, \
+             scene's energy is zero. No settling: the plain steps downhill in boxes, \
              boxes soon and road edges that follow the last step are left out.",
         ],
         &keys,

@@ -3,11 +3,12 @@
 use candle_core::{Device, Result, Tensor};
 use experts::Refining;
 use experts::features::agent::OWN_GOAL_POSITION;
-use experts::features::{AgentFeatures, MODES, RESIDUAL};
+use experts::features::{ALONG_SCALE, AgentFeatures, INSTANT_S, MODES, RESIDUAL};
 use experts::net::overlap::{Growth, Obstacle, Pullback, absent, gap, overlap};
 use experts::net::{Context, Expert, Initial, Prepared, schedule};
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::Rng;
+use scene::KNOTS;
 
 use super::loss::{self, InitialParts, Said};
 use super::metrics::Metrics;
@@ -49,11 +50,6 @@ pub(crate) struct Tools {
 impl Tools {
     pub(super) fn new(refining: Refining) -> Self {
         Self { route: Route::new(), pullback: Pullback::default(), refining }
-    }
-
-    fn prepare(&self, expert: &Expert, context: &Context) -> Result<Prepared> {
-        let prepared = expert.refiner.prepare(context)?;
-        Ok(if self.refining.attention { prepared } else { prepared.without_attention() })
     }
 }
 
@@ -203,7 +199,7 @@ fn denoiser(
     rng: &mut ChaCha12Rng,
     metrics: &mut Metrics,
 ) -> std::result::Result<Tensor, TrainError> {
-    let prepared = tools.prepare(expert, context)?;
+    let prepared = expert.refiner.prepare(context)?;
     let count = shard.records.len();
     // Half of the levels are those that refinement walks through.
     let levels: Vec<usize> = (0..count)
@@ -259,8 +255,11 @@ fn joint(
     rng: &mut ChaCha12Rng,
     metrics: &mut Metrics,
 ) -> std::result::Result<Tensor, TrainError> {
-    let prepared = tools.prepare(expert, context)?;
-    let drafts = initial.residual.detach();
+    let prepared = expert.refiner.prepare(context)?;
+    let mut drafts = arrays(&initial.residual)?;
+    for (record, draft) in shard.records.iter().zip(&mut drafts) {
+        take_by_surprise(&tools.route, record, draft, rng);
+    }
     let counts: Vec<Vec<bool>> =
         shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
     let scale = [0.0, unit(rng) as f32, 1.0][rng.next_u32() as usize % 3];
@@ -268,17 +267,43 @@ fn joint(
     let walk = Walk { expert, tools, shard, counts: &counts, prepared: prepared.detach() };
     let steps = schedule::ddim(start, schedule::STEPS);
     let taken = rng.next_u32() as usize % steps.len().max(1);
-    let before = walk.go(&drafts, start, &steps[..taken], &noise(rng, shard.records.len(), scale))?;
+    let before = walk.go(
+        &tensor(&drafts, expert.device())?,
+        start,
+        &steps[..taken],
+        &noise(rng, shard.records.len(), scale),
+    )?;
     let levels = vec![steps[taken].0; shard.records.len()];
     let push = tensor(&pushes(tools, shard, &counts, &arrays(&before)?), expert.device())?;
     let refined = expert.refiner.denoise(&prepared, &before, &push, &levels)?;
-    let drafts = arrays(&drafts)?;
     let mut grads = Vec::with_capacity(shard.records.len());
     for (index, refined) in arrays(&refined)?.iter().enumerate() {
         let (record, draft) = (&shard.records[index], &drafts[index]);
         grads.push(joint_gradient(tools, record, &counts[index], draft, refined, metrics));
     }
     Ok(seeded_modes(&refined, &grads)?)
+}
+
+/// In half of the records one mode changes its pace as the initializer would not have it: the generator makes such
+/// futures where two coincide, and refinement must leave them theirs.
+fn take_by_surprise(route: &Route, record: &Record, draft: &mut Modes, rng: &mut ChaCha12Rng) {
+    let [takes, mode, rate, until] = std::array::from_fn(|_| unit(rng));
+    if takes < 0.5 {
+        return;
+    }
+    let mode = (mode * MODES as f64) as usize;
+    let base = &record.target.base_along[mode];
+    let speed_mps = f64::from(base[0]) / INSTANT_S;
+    let rate = (2.0 * rate - 1.0) * (0.3 + 0.15 * speed_mps);
+    let until = (1.0 + until * (KNOTS - 1) as f64) as usize;
+    let mut changed = draft[mode];
+    for (row, knot) in record.agent.tangent[0].iter().zip(&mut changed) {
+        *knot += rate as f32 / ALONG_SCALE * row[..until].iter().sum::<f32>();
+    }
+    let along = route.coordinates(base, &changed);
+    if along.windows(2).all(|pair| pair[0][0] <= pair[1][0]) {
+        draft[mode] = changed;
+    }
 }
 
 /// The winner is pulled to the recording, the others to their drafts, all away from overlaps.
@@ -360,7 +385,7 @@ pub(super) fn validate(
     }
     let counts: Vec<Vec<bool>> =
         shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
-    let prepared = tools.prepare(expert, &context)?.detach();
+    let prepared = expert.refiner.prepare(&context)?.detach();
     let walk = Walk { expert, tools, shard, counts: &counts, prepared };
     let drafts = initial.residual.detach();
     let steps = schedule::ddim(schedule::START, schedule::STEPS);
