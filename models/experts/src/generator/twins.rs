@@ -1,9 +1,9 @@
 //! Six futures that say six things.
 //!
 //! Modes are told apart by their anchors, yet before a junction or in a queue they often do the same on every
-//! route. Of two that coincide one says nothing, and what drivers do that was not expected of them, to pull away
-//! or to stop, is said by nobody. So the less probable of the two says that. On recorded scenes it is then the
-//! best of the six in one case of fifteen; on synthetic ones, where the modes are sure with reason, nothing is lost.
+//! route. Of two that coincide one says nothing, while nobody says what was not expected: to pull away, or to halt.
+//! So the less probable of the two says that. In one recorded case of fifteen in which this happens it is then the
+//! best of the six; on synthetic traffic, where the modes are sure with reason, next to nothing is lost.
 
 use super::realise::{BASIS, PER_INSTANT, places};
 use crate::features::agent::Planned;

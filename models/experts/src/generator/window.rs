@@ -3,7 +3,7 @@
 
 use super::actor::{Actor, Role, come_near, kept_states};
 use super::noise::Key;
-use super::realise::{Motion, may_rest, realise, rest};
+use super::realise::{Motion, may_rest, realise, rest, without_creep};
 use super::{Generator, KnownMap, parallel, twins};
 use crate::features::world::World;
 use crate::features::{MODES, RESIDUAL, stays_in_the_world};
@@ -348,6 +348,7 @@ impl<'g> Window<'g> {
             let is_middle = options::middle_slot(actor) == Some(slot);
             let learned = if is_middle { options::learned_share(actor) } else { 1.0 };
             let motion = realise(&actor.planned, slot, &self.drafts[i][slot].map(|r| learned * r));
+            let motion = without_creep(&actor.planned, self.number, motion);
             out.push((share * actor.probability[slot], slot, motion));
         }
         out

@@ -205,7 +205,7 @@ impl Expert {
         })
     }
 
-    /// Keys and values for any number of [`Expert::refine_step`] calls.
+    /// What does not change between steps, for any number of [`Expert::refine_step`] calls.
     ///
     /// # Errors
     /// When the tensor library fails.

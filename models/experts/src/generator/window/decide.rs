@@ -2,7 +2,7 @@
 
 use super::super::actor::kept_boxes;
 use super::super::choice::{Choice, distance};
-use super::super::realise::{Motion, middle, realise};
+use super::super::realise::{Motion, middle, realise, without_creep};
 use super::options::{middle_slot, options, shown_motion};
 use super::{Decided, Window};
 use crate::features::MODES;
@@ -19,7 +19,8 @@ impl Window<'_> {
                 motions.extend(self.extras(i, &motions));
                 if let Some(residual) = &self.settled[i] {
                     let (planned, slot) = (&self.actors[i].planned, self.standing_for[i]);
-                    motions.push((0.0, slot, realise(planned, slot, residual)));
+                    let motion = without_creep(planned, self.number, realise(planned, slot, residual));
+                    motions.push((0.0, slot, motion));
                 }
                 motions
             });
@@ -101,7 +102,7 @@ impl Window<'_> {
         }
         let of_path = |group: Vec<&(f64, usize, Motion)>| {
             let drafts: Vec<_> = group.iter().map(|m| (m.0, m.1, self.drafts[i][m.1])).collect();
-            let motion = middle(&actor.planned, &drafts);
+            let motion = without_creep(&actor.planned, self.number, middle(&actor.planned, &drafts));
             let apart = |m: &(f64, usize, Motion)| distance(&m.2.states, &motion.states);
             let nearest = group.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?.1;
             Some((0.0, nearest, motion))
