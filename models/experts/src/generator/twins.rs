@@ -9,7 +9,8 @@ use super::realise::{BASIS, PER_INSTANT, places};
 use crate::features::agent::Planned;
 use crate::features::profile::{Caps, approaching};
 use crate::features::{ALONG_SCALE, INSTANTS, MODES, RESIDUAL};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{SMatrix, SVector};
+use scene::motion::Kind;
 use scene::{AgentType, KNOTS, Vec2};
 use std::sync::LazyLock;
 
@@ -32,7 +33,7 @@ struct Twin {
 }
 
 impl Twin {
-    /// Found on recorded scenes; half and twice as much change little.
+    /// Of what was tried on recorded scenes the best, by little.
     fn of(agent_type: AgentType) -> Self {
         match agent_type {
             AgentType::Pedestrian => Self { same_m: 1.0, apart_m: 0.5, rate_mps2: 0.7, going_mps: 1.6 },
@@ -93,24 +94,28 @@ fn apart(a: &[Vec2; INSTANTS], b: &[Vec2; INSTANTS]) -> f64 {
 
 /// Along knots that take an anchor's base to an even change of pace.
 fn pace(planned: &Planned, slot: usize, twin: &Twin, speed_mps: f64) -> [f32; KNOTS] {
-    static SOLVE: LazyLock<DMatrix<f64>> = LazyLock::new(|| {
+    /// Metres at the instants to knots, by least squares.
+    static SOLVE: LazyLock<SMatrix<f64, KNOTS, INSTANTS>> = LazyLock::new(|| {
         let rows = BASIS.along;
-        let basis = DMatrix::from_fn(INSTANTS, KNOTS, |i, k| f64::from(ALONG_SCALE * rows[i][k]));
+        let basis = SMatrix::<f64, INSTANTS, KNOTS>::from_fn(|i, k| f64::from(ALONG_SCALE * rows[i][k]));
         // A little ridge keeps the last knots, which hardly move anything, small.
-        let normal = basis.transpose() * &basis + DMatrix::identity(KNOTS, KNOTS) * 0.05;
-        normal.cholesky().map_or_else(|| DMatrix::zeros(KNOTS, INSTANTS), |c| c.solve(&basis.transpose()))
+        let normal = basis.tr_mul(&basis) + SMatrix::identity() * 0.05;
+        normal.cholesky().map_or_else(SMatrix::zeros, |c| c.solve(&basis.transpose()))
     });
     let anchor = &planned.anchors[slot];
-    let caps = Caps::new(anchor.path.arc_m(), &anchor.caps_mps);
+    let caps = match planned.model.kind {
+        Kind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
+        Kind::Walk => Caps::new(&[0.0], &[f64::INFINITY]),
+    };
     let v0 = planned.model.start_speed_mps();
     // Who is faster than that already keeps its pace.
     let speed_mps = if speed_mps > 0.0 { speed_mps.max(v0) } else { 0.0 };
     let wanted = approaching(v0, speed_mps, twin.rate_mps2, &caps);
-    let change = DVector::from_fn(INSTANTS, |i, _| {
+    let change = SVector::<f64, INSTANTS>::from_fn(|i, _| {
         let step = (i + 1) * PER_INSTANT;
         wanted[step] - anchor.base_at(step)
     });
-    let knots = &*SOLVE * change;
+    let knots = *SOLVE * change;
     std::array::from_fn(|k| knots[k] as f32)
 }
 
