@@ -1,6 +1,6 @@
 //! Table 7: what each part brings, by leaving it out.
 
-use super::measure::{is_met, left_to_goal, log_loss, measure};
+use super::measure::{given_motion, is_met, left_to_goal, log_loss, measure};
 use super::quality::request;
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
@@ -118,7 +118,7 @@ fn found(
     let Some(futures) = answer.samples.first().and_then(|s| s.agents.get(&log.id)) else { return Ok(None) };
     let Some(shown) = futures.modes.get(futures.chosen) else { return Ok(None) };
     let m = measure(log, case, subset, &futures.modes, futures.chosen);
-    let probabilities: Vec<f64> = futures.modes.iter().map(|f| f.probability).collect();
+    let probabilities = given_motion(&futures.modes);
     let goal = case.goal(site.scene, subset);
     let met = left_to_goal(&goal, case, shown).is_some_and(is_met);
     Ok(Some(Found {
@@ -155,15 +155,15 @@ pub fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u
         &[
             "Distances in metres. One vehicle at a time as in table 1: of all others only the state at the \
              first step is known, and nobody is kept out of the way of. The same weights throughout, none \
-             trained for what is left out. \"First\" is the future shown; log loss of the best future, six \
-             even ones give 1.79. Goals met: share of the cases with a goal in which the future shown meets \
+             trained for what is left out. \"First\" is the future shown; log loss of the best future given \
+             that the vehicle moves, six even ones give 1.79. Goals met: share of the cases with a goal in which the future shown meets \
              it. Off lanes: share of the shown future's steps more than 2.5 m off every lane; past edges: \
              with a corner past a road edge; n counts steps there (every third one at which the log is known).",
             "No neighbours: the others are not there at all, neither as features nor as leaders. No signals: \
              the lights are not there. No route anchors: those of a vehicle with no lane near (straight on and \
              two arcs; least effort to a goal); one at rest then counts as parked. No projection: motions keep \
-             the limits, but what is left to the goal is left. No parting: \
-             futures that coincide stay so. No refinement: the initializer's futures \
+             the limits, but what is left to the goal is left. No parting: futures that coincide stay so. \
+             No refinement: the initializer's futures \
              without noise. No choice: the most probable future is shown.",
         ],
         &keys,

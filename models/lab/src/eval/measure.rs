@@ -101,11 +101,19 @@ pub fn likeliest(futures: &[Future]) -> usize {
     best
 }
 
-/// Negative log likelihood of the best future; `None` where there was one alone, or for formulas, which give
-/// no probabilities.
+/// Probabilities of an answer's futures given that the road user moves, as in all cases it does: to stay has none.
+pub fn given_motion(futures: &[Future]) -> Vec<f64> {
+    let stays = |f: &Future| f.states.windows(2).all(|pair| pair[0].position() == pair[1].position());
+    let shares = futures.iter().map(|f| if stays(f) { 0.0 } else { f.probability });
+    let total: f64 = shares.clone().sum();
+    shares.map(|p| if total > 0.0 { p / total } else { 0.0 }).collect()
+}
+
+/// Negative log likelihood of the best future by [`given_motion`]; `None` where there was one alone, where it is to
+/// stay, or for formulas, which give no probabilities.
 pub fn log_loss(probabilities: &[f64], best: usize) -> Option<f64> {
-    let p = probabilities.get(best)?;
-    (probabilities.len() > 1).then(|| -p.max(1e-6).ln())
+    let p = *probabilities.get(best)?;
+    (probabilities.len() > 1 && p > 0.0).then(|| -p.max(1e-6).ln())
 }
 
 /// A future's state at a scene step.
@@ -221,6 +229,14 @@ mod tests {
     }
 
     #[test]
+    fn staying_has_no_share_among_those_that_move() {
+        let futures = [straight(0.6, 0.0, 0.0), straight(0.3, 5.0, 0.0), straight(0.1, 9.0, 0.0)];
+        let shares = given_motion(&futures);
+        assert!(shares.iter().zip([0.0, 0.75, 0.25]).all(|(a, b)| (a - b).abs() < 1e-12), "{shares:?}");
+        assert_eq!(given_motion(&futures[..1]), [0.0]);
+    }
+
+    #[test]
     fn with_a_goal_the_end_is_the_frame_before_it() {
         let log = log("a", 10.0, 91);
         let m = measure(&log, &case(&log), Subset::Pos, &[straight(1.0, 11.0, 0.0)], 0);
@@ -253,6 +269,7 @@ mod tests {
         assert_eq!(log_loss(&[0.5, 0.5], 1), Some(2.0_f64.ln()));
         assert_eq!(log_loss(&[1.0], 0), None);
         assert_eq!(log_loss(&[], 0), None);
+        assert_eq!(log_loss(&[0.0, 1.0], 0), None);
     }
 
     #[test]

@@ -5,7 +5,9 @@ mod sheets;
 
 pub use sheets::Quality;
 
-use super::measure::{Measured, can_be_followed, is_met, is_outside_limits, left_to_goal, measure};
+use super::measure::{
+    Measured, can_be_followed, given_motion, is_met, is_outside_limits, left_to_goal, measure,
+};
 use super::rivals::{Rival, learned};
 use super::{Case, Entrants, Site, Subset, answer};
 use anyhow::Result;
@@ -230,11 +232,7 @@ fn site_outcomes(entrants: Entrants<'_>, site: &Site<'_>, seed: u64) -> Result<V
                     method,
                     measured: measure(log, case, subset, &futures.modes, futures.chosen),
                     manner,
-                    probabilities: if learned {
-                        futures.modes.iter().map(|f| f.probability).collect()
-                    } else {
-                        Vec::new()
-                    },
+                    probabilities: if learned { given_motion(&futures.modes) } else { Vec::new() },
                     goal: learned.then(|| verdict(site, case, subset, &futures, reported)),
                 });
             }

@@ -58,7 +58,7 @@ impl<'a> Quality<'a> {
                  the state at the first step is known. \"First\" is the future shown; FDE is taken at the log's \
                  last frame, with a goal position at the frame before. Heading and speed are those of the future \
                  closest at its end, as in the paper, whose ADE stands under \"closest\". Log loss of the best \
-                 future; six even ones give 1.79.",
+                 future given that the road user moves, as all of these do; six even ones give 1.79.",
                 "The others' motion is withheld, so nobody is kept out of the way of: a guess at it would be an \
                  obstacle that is not there. Table 2 has everybody generated together.",
             ],
@@ -259,7 +259,10 @@ impl<'a> Quality<'a> {
     fn reliability(&self) -> Sheet {
         let mut sheet = Sheet::new(
             "1d Do the probabilities mean what they say?",
-            &["Futures of all types and conditions by the probability given to them; right is the best one."],
+            &[
+                "Futures of all types and conditions by the probability given to them, given that the road user \
+                 moves; right is the best one.",
+            ],
             &["who", "bin"],
             &["mean probability", "right"],
         );
@@ -271,7 +274,7 @@ impl<'a> Quality<'a> {
                 let futures = || {
                     mine.iter().flat_map(|o| {
                         let all = o.probabilities.iter().enumerate();
-                        all.map(|(k, p)| (o.site, *p, o.measured.best == k))
+                        all.map(|(k, p)| (o.site, *p, o.measured.best == k)).filter(|(_, p, _)| *p > 0.0)
                     })
                 };
                 let inside = || futures().filter(|(_, p, _)| ((p * 10.0) as usize).min(9) == bin);
