@@ -8,6 +8,8 @@ mod parallel;
 mod realise;
 mod report;
 mod rollout;
+#[cfg(test)]
+mod samples;
 mod twins;
 mod weights;
 mod window;

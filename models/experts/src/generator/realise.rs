@@ -167,3 +167,27 @@ pub(super) fn may_rest(planned: &Planned, window: usize) -> bool {
     planned.present.start.speed_mps() < standing_mps
         && Residuals::of(&still(planned), &planned.target).is_met()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use scene::Goal;
+
+    #[test]
+    fn who_stands_goes_or_stays_to_the_last_bit() {
+        // To the front at an even pace, this far in all.
+        let crept = |planned: &Planned, metres: f64| {
+            let mut motion = rest(planned);
+            for (step, state) in motion.states.iter_mut().enumerate() {
+                state.position.x += metres * step as f64 / HORIZON_STEPS as f64;
+            }
+            without_creep(planned, 0, motion).states[HORIZON_STEPS].position.x
+        };
+        let standing = car_on_a_street(0.0, Goal::default());
+        assert_eq!([crept(&standing, 0.4), crept(&standing, 0.6)], [0.0, 0.6]);
+        let asked = Goal { position: Some(Vec2::new(0.4, 0.0)), ..Goal::default() };
+        assert_eq!(crept(&car_on_a_street(0.0, asked), 0.4), 0.4);
+        assert_eq!(crept(&car_on_a_street(1.0, Goal::default()), 0.4), 0.4);
+    }
+}

@@ -123,42 +123,11 @@ fn pace(planned: &Planned, slot: usize, twin: &Twin, speed_mps: f64) -> [f32; KN
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::agent::plan;
-    use crate::features::world::World;
-    use scene::map::{Lane, LaneMap};
-    use scene::routes::LaneGraph;
-    use scene::{Agent, Conditions, Goal, Meta, Scene, Size, State, Subtype, Timing, Track};
-    use std::collections::BTreeMap;
-    use std::sync::Arc;
+    use crate::generator::samples::car_on_a_street;
+    use scene::Goal;
 
-    /// A car at 10 m/s on a long street.
     fn planned(goal: Goal) -> Planned {
-        let street: Vec<Vec2> = (0..=300).map(|i| Vec2::new(f64::from(i) - 50.0, 0.0)).collect();
-        let map = LaneMap { lanes: vec![Lane::street("a", street)], ..LaneMap::default() };
-        let start = State { vx_mps: 10.0, ..State::default() };
-        let track = Track { first_step: 0, states: vec![Some(start)], z_m: None };
-        let agent = Agent {
-            id: "1".into(),
-            agent_type: AgentType::Vehicle,
-            subtype: Subtype::Car,
-            role: None,
-            size: Size::default_for(AgentType::Vehicle, Subtype::Car),
-            track,
-            conditions: Conditions { goal, ..Conditions::default() },
-        };
-        let scene = Scene {
-            id: None,
-            name: "street".into(),
-            meta: Meta::default(),
-            time: Timing { steps: 91, now_step: 0 },
-            map: Arc::new(map),
-            signals: Vec::new(),
-            agents: vec![agent],
-            generated: None,
-            extra: BTreeMap::new(),
-        };
-        let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), 0);
-        plan(&world, &world.present[0])
+        car_on_a_street(10.0, goal)
     }
 
     /// All modes at this pace.

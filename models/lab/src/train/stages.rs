@@ -406,3 +406,38 @@ pub(super) fn validate(
     }
     Ok(metrics)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::train::toy;
+    use rand_chacha::rand_core::SeedableRng;
+
+    #[test]
+    fn a_surprise_changes_the_pace_of_one_mode_and_keeps_the_goal() {
+        let route = Route::new();
+        let mut rng = ChaCha12Rng::seed_from_u64(5);
+        let (mut changed, mut calls) = (0, 0);
+        for (.., records) in toy::scenes(12, 5, 3) {
+            for record in &records {
+                let drafts = [[0.0; RESIDUAL]; MODES];
+                let mut taken = drafts;
+                take_by_surprise(&route, record, &mut taken, &mut rng);
+                calls += 1;
+                let modes: Vec<usize> = (0..MODES).filter(|mode| taken[*mode] != drafts[*mode]).collect();
+                assert!(modes.len() <= 1);
+                let Some(&mode) = modes.first() else { continue };
+                changed += 1;
+                assert!(taken[mode][KNOTS..] == drafts[mode][KNOTS..], "across");
+                let along = route.coordinates(&record.target.base_along[mode], &taken[mode]);
+                assert!(along.windows(2).all(|pair| pair[0][0] <= pair[1][0]), "backwards");
+                // A fixed goal's projection has nothing left to take away.
+                for (row, knot) in record.agent.tangent[0].iter().zip(&taken[mode]) {
+                    let kept: f32 = row.iter().zip(&taken[mode]).map(|(p, r)| p * r).sum();
+                    assert!((kept - knot).abs() < 1e-4, "{kept} {knot}");
+                }
+            }
+        }
+        assert!((calls / 8..calls * 3 / 4).contains(&changed), "{changed} of {calls}");
+    }
+}
