@@ -4,10 +4,8 @@
 use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request};
 use scene::map::{Lane, LaneMap};
 use scene::motion::{MotionModel, MotionState, limit_excess};
-use scene::{
-    Agent, AgentType, Conditions, Future, Goal, Meta, Scene, Size, State, Subtype, Timing, Track, Vec2,
-};
-use std::collections::{BTreeMap, BTreeSet};
+use scene::{Agent, AgentType, Future, Goal, Scene, State, Subtype, Vec2};
+use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
 #[path = "generator/leaks.rs"]
@@ -38,15 +36,7 @@ fn agent(id: &str, agent_type: AgentType, at: (f64, f64), heading_rad: f64, spee
         let p = Vec2::new(at.0, at.1) + ahead * (speed * 0.1 * i as f64);
         State { x_m: p.x, y_m: p.y, heading_rad, vx_mps: ahead.x * speed, vy_mps: ahead.y * speed }
     };
-    Agent {
-        id: id.into(),
-        agent_type,
-        subtype: Subtype::Unknown,
-        role: None,
-        size: Size::default_for(agent_type, Subtype::Unknown),
-        track: Track { first_step: 0, states: (0..91).map(|i| Some(state(i))).collect(), z_m: None },
-        conditions: Conditions::default(),
-    }
+    Agent::bare(id, agent_type, Subtype::Unknown, (0..91).map(|i| Some(state(i))).collect())
 }
 
 /// Two streets that cross, with cars, a cyclist, a pedestrian and a parked car.
@@ -65,25 +55,15 @@ fn crossing() -> Scene {
         ],
         ..LaneMap::default()
     };
-    let scene = Scene {
-        id: None,
-        name: "crossing".into(),
-        meta: Meta::default(),
-        time: Timing { steps: 91, now_step: 0 },
-        map: Arc::new(map),
-        signals: Vec::new(),
-        agents: vec![
-            agent("1", AgentType::Vehicle, (-40.0, -1.75), 0.0, 8.0),
-            agent("2", AgentType::Vehicle, (-60.0, -1.75), 0.0, 9.0),
-            agent("3", AgentType::Vehicle, (1.75, -45.0), FRAC_PI_2, 8.0),
-            agent("4", AgentType::Cyclist, (1.9, -20.0), FRAC_PI_2, 4.0),
-            agent("5", AgentType::Pedestrian, (-12.0, 6.0), -FRAC_PI_2, 1.3),
-            agent("6", AgentType::Vehicle, (-30.0, -6.5), 0.0, 0.0),
-        ],
-        generated: None,
-        extra: BTreeMap::new(),
-    };
-    scene.checked().unwrap()
+    let agents = vec![
+        agent("1", AgentType::Vehicle, (-40.0, -1.75), 0.0, 8.0),
+        agent("2", AgentType::Vehicle, (-60.0, -1.75), 0.0, 9.0),
+        agent("3", AgentType::Vehicle, (1.75, -45.0), FRAC_PI_2, 8.0),
+        agent("4", AgentType::Cyclist, (1.9, -20.0), FRAC_PI_2, 4.0),
+        agent("5", AgentType::Pedestrian, (-12.0, 6.0), -FRAC_PI_2, 1.3),
+        agent("6", AgentType::Vehicle, (-30.0, -6.5), 0.0, 0.0),
+    ];
+    Scene::bare("crossing", map, agents).checked().unwrap()
 }
 
 fn run(generator: &Generator, request: Request) -> Answer {

@@ -380,7 +380,6 @@ impl Summary {
 mod tests {
     use super::*;
     use scene::{Size, Subtype, Track};
-    use std::sync::Arc;
 
     fn car(id: &str, speed: f64, acceleration: f64) -> Agent {
         let states = (0..91).map(|i| {
@@ -406,17 +405,7 @@ mod tests {
     fn known_motions_give_known_numbers() {
         let mut ahead = car("b", 6.0, 0.0);
         ahead.track.states.iter_mut().flatten().for_each(|s| s.x_m += 20.0);
-        let scene = Scene {
-            id: None,
-            name: "two cars".into(),
-            meta: scene::Meta::default(),
-            time: scene::Timing { steps: 91, now_step: 0 },
-            map: Arc::default(),
-            signals: Vec::new(),
-            agents: vec![car("a", 2.0, 1.0), ahead],
-            generated: None,
-            extra: BTreeMap::new(),
-        };
+        let scene = Scene::bare("two cars", scene::LaneMap::default(), vec![car("a", 2.0, 1.0), ahead]);
         let mut statistics = Statistics::default();
         statistics.add(&scene);
         let row = |key: &str| statistics.summary(key).unwrap();

@@ -154,6 +154,24 @@ pub struct Agent {
 }
 
 impl Agent {
+    /// Of the usual size, from the first step on; nothing is fixed.
+    pub fn bare(
+        id: impl Into<AgentId>,
+        agent_type: AgentType,
+        subtype: Subtype,
+        states: Vec<Option<State>>,
+    ) -> Self {
+        Self {
+            id: id.into(),
+            agent_type,
+            subtype,
+            role: None,
+            size: Size::default_for(agent_type, subtype),
+            track: Track { first_step: 0, states, z_m: None },
+            conditions: Conditions::default(),
+        }
+    }
+
     /// Logged state at `step`, with its heading wrapped.
     pub fn state_at(&self, step: usize) -> Option<State> {
         self.track.at(step).map(|s| State { heading_rad: wrap_angle(s.heading_rad), ..*s })

@@ -1,6 +1,6 @@
 //! The whole scene and what makes one valid.
 
-use crate::{Agent, AgentId, AgentType, ContentHash, Generated, LaneMap, Signal, Vec2};
+use crate::{Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Signal, Vec2};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -99,6 +99,21 @@ impl SceneError {
 }
 
 impl Scene {
+    /// Road users on a map for one window from the first step on, with nothing else said.
+    pub fn bare(name: &str, map: LaneMap, agents: Vec<Agent>) -> Self {
+        Self {
+            id: None,
+            name: name.to_owned(),
+            meta: Meta::default(),
+            time: Timing { steps: HORIZON_STEPS + 1, now_step: 0 },
+            map: Arc::new(map),
+            signals: Vec::new(),
+            agents,
+            generated: None,
+            extra: std::collections::BTreeMap::new(),
+        }
+    }
+
     /// Checks everything that the types alone cannot promise; the only way scenes enter the program.
     ///
     /// # Errors

@@ -45,6 +45,9 @@ pub fn stays_in_the_world(said: f64) -> f64 {
     odds / (1.0 + odds)
 }
 
+/// Who keeps within this of its place for a whole window stays there, metres.
+pub const STAYS_WITHIN_M: f64 = 0.5;
+
 /// Scale of the along knots, m/s2: residuals are divided by it before they enter a network.
 pub const ALONG_SCALE: f32 = 1.0;
 /// Scale of the across knots, metres.

@@ -2,7 +2,7 @@
 //! rollout that meets the goal and the limits.
 
 use crate::features::agent::Planned;
-use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
+use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL, STAYS_WITHIN_M};
 use scene::geometry::direction;
 use scene::motion::{
     Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Target, Trajectory, fit, project,
@@ -149,16 +149,13 @@ pub(super) fn rest(planned: &Planned) -> Motion {
     Motion { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(residuals) }
 }
 
-/// Who stands and is not asked to go does not creep: less than [`CREEP_M`] in all is rest.
+/// Who stands and is not asked to go does not creep: less than [`STAYS_WITHIN_M`] in all is rest.
 pub(super) fn without_creep(planned: &Planned, window: usize, motion: Motion) -> Motion {
     let start = planned.present.start.position();
-    let creeps = |s: &MotionState| (s.position - start).norm() < CREEP_M;
+    let creeps = |s: &MotionState| (s.position - start).norm() < STAYS_WITHIN_M;
     let rests = planned.target.is_free() && may_rest(planned, window) && motion.states.iter().all(creeps);
     if rests { rest(planned) } else { motion }
 }
-
-/// Training calls it staying to keep within this, metres.
-const CREEP_M: f64 = 0.5;
 
 /// Standing at the start, and rest meets whatever is asked. What a recording shows standing may creep by
 /// its jitter; what an earlier window brought here has to have come to rest by its own motion.

@@ -6,6 +6,7 @@
 //! best of the six; on synthetic traffic, where the modes are sure with reason, next to nothing is lost.
 
 use super::realise::{BASIS, PER_INSTANT, places};
+use super::window::Residuals;
 use crate::features::agent::Planned;
 use crate::features::profile::{Caps, approaching};
 use crate::features::{ALONG_SCALE, INSTANTS, MODES, RESIDUAL};
@@ -13,9 +14,6 @@ use nalgebra::{SMatrix, SVector};
 use scene::motion::Kind;
 use scene::{AgentType, KNOTS, Vec2};
 use std::sync::LazyLock;
-
-/// Modes of one road user.
-type Modes = [[f32; RESIDUAL]; MODES];
 
 /// Probability of a future that takes a twin's place. More would be as likely on recorded scenes, where drivers do
 /// it, yet draws that do it while all others do as expected overlap.
@@ -46,7 +44,7 @@ impl Twin {
 
 /// Where nothing is asked, gives the less probable of the two nearest drafts something of its own to say if they
 /// coincide: to go or to halt on its path, whichever is farther from all others.
-pub(super) fn part(planned: &Planned, residual: &mut Modes, probability: &mut [f64; MODES]) {
+pub(super) fn part(planned: &Planned, residual: &mut Residuals, probability: &mut [f64; MODES]) {
     if !planned.target.is_free() {
         return;
     }
@@ -131,7 +129,7 @@ mod tests {
     }
 
     /// All modes at this pace.
-    fn alike(planned: &Planned, speed_mps: f64) -> Modes {
+    fn alike(planned: &Planned, speed_mps: f64) -> Residuals {
         let twin = Twin::of(AgentType::Vehicle);
         std::array::from_fn(|slot| {
             let mut residual = [0.0; RESIDUAL];

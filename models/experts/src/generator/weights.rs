@@ -5,10 +5,7 @@ use crate::net::Expert;
 use crate::placement::{FILE_NAME, PlacementInfo, PlacementModel};
 use crate::request::{Cancel, Request};
 use scene::map::Lane;
-use scene::{
-    Agent, AgentType, Conditions, ContentHash, LaneMap, Meta, Scene, Size, State, Subtype, Timing, Track,
-    Vec2,
-};
+use scene::{Agent, AgentType, ContentHash, LaneMap, Scene, State, Subtype, Vec2};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -109,27 +106,10 @@ pub(super) fn warm_up(generator: &Generator) {
     let agent = |i: usize| {
         let agent_type = EXPERTS[i % 3].0;
         let state = State { x_m: 6.0 * i as f64, vx_mps: 1.0, ..State::default() };
-        Agent {
-            id: i.to_string(),
-            agent_type,
-            subtype: Subtype::Unknown,
-            role: None,
-            size: Size::default_for(agent_type, Subtype::Unknown),
-            track: Track { first_step: 0, states: vec![Some(state)], z_m: None },
-            conditions: Conditions::default(),
-        }
+        Agent::bare(i.to_string(), agent_type, Subtype::Unknown, vec![Some(state)])
     };
-    let scene = Scene {
-        id: None,
-        name: String::new(),
-        meta: Meta::default(),
-        time: Timing { steps: 91, now_step: 0 },
-        map: Arc::new(LaneMap { lanes: vec![lane], ..LaneMap::default() }),
-        signals: Vec::new(),
-        agents: (0..24).map(agent).collect(),
-        generated: None,
-        extra: std::collections::BTreeMap::new(),
-    };
+    let map = LaneMap { lanes: vec![lane], ..LaneMap::default() };
+    let scene = Scene::bare("", map, (0..24).map(agent).collect());
     if let Ok(call) = generator.start(Request::new(Arc::new(scene)), Cancel::default()) {
         call.for_each(drop);
     }

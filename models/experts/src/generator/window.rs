@@ -6,7 +6,7 @@ use super::noise::Key;
 use super::realise::{Motion, may_rest, realise, rest, without_creep};
 use super::{Generator, KnownMap, parallel, twins};
 use crate::features::world::World;
-use crate::features::{MODES, RESIDUAL, stays_in_the_world};
+use crate::features::{MODES, RESIDUAL, STAYS_WITHIN_M, stays_in_the_world};
 use crate::net::overlap::Pullback;
 use crate::net::{Context, NetError, Prepared, schedule};
 use crate::request::{Draft, GenerateError, React, Request, Shown};
@@ -29,7 +29,7 @@ const SHOW_ALL_BELOW: usize = 5;
 /// is surer than recorded ones warrant (log loss on 71 recorded scenes 1.96 without it, 1.78 with it).
 const DOUBT: f64 = 2.5;
 
-type Residuals = [[f32; RESIDUAL]; MODES];
+pub(super) type Residuals = [[f32; RESIDUAL]; MODES];
 
 /// Road users of one expert that run in one network call.
 struct Batch {
@@ -183,7 +183,7 @@ impl<'g> Window<'g> {
         let found = parallel::map(self.generator.threads(), &candidates, |who| {
             let kept = kept_states(world.scene, world.agent(who), world.step);
             let asked = matches!(self.request.react, React::Only(_));
-            let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < 0.5);
+            let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < STAYS_WITHIN_M);
             let reach = |length: f64| 5.0 + 0.5 * (length + who.size.length_m);
             let near = paths.iter().any(|(path, length)| come_near(path, &kept, reach(*length)));
             let unmoved = world.conditions[who.index].start == scene::Start::default();

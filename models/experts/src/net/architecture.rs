@@ -96,10 +96,10 @@ impl Architecture {
                 FeatureSizes::CURRENT
             ));
         }
-        let sizes = [self.width, self.gating_blocks, self.refiner_blocks, self.heads];
         if !(1..=1000).contains(&self.noise_percent) {
             return refuse(format!("noise of {} percent; 1 to 1000 can be", self.noise_percent));
         }
+        let sizes = [self.width, self.gating_blocks, self.refiner_blocks, self.heads];
         if sizes.iter().any(|&size| size == 0 || size > 4096) || !self.width.is_multiple_of(self.heads) {
             return refuse(format!("sizes {sizes:?} (width, blocks, heads) cannot be"));
         }

@@ -1,12 +1,7 @@
 //! Hand-made road users and scenes for tests.
 
 use scene::map::Lane;
-use scene::{
-    Agent, AgentType, Conditions, Future, LaneMap, Meta, STEP_S, Scene, Size, State, Subtype, Timing, Track,
-    Vec2,
-};
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use scene::{Agent, AgentType, Future, LaneMap, STEP_S, Scene, State, Subtype, Vec2};
 
 /// A state on the way east.
 pub fn east(x_m: f64, y_m: f64, speed_mps: f64) -> State {
@@ -16,15 +11,7 @@ pub fn east(x_m: f64, y_m: f64, speed_mps: f64) -> State {
 /// A car that drives east from (0, 0) for so many steps.
 pub fn log(id: &str, speed_mps: f64, steps: usize) -> Agent {
     let states = (0..steps).map(|i| Some(east(speed_mps * STEP_S * i as f64, 0.0, speed_mps)));
-    Agent {
-        id: id.into(),
-        agent_type: AgentType::Vehicle,
-        subtype: Subtype::Car,
-        role: None,
-        size: Size::default_for(AgentType::Vehicle, Subtype::Car),
-        track: Track { first_step: 0, states: states.collect(), z_m: None },
-        conditions: Conditions::default(),
-    }
+    Agent::bare(id, AgentType::Vehicle, Subtype::Car, states.collect())
 }
 
 /// The same car moved.
@@ -47,15 +34,6 @@ pub fn scene(agents: Vec<Agent>) -> Scene {
         let points = (0..=30).map(|i| Vec2::new(f64::from(i) * 10.0 - 50.0, y)).collect::<Vec<_>>();
         Lane { speed_limit_mps: Some(13.4), ..Lane::street(id, points) }
     };
-    Scene {
-        id: None,
-        name: "road".into(),
-        meta: Meta::default(),
-        time: Timing { steps: 91, now_step: 0 },
-        map: Arc::new(LaneMap { lanes: vec![lane("a", 0.0), lane("b", 3.5)], ..LaneMap::default() }),
-        signals: Vec::new(),
-        agents,
-        generated: None,
-        extra: BTreeMap::new(),
-    }
+    let map = LaneMap { lanes: vec![lane("a", 0.0), lane("b", 3.5)], ..LaneMap::default() };
+    Scene::bare("road", map, agents)
 }

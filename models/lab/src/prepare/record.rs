@@ -5,7 +5,7 @@ use crate::train::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record};
 use experts::features::agent::{Planned, plan};
 use experts::features::anchors::Anchor;
 use experts::features::world::{Present, World};
-use experts::features::{INSTANTS, MODES, Target};
+use experts::features::{INSTANTS, MODES, STAYS_WITHIN_M, Target};
 use scene::geometry::{direction, rotate};
 use scene::{Agent, HORIZON_STEPS};
 
@@ -57,12 +57,12 @@ fn target(planned: &Planned, agent: &Agent, start_step: usize) -> Target {
     out
 }
 
-/// Keeps its place within half a metre for the whole window.
+/// Keeps its place for the whole window.
 fn stays(agent: &Agent, start_step: usize) -> bool {
     let Some(start) = agent.state_at(start_step) else { return false };
     let steps = agent.track.valid_steps().filter(|s| *s > start_step);
     let far = |s: usize| agent.state_at(s).map_or(0.0, |q| (q.position() - start.position()).norm());
-    steps.map(far).fold(0.0, f64::max) < 0.5
+    steps.map(far).fold(0.0, f64::max) < STAYS_WITHIN_M
 }
 
 /// The path, one point a metre, in the road user's frame.
