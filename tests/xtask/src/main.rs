@@ -1,4 +1,5 @@
 //! `cargo xtask test`: sets up what the checks need and runs all of them.
+//! `cargo xtask golden`: shows how the answers of the shipped weights differ from the golden ones.
 //!
 //! `cargo xtask test NAME…` runs some. What is missing on this machine (a browser) is skipped with a
 //! printed reason; a check that fails does not stop the others.
@@ -37,9 +38,14 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.split_first() {
         Some((command, names)) if command == "test" => test(names),
+        Some((command, [])) if command == "golden" => golden("review"),
+        Some((command, [flag])) if command == "golden" && flag == "--accept" => golden("accept"),
         _ => {
             let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
-            eprintln!("usage: cargo xtask test [NAME…]\nchecks: {}", names.join(", "));
+            let names = names.join(", ");
+            eprintln!(
+                "usage: cargo xtask test [NAME…]\n       cargo xtask golden [--accept]\nchecks: {names}"
+            );
             ExitCode::from(2)
         }
     }
@@ -69,6 +75,14 @@ fn test(names: &[String]) -> ExitCode {
     }
     println!("\n{}", lines.join("\n"));
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// Prints what changed in the golden answers; `accept` keeps it.
+fn golden(mode: &str) -> ExitCode {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let arguments = ["test", "--quiet", "--workspace", "--test", "golden", "--", "--nocapture"];
+    let status = Command::new(program).args(arguments).env("GOLDEN", mode).current_dir(root()).status();
+    if status.is_ok_and(|status| status.success()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// The repository's root.

@@ -1,0 +1,142 @@
+//! Golden answers: what the shipped weights say to a few calls, kept in `tests/golden`. A change of the code that
+//! changes an answer shows here first; `cargo xtask golden` prints what changed, `cargo xtask golden --accept`
+//! keeps it.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
+
+#[path = "golden/cases.rs"]
+mod cases;
+#[path = "golden/compare.rs"]
+mod compare;
+
+use cases::{CASES, Case};
+use compare::Differences;
+use dragtraffic_tests::program::root;
+use experts::{Cancel, Event, Generator};
+use scene::{AgentFutures, Sample, State};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// What happens to an answer that is not the golden one.
+#[derive(Clone, Copy, PartialEq)]
+enum Mode {
+    /// The test fails.
+    Check,
+    /// It is told, with how far it moved.
+    Review,
+    /// It is the golden one from now on.
+    Accept,
+}
+
+fn mode() -> Mode {
+    match std::env::var("GOLDEN").as_deref() {
+        Ok("review") => Mode::Review,
+        Ok("accept") => Mode::Accept,
+        _ => Mode::Check,
+    }
+}
+
+fn file(name: &str) -> PathBuf {
+    root().join("tests/golden").join(format!("{name}.json"))
+}
+
+/// Kept to 1e-5, finer than what counts as equal.
+fn rounded(value: f64) -> f64 {
+    (value * 1e5).round() / 1e5
+}
+
+/// x, y, heading, speed.
+fn state(s: &State) -> Value {
+    json!([s.x_m, s.y_m, s.heading_rad, s.speed_mps()].map(rounded))
+}
+
+/// Every state of a second, and the last.
+fn seconds(states: &[State]) -> Value {
+    let last = states.len().saturating_sub(1);
+    let picked = states.iter().enumerate().filter(|(i, _)| (i + 1) % 10 == 0 || *i == last);
+    picked.map(|(_, s)| state(s)).collect()
+}
+
+/// All futures of an answer; of a draft where the shown one ends.
+fn futures(of: &AgentFutures, all: bool) -> Value {
+    if !all {
+        let last = of.modes.get(of.chosen).and_then(|shown| shown.states.last());
+        return json!({"chosen": of.chosen, "ends": last.map(state)});
+    }
+    let modes = of.modes.iter().map(|f| {
+        json!({"anchor": f.anchor, "probability": rounded(f.probability), "first_step": f.first_step,
+            "steps": f.states.len(), "states": seconds(&f.states)})
+    });
+    json!({"chosen": of.chosen, "modes": modes.collect::<Vec<_>>()})
+}
+
+fn sample(of: &Sample, all: bool) -> Value {
+    of.agents.iter().map(|(id, f)| (id.clone(), futures(f, all))).collect::<serde_json::Map<_, _>>().into()
+}
+
+fn event(event: Event) -> Value {
+    match event {
+        Event::Accepted(a) => {
+            json!({"event": "accepted", "regenerated": a.regenerated, "reacting": a.reacting,
+            "fixed": a.fixed.len(), "steps": a.steps, "windows": a.windows, "warnings": a.warnings})
+        }
+        Event::Draft(d) => json!({"event": "draft", "window": d.window, "sample": d.sample, "step": d.step,
+            "futures": sample(&d.futures, false)}),
+        Event::Final(a) => {
+            let resolved = a.resolved.iter().map(|(id, r)| {
+                (id.clone(), json!({"type": r.agent_type, "reach": r.reach, "intermediate": r.intermediate}))
+            });
+            json!({"event": "final", "windows": a.windows, "warnings": a.warnings,
+                "resolved": resolved.collect::<serde_json::Map<_, _>>(),
+                "samples": a.samples.iter().map(|s| sample(s, true)).collect::<Vec<_>>()})
+        }
+    }
+}
+
+/// What the program says to a case now.
+fn answer(generator: &Generator, case: &Case) -> Value {
+    match case {
+        Case::Generate(request) => {
+            generator.start(request(), Cancel::default()).unwrap().map(|e| event(e.unwrap())).collect()
+        }
+        Case::Place(request) => {
+            let placed = generator.place(&request(), &Cancel::default()).unwrap();
+            let agents = placed.agents.iter().map(|a| {
+                let starts: Vec<Value> = a.track.states.iter().flatten().map(state).collect();
+                json!({"id": a.id, "type": a.agent_type, "subtype": a.subtype, "length_m": a.size.length_m,
+                    "width_m": a.size.width_m, "starts": starts})
+            });
+            json!({"agents": agents.collect::<Vec<_>>(), "unplaced": placed.unplaced, "reason": placed.reason})
+        }
+    }
+}
+
+#[test]
+fn the_shipped_weights_answer_as_they_did() {
+    let generator = Generator::built_in().unwrap().with_threads(1);
+    let mode = mode();
+    let mut failed = Vec::new();
+    for (name, case) in CASES {
+        let now = answer(&generator, case);
+        let golden = std::fs::read(file(name)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+        let differences = golden.map(|golden: Value| Differences::between(&golden, &now));
+        let equal = differences.as_ref().is_some_and(Differences::is_empty);
+        match &differences {
+            Some(found) if equal => println!("{name}: as it was (largest change {:.1e})", found.largest()),
+            Some(found) => println!("{name}: changed\n{found}"),
+            None => println!("{name}: new"),
+        }
+        if mode == Mode::Accept && !equal {
+            std::fs::create_dir_all(root().join("tests/golden")).unwrap();
+            std::fs::write(file(name), format!("{}\n", compare::text(&now))).unwrap();
+        }
+        if !equal {
+            failed.push(*name);
+        }
+    }
+    assert!(
+        mode != Mode::Check || failed.is_empty(),
+        "{} changed; `cargo xtask golden` shows how, `cargo xtask golden --accept` keeps it",
+        failed.join(", ")
+    );
+}
