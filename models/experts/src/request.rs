@@ -1,7 +1,7 @@
 //! What is asked of the generator, and the events it answers with.
 
-use crate::features::world::Planning;
 use crate::net::schedule;
+use crate::planning::world::Planning;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};

@@ -77,7 +77,7 @@ mod tests {
     use super::*;
     use crate::eval::samples::{log, scene, shifted};
     use experts::features::agent::plan;
-    use experts::features::world::World;
+    use experts::planning::world::World;
     use scene::routes::LaneGraph;
 
     #[test]

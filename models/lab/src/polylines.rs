@@ -2,7 +2,7 @@
 //! stretches of at most 20 m, each in its own frame. The experts do without (anchors say what they need of
 //! the map); the baselines see these.
 
-use experts::features::world::{Present, World};
+use experts::planning::world::{Present, World};
 use scene::geometry::polyline::Polyline;
 use scene::geometry::{direction, rotate};
 use scene::map::{LaneMap, LaneType};

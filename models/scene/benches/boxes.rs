@@ -4,7 +4,8 @@
 //! six by six futures 20 us, a scene of 128 road users over 91 steps 10 ms.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use scene::geometry::obb::{OrientedBox, iou, overlap_energy, signed_gap};
+use scene::geometry::obb::{OrientedBox, iou, signed_gap};
+use scene::geometry::overlap_energy::{Growth, MovingBox, overlap_energy};
 use scene::geometry::ttc::time_to_collision;
 use scene::map::{Area, LaneMap};
 use scene::score::{
@@ -23,7 +24,12 @@ fn boxes(c: &mut Criterion) {
     c.bench_function("gap apart", |b| b.iter(|| signed_gap(black_box(&a), black_box(&near))));
     c.bench_function("gap overlapping", |b| b.iter(|| signed_gap(black_box(&a), black_box(&inside))));
     c.bench_function("iou", |b| b.iter(|| iou(black_box(&a), black_box(&inside))));
-    c.bench_function("energy", |b| b.iter(|| overlap_energy(black_box(&a), black_box(&inside), 0.5)));
+    let own = [[0.0, 0.0, 1.0, 0.0]; 18];
+    let other = [[2.0, 1.0, 0.8, 0.6]; 18];
+    let obstacle = MovingBox { poses: &other, half: [2.3, 1.0] };
+    c.bench_function("energy of 18 instants", |b| {
+        b.iter(|| overlap_energy(black_box(&own), [2.3, 1.0], [black_box(obstacle)], Growth::Square));
+    });
     c.bench_function("time to collision", |b| {
         b.iter(|| time_to_collision(black_box(&a), velocity, black_box(&near), -velocity, 8.0));
     });

@@ -1,6 +1,6 @@
 //! Road users: type, size, recorded track, conditions.
 
-use crate::{Conditions, STEP_S, Vec2, wrap_angle};
+use crate::{Conditions, Vec2, wrap_angle};
 use serde::{Deserialize, Serialize};
 
 /// Identifier of a road user, unique in a scene, `[A-Za-z0-9_.:-]{1,64}`.
@@ -53,7 +53,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// The size a road user of this kind has when nobody says otherwise (medians of `recipe.md`).
+    /// The size a road user of this kind has when nobody says otherwise (medians of recorded ones).
     pub fn default_for(agent_type: AgentType, subtype: Subtype) -> Self {
         let (length_m, width_m, height_m) = match (agent_type, subtype) {
             (_, Subtype::Truck) => (8.5, 2.5, 3.2),
@@ -177,8 +177,8 @@ impl Agent {
         self.track.at(step).map(|s| State { heading_rad: wrap_angle(s.heading_rad), ..*s })
     }
 
-    /// Scene time of the last known state, seconds.
-    pub fn last_seen_s(&self) -> Option<f64> {
-        self.track.last_valid_step().map(|i| i as f64 * STEP_S)
+    /// What it counts as: the type that the user gave it, else its own. The gate of the experts.
+    pub fn kind(&self) -> AgentType {
+        self.conditions.kind_of(self)
     }
 }

@@ -1,6 +1,6 @@
 //! What a user fixes about a road user: start and goal, each field free (`None`) or fixed.
 
-use crate::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
+use crate::{Agent, AgentType, HORIZON_STEPS, STEP_S, Vec2};
 use serde::Serialize;
 
 /// Where a road user starts. A free field comes from the log, else from defaults.
@@ -62,5 +62,10 @@ impl Conditions {
     /// True when nothing at all is fixed.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// What a road user counts as under these conditions.
+    pub fn kind_of(&self, agent: &Agent) -> AgentType {
+        self.agent_type.unwrap_or(agent.agent_type)
     }
 }

@@ -15,11 +15,11 @@ pub mod hash;
 pub mod limits;
 pub mod map;
 pub mod motion;
+pub mod random;
 pub mod routes;
+mod scene;
 pub mod score;
 pub mod signal;
-#[path = "scene.rs"]
-mod whole;
 
 pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
 pub use condition::{Conditions, Goal, Start};
@@ -27,11 +27,11 @@ pub use generated::{AgentFutures, Future, Generated, Sample};
 pub use geometry::{Vec2, wrap_angle};
 pub use hash::ContentHash;
 pub use map::LaneMap;
-pub use signal::{Signal, SignalState};
-pub use whole::{
+pub use scene::{
     MAX_AGENTS, MAX_COORDINATE_M, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,
 };
-pub use whole::{Meta, Origin, Scene, SceneError, Timing};
+pub use scene::{Meta, Origin, Scene, SceneError, Timing};
+pub use signal::{Signal, SignalState};
 
 /// Length of one step in seconds, fixed for the whole product (10 Hz).
 pub const STEP_S: f64 = 0.1;
@@ -39,9 +39,11 @@ pub const STEP_S: f64 = 0.1;
 pub const HORIZON_STEPS: usize = 90;
 /// Most steps of one answer, planned window after window (20 s).
 pub const MAX_HORIZON_STEPS: usize = 200;
-/// Control knots of a future, one a second from 0 to 9 s (`model.md` section 1: more bring nothing). One
+/// Control knots of a future, one a second from 0 to 9 s (more fit recorded motion no better). One
 /// less than them divides the horizon's steps.
 pub const KNOTS: usize = 10;
+/// Who is slower than this stands, m/s: recorded road users that wait are given speeds up to it.
+pub const STANDING_MPS: f64 = 0.3;
 /// Steps from a knot to the next.
 pub const KNOT_STEPS: usize = HORIZON_STEPS / (KNOTS - 1);
 /// Seconds from a knot to the next.

@@ -1,12 +1,11 @@
 //! What an expert sees of one road user: its own state and condition, the others, its anchors, and the
 //! projections that keep a fixed goal.
 
-use super::anchors::{Anchor, PathKind, anchors};
-use super::profile::speed_at;
-use super::world::{Present, World};
-use super::{
-    ANCHOR, AgentFeatures, MODES, NEIGHBOUR, NEIGHBOURS, OWN, hat, integrated_hat, twice_integrated_hat,
-};
+use super::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN};
+use crate::planning::anchors::{Anchor, PathKind, anchors};
+use crate::planning::profile::speed_at;
+use crate::planning::world::{Present, World};
+use crate::planning::{MODES, hat, integrated_hat, twice_integrated_hat};
 use nalgebra::DMatrix;
 use scene::geometry::{direction, rotate};
 use scene::motion::{MotionModel, Target};
@@ -27,7 +26,7 @@ pub struct Planned {
     pub anchors: Vec<Anchor>,
     /// For the networks.
     pub features: AgentFeatures,
-    /// Motions are projected onto the goal: see [`Planning::projection`](super::world::Planning).
+    /// Motions are projected onto the goal: see [`Planning::projection`](crate::planning::world::Planning).
     pub projected: bool,
 }
 

@@ -2,15 +2,15 @@
 
 use super::choice::swept_kept;
 use crate::features::agent::{Planned, plan, plan_with};
-use crate::features::anchors::{Anchor, PathKind};
-use crate::features::profile::Progress;
-use crate::features::world::{Present, World};
-use crate::features::{MODES, RESIDUAL};
+use crate::planning::anchors::{Anchor, PathKind};
+use crate::planning::profile::Progress;
+use crate::planning::world::{Present, World};
+use crate::planning::{MODES, RESIDUAL};
 use scene::geometry::direction;
 use scene::motion::{Gear, Kind};
 use scene::routes::Polyline;
 use scene::score::SweptBoxes;
-use scene::{Agent, AgentId, AgentType, HORIZON_STEPS, STEP_S, Scene, State, Track, Vec2};
+use scene::{Agent, AgentId, AgentType, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, State, Track, Vec2};
 
 /// Why a road user gets new futures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -176,9 +176,6 @@ pub(super) fn kept_state(scene: &Scene, agent: &Agent, start_step: usize, step: 
     let moved = state.position() + state.velocity() * (at.saturating_sub(first) as f64 * STEP_S);
     Some(State { x_m: moved.x, y_m: moved.y, ..state })
 }
-
-/// Slower than this counts as standing where nothing more is known, m/s.
-const STANDING_MPS: f64 = 0.3;
 
 /// From where on nothing is known of a road user that keeps its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Goals that are due after a window's end: where to be by then, on the way to them.
 
-use crate::features::world::{Present, World};
+use crate::planning::world::{Present, World};
 use crate::request::NearestState;
 use scene::motion::{Kind, MotionModel};
 use scene::routes::{EndPose, GoalQuery, Polyline, base_path, routes_to_goal};

@@ -1,9 +1,7 @@
-//! Random numbers that depend on nothing but what they are for, so that neither the order of road
-//! users, nor the batch, nor the number of threads changes a byte.
+//! Noise of drafts, by what it is for.
 
-use crate::features::{MODES, RESIDUAL};
-use rand_chacha::ChaCha12Rng;
-use rand_core::{Rng, SeedableRng};
+use crate::planning::{MODES, RESIDUAL};
+use scene::random;
 
 /// What a stream of numbers is for.
 #[derive(Clone, Copy, Debug)]
@@ -17,18 +15,15 @@ pub(super) struct Key<'a> {
 }
 
 impl Key<'_> {
-    fn stream(&self) -> ChaCha12Rng {
-        let mut hasher = blake3::Hasher::new();
-        for number in [self.seed, self.sample as u64, self.window as u64, self.step as u64] {
-            hasher.update(&number.to_le_bytes());
-        }
-        hasher.update(self.agent.as_bytes());
-        ChaCha12Rng::from_seed(*hasher.finalize().as_bytes())
+    fn stream(&self) -> random::Stream {
+        let numbers = [self.seed, self.sample as u64, self.window as u64, self.step as u64];
+        let key = numbers.into_iter().fold(random::Key::default(), random::Key::number);
+        key.text(self.agent).stream()
     }
 
     /// One number, even over 0 .. 1.
     pub(super) fn unit(&self) -> f64 {
-        unit(&mut self.stream())
+        self.stream().unit()
     }
 
     /// Standard normal numbers for the six modes, times `scale`.
@@ -36,19 +31,12 @@ impl Key<'_> {
         let mut stream = self.stream();
         let mut out = [[0.0; RESIDUAL]; MODES];
         for pair in out.as_flattened_mut().chunks_mut(2) {
-            // Box and Muller.
-            let radius = (-2.0 * (1.0 - unit(&mut stream)).ln()).sqrt();
-            let (sin, cos) = (std::f64::consts::TAU * unit(&mut stream)).sin_cos();
-            for (value, part) in pair.iter_mut().zip([cos, sin]) {
-                *value = (scale * radius * part) as f32;
+            for (value, normal) in pair.iter_mut().zip(stream.normal_pair()) {
+                *value = (scale * normal) as f32;
             }
         }
         out
     }
-}
-
-fn unit(stream: &mut ChaCha12Rng) -> f64 {
-    (stream.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 #[cfg(test)]

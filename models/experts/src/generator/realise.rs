@@ -2,7 +2,7 @@
 //! rollout that meets the goal and the limits.
 
 use crate::features::agent::Planned;
-use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL, STAYS_WITHIN_M};
+use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL, STAYS_WITHIN_M};
 use scene::geometry::direction;
 use scene::motion::{
     Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Target, Trajectory, fit, project,

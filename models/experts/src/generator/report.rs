@@ -3,7 +3,7 @@
 
 use super::actor::Actor;
 use super::realise::Motion;
-use crate::features::world::{Present, World};
+use crate::planning::world::{Present, World};
 use crate::request::{Field, Intermediate, NearestState, ReachReport, Resolved, Source, Warning};
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::motion::{Kind, Limiting, MotionState, Reach};

@@ -11,7 +11,7 @@ use super::actor::{Guessed, Role};
 use super::report::{self, Outcome};
 use super::window::{Decided, MOST_ACTORS, Spec, Window, steps};
 use super::{Generator, KnownMap};
-use crate::features::world::World;
+use crate::planning::world::World;
 use crate::request::{
     Accepted, Answer, Cancel, Event, GenerateError, Intermediate, ReachReport, React, Request, Resolved,
     Timings, Warning,
@@ -142,10 +142,7 @@ impl<'g> Generation<'g> {
             .filter(|i| keeps_a_future(i))
             .copied()
             .collect();
-        let moves = |i: &usize| {
-            let agent = &scene.agents[*i];
-            agent.conditions.agent_type.unwrap_or(agent.agent_type) != AgentType::Other
-        };
+        let moves = |i: &usize| scene.agents[*i].kind() != AgentType::Other;
         let late = guessed.keys().filter(|i| everybody && !here.contains(i) && moves(i));
         let arriving = late.copied().collect();
         Ok(Self {

@@ -1,7 +1,7 @@
 //! What tests of the generator's parts plan for.
 
 use crate::features::agent::{Planned, plan};
-use crate::features::world::World;
+use crate::planning::world::World;
 use scene::map::{Lane, LaneMap};
 use scene::routes::LaneGraph;
 use scene::{Agent, AgentType, Goal, Scene, State, Subtype, Vec2};

@@ -8,8 +8,8 @@
 use super::realise::{BASIS, PER_INSTANT, places};
 use super::window::Residuals;
 use crate::features::agent::Planned;
-use crate::features::profile::{Caps, approaching};
-use crate::features::{ALONG_SCALE, INSTANTS, MODES, RESIDUAL};
+use crate::planning::profile::{Caps, approaching};
+use crate::planning::{ALONG_SCALE, INSTANTS, MODES, RESIDUAL};
 use nalgebra::{SMatrix, SVector};
 use scene::motion::Kind;
 use scene::{AgentType, KNOTS, Vec2};

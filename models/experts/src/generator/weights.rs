@@ -33,7 +33,7 @@ impl WeightsInfo {
             licence: expert.card.licence.clone(),
             trained_on: expert.card.trained_on.clone(),
             horizon_s: scene::HORIZON_STEPS as f64 * scene::STEP_S,
-            modes: crate::features::MODES,
+            modes: crate::planning::MODES,
             untrained: expert.card.untrained,
         }
     }

@@ -4,7 +4,8 @@ use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
 use super::NetError;
-use crate::features::{ANCHOR, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, RESIDUAL};
+use crate::features::{ANCHOR, NEIGHBOUR, NEIGHBOURS, OWN};
+use crate::planning::{INSTANTS, MODES, RESIDUAL};
 
 /// Tokens of a context: neighbours, anchors.
 pub const TOKENS: usize = NEIGHBOURS + MODES;

@@ -9,7 +9,8 @@ use super::inputs::Inputs;
 use super::layers::{Linear, Mlp, Norm, RELU_GAIN};
 use super::ops;
 use super::params::Params;
-use crate::features::{ANCHOR, MODES, NEIGHBOUR, NEIGHBOURS, OWN};
+use crate::features::{ANCHOR, NEIGHBOUR, NEIGHBOURS, OWN};
+use crate::planning::MODES;
 
 /// What the initializer and the refiner know about a batch of road users.
 #[derive(Clone, Debug)]

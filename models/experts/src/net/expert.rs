@@ -12,7 +12,8 @@ use super::initializer::{Initial, Initializer};
 use super::inputs::Inputs;
 use super::params::Params;
 use super::refiner::{Prepared, Refiner};
-use crate::features::{AgentFeatures, MODES, RESIDUAL};
+use crate::features::AgentFeatures;
+use crate::planning::{MODES, RESIDUAL};
 
 /// The one member of the file's metadata. One, because the order of several would be by chance and the
 /// file's hash is its name.
@@ -231,7 +232,7 @@ impl Expert {
     }
 
     /// One refinement step from level `t` to `t_next`, levels as given by [`super::schedule::ddim`].
-    /// `push` is made by [`super::overlap::Pullback::push`] at the drafts; `noise` are standard normal
+    /// `push` is made by [`Pullback::push`](crate::planning::pullback::Pullback::push) at the drafts; `noise` are standard normal
     /// numbers, or nothing for a step without chance. One entry a road user in each.
     ///
     /// # Errors

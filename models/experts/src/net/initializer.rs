@@ -9,7 +9,7 @@ use super::layers::{CrossBlock, Linear, Mlp, Norm, RELU_GAIN};
 use super::ops;
 use super::params::{Init, Params};
 use super::smooth;
-use crate::features::{MODES, RESIDUAL};
+use crate::planning::{MODES, RESIDUAL};
 
 /// Spread of a residual when the last layer says 1.
 const SPREAD: f64 = 1.5;

@@ -3,7 +3,8 @@
 use candle_core::{Device, Result, Tensor};
 
 use super::architecture::TOKENS;
-use crate::features::{ANCHOR, AgentFeatures, MODES, NEIGHBOUR, NEIGHBOURS, OWN, RESIDUAL};
+use crate::features::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN};
+use crate::planning::{MODES, RESIDUAL};
 
 /// Added to the scores and maxima of padding.
 pub const NO: f32 = -1e4;

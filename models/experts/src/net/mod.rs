@@ -16,7 +16,6 @@ mod initializer;
 pub mod inputs;
 pub mod layers;
 pub mod ops;
-pub mod overlap;
 mod params;
 mod refiner;
 pub mod schedule;

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use candle_core::{DType, Device, Tensor, Var};
-use rand_chacha::ChaCha12Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use scene::random::{Key, Stream};
 
 use super::NetError;
 
@@ -19,7 +18,7 @@ pub enum Init {
 
 #[allow(clippy::large_enum_variant, reason = "one exists while a network is put together")]
 enum Source {
-    Random(ChaCha12Rng),
+    Random(Stream),
     Given(BTreeMap<String, Tensor>),
 }
 
@@ -38,7 +37,7 @@ pub struct Params {
 impl Params {
     /// Parameters drawn from a seed, the same on every machine.
     pub fn random(seed: u64, trainable: bool, device: &Device) -> Self {
-        Self::new(Source::Random(ChaCha12Rng::seed_from_u64(seed)), trainable, device)
+        Self::new(Source::Random(Key::default().text("weights").number(seed).stream()), trainable, device)
     }
 
     /// Parameters of a file.
@@ -60,7 +59,9 @@ impl Params {
                 let count = shape.iter().product::<usize>();
                 let values: Vec<f32> = match init {
                     Init::Constant(value) => vec![value as f32; count],
-                    Init::Normal(deviation) => (0..count).map(|_| (deviation * normal(rng)) as f32).collect(),
+                    Init::Normal(deviation) => {
+                        (0..count).map(|_| (deviation * rng.normal()) as f32).collect()
+                    }
                 };
                 Tensor::from_vec(values, shape, &self.device)?
             }
@@ -109,11 +110,4 @@ impl Params {
         }
         Ok((self.made, self.vars))
     }
-}
-
-/// A standard normal draw (Box and Muller's formula).
-pub(crate) fn normal(rng: &mut ChaCha12Rng) -> f64 {
-    let uniform = |bits: u64| ((bits >> 11) as f64 + 0.5) / (1u64 << 53) as f64;
-    let (a, b) = (uniform(rng.next_u64()), uniform(rng.next_u64()));
-    (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
 }

@@ -11,7 +11,7 @@ use super::encoder::Context;
 use super::layers::{Linear, Mlp, MlpBlock, Norm, RELU_GAIN};
 use super::params::Params;
 use super::{ops, schedule, smooth};
-use crate::features::{MODES, RESIDUAL};
+use crate::planning::{MODES, RESIDUAL};
 
 /// Numbers that say the noise level.
 const LEVEL: usize = 8;

@@ -1,17 +1,16 @@
 //! The networks as a whole: gradients, files, and the same bits alone and in a batch.
 
 use candle_core::{DType, Device, Tensor};
-use rand_chacha::ChaCha12Rng;
-use rand_chacha::rand_core::SeedableRng;
+use scene::random::Key;
 
-use super::params::normal;
 use super::*;
-use crate::features::{AgentFeatures, MODES, NEIGHBOURS, RESIDUAL};
+use crate::features::{AgentFeatures, NEIGHBOURS};
+use crate::planning::{MODES, RESIDUAL};
 
 /// A road user that sees `neighbours`, whose last along knot is held by a goal.
 fn agent(neighbours: usize, seed: u64) -> AgentFeatures {
-    let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    let mut draw = || normal(&mut rng) as f32;
+    let mut rng = Key::default().number(seed).stream();
+    let mut draw = || rng.normal() as f32;
     let mut tangent = Box::new([[[0.0; scene::KNOTS]; scene::KNOTS]; 2]);
     for knot in 0..scene::KNOTS {
         tangent[0][knot][knot] = if knot == scene::KNOTS - 1 { 0.0 } else { 1.0 };
@@ -30,8 +29,8 @@ fn agents() -> Vec<AgentFeatures> {
 }
 
 fn drafts(batch: usize, seed: u64) -> Vec<[[f32; RESIDUAL]; MODES]> {
-    let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    (0..batch).map(|_| std::array::from_fn(|_| std::array::from_fn(|_| normal(&mut rng) as f32))).collect()
+    let mut rng = Key::default().number(seed).stream();
+    (0..batch).map(|_| std::array::from_fn(|_| std::array::from_fn(|_| rng.normal() as f32))).collect()
 }
 
 /// All that inference gives, for some of the road users.
@@ -174,14 +173,14 @@ fn every_variable_has_a_gradient_that_matches_differences() {
     let all: Vec<&AgentFeatures> = agents.iter().take(3).collect();
     let value = || f64::from(probe(&expert, &all).to_scalar::<f32>().unwrap());
     let grads = probe(&expert, &all).backward().unwrap();
-    let mut rng = ChaCha12Rng::seed_from_u64(2);
+    let mut rng = Key::default().number(2).stream();
     for (name, var) in expert.vars() {
         let grad = grads.get(var.as_tensor()).unwrap_or_else(|| panic!("{name} has no gradient"));
         let norm = grad.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();
         assert!(norm > 0.0 && norm.is_finite(), "{name} has gradient norm {norm}");
         // Along the gradient and a random direction: the slope must be the inner product.
         let before = var.as_tensor().copy().unwrap();
-        let random: Vec<f32> = (0..before.elem_count()).map(|_| normal(&mut rng) as f32).collect();
+        let random: Vec<f32> = (0..before.elem_count()).map(|_| rng.normal() as f32).collect();
         let random = Tensor::from_vec(random, before.shape(), &Device::Cpu).unwrap();
         let unit = (grad / f64::from(norm)).unwrap();
         let length = random.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();

@@ -1,8 +1,6 @@
 //! What training needs to know: observations of recorded scenes and the form of the weights.
 
-pub use super::model::{
-    FORMAT, Histogram, PlacementModel, Rate, SPEED_CLASSES, STANDING_MPS, TypeModel, VERSION, kinds,
-};
+pub use super::model::{FORMAT, Histogram, PlacementModel, Rate, SPEED_CLASSES, TypeModel, VERSION, kinds};
 pub use super::observe::{CellCounts, Observation, SEEN_M, observe};
 pub use super::pose::{heading_classes, lateral_classes};
 pub use super::sites::SiteKind;

@@ -19,8 +19,6 @@ const MAX_BYTES: usize = 1 << 20;
 pub const SPEED_CLASSES: usize = 24;
 /// Width of a speed class after the first, in shares.
 pub const SPEED_STEP: f64 = 0.07;
-/// Below this a road user stands, m/s.
-pub const STANDING_MPS: f64 = 0.3;
 
 /// Numbers by class, even inside a class.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,9 +1,9 @@
 //! Places road users one at a time.
 
-use super::model::{PlacementModel, SPEED_STEP, STANDING_MPS, TypeModel};
+use super::model::{PlacementModel, SPEED_STEP, TypeModel};
 use super::observe::{driven_lane, may_hold};
 use super::pose::{Pose, draw_pose, draw_size};
-use super::random::{Dice, Weights};
+use super::random::{self, Weights};
 use super::region::Region;
 use super::sites::{LEADER, Site, SiteKind, Sites, leader_class};
 use super::speed::{
@@ -11,9 +11,11 @@ use super::speed::{
 };
 use super::stops::{Ahead, StopKind};
 use crate::request::{Cancel, GenerateError};
+use scene::STANDING_MPS;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::{direction, wrap_angle};
 use scene::limits::Limits;
+use scene::random::Stream;
 use scene::routes::LaneGraph;
 use scene::routes::speed::Obstacle;
 use scene::{
@@ -339,18 +341,18 @@ impl<'a> Placing<'a> {
             if cancel.is_cancelled() {
                 return Err(GenerateError::Cancelled);
             }
-            let mut dice = Dice::new(self.request.seed, purpose(agent_type), number);
-            done += usize::from(self.place_one(agent_type, &mut dice));
+            let mut stream = random::stream(self.request.seed, purpose(agent_type), number);
+            done += usize::from(self.place_one(agent_type, &mut stream));
         }
         Ok(done)
     }
 
-    fn place_one(&mut self, agent_type: AgentType, dice: &mut Dice) -> bool {
+    fn place_one(&mut self, agent_type: AgentType, stream: &mut Stream) -> bool {
         for _ in 0..TRIES {
-            let Some(at) = self.rates.get(&agent_type).and_then(|rates| rates.draw(dice)) else {
+            let Some(at) = self.rates.get(&agent_type).and_then(|rates| rates.draw(stream)) else {
                 return false;
             };
-            if let Some(placed) = self.draw(agent_type, at, dice) {
+            if let Some(placed) = self.draw(agent_type, at, stream) {
                 self.obstacles.push(Obstacle { outline: placed.outline(), speed_mps: 0.0 });
                 self.driving.push(placed.lane.is_some());
                 let lane = placed.lane.map(|lane| (lane, placed.pose.s_m));
@@ -374,17 +376,17 @@ impl<'a> Placing<'a> {
     }
 
     /// A road user in a cell, if one that fits is drawn.
-    fn draw(&self, agent_type: AgentType, at: usize, dice: &mut Dice) -> Option<Placed> {
+    fn draw(&self, agent_type: AgentType, at: usize, stream: &mut Stream) -> Option<Placed> {
         let site = &self.sites.all[at];
         let (size, subtype, mut pose) = match self.of_type(agent_type) {
             Some(model) => {
-                let (size, subtype) = draw_size(model, agent_type, site.kind, dice);
-                (size, subtype, draw_pose(&self.sites, site, model, agent_type, size, dice)?)
+                let (size, subtype) = draw_size(model, agent_type, site.kind, stream);
+                (size, subtype, draw_pose(&self.sites, site, model, agent_type, size, stream)?)
             }
             None => {
                 let subtype = Subtype::default();
                 let size = Size::default_for(agent_type, subtype);
-                (size, subtype, even_pose(&self.sites, site, agent_type, dice)?)
+                (size, subtype, even_pose(&self.sites, site, agent_type, stream)?)
             }
         };
         pose.position = pose.position.map(|v| rounded(v, 1e3));
@@ -477,7 +479,8 @@ impl<'a> Placing<'a> {
             return;
         }
         let placed = &self.placed[i];
-        let mut dice = Dice::new(self.request.seed, &format!("{} speed", purpose(placed.agent_type)), i);
+        let mut stream =
+            random::stream(self.request.seed, &format!("{} speed", purpose(placed.agent_type)), i);
         let own = self.kept + i;
         let speed_mps = match placed.lane {
             Some(lane) => {
@@ -493,14 +496,14 @@ impl<'a> Placing<'a> {
                     let aligned = l.speed_mps > 0.0;
                     (l.gap_m, if aligned { self.obstacles[l.index].speed_mps } else { 0.0 })
                 });
-                self.drive_speed(i, lane, leader, &mut dice)
+                self.drive_speed(i, lane, leader, &mut stream)
             }
-            None => self.walk_speed(i, &mut dice),
+            None => self.walk_speed(i, &mut stream),
         };
         self.obstacles[own].speed_mps = rounded(speed_mps, 1e3);
     }
 
-    fn drive_speed(&self, i: usize, lane: usize, leader: Option<(f64, f64)>, dice: &mut Dice) -> f64 {
+    fn drive_speed(&self, i: usize, lane: usize, leader: Option<(f64, f64)>, stream: &mut Stream) -> f64 {
         let placed = &self.placed[i];
         let limits = Limits::of(placed.agent_type, placed.subtype, placed.size.length_m);
         let Some(model) = self.of_type(placed.agent_type) else {
@@ -521,10 +524,10 @@ impl<'a> Placing<'a> {
         }
         let context = drive_context(ahead, leader);
         let rows = [context, group_context(context), ANY_CONTEXT];
-        drawn_speed(model, &rows, unit_mps, most, dice)
+        drawn_speed(model, &rows, unit_mps, most, stream)
     }
 
-    fn walk_speed(&self, i: usize, dice: &mut Dice) -> f64 {
+    fn walk_speed(&self, i: usize, stream: &mut Stream) -> f64 {
         let placed = &self.placed[i];
         if placed.agent_type == AgentType::Vehicle {
             return 0.0;
@@ -532,7 +535,7 @@ impl<'a> Placing<'a> {
         let most = Limits::of(placed.agent_type, placed.subtype, placed.size.length_m).speed_mps;
         let unit_mps = usual_mps(placed.agent_type);
         match self.of_type(placed.agent_type) {
-            Some(model) => drawn_speed(model, &[walk_context(placed.kind)], unit_mps, most, dice),
+            Some(model) => drawn_speed(model, &[walk_context(placed.kind)], unit_mps, most, stream),
             None => 0.7 * unit_mps,
         }
     }
@@ -567,10 +570,10 @@ fn purpose(agent_type: AgentType) -> &'static str {
 }
 
 /// A speed from the first of the contexts that is known, at most `most` m/s.
-fn drawn_speed(model: &TypeModel, contexts: &[u16], unit_mps: f64, most: f64, dice: &mut Dice) -> f64 {
+fn drawn_speed(model: &TypeModel, contexts: &[u16], unit_mps: f64, most: f64, stream: &mut Stream) -> f64 {
     let row = contexts.iter().find_map(|context| model.speed.get(context));
-    let class = row.and_then(|row| dice.among(row.iter().copied())).unwrap_or(0);
-    let part = dice.unit();
+    let class = row.and_then(|row| stream.among(row.iter().copied())).unwrap_or(0);
+    let part = stream.unit();
     if class == 0 {
         return 0.0;
     }
@@ -579,11 +582,11 @@ fn drawn_speed(model: &TypeModel, contexts: &[u16], unit_mps: f64, most: f64, di
 }
 
 /// The middle of the line, along it; on pavements a little off the road.
-fn even_pose(sites: &Sites<'_>, site: &Site, agent_type: AgentType, dice: &mut Dice) -> Option<Pose> {
-    let s_m = dice.between(site.from_m, site.to_m);
+fn even_pose(sites: &Sites<'_>, site: &Site, agent_type: AgentType, stream: &mut Stream) -> Option<Pose> {
+    let s_m = stream.between(site.from_m, site.to_m);
     let base = sites.path(site)?.sample(s_m);
     let aside_m = if site.kind == SiteKind::Pavement && !site.on_lane { 1.5 * site.side } else { 0.0 };
-    let back = agent_type == AgentType::Pedestrian && dice.unit() < 0.5;
+    let back = agent_type == AgentType::Pedestrian && stream.unit() < 0.5;
     let left = Vec2::new(-base.direction().y, base.direction().x);
     let heading_rad = wrap_angle(base.heading_rad + if back { PI } else { 0.0 });
     Some(Pose { position: base.position + left * aside_m, heading_rad, s_m })

@@ -2,10 +2,10 @@
 //! Both directions are here, so that they cannot drift apart.
 
 use super::model::{Histogram, TypeModel};
-use super::random::Dice;
 use super::sites::{Site, SiteKind, Sites};
 use scene::geometry::direction;
 use scene::map::LaneType;
+use scene::random::Stream;
 use scene::{AgentType, Size, Subtype, Vec2, wrap_angle};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -42,10 +42,10 @@ fn half_across(size: Size, turn_rad: f64) -> f64 {
     0.5 * (size.length_m * turn_rad.sin().abs() + size.width_m * turn_rad.cos().abs())
 }
 
-fn draw(histogram: Option<&Histogram>, dice: &mut Dice) -> f64 {
+fn draw(histogram: Option<&Histogram>, stream: &mut Stream) -> f64 {
     let Some(histogram) = histogram else { return 0.0 };
-    let class = dice.among(histogram.share.iter().copied()).unwrap_or(0);
-    histogram.low + histogram.step * (class as f64 + dice.unit())
+    let class = stream.among(histogram.share.iter().copied()).unwrap_or(0);
+    histogram.low + histogram.step * (class as f64 + stream.unit())
 }
 
 /// Box of a road user in a cell of this kind; the type's default where nothing was learned.
@@ -53,10 +53,10 @@ pub(super) fn draw_size(
     model: &TypeModel,
     agent_type: AgentType,
     kind: SiteKind,
-    dice: &mut Dice,
+    stream: &mut Stream,
 ) -> (Size, Subtype) {
     let boxes = model.sizes.get(&kind).or_else(|| model.sizes.values().next());
-    let drawn = boxes.and_then(|b| b.get(dice.among(b.iter().map(|b| b[2]))?));
+    let drawn = boxes.and_then(|b| b.get(stream.among(b.iter().map(|b| b[2]))?));
     let Some([length_m, width_m, _]) = drawn else {
         let subtype = subtype(agent_type, 4.7);
         return (Size::default_for(agent_type, subtype), subtype);
@@ -93,14 +93,14 @@ pub(super) fn draw_pose(
     model: &TypeModel,
     agent_type: AgentType,
     size: Size,
-    dice: &mut Dice,
+    stream: &mut Stream,
 ) -> Option<Pose> {
     let context = pose_context(sites, site);
-    let turn_rad = draw(model.heading.get(&context), dice);
-    let offset = draw(model.lateral.get(&context), dice);
-    let s_m = dice.between(site.from_m, site.to_m);
+    let turn_rad = draw(model.heading.get(&context), stream);
+    let offset = draw(model.lateral.get(&context), stream);
+    let s_m = stream.between(site.from_m, site.to_m);
     if site.kind == SiteKind::Driveway {
-        return in_driveway(sites, site, size, turn_rad, dice);
+        return in_driveway(sites, site, size, turn_rad, stream);
     }
     let base = sites.path(site)?.sample(s_m);
     let lane = sites.graph.lanes().get(site.line);
@@ -123,7 +123,7 @@ pub(super) fn draw_pose(
         }
         SiteKind::Crosswalk => offset.clamp(-1.0, 1.0) * half_lane_m,
         // The middle 70 % of a sidewalk; learned are pavements along edges.
-        SiteKind::Pavement if site.on_lane => dice.between(-0.7, 0.7) * half_lane_m,
+        SiteKind::Pavement if site.on_lane => stream.between(-0.7, 0.7) * half_lane_m,
         SiteKind::Pavement => site.side * offset,
         SiteKind::Driveway => 0.0,
     };
@@ -137,7 +137,13 @@ pub(super) fn draw_pose(
 }
 
 /// Anywhere along a driveway's axis.
-fn in_driveway(sites: &Sites<'_>, site: &Site, size: Size, turn_rad: f64, dice: &mut Dice) -> Option<Pose> {
+fn in_driveway(
+    sites: &Sites<'_>,
+    site: &Site,
+    size: Size,
+    turn_rad: f64,
+    stream: &mut Stream,
+) -> Option<Pose> {
     let axis = driveway_axis(sites, site)?;
     let ring = &sites.scene.map.driveways.get(site.line)?.polygon.xy;
     let span = |unit: Vec2| {
@@ -149,8 +155,9 @@ fn in_driveway(sites: &Sites<'_>, site: &Site, size: Size, turn_rad: f64, dice: 
         |(low, high): (f64, f64), half: f64| (low + half <= high - half).then_some((low + half, high - half));
     let (low, high) = room(along, 0.5 * size.length_m + DRIVEWAY_END_M)?;
     let (left, right) = room(across, 0.5 * size.width_m)?;
-    let position =
-        site.center + axis * dice.between(low, high) + Vec2::new(-axis.y, axis.x) * dice.between(left, right);
+    let position = site.center
+        + axis * stream.between(low, high)
+        + Vec2::new(-axis.y, axis.x) * stream.between(left, right);
     Some(Pose { position, heading_rad: wrap_angle(axis.y.atan2(axis.x) + turn_rad), s_m: 0.0 })
 }
 

@@ -1,45 +1,10 @@
-//! Random numbers by purpose, and draws in proportion to weights that change.
+//! Draws in proportion to weights that change.
 
-use rand_chacha::ChaCha12Rng;
-use rand_core::{Rng, SeedableRng};
+use scene::random::{Key, Stream};
 
-/// A stream of numbers that depends on the seed and on what it is for.
-pub(super) struct Dice(ChaCha12Rng);
-
-impl Dice {
-    pub(super) fn new(seed: u64, purpose: &str, number: usize) -> Self {
-        let mut hasher = blake3::Hasher::new();
-        hasher.update(b"place");
-        hasher.update(&seed.to_le_bytes());
-        hasher.update(&(number as u64).to_le_bytes());
-        hasher.update(purpose.as_bytes());
-        Self(ChaCha12Rng::from_seed(*hasher.finalize().as_bytes()))
-    }
-
-    /// Even over 0 .. 1.
-    pub(super) fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Even over `low` .. `high`.
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Index in proportion to the weights; `None` when none is positive.
-    pub(super) fn among(&mut self, weights: impl Iterator<Item = f64> + Clone) -> Option<usize> {
-        let total: f64 = weights.clone().sum();
-        let mut left = self.unit() * total;
-        let mut last = None;
-        for (i, weight) in weights.enumerate().filter(|(_, w)| *w > 0.0) {
-            last = Some(i);
-            left -= weight;
-            if left < 0.0 {
-                break;
-            }
-        }
-        last.filter(|_| total > 0.0 && total.is_finite())
-    }
+/// The stream of a seed for a purpose of placement and one of its numbers.
+pub(super) fn stream(seed: u64, purpose: &str, number: usize) -> Stream {
+    Key::default().text("place").number(seed).number(number as u64).text(purpose).stream()
 }
 
 /// Weights of many places, drawn from and changed in logarithmic time (a binary tree of sums).
@@ -74,12 +39,12 @@ impl Weights {
     }
 
     /// A place in proportion to its weight; `None` when all are zero.
-    pub(super) fn draw(&self, dice: &mut Dice) -> Option<usize> {
+    pub(super) fn draw(&self, stream: &mut Stream) -> Option<usize> {
         let total = self.sums[1];
         if total.is_nan() || total <= 0.0 {
             return None;
         }
-        let mut left = dice.unit() * total;
+        let mut left = stream.unit() * total;
         let mut i = 1;
         while i < self.leaves {
             let first = self.sums[2 * i];
@@ -102,10 +67,10 @@ mod tests {
     fn draws_follow_the_weights() {
         let mut weights = Weights::new(&[1.0, 0.0, 3.0, 4.0, 2.0]);
         weights.set(3, 0.0);
-        let mut dice = Dice::new(5, "test", 0);
+        let mut stream = stream(5, "test", 0);
         let mut counts = [0; 5];
         for _ in 0..6_000 {
-            counts[weights.draw(&mut dice).unwrap()] += 1;
+            counts[weights.draw(&mut stream).unwrap()] += 1;
         }
         assert_eq!((counts[1], counts[3]), (0, 0));
         for (at, expected) in [(0, 1_000.0), (2, 3_000.0), (4, 2_000.0)] {
@@ -114,17 +79,7 @@ mod tests {
         for at in [0, 2, 4] {
             weights.set(at, 0.0);
         }
-        assert_eq!(weights.draw(&mut dice), None);
-        assert_eq!(Weights::new(&[]).draw(&mut dice), None);
-    }
-
-    #[test]
-    fn streams_are_their_own_and_repeat() {
-        let first = |seed, purpose, number| Dice::new(seed, purpose, number).unit();
-        assert_eq!(first(1, "a", 0), first(1, "a", 0));
-        let others = [first(2, "a", 0), first(1, "b", 0), first(1, "a", 1)];
-        assert!(others.iter().all(|o| *o != first(1, "a", 0)));
-        assert_eq!(Dice::new(1, "a", 0).among([0.0, 0.0].into_iter()), None);
-        assert_eq!(Dice::new(1, "a", 0).among([0.0, 2.0].into_iter()), Some(1));
+        assert_eq!(weights.draw(&mut stream), None);
+        assert_eq!(Weights::new(&[]).draw(&mut stream), None);
     }
 }

@@ -1,8 +1,9 @@
 //! How fast a place may be driven, and what a driver there has in front.
 
-use super::model::{SPEED_CLASSES, SPEED_STEP, STANDING_MPS};
+use super::model::{SPEED_CLASSES, SPEED_STEP};
 use super::sites::SiteKind;
 use super::stops::{Ahead, straightest};
+use scene::STANDING_MPS;
 use scene::geometry::obb::OrientedBox;
 use scene::routes::speed::{Leader, Obstacle, leader};
 use scene::routes::{LaneGraph, Polyline};

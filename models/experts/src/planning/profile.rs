@@ -1,6 +1,6 @@
 //! Progress along a path over time: the base of an anchor.
 
-use scene::{HORIZON_STEPS, STEP_S};
+use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S};
 
 /// Metres along a path at every step, the first zero.
 pub type Progress = [f64; HORIZON_STEPS + 1];
@@ -61,8 +61,6 @@ pub fn reaching_speed(v0: f64, speed_mps: f64, seconds: f64, sag: f64, caps: &Ca
     integrate(v0, caps, 8.0, wish)
 }
 
-/// Whoever is slower than this stands, m/s.
-const STANDING_MPS: f64 = 0.3;
 /// How a standing vehicle sets off, m/s2. Of what was tried on recorded scenes 1.0 to 1.2 come nearest.
 const SETTING_OFF_MPS2: f64 = 1.1;
 

@@ -1,144 +1,10 @@
-//! The overlap energy of a draft against other road users' boxes, and the way downhill in the draft's
-//! own knots. Training and generation call the same functions.
-//!
-//! The box of the draft is three discs along its length; the energy grows where a disc comes closer to
-//! another box than half a metre.
+//! Gradients at the instants of a draft as gradients of its knots: the way downhill in the scene's energy.
 
-use super::smooth;
-use crate::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, RESIDUAL};
+use super::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL, smooth};
 use scene::KNOTS;
 
-/// Gap below which the energy grows, metres.
-const MARGIN: f32 = 0.5;
 /// Longest push, in normalised knots.
 const LONGEST: f32 = 0.8;
-const WEIGHT: f32 = 0.3;
-
-/// Centre x and y, cosine and sine of the heading at each instant. All zero: nobody there.
-pub type Poses = [[f32; 4]; INSTANTS];
-
-/// A box that is in the way.
-#[derive(Clone, Copy, Debug)]
-pub struct Obstacle<'a> {
-    /// Where it is.
-    pub poses: &'a Poses,
-    /// Half length and half width, metres.
-    pub half: [f32; 2],
-}
-
-/// How the energy grows with the missing gap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Growth {
-    /// With its square: the input of the refiner.
-    Square,
-    /// Linearly, up to two metres: the penalty in training.
-    Linear,
-}
-
-/// Energy of a draft, and its gradient to the centre's x and y at each instant.
-#[derive(Clone, Debug)]
-pub struct Overlap {
-    /// Sum over obstacles and instants.
-    pub energy: f32,
-    /// Gradient [instant][x, y], headings held.
-    pub gradient: [[f32; 2]; INSTANTS],
-}
-
-/// The energy of a box of `half` length and width that moves by `own` among obstacles.
-pub fn overlap<'a>(
-    own: &Poses,
-    half: [f32; 2],
-    obstacles: impl IntoIterator<Item = Obstacle<'a>>,
-    growth: Growth,
-) -> Overlap {
-    let mut result = Overlap { energy: 0.0, gradient: [[0.0; 2]; INSTANTS] };
-    for obstacle in obstacles {
-        let reach = MARGIN + half[0] + half[1] + obstacle.half[0] + obstacle.half[1];
-        for instant in 0..INSTANTS {
-            let (a, b) = (own[instant], obstacle.poses[instant]);
-            let far = (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > reach;
-            if far || absent(&a) || absent(&b) {
-                continue;
-            }
-            let (gap, slope) = gap(a, half, b, obstacle.half);
-            let missing = MARGIN - gap;
-            if missing <= 0.0 {
-                continue;
-            }
-            let (energy, factor) = match growth {
-                Growth::Square => (missing * missing, -2.0 * missing),
-                Growth::Linear if missing < 2.0 => (missing, -1.0),
-                Growth::Linear => (2.0, 0.0),
-            };
-            result.energy += WEIGHT * energy;
-            for axis in 0..2 {
-                result.gradient[instant][axis] += WEIGHT * factor * slope[axis];
-            }
-        }
-    }
-    result
-}
-
-/// Where boxes would be `ahead_s` later if each went on, headings held, as it has moved since the instant
-/// before. Nobody is there at the first instant, and where one of the two says so.
-pub fn carried_on(poses: &Poses, ahead_s: f32) -> Poses {
-    let share = ahead_s / INSTANT_S as f32;
-    let mut out = [[0.0; 4]; INSTANTS];
-    for instant in 1..INSTANTS {
-        let (before, now) = (&poses[instant - 1], &poses[instant]);
-        if !absent(before) && !absent(now) {
-            let on = |axis: usize| now[axis] + share * (now[axis] - before[axis]);
-            out[instant] = [on(0), on(1), now[2], now[3]];
-        }
-    }
-    out
-}
-
-/// A gradient to the centres of [`carried_on`] boxes as one to the centres they were made from.
-pub fn carried_back(gradient: &[[f32; 2]; INSTANTS], ahead_s: f32) -> [[f32; 2]; INSTANTS] {
-    let share = ahead_s / INSTANT_S as f32;
-    let mut out = [[0.0; 2]; INSTANTS];
-    for instant in 1..INSTANTS {
-        for axis in 0..2 {
-            out[instant][axis] += (1.0 + share) * gradient[instant][axis];
-            out[instant - 1][axis] -= share * gradient[instant][axis];
-        }
-    }
-    out
-}
-
-/// Whether a pose says that nobody is there.
-pub fn absent(pose: &[f32; 4]) -> bool {
-    pose[2] == 0.0 && pose[3] == 0.0
-}
-
-/// Gap between a box, as three discs along its length, and another box (negative when they overlap),
-/// and its gradient to the first box's centre.
-pub fn gap(a: [f32; 4], half: [f32; 2], b: [f32; 4], other: [f32; 2]) -> (f32, [f32; 2]) {
-    let mut best = (f32::INFINITY, [0.0; 2]);
-    let ends = (half[0] - half[1]).max(0.0);
-    for along in [-ends, 0.0, ends] {
-        let (x, y) = (a[0] + along * a[2] - b[0], a[1] + along * a[3] - b[1]);
-        let (ahead, left) = (x * b[2] + y * b[3], -x * b[3] + y * b[2]);
-        let (distance, slope) = distance_to_box(ahead, left, other);
-        if distance < best.0 {
-            best = (distance, [slope[0] * b[2] - slope[1] * b[3], slope[0] * b[3] + slope[1] * b[2]]);
-        }
-    }
-    (best.0 - half[0].min(half[1]), best.1)
-}
-
-/// Signed distance of a point to a box about the origin, and its gradient.
-fn distance_to_box(ahead: f32, left: f32, half: [f32; 2]) -> (f32, [f32; 2]) {
-    let (dx, dy) = (ahead.abs() - half[0], left.abs() - half[1]);
-    let (sx, sy) = (1f32.copysign(ahead), 1f32.copysign(left));
-    if dx.max(dy) <= 0.0 {
-        return if dx > dy { (dx, [sx, 0.0]) } else { (dy, [0.0, sy]) };
-    }
-    let (px, py) = (dx.max(0.0), dy.max(0.0));
-    let distance = (px * px + py * py).sqrt();
-    (distance, [sx * px / distance, sy * py / distance])
-}
 
 /// Takes gradients at the instants back to the knots of a residual.
 #[derive(Clone, Debug)]
@@ -206,6 +72,11 @@ impl Pullback {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::geometry::overlap_energy::{
+        Growth, MovingBox, OverlapEnergy, carried_back, carried_on, overlap_energy,
+    };
+
+    type Poses = [[f32; 4]; INSTANTS];
 
     const STRAIGHT: [[[f32; KNOTS]; KNOTS]; 2] = {
         let mut matrix = [[[0.0; KNOTS]; KNOTS]; 2];
@@ -230,10 +101,10 @@ mod tests {
         })
     }
 
-    fn energy(knots: &[f32; RESIDUAL], growth: Growth) -> Overlap {
+    fn energy(knots: &[f32; RESIDUAL], growth: Growth) -> OverlapEnergy<INSTANTS> {
         let (c, s) = (0.3f32.cos(), 0.3f32.sin());
         let poses = [[14.0, 1.9, c, s]; INSTANTS];
-        overlap(&drive(knots), [2.2, 0.9], [Obstacle { poses: &poses, half: [2.0, 1.0] }], growth)
+        overlap_energy(&drive(knots), [2.2, 0.9], [MovingBox { poses: &poses, half: [2.0, 1.0] }], growth)
     }
 
     #[test]
@@ -262,11 +133,11 @@ mod tests {
         let (c, s) = (0.3f32.cos(), 0.3f32.sin());
         let poses = [[16.0, 1.9, c, s]; INSTANTS];
         let soon = |knots: &[f32; RESIDUAL]| {
-            let own = carried_on(&drive(knots), 1.0);
-            overlap(&own, [2.2, 0.9], [Obstacle { poses: &poses, half: [2.0, 1.0] }], Growth::Square)
+            let own = carried_on(&drive(knots), 2.0);
+            overlap_energy(&own, [2.2, 0.9], [MovingBox { poses: &poses, half: [2.0, 1.0] }], Growth::Square)
         };
         let knots = [0.05; RESIDUAL];
-        let gradient = Pullback::default().knots(&carried_back(&soon(&knots).gradient, 1.0));
+        let gradient = Pullback::default().knots(&carried_back(&soon(&knots).gradient, 2.0));
         assert!(soon(&knots).energy > 0.0);
         for knot in 0..RESIDUAL {
             let at = |delta: f32| {
@@ -281,15 +152,6 @@ mod tests {
     }
 
     #[test]
-    fn boxes_are_carried_on_as_they_moved() {
-        let mut poses: Poses = std::array::from_fn(|i| [2.0 * i as f32, 1.0, 1.0, 0.0]);
-        poses[5] = [0.0; 4];
-        let on = carried_on(&poses, 1.5);
-        assert_eq!(on[1], [8.0, 1.0, 1.0, 0.0]);
-        assert!([0, 5, 6].iter().all(|i| absent(&on[*i])));
-    }
-
-    #[test]
     fn a_push_lowers_the_energy() {
         let mut knots = [0.0; RESIDUAL];
         let before = energy(&knots, Growth::Square);
@@ -300,26 +162,5 @@ mod tests {
         }
         let after = energy(&knots, Growth::Square).energy;
         assert!(before.energy > 0.0 && after < before.energy, "{} to {after}", before.energy);
-    }
-
-    #[test]
-    fn far_and_absent_boxes_cost_nothing() {
-        let far = [[100.0, 0.0, 1.0, 0.0]; INSTANTS];
-        let nobody = [[0.0; 4]; INSTANTS];
-        let result = overlap(
-            &drive(&[0.0; RESIDUAL]),
-            [2.0, 1.0],
-            [&far, &nobody].map(|poses| Obstacle { poses, half: [2.0, 1.0] }),
-            Growth::Square,
-        );
-        assert_eq!((result.energy, result.gradient), (0.0, [[0.0; 2]; INSTANTS]));
-    }
-
-    #[test]
-    fn gaps_are_distances() {
-        let b = [0.0, 0.0, 0.0, 1.0];
-        let (side, slope) = gap([4.0, 0.0, 0.0, 1.0], [2.0, 1.0], b, [2.0, 1.0]);
-        assert!((side - 2.0).abs() < 1e-5 && (slope[0] - 1.0).abs() < 1e-5);
-        assert!(gap([0.5, 0.5, 1.0, 0.0], [2.0, 1.0], b, [2.0, 1.0]).0 < -1.0);
     }
 }

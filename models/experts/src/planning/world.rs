@@ -151,5 +151,5 @@ fn present(index: usize, agent: &Agent, conditions: &Conditions, step: usize) ->
     };
     let start =
         State { x_m: position.x, y_m: position.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y };
-    Some(Present { index, agent_type: conditions.agent_type.unwrap_or(agent.agent_type), size, start })
+    Some(Present { index, agent_type: conditions.kind_of(agent), size, start })
 }

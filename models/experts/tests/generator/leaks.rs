@@ -12,7 +12,7 @@
 use super::*;
 use ::scene::routes::LaneGraph;
 use experts::features::agent::plan;
-use experts::features::world::World;
+use experts::planning::world::World;
 
 /// Every logged state after the first step moved somewhere else.
 fn other_future(mut scene: Scene, who: impl Fn(&Agent) -> bool) -> Scene {

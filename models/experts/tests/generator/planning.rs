@@ -4,8 +4,8 @@ use super::*;
 use ::scene::routes::LaneGraph;
 use experts::Planning;
 use experts::features::agent::{Planned, plan};
-use experts::features::anchors::PathKind;
-use experts::features::world::World;
+use experts::planning::anchors::PathKind;
+use experts::planning::world::World;
 
 fn planned(scene: &Scene, planning: Planning) -> Planned {
     let mut world = World::new(scene, Arc::new(LaneGraph::new(&scene.map)), 0);

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use candle_core::Device;
+use experts::features::AgentFeatures;
 use experts::features::agent::plan_with;
-use experts::features::world::World;
-use experts::features::{AgentFeatures, MODES};
+use experts::planning::MODES;
+use experts::planning::world::World;
 use scene::{Future, State};
 
 use super::sight::{Points, forget_goals};

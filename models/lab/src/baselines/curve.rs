@@ -1,15 +1,13 @@
 //! Eighteen points to states at 10 Hz.
 
-use experts::features::{INSTANT_S, INSTANTS};
+use experts::planning::{INSTANT_S, INSTANTS};
 use scene::geometry::rotate;
-use scene::{HORIZON_STEPS, STEP_S, State, Vec2};
+use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State, Vec2};
 
 use super::sight::Points;
 
 /// Below this speed the curve's direction says nothing about the heading, m/s.
 const SLOW_MPS: f64 = 0.5;
-/// Who stands, m/s, and is never farther than this from its place, metres, keeps it.
-const STANDING_MPS: f64 = 0.3;
 const KEPT_M: f64 = 1.0;
 
 /// States at steps 1 ..= 90 on a smooth curve from the start through the points (in the start's frame). The

@@ -1,6 +1,6 @@
 //! The baselines' losses with their gradients, written out.
 
-use experts::features::{INSTANTS, MODES};
+use experts::planning::{INSTANTS, MODES};
 
 use super::sight::{Points, Truth};
 use crate::train::least;

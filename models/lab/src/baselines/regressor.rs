@@ -2,10 +2,11 @@
 //! "MultiPath++", 2021), to points and scores.
 
 use candle_core::{Device, Result, Tensor};
-use experts::features::{AgentFeatures, INSTANT_S, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN};
+use experts::features::{AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN};
 use experts::net::inputs::{Inputs, NO};
 use experts::net::layers::{Linear, Mlp, Norm, RELU_GAIN};
 use experts::net::{Architecture, Gating, Init, NetError, Params};
+use experts::planning::{INSTANT_S, INSTANTS, MODES};
 
 use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
 

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use candle_core::{Device, Result, Tensor, Var};
-use experts::features::{AgentFeatures, MODES};
+use experts::features::AgentFeatures;
 use experts::net::{Card, NetError, Params, schedule};
+use experts::planning::MODES;
 use rand_chacha::ChaCha12Rng;
 
 use super::loss::{self, UNIT_M};

@@ -2,10 +2,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use candle_core::{DType, Device, Tensor};
+use experts::features::AgentFeatures;
 use experts::features::agent::plan_with;
-use experts::features::world::World;
-use experts::features::{AgentFeatures, MODES};
 use experts::net::{Architecture, Params};
+use experts::planning::MODES;
+use experts::planning::world::World;
 use scene::routes::LaneGraph;
 use scene::{Goal, Scene, Vec2};
 
@@ -130,7 +131,7 @@ fn recordings_are_where_they_were() {
     let record: Record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
     let truth = Truth::of(&record);
     let target = &record.target;
-    for i in 0..experts::features::INSTANTS {
+    for i in 0..experts::planning::INSTANTS {
         let [x, y] = truth.points[i];
         let expected = [target.along[0][i] + record.centre_ahead, target.across[0][i]];
         assert!((x - expected[0]).abs() < 1e-4 && (y - expected[1]).abs() < 1e-4);

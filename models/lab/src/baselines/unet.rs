@@ -2,10 +2,10 @@
 //! cross-attention to what the road user sees, its condition included.
 
 use candle_core::{Result, Tensor};
-use experts::features::{INSTANTS, MODES};
 use experts::net::layers::{CrossBlock, Linear, Norm, RELU_GAIN};
 use experts::net::schedule::{self, LEVELS};
 use experts::net::{Architecture, Init, NetError, Params};
+use experts::planning::{INSTANTS, MODES};
 
 use super::regressor::{NUMBERS, Seen};
 

@@ -3,7 +3,7 @@
 use super::{Case, Subset};
 use scene::geometry::direction;
 use scene::motion::{MotionModel, MotionState, Sampled, Trajectory, fit, limit_excess};
-use scene::{Agent, Future, Goal, HORIZON_STEPS, State, Vec2, wrap_angle};
+use scene::{Agent, Future, Goal, HORIZON_STEPS, STANDING_MPS, State, Vec2, wrap_angle};
 
 /// Errors of one road user's futures. Distances in metres, over the steps at which the log is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,9 +36,6 @@ pub struct Measured {
 const FOLLOWED_M: f64 = 0.3;
 /// Greatest difference of its last speed, m/s.
 const ARRIVED_MPS: f64 = 1.5;
-
-/// A log that stands has a heading that means nothing, m/s.
-const STANDING_MPS: f64 = 0.3;
 
 /// Errors of `futures` (never empty, first steps right after the start), `shown` being the one on display.
 pub fn measure(log: &Agent, case: &Case, subset: Subset, futures: &[Future], shown: usize) -> Measured {

@@ -16,7 +16,7 @@ use crate::train::{FitError, Record, Writer};
 use anyhow::{Context, Result};
 use conditions::Draw;
 use experts::features::STANDING_SHARE;
-use experts::features::world::World;
+use experts::planning::world::World;
 use rayon::prelude::*;
 use scene::routes::LaneGraph;
 use scene::{AgentType, HORIZON_STEPS, Scene};

@@ -2,10 +2,11 @@
 
 use crate::polylines::Polylines;
 use crate::train::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record};
+use experts::features::Target;
 use experts::features::agent::{Planned, plan};
-use experts::features::anchors::Anchor;
-use experts::features::world::{Present, World};
-use experts::features::{INSTANTS, MODES, STAYS_WITHIN_M, Target};
+use experts::planning::anchors::Anchor;
+use experts::planning::world::{Present, World};
+use experts::planning::{INSTANTS, MODES, STAYS_WITHIN_M};
 use scene::geometry::{direction, rotate};
 use scene::{Agent, HORIZON_STEPS};
 

@@ -9,9 +9,9 @@ use std::fs::File;
 use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use experts::features::{
-    ANCHOR, AgentFeatures, INSTANTS, MODES, NEIGHBOUR, NEIGHBOURS, OWN, RESIDUAL, Target,
-};
+use experts::features::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN, Target};
+
+use experts::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::KNOTS;
 
 use super::codec::{Cursor, Sink};

@@ -1,6 +1,8 @@
 //! The recording as residuals: least squares within the goal's tangent space.
 
-use experts::features::{AgentFeatures, INSTANTS, MODES, RESIDUAL, Target};
+use experts::features::{AgentFeatures, Target};
+
+use experts::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::KNOTS;
 
 use super::Record;

@@ -1,7 +1,9 @@
 //! Losses with their gradients, written out: the networks' outputs are few numbers, and their loss
 //! through the tensor library would cost more than some of the networks.
 
-use experts::features::{INSTANTS, MODES, RESIDUAL, Target};
+use experts::features::Target;
+
+use experts::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::KNOTS;
 
 use super::route::Route;

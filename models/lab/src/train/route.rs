@@ -1,7 +1,6 @@
 //! Residuals to positions: along and across an anchor, then on its path.
 
-use experts::features::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
-use experts::net::overlap::Poses;
+use experts::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL};
 use scene::KNOTS;
 
 use super::{AnchorPath, Record};
@@ -48,7 +47,7 @@ impl Route {
 
 /// A draft as boxes, and the path's directions (cosine, sine) where they are.
 pub(crate) struct Placed {
-    pub(crate) poses: Poses,
+    pub(crate) poses: scene::geometry::overlap_energy::Poses<INSTANTS>,
     pub(super) directions: [[f32; 2]; INSTANTS],
 }
 

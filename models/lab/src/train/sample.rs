@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use experts::features::{MODES, RESIDUAL};
+use experts::planning::{MODES, RESIDUAL};
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 

@@ -2,13 +2,15 @@
 
 use candle_core::{Device, Result, Tensor};
 use experts::Refining;
+use experts::features::AgentFeatures;
 use experts::features::agent::OWN_GOAL_POSITION;
-use experts::features::{ALONG_SCALE, AgentFeatures, INSTANT_S, MODES, RESIDUAL};
-use experts::net::overlap::{Growth, Obstacle, Pullback, absent, gap, overlap};
 use experts::net::{Context, Expert, Initial, Prepared, schedule};
+use experts::planning::pullback::Pullback;
+use experts::planning::{ALONG_SCALE, INSTANT_S, MODES, RESIDUAL};
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::Rng;
 use scene::KNOTS;
+use scene::geometry::overlap_energy::{Growth, MovingBox, absent, gap, overlap_energy};
 
 use super::loss::{self, InitialParts, Said};
 use super::metrics::Metrics;
@@ -75,12 +77,12 @@ fn energy(
     residual: &[f32; RESIDUAL],
     counted: &[bool],
     growth: Growth,
-) -> (f32, [[f32; 2]; experts::features::INSTANTS]) {
+) -> (f32, [[f32; 2]; experts::planning::INSTANTS]) {
     let coordinates = tools.route.coordinates(&record.target.base_along[mode], residual);
     let placed = Placed::new(record, mode, &coordinates);
     let boxes = record.boxes.iter().zip(counted).filter(|(_, counted)| **counted);
-    let obstacles = boxes.map(|(logged, _)| Obstacle { poses: &logged.poses, half: logged.half });
-    let overlap = overlap(&placed.poses, record.half, obstacles, growth);
+    let obstacles = boxes.map(|(logged, _)| MovingBox { poses: &logged.poses, half: logged.half });
+    let overlap = overlap_energy(&placed.poses, record.half, obstacles, growth);
     (overlap.energy, placed.along_across(&overlap.gradient))
 }
 

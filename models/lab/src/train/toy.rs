@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use experts::Refining;
-use experts::features::{ANCHOR, AgentFeatures, INSTANTS, MODES, NEIGHBOUR, OWN, Target};
+use experts::features::{ANCHOR, AgentFeatures, NEIGHBOUR, OWN, Target};
+use experts::planning::{INSTANTS, MODES};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 

@@ -1,5 +1,4 @@
-//! Oriented boxes: the outlines of road users, the gap between two of them, their overlap, and a
-//! smooth energy that pushes them apart.
+//! Oriented boxes: the outlines of road users, the gap between two of them, and their overlap.
 
 use super::Vec2;
 use crate::{Size, State};
@@ -264,70 +263,6 @@ pub fn iou(a: &OrientedBox, b: &OrientedBox) -> f64 {
     if shared > 0.0 { shared / (a.area_m2() + b.area_m2() - shared) } else { 0.0 }
 }
 
-/// Discs along the longer axis of a box, as wide as the box: offsets of their centres along
-/// `axis`, and their radius. One disc for a square, three for a car, more for a bus.
-fn discs(of: &OrientedBox) -> (impl Iterator<Item = f64> + use<>, Vec2, f64) {
-    let along = of.half_length_m >= of.half_width_m;
-    let (half_long, radius) =
-        if along { (of.half_length_m, of.half_width_m) } else { (of.half_width_m, of.half_length_m) };
-    let axis = if along { of.forward } else { of.left() };
-    let span = half_long - radius;
-    let wanted = (2.0 * span / (1.5 * radius).max(0.05) - 1e-9).ceil().clamp(0.0, 15.0);
-    let pitch = if wanted > 0.0 { 2.0 * span / wanted } else { 0.0 };
-    ((0..=wanted as usize).map(move |i| i as f64 * pitch - span), axis, radius)
-}
-
-/// Energy of two boxes that come closer than `reach_m`, in m2, and its gradient with respect to the
-/// pose of `a`: `[d/dx, d/dy, d/dheading]`.
-///
-/// Sum of relu(reach - gap)^2 over the discs along `a` against box `b` and the discs along `b` against
-/// box `a` (`refinement.md` section 3). Symmetric: swap the boxes for the gradient of the other pose.
-/// Zero with a zero gradient when they are farther apart; continuous, and smooth but for the lines
-/// where the nearest side of a box changes. Far boxes cost one distance.
-///
-/// ```
-/// use scene::geometry::{Vec2, obb::{OrientedBox, overlap_energy}};
-/// let a = OrientedBox::new(Vec2::new(0.0, 0.0), 0.4, 0.4, 0.0);
-/// let b = OrientedBox::new(Vec2::new(1.0, 0.0), 0.4, 0.4, 0.0);
-/// let (energy, gradient) = overlap_energy(&a, &b, 0.5); // the gap is 0.2, counted from both sides
-/// assert!((energy - 2.0 * 0.3f64.powi(2)).abs() < 1e-12);
-/// assert!((gradient[0] - 2.0 * 2.0 * 0.3).abs() < 1e-12); // towards b it rises
-/// ```
-pub fn overlap_energy(a: &OrientedBox, b: &OrientedBox, reach_m: f64) -> (f64, [f64; 3]) {
-    let far = a.radius_m + b.radius_m + reach_m;
-    if far <= 0.0 || (b.center - a.center).norm_squared() >= far * far {
-        return (0.0, [0.0; 3]);
-    }
-    let (mut energy, mut gradient) = (0.0, [0.0; 3]);
-    let mut add = |short: f64, d_position: Vec2, d_heading: f64| {
-        energy += short * short;
-        gradient[0] -= 2.0 * short * d_position.x;
-        gradient[1] -= 2.0 * short * d_position.y;
-        gradient[2] -= 2.0 * short * d_heading;
-    };
-    let (offsets, axis, radius) = discs(a);
-    for offset in offsets {
-        let arm = axis * offset;
-        let (distance, outwards) = b.distance_local(b.local(a.center + arm));
-        let short = reach_m - (distance - radius);
-        if short > 0.0 {
-            let away = b.world_vector(outwards);
-            add(short, away, super::cross(arm, away));
-        }
-    }
-    let (offsets, axis, radius) = discs(b);
-    for offset in offsets {
-        let local = a.local(b.center + axis * offset);
-        let (distance, outwards) = a.distance_local(local);
-        let short = reach_m - (distance - radius);
-        if short > 0.0 {
-            // Turning the box by +h turns the point by -h in its frame.
-            add(short, -a.world_vector(outwards), -super::cross(local, outwards));
-        }
-    }
-    (energy, gradient)
-}
-
 /// The box moved by `shift` after turning it about the origin by `angle_rad`.
 #[cfg(test)]
 pub(crate) fn moved(of: &OrientedBox, angle_rad: f64, shift: Vec2) -> OrientedBox {
@@ -373,12 +308,6 @@ mod tests {
         assert_eq!(iou(&square(0.0, 0.0), &square(2.0, 0.0)), 0.0);
     }
 
-    #[test]
-    fn disc_counts() {
-        let count = |l, w| discs(&OrientedBox::new(Vec2::zeros(), l, w, 0.0)).0.count();
-        assert_eq!([count(0.4, 0.4), count(2.35, 1.0), count(6.0, 1.3), count(0.2, 0.5)], [1, 3, 6, 3]);
-    }
-
     proptest! {
         #[test]
         fn symmetric_and_invariant(a in any_box(), b in any_box(), turn in -4.0..4.0, x in -50.0..50.0) {
@@ -388,7 +317,6 @@ mod tests {
             prop_assert!((gap - signed_gap(&am, &bm)).abs() < 1e-9);
             prop_assert!((iou(&a, &b) - iou(&b, &a)).abs() < 1e-9);
             prop_assert!((iou(&a, &b) - iou(&am, &bm)).abs() < 1e-9);
-            prop_assert!((overlap_energy(&a, &b, 0.5).0 - overlap_energy(&bm, &am, 0.5).0).abs() < 1e-7);
             prop_assert!(circle_gap(&a, &b) <= gap.max(0.0) + 1e-9);
         }
 
@@ -401,24 +329,6 @@ mod tests {
             // Moving b by the gap along the direction brings the two to a touch.
             let touching = moved(&b, 0.0, -towards * gap);
             prop_assert!(signed_gap(&a, &touching).abs() < 1e-6);
-        }
-
-        #[test]
-        fn energy_gradient_matches_differences(a in any_box(), b in any_box()) {
-            let at = |dx: f64, dy: f64, dh: f64| {
-                let shifted = OrientedBox::new(
-                    a.center + Vec2::new(dx, dy), a.half_length_m, a.half_width_m, a.heading_rad + dh);
-                overlap_energy(&shifted, &b, 0.5).0
-            };
-            let (_, gradient) = overlap_energy(&a, &b, 0.5);
-            for (axis, value) in gradient.into_iter().enumerate() {
-                let d = |h: f64| at(
-                    if axis == 0 { h } else { 0.0 }, if axis == 1 { h } else { 0.0 }, if axis == 2 { h } else { 0.0 });
-                let (left, right) = ((d(0.0) - d(-1e-6)) / 1e-6, (d(1e-6) - d(0.0)) / 1e-6);
-                // Where the nearest side changes the two one-sided slopes differ: no gradient there.
-                prop_assume!((left - right).abs() < 1e-3);
-                prop_assert!((0.5 * (left + right) - value).abs() < 2e-3 * (1.0 + value.abs()));
-            }
         }
     }
 }

@@ -14,6 +14,7 @@ mod whiten;
 pub use fit::{Sampled, fit};
 pub use project::{Limiting, Projection, Reach, Residuals, Target, project};
 pub use tension::Tension;
+pub use whiten::knot_covariance_factor;
 
 use crate::geometry::{direction, rotate};
 use crate::limits::Limits;

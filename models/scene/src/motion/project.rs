@@ -1,15 +1,15 @@
 //! Goals met exactly: the smallest change of the knots whose rollout ends at the goal, within the limits.
 //!
 //! Gauss-Newton on the rollout with its analytic Jacobian, in the metric of [`super::whiten`], with an
-//! active set at the bounds (`model.md` section 3). A hard start is tried from several first guesses.
+//! active set at the bounds. A hard start is tried from several first guesses.
 
 use super::drive::{curvature_cut, sensitivities};
 use super::fit::{Sampled, fit};
-use super::walk::{STANDING_MPS, position_row, velocity_row};
+use super::walk::{position_row, velocity_row};
 use super::whiten::Whitening;
 use super::{CONTROLS, Kind, Knots, MotionModel, MotionState, Trajectory};
 use crate::geometry::direction;
-use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
+use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 use nalgebra::{SMatrix, SVector};
 
 /// What must hold at one step; `None` leaves a field free. Scene frame.

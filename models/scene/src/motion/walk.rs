@@ -6,10 +6,8 @@
 
 use super::{Knots, MotionModel, MotionState, Trajectory};
 use crate::geometry::rotate;
-use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STEP_S, Vec2, wrap_angle};
+use crate::{HORIZON_STEPS, KNOT_S, KNOT_STEPS, KNOTS, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 
-/// Below this speed the heading says nothing about the motion, m/s.
-pub(crate) const STANDING_MPS: f64 = 0.3;
 /// Fastest turning of the body, radians a step.
 const TURN_PER_STEP_RAD: f64 = 0.35;
 /// Steps over which a standing person turns to a goal heading.

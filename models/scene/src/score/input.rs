@@ -138,7 +138,7 @@ impl<'a> Actor<'a> {
         size.width_m = conditions.width_m.unwrap_or(size.width_m);
         Self {
             size,
-            agent_type: conditions.agent_type.unwrap_or(agent.agent_type),
+            agent_type: conditions.kind_of(agent),
             track: Cow::Owned(joined(agent, chosen)),
             generated: true,
             goal: conditions.goal,

@@ -1,9 +1,9 @@
 //! The scenes that windows are planned from: who is where, and what each is asked.
 
 use super::Generation;
-use crate::features::world::{Present, World};
 use crate::generator::actor::{Guessed, carried};
 use crate::generator::halfway::{as_goal, on_the_way};
+use crate::planning::world::{Present, World};
 use crate::request::{GenerateError, Intermediate, Request};
 use scene::geometry::direction;
 use scene::{AgentId, AgentType, Goal, HORIZON_STEPS, Meta, STEP_S, Scene, Start, State, Track, Vec2};
@@ -27,7 +27,7 @@ impl Generation<'_> {
             };
             // A recorded velocity is left as it is: its sideways part is noise.
             let made = self.progress.contains_key(&i) || self.continuing.contains(&i);
-            let on_foot = agent.conditions.agent_type.unwrap_or(agent.agent_type) == AgentType::Pedestrian;
+            let on_foot = agent.kind() == AgentType::Pedestrian;
             if let Some(Some(first)) = states.first_mut()
                 && made
                 && !on_foot

@@ -5,8 +5,8 @@ use super::super::choice::{Choice, distance};
 use super::super::realise::{Motion, middle, realise, without_creep};
 use super::options::{middle_slot, options, shown_motion};
 use super::{Decided, Window};
-use crate::features::MODES;
 use crate::generator::parallel;
+use crate::planning::MODES;
 use crate::request::Shown;
 
 impl Window<'_> {

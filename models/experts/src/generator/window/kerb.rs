@@ -1,8 +1,8 @@
 //! The part of the scene's energy that keeps vehicles on the road.
 
-use crate::features::INSTANTS;
-use crate::net::overlap::Overlap;
+use crate::planning::INSTANTS;
 use scene::geometry::obb::OrientedBox;
+use scene::geometry::overlap_energy::OverlapEnergy;
 use scene::score::Drivable;
 use scene::{Size, Vec2};
 
@@ -11,8 +11,12 @@ const WEIGHT: f32 = 0.3;
 
 /// Energy of a box whose centre and heading at the instants are `places`, by how far each corner lies off
 /// the road, and its gradient to the centre, headings held. Zero where the map does not say.
-pub(super) fn kerb(ground: &Drivable, size: &Size, places: &[(Vec2, f64); INSTANTS]) -> Overlap {
-    let mut out = Overlap { energy: 0.0, gradient: [[0.0; 2]; INSTANTS] };
+pub(super) fn kerb(
+    ground: &Drivable,
+    size: &Size,
+    places: &[(Vec2, f64); INSTANTS],
+) -> OverlapEnergy<INSTANTS> {
+    let mut out = OverlapEnergy { energy: 0.0, gradient: [[0.0; 2]; INSTANTS] };
     for (gradient, (position, heading_rad)) in out.gradient.iter_mut().zip(places) {
         let outline = OrientedBox::new(*position, 0.5 * size.length_m, 0.5 * size.width_m, *heading_rad);
         if ground.box_outside_m(&outline).is_none_or(|outside_m| outside_m <= 0.0) {

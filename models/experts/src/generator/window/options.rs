@@ -4,7 +4,7 @@ use super::super::KnownMap;
 use super::super::actor::{Actor, Role};
 use super::super::choice::{Choosable, medoid_costs, swept, swept_kept};
 use super::super::realise::{Motion, PER_INSTANT};
-use crate::features::{INSTANTS, MODES};
+use crate::planning::{INSTANTS, MODES};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionState, Trajectory};
 use scene::{AgentType, State};

@@ -6,12 +6,12 @@ use super::super::realise::{Motion, PER_INSTANT, places, realise};
 use super::kerb::kerb;
 use super::options::{options, shown_motion};
 use super::{Residuals, Window};
-use crate::features::world::{Present, World};
-use crate::features::{INSTANTS, MODES, RESIDUAL};
 use crate::generator::parallel;
-use crate::net::overlap::{Growth, Obstacle, Poses, absent, carried_back, carried_on, overlap};
+use crate::planning::world::{Present, World};
+use crate::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::Vec2;
 use scene::geometry::direction;
+use scene::geometry::overlap_energy::{Growth, MovingBox, absent, carried_back, carried_on, overlap_energy};
 use scene::motion::MotionState;
 use std::collections::BTreeSet;
 
@@ -22,11 +22,13 @@ const GUIDANCE: (usize, f32) = (12, 0.35);
 const SETTLING: (usize, f32) = (12, 0.7);
 /// Weight of boxes that soon will be too close.
 const SOON: f32 = 0.3;
-/// A meeting so soon at the velocity of the moment counts, seconds.
-const SOON_S: f32 = 1.0;
+/// A meeting so soon at the velocity of the moment counts: intervals between instants, a second.
+const SOON_INTERVALS: f32 = 2.0;
 
 /// Boxes farther apart than this do not matter to each other, metres.
 const NEAR_M: f32 = 1.0;
+
+type Poses = scene::geometry::overlap_energy::Poses<INSTANTS>;
 
 /// Somebody as an obstacle.
 pub(super) struct Outline {
@@ -39,7 +41,7 @@ pub(super) struct Outline {
 
 impl Outline {
     fn new(poses: Poses, half: [f32; 2]) -> Self {
-        Self { soon: carried_on(&poses, SOON_S), poses, half }
+        Self { soon: carried_on(&poses, SOON_INTERVALS), poses, half }
     }
 
     /// Whether two come near each other, now or soon.
@@ -118,8 +120,8 @@ impl Window<'_> {
     ) -> (f32, [[f32; 2]; INSTANTS]) {
         let own = poses_of(places);
         let half = half_size(&actor.planned.present);
-        let obstacles = others.iter().map(|o| Obstacle { poses: &o.poses, half: o.half });
-        let found = overlap(&own, half, obstacles, Growth::Square);
+        let obstacles = others.iter().map(|o| MovingBox { poses: &o.poses, half: o.half });
+        let found = overlap_energy(&own, half, obstacles, Growth::Square);
         let (mut energy, mut gradient) = (found.energy, found.gradient);
         let mut add = |weight: f32, more: f32, slope: [[f32; 2]; INSTANTS]| {
             energy += weight * more;
@@ -128,9 +130,9 @@ impl Window<'_> {
             }
         };
         if terms == Terms::All {
-            let obstacles = others.iter().map(|o| Obstacle { poses: &o.soon, half: o.half });
-            let soon = overlap(&carried_on(&own, SOON_S), half, obstacles, Growth::Square);
-            add(SOON, soon.energy, carried_back(&soon.gradient, SOON_S));
+            let obstacles = others.iter().map(|o| MovingBox { poses: &o.soon, half: o.half });
+            let soon = overlap_energy(&carried_on(&own, SOON_INTERVALS), half, obstacles, Growth::Square);
+            add(SOON, soon.energy, carried_back(&soon.gradient, SOON_INTERVALS));
             if actor.keeps_to_the_road {
                 let kerb = kerb(&self.map.drivable, &actor.planned.present.size, places);
                 add(1.0, kerb.energy, kerb.gradient);

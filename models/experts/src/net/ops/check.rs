@@ -3,8 +3,7 @@
 use std::cell::Cell;
 
 use candle_core::{DType, Device, Result, Tensor, Var};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use scene::random::Key;
 
 thread_local! {
     static STOCK: Cell<bool> = const { Cell::new(false) };
@@ -25,10 +24,9 @@ pub(super) fn stock_forms_wanted() -> bool {
 
 /// Seeded numbers in -1..1, no two alike.
 pub(crate) fn random(shape: &[usize], seed: u64) -> Tensor {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let values: Vec<f32> = (0..shape.iter().product::<usize>())
-        .map(|_| (rng.next_u32() >> 8) as f32 / (1 << 23) as f32 - 1.0)
-        .collect();
+    let mut stream = Key::default().number(seed).stream();
+    let values: Vec<f32> =
+        (0..shape.iter().product::<usize>()).map(|_| stream.between(-1.0, 1.0) as f32).collect();
     Tensor::from_vec(values, shape, &Device::Cpu).unwrap()
 }
 

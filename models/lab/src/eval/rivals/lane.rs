@@ -2,8 +2,8 @@
 //! leader as it stands now going on at its speed, a red light that stays red.
 
 use super::state;
-use experts::features::profile::Caps;
-use experts::features::world::{Present, World};
+use experts::planning::profile::Caps;
+use experts::planning::world::{Present, World};
 use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
 use scene::{HORIZON_STEPS, STEP_S, State};
 

@@ -6,7 +6,7 @@ use crate::eval::draw::Draw;
 use crate::eval::together::{Motions, asked, generated, joint_goal};
 use crate::eval::{Case, Site, Subset};
 use anyhow::Result;
-use experts::features::world::World;
+use experts::planning::world::World;
 use scene::{Future, Goal, State};
 
 /// Futures of a case, the most probable first; none under a condition that the baseline does not see, or of a

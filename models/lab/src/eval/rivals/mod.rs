@@ -13,7 +13,7 @@ pub use prior::{VARIATIONS, least_effort, varied};
 pub use spline::hermite;
 
 use super::{Case, Site, Subset};
-use experts::features::world::World;
+use experts::planning::world::World;
 use scene::{Agent, AgentType, Future, Goal, HORIZON_STEPS, STEP_S, State, Vec2};
 use serde::Serialize;
 

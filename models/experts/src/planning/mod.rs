@@ -1,0 +1,17 @@
+//! The planning prior: what can be said of a road user's futures before any network speaks.
+//!
+//! [`world`] is the scene at one step, [`anchors`] are the ways on from there, [`profile`] the pace along
+//! them, [`coordinates`] how a future is written relative to its anchor, and [`pullback`] takes gradients
+//! in the plane back to those numbers.
+
+pub mod anchors;
+pub mod coordinates;
+pub mod profile;
+pub mod pullback;
+pub mod smooth;
+pub mod world;
+
+pub use coordinates::{
+    ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, MODES, RESIDUAL, STAYS_WITHIN_M, hat,
+    integrated_hat, twice_integrated_hat,
+};
