@@ -1,19 +1,24 @@
 //! What the experts see and what they say, as plain numbers: one [`AgentFeatures`] per road user. The
 //! tensors of `net` are these arrays stacked. What they know of the map is what its anchors say.
+//!
+//! [`tables`] says what each number is; a new input is a line there and one where it is worked out (`encode`).
 
 pub mod agent;
+mod ahead;
+pub mod block;
+mod encode;
+pub mod tables;
+mod tangent;
+#[cfg(test)]
+mod tests;
+
+pub use tables::{ANCHOR, NEIGHBOUR, NEIGHBOUR_GOAL, OWN, OWN_GOAL, OWN_GOAL_POSITION};
 
 use crate::planning::{INSTANTS, MODES};
 use scene::KNOTS;
 
-/// Numbers about the road user itself and its condition.
-pub const OWN: usize = 48;
 /// Most other road users seen.
 pub const NEIGHBOURS: usize = 16;
-/// Numbers of another road user.
-pub const NEIGHBOUR: usize = 24;
-/// Numbers of an anchor.
-pub const ANCHOR: usize = 112;
 
 /// Share of standing road users that get a training record, so that moving ones are not drowned.
 pub const STANDING_SHARE: f64 = 0.06;

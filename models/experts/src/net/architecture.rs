@@ -4,14 +4,15 @@ use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
 use super::NetError;
-use crate::features::{ANCHOR, NEIGHBOUR, NEIGHBOURS, OWN};
-use crate::planning::{INSTANTS, MODES, RESIDUAL};
+use crate::features::NEIGHBOURS;
+use crate::features::tables::tables_hash;
+use crate::planning::MODES;
 
 /// Tokens of a context: neighbours, anchors.
 pub const TOKENS: usize = NEIGHBOURS + MODES;
 
-/// Generation of what features mean and of the networks' arithmetic.
-const VERSION: u32 = 5;
+/// Generation of the networks' arithmetic. What they see is named by the hash of its tables.
+const VERSION: u32 = 6;
 
 /// Everything that decides the shapes of an expert's tensors and what they mean.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,35 +30,8 @@ pub struct Architecture {
     pub heads: usize,
     /// Scale of a draw's noise, percent of 1 m/s2 along and 1 m across.
     pub noise_percent: u32,
-    /// Sizes of the features the expert was trained on.
-    pub features: FeatureSizes,
-}
-
-/// Sizes of features.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(missing_docs, reason = "the constants of `features` by their names")]
-pub struct FeatureSizes {
-    pub own: usize,
-    pub neighbours: usize,
-    pub neighbour: usize,
-    pub anchor: usize,
-    pub modes: usize,
-    pub instants: usize,
-    pub residual: usize,
-}
-
-impl FeatureSizes {
-    /// Those of this program.
-    pub const CURRENT: Self = Self {
-        own: OWN,
-        neighbours: NEIGHBOURS,
-        neighbour: NEIGHBOUR,
-        anchor: ANCHOR,
-        modes: MODES,
-        instants: INSTANTS,
-        residual: RESIDUAL,
-    };
+    /// Hash of the tables of features that the expert was trained on.
+    pub features: String,
 }
 
 impl Default for Architecture {
@@ -69,7 +43,7 @@ impl Default for Architecture {
             refiner_blocks: 2,
             heads: 4,
             noise_percent: 100,
-            features: FeatureSizes::CURRENT,
+            features: tables_hash(),
         }
     }
 }
@@ -90,12 +64,10 @@ impl Architecture {
         if self.version != VERSION {
             return refuse(format!("version {}, this program runs version {VERSION}", self.version));
         }
-        if self.features != FeatureSizes::CURRENT {
-            return refuse(format!(
-                "features {:?}, this program has {:?}",
-                self.features,
-                FeatureSizes::CURRENT
-            ));
+        let features = tables_hash();
+        if self.features != features {
+            let found = &self.features;
+            return refuse(format!("trained on features {found}, this program has {features}"));
         }
         if !(1..=1000).contains(&self.noise_percent) {
             return refuse(format!("noise of {} percent; 1 to 1000 can be", self.noise_percent));

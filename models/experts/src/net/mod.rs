@@ -21,7 +21,7 @@ mod refiner;
 pub mod schedule;
 pub mod smooth;
 
-pub use architecture::{Architecture, FeatureSizes, TOKENS};
+pub use architecture::{Architecture, TOKENS};
 pub use encoder::{Context, ContextEncoder, Gating};
 pub use error::NetError;
 pub use expert::{Card, Expert, InitialOutput, on_cpu};

@@ -9,6 +9,8 @@ pub mod coordinates;
 pub mod profile;
 pub mod pullback;
 pub mod smooth;
+#[cfg(test)]
+mod tests;
 pub mod world;
 
 pub use coordinates::{

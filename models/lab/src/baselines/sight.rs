@@ -1,7 +1,7 @@
 //! What a baseline may see, and where the recording went.
 
 use experts::features::AgentFeatures;
-use experts::features::agent::{NEIGHBOUR_GOAL, OWN_GOAL, OWN_GOAL_POSITION};
+use experts::features::{NEIGHBOUR_GOAL, OWN_GOAL, OWN_GOAL_POSITION};
 use experts::planning::INSTANTS;
 
 use crate::train::{Placed, Record};

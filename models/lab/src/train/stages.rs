@@ -3,7 +3,7 @@
 use candle_core::{Device, Result, Tensor};
 use experts::Refining;
 use experts::features::AgentFeatures;
-use experts::features::agent::OWN_GOAL_POSITION;
+use experts::features::OWN_GOAL_POSITION;
 use experts::net::{Context, Expert, Initial, Prepared, schedule};
 use experts::planning::pullback::Pullback;
 use experts::planning::{ALONG_SCALE, INSTANT_S, MODES, RESIDUAL};
