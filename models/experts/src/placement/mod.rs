@@ -5,7 +5,6 @@
 //! distributions, and whatever would touch somebody is drawn again. Speeds are drawn last, those nearest
 //! to a conflict first, so that everybody knows who is in front.
 
-mod edges;
 pub mod learn;
 mod model;
 mod observe;

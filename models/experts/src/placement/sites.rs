@@ -1,9 +1,9 @@
 //! Where road users can be: short cells of lanes, kerbs, crosswalks and pavements, each with the few
 //! facts about its surroundings that say how often somebody is there.
 
-use super::edges::EdgeIndex;
 use super::region::{Region, in_ring};
 use super::stops::{Ahead, Lights};
+use scene::geometry::segments::{SegmentIndex, pieces};
 use scene::geometry::{cross, direction};
 use scene::map::LaneType;
 use scene::routes::graph::{GraphLane, LaneGraph, LaneSource};
@@ -225,7 +225,8 @@ impl<'a> Sites<'a> {
         if self.edges.is_empty() {
             return;
         }
-        let index = EdgeIndex::new(&self.scene.map);
+        let edges = (0..).zip(&self.scene.map.road_edges);
+        let index = SegmentIndex::new(edges.flat_map(|(i, edge)| pieces(&edge.points.xy, i)).collect());
         let mut found = Vec::new();
         for site in self.all.iter().filter(|s| s.kind == SiteKind::Lane) {
             let lane = &self.graph.lanes()[site.line];

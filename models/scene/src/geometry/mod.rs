@@ -3,6 +3,7 @@
 pub mod obb;
 pub mod overlap_energy;
 pub mod polyline;
+pub mod segments;
 pub mod ttc;
 
 pub use nalgebra::Vector2;

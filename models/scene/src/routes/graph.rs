@@ -1,9 +1,9 @@
 //! The lane graph: lanes as polylines with links, neighbours and a spatial index.
 
-use super::grid::Grid;
 use super::links;
 use super::walks;
 use crate::geometry::polyline::Polyline;
+use crate::geometry::segments::{SegmentIndex, pieces};
 use crate::map::{Lane, LaneType};
 use crate::{AgentType, LaneMap, Vec2};
 use std::collections::HashMap;
@@ -132,7 +132,7 @@ pub fn assumed_speed_limit_mps(lane_type: LaneType) -> f64 {
 pub struct LaneGraph {
     lanes: Vec<GraphLane>,
     by_id: HashMap<String, usize>,
-    grid: Grid,
+    index: SegmentIndex,
 }
 
 /// A lane near a point.
@@ -168,8 +168,9 @@ impl LaneGraph {
             }
         }
         let by_id = by_id.into_iter().map(|(id, i)| (id.to_owned(), i)).collect();
-        let grid = Grid::new(lanes.iter().map(|lane| &lane.path));
-        let mut graph = Self { lanes, by_id, grid };
+        let numbered = (0..).zip(&lanes);
+        let index = SegmentIndex::new(numbered.flat_map(|(i, lane)| pieces(lane.path.points(), i)).collect());
+        let mut graph = Self { lanes, by_id, index };
         links::sides(map, &mut graph);
         graph
     }
@@ -196,12 +197,13 @@ impl LaneGraph {
         keep: impl Fn(usize, &GraphLane) -> bool,
     ) -> Vec<LaneHit> {
         let mut feet: Vec<(usize, f64, usize, f64)> = Vec::new();
-        self.grid.visit(point, radius_m, |lane, piece| {
+        for segment in self.index.near(point, radius_m) {
+            let (lane, piece) = (segment.owner as usize, segment.piece as usize);
             let (s, d2) = self.lanes[lane].path.foot_on(piece, point);
             if d2 <= radius_m * radius_m && keep(lane, &self.lanes[lane]) {
                 feet.push((lane, d2, piece, s));
             }
-        });
+        }
         feet.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         feet.dedup_by_key(|foot| foot.0);
         let hit = |(lane, _, piece, s): (usize, f64, usize, f64)| {

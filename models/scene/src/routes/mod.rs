@@ -9,7 +9,6 @@ mod assemble;
 pub mod blend;
 mod cubic;
 pub mod graph;
-mod grid;
 mod join;
 mod links;
 mod search;

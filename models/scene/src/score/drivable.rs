@@ -1,8 +1,8 @@
 //! Where vehicles may drive and in which direction: an index of a map, built once and shared.
 
-use super::segments::{Segment, Segments, pieces};
 use crate::geometry::Vec2;
 use crate::geometry::obb::OrientedBox;
+use crate::geometry::segments::{Segment, SegmentIndex, thinned_pieces};
 use crate::map::{Area, LaneMap, LaneType};
 
 /// Distances off the road are not told apart beyond this, metres.
@@ -31,9 +31,9 @@ struct Band {
 pub struct Drivable {
     areas: Polygons,
     driveways: Polygons,
-    area_sides: Segments,
-    edges: Segments,
-    centers: Segments,
+    area_sides: SegmentIndex,
+    edges: SegmentIndex,
+    centers: SegmentIndex,
     bands: Vec<Band>,
     assumed_width: bool,
 }
@@ -42,19 +42,19 @@ impl Drivable {
     /// Index of a map. Some milliseconds for a map of ten thousand points.
     pub fn new(map: &LaneMap) -> Self {
         let lanes = || map.lanes.iter().enumerate().filter(|(_, l)| l.lane_type != LaneType::Sidewalk);
-        let centers = lanes().flat_map(|(i, l)| pieces(&l.points.xy, false, i as u32)).collect();
-        let edges = map.road_edges.iter().flat_map(|e| pieces(&e.points.xy, false, 0)).collect();
+        let centers = lanes().flat_map(|(i, l)| thinned_pieces(&l.points.xy, false, i as u32)).collect();
+        let edges = map.road_edges.iter().flat_map(|e| thinned_pieces(&e.points.xy, false, 0)).collect();
         let has_areas = map.drivable.iter().any(|a| a.polygon.xy.len() >= 3);
         let band = |lane: &crate::map::Lane| Band {
             half_width_m: 0.5 * lane.width_or_assumed_m(),
             carries_vehicles: lane.lane_type.carries_vehicles(),
         };
-        let edges = Segments::new(edges);
+        let edges = SegmentIndex::new(edges);
         Self {
             areas: Polygons::new(&map.drivable),
             driveways: Polygons::new(&map.driveways),
-            area_sides: Segments::new(sides(&map.drivable).collect()),
-            centers: Segments::new(centers),
+            area_sides: SegmentIndex::new(sides(&map.drivable).collect()),
+            centers: SegmentIndex::new(centers),
             bands: map.lanes.iter().map(band).collect(),
             assumed_width: !has_areas && edges.is_empty() && lanes().any(|(_, l)| l.width_m.is_none()),
             edges,
@@ -165,7 +165,7 @@ impl Drivable {
     }
 }
 
-fn distance(to: &Segments, point: Vec2) -> f64 {
+fn distance(to: &SegmentIndex, point: Vec2) -> f64 {
     to.nearest(point, FAR_M).map_or(FAR_M, |found| found.2)
 }
 
@@ -175,7 +175,7 @@ fn sides(areas: &[Area]) -> impl Iterator<Item = Segment> + '_ {
         outer.chain(&area.holes).map(|r| r.xy.clone()).collect::<Vec<_>>()
     };
     areas.iter().enumerate().flat_map(move |(i, area)| {
-        rings(area).into_iter().flat_map(move |ring| pieces(&ring, true, i as u32))
+        rings(area).into_iter().flat_map(move |ring| thinned_pieces(&ring, true, i as u32))
     })
 }
 

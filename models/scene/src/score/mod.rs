@@ -16,7 +16,6 @@ pub mod pairs;
 pub mod pet;
 pub mod report;
 pub mod road;
-mod segments;
 pub mod signals;
 
 pub use drivable::Drivable;

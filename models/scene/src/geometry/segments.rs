@@ -1,0 +1,302 @@
+//! Straight pieces of lines in a uniform grid: the few that lie near a point, quickly. The one spatial index of
+//! lanes, road edges and areas.
+//!
+//! The grid is one sorted array of occupied cells: quick to build, small, without hashing, and a stray piece far
+//! from everything costs nothing.
+
+use super::{Vec2, cross};
+
+/// Side of a grid cell, metres.
+const CELL_M: f64 = 8.0;
+/// Most stretches that a piece is cut into to find its cells; only coordinates far outside any scene need more.
+const MOST_STRETCHES: f64 = 4_096.0;
+/// Points that lie this near the chord of their neighbours are left out, metres.
+const THIN_M: f64 = 0.03;
+
+/// A straight piece of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Where it begins.
+    pub from: Vec2,
+    /// Where it ends.
+    pub to: Vec2,
+    /// The line: a lane, polygon or edge by index.
+    pub owner: u32,
+    /// Which piece of the line, from 0.
+    pub piece: u32,
+}
+
+impl Segment {
+    /// Point of the piece nearest to `p`.
+    pub fn foot(&self, p: Vec2) -> Vec2 {
+        let along = self.to - self.from;
+        let length_squared = along.norm_squared();
+        let part = if length_squared > 0.0 { (p - self.from).dot(&along) / length_squared } else { 0.0 };
+        self.from + along * part.clamp(0.0, 1.0)
+    }
+
+    /// The piece crosses the straight line between two points.
+    pub fn crosses(&self, p: Vec2, q: Vec2) -> bool {
+        let (along, other) = (self.to - self.from, q - p);
+        let beside = |base: Vec2, direction: Vec2, point: Vec2| cross(direction, point - base);
+        beside(self.from, along, p) * beside(self.from, along, q) < 0.0
+            && beside(p, other, self.from) * beside(p, other, self.to) < 0.0
+    }
+}
+
+/// All pieces of a line.
+pub fn pieces(points: &[Vec2], owner: u32) -> impl Iterator<Item = Segment> {
+    let number = move |(piece, ends): (usize, &[Vec2])| {
+        let piece = u32::try_from(piece).unwrap_or(u32::MAX);
+        Segment { from: ends[0], to: ends[1], owner, piece }
+    };
+    points.windows(2).enumerate().map(number)
+}
+
+/// Pieces of a line with near-straight points left out; closed adds the piece back to the start.
+pub fn thinned_pieces(points: &[Vec2], closed: bool, owner: u32) -> Vec<Segment> {
+    let mut kept = thinned(points);
+    if closed {
+        kept.extend(points.first().copied());
+    }
+    pieces(&kept, owner).filter(|s| s.from != s.to).collect()
+}
+
+/// Leaves out points while all of them stay near the chord that replaces them.
+fn thinned(points: &[Vec2]) -> Vec<Vec2> {
+    let mut kept = Vec::new();
+    let mut anchor = 0;
+    kept.extend(points.first().copied());
+    while anchor + 1 < points.len() {
+        let mut end = anchor + 1;
+        while end + 1 < points.len() && end - anchor < 40 {
+            let chord = Segment { from: points[anchor], to: points[end + 1], owner: 0, piece: 0 };
+            if points[anchor + 1..=end].iter().any(|p| (chord.foot(*p) - p).norm() > THIN_M) {
+                break;
+            }
+            end += 1;
+        }
+        kept.push(points[end]);
+        anchor = end;
+    }
+    kept
+}
+
+/// Grid of pieces. Built once a map; read by any number of threads.
+#[derive(Clone, Debug, Default)]
+pub struct SegmentIndex {
+    all: Vec<Segment>,
+    /// Cells in rows from south to north, each with a piece that passes through it.
+    cells: Vec<(u64, u32)>,
+}
+
+impl SegmentIndex {
+    /// Grid over these pieces.
+    pub fn new(all: Vec<Segment>) -> Self {
+        let mut cells = Vec::with_capacity(2 * all.len());
+        for (number, segment) in (0..u32::MAX).zip(&all) {
+            cells_along(segment, |cell| cells.push((cell, number)));
+        }
+        cells.sort_unstable();
+        cells.dedup();
+        Self { all, cells }
+    }
+
+    /// No pieces.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Pieces that may come within `radius_m` of `point` (some come twice, some are farther). None for a point or
+    /// radius that is no number.
+    pub fn near(&self, point: Vec2, radius_m: f64) -> impl Iterator<Item = &Segment> {
+        let reach = Vec2::repeat(radius_m);
+        self.within(point - reach, point + reach)
+    }
+
+    /// Pieces that may enter the rectangle between two corners (some come twice, some do not).
+    fn within(&self, low: Vec2, high: Vec2) -> Within<'_> {
+        let empty = low.x.is_nan() || low.y.is_nan() || !(low.x <= high.x && low.y <= high.y);
+        let (left, right) = (cell(low.x), cell(high.x));
+        let (bottom, top) = (cell(low.y), cell(high.y));
+        let at =
+            if empty { self.cells.len() } else { self.cells.partition_point(|c| c.0 < key(left, bottom)) };
+        Within { index: self, at, left, right, top }
+    }
+
+    /// Nearest piece within `most_m`, with its foot and distance; of several the first.
+    pub fn nearest(&self, point: Vec2, most_m: f64) -> Option<(&Segment, Vec2, f64)> {
+        let mut radius = CELL_M.min(most_m);
+        loop {
+            let mut best: Option<(&Segment, Vec2, f64)> = None;
+            for segment in self.near(point, radius) {
+                let foot = segment.foot(point);
+                let distance = (foot - point).norm();
+                if best.is_none_or(|b| distance < b.2) {
+                    best = Some((segment, foot, distance));
+                }
+            }
+            if let Some(found) = best.filter(|b| b.2 <= radius) {
+                return Some(found);
+            }
+            if radius >= most_m {
+                return None;
+            }
+            radius = (2.0 * radius).min(most_m);
+        }
+    }
+
+    /// Distance from `from` along the unit vector `way` to the first piece that is met, at most `most_m`; metres.
+    pub fn ray_m(&self, from: Vec2, way: Vec2, most_m: f64) -> Option<f64> {
+        let to = from + way * most_m;
+        let ray = to - from;
+        let met = |segment: &Segment| {
+            let side = segment.to - segment.from;
+            let turn = cross(ray, side);
+            if turn.abs() < 1e-12 {
+                return None;
+            }
+            let along = cross(segment.from - from, side) / turn;
+            let across = cross(segment.from - from, ray) / turn;
+            ((0.0..=1.0).contains(&along) && (0.0..=1.0).contains(&across)).then_some(along * most_m)
+        };
+        self.within(from.inf(&to), from.sup(&to)).filter_map(met).min_by(f64::total_cmp)
+    }
+}
+
+/// Pieces by the cells of a rectangle.
+struct Within<'a> {
+    index: &'a SegmentIndex,
+    at: usize,
+    left: i32,
+    right: i32,
+    top: i32,
+}
+
+impl<'a> Iterator for Within<'a> {
+    type Item = &'a Segment;
+
+    fn next(&mut self) -> Option<&'a Segment> {
+        let cells = &self.index.cells;
+        loop {
+            let (cell, number) = *cells.get(self.at)?;
+            // Rows without cells are skipped: the next one to look at is that of the next cell.
+            let row = row_of(cell);
+            if row > self.top {
+                return None;
+            }
+            if cell < key(self.left, row) {
+                self.at += cells[self.at..].partition_point(|c| c.0 < key(self.left, row));
+            } else if cell > key(self.right, row) {
+                let next = row.checked_add(1)?;
+                self.at += cells[self.at..].partition_point(|c| c.0 < key(self.left, next));
+            } else {
+                self.at += 1;
+                return self.index.all.get(number as usize);
+            }
+        }
+    }
+}
+
+fn cell(coordinate_m: f64) -> i32 {
+    // The cast saturates, which is what a far coordinate needs.
+    (coordinate_m / CELL_M).floor() as i32
+}
+
+/// Orders cells by row, then by column.
+fn key(column: i32, row: i32) -> u64 {
+    let biased = |i: i32| u64::from((i as u32) ^ 0x8000_0000);
+    (biased(row) << 32) | biased(column)
+}
+
+fn row_of(key: u64) -> i32 {
+    ((key >> 32) as u32 ^ 0x8000_0000) as i32
+}
+
+/// Calls `found` with the cells around a piece, stretch by stretch.
+fn cells_along(segment: &Segment, mut found: impl FnMut(u64)) {
+    let (a, b) = (segment.from, segment.to);
+    let stretches = ((b - a).norm() / CELL_M).ceil().clamp(1.0, MOST_STRETCHES);
+    let mut from = a;
+    for i in 1..=stretches as usize {
+        let to = a + (b - a) * (i as f64 / stretches);
+        let columns = (cell(from.x.min(to.x)), cell(from.x.max(to.x)));
+        let rows = (cell(from.y.min(to.y)), cell(from.y.max(to.y)));
+        for row in rows.0..=rows.1 {
+            for column in columns.0..=columns.1 {
+                found(key(column, row));
+            }
+        }
+        from = to;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn straight_points_are_left_out() {
+        let line: Vec<Vec2> = (0..=20).map(|i| Vec2::new(i as f64 * 0.5, 0.0)).collect();
+        assert_eq!(thinned_pieces(&line, false, 3).len(), 1);
+        assert_eq!(pieces(&line, 3).map(|s| s.piece).max(), Some(19));
+        let ring = [Vec2::zeros(), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
+        assert_eq!(thinned_pieces(&ring, true, 0).len(), 3);
+        assert!(thinned_pieces(&[], true, 0).is_empty() && thinned_pieces(&ring[..1], true, 0).is_empty());
+    }
+
+    fn piece(from: Vec2, to: Vec2) -> Segment {
+        Segment { from, to, owner: 0, piece: 0 }
+    }
+
+    #[test]
+    fn long_pieces_are_found_from_their_middle() {
+        let far = piece(Vec2::new(0.0, -300.0), Vec2::new(0.0, -200.0));
+        let index = SegmentIndex::new(vec![piece(Vec2::new(-500.0, 3.0), Vec2::new(500.0, 3.0)), far]);
+        let found = index.nearest(Vec2::new(17.0, 0.0), 5.0).unwrap();
+        assert_eq!((found.0.to.x, found.1), (500.0, Vec2::new(17.0, 3.0)));
+        assert!(index.nearest(Vec2::new(17.0, -100.0), 50.0).is_none());
+    }
+
+    #[test]
+    fn odd_questions_find_nothing() {
+        let index = SegmentIndex::new(vec![piece(Vec2::zeros(), Vec2::new(1.0, 0.0))]);
+        for (point, radius) in
+            [(Vec2::new(f64::NAN, 0.0), 5.0), (Vec2::zeros(), -1.0), (Vec2::zeros(), f64::NAN)]
+        {
+            assert_eq!(index.near(point, radius).count(), 0);
+        }
+        assert_eq!(index.near(Vec2::zeros(), f64::INFINITY).count(), 1);
+        assert!(SegmentIndex::default().nearest(Vec2::zeros(), 5.0).is_none());
+        let most = crate::MAX_COORDINATE_M;
+        let across = SegmentIndex::new(vec![piece(Vec2::repeat(-most), Vec2::repeat(most))]);
+        assert!(across.cells.len() < 1_000_000, "bounded, however long a piece is: {}", across.cells.len());
+    }
+
+    #[test]
+    fn a_ray_meets_the_nearest_piece() {
+        let edge = |y: f64| piece(Vec2::new(-50.0, y), Vec2::new(50.0, y));
+        let index = SegmentIndex::new(vec![edge(4.0), edge(6.0), edge(-30.0)]);
+        let look = |x: f64, y: f64| index.ray_m(Vec2::new(x, 0.0), Vec2::new(0.0, y), 12.0);
+        assert_eq!(look(17.3, 1.0), Some(4.0));
+        assert_eq!((look(17.3, -1.0), look(60.0, 1.0)), (None, None));
+    }
+
+    proptest! {
+        #[test]
+        fn nearest_agrees_with_looking_at_all(
+            ends in prop::collection::vec((-60.0..60.0, -60.0..60.0, -20.0..20.0, -20.0..20.0), 1..40),
+            x in -90.0..90.0, y in -90.0..90.0,
+        ) {
+            let all: Vec<Segment> = ends.iter().map(|&(x, y, dx, dy)| {
+                piece(Vec2::new(x, y), Vec2::new(x + dx, y + dy))
+            }).collect();
+            let p = Vec2::new(x, y);
+            let least = all.iter().map(|s| (s.foot(p) - p).norm()).fold(f64::INFINITY, f64::min);
+            let grid = SegmentIndex::new(all);
+            let found = grid.nearest(p, 400.0).unwrap();
+            prop_assert!((found.2 - least).abs() < 1e-9);
+        }
+    }
+}
