@@ -1,6 +1,6 @@
 //! The one table of what each kind of road user can do. Projection, scoring and tests read it.
 
-use crate::{Agent, AgentType, Subtype};
+use crate::{AgentType, Subtype};
 use serde::Serialize;
 
 /// Bounds of motion of one kind of road user. Hard limits are never broken by an answer; the
@@ -63,11 +63,6 @@ impl Limits {
             }
             _ => CAR.long(length_m),
         }
-    }
-
-    /// Limits of this agent.
-    pub fn of_agent(agent: &Agent) -> Self {
-        Self::of(agent.agent_type, agent.subtype, agent.size.length_m)
     }
 
     /// Long vehicles turn wider: the tightest circle grows with the wheelbase beyond a car's.

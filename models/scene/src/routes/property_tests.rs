@@ -59,7 +59,7 @@ fn assert_route(route: &Route) -> Result<(), TestCaseError> {
     prop_assert!(route.legs.windows(2).all(|l| l[0].path_from_m <= l[1].path_from_m + 1e-9));
     prop_assert!(route.legs.iter().all(|l| l.from_m <= l.to_m + 1e-9));
     prop_assert!(route.lateral_m.is_finite() && route.heading_error_rad.abs() <= 3.2);
-    let caps = speed::route_speed_caps(route);
+    let caps = speed::speed_caps(&route.path, &route.limits_mps, SpeedRules::default());
     prop_assert!(caps.iter().all(|v| v.is_finite() && *v > 0.0));
     Ok(())
 }

@@ -96,11 +96,6 @@ pub fn speed_caps(path: &Polyline, limits_mps: &[f64], rules: SpeedRules) -> Vec
     caps
 }
 
-/// Speed caps of a route with comfortable bends.
-pub fn route_speed_caps(route: &Route) -> Vec<f64> {
-    speed_caps(&route.path, &route.limits_mps, SpeedRules::default())
-}
-
 /// Nearest obstacle ahead whose centre lies within 1.6 m of the path. The path begins at the centre of the
 /// own box, which is `own_length_m` long and not among `others`.
 pub fn leader(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Option<Leader> {
@@ -173,7 +168,7 @@ mod tests {
     #[test]
     fn bends_are_slow_and_braked_for() {
         let (_, route) = route(&crossing(), -60.0);
-        let caps = route_speed_caps(&route);
+        let caps = speed_caps(&route.path, &route.limits_mps, SpeedRules::default());
         let slowest = caps.iter().copied().fold(f64::INFINITY, f64::min);
         let expected = (2.2_f64 * 13.75).sqrt();
         assert!((slowest - expected).abs() < 0.3, "{slowest} for {expected}");

@@ -121,12 +121,6 @@ pub fn overlap(a: &SweptBoxes, b: &SweptBoxes) -> Overlap {
     found
 }
 
-/// How every option of one road user meets every option of another: row `i` holds option `i` of `a`
-/// against all of `b`.
-pub fn overlap_table(a: &[SweptBoxes], b: &[SweptBoxes]) -> Vec<Vec<Overlap>> {
-    a.iter().map(|p| b.iter().map(|q| overlap(p, q)).collect()).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,8 +139,8 @@ mod tests {
         let north_late = straight((45.0, -85.0), std::f64::consts::FRAC_PI_2, 10.0);
         let beside = straight((0.0, 2.4), 0.0, 10.0);
         let far = straight((0.0, 50.0), 0.0, 10.0);
-        let table = overlap_table(&[east], &[north_through, north_late, beside, far]);
-        let pairs: Vec<_> = table[0].iter().map(|o| (o.overlaps, o.close)).collect();
+        let meetings = [north_through, north_late, beside, far].map(|other| overlap(&east, &other));
+        let pairs = meetings.map(|o| (o.overlaps, o.close));
         assert_eq!(pairs, [(true, true), (false, false), (false, true), (false, false)]);
     }
 

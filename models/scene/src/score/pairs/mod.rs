@@ -358,5 +358,4 @@ fn least(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 }
 
 #[cfg(test)]
-#[path = "pairs_test.rs"]
 mod tests;
