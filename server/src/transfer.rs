@@ -2,8 +2,8 @@
 //! line use.
 
 use crate::problem::{Code, Problem};
-use formats::registry::{self, ExportOptions, FORMATS, ImportOptions};
-use formats::womd;
+use formats::registry::{self, FORMATS};
+use formats::{ExportOptions, ExportedMotion, ImportOptions, NET_POINTER};
 use scene::Scene;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -85,7 +85,7 @@ pub fn read(
     let format = names().into_iter().find(|known| *known == id).unwrap_or("auto");
     if net.is_some() && registry::by_id(id).is_some_and(|format| !format.info().takes_net) {
         let detail = format!("a file of format {id} comes without a network");
-        return Err(Problem::field(registry::NET_POINTER, Code::InvalidField, detail));
+        return Err(Problem::field(NET_POINTER, Code::InvalidField, detail));
     }
     let options = ImportOptions { skip, max_scenes: most, net, ..ImportOptions::default() };
     let mut scenes = Vec::new();
@@ -124,12 +124,12 @@ pub fn write(scene: &Scene, format: &str, sample: Option<usize>, motion: Motion)
         }
         copy = Some(scene);
     }
-    let mode = match motion {
-        Motion::Chosen => womd::Mode::Chosen,
-        Motion::Log => womd::Mode::Log,
+    let motion = match motion {
+        Motion::Chosen => ExportedMotion::Chosen,
+        Motion::Log => ExportedMotion::Log,
     };
     let exported = found
-        .export(&[copy.as_ref().unwrap_or(scene)], &ExportOptions { mode, gzip: false })
+        .export(&[copy.as_ref().unwrap_or(scene)], &ExportOptions { motion, gzip: false })
         .map_err(|error| Problem::new(Code::CannotRepresent, error.to_string()))?;
     let info = found.info();
     Ok(Written {

@@ -2,9 +2,10 @@
 //! a broken promise panics.
 #![allow(clippy::panic, clippy::expect_used, reason = "a panic is how a promise is reported broken")]
 
+use crate::format::{ExportedMotion, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
-use crate::registry::{self, ImportOptions};
-use crate::womd::{self, Mode, Options};
+use crate::registry;
+use crate::womd::{self, Options};
 use scene::{AgentType, State};
 
 /// A document that is read writes back to an equal scene, and then to the same bytes.
@@ -29,7 +30,7 @@ pub fn womd(bytes: &[u8]) {
         Options { verify_crc: false, max_scenes: 4, max_decoded_bytes: 16 << 20, ..Options::default() };
     for (scene, _) in womd::read_all(bytes, &options).into_iter().flatten() {
         let mut file = Vec::new();
-        womd::write(&[&scene], &mut file, false, Mode::Log).expect("a vector takes all");
+        womd::write(&[&scene], &mut file, false, ExportedMotion::Log).expect("a vector takes all");
         let mut list = womd::read_all(&file, &Options::default());
         assert!(matches!(list.pop(), Some(Ok(_))), "what was written is not read");
     }

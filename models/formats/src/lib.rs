@@ -5,6 +5,7 @@
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 
 pub mod checks;
+pub mod format;
 pub mod limits;
 pub mod loss;
 pub mod native;
@@ -13,6 +14,6 @@ pub mod registry;
 pub mod sumo;
 pub mod womd;
 
+pub use format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER};
 pub use loss::Loss;
 pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning};
-pub use registry::Format;

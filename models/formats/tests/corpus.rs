@@ -6,8 +6,9 @@
     reason = "a test stops at the first surprise"
 )]
 
+use formats::ExportedMotion;
 use formats::checks;
-use formats::womd::{self, Mode};
+use formats::womd;
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -37,7 +38,7 @@ fn update_womd_seeds() {
         ("one.tfrecord", &small, false),
     ] {
         let file = std::fs::File::create(folder.join(name)).unwrap();
-        womd::write(&[scene], file, gzip, Mode::Chosen).unwrap();
+        womd::write(&[scene], file, gzip, ExportedMotion::Chosen).unwrap();
     }
 }
 

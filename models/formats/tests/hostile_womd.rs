@@ -9,8 +9,9 @@
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use formats::ExportedMotion;
 use formats::womd::proto::{FeatureData, MapFeature, MapPoint, Polygon, Scenario};
-use formats::womd::{self, Mode, Options, masked_crc, write_record};
+use formats::womd::{self, Options, masked_crc, write_record};
 use formats::{Kind, ReadError};
 use prost::Message;
 use std::io::Write;
@@ -19,7 +20,7 @@ use std::time::{Duration, Instant};
 /// Our own small scene as a message.
 fn message() -> Scenario {
     let scene = formats::native::read(include_bytes!("fixtures/junction.scene.json")).unwrap();
-    womd::scenario(&scene, Mode::Log).0
+    womd::scenario(&scene, ExportedMotion::Log).0
 }
 
 fn framed(data: &[u8]) -> Vec<u8> {

@@ -6,8 +6,9 @@
     reason = "a test stops at the first surprise"
 )]
 
+use formats::ExportedMotion;
 use formats::native::{self, ConditionsDoc};
-use formats::womd::{self, Mode, Options};
+use formats::womd::{self, Options};
 use proptest::prelude::*;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points, StopSign, TypedLine};
 use scene::{
@@ -289,7 +290,7 @@ fn mutated(bytes: &[u8], edits: &[(usize, u8, u8)]) -> Vec<u8> {
 fn record_file() -> Vec<u8> {
     let scene = native::read(JUNCTION).unwrap();
     let mut file = Vec::new();
-    womd::write(&[&scene], &mut file, false, Mode::Chosen).unwrap();
+    womd::write(&[&scene], &mut file, false, ExportedMotion::Chosen).unwrap();
     file
 }
 
@@ -307,7 +308,7 @@ proptest! {
     fn womd_round_trip_loses_only_what_it_says(scene in scene(), gzip in any::<bool>()) {
         let scene = scene.checked().unwrap();
         let mut file = Vec::new();
-        let losses = womd::write(&[&scene], &mut file, gzip, Mode::Log).unwrap();
+        let losses = womd::write(&[&scene], &mut file, gzip, ExportedMotion::Log).unwrap();
         let codes: Vec<_> = losses.iter().map(|l| l.code).collect();
         let (first, _) = womd::read_all(&file, &Options::default()).remove(0).unwrap();
         let mut expected = scene.clone();
@@ -319,7 +320,7 @@ proptest! {
         prop_assert_eq!(snap(first.clone(), &expected), expected);
         // What came from a file goes back into one bit for bit.
         let mut file = Vec::new();
-        womd::write(&[&first], &mut file, gzip, Mode::Log).unwrap();
+        womd::write(&[&first], &mut file, gzip, ExportedMotion::Log).unwrap();
         let (second, _) = womd::read_all(&file, &Options::default()).remove(0).unwrap();
         prop_assert_eq!(first, second);
     }
@@ -370,7 +371,7 @@ proptest! {
         let options = Options { verify_crc: false, ..Options::default() };
         for (scene, _) in womd::read_all(&mutated(&record_file(), &edits), &options).into_iter().flatten() {
             let mut file = Vec::new();
-            womd::write(&[&scene], &mut file, false, Mode::Log).unwrap();
+            womd::write(&[&scene], &mut file, false, ExportedMotion::Log).unwrap();
             let (again, _) = womd::read_all(&file, &Options::default()).remove(0).unwrap();
             prop_assert_eq!(scene.agents.len(), again.agents.len());
         }

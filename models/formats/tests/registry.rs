@@ -6,7 +6,8 @@
     reason = "a test stops at the first surprise"
 )]
 
-use formats::registry::{self, ExportOptions, FORMATS, ImportOptions};
+use formats::registry::{self, FORMATS};
+use formats::{ExportOptions, ImportOptions};
 use std::collections::BTreeSet;
 
 const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");

@@ -6,7 +6,7 @@
     reason = "a test stops at the first surprise"
 )]
 
-use formats::registry::{self, ImportOptions};
+use formats::{ImportOptions, registry};
 use formats::{Imported, ReadError};
 use scene::map::LaneType;
 use scene::{AgentType, Scene, SignalState};

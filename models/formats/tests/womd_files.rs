@@ -7,8 +7,9 @@
     reason = "a test stops at the first surprise"
 )]
 
+use formats::ExportedMotion;
 use formats::womd::proto::{ObjectState, Scenario, Track};
-use formats::womd::{self, Mode, Options};
+use formats::womd::{self, Options};
 use prost::Message;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -51,7 +52,7 @@ fn every_real_file_is_read_and_comes_back_equal() {
                 assert_eq!((at.x_m, at.y_m), (0.0, 0.0));
             }
             let mut written = Vec::new();
-            let losses = womd::write(&[&scene], &mut written, count % 2 == 0, Mode::Log).unwrap();
+            let losses = womd::write(&[&scene], &mut written, count % 2 == 0, ExportedMotion::Log).unwrap();
             assert_eq!(losses.iter().map(|l| l.code).collect::<Vec<_>>(), ["no-licence"]);
             let (again, _) = womd::read_all(&written, &Options::default()).remove(0).unwrap();
             assert!(scene == again, "{}: another scene after a round trip", path.display());
@@ -94,7 +95,7 @@ fn written_messages_are_those_of_the_real_files() {
             let record = record.unwrap();
             let real = Scenario::decode(&record.data[..]).unwrap();
             let (scene, warnings) = womd::read_record(&record, &Options::default()).unwrap();
-            let (ours, _) = womd::scenario(&scene, Mode::Log);
+            let (ours, _) = womd::scenario(&scene, ExportedMotion::Log);
             let warned = |code| warnings.iter().any(|w| w.code == code);
             if warned("agents-dropped") {
                 continue;
@@ -128,7 +129,7 @@ fn truncated_and_flipped_real_files_never_panic() {
     let bytes = std::fs::read(&path).unwrap();
     let (scene, _) = womd::read_all(&bytes, &Options::default()).remove(0).unwrap();
     let mut plain = Vec::new();
-    womd::write(&[&scene], &mut plain, false, Mode::Log).unwrap();
+    womd::write(&[&scene], &mut plain, false, ExportedMotion::Log).unwrap();
     let options = Options { verify_crc: false, ..Options::default() };
     let mut read = 0;
     for i in 0..300 {

@@ -28,6 +28,7 @@ const CHECKS: &[Check] = &[
     ("web-types", || npm("web", &["run", "check"])),
     ("web-test", || npm("web", &["test"])),
     ("clippy", || cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])),
+    ("wasm", wasm),
     ("test", || cargo(&["test", "--workspace", "--locked"])),
     ("openapi", || drift("openapi", "assets/openapi.json")),
     ("schema", || drift("schema", "assets/schema/scene.v1.schema.json")),
@@ -106,6 +107,18 @@ fn npm(folder: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
     run(Command::new("npm").args(arguments).current_dir(&folder)).with_context(|| {
         format!("{}: Node.js 20 or later with npm is needed (https://nodejs.org)", folder.display())
     })
+}
+
+/// The engine without clock, threads or files, as a page would hold it.
+fn wasm() -> anyhow::Result<Outcome> {
+    let target = "wasm32-unknown-unknown";
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let sysroot = Command::new(rustc).args(["--print", "sysroot"]).output()?.stdout;
+    let sysroot = PathBuf::from(String::from_utf8(sysroot)?.trim());
+    if !sysroot.join("lib/rustlib").join(target).join("lib").is_dir() {
+        return Ok(Outcome::Skipped(format!("no {target} here; rustup target add {target}")));
+    }
+    cargo(&["check", "--locked", "--target", target, "-p", "scene", "-p", "formats", "-p", "experts"])
 }
 
 /// Installs the packages of a folder unless those there match its lock file.

@@ -8,6 +8,7 @@ mod any;
 mod conditions;
 mod document;
 mod document_read;
+pub(crate) mod format;
 mod generated;
 mod json;
 mod lists;

@@ -4,9 +4,9 @@
 use super::import_fcd::{Common, NOW_STEP, STEPS, Windows};
 use super::rows::Rows;
 use super::{import_net, unpack, xml};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NET_POINTER};
 use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{FieldProblem, Imported, ReadError};
-use crate::registry::{self, ExportOptions, Exported, Format, ImportOptions, Info};
 use scene::{Meta, Origin, Scene, Timing};
 use std::collections::BTreeMap;
 use std::io;
@@ -110,7 +110,7 @@ impl Format for SumoFcd {
     fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
         let net = match options.net.as_deref().map(import_net::read).transpose() {
             Ok(net) => net,
-            Err(error) => return vec![Err(error.under(registry::NET_POINTER))],
+            Err(error) => return vec![Err(error.under(NET_POINTER))],
         };
         let common = Common { net: net.as_ref(), licence: options.licence.clone() };
         match Rows::open(bytes, MAX_DECODED_BYTES) {

@@ -1,43 +1,39 @@
 //! From a scene to a Scenario message and its file.
 
 use super::export_map::{MapIds, features};
+use super::frame::Frame;
 use super::import::{EGO, SIGNAL_STATES};
 use super::proto::{
-    DynamicMapState, MapPoint, ObjectState, RequiredPrediction, Scenario, Track, TrafficSignalLaneState,
+    DynamicMapState, ObjectState, RequiredPrediction, Scenario, Track, TrafficSignalLaneState,
 };
 use super::record::write_record;
+use crate::format::ExportedMotion;
 use crate::loss::{Loss, code};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use prost::Message;
-use scene::geometry::rotate;
-use scene::{Agent, AgentType, Origin, STEP_S, Scene, Signal, State, Subtype, Vec2};
+use scene::{Agent, AgentType, STEP_S, Scene, Signal, State, Subtype};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::io::{self, Write};
-
-/// Which motion of a road user is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mode {
-    /// What was recorded.
-    Log,
-    /// The chosen future where there is one, after the log up to its first step.
-    #[default]
-    Chosen,
-}
 
 /// Writes one record a scene.
 ///
 /// # Errors
 /// Those of the writer. Losses are not errors: each kind is listed once.
-pub fn write(scenes: &[&Scene], out: impl Write, gzip: bool, mode: Mode) -> io::Result<Vec<Loss>> {
+pub fn write(
+    scenes: &[&Scene],
+    out: impl Write,
+    gzip: bool,
+    motion: ExportedMotion,
+) -> io::Result<Vec<Loss>> {
     let mut losses = BTreeSet::new();
     if gzip {
         let mut encoder = GzEncoder::new(out, Compression::default());
-        write_records(scenes, &mut encoder, mode, &mut losses)?;
+        write_records(scenes, &mut encoder, motion, &mut losses)?;
         encoder.finish()?.flush()?;
     } else {
         let mut out = out;
-        write_records(scenes, &mut out, mode, &mut losses)?;
+        write_records(scenes, &mut out, motion, &mut losses)?;
         out.flush()?;
     }
     Ok(losses.into_iter().collect())
@@ -46,58 +42,25 @@ pub fn write(scenes: &[&Scene], out: impl Write, gzip: bool, mode: Mode) -> io::
 fn write_records(
     scenes: &[&Scene],
     out: &mut impl Write,
-    mode: Mode,
+    motion: ExportedMotion,
     losses: &mut BTreeSet<Loss>,
 ) -> io::Result<()> {
     for scene in scenes {
-        let (message, lost) = scenario(scene, mode);
+        let (message, lost) = scenario(scene, motion);
         losses.extend(lost);
         write_record(out, &message.encode_to_vec())?;
     }
     Ok(())
 }
 
-/// Turns positions and directions of the scene into those of its source.
-#[derive(Clone, Copy)]
-pub(super) struct Frame {
-    rotation_rad: f64,
-    shift: Vec2,
-    up_m: f64,
-}
-
-impl Frame {
-    fn of(origin: &Origin) -> Self {
-        let shift = Vec2::new(origin.x_m, origin.y_m);
-        Self { rotation_rad: origin.rotation_rad, shift, up_m: origin.z_m }
-    }
-
-    fn turn(self, v: Vec2) -> Vec2 {
-        // Turning by zero would be exact too, but for the sign of zeros.
-        if self.rotation_rad == 0.0 { v } else { rotate(v, self.rotation_rad) }
-    }
-
-    fn place(self, p: Vec2) -> Vec2 {
-        self.turn(p) + self.shift
-    }
-
-    fn height(self, z_m: f64) -> f64 {
-        if self.up_m == 0.0 { z_m } else { z_m + self.up_m }
-    }
-
-    pub(super) fn point(self, p: Vec2, z_m: Option<f64>) -> MapPoint {
-        let p = self.place(p);
-        MapPoint { x: Some(p.x), y: Some(p.y), z: z_m.map(|z| self.height(z)) }
-    }
-}
-
 /// The message of a scene, and what it leaves out.
-pub fn scenario(scene: &Scene, mode: Mode) -> (Scenario, Vec<Loss>) {
+pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) {
     let frame = Frame::of(&scene.meta.origin);
     let mut losses = Vec::new();
     let ids = agent_ids(&scene.agents, &mut losses);
     let map_ids = MapIds::new(&scene.map, &mut losses);
-    let chosen = |agent: &Agent| match (mode, &scene.generated) {
-        (Mode::Chosen, Some(generated)) => generated.chosen_future(&agent.id),
+    let chosen = |agent: &Agent| match (motion, &scene.generated) {
+        (ExportedMotion::Chosen, Some(generated)) => generated.chosen_future(&agent.id),
         _ => None,
     };
     let ends = scene.agents.iter().filter_map(chosen).map(|f| f.first_step + f.states.len());
@@ -136,7 +99,7 @@ pub fn scenario(scene: &Scene, mode: Mode) -> (Scenario, Vec<Loss>) {
         current_time_index: i32::try_from(scene.time.now_step).ok(),
         tracks_to_predict: scene.meta.tracks_to_predict.iter().filter_map(predict).collect(),
     };
-    scene_losses(scene, mode, id, &mut losses);
+    scene_losses(scene, motion, id, &mut losses);
     (message, losses)
 }
 
@@ -205,7 +168,7 @@ fn present(agent: &Agent, state: &State, z_m: Option<f64>, frame: Frame) -> Obje
         length: Some(agent.size.length_m as f32),
         width: Some(agent.size.width_m as f32),
         height: agent.size.height_m.map(|h| h as f32),
-        heading: Some((state.heading_rad + frame.rotation_rad) as f32),
+        heading: Some(frame.heading(state.heading_rad) as f32),
         velocity_x: Some(velocity.x as f32),
         velocity_y: Some(velocity.y as f32),
         valid: Some(true),
@@ -240,14 +203,17 @@ fn signal_rows(signals: &[Signal], steps: usize, frame: Frame, ids: &MapIds) -> 
     (0..steps).map(row).collect()
 }
 
-fn scene_losses(scene: &Scene, mode: Mode, id: &str, losses: &mut Vec<Loss>) {
+fn scene_losses(scene: &Scene, motion: ExportedMotion, id: &str, losses: &mut Vec<Loss>) {
     let agents = &scene.agents;
     if agents.iter().any(|a| !a.conditions.is_empty()) {
         losses.push(Loss::new(code::NO_CONDITIONS, "starts and goals that the user fixed"));
     }
     if let Some(generated) = &scene.generated {
         let futures = || generated.samples.iter().flat_map(|s| s.agents.values());
-        if mode == Mode::Log || generated.samples.len() > 1 || futures().any(|f| f.modes.len() > 1) {
+        if motion == ExportedMotion::Log
+            || generated.samples.len() > 1
+            || futures().any(|f| f.modes.len() > 1)
+        {
             losses.push(Loss::new(code::NO_MODES, "generated futures other than the exported one"));
         }
     }

@@ -1,6 +1,6 @@
 //! A lane map as map features.
 
-use super::export::Frame;
+use super::frame::Frame;
 use super::import_map::MPS_PER_MPH;
 use super::proto::{
     BoundarySegment, FeatureData, LaneCenter, LaneNeighbor, MapFeature, MapPoint, Polygon, StopSign,

@@ -1,6 +1,7 @@
 //! From a Scenario message to a scene.
 
-use super::proto::{DynamicMapState, MapPoint, ObjectState, RequiredPrediction, Scenario, Track};
+use super::ids::UniqueIds;
+use super::proto::{DynamicMapState, ObjectState, RequiredPrediction, Scenario, Track};
 use super::{LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning};
@@ -124,7 +125,7 @@ fn origin(scenario: &Scenario, ego: Option<usize>, now_step: usize) -> Vec2 {
         return finite_or_zero(position(state));
     }
     let states = scenario.tracks.iter().filter_map(|track| nearest(track, now_step)).map(position);
-    let map = scenario.map_features.iter().filter_map(import_map::any_point).map(|p| plane(&p));
+    let map = scenario.map_features.iter().filter_map(import_map::any_point).map(|p| p.plane());
     let mut bounds: Option<(Vec2, Vec2)> = None;
     for p in states.chain(map).filter(|p| p.x.is_finite() && p.y.is_finite()) {
         bounds = Some(bounds.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))));
@@ -134,10 +135,6 @@ fn origin(scenario: &Scenario, ego: Option<usize>, now_step: usize) -> Vec2 {
 
 fn finite_or_zero(p: Vec2) -> Vec2 {
     if p.x.is_finite() && p.y.is_finite() { p } else { Vec2::zeros() }
-}
-
-pub(super) fn plane(point: &MapPoint) -> Vec2 {
-    Vec2::new(point.x.unwrap_or(0.0), point.y.unwrap_or(0.0))
 }
 
 /// Indices of the tracks that a scene has room for: the ego and those nearest to it.
@@ -174,33 +171,6 @@ fn track_ids(tracks: &[Track], warnings: &mut Vec<Warning>) -> Vec<String> {
     let list = tracks.iter().map(|track| ids.take(track.id.unwrap_or(0).into())).collect();
     ids.warn("tracks", warnings);
     list
-}
-
-/// Ids as strings. A number that comes again gets the first free suffix: `12`, `12.2`, `12.3`.
-#[derive(Default)]
-pub(super) struct UniqueIds {
-    /// How often each number came.
-    seen: BTreeMap<i64, usize>,
-    repeated: usize,
-}
-
-impl UniqueIds {
-    pub(super) fn take(&mut self, number: i64) -> String {
-        let count = self.seen.entry(number).or_insert(0);
-        *count += 1;
-        if *count == 1 {
-            return number.to_string();
-        }
-        self.repeated += 1;
-        format!("{number}.{count}")
-    }
-
-    pub(super) fn warn(&self, what: &str, warnings: &mut Vec<Warning>) {
-        if self.repeated > 0 {
-            let detail = format!("{} {what} repeat an id and got a suffix", self.repeated);
-            warnings.push(Warning::new("duplicate-ids", detail));
-        }
-    }
 }
 
 fn agent(track: &Track, id: String, role: Option<String>, now: usize, origin: Vec2) -> (Agent, bool) {
@@ -273,7 +243,7 @@ fn signals(rows: &[DynamicMapState], origin: Vec2, warnings: &mut Vec<Warning>) 
                 let stop = lane_state.stop_point.as_ref();
                 signals.push(Signal {
                     lane: lane.to_string(),
-                    stop: stop.map(|p| plane(p) - origin),
+                    stop: stop.map(|p| p.plane() - origin),
                     stop_z_m: stop.and_then(|p| p.z),
                     runs: Vec::new(),
                 });
@@ -284,7 +254,7 @@ fn signals(rows: &[DynamicMapState], origin: Vec2, warnings: &mut Vec<Warning>) 
             let number = usize::try_from(lane_state.state.unwrap_or(0)).unwrap_or(0);
             let state = SIGNAL_STATES.get(number).copied().unwrap_or_default();
             let (Some(signal), Some(seen)) = (signals.get_mut(at), last_seen.get_mut(at)) else { continue };
-            let stop = lane_state.stop_point.as_ref().map(|p| plane(p) - origin);
+            let stop = lane_state.stop_point.as_ref().map(|p| p.plane() - origin);
             moved += usize::from(stop.is_some() && stop != signal.stop);
             if step > *seen + 1 {
                 push_run(&mut signal.runs, *seen + 1, SignalState::Unknown);

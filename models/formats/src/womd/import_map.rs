@@ -1,6 +1,6 @@
 //! The map features of a Scenario message as a lane map.
 
-use super::import::{UniqueIds, plane};
+use super::ids::UniqueIds;
 use super::proto::{
     BoundarySegment, FeatureData, LaneCenter, LaneNeighbor, MapFeature, MapPoint, Polygon, StopSign,
     TypedLine,
@@ -58,7 +58,7 @@ pub(super) fn lane_map(features: Vec<MapFeature>, origin: Vec2, warnings: &mut V
             Some(FeatureData::StopSign(StopSign { lane, position: Some(at) })) => {
                 map.stop_signs.push(Sign {
                     id: ids.signs.take(number),
-                    position: plane(&at) - origin,
+                    position: at.plane() - origin,
                     z_m: at.z,
                     lanes: lane.iter().map(i64::to_string).collect(),
                 });
@@ -89,7 +89,7 @@ pub(super) fn lane_map(features: Vec<MapFeature>, origin: Vec2, warnings: &mut V
 fn points(list: &[MapPoint], origin: Vec2) -> Points {
     let z_m = list.iter().any(|p| p.z.is_some());
     Points {
-        xy: list.iter().map(|p| plane(p) - origin).collect(),
+        xy: list.iter().map(|p| p.plane() - origin).collect(),
         z_m: z_m.then(|| list.iter().map(|p| p.z.unwrap_or(0.0)).collect()),
     }
 }

@@ -6,13 +6,16 @@
 
 mod export;
 mod export_map;
+pub(crate) mod format;
+mod frame;
+mod ids;
 mod import;
 mod import_map;
 pub mod proto;
 mod record;
 mod wire;
 
-pub use export::{Mode, scenario, write};
+pub use export::{scenario, write};
 pub use import::scene;
 pub use record::{MAX_RECORD_BYTES, Record, RecordReader, looks_like, masked_crc, write_record};
 pub use wire::MAX_TRACKS;

@@ -5,6 +5,7 @@
 #![allow(missing_docs, reason = "names and meaning are those of the published messages")]
 
 use prost::Message;
+use scene::Vec2;
 
 #[derive(Clone, PartialEq, Message)]
 pub struct Scenario {
@@ -94,6 +95,13 @@ pub struct MapPoint {
     pub y: Option<f64>,
     #[prost(double, optional, tag = "3")]
     pub z: Option<f64>,
+}
+
+impl MapPoint {
+    /// The point in the plane; what is missing is zero.
+    pub fn plane(&self) -> Vec2 {
+        Vec2::new(self.x.unwrap_or(0.0), self.y.unwrap_or(0.0))
+    }
 }
 
 #[derive(Clone, PartialEq, Message)]

@@ -254,7 +254,7 @@ fn write(path: &Path, scenes: &[Scene]) -> std::io::Result<()> {
     let partial = path.with_extension(format!("tmp{}", std::process::id()));
     let plain: Vec<Scene> = scenes.iter().map(without_footways).collect();
     let file = std::io::BufWriter::new(std::fs::File::create(&partial)?);
-    womd::write(&plain.iter().collect::<Vec<_>>(), file, true, womd::Mode::Log)?;
+    womd::write(&plain.iter().collect::<Vec<_>>(), file, true, formats::ExportedMotion::Log)?;
     std::fs::rename(&partial, path)
 }
 

@@ -1,0 +1,100 @@
+//! What a format is: the one interface that every reader and writer keeps.
+
+use crate::limits::MAX_SCENES;
+use crate::loss::Loss;
+use crate::problem::{Imported, ReadError};
+use scene::Scene;
+use serde::Serialize;
+use std::io;
+
+/// What people and programs need to know about a format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Info {
+    /// Word for `--from`, `--to` and `?format=`.
+    pub id: &'static str,
+    /// For people.
+    pub name: &'static str,
+    /// Media type of an exported file.
+    pub media_type: &'static str,
+    /// Ends of file names, the first one for exports.
+    pub extensions: &'static [&'static str],
+    /// Can be read.
+    pub import: bool,
+    /// Can be written.
+    pub export: bool,
+    /// Holds many scenes in one file.
+    pub many: bool,
+    /// May come with the network it belongs to ([`ImportOptions::net`]).
+    pub takes_net: bool,
+}
+
+/// How to read a file of any format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ImportOptions {
+    /// Scenes to pass over.
+    pub skip: usize,
+    /// Most scenes to give.
+    pub max_scenes: usize,
+    /// Licence of the scenes in place of the format's own.
+    pub licence: Option<String>,
+    /// Check the checksums that the format has.
+    pub verify: bool,
+    /// The network that a recording belongs to, for formats whose info has `takes_net`: a SUMO `net.xml`,
+    /// plain or gzip. Faults in it are reported under [`NET_POINTER`].
+    pub net: Option<Vec<u8>>,
+}
+
+/// Pointer of faults in [`ImportOptions::net`].
+pub const NET_POINTER: &str = "/net";
+
+impl Default for ImportOptions {
+    fn default() -> Self {
+        Self { skip: 0, max_scenes: MAX_SCENES, licence: None, verify: true, net: None }
+    }
+}
+
+/// Which motion of a road user is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ExportedMotion {
+    /// What was recorded.
+    Log,
+    /// The chosen future where there is one, after the log up to its first step.
+    #[default]
+    Chosen,
+}
+
+/// How to write a file of any format.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ExportOptions {
+    /// Which motion, where the format has room for one only.
+    pub motion: ExportedMotion,
+    /// Compress, where the format knows gzip.
+    pub gzip: bool,
+}
+
+/// An exported file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// What it does not carry.
+    pub losses: Vec<Loss>,
+}
+
+/// A reader and writer of one format.
+pub trait Format: Sync {
+    /// The table's row.
+    fn info(&self) -> Info;
+
+    /// How sure it is that a file is its own: 0 not at all, 1 by name, 2 by content.
+    fn sniff(&self, head: &[u8], name: &str) -> u8;
+
+    /// Reads all scenes of a file; one that is broken does not stop the others. Never empty.
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>>;
+
+    /// Writes scenes.
+    ///
+    /// # Errors
+    /// `InvalidInput` when the format cannot hold that many scenes in one file.
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported>;
+}

@@ -1,0 +1,51 @@
+//! The native form as a format among others.
+
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info};
+use crate::problem::{Imported, ReadError};
+use scene::Scene;
+use std::io;
+
+/// Native scene JSON.
+pub struct NativeJson;
+
+impl Format for NativeJson {
+    fn info(&self) -> Info {
+        Info {
+            id: "dragtraffic",
+            name: "DragTraffic scene",
+            media_type: super::MEDIA_TYPE,
+            extensions: &["scene.json", "json"],
+            import: true,
+            export: true,
+            many: false,
+            takes_net: false,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], name: &str) -> u8 {
+        let head = head.get(..4_096).unwrap_or(head);
+        let object = head.iter().find(|b| !b.is_ascii_whitespace()) == Some(&b'{');
+        let format = super::FORMAT.as_bytes();
+        if object && head.windows(format.len()).any(|w| w == format) {
+            return 2;
+        }
+        u8::from(object && name.to_ascii_lowercase().ends_with(".json"))
+    }
+
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+        let result = super::read(bytes).map(|mut scene| {
+            if let Some(licence) = &options.licence {
+                scene.meta.licence = Some(licence.clone());
+            }
+            (scene, Vec::new())
+        });
+        vec![result]
+    }
+
+    fn export(&self, scenes: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
+        match scenes {
+            [scene] => Ok(Exported { bytes: super::write(scene), losses: Vec::new() }),
+            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
+        }
+    }
+}

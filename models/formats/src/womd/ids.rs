@@ -1,0 +1,31 @@
+//! Ids of records as ids of scenes.
+
+use crate::problem::Warning;
+use std::collections::BTreeMap;
+
+/// Ids as strings. A number that comes again gets the first free suffix: `12`, `12.2`, `12.3`.
+#[derive(Default)]
+pub(super) struct UniqueIds {
+    /// How often each number came.
+    seen: BTreeMap<i64, usize>,
+    repeated: usize,
+}
+
+impl UniqueIds {
+    pub(super) fn take(&mut self, number: i64) -> String {
+        let count = self.seen.entry(number).or_insert(0);
+        *count += 1;
+        if *count == 1 {
+            return number.to_string();
+        }
+        self.repeated += 1;
+        format!("{number}.{count}")
+    }
+
+    pub(super) fn warn(&self, what: &str, warnings: &mut Vec<Warning>) {
+        if self.repeated > 0 {
+            let detail = format!("{} {what} repeat an id and got a suffix", self.repeated);
+            warnings.push(Warning::new("duplicate-ids", detail));
+        }
+    }
+}
