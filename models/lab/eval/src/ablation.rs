@@ -213,8 +213,8 @@ fn difference(row: &Row, index: usize, column: usize) -> Option<Value> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{log, scene, shifted};
     use super::*;
+    use lab_train::samples::{log, scene, shifted};
     use scene::{Signal, SignalState};
 
     fn road() -> scene::Scene {

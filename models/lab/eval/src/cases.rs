@@ -1,9 +1,10 @@
 //! Which road users are judged, and under which conditions (`evaluation.md`).
 
-use crate::polylines::Polylines;
+use lab_train::polylines::Polylines;
+use lab_train::scenes::blind;
 use scene::routes::LaneGraph;
 use scene::score::Drivable;
-use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, State, Track};
+use scene::{Agent, AgentType, Goal, HORIZON_STEPS, STEP_S, Scene, State};
 use std::sync::{Arc, OnceLock};
 
 /// Fixed goal fields of a case.
@@ -145,48 +146,10 @@ impl<'a> Site<'a> {
     }
 }
 
-/// A copy of a scene that knows nothing after its first step: one state for each road user, the lights as
-/// they are, no conditions, no futures. Neither features nor the choice can look ahead in it.
-pub fn blind(scene: &Scene) -> Scene {
-    let mut out = scene.clone();
-    out.generated = None;
-    for agent in &mut out.agents {
-        let start = agent.track.at(0).copied();
-        let states = start.map(|s| vec![Some(s)]).unwrap_or_default();
-        agent.track = Track { first_step: 0, states, z_m: None };
-        agent.conditions = Conditions::default();
-    }
-    for signal in &mut out.signals {
-        signal.runs.retain(|(first, _)| *first == 0);
-    }
-    out.signals.retain(|signal| !signal.runs.is_empty());
-    out
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{log, scene, shifted};
     use super::*;
-    use scene::{Signal, SignalState};
-
-    #[test]
-    fn a_blind_scene_knows_nothing_of_the_future() {
-        let mut first = scene(vec![log("a", 8.0, 91), shifted(log("b", 5.0, 91), 30.0, 3.5)]);
-        let runs = vec![(0, SignalState::Go), (40, SignalState::Stop)];
-        first.signals.push(Signal { lane: "a".into(), stop: None, stop_z_m: None, runs });
-        let mut other = first.clone();
-        for agent in &mut other.agents {
-            for state in agent.track.states.iter_mut().skip(1).flatten() {
-                (state.x_m, state.vx_mps) = (state.x_m + 17.0, 0.0);
-            }
-        }
-        other.signals[0].runs[1] = (20, SignalState::Caution);
-        // A signal that is first heard of later is not there yet.
-        let late = Signal { runs: vec![(7, SignalState::Stop)], ..first.signals[0].clone() };
-        other.signals.push(late);
-        assert_eq!(blind(&first), blind(&other));
-        assert_eq!(blind(&first).agents[0].track.valid_steps().collect::<Vec<_>>(), [0]);
-    }
+    use lab_train::samples::{log, scene};
 
     #[test]
     fn cases_move_and_are_seen() {

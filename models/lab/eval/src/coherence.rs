@@ -206,8 +206,8 @@ fn cells(boot: &Bootstrap, sites: &[&Site<'_>], verdicts: &[Verdict]) -> Vec<Cel
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{log, scene, shifted};
     use super::*;
+    use lab_train::samples::{log, scene, shifted};
 
     #[test]
     fn overlaps_are_counted_once_a_road_user_and_in_time() {

@@ -4,11 +4,12 @@
 use super::draw::Draw;
 use super::measure::{at, goal_error, is_met, is_outside_limits};
 use super::sheet::{Cell, Form, Sheet};
-use super::stats::{Bootstrap, Value, quantile};
+use super::stats::{Bootstrap, Value};
 use super::together::STRIDE;
 use super::{Case, Judged, Site, Subset, answer};
 use anyhow::Result;
 use experts::{Answer, Generator, ReachReport, React, Request};
+use lab_train::quantile;
 use rayon::prelude::*;
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};

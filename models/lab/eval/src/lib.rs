@@ -14,25 +14,24 @@ mod draw;
 pub mod measure;
 mod parked;
 pub mod picture;
+pub mod placement;
 pub mod quality;
 mod realism;
 mod refining;
 pub mod rivals;
 mod roads;
 mod run;
-#[cfg(test)]
-pub(crate) mod samples;
 pub mod sheet;
 pub mod stats;
 pub mod together;
 mod variety;
 
-pub use cases::{Case, Site, Subset, blind, cases};
+pub use cases::{Case, Site, Subset, cases};
 pub use quality::type_name;
 pub use run::{Options, Report, Table, run};
 
-use crate::baselines::Baseline;
 use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};
+use lab_train::baselines::Baseline;
 
 /// Weights under judgement.
 pub struct Judged {

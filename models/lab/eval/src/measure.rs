@@ -201,8 +201,8 @@ pub fn is_outside_limits(agent: &Agent, start: &State, future: &Future) -> bool 
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{log, straight};
     use super::*;
+    use lab_train::samples::{log, straight};
 
     fn case(log: &Agent) -> Case {
         let start = log.state_at(0).unwrap();

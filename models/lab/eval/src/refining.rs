@@ -3,11 +3,12 @@
 use super::coherence::{Verdict, from_log_m, judge};
 use super::realism::closeness;
 use super::sheet::{Cell, Form, Sheet};
-use super::stats::{Bootstrap, Value, quantile};
+use super::stats::{Bootstrap, Value};
 use super::together::{Ask, Motions, logged_pairs, motions_of, scenes};
 use super::{Judged, Site};
 use anyhow::Result;
 use experts::{Generator, Refining, Shown, Stages};
+use lab_train::quantile;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -205,8 +206,8 @@ fn spread(rows: &[Row]) -> Vec<Cell> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{log, scene, shifted};
     use super::*;
+    use lab_train::samples::{log, scene, shifted};
 
     #[test]
     fn every_way_has_its_line_and_differences_are_paired() {

@@ -12,9 +12,9 @@ use super::sheet::Sheet;
 use super::stats::Bootstrap;
 use super::variety::variety;
 use super::{Entrants, Judged, Site, picture};
-use crate::baselines::Baseline;
-use crate::crop::{Crop, Cropped};
 use anyhow::{Context, Result};
+use lab_train::baselines::Baseline;
+use lab_train::scenes::{Crop, Cropped};
 use scene::Scene;
 use serde::Serialize;
 use std::borrow::Cow;
@@ -255,10 +255,10 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{log, scene, shifted};
     use super::*;
-    use crate::baselines::Kind;
     use experts::Generator;
+    use lab_train::baselines::Kind;
+    use lab_train::samples::{log, scene, shifted};
 
     fn tables(tables: &[Table], seed: u64, threads: usize) -> Report {
         judge(tables, seed, threads, Crop::default(), &[]).unwrap()
@@ -319,8 +319,8 @@ mod tests {
     #[test]
     fn learned_rivals_stand_beside_the_experts() {
         let baselines = [
-            Baseline::random("free", Kind::TrafficGen),
-            Baseline::random("asked", Kind::TrafficGenConditional),
+            Baseline::random("free", Kind::TrafficGen).unwrap(),
+            Baseline::random("asked", Kind::TrafficGenConditional).unwrap(),
         ];
         let made = |threads| {
             let tables = [Table::Quality, Table::Coherence, Table::Realism];

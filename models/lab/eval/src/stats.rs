@@ -2,6 +2,7 @@
 //! users of one scene share its map, its lights and each other.
 
 use super::draw::Draw;
+use lab_train::quantile;
 use serde::Serialize;
 
 /// Resamples drawn.
@@ -103,15 +104,6 @@ fn resampled(counts: &[u16], sums: &[(f64, f64)]) -> Option<f64> {
     (weight > 0.0).then(|| value / weight)
 }
 
-/// Linear between the two nearest of sorted values; zero of none.
-pub fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
-    let at = share.clamp(0.0, 1.0) * last as f64;
-    let (below, f) = (at.floor() as usize, at.fract());
-    let above = (below + 1).min(last);
-    sorted[below] + f * (sorted[above] - sorted[below])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -162,7 +154,6 @@ mod tests {
     fn shares_weigh_scenes_by_what_they_hold() {
         let found = Bootstrap::new(2, 1).estimate([Value::share(0, 1.0, 1.0), Value::share(1, 0.0, 3.0)]);
         assert_eq!(found.map(|e| e.mean), Some(0.25));
-        assert_eq!(quantile(&[0.0, 10.0], 0.25), 2.5);
     }
 
     #[test]

@@ -212,10 +212,10 @@ pub fn logged_pairs(site: &Site<'_>) -> BTreeSet<(usize, usize)> {
 #[cfg(test)]
 mod tests {
     use super::super::measure::likeliest;
-    use super::super::samples::{log, scene, shifted};
     use super::*;
     use ::scene::Vec2;
     use experts::Shown;
+    use lab_train::samples::{log, scene, shifted};
 
     #[test]
     fn what_is_shown_follows_the_stages() {

@@ -202,8 +202,8 @@ fn exit_of(exits: &[Vec<Polyline>], future: &Future) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::straight;
     use super::*;
+    use lab_train::samples::straight;
     use scene::Vec2;
 
     #[test]

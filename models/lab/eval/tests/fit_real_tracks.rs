@@ -1,7 +1,7 @@
 //! Ten knots hold what real vehicles do: fit, roll out, compare.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test stops at the first surprise")]
 
-use lab::eval::measure::{following, mean_distance_m};
+use lab_eval::measure::{following, mean_distance_m};
 use scene::{Agent, AgentType, HORIZON_STEPS};
 use std::path::Path;
 
@@ -22,13 +22,13 @@ fn fit_error_m(agent: &Agent) -> Option<f64> {
 
 #[test]
 fn fitted_knots_follow_real_vehicles() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/womd/train");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/data/womd/train");
     if !folder.is_dir() {
         println!("skipped: no recorded scenes in {}", folder.display());
         return;
     }
-    let files = lab::prepare::scene_files(&[folder]).unwrap();
-    let scenes = files.iter().flat_map(|f| lab::prepare::read_scenes(f).unwrap());
+    let files = lab_train::scenes::scene_files(&[folder]).unwrap();
+    let scenes = files.iter().flat_map(|f| lab_train::scenes::read_scenes(f).unwrap());
     let mut errors: Vec<f64> =
         scenes.flat_map(|s| s.agents.iter().filter_map(fit_error_m).collect::<Vec<_>>()).collect();
     errors.sort_by(f64::total_cmp);

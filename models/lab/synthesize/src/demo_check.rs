@@ -113,7 +113,7 @@ mod tests {
     use formats::native;
 
     fn shipped(id: &str) -> Vec<u8> {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/scenes");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../assets/scenes");
         std::fs::read(format!("{folder}/{id}.json")).unwrap()
     }
 

@@ -4,7 +4,7 @@
 //! the same for every source. Only road users within 80 m of the scene's origin (the ego, or whom the
 //! window is about) count, since what is farther away is seen in part.
 
-use crate::synthesize::filters::{gaussian, gradient, unwrap};
+use crate::filters::{gaussian, gradient, unwrap};
 use scene::geometry::{cross, direction};
 use scene::routes::LaneGraph;
 use scene::{Agent, AgentType, STEP_S, Scene, State, Vec2, wrap_angle};

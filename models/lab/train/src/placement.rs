@@ -1,6 +1,6 @@
 //! Fits the placement weights to recorded scenes. The same input gives the same bytes.
 
-use crate::prepare::{read_scenes, scene_files};
+use crate::scenes::{read_scenes, scene_files};
 use anyhow::{Result, ensure};
 use experts::placement::learn::{
     ANY_CONTEXT, CellCounts, FORMAT, Histogram, Observation, PlacementModel, Rate, SPEED_CLASSES, SiteKind,

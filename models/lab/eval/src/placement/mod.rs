@@ -1,7 +1,12 @@
 //! Placed road users beside recorded ones: the same scenes, as many of each type, the same region.
 
-use super::distance::{jensen_shannon, wasserstein};
+mod distance;
+mod table;
+
+pub use table::markdown;
+
 use anyhow::Result;
+use distance::{jensen_shannon, wasserstein};
 use experts::placement::{Amount, PlaceRequest, PlacementModel, Region, place};
 use experts::{Cancel, Generator};
 use rayon::prelude::*;

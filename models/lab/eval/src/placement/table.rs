@@ -1,6 +1,6 @@
 //! The table as Markdown.
 
-use super::eval::{Facts, Figure, Gap, Report};
+use super::{Facts, Figure, Gap, Report};
 use std::fmt::Write as _;
 
 /// The report as Markdown, the same bytes for the same report.

@@ -273,8 +273,8 @@ pub fn type_name(agent_type: AgentType) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{east, log};
     use super::*;
+    use lab_train::samples::{east, log};
 
     #[test]
     fn manners_of_logs() {

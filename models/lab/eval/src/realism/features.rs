@@ -169,9 +169,9 @@ fn surroundings(
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::samples::{log, scene, shifted};
     use super::super::super::together::motions_of_log;
     use super::*;
+    use lab_train::samples::{log, scene, shifted};
 
     #[test]
     fn known_kinematics_and_gaps() {

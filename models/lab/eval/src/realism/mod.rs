@@ -8,13 +8,14 @@ mod likelihood;
 
 use super::rivals::{Together, constant_velocity, varied};
 use super::sheet::{Cell, Form, Sheet};
-use super::stats::{Bootstrap, Value, quantile};
+use super::stats::{Bootstrap, Value};
 use super::together::{Ask, Motions, generated, joint_goal, motions_by, motions_of, motions_of_log, scenes};
 use super::{Entrants, Judged, Site};
-use crate::baselines::Baseline;
 use anyhow::Result;
 use edges::RoadEdges;
 use features::{FEATURES, Motion, observe};
+use lab_train::baselines::Baseline;
+use lab_train::quantile;
 use likelihood::{Likelihoods, likelihoods};
 use rayon::prelude::*;
 use scene::{Goal, HORIZON_STEPS};

@@ -1,12 +1,12 @@
 //! Trained rivals: [`Baseline`]s asked as the experts are.
 
 use super::least_effort;
-use crate::baselines::Baseline;
-use crate::eval::draw::Draw;
-use crate::eval::together::{Motions, asked, generated, joint_goal};
-use crate::eval::{Case, Site, Subset};
+use crate::draw::Draw;
+use crate::together::{Motions, asked, generated, joint_goal};
+use crate::{Case, Site, Subset};
 use anyhow::Result;
 use experts::planning::world::World;
+use lab_train::baselines::Baseline;
 use scene::{Future, Goal, State};
 
 /// Futures of a case, the most probable first; none under a condition that the baseline does not see, or of a

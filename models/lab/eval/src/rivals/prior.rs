@@ -1,6 +1,6 @@
 //! Least effort: the scene's own projection of constant motion onto the goal, and random variations of it.
 
-use crate::eval::draw::Draw;
+use crate::draw::Draw;
 use nalgebra::SMatrix;
 use scene::motion::{Kind, Knots, MotionModel, Target, project};
 use scene::{Agent, Goal, KNOTS, State};
@@ -82,8 +82,8 @@ fn factor() -> SMatrix<f64, KNOTS, KNOTS> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::samples::{east, log};
     use super::*;
+    use lab_train::samples::{east, log};
     use scene::Vec2;
 
     #[test]

@@ -1,8 +1,8 @@
 //! U-turns in mid-block, which networks without turnarounds do not have.
 
 use super::{Lanes, Place, cubic, entering, heading_at, length, part, progress, record, sharpest};
-use crate::synthesize::random::Draw;
-use crate::synthesize::{DT_S, RECORDED_S};
+use crate::random::Draw;
+use crate::{DT_S, RECORDED_S};
 use formats::sumo::fcd::Record;
 use formats::sumo::polyline::arc_lengths;
 use scene::geometry::{cross, direction};

@@ -14,7 +14,7 @@ use super::sight::{Points, forget_goals};
 use super::stages::{points, refine};
 use super::{Kind, Networks, curve};
 use crate::polylines::{Polylines, SeenPiece};
-use crate::train::{least, softmax};
+use crate::training::{least, softmax};
 
 /// A learned rival.
 pub struct Baseline {
@@ -50,10 +50,13 @@ impl Baseline {
     }
 
     /// Small random networks for tests.
-    #[cfg(test)]
-    pub(crate) fn random(name: &str, kind: Kind) -> Self {
-        let networks = vec![super::tests::random(kind, kind.expert().unwrap_or("vehicle"), 1)];
-        Self { name: name.into(), kind, networks }
+    #[cfg(any(test, feature = "samples"))]
+    ///
+    /// # Errors
+    /// When the tensor library fails.
+    pub fn random(name: &str, kind: Kind) -> Result<Self> {
+        let networks = vec![Networks::small(kind, kind.expert().unwrap_or("vehicle"), 1)?];
+        Ok(Self { name: name.into(), kind, networks })
     }
 
     /// It sees goals; otherwise it answers only where there is none.

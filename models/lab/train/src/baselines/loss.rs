@@ -3,7 +3,7 @@
 use experts::planning::{INSTANTS, MODES};
 
 use super::sight::{Points, Truth};
-use crate::train::least;
+use crate::training::least;
 
 /// Distances are counted in this unit, metres: squared errors then weigh about as much as the likelihood.
 pub(super) const UNIT_M: f32 = 5.0;
@@ -59,7 +59,7 @@ pub(super) fn squared(truth: &Truth, futures: &[Points; MODES]) -> Fared {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::index;
+    use crate::training::index;
 
     #[test]
     fn gradients_are_those_of_the_losses() {

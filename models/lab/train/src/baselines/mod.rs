@@ -34,7 +34,7 @@ use experts::net::{Architecture, Card, NetError, Params, on_cpu};
 use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
-use crate::train::{self, Metrics, Options, Progress, Stage, TrainError};
+use crate::training::{self, Metrics, Options, Progress, Stage, TrainError};
 use regressor::Regressor;
 use unet::Unet;
 
@@ -83,6 +83,14 @@ pub struct Plan {
     pub sizes: Architecture,
 }
 
+#[cfg(any(test, feature = "samples"))]
+impl Plan {
+    /// Small networks, for tests.
+    fn small(kind: Kind) -> Self {
+        Self { kind, sizes: Architecture { width: 32, gating_blocks: 2, ..Architecture::default() } }
+    }
+}
+
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Header {
@@ -110,6 +118,19 @@ impl Networks {
         };
         let (tensors, vars) = p.finish()?;
         Ok(Self { plan, card, regressor, refiner, tensors, vars })
+    }
+
+    /// Small random networks, for tests.
+    #[cfg(any(test, feature = "samples"))]
+    fn small(kind: Kind, expert: &str, seed: u64) -> Result<Self, NetError> {
+        let card = Card {
+            expert: expert.into(),
+            licence: String::new(),
+            trained_on: String::new(),
+            untrained: true,
+            notes: BTreeMap::new(),
+        };
+        Self::build(Plan::small(kind), card, Params::random(seed, true, &Device::Cpu))
     }
 
     fn load(bytes: &[u8], trainable: bool, device: &Device) -> Result<Self, NetError> {
@@ -159,5 +180,5 @@ pub fn train(options: &Options<Plan>, report: &mut dyn FnMut(&Progress)) -> Resu
     if options.architecture.kind != Kind::Paper && options.stage != Stage::Initializer {
         return Err(TrainError::Invalid("this baseline has one stage: initializer".into()));
     }
-    train::run_of::<Networks>(options, report)
+    training::run_of::<Networks>(options, report)
 }

@@ -14,7 +14,9 @@ use super::sight::{Points, Truth, asks_for_a_place, forget_goals};
 use super::unet::{Unet, steps};
 use super::{Kind, Networks, Plan};
 use crate::polylines::SeenPiece;
-use crate::train::{Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, index, normal, seeded, unit};
+use crate::training::{
+    Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, index, normal, seeded, unit,
+};
 
 impl Trainee for Networks {
     type Architecture = Plan;
@@ -121,7 +123,7 @@ impl Networks {
         for ((truth, futures), score) in all {
             let fared = loss::squared(truth, &futures);
             let (likelihood, nudge) = index(score, fared.best);
-            let first = crate::train::least(&score.map(|score| -score));
+            let first = crate::training::least(&score.map(|score| -score));
             metrics.add("loss", fared.loss + likelihood);
             metrics.add("min", fared.ade.into_iter().fold(f32::INFINITY, f32::min));
             metrics.add("first", fared.ade[first]);

@@ -4,7 +4,6 @@ use std::sync::Arc;
 use candle_core::{DType, Device, Tensor};
 use experts::features::AgentFeatures;
 use experts::features::agent::plan_with;
-use experts::net::{Architecture, Params};
 use experts::planning::MODES;
 use experts::planning::world::World;
 use scene::routes::LaneGraph;
@@ -13,28 +12,13 @@ use scene::{Goal, Scene, Vec2};
 use super::regressor::NUMBERS;
 use super::sight::{Truth, forget_goals};
 use super::*;
-use crate::eval::blind;
-use crate::eval::samples::{log, scene, shifted};
 use crate::polylines::Polylines;
-use crate::train::{Record, toy};
+use crate::samples::{log, scene, shifted};
+use crate::scenes::blind;
+use crate::training::{Record, toy};
 
-fn plan(kind: Kind) -> Plan {
-    let sizes = Architecture { width: 32, gating_blocks: 2, ..Architecture::default() };
-    Plan { kind, sizes }
-}
-
-fn card(expert: &str) -> Card {
-    Card {
-        expert: expert.into(),
-        licence: String::new(),
-        trained_on: String::new(),
-        untrained: true,
-        notes: BTreeMap::new(),
-    }
-}
-
-pub(super) fn random(kind: Kind, expert: &str, seed: u64) -> Networks {
-    Networks::build(plan(kind), card(expert), Params::random(seed, true, &Device::Cpu)).unwrap()
+fn random(kind: Kind, expert: &str, seed: u64) -> Networks {
+    Networks::small(kind, expert, seed).unwrap()
 }
 
 fn written(folder: &Path, name: &str, networks: &Networks) -> PathBuf {
@@ -148,7 +132,7 @@ fn options_of(folder: &Path, kind: Kind, stage: Stage, steps: u64) -> Options<Pl
         batch: 40,
         rate: 3e-3,
         expert: kind.expert().unwrap_or("vehicle").into(),
-        architecture: plan(kind),
+        architecture: Plan::small(kind),
         ..options(kind, vec![records], stage, folder.join(format!("{kind:?}.safetensors")))
     }
 }
@@ -183,16 +167,16 @@ fn losses_fall_and_runs_repeat() {
     };
     train(&stopped, &mut |line| {
         if let Progress::Validation { step: 60, .. } = line {
-            half = Some(std::fs::read(train::checkpoint_path(&stopped.out)).unwrap());
+            half = Some(std::fs::read(training::checkpoint_path(&stopped.out)).unwrap());
         }
     })
     .unwrap();
     let straight = std::fs::read(&stopped.out).unwrap();
     assert!(straight != expected);
-    std::fs::write(train::checkpoint_path(&stopped.out), half.unwrap()).unwrap();
+    std::fs::write(training::checkpoint_path(&stopped.out), half.unwrap()).unwrap();
     train(&Options { resume: true, ..stopped.clone() }, &mut |_| ()).unwrap();
     assert!(std::fs::read(&stopped.out).unwrap() == straight);
-    let other = Options { resume: true, architecture: plan(Kind::TrafficGen), ..stopped };
+    let other = Options { resume: true, architecture: Plan::small(Kind::TrafficGen), ..stopped };
     let refused = train(&Options { stage: Stage::Joint, ..other }, &mut |_| ()).unwrap_err().to_string();
     assert!(refused.contains("one stage"), "{refused}");
 }

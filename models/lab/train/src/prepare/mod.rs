@@ -9,11 +9,10 @@ mod tests;
 
 pub use report::{Fit, LeftOut, Report, Split};
 
-use crate::crop::{Crop, Cropped};
-use crate::mirror::mirrored;
 use crate::polylines::Polylines;
-use crate::train::{FitError, Record, Writer};
-use anyhow::{Context, Result};
+use crate::scenes::{Crop, Cropped, mirrored, read_scenes, scene_files};
+use crate::training::{FitError, Record, Writer};
+use anyhow::Result;
 use conditions::Draw;
 use experts::features::STANDING_SHARE;
 use experts::planning::world::World;
@@ -87,37 +86,6 @@ pub fn run(options: &Options, mut progress: impl FnMut(&Report)) -> Result<Repor
     report.blake3 = writer.finish()?.to_hex().to_string();
     report.fit = Fit::of(distances);
     Ok(report)
-}
-
-/// Scene files below the inputs, sorted.
-///
-/// # Errors
-/// When a folder cannot be listed or holds nothing.
-pub fn scene_files(inputs: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for input in inputs {
-        if input.is_dir() {
-            let listing = std::fs::read_dir(input).with_context(|| format!("list {}", input.display()))?;
-            files.extend(listing.filter_map(|e| e.ok().map(|e| e.path())).filter(|p| p.is_file()));
-        } else {
-            files.push(input.clone());
-        }
-    }
-    files.retain(|p| !p.to_string_lossy().ends_with(".tmp"));
-    files.sort();
-    anyhow::ensure!(!files.is_empty(), "no files in {inputs:?}");
-    Ok(files)
-}
-
-/// All scenes of a file that can be read.
-///
-/// # Errors
-/// When the file cannot be opened or no format reads it.
-pub fn read_scenes(path: &Path) -> Result<Vec<Scene>> {
-    let bytes = std::fs::read(path).with_context(|| format!("read {}", path.display()))?;
-    let options = formats::registry::ImportOptions::default();
-    let imported = formats::registry::import(&bytes, &path.to_string_lossy(), "auto", &options);
-    Ok(imported?.into_iter().filter_map(Result::ok).map(|(scene, _)| scene).collect())
 }
 
 struct SceneRecords {

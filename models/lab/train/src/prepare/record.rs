@@ -1,7 +1,7 @@
 //! One road user's record: features from the start alone, targets from the recording.
 
 use crate::polylines::Polylines;
-use crate::train::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record};
+use crate::training::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record};
 use experts::features::Target;
 use experts::features::agent::{Planned, plan};
 use experts::planning::anchors::Anchor;

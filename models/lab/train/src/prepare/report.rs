@@ -1,7 +1,7 @@
 //! What was prepared: counts, what was left out and why, the split, and how well recordings can be said.
 
-use crate::eval::stats::quantile;
-use crate::train::is_held_out;
+use crate::quantile;
+use crate::training::is_held_out;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -102,7 +102,7 @@ impl Split {
 }
 
 /// Distance of each record's recording from its own best residual on its best anchor, metres, averaged over
-/// the record's instants ([`crate::train::FitError`]).
+/// the record's instants ([`crate::training::FitError`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Fit {
     /// Records measured.

@@ -1,6 +1,6 @@
 use super::*;
-use crate::eval::samples::{log, scene, shifted};
-use crate::train::{Records, is_held_out};
+use crate::samples::{log, scene, shifted};
+use crate::training::{Records, is_held_out};
 use scene::Agent;
 
 fn options(folder: &Path) -> Options {

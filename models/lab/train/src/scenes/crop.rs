@@ -54,7 +54,7 @@ impl Crop {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::eval::samples::{log, scene, shifted};
+    use crate::samples::{log, scene, shifted};
 
     fn ids(cropped: Cropped) -> (Vec<String>, usize) {
         match cropped {

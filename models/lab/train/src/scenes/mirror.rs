@@ -75,7 +75,7 @@ fn map(map: &LaneMap) -> LaneMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::eval::samples::{log, scene, shifted};
+    use crate::samples::{log, scene, shifted};
     use experts::features::agent::plan;
     use experts::planning::world::World;
     use scene::routes::LaneGraph;

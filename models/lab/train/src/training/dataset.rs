@@ -427,7 +427,7 @@ impl Records {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::toy;
+    use crate::training::toy;
 
     #[test]
     fn a_file_gives_back_what_was_written() {

@@ -139,7 +139,7 @@ fn solve(lower: &Matrix, right: &[f64; KNOTS]) -> [f64; KNOTS] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::toy;
+    use crate::training::toy;
 
     #[test]
     fn a_recording_is_followed() {

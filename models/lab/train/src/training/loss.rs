@@ -217,7 +217,7 @@ pub(super) fn moved(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::{fit, toy};
+    use crate::training::{fit, toy};
 
     fn said(seed: u64) -> Said {
         let mut value = seed as f32 * 0.37;

@@ -135,7 +135,7 @@ impl Shard {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::toy;
+    use crate::training::toy;
 
     fn records(scenes: usize) -> Records {
         let folder = tempfile::tempdir().unwrap();

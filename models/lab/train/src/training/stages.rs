@@ -412,7 +412,7 @@ pub(super) fn validate(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::toy;
+    use crate::training::toy;
     use rand_chacha::rand_core::SeedableRng;
 
     #[test]
