@@ -23,6 +23,10 @@ const ARROWS: &[(&str, &[&str])] = &[
 const HOMES: &[(&str, &[&str])] = &[
     ("candle-core", &["experts", "lab-train"]),
     ("candle-nn", &["experts"]),
+    ("rand", &["scene"]),
+    ("rand_chacha", &["scene"]),
+    ("rand_distr", &["scene"]),
+    ("blake3", &["scene", "lab-train"]),
     ("axum", &["dragtraffic"]),
     ("rusqlite", &["dragtraffic"]),
     ("hyper", &["dragtraffic"]),

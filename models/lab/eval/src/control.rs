@@ -1,7 +1,6 @@
 //! Table 3: goals that nobody drove to. What is dragged where it was not logged must be met or refused in
 //! words, within the limits, without jumps, and the others must make room.
 
-use super::draw::Draw;
 use super::measure::{at, goal_error, is_met, is_outside_limits};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
@@ -13,6 +12,7 @@ use lab_train::quantile;
 use rayon::prelude::*;
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
+use scene::random::Key;
 use scene::{AgentType, Goal, HORIZON_STEPS, Sample, Scene, State, Vec2, wrap_angle};
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
@@ -62,7 +62,7 @@ struct Drag {
 pub fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
     let mut picked: Vec<(usize, usize)> =
         sites.iter().enumerate().flat_map(|(s, site)| (0..site.cases.len()).map(move |c| (s, c))).collect();
-    Draw::new(seed, &["control"]).shuffle(&mut picked);
+    Key::default().number(seed).words(&["control"]).stream().shuffle(&mut picked);
     picked.truncate(MOST_CASES);
     picked.sort_unstable();
     let mut sheets = [reach_sheet(), limits_sheet()];
@@ -90,7 +90,7 @@ fn dragged(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> Re
     let log = site.log(case);
     let logged = case.goal(site.scene, Subset::PosSpeedHeading);
     let Some(base) = logged.position else { return Ok(Vec::new()) };
-    let mut draw = Draw::new(seed, &["nudge", site.name(), &log.id]);
+    let mut draw = Key::default().number(seed).words(&["nudge", site.name(), &log.id]).stream();
     let mut out = Vec::new();
     for (i, metres) in MOVES_M.into_iter().enumerate() {
         let ways =

@@ -10,7 +10,6 @@ mod cases;
 mod coherence;
 mod control;
 pub mod cost;
-mod draw;
 pub mod measure;
 mod parked;
 pub mod picture;

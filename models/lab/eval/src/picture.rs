@@ -1,12 +1,12 @@
 //! Pictures of futures over the map, as SVG.
 
-use super::draw::Draw;
 use super::quality::{Method, Outcome, alone};
 use super::{Site, Subset, type_name};
 use anyhow::Result;
 use experts::Generator;
 use rayon::prelude::*;
 use scene::map::LaneType;
+use scene::random::Key;
 use scene::{AgentFutures, AgentType, Scene, Vec2};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -35,7 +35,11 @@ pub fn of_outcomes(
             all.sort_by(|a, b| a.measured.min_ade.total_cmp(&b.measured.min_ade));
             let best: Vec<&Outcome> = all.iter().take(EACH).copied().collect();
             let worst: Vec<&Outcome> = all.iter().rev().take(EACH).copied().collect();
-            Draw::new(seed, &["pictures", type_name(agent_type), subset.name()]).shuffle(&mut all);
+            Key::default()
+                .number(seed)
+                .words(&["pictures", type_name(agent_type), subset.name()])
+                .stream()
+                .shuffle(&mut all);
             all.truncate(EACH);
             for (word, list) in [("best", best), ("worst", worst), ("random", all)] {
                 for (i, outcome) in list.into_iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Figures with intervals: means and shares with 95 % bootstrap intervals, resampled by scene, because road
 //! users of one scene share its map, its lights and each other.
 
-use super::draw::Draw;
 use lab_train::quantile;
+use scene::random::Key;
 use serde::Serialize;
 
 /// Resamples drawn.
@@ -58,7 +58,7 @@ pub struct Bootstrap {
 impl Bootstrap {
     /// Resamples of so many scenes.
     pub fn new(scenes: usize, seed: u64) -> Self {
-        let mut draw = Draw::new(seed, &["bootstrap"]);
+        let mut draw = Key::default().number(seed).words(&["bootstrap"]).stream();
         let replicate = |_| {
             let mut counts = vec![0; scenes];
             for _ in 0..scenes {

@@ -2,10 +2,10 @@
 
 use super::fleet::Fleet;
 use super::network::{Network, Rank};
-use super::random::Draw;
 use super::{RECORDED_S, WARM_UP_S};
 use formats::sumo::net::{EdgeFunction, LaneKind, Net, NetEdge};
 use formats::sumo::polyline::length;
+use scene::random::Stream;
 use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -25,9 +25,9 @@ pub struct Crowd {
 
 impl Crowd {
     /// Draws one.
-    pub fn new(draw: &mut Draw) -> Self {
+    pub fn new(draw: &mut Stream) -> Self {
         Self {
-            traffic: draw.uniform(0.5, 2.0),
+            traffic: draw.between(0.5, 2.0),
             cyclists: draw.one_of([3.0, 8.0, 18.0]),
             people: draw.one_of([5.0, 18.0, 65.0]),
             buses: 0.02,
@@ -64,7 +64,7 @@ pub fn write(
     net: &Net,
     fleet: &Fleet,
     crowd: Crowd,
-    draw: &mut Draw,
+    draw: &mut Stream,
     folder: &Path,
 ) -> std::io::Result<()> {
     let fringe = network.fringe.iter().map(String::as_str).collect();
@@ -135,7 +135,7 @@ impl Trips<'_> {
         self.normal().map(|e| (e, spread(e))).collect()
     }
 
-    fn vehicles(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Draw) {
+    fn vehicles(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Stream) {
         let net = self.net;
         let reachable = self.reachable(&[LaneKind::Vehicle]);
         let carries = |e: &usize| self.lanes(&net.edges[*e], LaneKind::Vehicle) > 0;
@@ -169,14 +169,16 @@ impl Trips<'_> {
             let lanes = self.lanes(edge, LaneKind::Vehicle) as f64;
             // Ramps carry less than a lane of the road they lead to.
             let ramp = if edge.road_type == Rank::Motorway.name() && lanes < 2.0 { 0.5 } else { 1.0 };
-            let hourly = ramp * rate(&edge.road_type) * lanes * crowd.traffic * (0.35 * draw.gauss()).exp();
+            let hourly = ramp * rate(&edge.road_type) * lanes * crowd.traffic * (0.35 * draw.normal()).exp();
             let mean_wait = 3600.0 / hourly.max(1e-3);
             let mut time = draw.exponential(mean_wait);
             while time < WARM_UP_S + RECORDED_S {
                 let trucks = if edge.road_type == Rank::Motorway.name() { 0.10 } else { 0.035 };
-                let group = ["truck", "bus", "moto", "car"]
-                    [draw.weighted(&[trucks, crowd.buses, 0.02, 1.0 - trucks - crowd.buses - 0.02])];
-                let goal = &net.edges[goals[draw.weighted(&weights)]];
+                let cars = 1.0 - trucks - crowd.buses - 0.02;
+                let groups = [("truck", trucks), ("bus", crowd.buses), ("moto", 0.02), ("car", cars)];
+                let group = draw.weighted(groups);
+                let Some(goal) = draw.among(weights.iter().copied()) else { break };
+                let goal = &net.edges[goals[goal]];
                 // Nothing long turns in the aisles of a parking lot.
                 let narrow = edge.road_type == "lot" || goal.road_type == "lot";
                 let kind = fleet.pick(draw, if narrow { "car" } else { group });
@@ -193,15 +195,15 @@ impl Trips<'_> {
     }
 
     /// A halt in the rightmost lane by this chance: a bus at its stop, or somebody who double-parks.
-    fn stop(&self, chance: f64, edges: [&NetEdge; 2], draw: &mut Draw) -> String {
+    fn stop(&self, chance: f64, edges: [&NetEdge; 2], draw: &mut Stream) -> String {
         let edge = edges[draw.below(2)];
         let lane = self.net.lanes_of(edge, LaneKind::Vehicle).next().map(|l| &self.net.lanes[l]);
         let Some(lane) = lane.filter(|l| length(&l.shape) > 60.0) else { return String::new() };
         if !draw.chance(chance) || matches!(edge.road_type.as_str(), "motorway" | "lot" | "roundabout") {
             return String::new();
         }
-        let end = draw.uniform(35.0, length(&lane.shape) - 20.0);
-        let seconds = draw.uniform(5.0, 25.0);
+        let end = draw.between(35.0, length(&lane.shape) - 20.0);
+        let seconds = draw.between(5.0, 25.0);
         format!(
             r#"<stop lane="{}" startPos="{:.1}" endPos="{end:.1}" duration="{seconds:.0}"/>"#,
             lane.id,
@@ -209,7 +211,7 @@ impl Trips<'_> {
         )
     }
 
-    fn cyclists(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Draw) {
+    fn cyclists(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Stream) {
         let net = self.net;
         let reachable = self.reachable(&[LaneKind::Vehicle, LaneKind::Bike]);
         let usable = |e: &usize| {
@@ -224,7 +226,7 @@ impl Trips<'_> {
             return;
         }
         for k in 0..draw.poisson(crowd.cyclists) {
-            let time = draw.uniform(20.0, WARM_UP_S + RECORDED_S - 10.0);
+            let time = draw.between(20.0, WARM_UP_S + RECORDED_S - 10.0);
             let from_outside = draw.chance(0.5);
             let source =
                 if from_outside { outer[draw.below(outer.len())] } else { edges[draw.below(edges.len())] };
@@ -246,7 +248,7 @@ impl Trips<'_> {
         }
     }
 
-    fn people(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Draw) {
+    fn people(&mut self, fleet: &Fleet, crowd: Crowd, draw: &mut Stream) {
         let net = self.net;
         let walks = |l: usize| {
             matches!(net.lanes[l].kind, LaneKind::Sidewalk | LaneKind::Crossing | LaneKind::WalkingArea)
@@ -265,19 +267,20 @@ impl Trips<'_> {
         let weights: Vec<f64> = sidewalks.iter().map(|s| s.1).collect();
         let groups = crowd.people * (weights.iter().sum::<f64>() / 1500.0).min(2.5);
         for k in 0..draw.poisson(groups) {
-            let (from, from_length) = sidewalks[draw.weighted(&weights)];
+            let Some(from) = draw.among(weights.iter().copied()) else { break };
+            let (from, from_length) = sidewalks[from];
             let goals: Vec<usize> = sidewalks
                 .iter()
                 .map(|s| s.0)
                 .filter(|s| *s != from && parts.root(*s) == parts.root(from))
                 .collect();
             let Some(&to) = goals.get(draw.below(goals.len())) else { continue };
-            let time = draw.uniform(0.0, WARM_UP_S + RECORDED_S - 10.0);
+            let time = draw.between(0.0, WARM_UP_S + RECORDED_S - 10.0);
             // Riders on the sidewalk and on crosswalks: for SUMO, fast persons.
-            let group = ["sidewalk_cycle", "jogger", "walker"][draw.weighted(&[0.18, 0.03, 0.79])];
-            let people = if group == "walker" { 1 + draw.weighted(&[0.72, 0.22, 0.06]) } else { 1 };
+            let group = draw.weighted([("sidewalk_cycle", 0.18), ("jogger", 0.03), ("walker", 0.79)]);
+            let people = if group == "walker" { draw.weighted([(1, 0.72), (2, 0.22), (3, 0.06)]) } else { 1 };
             let kind = fleet.pick(draw, group);
-            let start = draw.uniform(2.0, (from_length - 3.0).max(3.0));
+            let start = draw.between(2.0, (from_length - 3.0).max(3.0));
             for m in 0..people {
                 let (depart, place) = (time + 0.5 * m as f64, start + 0.4 * m as f64);
                 self.items.push((depart, format!(

@@ -1,7 +1,7 @@
 //! Networks of the demo scenes: laid out by hand, so that they show what the editor can do.
 
 use super::network::{Character, MPH, Network, Rank, Section, hermite};
-use super::random::{Draw, Purpose};
+use super::random::Purpose;
 use super::ways::{MotorwayShape, approach, carriageway, ring};
 use formats::sumo::polyline::{arc_lengths, part, point_at};
 use scene::Vec2;
@@ -59,7 +59,7 @@ const HOMES: Section = Section {
 };
 
 fn finished(mut net: Network) -> Network {
-    net.expand(&mut Draw::new(41, Purpose::Network));
+    net.expand(&mut Purpose::Network.stream(41));
     net
 }
 

@@ -1,6 +1,6 @@
 //! Smoothing and correlated noise of sampled signals.
 
-use super::random::Draw;
+use scene::random::Stream;
 
 /// Gaussian low-pass; `sigma` in samples. The ends are continued by point reflection, which keeps
 /// their slope.
@@ -33,14 +33,14 @@ fn kernel(sigma: f64, radius: usize) -> Vec<f64> {
 
 /// `n` samples of noise with this deviation, smooth over `correlation` samples. Long correlations are
 /// drawn on a coarser grid and interpolated.
-pub fn noise(draw: &mut Draw, n: usize, correlation: f64, deviation: f64) -> Vec<f64> {
+pub fn noise(draw: &mut Stream, n: usize, correlation: f64, deviation: f64) -> Vec<f64> {
     let step = (correlation / 6.0).max(1.0);
     let sigma = correlation / step;
     let radius = (3.0 * sigma).ceil() as usize;
     let shape = kernel(sigma, radius);
     let power = shape.iter().map(|k| k * k).sum::<f64>().sqrt();
     let coarse = (n as f64 / step) as usize + 4;
-    let white: Vec<f64> = (0..coarse + 2 * radius).map(|_| draw.gauss()).collect();
+    let white: Vec<f64> = (0..coarse + 2 * radius).map(|_| draw.normal()).collect();
     let smooth: Vec<f64> = white
         .windows(2 * radius + 1)
         .map(|w| w.iter().zip(&shape).map(|(v, k)| v * k).sum::<f64>() / power * deviation)
@@ -99,7 +99,7 @@ pub fn unwrap(angles: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::random::{Draw, Purpose};
+    use super::super::random::Purpose;
     use super::*;
 
     #[test]
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn noise_has_its_deviation() {
-        let mut draw = Draw::new(3, Purpose::Motion);
+        let mut draw = Purpose::Motion.stream(3);
         for correlation in [2.5, 14.0, 150.0] {
             let values = noise(&mut draw, 40_000, correlation, 0.2);
             let power = values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;

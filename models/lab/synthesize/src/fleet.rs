@@ -1,6 +1,6 @@
 //! Kinds of road users of one seed: driver and body parameters, as SUMO's vehicle types.
 
-use super::random::Draw;
+use scene::random::Stream;
 use scene::{AgentType, Size, Subtype};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -38,7 +38,7 @@ fn size(length: f64, width: f64, height: f64) -> Size {
 impl Fleet {
     /// Draws the kinds of a seed. Streets are short, and drivers there change lanes less eagerly than by
     /// default; on a motorway, who comes late for an exit stops and blocks the road.
-    pub fn new(draw: &mut Draw, motorway: bool) -> Self {
+    pub fn new(draw: &mut Stream, motorway: bool) -> Self {
         let mut fleet = Self { strategic: if motorway { 4.0 } else { 0.5 }, ..Self::default() };
         for _ in 0..24 {
             fleet.car(draw);
@@ -50,7 +50,7 @@ impl Fleet {
     }
 
     /// One of a group, drawn evenly. Empty text if the group is.
-    pub fn pick(&self, draw: &mut Draw, group: &str) -> &str {
+    pub fn pick(&self, draw: &mut Stream, group: &str) -> &str {
         let ids = self.groups.get(group).map(Vec::as_slice).unwrap_or_default();
         ids.get(draw.below(ids.len())).map(String::as_str).unwrap_or_default()
     }
@@ -67,12 +67,12 @@ impl Fleet {
         self.kinds.insert(id, kind);
     }
 
-    fn car(&mut self, draw: &mut Draw) {
+    fn car(&mut self, draw: &mut Stream) {
         let big = draw.chance(0.3);
         let length = draw.clipped(if big { 5.3 } else { 4.65 }, 0.3, 3.9, 6.3);
         let width = draw.clipped(if big { 2.19 } else { 2.04 }, 0.09, 1.81, 2.46);
         // How pressing the driver is; moves all parameters together.
-        let g = draw.gauss();
+        let g = draw.normal();
         let accel = draw.clipped(2.6 + 0.35 * g, 0.5, 1.4, 4.5);
         let decel = draw.clipped(2.2 + 0.4 * g, 0.45, 1.2, 4.0);
         let tau = draw.clipped(0.95 - 0.2 * g, 0.2, 0.55, 1.9);
@@ -101,7 +101,7 @@ impl Fleet {
         self.add("car", kind, "passenger", &rest);
     }
 
-    fn heavy(&mut self, draw: &mut Draw) {
+    fn heavy(&mut self, draw: &mut Stream) {
         let model = |accel: f64, decel: f64, tau: f64, factor: &str| {
             format!(
                 "carFollowModel=\"IDM\" accel=\"{accel:.2}\" decel=\"{decel:.2}\" emergencyDecel=\"7\" tau=\"{tau:.1}\" \
@@ -127,7 +127,7 @@ impl Fleet {
         }
     }
 
-    fn on_two_wheels(&mut self, draw: &mut Draw) {
+    fn on_two_wheels(&mut self, draw: &mut Stream) {
         let kind = |width, on_foot| Kind {
             agent_type: AgentType::Cyclist,
             subtype: Subtype::Bicycle,
@@ -153,7 +153,7 @@ impl Fleet {
         }
     }
 
-    fn on_foot(&mut self, draw: &mut Draw) {
+    fn on_foot(&mut self, draw: &mut Stream) {
         let kind =
             |size| Kind { agent_type: AgentType::Pedestrian, subtype: Subtype::Adult, size, on_foot: true };
         for _ in 0..9 {

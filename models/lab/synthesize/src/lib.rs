@@ -31,8 +31,9 @@ pub use windows::{NOW, STEPS};
 use formats::womd;
 use network::Network;
 use programs::Sumo;
-use random::{Draw, Purpose};
+use random::Purpose;
 use scene::map::LaneType;
+use scene::random::Stream;
 use scene::{AgentType, STEP_S, Scene};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -77,7 +78,7 @@ impl Template {
         (Self::Quarter, 0.06),
     ];
 
-    fn build(self, draw: &mut Draw) -> Network {
+    fn build(self, draw: &mut Stream) -> Network {
         let mut network = match self {
             Self::Crossing => streets::crossing(draw),
             Self::Grid => streets::grid(draw),
@@ -182,15 +183,14 @@ pub fn windows_of(
 }
 
 fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Result<Vec<Scene>, RecordError> {
-    let mut draw = Draw::new(seed, Purpose::Network);
-    let shares = Template::SHARES.map(|s| s.1);
-    let drawn = Template::SHARES[draw.weighted(&shares)].0;
+    let mut draw = Purpose::Network.stream(seed);
+    let drawn = draw.weighted(Template::SHARES);
     let network = template.unwrap_or(drawn).build(&mut draw);
     let mut recording = recording::record(sumo, network, None, seed)?;
-    if Draw::new(seed, Purpose::Map).chance(UNMAPPED_LOTS) {
+    if Purpose::Map.stream(seed).chance(UNMAPPED_LOTS) {
         recording.unmap_lots();
     }
-    let (scenes, _) = windows::cut(&recording, seed, count, &mut Draw::new(seed, Purpose::Windows));
+    let (scenes, _) = windows::cut(&recording, seed, count, &mut Purpose::Windows.stream(seed));
     Ok(scenes)
 }
 

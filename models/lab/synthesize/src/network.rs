@@ -1,10 +1,10 @@
 //! A road network under construction: a graph of roads with cross-sections becomes directed edges
 //! with explicit lanes, written as the plain XML that `netconvert` reads.
 
-use super::random::Draw;
 use formats::sumo::kerb::s_curve;
 use formats::sumo::polyline::{arc_lengths, length, offset_right, part, point_at, resample};
 use scene::Vec2;
+use scene::random::Stream;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -261,7 +261,7 @@ impl Network {
     /// Turns roads into directed edges. A left-turn lane is taken out of the median: the edge is split
     /// before the junction, with a gap in the shapes that becomes a long, gentle shift of the lanes
     /// (a shift within a short node would be a lateral snap).
-    pub fn expand(&mut self, draw: &mut Draw) {
+    pub fn expand(&mut self, draw: &mut Stream) {
         for (k, road) in std::mem::take(&mut self.roads).into_iter().enumerate() {
             let middle = resample(&road.middle, 3.0);
             let total = length(&middle);
@@ -290,7 +290,7 @@ impl Network {
                     merging: false,
                 };
                 let name = format!("e{k}{}", if back { "b" } else { "f" });
-                let pocket = draw.uniform(35.0, 65.0);
+                let pocket = draw.between(35.0, 65.0);
                 if !(turn && total > pocket + 50.0 && s.median >= 2.8) {
                     self.edges.push((name, make(from, to, offset_right(&line, s.median / 2.0), strips)));
                     continue;

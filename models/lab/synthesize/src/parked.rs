@@ -2,9 +2,9 @@
 //! and in the stalls of parking lots.
 
 use super::network::{Network, left_of, unit};
-use super::random::Draw;
 use formats::sumo::net::{EdgeFunction, LaneKind, Net};
 use formats::sumo::polyline::{arc_lengths, length, part, point_at, resample};
+use scene::random::Stream;
 use scene::{Size, Vec2};
 use std::f64::consts::PI;
 
@@ -30,13 +30,13 @@ pub struct ParkedCars {
     lanes: Vec<(Vec2, f64)>,
 }
 
-fn body(draw: &mut Draw) -> Size {
+fn body(draw: &mut Stream) -> Size {
     let length_m = draw.clipped(4.8, 0.42, 3.9, 6.2);
     Size { length_m, width_m: draw.clipped(2.08, 0.11, 1.85, 2.45), height_m: Some(1.7) }
 }
 
 /// Parks cars in a network.
-pub fn park(network: &Network, net: &Net, draw: &mut Draw) -> ParkedCars {
+pub fn park(network: &Network, net: &Net, draw: &mut Stream) -> ParkedCars {
     let mut cars = ParkedCars::default();
     for lane in net.lanes.iter().filter(|l| matches!(l.kind, LaneKind::Vehicle | LaneKind::Bike)) {
         cars.lanes.extend(resample(&lane.shape, 2.0).into_iter().map(|p| (p, lane.width_m / 2.0)));
@@ -59,7 +59,7 @@ pub fn park(network: &Network, net: &Net, draw: &mut Draw) -> ParkedCars {
             _ => {}
         }
     }
-    let (fill, backed) = (draw.beta(1.7, 1.8), draw.uniform(0.05, 0.3));
+    let (fill, backed) = (draw.beta(1.7, 1.8), draw.between(0.05, 0.3));
     for (line, heading) in &network.stalls {
         cars.stalls(line, *heading, fill, backed, draw);
     }
@@ -74,9 +74,9 @@ impl ParkedCars {
     }
 
     /// A row along a strip, close to the kerb.
-    fn along(&mut self, strip: &[Vec2], width: f64, fill: f64, draw: &mut Draw) {
+    fn along(&mut self, strip: &[Vec2], width: f64, fill: f64, draw: &mut Stream) {
         let total = length(strip);
-        let mut s = draw.uniform(5.0, 9.0);
+        let mut s = draw.between(5.0, 9.0);
         while s < total - 11.0 {
             let size = body(draw);
             if draw.chance(fill) {
@@ -85,31 +85,31 @@ impl ParkedCars {
                 let way = unit(b - a);
                 let aside = width / 2.0 - size.width_m / 2.0 - 0.15;
                 let position = (a + b) / 2.0 - left_of(way) * draw.clipped(aside, 0.12, -0.3, 0.5);
-                let heading = way.y.atan2(way.x) + draw.normal(0.0, 0.012);
+                let heading = way.y.atan2(way.x) + draw.normal_about(0.0, 0.012);
                 self.put(position, heading, size, size.width_m / 2.0 - 0.1);
             }
             s += size.length_m + draw.clipped(1.2, 0.5, 0.6, 4.0);
             if draw.chance(0.08) {
-                s += draw.uniform(4.0, 8.0);
+                s += draw.between(4.0, 8.0);
             }
         }
     }
 
     /// Driveways beyond a sidewalk, each with up to two cars.
-    fn driveways(&mut self, sidewalk: &[Vec2], width: f64, strip: f64, draw: &mut Draw) {
+    fn driveways(&mut self, sidewalk: &[Vec2], width: f64, strip: f64, draw: &mut Stream) {
         let (total, lengths) = (length(sidewalk), arc_lengths(sidewalk));
-        let mut s = draw.uniform(12.0, 25.0);
+        let mut s = draw.between(12.0, 25.0);
         while s < total - 14.0 {
             let base = point_at(sidewalk, &lengths, s);
             let way = unit(point_at(sidewalk, &lengths, s + 1.0) - base);
             let away = -left_of(way);
-            let count = draw.weighted(&[0.52, 0.32, 0.16]);
+            let count = draw.weighted([(0, 0.52), (1, 0.32), (2, 0.16)]);
             for c in 0..count {
                 let size = body(draw);
-                let depth = width / 2.0 + size.length_m / 2.0 + draw.uniform(0.3, 4.0);
+                let depth = width / 2.0 + size.length_m / 2.0 + draw.between(0.3, 4.0);
                 let heading = away.y.atan2(away.x) + if draw.chance(0.6) { PI } else { 0.0 };
                 let position = base + way * (2.7 * c as f64) + away * depth;
-                self.put(position, heading + draw.normal(0.0, 0.03), size, size.length_m / 2.0 + 1.0);
+                self.put(position, heading + draw.normal_about(0.0, 0.03), size, size.length_m / 2.0 + 1.0);
             }
             if count > 0 {
                 let (near, far) = (-width / 2.0 - strip, width / 2.0 + 10.0);
@@ -122,23 +122,23 @@ impl ParkedCars {
                     corner(wide, near),
                 ]);
             }
-            s += draw.uniform(13.0, 24.0);
+            s += draw.between(13.0, 24.0);
         }
     }
 
     /// A row of perpendicular stalls.
-    fn stalls(&mut self, line: &[Vec2], heading: f64, fill: f64, backed: f64, draw: &mut Draw) {
+    fn stalls(&mut self, line: &[Vec2], heading: f64, fill: f64, backed: f64, draw: &mut Stream) {
         let (total, lengths) = (length(line), arc_lengths(line));
         let nose = scene::geometry::direction(heading);
         let mut s = 0.0;
         while s < total {
             if draw.chance(fill) {
                 let size = body(draw);
-                let position = point_at(line, &lengths, s) - nose * draw.normal(0.0, 0.25);
+                let position = point_at(line, &lengths, s) - nose * draw.normal_about(0.0, 0.25);
                 let turned = if draw.chance(backed) { PI } else { 0.0 };
                 self.put(
                     position,
-                    heading + turned + draw.normal(0.0, 0.025),
+                    heading + turned + draw.normal_about(0.0, 0.025),
                     size,
                     size.length_m / 2.0 - 0.6,
                 );

@@ -5,7 +5,7 @@ use super::fleet::{Fleet, Kind};
 use super::footpath::Kerbs;
 use super::network::{Network, Rank};
 use super::programs::{ProgramError, Sumo};
-use super::random::{Draw, Purpose};
+use super::random::Purpose;
 use super::tracks::{self, Cleaned};
 use super::{DT_S, RECORDED_S, parked, scripted};
 use formats::sumo::SumoError;
@@ -16,6 +16,7 @@ use formats::sumo::polyline::resample;
 use formats::sumo::signals::SignalLog;
 use scene::geometry::obb::{OrientedBox, signed_gap};
 use scene::map::Area;
+use scene::random::Stream;
 use scene::{AgentType, Size, Subtype, Vec2};
 use std::collections::HashSet;
 use std::f64::consts::PI;
@@ -140,7 +141,7 @@ pub fn record(
     sumo.build_network(path, &network.character)?;
     let net = Net::read(&std::fs::read_to_string(path.join("net.xml"))?)
         .map_err(|source| RecordError::File { file: "net.xml", source })?;
-    let mut draw = Draw::new(seed, Purpose::Demand);
+    let mut draw = Purpose::Demand.stream(seed);
     let fleet = Fleet::new(&mut draw, network.character.name.contains("motorway"));
     let drawn = Crowd::new(&mut draw);
     demand::write(&network, &net, &fleet, crowd.unwrap_or(drawn), &mut draw, path)?;
@@ -153,7 +154,7 @@ pub fn record(
     for actor in actors.iter_mut().filter(|a| a.on_foot) {
         kerbs.keep_off(&mut actor.track);
     }
-    let parked = parked::park(&network, &net, &mut Draw::new(seed, Purpose::Parking));
+    let parked = parked::park(&network, &net, &mut Purpose::Parking.stream(seed));
     let mut next_id = 1_000_000;
     let mut areas = |rings: &[Vec<Vec2>]| -> Vec<Area> {
         let area = |ring: &Vec<Vec2>| {
@@ -175,8 +176,8 @@ pub fn record(
             overlaps: Vec::new(),
         });
     }
-    standing(&net, &mut actors, &mut Draw::new(seed ^ 0x5eed, Purpose::Motion));
-    scripted::add(&net, &fleet, &mut actors, &mut Draw::new(seed, Purpose::Scripted));
+    standing(&net, &mut actors, &mut Purpose::Standing.stream(seed));
+    scripted::add(&net, &fleet, &mut actors, &mut Purpose::Scripted.stream(seed));
     find_overlaps(&mut actors);
     let in_lot = |lane: &usize| net.edge_of(*lane).road_type == Rank::Lot.name();
     let lot_lanes = (0..net.lanes.len()).filter(in_lot).map(lane_id).collect();
@@ -186,7 +187,7 @@ pub fn record(
 fn moving(path: &Path, fleet: &Fleet, seed: u64) -> Result<Vec<Actor>, RecordError> {
     let file = std::io::BufReader::new(std::fs::File::open(path.join("fcd.csv"))?);
     let records = fcd::read_csv(file).map_err(|source| RecordError::File { file: "fcd.csv", source })?;
-    let mut draw = Draw::new(seed, Purpose::Motion);
+    let mut draw = Purpose::Motion.stream(seed);
     let mut actors = Vec::new();
     for record in records.into_values() {
         let Some(kind) = fleet.kinds.get(&record.vehicle_type) else { continue };
@@ -206,7 +207,7 @@ fn read_signals(path: &Path) -> Result<SignalLog, RecordError> {
 }
 
 /// Adds people who stand about: one for every eight who walk.
-fn standing(net: &Net, actors: &mut Vec<Actor>, draw: &mut Draw) {
+fn standing(net: &Net, actors: &mut Vec<Actor>, draw: &mut Stream) {
     let sidewalks: Vec<&Vec<Vec2>> =
         net.lanes.iter().filter(|l| l.kind == LaneKind::Sidewalk).map(|l| &l.shape).collect();
     let walkers = actors.iter().filter(|a| a.agent_type == AgentType::Pedestrian).count();
@@ -216,9 +217,9 @@ fn standing(net: &Net, actors: &mut Vec<Actor>, draw: &mut Draw) {
     for _ in 0..draw.poisson(0.12 * walkers as f64) {
         let line = resample(sidewalks[draw.below(sidewalks.len())], 1.0);
         let at = if draw.chance(0.6) { draw.below(line.len()) } else { draw.below(2) * (line.len() - 1) };
-        let place = line[at] + draw.gauss_point(0.4);
+        let place = line[at] + Vec2::from(draw.normal_pair()) * 0.4;
         let side = draw.clipped(0.85, 0.1, 0.6, 1.1);
-        let heading = draw.uniform(-PI, PI);
+        let heading = draw.between(-PI, PI);
         actors.push(Actor {
             agent_type: AgentType::Pedestrian,
             subtype: Subtype::Adult,

@@ -6,7 +6,6 @@ mod turning;
 
 use super::filters::interpolate;
 use super::fleet::{Fleet, Kind};
-use super::random::Draw;
 use super::recording::Actor;
 use super::tracks::{self, Cleaned};
 use super::{DT_S, RECORDED_S, WARM_UP_S};
@@ -16,6 +15,7 @@ use formats::sumo::net::{EdgeFunction, LaneKind, Net};
 use formats::sumo::polyline::{arc_lengths, length, part, point_at, resample};
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, signed_gap};
+use scene::random::Stream;
 use scene::{AgentType, State, Vec2, wrap_angle};
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ const SHARPEST: f64 = 0.20;
 const ALONG_M: f64 = 110.0;
 
 /// Adds scripted road users.
-pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Draw) {
+pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Stream) {
     let lanes = Lanes::new(net);
     let parked: Vec<usize> = (0..actors.len()).filter(|i| actors[*i].parked).collect();
     for i in parked {
@@ -163,7 +163,7 @@ impl<'a> Lanes<'a> {
     }
 
     /// The centre line onwards from a lane's arc length, through junctions by the first way on.
-    fn onwards(&self, lane: usize, from: f64, draw: &mut Draw) -> Vec<Vec2> {
+    fn onwards(&self, lane: usize, from: f64, draw: &mut Stream) -> Vec<Vec2> {
         let shape = &self.net.lanes[lane].shape;
         let mut line = part(shape, from, length(shape));
         let mut at = lane;
@@ -189,14 +189,14 @@ impl<'a> Lanes<'a> {
     }
 
     /// Out of a parking place or driveway, then along the lanes.
-    fn leaving(&self, car: &Actor, draw: &mut Draw) -> Option<Record> {
+    fn leaving(&self, car: &Actor, draw: &mut Stream) -> Option<Record> {
         let state = car.track.states.first()?;
         let (lane, foot) = self.beside(state.position(), state.heading_rad)?;
         let front = front_of(state, car);
         let line = self.onwards(lane, foot, draw);
         let lengths = arc_lengths(&line);
         let turned = wrap_angle(heading_at(&line, &lengths, 0.0) - state.heading_rad).abs();
-        let join = draw.uniform(9.0, 15.0) + 3.0 * turned;
+        let join = draw.between(9.0, 15.0) + 3.0 * turned;
         if lengths[lengths.len() - 1] < join + 25.0 {
             return None;
         }
@@ -204,9 +204,9 @@ impl<'a> Lanes<'a> {
         let mut path = hermite(front, state.heading_rad, point_at(&line, &lengths, join), way)?;
         let slow_until = length(&path);
         path.extend(part(&line, join + 0.5, lengths[lengths.len() - 1]));
-        let start = draw.uniform(1.0, RECORDED_S - 25.0);
+        let start = draw.between(1.0, RECORDED_S - 25.0);
         let (accel, top) = (draw.clipped(1.3, 0.4, 0.6, 2.4), draw.clipped(9.0, 2.0, 5.0, 13.0));
-        let slow = draw.uniform(2.2, 4.2);
+        let slow = draw.between(2.2, 4.2);
         // Creeps out, then picks up speed.
         let speeds = progress(&path, |s, v| {
             if s < slow_until { slow.min(v + accel * DT_S) } else { (v + accel * DT_S).min(top) }
@@ -215,13 +215,13 @@ impl<'a> Lanes<'a> {
     }
 
     /// Along the lane, then into the place where the car is parked (parallel to the road alone).
-    fn arriving(&self, car: &Actor, draw: &mut Draw) -> Option<Record> {
+    fn arriving(&self, car: &Actor, draw: &mut Stream) -> Option<Record> {
         let state = car.track.states.first()?;
         let (lane, foot) = self.beside(state.position(), state.heading_rad)?;
         let line = self.towards(lane, foot);
         let lengths = arc_lengths(&line);
         let total = lengths[lengths.len() - 1];
-        let off = draw.uniform(11.0, 17.0);
+        let off = draw.between(11.0, 17.0);
         let parallel = wrap_angle(heading_at(&line, &lengths, total) - state.heading_rad).abs() < 0.3;
         if !parallel || total < off + 30.0 {
             return None;
@@ -237,24 +237,24 @@ impl<'a> Lanes<'a> {
             let may = (2.0 * brake * (end - s - 0.02).max(0.0)).sqrt();
             if s == 0.0 { top.min(may) } else { top.min(may).max(v - 3.0 * DT_S) }
         });
-        let start = draw.uniform(0.0, RECORDED_S - 30.0);
+        let start = draw.between(0.0, RECORDED_S - 30.0);
         let record = record(&path, heading_at(&line, &lengths, 0.0), start, &speeds, top);
         entering(&record, start)
     }
 
     /// A person across the road, away from crosswalks.
-    fn crossing(&self, draw: &mut Draw) -> Option<Record> {
+    fn crossing(&self, draw: &mut Stream) -> Option<Record> {
         if self.sidewalks.is_empty() {
             return None;
         }
         let shape = &self.net.lanes[self.sidewalks[draw.below(self.sidewalks.len())]].shape;
         let lengths = arc_lengths(shape);
         let total = lengths[lengths.len() - 1];
-        let along = draw.uniform(14.0, total - 14.0);
+        let along = draw.between(14.0, total - 14.0);
         let from = point_at(shape, &lengths, along);
         let lane = heading_at(shape, &lengths, along);
         // A sidewalk lies to the right of its road; people cut across a little.
-        let way = direction(lane + std::f64::consts::FRAC_PI_2 + draw.normal(0.0, 0.25));
+        let way = direction(lane + std::f64::consts::FRAC_PI_2 + draw.normal_about(0.0, 0.25));
         let on_road = |p: Vec2| self.road.iter().any(|(q, half)| (p - q).norm() < half + 0.9);
         let (mut reach, mut entered) = (0.0, false);
         while reach < 32.0 {
@@ -270,13 +270,13 @@ impl<'a> Lanes<'a> {
         }
         // A few steps along the sidewalk before and after.
         let side = direction(lane) * if draw.chance(0.5) { 1.0 } else { -1.0 };
-        let (before, after) = (draw.uniform(2.0, 8.0), draw.uniform(3.0, 10.0));
+        let (before, after) = (draw.between(2.0, 8.0), draw.between(3.0, 10.0));
         let over = from + way * (reach + 0.8);
         let path = resample(&[from - side * before, from, over, over + side * after], 0.25);
         let pace = draw.clipped(1.45, 0.25, 0.9, 2.6);
         let end = length(&path);
         let speeds = progress(&path, |s, _| if s + 0.05 < end { pace } else { 0.0 });
-        let start = draw.uniform(0.0, RECORDED_S - end / pace - 1.0);
+        let start = draw.between(0.0, RECORDED_S - end / pace - 1.0);
         let record = record(&path, heading_at(&path, &arc_lengths(&path), 0.0), start, &speeds, pace);
         let first = record.times_s.iter().position(|t| *t >= WARM_UP_S + start)?;
         let last = record.speeds_mps.iter().rposition(|v| *v > 0.0)?;

@@ -1,41 +1,41 @@
 //! Networks of streets: one crossing with its arms, a grid, an arterial, a parking lot.
 
 use super::network::{Character, MPH, Network, Rank, Section, hermite, left_of, unit};
-use super::random::Draw;
 use formats::sumo::polyline::{arc_lengths, length, part, point_at};
 use scene::Vec2;
 use scene::geometry::{direction, rotate};
+use scene::random::Stream;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Draws a cross-section for a street of this rank.
-pub fn section(draw: &mut Draw, rank: Rank) -> Section {
-    let yes = |draw: &mut Draw, p: f64, width: f64| if draw.chance(p) { width } else { 0.0 };
+pub fn section(draw: &mut Stream, rank: Rank) -> Section {
+    let yes = |draw: &mut Stream, p: f64, width: f64| if draw.chance(p) { width } else { 0.0 };
     match rank {
         Rank::Arterial => {
             let lanes = draw.one_of([2, 2, 3]);
-            let bike = draw.uniform(1.5, 1.9);
+            let bike = draw.between(1.5, 1.9);
             Section {
                 forward: lanes,
                 backward: lanes,
                 speed: draw.one_of([35.0, 35.0, 40.0, 45.0]) * MPH,
-                lane: draw.uniform(3.2, 3.6),
+                lane: draw.between(3.2, 3.6),
                 priority: 8,
-                sidewalk: draw.uniform(1.8, 3.0),
+                sidewalk: draw.between(1.8, 3.0),
                 bike: yes(draw, 0.6, bike),
                 parking: yes(draw, 0.25, 2.7),
-                median: draw.uniform(3.3, 4.5),
+                median: draw.between(3.3, 4.5),
                 rank,
             }
         }
         Rank::Collector => {
-            let bike = draw.uniform(1.4, 1.8);
+            let bike = draw.between(1.4, 1.8);
             Section {
                 forward: 1,
                 backward: 1,
                 speed: draw.one_of([25.0, 30.0, 35.0]) * MPH,
-                lane: draw.uniform(3.1, 3.6),
+                lane: draw.between(3.1, 3.6),
                 priority: 4,
-                sidewalk: draw.uniform(1.8, 2.6),
+                sidewalk: draw.between(1.8, 2.6),
                 bike: yes(draw, 0.65, bike),
                 parking: yes(draw, 0.55, 2.6),
                 median: yes(draw, 0.5, 3.3),
@@ -46,9 +46,9 @@ pub fn section(draw: &mut Draw, rank: Rank) -> Section {
             forward: 1,
             backward: 1,
             speed: 25.0 * MPH,
-            lane: draw.uniform(2.9, 3.6),
+            lane: draw.between(2.9, 3.6),
             priority: 2,
-            sidewalk: draw.uniform(1.5, 2.2),
+            sidewalk: draw.between(1.5, 2.2),
             bike: 0.0,
             parking: yes(draw, 0.8, 2.6),
             median: 0.0,
@@ -58,9 +58,9 @@ pub fn section(draw: &mut Draw, rank: Rank) -> Section {
 }
 
 /// A street between two points that swings a little.
-fn bent(draw: &mut Draw, p: Vec2, q: Vec2, swing: f64) -> Vec<Vec2> {
+fn bent(draw: &mut Stream, p: Vec2, q: Vec2, swing: f64) -> Vec<Vec2> {
     let way = unit(q - p);
-    let mut lean = || unit(way + left_of(way) * draw.normal(0.0, swing).tan());
+    let mut lean = || unit(way + left_of(way) * draw.normal_about(0.0, swing).tan());
     let (a, b) = (lean(), lean());
     hermite(p, a, q, b)
 }
@@ -68,26 +68,27 @@ fn bent(draw: &mut Draw, p: Vec2, q: Vec2, swing: f64) -> Vec<Vec2> {
 const UNSIGNALLED: [&str; 3] = ["priority", "priority_stop", "allway_stop"];
 const QUIET: [&str; 4] = ["priority", "priority_stop", "allway_stop", "right_before_left"];
 
-fn control<const N: usize>(draw: &mut Draw, signals: f64, others: [&'static str; N]) -> &'static str {
+fn control<const N: usize>(draw: &mut Stream, signals: f64, others: [&'static str; N]) -> &'static str {
     if draw.chance(signals) { "traffic_light" } else { draw.one_of(others) }
 }
 
 /// What every template decides about its signals.
-pub fn character(draw: &mut Draw, name: &str, reach: f64) -> Character {
+pub fn character(draw: &mut Stream, name: &str, reach: f64) -> Character {
     Character {
         name: name.to_owned(),
         actuated: draw.chance(0.75),
         opposites: draw.chance(0.67),
         cycle_s: 45 + draw.below(50) as u32,
-        crosswalk: draw.uniform(3.0, 4.5),
+        crosswalk: draw.between(3.0, 4.5),
         reach,
     }
 }
 
 /// One crossing of 3 to 5 arms, skewed and curved, with side streets half-way along the arms.
-pub fn crossing(draw: &mut Draw) -> Network {
-    let arms = [3, 4, 5][draw.weighted(&[0.22, 0.70, 0.08])];
-    let main_rank = [Rank::Arterial, Rank::Collector, Rank::Residential][draw.weighted(&[0.45, 0.4, 0.15])];
+pub fn crossing(draw: &mut Stream) -> Network {
+    let arms = draw.weighted([(3, 0.22), (4, 0.70), (5, 0.08)]);
+    let main_rank =
+        draw.weighted([(Rank::Arterial, 0.45), (Rank::Collector, 0.4), (Rank::Residential, 0.15)]);
     let side_rank = match main_rank {
         Rank::Arterial => draw.one_of([Rank::Arterial, Rank::Collector]),
         Rank::Collector => draw.one_of([Rank::Collector, Rank::Residential]),
@@ -99,17 +100,17 @@ pub fn crossing(draw: &mut Draw) -> Network {
         _ => control(draw, 0.05, QUIET),
     };
     let mut net = Network::new(character(draw, &format!("cross{arms}_{}", main_rank.name()), 140.0));
-    net.node("c", Vec2::zeros(), kind, Some(draw.uniform(2.5, 7.5)));
-    let skew = draw.normal(0.0, 0.18);
+    net.node("c", Vec2::zeros(), kind, Some(draw.between(2.5, 7.5)));
+    let skew = draw.normal_about(0.0, 0.18);
     let angles = match arms {
-        3 => vec![0.0, PI, FRAC_PI_2 + draw.normal(0.0, 0.2)],
+        3 => vec![0.0, PI, FRAC_PI_2 + draw.normal_about(0.0, 0.2)],
         4 => {
-            let straight = [draw.normal(0.0, 0.06), draw.normal(0.0, 0.06)];
+            let straight = [draw.normal_about(0.0, 0.06), draw.normal_about(0.0, 0.06)];
             vec![0.0, FRAC_PI_2 + skew, PI + straight[0], 1.5 * PI + skew + straight[1]]
         }
         _ => vec![0.0, 1.25, 2.5, 3.75, 5.0],
     };
-    let base = draw.uniform(0.0, TAU);
+    let base = draw.between(0.0, TAU);
     let (main, side) = (section(draw, main_rank), section(draw, side_rank));
     for (i, angle) in angles.into_iter().enumerate() {
         let is_main = if arms == 4 { i % 2 == 0 } else { i < 2 };
@@ -118,11 +119,11 @@ pub fn crossing(draw: &mut Draw) -> Network {
     net
 }
 
-fn arm(draw: &mut Draw, net: &mut Network, i: usize, angle: f64, section_: Section) {
+fn arm(draw: &mut Stream, net: &mut Network, i: usize, angle: f64, section_: Section) {
     let (way, across) = (direction(angle), left_of(direction(angle)));
     let drift = if section_.rank == Rank::Arterial { 12.0 } else { 27.0 };
-    let end = way * draw.uniform(230.0, 340.0) + across * draw.normal(0.0, drift);
-    let line = hermite(Vec2::zeros(), way, end, unit(way + across * draw.normal(0.0, 0.4)));
+    let end = way * draw.between(230.0, 340.0) + across * draw.normal_about(0.0, drift);
+    let line = hermite(Vec2::zeros(), way, end, unit(way + across * draw.normal_about(0.0, 0.4)));
     let turn = section_.median > 3.0 && draw.chance(0.85);
     let fringe = format!("f{i}");
     net.end(&fringe, end);
@@ -130,7 +131,7 @@ fn arm(draw: &mut Draw, net: &mut Network, i: usize, angle: f64, section_: Secti
         net.road("c", &fringe, line, section_, (turn, false));
         return;
     }
-    let (total, lengths, at) = (length(&line), arc_lengths(&line), draw.uniform(95.0, 150.0));
+    let (total, lengths, at) = (length(&line), arc_lengths(&line), draw.between(95.0, 150.0));
     let place = point_at(&line, &lengths, at);
     let along = unit(point_at(&line, &lengths, at + 1.0) - place);
     let middle = format!("s{i}");
@@ -138,15 +139,15 @@ fn arm(draw: &mut Draw, net: &mut Network, i: usize, angle: f64, section_: Secti
         &middle,
         place,
         if draw.chance(0.6) { "priority" } else { "priority_stop" },
-        Some(draw.uniform(3.0, 6.0)),
+        Some(draw.between(3.0, 6.0)),
     );
     net.road("c", &middle, part(&line, 0.0, at), section_, (turn, false));
     net.road(&middle, &fringe, part(&line, at, total), section_, (false, false));
     let sides: &[f64] = if draw.chance(0.3) { &[1.0, -1.0] } else { &[draw.one_of([1.0, -1.0])] };
     for (k, side) in sides.iter().enumerate() {
         let street = section(draw, Rank::Residential);
-        let out = unit(left_of(along) * *side + along * draw.normal(0.0, 0.15));
-        let end = place + out * draw.uniform(80.0, 120.0);
+        let out = unit(left_of(along) * *side + along * draw.normal_about(0.0, 0.15));
+        let end = place + out * draw.between(80.0, 120.0);
         let id = format!("g{i}_{k}");
         net.end(&id, end);
         let line = bent(draw, place, end, 0.12);
@@ -185,7 +186,7 @@ impl District {
     }
 
     /// Section of the streets of one direction; the first direction is the busier one.
-    fn street(self, draw: &mut Draw, first: bool, main: bool) -> Section {
+    fn street(self, draw: &mut Stream, first: bool, main: bool) -> Section {
         if main && self == Self::Quarter {
             let arterial = section(draw, Rank::Arterial);
             return Section { median: arterial.median.max(arterial.lane), ..arterial };
@@ -200,7 +201,7 @@ impl District {
         Section { median: 0.0, ..section(draw, rank) }
     }
 
-    fn control(self, draw: &mut Draw, a: Rank, b: Rank) -> &'static str {
+    fn control(self, draw: &mut Stream, a: Rank, b: Rank) -> &'static str {
         let arterials = [a, b].into_iter().filter(|r| *r == Rank::Arterial).count();
         let collector = a == Rank::Collector || b == Rank::Collector;
         match (self, arterials, collector) {
@@ -215,25 +216,25 @@ impl District {
 }
 
 /// A warped grid of homes, or of a town's centre with one-way streets.
-pub fn grid(draw: &mut Draw) -> Network {
+pub fn grid(draw: &mut Stream) -> Network {
     let district = if draw.chance(0.45) { District::Centre } else { District::Homes };
     blocks(draw, district, 150.0)
 }
 
 /// A quarter of a town, 600 to 900 m across: traffic comes from far and has spread out by the time it is seen.
-pub fn quarter(draw: &mut Draw) -> Network {
+pub fn quarter(draw: &mut Stream) -> Network {
     blocks(draw, District::Quarter, 260.0)
 }
 
-fn blocks(draw: &mut Draw, district: District, reach_m: f64) -> Network {
+fn blocks(draw: &mut Stream, district: District, reach_m: f64) -> Network {
     let centre = district == District::Centre;
     let mut net = Network::new(character(draw, district.name(), reach_m));
     let (least, more) = district.size();
     let size = [least + draw.below(more) as i32, least + draw.below(more) as i32];
-    let pitch = district.pitch().map(|(low, high)| draw.uniform(low, high));
-    let turn = draw.uniform(0.0, TAU);
-    let phase = [draw.uniform(0.0, TAU), draw.uniform(0.0, TAU)];
-    let warp = if centre { 0.0 } else { draw.uniform(0.0, 12.0) };
+    let pitch = district.pitch().map(|(low, high)| draw.between(low, high));
+    let turn = draw.between(0.0, TAU);
+    let phase = [draw.between(0.0, TAU), draw.between(0.0, TAU)];
+    let warp = if centre { 0.0 } else { draw.between(0.0, 12.0) };
     // Arterials of a quarter: one each way, off its rim.
     let mains = size.map(|n| 1 + draw.below(n as usize - 2) as i32);
     let mut streets =
@@ -252,10 +253,10 @@ fn blocks(draw: &mut Draw, district: District, reach_m: f64) -> Network {
                 (f64::from(j) - f64::from(size[1] - 1) / 2.0) * pitch[1],
             );
             let wave = Vec2::new((flat.y / 60.0 + phase[0]).sin(), (flat.x / 60.0 + phase[1]).sin());
-            let place = rotate(flat + wave * warp + draw.gauss_point(2.5), turn);
+            let place = rotate(flat + wave * warp + Vec2::from(draw.normal_pair()) * 2.5, turn);
             if in_x && in_y {
                 let kind = district.control(draw, columns[i as usize].rank, rows[j as usize].rank);
-                net.node(&name(i, j), place, kind, Some(draw.uniform(3.0, 7.0)));
+                net.node(&name(i, j), place, kind, Some(draw.between(3.0, 7.0)));
             } else {
                 net.end(&name(i, j), place);
             }
@@ -290,17 +291,17 @@ fn blocks(draw: &mut Draw, district: District, reach_m: f64) -> Network {
 }
 
 /// An arterial with signalised crossings, side streets and sometimes a parking lot.
-pub fn arterial(draw: &mut Draw) -> Network {
+pub fn arterial(draw: &mut Stream) -> Network {
     let mut net = Network::new(character(draw, "arterial", 180.0));
     let mut main = section(draw, Rank::Arterial);
     main.median = main.median.max(main.lane);
-    let (turn, wave, phase) = (draw.uniform(0.0, TAU), draw.uniform(0.0, 30.0), draw.uniform(0.0, TAU));
+    let (turn, wave, phase) = (draw.between(0.0, TAU), draw.between(0.0, 30.0), draw.between(0.0, TAU));
     let place = |x: f64| rotate(Vec2::new(x, wave * (x / 110.0 + phase).sin()), turn);
     let mut xs = vec![-360.0];
-    let mut x = -200.0 + draw.uniform(-20.0, 20.0);
+    let mut x = -200.0 + draw.between(-20.0, 20.0);
     while x < 225.0 {
         xs.push(x);
-        x += draw.uniform(100.0, 260.0);
+        x += draw.between(100.0, 260.0);
     }
     xs.push(370.0);
     let last = xs.len() - 1;
@@ -310,7 +311,7 @@ pub fn arterial(draw: &mut Draw) -> Network {
             net.end(&name(k), place(x));
         } else {
             let kind = control(draw, 0.6, ["priority_stop"]);
-            net.node(&name(k), place(x), kind, Some(draw.uniform(5.0, 10.0)));
+            net.node(&name(k), place(x), kind, Some(draw.between(5.0, 10.0)));
         }
     }
     let mut lots = 0;
@@ -334,8 +335,8 @@ pub fn arterial(draw: &mut Draw) -> Network {
             }
             let rank = if draw.chance(0.5) { Rank::Collector } else { Rank::Residential };
             let street = section(draw, rank);
-            let out = unit(across * side + left_of(across) * draw.normal(0.0, 0.1));
-            let end = here + out * draw.uniform(120.0, 170.0);
+            let out = unit(across * side + left_of(across) * draw.normal_about(0.0, 0.1));
+            let end = here + out * draw.between(120.0, 170.0);
             let id = format!("b{k}_{}", if side > 0.0 { "l" } else { "r" });
             net.end(&id, end);
             net.road(&name(k), &id, hermite(here, out, end, out), street, (street.median > 3.0, false));
@@ -345,7 +346,7 @@ pub fn arterial(draw: &mut Draw) -> Network {
 }
 
 /// A parking lot behind a junction: an entry, then aisles with perpendicular stalls on both sides.
-fn lot_branch(draw: &mut Draw, net: &mut Network, at: &str, way: Vec2) {
+fn lot_branch(draw: &mut Stream, net: &mut Network, at: &str, way: Vec2) {
     let (origin, across) = (net.position(at), left_of(way));
     let aisle = Section {
         forward: 1,
@@ -359,7 +360,7 @@ fn lot_branch(draw: &mut Draw, net: &mut Network, at: &str, way: Vec2) {
         median: 0.0,
         rank: Rank::Lot,
     };
-    let (pitch, half, count) = (17.5, draw.uniform(35.0, 60.0), 1 + draw.below(3));
+    let (pitch, half, count) = (17.5, draw.between(35.0, 60.0), 1 + draw.below(3));
     let mut previous = at.to_owned();
     for k in 0..count {
         let base = origin + way * (38.0 + pitch * k as f64);
@@ -386,10 +387,11 @@ fn lot_branch(draw: &mut Draw, net: &mut Network, at: &str, way: Vec2) {
 }
 
 /// A street with the entry of a parking lot.
-pub fn parking_lot(draw: &mut Draw) -> Network {
+pub fn parking_lot(draw: &mut Stream) -> Network {
     let mut net = Network::new(character(draw, "lot", 130.0));
     let main = section(draw, Rank::Collector);
-    let (west, east) = (Vec2::new(-220.0, draw.normal(0.0, 30.0)), Vec2::new(220.0, draw.normal(0.0, 30.0)));
+    let (west, east) =
+        (Vec2::new(-220.0, draw.normal_about(0.0, 30.0)), Vec2::new(220.0, draw.normal_about(0.0, 30.0)));
     net.end("w", west);
     net.end("e", east);
     let kind = control(draw, 0.25, ["priority", "priority_stop"]);
@@ -401,7 +403,7 @@ pub fn parking_lot(draw: &mut Draw) -> Network {
     lot_branch(draw, &mut net, "c", Vec2::new(0.0, 1.0));
     if draw.chance(0.6) {
         let street = section(draw, Rank::Residential);
-        let south = Vec2::new(draw.normal(0.0, 20.0), -150.0);
+        let south = Vec2::new(draw.normal_about(0.0, 20.0), -150.0);
         net.end("s", south);
         let down = Vec2::new(0.0, -1.0);
         net.road("c", "s", hermite(Vec2::zeros(), down, south, down), street, (false, false));

@@ -3,11 +3,11 @@
 
 use super::filters::{gaussian, gradient, interpolate, noise, unwrap};
 use super::fleet::Kind;
-use super::random::Draw;
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::sumo::fcd::Record;
 use formats::sumo::polyline::{arc_lengths, point_at};
 use scene::geometry::direction;
+use scene::random::Stream;
 use scene::{AgentType, State, Vec2, wrap_angle};
 
 /// Shortest recording that is used, steps.
@@ -34,7 +34,7 @@ impl Cleaned {
 }
 
 /// Cleans one recording; `None` when it is too short or has gaps.
-pub fn clean(record: &Record, kind: &Kind, draw: &mut Draw) -> Option<Cleaned> {
+pub fn clean(record: &Record, kind: &Kind, draw: &mut Stream) -> Option<Cleaned> {
     let step = |t: f64| ((t - WARM_UP_S) / DT_S).round() as isize;
     let steps: Vec<isize> = record.times_s.iter().map(|t| step(*t)).collect();
     let last_step = (RECORDED_S / DT_S) as isize;
@@ -90,12 +90,12 @@ struct Habit {
 }
 
 impl Habit {
-    fn new(kind: &Kind, draw: &mut Draw) -> Self {
+    fn new(kind: &Kind, draw: &mut Stream) -> Self {
         if kind.agent_type == AgentType::Cyclist {
             return Self {
                 smoothing: 1.6,
                 wander: (5.0, 0.15),
-                offset: draw.normal(0.0, 0.1),
+                offset: draw.normal_about(0.0, 0.1),
                 cutting: draw.clipped(1.0, 1.0, 0.0, 3.0),
                 ripple: 2.0,
             };
@@ -104,7 +104,7 @@ impl Habit {
         Self {
             smoothing: 2.2,
             wander: (38.0, 0.16),
-            offset: draw.normal(0.0, 0.24),
+            offset: draw.normal_about(0.0, 0.24),
             // Ten is what brings lane centres closest to recorded bends. Long vehicles swing out.
             cutting: if long { 0.0 } else { draw.clipped(10.0, 5.0, 0.0, 20.0) },
             ripple: 1.0,
@@ -114,7 +114,7 @@ impl Habit {
 
 /// A vehicle or road cyclist: the recorded front bumper gives a smooth path and progress along it; the
 /// rear axle follows the path.
-fn drive(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut Draw) -> Vec<State> {
+fn drive(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut Stream) -> Vec<State> {
     let body = kind.size.length_m;
     let habit = Habit::new(kind, draw);
     let (points, speeds) = (&record.positions[range.clone()], &record.speeds_mps[range.clone()]);
@@ -162,7 +162,7 @@ fn smooth_path(
     headings: &[f64],
     body: f64,
     habit: &Habit,
-    draw: &mut Draw,
+    draw: &mut Stream,
 ) -> (Vec<Vec2>, Vec<f64>) {
     let last = points.len() - 1;
     let (back, ahead) = (body + 8.0, 6.0);
@@ -212,7 +212,7 @@ fn smooth_path(
 }
 
 /// A person on foot (or a cyclist among them).
-fn walk(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut Draw) -> Vec<State> {
+fn walk(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut Stream) -> Vec<State> {
     let heading_0 = record.headings_rad[range.start];
     let points = blur(&record.positions[range], 5.0);
     let n = points.len();
@@ -257,7 +257,7 @@ fn walk(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut 
 }
 
 /// A person who stands about.
-pub fn stand(place: Vec2, heading_rad: f64, draw: &mut Draw) -> Cleaned {
+pub fn stand(place: Vec2, heading_rad: f64, draw: &mut Stream) -> Cleaned {
     let n = (RECORDED_S / DT_S) as usize + 1;
     let (x, y, h) = (noise(draw, n, 25.0, 0.05), noise(draw, n, 25.0, 0.05), noise(draw, n, 60.0, 0.25));
     let points: Vec<Vec2> = (0..n).map(|i| place + Vec2::new(x[i], y[i])).collect();
@@ -320,7 +320,7 @@ mod tests {
     #[test]
     fn a_car_stays_near_its_recording() {
         let record = record();
-        let cleaned = clean(&record, &kind(false), &mut Draw::new(5, Purpose::Motion)).unwrap();
+        let cleaned = clean(&record, &kind(false), &mut Purpose::Motion.stream(5)).unwrap();
         assert_eq!((cleaned.first, cleaned.states.len()), (0, 300));
         for (state, front) in cleaned.states.iter().zip(&record.positions) {
             let centre = front - Vec2::new(2.35, 0.0);
@@ -338,7 +338,7 @@ mod tests {
             *p = Vec2::new(0.13 * i as f64 + if i >= 100 { 20.0 } else { 0.0 }, 0.0);
         }
         record.speeds_mps = vec![1.3; 300];
-        let cleaned = clean(&record, &kind(true), &mut Draw::new(5, Purpose::Motion)).unwrap();
+        let cleaned = clean(&record, &kind(true), &mut Purpose::Motion.stream(5)).unwrap();
         assert_eq!((cleaned.first, cleaned.states.len()), (100, 200));
     }
 
@@ -346,11 +346,11 @@ mod tests {
     fn gaps_and_short_records_are_refused() {
         let mut short = record();
         short.times_s.truncate(10);
-        assert!(clean(&short, &kind(false), &mut Draw::new(5, Purpose::Motion)).is_none());
+        assert!(clean(&short, &kind(false), &mut Purpose::Motion.stream(5)).is_none());
         let mut gap = record();
         for t in &mut gap.times_s[100..] {
             *t += 5.0;
         }
-        assert!(clean(&gap, &kind(false), &mut Draw::new(5, Purpose::Motion)).is_none());
+        assert!(clean(&gap, &kind(false), &mut Purpose::Motion.stream(5)).is_none());
     }
 }

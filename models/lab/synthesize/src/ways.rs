@@ -1,25 +1,25 @@
 //! Networks built of directed edges: roundabouts and motorways with ramps.
 
 use super::network::{MPH, Network, Rank, Section, hermite, left_of, unit};
-use super::random::Draw;
 use super::streets::{character, section};
 use formats::sumo::polyline::{arc_lengths, length, offset_right, part, point_at};
 use scene::Vec2;
 use scene::geometry::{direction, rotate};
+use scene::random::Stream;
 use std::f64::consts::TAU;
 
 /// How far entry and exit of an arm lie apart on the ring, as half of an arc, metres.
 const HALF_MOUTH_M: f64 = 7.5;
 
 /// A roundabout of three or four arms, with one or two lanes.
-pub fn roundabout(draw: &mut Draw) -> Network {
+pub fn roundabout(draw: &mut Stream) -> Network {
     let arms = draw.one_of([3, 4, 4]);
-    let radius = draw.uniform(13.0, 22.0);
+    let radius = draw.between(13.0, 22.0);
     let lanes = if radius < 18.0 || draw.chance(0.6) { 1 } else { 2 };
     let mut net = Network::new(character(draw, &format!("roundabout{arms}"), 130.0));
-    let base = draw.uniform(0.0, TAU);
+    let base = draw.between(0.0, TAU);
     let angles: Vec<f64> =
-        (0..arms).map(|i| base + TAU * i as f64 / arms as f64 + draw.normal(0.0, 0.1)).collect();
+        (0..arms).map(|i| base + TAU * i as f64 / arms as f64 + draw.normal_about(0.0, 0.1)).collect();
     let main = section(draw, Rank::Collector);
     let side_rank = if draw.chance(0.4) { Rank::Residential } else { Rank::Collector };
     let side = section(draw, side_rank);
@@ -27,7 +27,8 @@ pub fn roundabout(draw: &mut Draw) -> Network {
     ring(&mut net, &angles, radius, lanes, 0.0);
     for (i, &angle) in angles.iter().enumerate() {
         let s = bare(if i % 2 == 0 { main } else { side });
-        let (reach, lean, bend) = (draw.uniform(180.0, 270.0), draw.normal(0.0, 18.0), draw.normal(0.0, 0.2));
+        let (reach, lean, bend) =
+            (draw.between(180.0, 270.0), draw.normal_about(0.0, 18.0), draw.normal_about(0.0, 0.2));
         approach(&mut net, i, angle, radius, lanes, s, 0.0, [reach, lean, bend]);
     }
     net
@@ -120,15 +121,15 @@ pub struct MotorwayShape {
 }
 
 /// A curved motorway with an entry and an exit in each direction.
-pub fn motorway(draw: &mut Draw) -> Network {
+pub fn motorway(draw: &mut Stream) -> Network {
     let mut net = Network::new(character(draw, "motorway", 330.0));
     let shape = MotorwayShape {
         lanes: draw.one_of([2, 3, 3]),
         speed: draw.one_of([55.0, 60.0, 65.0]) * MPH,
-        median: draw.uniform(2.0, 10.0),
+        median: draw.between(2.0, 10.0),
         entry_first: draw.chance(0.5),
     };
-    let (bow, turn) = (draw.normal(0.0, 90.0), draw.uniform(0.0, TAU));
+    let (bow, turn) = (draw.normal_about(0.0, 90.0), draw.between(0.0, TAU));
     let line: Vec<Vec2> = (-200..=200)
         .map(|i| f64::from(i) * 3.0)
         .map(|x| rotate(Vec2::new(x, bow * (x / 360.0).cos()), turn))
@@ -138,9 +139,9 @@ pub fn motorway(draw: &mut Draw) -> Network {
         if back {
             middle.reverse();
         }
-        let starts = [draw.uniform(310.0, 390.0), draw.uniform(690.0, 780.0)];
-        let spans = [draw.uniform(180.0, 250.0), draw.uniform(150.0, 220.0)];
-        let asides = [draw.uniform(20.0, 40.0), draw.uniform(20.0, 40.0)];
+        let starts = [draw.between(310.0, 390.0), draw.between(690.0, 780.0)];
+        let spans = [draw.between(180.0, 250.0), draw.between(150.0, 220.0)];
+        let asides = [draw.between(20.0, 40.0), draw.between(20.0, 40.0)];
         carriageway(&mut net, &middle, if back { "b" } else { "f" }, shape, starts, spans, asides);
     }
     net

@@ -1,11 +1,11 @@
 //! Cuts a recording into windows of 91 steps, each about one road user.
 
-use super::random::Draw;
 use super::recording::{Actor, CHECK_EVERY, Recording};
 use super::sight;
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::sumo::map::NetMap;
 use scene::map::{Area, Lane, LaneMap, Points, TypedLine};
+use scene::random::Stream;
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Signal, State, Timing, Track, Vec2};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -44,7 +44,7 @@ pub struct Drops {
 }
 
 /// Cuts `count` windows at even distances.
-pub fn cut(recording: &Recording, seed: u64, count: usize, draw: &mut Draw) -> (Vec<Scene>, Drops) {
+pub fn cut(recording: &Recording, seed: u64, count: usize, draw: &mut Stream) -> (Vec<Scene>, Drops) {
     let last = (RECORDED_S / DT_S) as usize - STEPS;
     let mut used: HashMap<usize, i32> = HashMap::new();
     let mut drops = Drops::default();
@@ -77,7 +77,7 @@ fn choose(
     start: usize,
     wanted: AgentType,
     used: &HashMap<usize, i32>,
-    draw: &mut Draw,
+    draw: &mut Stream,
 ) -> Option<usize> {
     let reach = recording.network.character.reach;
     let whole = |a: &Actor| a.track.at(start).is_some() && a.track.at(start + STEPS - 1).is_some();
@@ -112,8 +112,7 @@ fn choose(
                 0.4
             }
     };
-    let weights: Vec<f64> = candidates.iter().map(weight).collect();
-    candidates.get(draw.weighted(&weights)).copied()
+    draw.among(candidates.iter().map(weight)).map(|i| candidates[i])
 }
 
 /// Who is in a window about `centre`, which comes first, and where its origin lies.

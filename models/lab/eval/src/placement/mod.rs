@@ -11,6 +11,7 @@ use experts::placement::{Amount, PlaceRequest, PlacementModel, Region, place};
 use experts::{Cancel, Generator};
 use rayon::prelude::*;
 use scene::geometry::obb::{OrientedBox, overlaps, shared_area_m2};
+use scene::random::Key;
 use scene::routes::{LaneGraph, LaneHit};
 use scene::score::Drivable;
 use scene::{Agent, AgentType, Scene, State, wrap_angle};
@@ -264,24 +265,17 @@ fn lane_of(graph: &LaneGraph, state: &State) -> Option<LaneHit> {
     on.min_by(|a, b| turn(a).total_cmp(&turn(b))).or(hits.first()).copied()
 }
 
-type Key = (AgentType, Measure);
+type MeasuredOf = (AgentType, Measure);
 
-fn pooled<'a>(scenes: impl Iterator<Item = &'a Values>, key: Key) -> Vec<f64> {
+fn pooled<'a>(scenes: impl Iterator<Item = &'a Values>, key: MeasuredOf) -> Vec<f64> {
     scenes.flat_map(|s| s.by.get(&key).into_iter().flatten().copied()).collect()
 }
 
 /// Draws of scenes with replacement, the same for every figure.
 fn resamples(scenes: usize) -> impl Iterator<Item = Vec<usize>> {
-    (0..RESAMPLES).map(move |draw| {
-        let pick = |i: usize| {
-            let mut hasher = blake3::Hasher::new();
-            hasher.update(&draw.to_le_bytes());
-            hasher.update(&(i as u64).to_le_bytes());
-            let bytes = hasher.finalize();
-            let number = bytes.as_bytes()[..8].iter().fold(0u64, |n, b| (n << 8) | u64::from(*b));
-            (number % scenes.max(1) as u64) as usize
-        };
-        (0..scenes).map(pick).collect()
+    (0..RESAMPLES).map(move |number| {
+        let mut draw = Key::default().number(number).stream();
+        (0..scenes).map(|_| draw.below(scenes)).collect()
     })
 }
 
@@ -293,7 +287,7 @@ fn figure(value: f64, mut resampled: Vec<f64>) -> Figure {
     Figure { value, low: at(0.025), high: at(0.975) }
 }
 
-fn gap(all: &[Three], slot: usize, key: Key, (low, high): (f64, f64)) -> Gap {
+fn gap(all: &[Three], slot: usize, key: MeasuredOf, (low, high): (f64, f64)) -> Gap {
     let of = |picked: &[usize], slot: usize| pooled(picked.iter().map(|i| &all[*i][slot]), key);
     let whole: Vec<usize> = (0..all.len()).collect();
     let (log, placed) = (of(&whole, 0), of(&whole, slot));
@@ -304,7 +298,7 @@ fn gap(all: &[Three], slot: usize, key: Key, (low, high): (f64, f64)) -> Gap {
     }
 }
 
-fn halves(all: &[Three], key: Key, (low, high): (f64, f64)) -> Gap {
+fn halves(all: &[Three], key: MeasuredOf, (low, high): (f64, f64)) -> Gap {
     let of = |parity: usize| pooled(all.iter().skip(parity).step_by(2).map(|s| &s[0]), key);
     let (even, odd) = (of(0), of(1));
     Gap {

@@ -1,12 +1,12 @@
 //! Trained rivals: [`Baseline`]s asked as the experts are.
 
 use super::least_effort;
-use crate::draw::Draw;
 use crate::together::{Motions, asked, generated, joint_goal};
 use crate::{Case, Site, Subset};
 use anyhow::Result;
 use experts::planning::world::World;
 use lab_train::baselines::Baseline;
+use scene::random::Key;
 use scene::{Future, Goal, State};
 
 /// Futures of a case, the most probable first; none under a condition that the baseline does not see, or of a
@@ -60,7 +60,11 @@ impl<'a> Together<'a> {
     pub fn drawn(&self, seed: u64, rollout: usize) -> Motions {
         self.motions(|i, modes| {
             let id = &self.site.blind.agents[i].id;
-            let mut ticket = Draw::new(seed, &["learned", self.site.name(), id, &rollout.to_string()]).unit();
+            let mut ticket = Key::default()
+                .number(seed)
+                .words(&["learned", self.site.name(), id, &rollout.to_string()])
+                .stream()
+                .unit();
             let found = modes.iter().find(|mode| {
                 ticket -= mode.probability;
                 ticket < 0.0

@@ -1,8 +1,8 @@
 //! Least effort: the scene's own projection of constant motion onto the goal, and random variations of it.
 
-use crate::draw::Draw;
 use nalgebra::SMatrix;
 use scene::motion::{Kind, Knots, MotionModel, Target, project};
+use scene::random::Key;
 use scene::{Agent, Goal, KNOTS, State};
 
 /// Random variations beside the prior itself.
@@ -32,7 +32,7 @@ pub fn varied(
 ) -> Vec<Vec<State>> {
     let model = MotionModel::new(agent.agent_type, agent.subtype, agent.size, *start);
     let base = model.coasting();
-    let mut draw = Draw::new(seed, &["prior", scene, &agent.id]);
+    let mut draw = Key::default().number(seed).words(&["prior", scene, &agent.id]).stream();
     let goal_mps = goal.position.map_or(0.0, |p| (p - start.position()).norm() / (0.1 * goal_step as f64));
     let spread = spread(&model, start.speed_mps().max(goal_mps));
     let factor = factor();

@@ -1,11 +1,11 @@
 //! U-turns in mid-block, which networks without turnarounds do not have.
 
 use super::{Lanes, Place, cubic, entering, heading_at, length, part, progress, record, sharpest};
-use crate::random::Draw;
 use crate::{DT_S, RECORDED_S};
 use formats::sumo::fcd::Record;
 use formats::sumo::polyline::arc_lengths;
 use scene::geometry::{cross, direction};
+use scene::random::Stream;
 use scene::wrap_angle;
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ const ACROSS_M: [f64; 2] = [8.5, 17.0];
 
 impl Lanes<'_> {
     /// Along a lane, round into an opposite one, and on.
-    pub(super) fn turning_back(&self, draw: &mut Draw) -> Option<Record> {
+    pub(super) fn turning_back(&self, draw: &mut Stream) -> Option<Record> {
         if self.places.is_empty() {
             return None;
         }
@@ -38,7 +38,7 @@ impl Lanes<'_> {
         path.extend(turn.into_iter().skip(1));
         let onwards = self.onwards(to.lane, to.s_m, draw);
         path.extend(part(&onwards, 0.3, length(&onwards)));
-        let (top, slow) = (draw.clipped(10.0, 2.0, 6.0, 14.0), draw.uniform(1.6, 4.2));
+        let (top, slow) = (draw.clipped(10.0, 2.0, 6.0, 14.0), draw.between(1.6, 4.2));
         let (accel, brake) = (draw.clipped(1.6, 0.5, 0.8, 3.0), draw.clipped(1.5, 0.3, 0.8, 2.5));
         let speeds = progress(&path, |s, v| {
             if s < approach {
@@ -50,13 +50,13 @@ impl Lanes<'_> {
                 (v + accel * DT_S).min(top)
             }
         });
-        let start = draw.uniform(0.0, RECORDED_S - 25.0);
+        let start = draw.between(0.0, RECORDED_S - 25.0);
         let record = record(&path, heading_at(&path, &arc_lengths(&path), 0.0), start, &speeds, top);
         entering(&record, start)
     }
 
     /// A place to the left on a lane that leads back.
-    fn opposite(&self, from: &Place, draw: &mut Draw) -> Option<&Place> {
+    fn opposite(&self, from: &Place, draw: &mut Stream) -> Option<&Place> {
         let ahead = direction(from.heading_rad);
         let fits = |p: &&Place| {
             let way = p.position - from.position;

@@ -6,7 +6,7 @@ use candle_core::{Device, Result, Tensor, Var};
 use experts::features::AgentFeatures;
 use experts::net::{Card, NetError, Params, schedule};
 use experts::planning::MODES;
-use rand_chacha::ChaCha12Rng;
+use scene::random::Stream;
 
 use super::loss::{self, UNIT_M};
 use super::regressor::{NUMBERS, Regressed, Seen};
@@ -14,9 +14,7 @@ use super::sight::{Points, Truth, asks_for_a_place, forget_goals};
 use super::unet::{Unet, steps};
 use super::{Kind, Networks, Plan};
 use crate::polylines::SeenPiece;
-use crate::training::{
-    Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, index, normal, seeded, unit,
-};
+use crate::training::{Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, index, seeded};
 
 impl Trainee for Networks {
     type Architecture = Plan;
@@ -66,7 +64,7 @@ impl Trainee for Networks {
         _: &Tools,
         shard: &Shard,
         stage: Stage,
-        rng: &mut ChaCha12Rng,
+        rng: &mut Stream,
     ) -> std::result::Result<(Tensor, Metrics), TrainError> {
         let mut metrics = Metrics::new(shard.records.len());
         let seen = self.see(shard)?;
@@ -88,7 +86,7 @@ impl Trainee for Networks {
         _: &Tools,
         shard: &Shard,
         stage: Stage,
-        _: &mut ChaCha12Rng,
+        _: &mut Stream,
     ) -> std::result::Result<Metrics, TrainError> {
         let mut metrics = Metrics::new(shard.records.len());
         let seen = self.see(shard)?;
@@ -147,18 +145,18 @@ fn denoiser(
     refiner: &Unet,
     seen: &Seen,
     truths: &[Truth],
-    rng: &mut ChaCha12Rng,
+    rng: &mut Stream,
     metrics: &mut Metrics,
 ) -> Result<Tensor> {
     let mut levels = Vec::with_capacity(truths.len());
     let (mut noisy, mut noise) = (Vec::new(), Vec::new());
     for truth in truths {
-        let level = 1 + (unit(rng) * schedule::LEVELS as f64) as usize % schedule::LEVELS;
+        let level = 1 + rng.below(schedule::LEVELS);
         let signal = schedule::signal(level);
         levels.push(level);
         for _ in 0..MODES {
             for value in truth.points.as_flattened() {
-                let drawn = normal(rng);
+                let drawn = rng.normal() as f32;
                 let clean = f64::from(value / UNIT_M);
                 noisy.push((signal.sqrt() * clean + (1.0 - signal).sqrt() * f64::from(drawn)) as f32);
                 noise.push(drawn);
@@ -188,11 +186,11 @@ fn joint(
     seen: &Seen,
     truths: &[Truth],
     regressed: &Regressed,
-    rng: &mut ChaCha12Rng,
+    rng: &mut Stream,
     metrics: &mut Metrics,
 ) -> Result<Tensor> {
     let steps = steps();
-    let taken = (unit(rng) * steps.len() as f64) as usize % steps.len().max(1);
+    let taken = rng.below(steps.len());
     let drafts = (regressed.points.detach() / f64::from(UNIT_M))?;
     let unseen = Seen { vector: seen.vector.detach(), tokens: seen.tokens.detach(), mask: seen.mask.clone() };
     let before = refiner.walk(&unseen, &drafts, &steps[..taken])?.detach();

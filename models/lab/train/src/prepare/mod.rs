@@ -13,7 +13,7 @@ use crate::polylines::Polylines;
 use crate::scenes::{Crop, Cropped, mirrored, read_scenes, scene_files};
 use crate::training::{FitError, Record, Writer};
 use anyhow::Result;
-use conditions::Draw;
+use conditions::Draws;
 use experts::features::STANDING_SHARE;
 use experts::planning::world::World;
 use rayon::prelude::*;
@@ -148,7 +148,7 @@ fn place_key(scene: &Scene) -> u64 {
 
 fn scene_records(scene: &Scene, options: &Options, out: &mut SceneRecords) {
     let graph = Arc::new(LaneGraph::new(&scene.map));
-    let mut draw = Draw::new(options.seed, scene.meta.source_id.as_deref().unwrap_or(&scene.name));
+    let mut draw = Draws::new(options.seed, scene.meta.source_id.as_deref().unwrap_or(&scene.name));
     let base = World::new(scene, graph.clone(), 0);
     let fit = FitError::new();
     let mut candidates: Vec<usize> = Vec::new();
@@ -174,7 +174,7 @@ fn scene_records(scene: &Scene, options: &Options, out: &mut SceneRecords) {
             continue;
         }
         let standing = agent.track.extent_m() < 2.0;
-        if standing && !draw.chance(STANDING_SHARE) {
+        if standing && !draw.takes(STANDING_SHARE) {
             out.left_out.standing += 1;
             continue;
         }

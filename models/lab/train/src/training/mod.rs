@@ -41,6 +41,6 @@ pub use stages::Stage;
 pub(crate) use loss::{index, least, softmax};
 pub(crate) use route::Placed;
 pub(crate) use run::run_of;
-pub(crate) use sample::{Shard, normal, unit};
+pub(crate) use sample::Shard;
 pub(crate) use stages::{Tools, seeded};
 pub(crate) use trainee::Trainee;

@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use experts::planning::{MODES, RESIDUAL};
-use rand_chacha::ChaCha12Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use scene::random::{Key, Stream};
 
 use super::fit;
 use super::route::Route;
@@ -77,7 +76,7 @@ impl Split {
         let total = self.sums.last().copied().unwrap_or(0.0);
         (0..size)
             .map(|_| {
-                let place = self.sums.partition_point(|&sum| sum <= unit(&mut rng) * total);
+                let place = self.sums.partition_point(|&sum| sum <= rng.unit() * total);
                 self.train[place.min(self.train.len() - 1)]
             })
             .collect()
@@ -85,21 +84,8 @@ impl Split {
 }
 
 /// The random numbers of a part of a step.
-pub(crate) fn stream(seed: u64, step: u64, part: u64) -> ChaCha12Rng {
-    let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    rng.set_stream(step << 16 | part);
-    rng
-}
-
-/// Uniform in 0..1.
-pub(crate) fn unit(rng: &mut ChaCha12Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-}
-
-/// A standard normal draw.
-pub(crate) fn normal(rng: &mut ChaCha12Rng) -> f32 {
-    let (a, b) = (1.0 - unit(rng), unit(rng));
-    ((-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()) as f32
+pub(crate) fn stream(seed: u64, step: u64, part: u64) -> Stream {
+    Key::default().number(seed).number(step).number(part).stream()
 }
 
 /// Records that go through the networks together.

@@ -7,15 +7,14 @@ use experts::features::agent::OWN_GOAL_POSITION;
 use experts::net::{Context, Expert, Initial, Prepared, schedule};
 use experts::planning::pullback::Pullback;
 use experts::planning::{ALONG_SCALE, INSTANT_S, MODES, RESIDUAL};
-use rand_chacha::ChaCha12Rng;
-use rand_chacha::rand_core::Rng;
 use scene::KNOTS;
 use scene::geometry::overlap_energy::{Growth, MovingBox, absent, gap, overlap_energy};
+use scene::random::Stream;
 
 use super::loss::{self, InitialParts, Said};
 use super::metrics::Metrics;
 use super::route::{Placed, Route};
-use super::sample::{Shard, normal, unit};
+use super::sample::Shard;
 use super::{Record, TrainError};
 
 /// Residuals of a record's modes.
@@ -124,8 +123,10 @@ fn seeded_modes(output: &Tensor, gradient: &[Modes]) -> Result<Tensor> {
     seeded(output, gradient.as_flattened().as_flattened().to_vec())
 }
 
-fn noise(rng: &mut ChaCha12Rng, count: usize, scale: f32) -> Vec<Modes> {
-    (0..count).map(|_| std::array::from_fn(|_| std::array::from_fn(|_| scale * normal(rng)))).collect()
+fn noise(rng: &mut Stream, count: usize, scale: f32) -> Vec<Modes> {
+    (0..count)
+        .map(|_| std::array::from_fn(|_| std::array::from_fn(|_| scale * rng.normal() as f32)))
+        .collect()
 }
 
 /// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and what was
@@ -135,7 +136,7 @@ pub(super) fn train(
     tools: &Tools,
     shard: &Shard,
     stage: Stage,
-    rng: &mut ChaCha12Rng,
+    rng: &mut Stream,
 ) -> std::result::Result<(Tensor, Metrics), TrainError> {
     let context = context(expert, shard)?;
     let mut metrics = Metrics::new(shard.records.len());
@@ -198,7 +199,7 @@ fn denoiser(
     tools: &Tools,
     shard: &Shard,
     context: &Context,
-    rng: &mut ChaCha12Rng,
+    rng: &mut Stream,
     metrics: &mut Metrics,
 ) -> std::result::Result<Tensor, TrainError> {
     let prepared = expert.refiner.prepare(context)?;
@@ -206,8 +207,8 @@ fn denoiser(
     // Half of the levels are those that refinement walks through.
     let levels: Vec<usize> = (0..count)
         .map(|_| {
-            let top = if rng.next_u32().is_multiple_of(2) { schedule::START } else { schedule::LEVELS };
-            1 + (unit(rng) * top as f64) as usize % top
+            let top = if rng.chance(0.5) { schedule::START } else { schedule::LEVELS };
+            1 + rng.below(top)
         })
         .collect();
     let device = expert.device();
@@ -254,7 +255,7 @@ fn joint(
     shard: &Shard,
     context: &Context,
     initial: &Initial,
-    rng: &mut ChaCha12Rng,
+    rng: &mut Stream,
     metrics: &mut Metrics,
 ) -> std::result::Result<Tensor, TrainError> {
     let prepared = expert.refiner.prepare(context)?;
@@ -264,11 +265,11 @@ fn joint(
     }
     let counts: Vec<Vec<bool>> =
         shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
-    let scale = [0.0, unit(rng) as f32, 1.0][rng.next_u32() as usize % 3];
-    let start = if unit(rng) < 0.2 { 0 } else { schedule::START };
+    let scale = [0.0, rng.unit() as f32, 1.0][rng.below(3)];
+    let start = if rng.chance(0.2) { 0 } else { schedule::START };
     let walk = Walk { expert, tools, shard, counts: &counts, prepared: prepared.detach() };
     let steps = schedule::ddim(start, schedule::STEPS);
-    let taken = rng.next_u32() as usize % steps.len().max(1);
+    let taken = rng.below(steps.len());
     let before = walk.go(
         &tensor(&drafts, expert.device())?,
         start,
@@ -288,8 +289,8 @@ fn joint(
 
 /// In half of the records one mode changes its pace as the initializer would not have it: the generator makes such
 /// futures where two coincide, and refinement must leave them theirs.
-fn take_by_surprise(route: &Route, record: &Record, draft: &mut Modes, rng: &mut ChaCha12Rng) {
-    let [takes, mode, rate, until] = std::array::from_fn(|_| unit(rng));
+fn take_by_surprise(route: &Route, record: &Record, draft: &mut Modes, rng: &mut Stream) {
+    let [takes, mode, rate, until] = std::array::from_fn(|_| rng.unit());
     if takes < 0.5 {
         return;
     }
@@ -377,7 +378,7 @@ pub(super) fn validate(
     tools: &Tools,
     shard: &Shard,
     stage: Stage,
-    rng: &mut ChaCha12Rng,
+    rng: &mut Stream,
 ) -> std::result::Result<Metrics, TrainError> {
     let context = context(expert, shard)?;
     let mut metrics = Metrics::new(shard.records.len());
@@ -413,12 +414,12 @@ pub(super) fn validate(
 mod tests {
     use super::*;
     use crate::training::toy;
-    use rand_chacha::rand_core::SeedableRng;
+    use scene::random::Key;
 
     #[test]
     fn a_surprise_changes_the_pace_of_one_mode_and_keeps_the_goal() {
         let route = Route::new();
-        let mut rng = ChaCha12Rng::seed_from_u64(5);
+        let mut rng = Key::default().number(5).stream();
         let (mut changed, mut calls) = (0, 0);
         for (.., records) in toy::scenes(12, 5, 3) {
             for record in &records {

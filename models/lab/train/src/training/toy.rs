@@ -6,8 +6,7 @@ use std::path::Path;
 use experts::Refining;
 use experts::features::{ANCHOR, AgentFeatures, NEIGHBOUR, OWN, Target};
 use experts::planning::{INSTANTS, MODES};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use scene::random::{Key, Stream};
 
 use super::sample::{Shard, stream};
 use super::stages::{Stage, Tools};
@@ -20,7 +19,7 @@ pub(crate) type ToyScene = (u64, Vec<[f32; PIECE]>, Vec<Record>);
 
 /// Seeded scenes with some records each.
 pub(crate) fn scenes(count: usize, records: usize, seed: u64) -> Vec<ToyScene> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut rng = Key::default().number(seed).stream();
     (0..count)
         .map(|scene| {
             let mut map = Vec::new();
@@ -69,21 +68,21 @@ pub(crate) fn assert_gradients_by_stage(trainee: &impl Trainee, tools: &Tools, s
     }
 }
 
-fn between(rng: &mut ChaCha8Rng, low: f32, high: f32) -> f32 {
-    low + (high - low) * (rng.next_u32() >> 8) as f32 / (1 << 24) as f32
+fn between(rng: &mut Stream, low: f32, high: f32) -> f32 {
+    rng.between(low.into(), high.into()) as f32
 }
 
-fn record(rng: &mut ChaCha8Rng, pieces: usize) -> Record {
+fn record(rng: &mut Stream, pieces: usize) -> Record {
     let (speed, accel, aside) = (between(rng, 2.0, 10.0), between(rng, -0.5, 0.5), between(rng, -1.0, 1.0));
     let mut own = [0.0; OWN];
     own[..3].copy_from_slice(&[speed / 10.0, accel, aside]);
-    let pieces = (0..1 + rng.next_u32() as usize % pieces)
+    let pieces = (0..1 + rng.below(pieces))
         .map(|piece| SeenPiece {
             piece,
             pose: std::array::from_fn::<f32, PIECE_POSE, _>(|_| between(rng, -1.0, 1.0)),
         })
         .collect();
-    let neighbours = (0..rng.next_u32() % 4)
+    let neighbours = (0..rng.below(4))
         .map(|_| std::array::from_fn::<f32, NEIGHBOUR, _>(|_| between(rng, -1.0, 1.0)))
         .collect();
     let mut anchors = Box::new([[0.0; ANCHOR]; MODES]);

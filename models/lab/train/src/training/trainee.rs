@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use candle_core::{Device, Tensor, Var};
 use experts::net::{Architecture, Card, Expert, NetError};
-use rand_chacha::ChaCha12Rng;
+use scene::random::Stream;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -53,7 +53,7 @@ pub(crate) trait Trainee: Sized + Sync {
         tools: &Tools,
         shard: &Shard,
         stage: Stage,
-        rng: &mut ChaCha12Rng,
+        rng: &mut Stream,
     ) -> Result<(Tensor, Metrics), TrainError>;
     /// What is reported on records held out.
     fn validate(
@@ -61,7 +61,7 @@ pub(crate) trait Trainee: Sized + Sync {
         tools: &Tools,
         shard: &Shard,
         stage: Stage,
-        rng: &mut ChaCha12Rng,
+        rng: &mut Stream,
     ) -> Result<Metrics, TrainError>;
 }
 
@@ -113,7 +113,7 @@ impl Trainee for Expert {
         tools: &Tools,
         shard: &Shard,
         stage: Stage,
-        rng: &mut ChaCha12Rng,
+        rng: &mut Stream,
     ) -> Result<(Tensor, Metrics), TrainError> {
         stages::train(self, tools, shard, stage, rng)
     }
@@ -123,7 +123,7 @@ impl Trainee for Expert {
         tools: &Tools,
         shard: &Shard,
         stage: Stage,
-        rng: &mut ChaCha12Rng,
+        rng: &mut Stream,
     ) -> Result<Metrics, TrainError> {
         stages::validate(self, tools, shard, stage, rng)
     }
