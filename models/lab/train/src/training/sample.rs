@@ -76,7 +76,9 @@ impl Split {
         let total = self.sums.last().copied().unwrap_or(0.0);
         (0..size)
             .map(|_| {
-                let place = self.sums.partition_point(|&sum| sum <= rng.unit() * total);
+                // One number for the whole search: drawn anew at each comparison, the middle would be favoured.
+                let ticket = rng.unit() * total;
+                let place = self.sums.partition_point(|&sum| sum <= ticket);
                 self.train[place.min(self.train.len() - 1)]
             })
             .collect()
@@ -141,5 +143,23 @@ mod tests {
         assert_eq!(split.batch(1, 5, 32), split.batch(1, 5, 32));
         assert_ne!(split.batch(1, 5, 32), split.batch(1, 6, 32));
         assert_eq!(Split::new(&records, 2, false, |_| true).unwrap().held_out.len(), 2);
+    }
+
+    #[test]
+    fn records_are_drawn_in_proportion_to_their_weights() {
+        let weights: Vec<f64> = (0..40).map(|i| if i % 4 == 3 { 3.0 } else { 1.0 }).collect();
+        let mut sum = 0.0;
+        let sums = weights.iter().map(|weight| {
+            sum += weight;
+            sum
+        });
+        let split = Split { sums: sums.collect(), train: (0..40).collect(), held_out: Vec::new() };
+        let draws = 60_000;
+        let mut counts = [0.0; 40];
+        split.batch(1, 5, draws).into_iter().for_each(|record| counts[record] += 1.0);
+        for (record, (count, weight)) in counts.into_iter().zip(weights).enumerate() {
+            let expected = draws as f64 * weight / 60.0;
+            assert!((count - expected).abs() < 6.0 * expected.sqrt(), "{record}: {count} for {expected}");
+        }
     }
 }

@@ -20,12 +20,10 @@ use super::{Record, TrainError};
 /// Residuals of a record's modes.
 pub(super) type Modes = [[f32; RESIDUAL]; MODES];
 
-/// Weight of the overlap penalty in the joint stage.
-const PENALTY: f32 = 4.0;
+/// Weight of the overlap penalty in the joint stage, of energies summed over the instants.
+const PENALTY: f32 = 6.888_889;
 /// Weight of staying near the draft, for the modes that did not win.
 const STAY: f32 = 0.5;
-/// The penalty was weighed for 31 instants; here are fewer.
-const INSTANT_SHARE: f32 = 31.0 / 18.0;
 
 /// Which part of the expert is trained, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -336,8 +334,8 @@ fn joint_gradient(
         }
         let (overlap, push) = energy(tools, record, mode, &refined[mode], counted, Growth::Linear);
         let overlap_slope = loss::to_knots(route, &push);
-        let share = PENALTY * INSTANT_SHARE / MODES as f32;
-        penalties += overlap * INSTANT_SHARE / MODES as f32;
+        let share = PENALTY / MODES as f32;
+        penalties += overlap / MODES as f32;
         total += weight * pull * near + share * overlap;
         for i in 0..RESIDUAL {
             grads[mode][i] = weight * pull * slope[i] + share * overlap_slope[i];
