@@ -5,6 +5,7 @@ use super::quality::request;
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
+use super::table::Table;
 use super::{Case, Judged, Site, Subset, answer};
 use anyhow::Result;
 use experts::{Generator, Request, Shown};
@@ -144,11 +145,18 @@ fn rows(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<Row>> {
     Ok(out)
 }
 
-/// Table 7: the figures, and their paired differences to the complete product.
+/// Table 7.
+pub(super) const TABLE: Table = Table {
+    number: 7,
+    name: "ablations",
+    make: |trial| Ok(ablation(&trial.judged, &trial.sites, &trial.boot, trial.seed)?.into()),
+};
+
+/// The figures, and their paired differences to the complete product.
 ///
 /// # Errors
 /// When a generator fails.
-pub fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
+fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
     let keys = ["ours", "condition", "left out"];
     let mut figures = Sheet::new(
         "7a Vehicles with a part left out",

@@ -5,6 +5,7 @@ use super::rivals::{Together, least_effort};
 use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
+use super::table::{Made, Table};
 use super::together::{
     Ask, Boxes, MOMENTS, Motions, STRIDE, logged_pairs, motions_by, motions_of, motions_of_log, scenes,
 };
@@ -79,13 +80,24 @@ const LINES: [(&str, usize, f64, Shown, bool); 5] = [
     ("+ guidance: the product", 5, 1.0, Shown::Chosen, true),
 ];
 
-/// Table 2 over scenes with at least two moving road users.
+/// Table 2.
+pub(super) const TABLE: Table = Table {
+    number: 2,
+    name: "coherence",
+    make: |trial| {
+        let replan_steps = trial.replan_steps;
+        let sheet = coherence(trial.entrants(), &trial.sites, &trial.boot, replan_steps, trial.seed)?;
+        Ok(Made::from(vec![sheet]))
+    },
+};
+
+/// Everybody together, over scenes with at least two moving road users.
 ///
 /// The product also has a line for each of `replan_steps`, after which all plan anew (1..=90).
 ///
 /// # Errors
 /// When a generator fails.
-pub fn coherence(
+fn coherence(
     entrants: Entrants<'_>,
     sites: &[Site<'_>],
     boot: &Bootstrap,

@@ -4,6 +4,7 @@
 use super::measure::{at, goal_error, is_met, is_outside_limits};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
+use super::table::Table;
 use super::together::STRIDE;
 use super::{Case, Judged, Site, Subset, answer};
 use anyhow::Result;
@@ -56,10 +57,17 @@ struct Drag {
 }
 
 /// Table 3.
+pub(super) const TABLE: Table = Table {
+    number: 3,
+    name: "control",
+    make: |trial| Ok(control(&trial.judged, &trial.sites, &trial.boot, trial.seed)?.into()),
+};
+
+/// Both sheets.
 ///
 /// # Errors
 /// When a generator fails.
-pub fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
+fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
     let mut picked: Vec<(usize, usize)> =
         sites.iter().enumerate().flat_map(|(s, site)| (0..site.cases.len()).map(move |c| (s, c))).collect();
     Key::default().number(seed).words(&["control"]).stream().shuffle(&mut picked);

@@ -1,6 +1,7 @@
 //! Table 6: how long answers take, how that grows, how many scenes an hour, how much memory.
 
 use super::sheet::{Cell, Form, Sheet};
+use super::table::{Made, Table, Trial};
 use super::{Judged, Subset, cases};
 use anyhow::Result;
 use experts::{Cancel, Event, Generator, Request};
@@ -153,11 +154,12 @@ fn resident_mb() -> Option<f64> {
     Some(line.split_whitespace().next()?.parse::<f64>().ok()? / 1024.0)
 }
 
-/// The table, in two sheets: milliseconds; then scenes an hour and memory.
-///
-/// # Errors
-/// When a generator fails.
-pub(super) fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Vec<Sheet>> {
+/// Table 6.
+pub(super) const TABLE: Table = Table { number: 6, name: "cost", make: cost };
+
+/// Two sheets: milliseconds; then scenes an hour and memory.
+fn cost(trial: &mut Trial<'_>) -> Result<Made> {
+    let scenes = trial.scenes;
     let mut times = Sheet::new(
         "6a Cost of a call",
         &["Milliseconds on this machine, whatever else it was doing: median / 95th percentile; maps known \
@@ -173,7 +175,7 @@ pub(super) fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Vec<Sheet>> 
         &["scenes an hour", "memory before", "after"],
     );
     let plain = |value| Cell::Number { value, form: Form::Plain };
-    for Judged { name, mut generator } in judged {
+    for Judged { name, mut generator } in std::mem::take(&mut trial.judged) {
         for threads in [1, 2] {
             generator = generator.with_threads(threads);
             generator.warm_up();
@@ -191,6 +193,7 @@ pub(super) fn cost(judged: Vec<Judged>, scenes: &[Scene]) -> Result<Vec<Sheet>> 
             cells.extend(memory);
             bulk.push([name.clone(), threads.to_string()], cells);
         }
+        trial.judged.push(Judged { name, generator });
     }
-    Ok(vec![times, bulk])
+    Ok(Made { times: vec![times, bulk], ..Made::default() })
 }

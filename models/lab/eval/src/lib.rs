@@ -17,17 +17,21 @@ pub mod placement;
 pub mod quality;
 mod realism;
 mod refining;
+mod report;
 pub mod rivals;
 mod roads;
 mod run;
 pub mod sheet;
 pub mod stats;
+mod table;
 pub mod together;
 mod variety;
 
 pub use cases::{Case, Site, Subset, cases};
 pub use quality::type_name;
-pub use run::{Options, Report, Table, run};
+pub use report::{CropReport, Report};
+pub use run::{Options, run};
+pub use table::{TABLES, Table};
 
 use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};
 use lab_train::baselines::Baseline;

@@ -45,7 +45,7 @@ fn drifts(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<f64>>
 ///
 /// # Errors
 /// When a generator fails.
-pub fn parked(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Sheet> {
+pub(super) fn parked(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Sheet> {
     let mut sheet = Sheet::new(
         "1f Parked vehicles",
         &["Vehicles that stand for the whole log, generated together without goals. Drift is the greatest \

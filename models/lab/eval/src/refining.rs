@@ -4,6 +4,7 @@ use super::coherence::{Verdict, from_log_m, judge};
 use super::realism::closeness;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
+use super::table::{Made, Table};
 use super::together::{Ask, Motions, logged_pairs, motions_of, scenes};
 use super::{Judged, Site};
 use anyhow::Result;
@@ -107,12 +108,22 @@ fn row(
     Ok(Row { values, took_ms })
 }
 
-/// Table 8: the figures, and their paired differences to the complete product; and the times, which are
+/// Table 8.
+pub(super) const TABLE: Table = Table {
+    number: 8,
+    name: "refinement",
+    make: |trial| {
+        let (sheets, times) = refining(&trial.judged, &trial.sites, &trial.boot, trial.seed)?;
+        Ok(Made { sheets, times: vec![times], ..Made::default() })
+    },
+};
+
+/// The figures, and their paired differences to the complete product; and the times, which are
 /// never the same twice.
 ///
 /// # Errors
 /// When a generator fails.
-pub fn refining(
+fn refining(
     judged: &[Judged],
     sites: &[Site<'_>],
     boot: &Bootstrap,

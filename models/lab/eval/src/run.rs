@@ -1,64 +1,20 @@
-//! One run over scenes: the tables that were asked for, as sheets, Markdown and JSON, and pictures.
+//! One run over scenes: the tables that were asked for, one after another.
 
-use super::ablation::ablation;
-use super::coherence::coherence;
-use super::control::control;
-use super::cost::cost;
-use super::parked::parked;
-use super::quality::{Quality, collect};
-use super::realism::realism;
-use super::refining::refining;
-use super::sheet::Sheet;
+use super::report::{CropReport, Report};
 use super::stats::Bootstrap;
-use super::variety::variety;
-use super::{Entrants, Judged, Site, picture};
-use anyhow::{Context, Result};
+use super::table::{TABLES, Table, Trial};
+use super::{Judged, Site};
+use anyhow::Result;
 use lab_train::baselines::Baseline;
 use lab_train::scenes::{Crop, Cropped};
 use scene::Scene;
-use serde::Serialize;
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
-
-/// A table of the evaluation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the names say it")]
-pub enum Table {
-    Quality,
-    Coherence,
-    Control,
-    Realism,
-    Variety,
-    Cost,
-    Ablation,
-    Refining,
-}
-
-impl Table {
-    /// All, numbered from 1.
-    pub const ALL: [Self; 8] = [
-        Self::Quality,
-        Self::Coherence,
-        Self::Control,
-        Self::Realism,
-        Self::Variety,
-        Self::Cost,
-        Self::Ablation,
-        Self::Refining,
-    ];
-
-    /// By its number, 1 to 8.
-    pub fn numbered(number: usize) -> Option<Self> {
-        Self::ALL.get(number.checked_sub(1)?).copied()
-    }
-}
 
 /// What to make.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Tables.
-    pub tables: BTreeSet<Table>,
+    /// Tables, in any order.
+    pub tables: Vec<&'static Table>,
     /// Draws noise, resamples, drags and random pictures.
     pub seed: u64,
     /// Pictures of table 1's best, worst and random cases.
@@ -67,40 +23,6 @@ pub struct Options {
     pub replan_steps: Vec<usize>,
     /// Which road users count, and how many a scene must have.
     pub crop: Crop,
-}
-
-/// What a crop did.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct CropReport {
-    /// The crop.
-    #[serde(flatten)]
-    pub crop: Crop,
-    /// Scenes left out for having too few road users.
-    pub scenes_left_out: usize,
-    /// Road users outside, in the scenes that were kept.
-    pub road_users_outside: usize,
-}
-
-/// What was found.
-#[derive(Clone, Debug, Serialize)]
-pub struct Report {
-    /// Seed.
-    pub seed: u64,
-    /// Scenes looked at.
-    pub scenes: usize,
-    /// What was left out beforehand; `None` when nothing was asked to be.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub crop: Option<CropReport>,
-    /// Hash of each expert's weights, by name of the judged.
-    pub weights: BTreeMap<String, BTreeMap<String, String>>,
-    /// Tables 1 to 5, 7 and 8.
-    pub sheets: Vec<Sheet>,
-    /// Table 6 and the times of table 8: the clock's readings, never the same twice.
-    #[serde(skip)]
-    pub cost: Vec<Sheet>,
-    /// File name and SVG.
-    #[serde(skip)]
-    pub pictures: Vec<(String, String)>,
 }
 
 /// Makes the tables, telling `progress` what is under way. The first of `judged` is in the pictures, and
@@ -117,8 +39,6 @@ pub fn run(
 ) -> Result<Report> {
     let seed = options.seed;
     let (scenes, crop) = cropped(scenes, options.crop)?;
-    let scenes = scenes.as_ref();
-    let wants = |table: Table| options.tables.contains(&table);
     let weights = judged.iter().map(|own| {
         let hashes = own.generator.weights().iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
         (own.name.clone(), hashes.collect())
@@ -132,48 +52,22 @@ pub fn run(
         cost: Vec::new(),
         pictures: Vec::new(),
     };
-    let sites: Vec<Site<'_>> = scenes.iter().enumerate().map(|(i, scene)| Site::new(i, scene)).collect();
-    let boot = Bootstrap::new(scenes.len(), seed);
-    let entrants = Entrants { judged: &judged, baselines };
-    if wants(Table::Quality) {
-        progress("table 1: quality");
-        let outcomes = collect(entrants, &sites, seed)?;
-        report.sheets.extend(Quality::new(entrants, &outcomes, &boot).sheets());
-        report.sheets.push(parked(&judged, &sites, &boot, seed)?);
-        if let Some(own) = judged.first().filter(|_| options.pictures) {
-            progress("pictures");
-            report.pictures = picture::of_outcomes(&own.generator, &sites, &outcomes, seed)?;
-        }
-    }
-    if wants(Table::Coherence) {
-        progress("table 2: coherence");
-        report.sheets.push(coherence(entrants, &sites, &boot, &options.replan_steps, seed)?);
-    }
-    if wants(Table::Control) {
-        progress("table 3: control");
-        report.sheets.extend(control(&judged, &sites, &boot, seed)?);
-    }
-    if wants(Table::Realism) {
-        progress("table 4: realism");
-        report.sheets.extend(realism(entrants, &sites, &boot, seed)?);
-    }
-    if wants(Table::Variety) {
-        progress("table 5: variety");
-        report.sheets.extend(variety(&judged, &sites, &boot, seed)?);
-    }
-    if wants(Table::Ablation) {
-        progress("table 7: ablations");
-        report.sheets.extend(ablation(&judged, &sites, &boot, seed)?);
-    }
-    if wants(Table::Refining) {
-        progress("table 8: refinement");
-        let (sheets, times) = refining(&judged, &sites, &boot, seed)?;
-        report.sheets.extend(sheets);
-        report.cost.push(times);
-    }
-    if wants(Table::Cost) {
-        progress("table 6: cost");
-        report.cost.extend(cost(judged, scenes)?);
+    let mut trial = Trial {
+        judged,
+        baselines,
+        scenes: &scenes,
+        sites: scenes.iter().enumerate().map(|(i, scene)| Site::new(i, scene)).collect(),
+        boot: Bootstrap::new(scenes.len(), seed),
+        seed,
+        replan_steps: &options.replan_steps,
+        pictures: options.pictures,
+    };
+    for table in TABLES.iter().filter(|table| options.tables.iter().any(|own| own.number == table.number)) {
+        progress(&format!("table {}: {}", table.number, table.name));
+        let made = (table.make)(&mut trial)?;
+        report.sheets.extend(made.sheets);
+        report.cost.extend(made.times);
+        report.pictures.extend(made.pictures);
     }
     Ok(report)
 }
@@ -198,61 +92,6 @@ fn cropped(scenes: &[Scene], crop: Crop) -> Result<(Cow<'_, [Scene]>, Option<Cro
     Ok((kept.into(), Some(report)))
 }
 
-impl Report {
-    /// Tables 1 to 5, 7 and 8 as Markdown.
-    pub fn markdown(&self) -> String {
-        let mut out = format!("# Evaluation\n\n{} scenes, seed {}. ", self.scenes, self.seed);
-        if let Some(CropReport { crop, scenes_left_out, road_users_outside }) = &self.crop {
-            if let Some(side_m) = crop.side_m {
-                out += &format!(
-                    "Road users of a {side_m} m square about the ego alone, {road_users_outside} outside left \
-                     out. "
-                );
-            }
-            out += &format!(
-                "Scenes with fewer than {} road users at the first step left out: {scenes_left_out}. ",
-                crop.least_agents
-            );
-        }
-        out += "Every figure has its 95 % bootstrap interval, resampled by scene.\n\n";
-        for (name, hashes) in &self.weights {
-            for (expert, hash) in hashes {
-                out += &format!("- {name}, {expert}: sha256 {}\n", hash.get(..16).unwrap_or(hash));
-            }
-        }
-        out.push('\n');
-        for sheet in &self.sheets {
-            out += &sheet.markdown();
-        }
-        out
-    }
-
-    /// Writes `tables.md`, `tables.json`, `cost.md`, `cost.json` and `pictures/`, as far as there are any.
-    ///
-    /// # Errors
-    /// When a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<()> {
-        let write = |name: &str, text: &str| -> Result<()> {
-            let path = folder.join(name);
-            std::fs::write(&path, text).with_context(|| format!("write {}", path.display()))
-        };
-        std::fs::create_dir_all(folder).with_context(|| format!("make {}", folder.display()))?;
-        write("tables.md", &self.markdown())?;
-        write("tables.json", &format!("{}\n", serde_json::to_string_pretty(self)?))?;
-        if !self.cost.is_empty() {
-            write("cost.md", &self.cost.iter().map(Sheet::markdown).collect::<String>())?;
-            write("cost.json", &format!("{}\n", serde_json::to_string_pretty(&self.cost)?))?;
-        }
-        if !self.pictures.is_empty() {
-            std::fs::create_dir_all(folder.join("pictures"))?;
-            for (name, picture) in &self.pictures {
-                write(&format!("pictures/{name}"), picture)?;
-            }
-        }
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -260,12 +99,12 @@ mod tests {
     use lab_train::baselines::Kind;
     use lab_train::samples::{log, scene, shifted};
 
-    fn tables(tables: &[Table], seed: u64, threads: usize) -> Report {
+    fn tables(tables: &[usize], seed: u64, threads: usize) -> Report {
         judge(tables, seed, threads, Crop::default(), &[]).unwrap()
     }
 
     fn judge(
-        tables: &[Table],
+        tables: &[usize],
         seed: u64,
         threads: usize,
         crop: Crop,
@@ -279,14 +118,14 @@ mod tests {
             .collect();
         let generator = Generator::random(1).unwrap().with_threads(threads);
         let judged = vec![Judged { name: "random".into(), generator }];
-        let tables = tables.iter().copied().collect();
+        let tables = tables.iter().filter_map(|number| Table::numbered(*number)).collect();
         let options = Options { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
         run(judged, baselines, &scenes, &options, &|_| {})
     }
 
     #[test]
     fn the_same_run_gives_the_same_bytes() {
-        let timeless: Vec<Table> = Table::ALL.into_iter().filter(|t| *t != Table::Cost).collect();
+        let timeless = [1, 2, 3, 4, 5, 7, 8];
         let (first, again) = (tables(&timeless, 5, 1), tables(&timeless, 5, 2));
         assert_eq!(first.markdown(), again.markdown());
         assert_eq!(serde_json::to_string(&first).unwrap(), serde_json::to_string(&again).unwrap());
@@ -298,13 +137,13 @@ mod tests {
         ] {
             assert!(first.sheets.iter().any(|s| s.title.starts_with(title)), "{title}");
         }
-        let alone = |seed| tables(&[Table::Coherence], seed, 1).markdown();
+        let alone = |seed| tables(&[2], seed, 1).markdown();
         assert_ne!(alone(5), alone(6));
     }
 
     #[test]
     fn plans_are_made_anew_as_often_as_asked() {
-        let report = tables(&[Table::Coherence], 5, 1);
+        let report = tables(&[2], 5, 1);
         let cells = |goals: &str, name: &str| {
             let mut lines = report.sheets[0].lines.iter();
             let found = lines.find(|l| l.keys[0] == goals && l.keys[1].ends_with(name));
@@ -323,7 +162,7 @@ mod tests {
             Baseline::random("asked", Kind::TrafficGenConditional).unwrap(),
         ];
         let made = |threads| {
-            let tables = [Table::Quality, Table::Coherence, Table::Realism];
+            let tables = [1, 2, 4];
             judge(&tables, 5, threads, Crop::default(), &baselines).unwrap()
         };
         let report = made(1);
@@ -352,7 +191,7 @@ mod tests {
     #[test]
     fn crops_are_told() {
         let crop = Crop { side_m: Some(50.0), least_agents: 1 };
-        let report = judge(&[Table::Coherence], 5, 1, crop, &[]).unwrap();
+        let report = judge(&[2], 5, 1, crop, &[]).unwrap();
         // The second car of each scene is 30 m ahead of the first.
         let told = CropReport { crop, scenes_left_out: 0, road_users_outside: 2 };
         assert_eq!((report.scenes, report.crop), (2, Some(told)));
@@ -360,14 +199,14 @@ mod tests {
         assert!(text.contains("50 m square about the ego alone, 2 outside left out"), "{text}");
         let json = serde_json::to_value(&report).unwrap();
         assert_eq!(json["crop"]["side_m"].as_f64(), Some(50.0));
-        assert!(judge(&[Table::Coherence], 5, 1, Crop::PAPER, &[]).is_err());
+        assert!(judge(&[2], 5, 1, Crop::PAPER, &[]).is_err());
         assert!(serde_json::to_value(tables(&[], 5, 1)).unwrap().get("crop").is_none());
     }
 
     #[test]
     fn writes_everything() {
         let folder = tempfile::tempdir().unwrap();
-        let report = tables(&[Table::Quality], 5, 1);
+        let report = tables(&[1], 5, 1);
         report.write(folder.path()).unwrap();
         assert_eq!(std::fs::read_to_string(folder.path().join("tables.md")).unwrap(), report.markdown());
         let json = std::fs::read(folder.path().join("tables.json")).unwrap();

@@ -4,6 +4,7 @@ use super::measure::measure;
 use super::quality::request;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
+use super::table::Table;
 use super::{Case, Judged, Site, Subset, answer, type_name};
 use anyhow::Result;
 use experts::{Generator, Request};
@@ -22,10 +23,17 @@ const SAME_EXIT_RAD: f64 = 0.5;
 const ON_ROUTE_M: f64 = 3.0;
 
 /// Table 5.
+pub(super) const TABLE: Table = Table {
+    number: 5,
+    name: "variety",
+    make: |trial| Ok(variety(&trial.judged, &trial.sites, &trial.boot, trial.seed)?.into()),
+};
+
+/// Both sheets.
 ///
 /// # Errors
 /// When a generator fails.
-pub fn variety(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
+fn variety(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
     let mut spread = Sheet::new(
         "5a Variety against the diversity setting",
         &["Metres. Spread: mean distance between the ends of two of the six futures; without a goal at the \

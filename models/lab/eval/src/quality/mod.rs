@@ -3,12 +3,15 @@
 
 mod sheets;
 
-pub use sheets::Quality;
+use sheets::Quality;
 
 use super::measure::{
     Measured, can_be_followed, given_motion, is_met, is_outside_limits, left_to_goal, measure,
 };
+use super::parked::parked;
+use super::picture;
 use super::rivals::{Rival, learned};
+use super::table::{Made, Table, Trial};
 use super::{Case, Entrants, Site, Subset, answer};
 use anyhow::Result;
 use experts::{Generator, ReachReport, Request};
@@ -16,6 +19,20 @@ use rayon::prelude::*;
 use scene::{Agent, AgentFutures, AgentType, Future, HORIZON_STEPS, Scene, wrap_angle};
 use std::collections::BTreeSet;
 use std::sync::Arc;
+
+/// Table 1, with its pictures.
+pub(super) const TABLE: Table = Table { number: 1, name: "quality", make };
+
+fn make(trial: &mut Trial<'_>) -> Result<Made> {
+    let outcomes = collect(trial.entrants(), &trial.sites, trial.seed)?;
+    let mut sheets = Quality::new(trial.entrants(), &outcomes, &trial.boot).sheets();
+    sheets.push(parked(&trial.judged, &trial.sites, &trial.boot, trial.seed)?);
+    let pictures = match trial.judged.first().filter(|_| trial.pictures) {
+        Some(own) => picture::of_outcomes(&own.generator, &trial.sites, &outcomes, trial.seed)?,
+        None => Vec::new(),
+    };
+    Ok(Made { sheets, pictures, ..Made::default() })
+}
 
 /// Who answers a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -200,7 +217,7 @@ pub fn alone(
 ///
 /// # Errors
 /// When a generator fails.
-pub fn collect(entrants: Entrants<'_>, sites: &[Site<'_>], seed: u64) -> Result<Vec<Outcome>> {
+fn collect(entrants: Entrants<'_>, sites: &[Site<'_>], seed: u64) -> Result<Vec<Outcome>> {
     let all: Result<Vec<Vec<Outcome>>> =
         sites.par_iter().map(|site| site_outcomes(entrants, site, seed)).collect();
     Ok(all?.into_iter().flatten().collect())

@@ -9,6 +9,7 @@ mod likelihood;
 use super::rivals::{Together, constant_velocity, varied};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
+use super::table::Table;
 use super::together::{Ask, Motions, generated, joint_goal, motions_by, motions_of, motions_of_log, scenes};
 use super::{Entrants, Judged, Site};
 use anyhow::Result;
@@ -127,15 +128,17 @@ pub(super) fn closeness(site: &Site<'_>, rollouts: &[Motions], soon_s: f64) -> (
 }
 
 /// Table 4.
+pub(super) const TABLE: Table = Table {
+    number: 4,
+    name: "realism",
+    make: |trial| Ok(realism(trial.entrants(), &trial.sites, &trial.boot, trial.seed)?.into()),
+};
+
+/// Both sheets.
 ///
 /// # Errors
 /// When a generator fails.
-pub fn realism(
-    entrants: Entrants<'_>,
-    sites: &[Site<'_>],
-    boot: &Bootstrap,
-    seed: u64,
-) -> Result<Vec<Sheet>> {
+fn realism(entrants: Entrants<'_>, sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
     let names: Vec<&str> = FEATURES.iter().map(|f| f.name).collect();
     let columns: Vec<&str> = ["composite"].into_iter().chain(names).collect();
     let mut sheet = Sheet::new(
