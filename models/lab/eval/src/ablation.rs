@@ -75,7 +75,7 @@ impl Without {
 const SUBSETS: [Subset; 2] = [Subset::None, Subset::PosSpeedHeading];
 
 /// One road user's answers under one condition, by [`Without::ALL`].
-struct Row {
+struct CaseAnswers {
     site: usize,
     subset: Subset,
     found: [Option<Found>; Without::ALL.len()],
@@ -131,11 +131,11 @@ fn found(
     }))
 }
 
-fn rows(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<Row>> {
+fn rows(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<CaseAnswers>> {
     let mut out = Vec::new();
     for case in site.cases.iter().filter(|c| c.agent_type == AgentType::Vehicle) {
         for subset in SUBSETS {
-            let mut row = Row { site: site.index, subset, found: [None; Without::ALL.len()] };
+            let mut row = CaseAnswers { site: site.index, subset, found: [None; Without::ALL.len()] };
             for (slot, without) in row.found.iter_mut().zip(Without::ALL) {
                 *slot = found(generator, site, case, subset, without, seed)?;
             }
@@ -184,8 +184,9 @@ fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) 
         &COLUMNS,
     );
     for own in judged {
-        let all: Result<Vec<Vec<Row>>> = sites.par_iter().map(|s| rows(&own.generator, s, seed)).collect();
-        let all: Vec<Row> = all?.into_iter().flatten().collect();
+        let all: Result<Vec<Vec<CaseAnswers>>> =
+            sites.par_iter().map(|s| rows(&own.generator, s, seed)).collect();
+        let all: Vec<CaseAnswers> = all?.into_iter().flatten().collect();
         for subset in SUBSETS {
             for (index, without) in Without::ALL.into_iter().enumerate() {
                 let mine = || all.iter().filter(|row| row.subset == subset);
@@ -213,7 +214,7 @@ fn ablation(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) 
 }
 
 /// A row's figure with a part left out minus the complete one; `None` where either has none.
-fn difference(row: &Row, index: usize, column: usize) -> Option<Value> {
+fn difference(row: &CaseAnswers, index: usize, column: usize) -> Option<Value> {
     let [without, complete] = [index, 0].map(|i| row.found[i].and_then(|f| f.values(row.site)[column]));
     let (without, complete) = (without?, complete?);
     Some(Value::share(row.site, without.value - complete.value, complete.weight))

@@ -1,4 +1,4 @@
-//! Which road users are judged, and under which conditions (`evaluation.md`).
+//! Which road users are judged, and under which conditions.
 
 use lab_train::polylines::Polylines;
 use lab_train::scenes::blind;

@@ -28,7 +28,7 @@ const NUDGE_M: f64 = 0.05;
 
 /// Where a goal was dragged to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+enum DragDirection {
     Along,
     Across,
 }
@@ -37,7 +37,7 @@ enum Way {
 #[derive(Clone, Debug)]
 struct Drag {
     site: usize,
-    way: Way,
+    way: DragDirection,
     /// Speed and heading are fixed too.
     full: bool,
     met: bool,
@@ -80,7 +80,7 @@ fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
             .map(|&(s, c)| dragged(&own.generator, &sites[s], &sites[s].cases[c], seed))
             .collect();
         let drags: Vec<Drag> = drags?.into_iter().flatten().collect();
-        for (way, name) in [(Way::Along, "along"), (Way::Across, "across")] {
+        for (way, name) in [(DragDirection::Along, "along"), (DragDirection::Across, "across")] {
             for full in [false, true] {
                 let mine: Vec<&Drag> = drags.iter().filter(|d| d.way == way && d.full == full).collect();
                 let fields = if full { "position, speed, heading" } else { "position" };
@@ -101,8 +101,12 @@ fn dragged(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> Re
     let mut draw = Key::default().number(seed).words(&["nudge", site.name(), &log.id]).stream();
     let mut out = Vec::new();
     for (i, metres) in MOVES_M.into_iter().enumerate() {
-        let ways =
-            [(Way::Along, metres), (Way::Along, -metres), (Way::Across, metres), (Way::Across, -metres)];
+        let ways = [
+            (DragDirection::Along, metres),
+            (DragDirection::Along, -metres),
+            (DragDirection::Across, metres),
+            (DragDirection::Across, -metres),
+        ];
         for (k, (way, metres)) in ways.into_iter().enumerate() {
             let (position, heading) = moved(site, case, base, logged.heading_rad, way, metres);
             for full in [false, true] {
@@ -133,21 +137,21 @@ fn moved(
     case: &Case,
     base: Vec2,
     heading: Option<f64>,
-    way: Way,
+    way: DragDirection,
     metres: f64,
 ) -> (Vec2, f64) {
     let heading = heading.unwrap_or(case.start.heading_rad);
     let hits = site.graph.nearest_for(base, 3.0, case.agent_type);
     let lane = hits.into_iter().find(|hit| wrap_angle(hit.heading_rad - heading).abs() < 0.8);
     match (way, lane) {
-        (Way::Along, Some(hit)) => {
+        (DragDirection::Along, Some(hit)) => {
             let pose = site.graph.lanes()[hit.lane].path.extrapolate(hit.s_m + metres);
             let left = direction(pose.heading_rad + FRAC_PI_2);
             let turned = wrap_angle(heading + pose.heading_rad - hit.heading_rad);
             (pose.position + left * hit.lateral_m, turned)
         }
-        (Way::Along, None) => (base + direction(heading) * metres, heading),
-        (Way::Across, lane) => {
+        (DragDirection::Along, None) => (base + direction(heading) * metres, heading),
+        (DragDirection::Across, lane) => {
             let along = lane.map_or(heading, |hit| hit.heading_rad);
             (base + direction(along + FRAC_PI_2) * metres, heading)
         }
@@ -172,25 +176,25 @@ fn drag(
     seed: u64,
 ) -> Result<Drag> {
     let id = &site.log(case).id;
-    let said = answer(generator, request(site.blind.clone(), case, goal, seed))?;
+    let answered = answer(generator, request(site.blind.clone(), case, goal, seed))?;
     let again = answer(generator, request(site.blind.clone(), case, nudged, seed))?;
-    let (states, other) = (shown(&said, id), shown(&again, id));
+    let (states, other) = (shown(&answered, id), shown(&again, id));
     let apart = states.iter().zip(other).map(|(a, b)| (a.position() - b.position()).norm());
     let jump_m = apart.fold(0.0, f64::max);
     let end = states.get(case.goal_step - 1).copied().unwrap_or(case.start);
     let error = goal_error(&goal, &end);
-    let nearest = match said.resolved.get(id).map(|r| &r.reach) {
+    let nearest = match answered.resolved.get(id).map(|r| &r.reach) {
         Some(ReachReport::Unreachable { nearest, .. }) => Some(nearest.position()),
         _ => None,
     };
     let agent = &site.blind.agents[case.agent];
-    let modes = said.samples.first().and_then(|s| s.agents.get(id)).map_or(&[][..], |f| &f.modes);
+    let modes = answered.samples.first().and_then(|s| s.agents.get(id)).map_or(&[][..], |f| &f.modes);
     let away = |s: &&State| site.graph.nearest_for(s.position(), 2.5, AgentType::Vehicle).is_empty();
     let driven = case.agent_type == AgentType::Vehicle && !away(&&case.start);
     let looked_at = || states.iter().take(case.goal_step).step_by(STRIDE).filter(|_| driven);
     Ok(Drag {
         site: site.index,
-        way: Way::Along,
+        way: DragDirection::Along,
         full: false,
         met: is_met(error),
         left_m: error[0],

@@ -20,13 +20,13 @@ const MAP_SIZES: usize = 3;
 /// Median and 95th percentile, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Spread {
+pub struct Percentiles {
     pub calls: usize,
     pub p50_ms: f64,
     pub p95_ms: f64,
 }
 
-impl Spread {
+impl Percentiles {
     fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
@@ -37,11 +37,11 @@ impl Spread {
 /// One line of the table.
 #[derive(Clone, Debug, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Row {
+pub struct Latency {
     pub what: String,
     pub threads: usize,
-    pub first_event: Spread,
-    pub settled: Spread,
+    pub first_event: Percentiles,
+    pub settled: Percentiles,
 }
 
 /// One call: milliseconds to its first event and to its end.
@@ -56,7 +56,7 @@ struct Call {
 ///
 /// # Errors
 /// When the generator fails.
-pub fn latency(generator: &Generator, threads: usize, scenes: &[Scene]) -> Result<Vec<Row>> {
+pub fn latency(generator: &Generator, threads: usize, scenes: &[Scene]) -> Result<Vec<Latency>> {
     let mut cold = Vec::new();
     // Drags by scene, with the size of the scene's map.
     let mut drags: Vec<(usize, Vec<Call>)> = Vec::new();
@@ -101,10 +101,10 @@ pub fn latency(generator: &Generator, threads: usize, scenes: &[Scene]) -> Resul
     Ok(rows)
 }
 
-fn row(what: &str, threads: usize, calls: Vec<Call>) -> Row {
-    let spread = |of: fn(&Call) -> f64| Spread::of(calls.iter().map(of).collect());
+fn row(what: &str, threads: usize, calls: Vec<Call>) -> Latency {
+    let spread = |of: fn(&Call) -> f64| Percentiles::of(calls.iter().map(of).collect());
     let (first_event, settled) = (spread(|call| call.first_ms), spread(|call| call.settled_ms));
-    Row { what: what.into(), threads, first_event, settled }
+    Latency { what: what.into(), threads, first_event, settled }
 }
 
 /// Points of a map's lanes and edges.
@@ -163,7 +163,7 @@ fn cost(trial: &mut Trial<'_>) -> Result<Made> {
     let mut times = Sheet::new(
         "6a Cost of a call",
         &["Milliseconds on this machine, whatever else it was doing: median / 95th percentile; maps known \
-             unless new is said."],
+             unless the line calls them new."],
         &["ours", "what", "threads"],
         &["calls", "first event p50", "p95", "settled p50", "p95"],
     );
@@ -179,7 +179,7 @@ fn cost(trial: &mut Trial<'_>) -> Result<Made> {
         for threads in [1, 2] {
             generator = generator.with_threads(threads);
             generator.warm_up();
-            for Row { what, first_event, settled, .. } in latency(&generator, threads, scenes)? {
+            for Latency { what, first_event, settled, .. } in latency(&generator, threads, scenes)? {
                 let spreads = [first_event.p50_ms, first_event.p95_ms, settled.p50_ms, settled.p95_ms];
                 let mut cells = vec![Cell::Count(settled.calls as u64)];
                 cells.extend(spreads.map(plain));

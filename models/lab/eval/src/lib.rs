@@ -29,8 +29,8 @@ mod variety;
 
 pub use cases::{Case, Site, Subset, cases};
 pub use quality::type_name;
-pub use report::{CropReport, Report};
-pub use run::{Options, run};
+pub use report::{CropReport, EvalReport};
+pub use run::{EvalOptions, run};
 pub use table::{TABLES, Table};
 
 use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};

@@ -6,7 +6,7 @@ use super::{Judged, Site, answer};
 use anyhow::Result;
 use experts::{Generator, Request};
 use rayon::prelude::*;
-use scene::{Agent, AgentType};
+use scene::{Agent, AgentType, STANDING_MPS};
 use std::sync::Arc;
 
 /// Most road users of one call.
@@ -14,12 +14,12 @@ const MOST: usize = 128;
 /// Less than this is standing still, metres.
 const MOVED_M: f64 = 1e-6;
 
-/// Vehicles that keep their place in the log: seen for 8 s, within 0.3 m, below 0.3 m/s at the start.
+/// Vehicles that keep their place in the log: seen for 8 s, within 0.3 m, standing at the start.
 fn is_parked(agent: &Agent) -> bool {
     agent.agent_type == AgentType::Vehicle
         && agent.track.valid_steps().count() >= 80
         && agent.track.extent_m() < 0.3
-        && agent.state_at(0).is_some_and(|s| s.speed_mps() < 0.3)
+        && agent.state_at(0).is_some_and(|s| s.speed_mps() < STANDING_MPS)
 }
 
 /// Greatest distance of each parked vehicle from its place when it is generated without a goal, metres.

@@ -21,7 +21,7 @@ const SOON_S: f64 = 1.5;
 
 /// A way to refine.
 #[derive(Clone, Copy)]
-struct Way {
+struct Variant {
     name: &'static str,
     steps: usize,
     diversity: f64,
@@ -29,19 +29,19 @@ struct Way {
 }
 
 /// Rows of the table: the product first.
-fn ways() -> Vec<Way> {
+fn variants() -> Vec<Variant> {
     let full = Refining::default();
-    let way = |name, steps, refining| Way { name, steps, diversity: 1.0, refining };
+    let way = |name, steps, refining| Variant { name, steps, diversity: 1.0, refining };
     vec![
         way("complete: 5 steps", 5, full),
-        Way { diversity: 0.0, ..way("off, without noise", 0, full) },
+        Variant { diversity: 0.0, ..way("off, without noise", 0, full) },
         way("1 step", 1, full),
         way("2 steps", 2, full),
         way("10 steps", 10, full),
         way("start level 5", 5, Refining { start: 5, ..full }),
         way("start level 20", 5, Refining { start: 20, ..full }),
-        way("no push", 5, Refining { push: false, ..full }),
-        way("no settling", 5, Refining { settle: false, ..full }),
+        way("no repulsion", 5, Refining { push: false, ..full }),
+        way("overlaps not resolved", 5, Refining { settle: false, ..full }),
     ]
 }
 
@@ -58,7 +58,7 @@ const COLUMNS: [(&str, Form); 9] = [
 ];
 
 /// What one scene comes to, column by column, and how long its answer took.
-struct Row {
+struct SceneFigures {
     values: [Option<Value>; COLUMNS.len()],
     took_ms: f64,
 }
@@ -69,7 +69,7 @@ fn row(
     out: &BTreeSet<(usize, usize)>,
     ask: Ask,
     refining: Refining,
-) -> Result<Row> {
+) -> Result<SceneFigures> {
     let run = |shown, guidance, samples| -> Result<Vec<Motions>> {
         let stages = Stages { shown, guidance, refining, ..Stages::default() };
         let found = scenes(generator, site, Ask { stages, samples, ..ask })?;
@@ -105,7 +105,7 @@ fn row(
         share(&chosen, &edges),
         share(&chosen, &distance),
     ];
-    Ok(Row { values, took_ms })
+    Ok(SceneFigures { values, took_ms })
 }
 
 /// Table 8.
@@ -140,9 +140,9 @@ fn refining(
              within 1.5 s at constant velocity. Past edges: share of vehicle steps with a corner past a road \
              edge. ADE of a draw and of the best of 12 for each road user, metres. Composite: table 4's realism, \
              of the 12 draws. Chosen: the scene shown, after choice and guidance.",
-            "The same weights throughout, none trained for what is left out. No push: the way downhill in the \
-             scene's energy is zero. No settling: the plain steps downhill in boxes, \
-             boxes soon and road edges that follow the last step are left out.",
+            "The same weights throughout, none trained for what is left out. No repulsion: the gradient of the \
+             scene's energy is zero. Overlaps not resolved: the plain steps down the energy of boxes, boxes \
+             soon and road edges that follow the last step are left out.",
         ],
         &keys,
         &names,
@@ -166,11 +166,11 @@ fn refining(
     let left_out: Vec<BTreeSet<(usize, usize)>> = sites.par_iter().map(|site| logged_pairs(site)).collect();
     for own in judged {
         for goals in [false, true] {
-            let mut complete: Vec<Row> = Vec::new();
-            for (index, way) in ways().into_iter().enumerate() {
+            let mut complete: Vec<SceneFigures> = Vec::new();
+            for (index, way) in variants().into_iter().enumerate() {
                 let ask = Ask { steps: way.steps, diversity: way.diversity, ..Ask::shipped(goals, seed) };
                 let jobs: Vec<_> = sites.iter().zip(&left_out).collect();
-                let rows: Result<Vec<Row>> = jobs
+                let rows: Result<Vec<SceneFigures>> = jobs
                     .par_iter()
                     .map(|(site, out)| row(&own.generator, site, out, ask, way.refining))
                     .collect();
@@ -209,7 +209,7 @@ fn signed(form: Form) -> Form {
     }
 }
 
-fn spread(rows: &[Row]) -> Vec<Cell> {
+fn spread(rows: &[SceneFigures]) -> Vec<Cell> {
     let mut all: Vec<f64> = rows.iter().map(|row| row.took_ms).collect();
     all.sort_by(f64::total_cmp);
     [0.5, 0.95].map(|share| Cell::Number { value: quantile(&all, share), form: Form::Plain }).into()
@@ -229,7 +229,7 @@ mod tests {
         let judged = [Judged { name: "random".into(), generator }];
         let (sheets, times) = refining(&judged, &sites, &Bootstrap::new(2, 1), 1).unwrap();
         let [figures, differences] = &sheets[..] else { panic!("two sheets") };
-        let count = ways().len();
+        let count = variants().len();
         assert_eq!((figures.lines.len(), times.lines.len()), (2 * count, 2 * count));
         assert_eq!(differences.lines.len(), 2 * (count - 1));
         let mean = |cell: &Cell| match cell {

@@ -21,7 +21,7 @@ pub struct CropReport {
 
 /// What was found.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct EvalReport {
     /// Seed.
     pub seed: u64,
     /// Scenes looked at.
@@ -41,7 +41,7 @@ pub struct Report {
     pub pictures: Vec<(String, String)>,
 }
 
-impl Report {
+impl EvalReport {
     /// Tables 1 to 5, 7 and 8 as Markdown.
     pub fn markdown(&self) -> String {
         let mut out = format!("# Evaluation\n\n{} scenes, seed {}. ", self.scenes, self.seed);

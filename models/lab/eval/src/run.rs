@@ -1,6 +1,6 @@
 //! One run over scenes: the tables that were asked for, one after another.
 
-use super::report::{CropReport, Report};
+use super::report::{CropReport, EvalReport};
 use super::stats::Bootstrap;
 use super::table::{TABLES, Table, Trial};
 use super::{Judged, Site};
@@ -12,7 +12,7 @@ use std::borrow::Cow;
 
 /// What to make.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct EvalOptions {
     /// Tables, in any order.
     pub tables: Vec<&'static Table>,
     /// Draws noise, resamples, drags and random pictures.
@@ -34,16 +34,16 @@ pub fn run(
     judged: Vec<Judged>,
     baselines: &[Baseline],
     scenes: &[Scene],
-    options: &Options,
+    options: &EvalOptions,
     progress: &dyn Fn(&str),
-) -> Result<Report> {
+) -> Result<EvalReport> {
     let seed = options.seed;
     let (scenes, crop) = cropped(scenes, options.crop)?;
     let weights = judged.iter().map(|own| {
         let hashes = own.generator.weights().iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
         (own.name.clone(), hashes.collect())
     });
-    let mut report = Report {
+    let mut report = EvalReport {
         seed,
         scenes: scenes.len(),
         crop,
@@ -96,10 +96,10 @@ fn cropped(scenes: &[Scene], crop: Crop) -> Result<(Cow<'_, [Scene]>, Option<Cro
 mod tests {
     use super::*;
     use experts::Generator;
-    use lab_train::baselines::Kind;
+    use lab_train::baselines::BaselineKind;
     use lab_train::samples::{log, scene, shifted};
 
-    fn tables(tables: &[usize], seed: u64, threads: usize) -> Report {
+    fn tables(tables: &[usize], seed: u64, threads: usize) -> EvalReport {
         judge(tables, seed, threads, Crop::default(), &[]).unwrap()
     }
 
@@ -109,7 +109,7 @@ mod tests {
         threads: usize,
         crop: Crop,
         baselines: &[Baseline],
-    ) -> Result<Report> {
+    ) -> Result<EvalReport> {
         let scenes: Vec<Scene> = (0..2)
             .map(|i| {
                 let speed = 8.0 + f64::from(i);
@@ -119,7 +119,7 @@ mod tests {
         let generator = Generator::random(1).unwrap().with_threads(threads);
         let judged = vec![Judged { name: "random".into(), generator }];
         let tables = tables.iter().filter_map(|number| Table::numbered(*number)).collect();
-        let options = Options { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
+        let options = EvalOptions { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
         run(judged, baselines, &scenes, &options, &|_| {})
     }
 
@@ -158,8 +158,8 @@ mod tests {
     #[test]
     fn learned_rivals_stand_beside_the_experts() {
         let baselines = [
-            Baseline::random("free", Kind::TrafficGen).unwrap(),
-            Baseline::random("asked", Kind::TrafficGenConditional).unwrap(),
+            Baseline::random("free", BaselineKind::TrafficGen).unwrap(),
+            Baseline::random("asked", BaselineKind::TrafficGenConditional).unwrap(),
         ];
         let made = |threads| {
             let tables = [1, 2, 4];

@@ -5,7 +5,7 @@ use super::{Site, Subset, answer};
 use anyhow::Result;
 use experts::{Generator, Request, Stages};
 use scene::geometry::obb::{OrientedBox, iou, overlaps};
-use scene::{AgentType, Future, Goal, HORIZON_STEPS, STEP_S, Sample, Scene, State};
+use scene::{AgentType, Future, Goal, HORIZON_STEPS, STANDING_MPS, STEP_S, Sample, Scene, State, Vec2};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -17,6 +17,8 @@ pub const STRIDE: usize = 3;
 pub const MOMENTS: usize = HORIZON_STEPS / STRIDE;
 /// Intersection over union above which the paper calls it a collision.
 const PAPER_IOU: f64 = 0.02;
+/// A goal this near a road user's start asks for no motion, metres.
+const IN_PLACE_M: f64 = 0.3;
 /// A log that leaves its place by less than this stands, metres.
 const STANDING_M: f64 = 2.0;
 
@@ -123,6 +125,12 @@ pub fn motions_of(site: &Site<'_>, sample: &Sample) -> Motions {
     site.scene.agents.iter().map(|agent| shown(&agent.id)).collect()
 }
 
+/// What stands and is not asked to move keeps its place.
+pub(super) fn rests(start: &State, goal: &Goal) -> bool {
+    let stays = |place: Vec2| (place - start.position()).norm() < IN_PLACE_M;
+    start.speed_mps() < STANDING_MPS && goal.position.is_none_or(stays)
+}
+
 /// Motions by a formula: `of` gives the states of an agent from its start, under its goal.
 pub fn motions_by(
     site: &Site<'_>,
@@ -134,9 +142,7 @@ pub fn motions_by(
         let Some(start) = site.scene.agents[i].state_at(0) else { continue };
         let goal = if goals { joint_goal(site, i) } else { Goal::default() };
         let step = goal.step_in_window(0.0);
-        // What stands and is not asked to move keeps its place.
-        let rests =
-            start.speed_mps() < 0.3 && goal.position.is_none_or(|p| (p - start.position()).norm() < 0.3);
+        let rests = rests(&start, &goal);
         let still = State { vx_mps: 0.0, vy_mps: 0.0, ..start };
         out[i] = Some(if rests { vec![still; HORIZON_STEPS] } else { of(i, &start, &goal, step) });
     }
@@ -213,7 +219,6 @@ pub fn logged_pairs(site: &Site<'_>) -> BTreeSet<(usize, usize)> {
 mod tests {
     use super::super::measure::likeliest;
     use super::*;
-    use ::scene::Vec2;
     use experts::Shown;
     use lab_train::samples::{log, scene, shifted};
 

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 /// A kind of road user.
 #[derive(Clone, Copy, Debug)]
-pub struct Kind {
+pub struct ActorKind {
     /// Type in scenes.
     pub agent_type: AgentType,
     /// Finer type in scenes.
@@ -22,7 +22,7 @@ pub struct Kind {
 #[derive(Clone, Debug, Default)]
 pub struct Fleet {
     /// By SUMO's type id.
-    pub kinds: BTreeMap<String, Kind>,
+    pub kinds: BTreeMap<String, ActorKind>,
     /// Ids by group: `car`, `truck`, `bus`, `moto`, `cycle`, `walker`, `jogger`, `sidewalk_cycle`.
     pub groups: BTreeMap<&'static str, Vec<String>>,
     /// `<vType>` elements.
@@ -55,7 +55,7 @@ impl Fleet {
         ids.get(draw.below(ids.len())).map(String::as_str).unwrap_or_default()
     }
 
-    fn add(&mut self, group: &'static str, kind: Kind, class: &str, rest: &str) {
+    fn add(&mut self, group: &'static str, kind: ActorKind, class: &str, rest: &str) {
         let ids = self.groups.entry(group).or_default();
         let id = format!("{group}{}", ids.len());
         ids.push(id.clone());
@@ -92,7 +92,7 @@ impl Fleet {
             draw.clipped(1.2, 0.6, 0.0, 3.0),
             draw.clipped(1.2 - 0.2 * g, 0.2, 0.6, 2.1),
         );
-        let kind = Kind {
+        let kind = ActorKind {
             agent_type: AgentType::Vehicle,
             subtype: Subtype::Car,
             size: size(length, width, 1.7),
@@ -109,7 +109,8 @@ impl Fleet {
                  lcAccelLat=\"0.6\" speedFactor=\"normc({factor})\""
             )
         };
-        let kind = |subtype, size| Kind { agent_type: AgentType::Vehicle, subtype, size, on_foot: false };
+        let kind =
+            |subtype, size| ActorKind { agent_type: AgentType::Vehicle, subtype, size, on_foot: false };
         for _ in 0..4 {
             let body = size(draw.clipped(8.5, 1.8, 6.0, 13.0), draw.clipped(2.45, 0.1, 2.2, 2.6), 3.2);
             let rest = model(1.25, 2.1, 1.5, "0.92,0.08,0.7,1.1") + " maxSpeed=\"27\"";
@@ -128,7 +129,7 @@ impl Fleet {
     }
 
     fn on_two_wheels(&mut self, draw: &mut Stream) {
-        let kind = |width, on_foot| Kind {
+        let kind = |width, on_foot| ActorKind {
             agent_type: AgentType::Cyclist,
             subtype: Subtype::Bicycle,
             size: size(1.8, width, 1.75),
@@ -154,8 +155,12 @@ impl Fleet {
     }
 
     fn on_foot(&mut self, draw: &mut Stream) {
-        let kind =
-            |size| Kind { agent_type: AgentType::Pedestrian, subtype: Subtype::Adult, size, on_foot: true };
+        let kind = |size| ActorKind {
+            agent_type: AgentType::Pedestrian,
+            subtype: Subtype::Adult,
+            size,
+            on_foot: true,
+        };
         for _ in 0..9 {
             let body = size(draw.clipped(0.85, 0.1, 0.6, 1.1), draw.clipped(0.85, 0.1, 0.6, 1.1), 1.75);
             let rest = format!(

@@ -98,7 +98,7 @@ const UNMAPPED_LOTS: f64 = 0.4;
 
 /// What to make, and how.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct SynthesizeOptions {
     /// One file is made for each seed.
     pub seeds: Range<u64>,
     /// Folder of the files; made if missing.
@@ -113,7 +113,7 @@ pub struct Options {
     pub template: Option<Template>,
 }
 
-impl Default for Options {
+impl Default for SynthesizeOptions {
     fn default() -> Self {
         Self {
             seeds: 0..1,
@@ -128,7 +128,7 @@ impl Default for Options {
 
 /// One finished seed.
 #[derive(Clone, Debug)]
-pub struct Progress {
+pub struct SeedProgress {
     /// Which.
     pub seed: u64,
     /// Windows in its file; `None` when the file was there already.
@@ -139,7 +139,7 @@ pub struct Progress {
 
 /// What a run made.
 #[derive(Clone, Debug, Default)]
-pub struct Report {
+pub struct SynthesizeReport {
     /// Files written.
     pub written: u64,
     /// Files that were there already.
@@ -152,14 +152,14 @@ pub struct Report {
     pub failed: Vec<(u64, String)>,
 }
 
-/// Why a run could not be done at all. Single seeds that fail are in the [`Report`].
+/// Why a run could not be done at all. Single seeds that fail are in the [`SynthesizeReport`].
 #[derive(Debug, thiserror::Error)]
 pub enum SynthesizeError {
     /// SUMO is not there.
     #[error(transparent)]
     Program(#[from] ProgramError),
     /// The folder cannot be made.
-    #[error("{path}: {source}")]
+    #[error("cannot make the folder {path}")]
     Folder {
         /// Which folder.
         path: PathBuf,
@@ -169,19 +169,6 @@ pub enum SynthesizeError {
 }
 
 /// The windows of one seed.
-///
-/// # Errors
-/// When SUMO is missing or fails.
-pub fn windows_of(
-    seed: u64,
-    template: Option<Template>,
-    count: usize,
-    sumo_home: Option<&Path>,
-) -> Result<Vec<Scene>, RecordError> {
-    let sumo = Sumo::find(sumo_home)?;
-    make(&sumo, seed, template, count)
-}
-
 fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Result<Vec<Scene>, RecordError> {
     let mut draw = Purpose::Network.stream(seed);
     let drawn = draw.weighted(Template::SHARES);
@@ -199,7 +186,10 @@ fn make(sumo: &Sumo, seed: u64, template: Option<Template>, count: usize) -> Res
 ///
 /// # Errors
 /// When SUMO is missing or the folder cannot be made. A seed that fails does not stop the others.
-pub fn run(options: &Options, progress: &(dyn Fn(Progress) + Sync)) -> Result<Report, SynthesizeError> {
+pub fn run(
+    options: &SynthesizeOptions,
+    progress: &(dyn Fn(SeedProgress) + Sync),
+) -> Result<SynthesizeReport, SynthesizeError> {
     let sumo = Sumo::find(options.sumo_home.as_deref())?;
     std::fs::create_dir_all(&options.out_dir)
         .map_err(|source| SynthesizeError::Folder { path: options.out_dir.clone(), source })?;
@@ -207,7 +197,7 @@ pub fn run(options: &Options, progress: &(dyn Fn(Progress) + Sync)) -> Result<Re
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let threads = if options.threads == 0 { cores } else { options.threads };
     let (next, finished) = (AtomicU64::new(options.seeds.start), AtomicU64::new(0));
-    let report = Mutex::new(Report::default());
+    let report = Mutex::new(SynthesizeReport::default());
     let work = || {
         loop {
             let seed = next.fetch_add(1, Ordering::Relaxed);
@@ -218,13 +208,18 @@ pub fn run(options: &Options, progress: &(dyn Fn(Progress) + Sync)) -> Result<Re
             let mut report = report.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             let windows = report.add(seed, result);
             let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
-            progress(Progress { seed, windows, finished: (done, total) });
+            progress(SeedProgress { seed, windows, finished: (done, total) });
         }
     };
     std::thread::scope(|scope| {
-        for _ in 0..threads.min(total.max(1) as usize) {
-            scope.spawn(work);
+        for number in 1..threads.min(total.max(1) as usize) {
+            let thread = std::thread::Builder::new().name(format!("synthesize-{number}"));
+            // Where the system gives no further thread, those that are there do the work.
+            if thread.spawn_scoped(scope, work).is_err() {
+                break;
+            }
         }
+        work();
     });
     let mut report = report.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     report.failed.sort();
@@ -232,22 +227,28 @@ pub fn run(options: &Options, progress: &(dyn Fn(Progress) + Sync)) -> Result<Re
 }
 
 /// What became of one seed.
-enum Outcome {
+enum SeedOutcome {
     Skipped,
     Written(Vec<Scene>),
 }
 
-fn one(sumo: &Sumo, options: &Options, seed: u64) -> Result<Outcome, String> {
+fn one(sumo: &Sumo, options: &SynthesizeOptions, seed: u64) -> Result<SeedOutcome, String> {
     let path = options.out_dir.join(format!("{seed:06}.tfrecord.gz"));
     if path.exists() {
-        return Ok(Outcome::Skipped);
+        return Ok(SeedOutcome::Skipped);
     }
-    let scenes = make(sumo, seed, options.template, options.per_seed).map_err(|e| e.to_string())?;
+    let scenes = make(sumo, seed, options.template, options.per_seed).map_err(|e| with_causes(&e))?;
     if scenes.is_empty() {
         return Err("no window could be cut".to_owned());
     }
     write(&path, &scenes).map_err(|e| e.to_string())?;
-    Ok(Outcome::Written(scenes))
+    Ok(SeedOutcome::Written(scenes))
+}
+
+/// An error and what caused it.
+fn with_causes(error: &dyn std::error::Error) -> String {
+    let all = std::iter::successors(Some(error), |error| error.source());
+    all.map(ToString::to_string).collect::<Vec<_>>().join(": ")
 }
 
 /// Writes windows to a file of its own, then gives it its name: a file with the name is whole.
@@ -267,14 +268,14 @@ fn without_footways(scene: &Scene) -> Scene {
     Scene { map: Arc::new(map), ..scene.clone() }
 }
 
-impl Report {
-    fn add(&mut self, seed: u64, result: Result<Outcome, String>) -> Option<usize> {
+impl SynthesizeReport {
+    fn add(&mut self, seed: u64, result: Result<SeedOutcome, String>) -> Option<usize> {
         match result {
-            Ok(Outcome::Skipped) => {
+            Ok(SeedOutcome::Skipped) => {
                 self.skipped += 1;
                 None
             }
-            Ok(Outcome::Written(scenes)) => {
+            Ok(SeedOutcome::Written(scenes)) => {
                 self.written += 1;
                 self.windows += scenes.len() as u64;
                 for agent in scenes.iter().flat_map(|s| &s.agents) {
@@ -300,15 +301,15 @@ mod tests {
     use super::*;
 
     /// Runs a small job, or says why it cannot.
-    fn made(name: &str, seed: u64) -> Option<(tempfile::TempDir, Options, Report)> {
+    fn made(name: &str, seed: u64) -> Option<(tempfile::TempDir, SynthesizeOptions, SynthesizeReport)> {
         let folder = tempfile::tempdir().unwrap();
-        let options = Options {
+        let options = SynthesizeOptions {
             seeds: seed..seed + 1,
             out_dir: folder.path().join(name),
             threads: 1,
             per_seed: 4,
             template: Some(Template::Crossing),
-            ..Options::default()
+            ..SynthesizeOptions::default()
         };
         match run(&options, &|_| {}) {
             Ok(report) => Some((folder, options, report)),
@@ -327,7 +328,7 @@ mod tests {
         let again = run(&options, &|p| assert_eq!(p.windows, None)).unwrap();
         assert_eq!((again.written, again.skipped), (0, 1));
         let Some((_b, other, _)) = made("b", 3) else { return };
-        let read = |o: &Options| std::fs::read(o.out_dir.join("000003.tfrecord.gz")).unwrap();
+        let read = |o: &SynthesizeOptions| std::fs::read(o.out_dir.join("000003.tfrecord.gz")).unwrap();
         assert_eq!(read(&options), read(&other));
     }
 

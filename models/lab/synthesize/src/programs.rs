@@ -20,7 +20,7 @@ pub enum ProgramError {
         program: &'static str,
     },
     /// It could not be started or watched.
-    #[error("{program}: {source}")]
+    #[error("cannot run {program}")]
     Io {
         /// Name of the program.
         program: &'static str,
@@ -40,7 +40,7 @@ pub enum ProgramError {
     Failed {
         /// Name of the program.
         program: &'static str,
-        /// The end of what it said.
+        /// The end of its output.
         message: String,
     },
 }

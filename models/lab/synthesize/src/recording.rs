@@ -1,7 +1,7 @@
 //! One seed from its network to cleaned tracks of everybody on it.
 
 use super::demand::{self, Crowd};
-use super::fleet::{Fleet, Kind};
+use super::fleet::{ActorKind, Fleet};
 use super::footpath::Kerbs;
 use super::network::{Network, Rank};
 use super::programs::{ProgramError, Sumo};
@@ -34,7 +34,7 @@ pub enum RecordError {
     #[error(transparent)]
     Program(#[from] ProgramError),
     /// Their files.
-    #[error("{file}: {source}")]
+    #[error("cannot read SUMO's {file}")]
     File {
         /// Name of the file.
         file: &'static str,
@@ -42,7 +42,7 @@ pub enum RecordError {
         source: SumoError,
     },
     /// The temporary folder.
-    #[error("temporary files: {0}")]
+    #[error("cannot use temporary files")]
     Io(#[from] std::io::Error),
 }
 
@@ -67,7 +67,7 @@ pub struct Actor {
 
 impl Actor {
     /// One of a kind that is not parked.
-    pub fn of(kind: &Kind, track: Cleaned) -> Self {
+    pub fn of(kind: &ActorKind, track: Cleaned) -> Self {
         Self {
             agent_type: kind.agent_type,
             subtype: kind.subtype,

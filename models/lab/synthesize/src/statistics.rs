@@ -7,7 +7,7 @@
 use crate::filters::{gaussian, gradient, unwrap};
 use scene::geometry::{cross, direction};
 use scene::routes::LaneGraph;
-use scene::{Agent, AgentType, STEP_S, Scene, State, Vec2, wrap_angle};
+use scene::{Agent, AgentType, STANDING_MPS, STEP_S, Scene, State, Vec2, wrap_angle};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -18,6 +18,8 @@ const NEAR_M: f64 = 80.0;
 const COUNTED_M: f64 = 60.0;
 /// Deviation of the Gaussian before a derivative is taken, steps.
 const SMOOTHING: f64 = 2.0;
+/// Who is faster than this moves, m/s: slower, recorded headings are noise.
+const MOVING_MPS: f64 = 0.5;
 /// Fewest steps of a stretch that is measured.
 const SHORTEST: usize = 31;
 
@@ -174,8 +176,8 @@ impl Statistics {
         let points: Vec<Vec2> = states.map(|s| s.position()).collect();
         let distance: f64 = points.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
         self.push("distance", name, distance);
-        self.flag("starts_at_rest", name, first.speed_mps() < 0.3);
-        if first.speed_mps() < 0.3 {
+        self.flag("starts_at_rest", name, first.speed_mps() < STANDING_MPS);
+        if first.speed_mps() < STANDING_MPS {
             self.push("distance_from_rest", name, distance);
         }
         if first.speed_mps() > 12.0 {
@@ -196,25 +198,25 @@ impl Statistics {
         let when = |keep: &dyn Fn(usize) -> bool, every: usize, of: &dyn Fn(usize) -> f64| -> Vec<f64> {
             (0..track.len()).filter(|i| keep(*i)).step_by(every).map(of).collect()
         };
-        let moving = |i: usize| speed[i] > 0.5;
+        let moving = |i: usize| speed[i] > MOVING_MPS;
         if (0..track.len()).filter(|i| moving(*i)).count() < 10 {
             return;
         }
         self.extend("speed", name, when(&moving, 5, &|i| speed[i]));
         self.extend("acceleration", name, when(&moving, 3, &|i| acceleration[i]));
         self.extend("jerk", name, when(&moving, 3, &|i| jerk[i]));
-        let rolling = |i: usize| speed[i] > if driving { 1.5 } else { 0.5 };
+        let rolling = |i: usize| speed[i] > if driving { 1.5 } else { MOVING_MPS };
         self.extend("yaw_rate", name, when(&rolling, 3, &|i| yaw[i].to_degrees()));
         self.extend("lateral", name, when(&rolling, 3, &|i| smooth[i] * yaw[i]));
         let slip = |i: usize| {
             let s = &track[i];
             wrap_angle(s.vy_mps.atan2(s.vx_mps) - s.heading_rad).abs().to_degrees()
         };
-        let fast = if driving { 2.0 } else { 0.5 };
+        let fast = if driving { 2.0 } else { MOVING_MPS };
         self.extend("slip", name, when(&|i| speed[i] > fast, 5, &slip));
         let turned = (heading[heading.len() - 1] - heading[0]).abs().to_degrees();
         if track.len() >= 60 {
-            let stands = speed.iter().any(|v| *v < 0.3);
+            let stands = speed.iter().any(|v| *v < STANDING_MPS);
             self.flag("stop_and_go", name, stands && speed.iter().any(|v| *v > 2.0));
             self.flag("turns", name, turned > 45.0);
             self.flag("turns_any", name, turned > 15.0);
@@ -256,7 +258,7 @@ impl Statistics {
         let others =
             || scene.agents.iter().filter(|o| o.agent_type == AgentType::Vehicle && o.id != agent.id);
         for step in (0..scene.time.steps).step_by(15) {
-            let Some(own) = agent.state_at(step).filter(|s| s.speed_mps() > 0.5) else { continue };
+            let Some(own) = agent.state_at(step).filter(|s| s.speed_mps() > MOVING_MPS) else { continue };
             if own.x_m.abs() > NEAR_M || own.y_m.abs() > NEAR_M {
                 continue;
             }

@@ -2,13 +2,13 @@
 //! windows are cut, so that windows have no edge effects.
 
 use super::filters::{gaussian, gradient, interpolate, noise, unwrap};
-use super::fleet::Kind;
+use super::fleet::ActorKind;
 use super::{DT_S, RECORDED_S, WARM_UP_S};
 use formats::sumo::fcd::Record;
 use formats::sumo::polyline::{arc_lengths, point_at};
 use scene::geometry::direction;
 use scene::random::Stream;
-use scene::{AgentType, State, Vec2, wrap_angle};
+use scene::{AgentType, STANDING_MPS, State, Vec2, wrap_angle};
 
 /// Shortest recording that is used, steps.
 const SHORTEST: usize = 15;
@@ -34,7 +34,7 @@ impl Cleaned {
 }
 
 /// Cleans one recording; `None` when it is too short or has gaps.
-pub fn clean(record: &Record, kind: &Kind, draw: &mut Stream) -> Option<Cleaned> {
+pub fn clean(record: &Record, kind: &ActorKind, draw: &mut Stream) -> Option<Cleaned> {
     let step = |t: f64| ((t - WARM_UP_S) / DT_S).round() as isize;
     let steps: Vec<isize> = record.times_s.iter().map(|t| step(*t)).collect();
     let last_step = (RECORDED_S / DT_S) as isize;
@@ -90,7 +90,7 @@ struct Habit {
 }
 
 impl Habit {
-    fn new(kind: &Kind, draw: &mut Stream) -> Self {
+    fn new(kind: &ActorKind, draw: &mut Stream) -> Self {
         if kind.agent_type == AgentType::Cyclist {
             return Self {
                 smoothing: 1.6,
@@ -114,7 +114,7 @@ impl Habit {
 
 /// A vehicle or road cyclist: the recorded front bumper gives a smooth path and progress along it; the
 /// rear axle follows the path.
-fn drive(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut Stream) -> Vec<State> {
+fn drive(record: &Record, range: std::ops::Range<usize>, kind: &ActorKind, draw: &mut Stream) -> Vec<State> {
     let body = kind.size.length_m;
     let habit = Habit::new(kind, draw);
     let (points, speeds) = (&record.positions[range.clone()], &record.speeds_mps[range.clone()]);
@@ -212,7 +212,7 @@ fn smooth_path(
 }
 
 /// A person on foot (or a cyclist among them).
-fn walk(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut Stream) -> Vec<State> {
+fn walk(record: &Record, range: std::ops::Range<usize>, kind: &ActorKind, draw: &mut Stream) -> Vec<State> {
     let heading_0 = record.headings_rad[range.start];
     let points = blur(&record.positions[range], 5.0);
     let n = points.len();
@@ -236,7 +236,7 @@ fn walk(record: &Record, range: std::ops::Range<usize>, kind: &Kind, draw: &mut 
         }
     }
     let way = unwrap(&way);
-    let moving: Vec<f64> = speed.iter().map(|v| if *v > 0.3 { 1.0 } else { 0.0 }).collect();
+    let moving: Vec<f64> = speed.iter().map(|v| if *v > STANDING_MPS { 1.0 } else { 0.0 }).collect();
     let moving: Vec<f64> = gaussian(&moving, 8.0).into_iter().map(|m| m.clamp(0.0, 1.0)).collect();
     let stride = if kind.agent_type == AgentType::Cyclist { 1.5 } else { 1.0 };
     let (drift, slow, quick) =
@@ -296,10 +296,10 @@ mod tests {
     use super::*;
     use scene::{Size, Subtype};
 
-    fn kind(on_foot: bool) -> Kind {
+    fn kind(on_foot: bool) -> ActorKind {
         let agent_type = if on_foot { AgentType::Pedestrian } else { AgentType::Vehicle };
         let size = Size { length_m: 4.7, width_m: 2.0, height_m: None };
-        Kind { agent_type, subtype: Subtype::Unknown, size, on_foot }
+        ActorKind { agent_type, subtype: Subtype::Unknown, size, on_foot }
     }
 
     /// 10 m/s east, then a stop.

@@ -30,7 +30,7 @@ const BOX_SHARE: f64 = 0.99;
 
 /// What to learn from.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct PlacementOptions {
     /// Files or folders of scenes in any format that can be read.
     pub inputs: Vec<PathBuf>,
     /// What the data are, for the weights' header.
@@ -40,7 +40,7 @@ pub struct Options {
 /// What was learned from.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Summary {
+pub struct PlacementSummary {
     pub files: usize,
     pub unreadable: usize,
     pub scenes: u64,
@@ -74,9 +74,12 @@ struct Box2 {
 ///
 /// # Errors
 /// When nothing can be read.
-pub fn run(options: &Options, mut progress: impl FnMut(&Summary)) -> Result<(PlacementModel, Summary)> {
+pub fn run(
+    options: &PlacementOptions,
+    mut progress: impl FnMut(&PlacementSummary),
+) -> Result<(PlacementModel, PlacementSummary)> {
     let files = scene_files(&options.inputs)?;
-    let (mut sums, mut summary) = (Sums::default(), Summary::default());
+    let (mut sums, mut summary) = (Sums::default(), PlacementSummary::default());
     for chunk in files.chunks(16) {
         // Sums of whole numbers and of a file's own values in order: threads change no byte.
         let found: Vec<Option<Sums>> = chunk.par_iter().map(|file| of_file(file)).collect();
@@ -181,7 +184,7 @@ impl Sums {
         }
     }
 
-    fn model(&self, options: &Options) -> PlacementModel {
+    fn model(&self, options: &PlacementOptions) -> PlacementModel {
         let mut types = BTreeMap::new();
         for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
             let mut model = TypeModel::default();

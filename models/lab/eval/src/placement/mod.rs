@@ -25,19 +25,21 @@ const TYPES: [AgentType; 3] = [AgentType::Vehicle, AgentType::Pedestrian, AgentT
 const FAR_M: f64 = 50.0;
 /// Draws of scenes for the intervals.
 const RESAMPLES: u64 = 400;
+/// Who is slower than this counts among those that stand, m/s.
+const SLOW_MPS: f64 = 0.5;
 /// Corners farther off the road than this count as off it, metres.
 const OFF_ROAD_M: f64 = 0.3;
 
 /// How to judge.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub struct EvalPlaceOptions {
     /// Region: a circle of this radius about the ego, metres.
     pub radius_m: f64,
     /// Placements of each scene.
     pub seeds: u64,
 }
 
-impl Default for Options {
+impl Default for EvalPlaceOptions {
     fn default() -> Self {
         Self { radius_m: 60.0, seeds: 4 }
     }
@@ -83,7 +85,7 @@ impl Measure {
 /// A figure with its 95 % interval over draws of scenes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Figure {
+pub struct Interval {
     pub value: f64,
     pub low: f64,
     pub high: f64,
@@ -93,7 +95,7 @@ pub struct Figure {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Gap {
     /// Wasserstein-1, in the measure's unit.
-    pub wasserstein: Figure,
+    pub wasserstein: Interval,
     /// Jensen-Shannon divergence over 24 classes, bits.
     pub jensen_shannon: f64,
 }
@@ -101,7 +103,7 @@ pub struct Gap {
 /// One measure of one type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Row {
+pub struct MeasureGaps {
     pub model: Gap,
     pub lane_sampler: Gap,
     /// One half of the scenes' logs against the other half: what chance leaves.
@@ -117,23 +119,23 @@ pub struct Facts {
     /// Pairs of boxes that share area.
     pub overlaps: usize,
     /// Share of vehicles with a corner off the road.
-    pub off_road_share: Figure,
+    pub off_road_share: Interval,
     /// Share of vehicles more than 2 m from every lane's centre.
-    pub off_lane_share: Figure,
+    pub off_lane_share: Interval,
     /// Share of vehicles that stand.
-    pub standing_share: Figure,
+    pub standing_share: Interval,
 }
 
 /// The table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Report {
+pub struct PlacementReport {
     pub scenes: usize,
     pub seeds: u64,
     pub radius_m: f64,
     /// Road users in the logs, by type.
     pub logged: BTreeMap<AgentType, usize>,
-    pub rows: BTreeMap<AgentType, BTreeMap<Measure, Row>>,
+    pub rows: BTreeMap<AgentType, BTreeMap<Measure, MeasureGaps>>,
     pub log: Facts,
     pub model: Facts,
     pub lane_sampler: Facts,
@@ -158,7 +160,7 @@ type Three = [Values; 3];
 ///
 /// # Errors
 /// When placement fails.
-pub fn eval(generator: &Generator, scenes: &[Scene], options: Options) -> Result<Report> {
+pub fn eval(generator: &Generator, scenes: &[Scene], options: EvalPlaceOptions) -> Result<PlacementReport> {
     let model = generator.placement_model();
     let judged: Vec<Result<Option<Three>>> =
         scenes.par_iter().map(|scene| of_scene(model, scene, options)).collect();
@@ -166,8 +168,12 @@ pub fn eval(generator: &Generator, scenes: &[Scene], options: Options) -> Result
     for one in judged {
         all.extend(one?);
     }
-    let mut report =
-        Report { scenes: all.len(), seeds: options.seeds, radius_m: options.radius_m, ..Report::default() };
+    let mut report = PlacementReport {
+        scenes: all.len(),
+        seeds: options.seeds,
+        radius_m: options.radius_m,
+        ..PlacementReport::default()
+    };
     for agent_type in TYPES {
         let count =
             all.iter().map(|s| s[0].by.get(&(agent_type, Measure::LengthM)).map_or(0, Vec::len)).sum();
@@ -176,7 +182,7 @@ pub fn eval(generator: &Generator, scenes: &[Scene], options: Options) -> Result
             continue;
         }
         for (measure, low, high) in Measure::ALL {
-            let row = Row {
+            let row = MeasureGaps {
                 model: gap(&all, 1, (agent_type, measure), (low, high)),
                 lane_sampler: gap(&all, 2, (agent_type, measure), (low, high)),
                 log_halves: halves(&all, (agent_type, measure), (low, high)),
@@ -190,7 +196,11 @@ pub fn eval(generator: &Generator, scenes: &[Scene], options: Options) -> Result
     Ok(report)
 }
 
-fn of_scene(model: Option<&PlacementModel>, scene: &Scene, options: Options) -> Result<Option<Three>> {
+fn of_scene(
+    model: Option<&PlacementModel>,
+    scene: &Scene,
+    options: EvalPlaceOptions,
+) -> Result<Option<Three>> {
     let step = scene.time.now_step;
     let ego = scene.agents.iter().find(|a| a.role.as_deref() == Some("ego"));
     let Some(ego) = ego.and_then(|a| a.state_at(step)) else { return Ok(None) };
@@ -249,7 +259,7 @@ impl Values {
             push(Measure::WidthM, agent.size.width_m);
             if agent.agent_type == AgentType::Vehicle {
                 let share = |is: bool| f64::from(u8::from(is));
-                self.standing.push(share(state.speed_mps() < 0.5));
+                self.standing.push(share(state.speed_mps() < SLOW_MPS));
                 self.off_lane.push(share(lane_m > 2.0));
                 self.off_road.extend(drivable.box_outside_m(outline).map(|m| share(m > OFF_ROAD_M)));
             }
@@ -280,11 +290,11 @@ fn resamples(scenes: usize) -> impl Iterator<Item = Vec<usize>> {
 }
 
 /// The value, and the middle 95 % of the values of resampled scenes.
-fn figure(value: f64, mut resampled: Vec<f64>) -> Figure {
+fn figure(value: f64, mut resampled: Vec<f64>) -> Interval {
     resampled.retain(|v| v.is_finite());
     resampled.sort_by(f64::total_cmp);
     let at = |share: f64| resampled.get((share * resampled.len() as f64) as usize).copied().unwrap_or(value);
-    Figure { value, low: at(0.025), high: at(0.975) }
+    Interval { value, low: at(0.025), high: at(0.975) }
 }
 
 fn gap(all: &[Three], slot: usize, key: MeasuredOf, (low, high): (f64, f64)) -> Gap {

@@ -1,10 +1,10 @@
 //! The table as Markdown.
 
-use super::{Facts, Figure, Gap, Report};
+use super::{Facts, Gap, Interval, PlacementReport};
 use std::fmt::Write as _;
 
 /// The report as Markdown, the same bytes for the same report.
-pub fn markdown(report: &Report) -> String {
+pub fn markdown(report: &PlacementReport) -> String {
     let mut text = String::new();
     let logged: Vec<String> =
         report.logged.iter().map(|(t, n)| format!("{n} {}", format!("{t:?}").to_lowercase())).collect();
@@ -50,6 +50,6 @@ fn gap(gap: &Gap) -> String {
     format!("{:.2} [{:.2}, {:.2}] ({:.3})", w.value, w.low, w.high, gap.jensen_shannon)
 }
 
-fn percent(figure: &Figure) -> String {
+fn percent(figure: &Interval) -> String {
     format!("{:.1} % [{:.1}, {:.1}]", 100.0 * figure.value, 100.0 * figure.low, 100.0 * figure.high)
 }

@@ -16,7 +16,7 @@ use super::{Case, Entrants, Site, Subset, answer};
 use anyhow::Result;
 use experts::{Generator, ReachReport, Request};
 use rayon::prelude::*;
-use scene::{Agent, AgentFutures, AgentType, Future, HORIZON_STEPS, Scene, wrap_angle};
+use scene::{Agent, AgentFutures, AgentType, Future, HORIZON_STEPS, STANDING_MPS, Scene, wrap_angle};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -78,6 +78,9 @@ impl Method {
     }
 }
 
+/// Below this speed recorded headings are noise, m/s.
+const TURNING_MPS: f64 = 0.5;
+
 /// What kind of motion the log shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Manner {
@@ -92,15 +95,14 @@ impl Manner {
     /// Of a case's log from its first step.
     pub fn of(log: &Agent, case: &Case) -> Self {
         let states: Vec<_> = (0..=HORIZON_STEPS).filter_map(|step| log.state_at(step)).collect();
-        // Headings of those who stand are noise.
-        let moving: Vec<_> = states.iter().filter(|s| s.speed_mps() > 0.5).collect();
+        let moving: Vec<_> = states.iter().filter(|s| s.speed_mps() > TURNING_MPS).collect();
         let turn: f64 = moving.windows(2).map(|w| wrap_angle(w[1].heading_rad - w[0].heading_rad)).sum();
         let speed = |s: Option<&scene::State>| s.map_or(0.0, scene::State::speed_mps);
         let (first, last) = (speed(states.first()), speed(states.last()));
         Self {
             turn_deg: turn.to_degrees().abs(),
-            from_rest: first < 0.3,
-            stopping: first > 1.0 && last < 0.3,
+            from_rest: first < STANDING_MPS,
+            stopping: first > 1.0 && last < STANDING_MPS,
             seen_throughout: case.goal_step == HORIZON_STEPS,
             followable: can_be_followed(log, case),
         }
@@ -193,7 +195,7 @@ pub(super) fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Reque
     request
 }
 
-/// Futures of one case by itself, and whether the goal was said to be out of reach.
+/// Futures of one case by itself, and whether the goal was reported out of reach.
 ///
 /// # Errors
 /// When the generator fails.

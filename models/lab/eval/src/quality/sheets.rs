@@ -10,7 +10,7 @@ use scene::AgentType;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One of the errors.
-type Figure = fn(&Measured) -> f64;
+type ErrorOf = fn(&Measured) -> f64;
 
 /// Everything that table 1 prints.
 pub struct Quality<'a> {
@@ -82,8 +82,9 @@ impl<'a> Quality<'a> {
                     if all().next().is_none() {
                         continue;
                     }
-                    let plain =
-                        |value: Figure| Cell::of(self.mean(all(), |o| Some(value(&o.measured))), Form::Plain);
+                    let plain = |value: ErrorOf| {
+                        Cell::of(self.mean(all(), |o| Some(value(&o.measured))), Form::Plain)
+                    };
                     let likely = matches!(method, Method::Formula(_));
                     sheet.push(
                         [type_name(agent_type).into(), subset.name().into(), method.name(self.entrants)],
@@ -114,7 +115,7 @@ impl<'a> Quality<'a> {
         agent_type: AgentType,
         subset: Subset,
         method: Method,
-        value: Figure,
+        value: ErrorOf,
     ) -> BTreeMap<(usize, usize), f64> {
         self.of(agent_type, subset, method).map(|o| ((o.site, o.case), value(&o.measured))).collect()
     }
@@ -125,7 +126,7 @@ impl<'a> Quality<'a> {
         agent_type: AgentType,
         subset: Subset,
         [ours, rival]: [Method; 2],
-        value: Figure,
+        value: ErrorOf,
     ) -> Option<Estimate> {
         let theirs = self.by_case(agent_type, subset, rival, value);
         let ours = self.by_case(agent_type, subset, ours, value);
@@ -134,7 +135,7 @@ impl<'a> Quality<'a> {
     }
 
     /// The rival with the least mean, of those that answered every case.
-    fn best_rival(&self, agent_type: AgentType, subset: Subset, value: Figure) -> Option<Method> {
+    fn best_rival(&self, agent_type: AgentType, subset: Subset, value: ErrorOf) -> Option<Method> {
         let rivals = Method::rivals(self.entrants);
         let most = rivals.iter().map(|rival| self.of(agent_type, subset, *rival).count()).max()?;
         let mean = |rival: Method| {
@@ -157,7 +158,7 @@ impl<'a> Quality<'a> {
             &["type", "condition", "ours", "minus"],
             &["minADE6", "first ADE", "best rival of min, of first"],
         );
-        let (min, first): (Figure, Figure) = (|m| m.min_ade, |m| m.first_ade);
+        let (min, first): (ErrorOf, ErrorOf) = (|m| m.min_ade, |m| m.first_ade);
         for &agent_type in &self.types {
             for subset in Subset::ALL {
                 for (i, own) in self.entrants.judged.iter().enumerate() {
@@ -219,9 +220,10 @@ impl<'a> Quality<'a> {
                     if all().next().is_none() {
                         continue;
                     }
-                    let plain =
-                        |value: Figure| Cell::of(self.mean(all(), |o| Some(value(&o.measured))), Form::Plain);
-                    let formula = |value: Figure| {
+                    let plain = |value: ErrorOf| {
+                        Cell::of(self.mean(all(), |o| Some(value(&o.measured))), Form::Plain)
+                    };
+                    let formula = |value: ErrorOf| {
                         let of = |rival| {
                             let theirs = self.of(AgentType::Vehicle, subset, Method::Formula(rival));
                             self.mean(theirs.filter(|o| o.manner.is(group)), |o| Some(value(&o.measured)))
@@ -230,7 +232,7 @@ impl<'a> Quality<'a> {
                         let complete = found.filter(|e| e.samples == all().count() as u64);
                         Cell::of(complete.min_by(|a, b| a.mean.total_cmp(&b.mean)), Form::Plain)
                     };
-                    let share = |value: Figure| {
+                    let share = |value: ErrorOf| {
                         let of = |o: &Outcome| Value::share(o.site, value(&o.measured), o.measured.first_ade);
                         let found = self.boot.estimate(all().map(of));
                         // The weights are metres, the samples road users.

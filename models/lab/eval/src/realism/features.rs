@@ -7,6 +7,9 @@ use scene::geometry::obb::{OrientedBox, circle_gap, signed_gap};
 use scene::geometry::ttc::time_to_collision;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, State, wrap_angle};
 
+/// Who is faster than this feels accelerations, m/s.
+const MOVING_MPS: f64 = 0.5;
+
 /// One histogram.
 pub(super) struct Feature {
     pub(super) name: &'static str,
@@ -119,7 +122,7 @@ fn kinematics(site: &Site<'_>, agent: usize, states: &[State], out: &mut Motion)
         out.values[i] = values.iter().flatten().copied().collect();
     }
     for i in 0..all.len() {
-        let Some(speed) = speed[i].filter(|v| *v > 0.5) else { continue };
+        let Some(speed) = speed[i].filter(|v| *v > MOVING_MPS) else { continue };
         out.felt[0].extend(acceleration[i]);
         out.felt[1].extend(yaw_rate[i].map(|w| (w * speed).abs()));
         out.felt[2].extend(jerk[i].map(f64::abs));

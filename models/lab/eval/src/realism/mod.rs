@@ -10,7 +10,9 @@ use super::rivals::{Together, constant_velocity, varied};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::table::Table;
-use super::together::{Ask, Motions, generated, joint_goal, motions_by, motions_of, motions_of_log, scenes};
+use super::together::{
+    Ask, Motions, generated, joint_goal, motions_by, motions_of, motions_of_log, rests, scenes,
+};
 use super::{Entrants, Judged, Site};
 use anyhow::Result;
 use edges::RoadEdges;
@@ -74,9 +76,7 @@ fn noisy(site: &Site<'_>, goals: bool, seed: u64) -> Vec<Motions> {
         let Some(start) = agent.state_at(0) else { continue };
         let goal = if goals { joint_goal(site, i) } else { Goal::default() };
         let step = goal.step_in_window(0.0);
-        let stands =
-            start.speed_mps() < 0.3 && goal.position.is_none_or(|p| (p - start.position()).norm() < 0.3);
-        let all = if stands {
+        let all = if rests(&start, &goal) {
             vec![vec![start; HORIZON_STEPS]; ROLLOUTS]
         } else {
             varied(agent, &start, &goal, step, (seed, site.name()), ROLLOUTS).split_off(1)

@@ -6,8 +6,9 @@ use scene::geometry::direction;
 use scene::motion::Target;
 use scene::{Goal, HORIZON_STEPS, STEP_S, State};
 
-/// Below this speed the curve's direction says nothing about the heading, m/s.
-const STANDING_MPS: f64 = 0.2;
+/// Below this speed the curve's direction gives no heading, m/s: a spline has no noise, so it is taken lower than
+/// where recorded road users stand.
+const DIRECTION_MPS: f64 = 0.2;
 
 /// States at steps 1 ..= 90 on the cubic in position from `start` to `goal`, met at `goal_step`.
 ///
@@ -21,7 +22,7 @@ pub fn hermite(start: &State, goal: &Goal, goal_step: usize) -> Vec<State> {
     let mut heading_rad = start.heading_rad;
     let state_at = |step: usize| {
         let (position, velocity) = curve.at(step as f64 * STEP_S);
-        if velocity.norm() > STANDING_MPS {
+        if velocity.norm() > DIRECTION_MPS {
             heading_rad = velocity.y.atan2(velocity.x);
         }
         state(position, heading_rad, velocity)
@@ -33,7 +34,7 @@ pub fn hermite(start: &State, goal: &Goal, goal_step: usize) -> Vec<State> {
 fn straight(start: &State, speed_mps: Option<f64>, goal_step: usize) -> Hermite {
     let (p0, v0) = (start.position(), start.velocity());
     let seconds = goal_step.max(1) as f64 * STEP_S;
-    let ahead = if v0.norm() > STANDING_MPS { v0.normalize() } else { direction(start.heading_rad) };
+    let ahead = if v0.norm() > DIRECTION_MPS { v0.normalize() } else { direction(start.heading_rad) };
     let v1 = ahead * speed_mps.unwrap_or_else(|| v0.norm());
     Hermite::new((p0, v0), (p0 + (v0 + v1) * (0.5 * seconds), v1), seconds)
 }

@@ -12,7 +12,7 @@ use scene::{Future, State};
 
 use super::sight::{Points, forget_goals};
 use super::stages::{points, refine};
-use super::{Kind, Networks, curve};
+use super::{BaselineKind, Networks, curve};
 use crate::polylines::{Polylines, SeenPiece};
 use crate::training::{least, softmax};
 
@@ -20,7 +20,7 @@ use crate::training::{least, softmax};
 pub struct Baseline {
     /// Name in tables.
     pub name: String,
-    kind: Kind,
+    kind: BaselineKind,
     networks: Vec<Networks>,
 }
 
@@ -54,7 +54,7 @@ impl Baseline {
     ///
     /// # Errors
     /// When the tensor library fails.
-    pub fn random(name: &str, kind: Kind) -> Result<Self> {
+    pub fn random(name: &str, kind: BaselineKind) -> Result<Self> {
         let networks = vec![Networks::small(kind, kind.expert().unwrap_or("vehicle"), 1)?];
         Ok(Self { name: name.into(), kind, networks })
     }

@@ -1,11 +1,11 @@
 //! Learned rivals of the experts, trained on the same records with the same machinery and as many steps:
 //! what others' networks bring where the experts have lanes, control space and projection.
 //!
-//! * [`Kind::TrafficGen`] (Feng et al., "TrafficGen", 2022): multi-context gating over map and road users to
+//! * [`BaselineKind::TrafficGen`] (Feng et al., "TrafficGen", 2022): multi-context gating over map and road users to
 //!   six futures as points, squared error of the best one and likelihood of its index. Vehicles alone,
 //!   nothing is asked of them.
-//! * [`Kind::TrafficGenConditional`]: one such network for all types, which sees the condition.
-//! * [`Kind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type, and a
+//! * [`BaselineKind::TrafficGenConditional`]: one such network for all types, which sees the condition.
+//! * [`BaselineKind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type, and a
 //!   conditional diffusion model that refines its futures: a one-dimensional U-Net over the points, five
 //!   steps from the fifth level of noise of a hundred.
 //!
@@ -34,7 +34,7 @@ use experts::net::{Architecture, Card, NetError, Params, on_cpu};
 use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
-use crate::training::{self, Metrics, Options, Progress, Stage, TrainError};
+use crate::training::{self, Metrics, Stage, TrainError, TrainOptions, TrainProgress};
 use regressor::Regressor;
 use unet::Unet;
 
@@ -46,7 +46,7 @@ const EVERYBODY: &str = "everybody";
 /// Whose method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum BaselineKind {
     /// TrafficGen: vehicles, no condition.
     #[serde(rename = "trafficgen")]
     TrafficGen,
@@ -57,7 +57,7 @@ pub enum Kind {
     Paper,
 }
 
-impl Kind {
+impl BaselineKind {
     /// It sees goals.
     pub fn has_condition(self) -> bool {
         self != Self::TrafficGen
@@ -78,7 +78,7 @@ impl Kind {
 #[serde(deny_unknown_fields)]
 pub struct Plan {
     /// Whose method.
-    pub kind: Kind,
+    pub kind: BaselineKind,
     /// Widths and counts, as the experts have them.
     pub sizes: Architecture,
 }
@@ -86,7 +86,7 @@ pub struct Plan {
 #[cfg(any(test, feature = "samples"))]
 impl Plan {
     /// Small networks, for tests.
-    fn small(kind: Kind) -> Self {
+    fn small(kind: BaselineKind) -> Self {
         Self { kind, sizes: Architecture { width: 32, gating_blocks: 2, ..Architecture::default() } }
     }
 }
@@ -113,8 +113,8 @@ impl Networks {
         plan.sizes.check()?;
         let regressor = Regressor::new(&mut p, &plan.sizes)?;
         let refiner = match plan.kind {
-            Kind::Paper => Some(Unet::new(&mut p, &plan.sizes)?),
-            Kind::TrafficGen | Kind::TrafficGenConditional => None,
+            BaselineKind::Paper => Some(Unet::new(&mut p, &plan.sizes)?),
+            BaselineKind::TrafficGen | BaselineKind::TrafficGenConditional => None,
         };
         let (tensors, vars) = p.finish()?;
         Ok(Self { plan, card, regressor, refiner, tensors, vars })
@@ -122,7 +122,7 @@ impl Networks {
 
     /// Small random networks, for tests.
     #[cfg(any(test, feature = "samples"))]
-    fn small(kind: Kind, expert: &str, seed: u64) -> Result<Self, NetError> {
+    fn small(kind: BaselineKind, expert: &str, seed: u64) -> Result<Self, NetError> {
         let card = Card {
             expert: expert.into(),
             licence: String::new(),
@@ -168,16 +168,19 @@ impl Networks {
 }
 
 /// Usual options of a baseline's training.
-pub fn options(kind: Kind, records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> Options<Plan> {
-    Options::of(records, stage, out, Plan { kind, sizes: Architecture::default() })
+pub fn options(kind: BaselineKind, records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> TrainOptions<Plan> {
+    TrainOptions::of(records, stage, out, Plan { kind, sizes: Architecture::default() })
 }
 
 /// Trains a baseline and writes its weights; `report` gets each line. Gives the last validation.
 ///
 /// # Errors
 /// When the method has no such stage, files cannot be read or written, or a checkpoint belongs to another run.
-pub fn train(options: &Options<Plan>, report: &mut dyn FnMut(&Progress)) -> Result<Metrics, TrainError> {
-    if options.architecture.kind != Kind::Paper && options.stage != Stage::Initializer {
+pub fn train(
+    options: &TrainOptions<Plan>,
+    report: &mut dyn FnMut(&TrainProgress),
+) -> Result<Metrics, TrainError> {
+    if options.architecture.kind != BaselineKind::Paper && options.stage != Stage::Initializer {
         return Err(TrainError::Invalid("this baseline has one stage: initializer".into()));
     }
     training::run_of::<Networks>(options, report)

@@ -142,10 +142,10 @@ impl Regressor {
         let all = Tensor::zeros((batch, MODES), queries.dtype(), queries.device())?;
         let (context, modes) = self.query_gating.forward(&seen.vector, queries, &all)?;
         let context = context.unsqueeze(1)?.broadcast_as((batch, MODES, width))?.contiguous()?;
-        let said = self.head.forward(&Tensor::cat(&[&modes, &context], 2)?)?;
+        let output = self.head.forward(&Tensor::cat(&[&modes, &context], 2)?)?;
         Ok(Regressed {
-            points: said.narrow(2, 0, NUMBERS)?.contiguous()?.broadcast_mul(&self.spread)?,
-            score: said.narrow(2, NUMBERS, 1)?.contiguous()?.reshape((batch, MODES))?,
+            points: output.narrow(2, 0, NUMBERS)?.contiguous()?.broadcast_mul(&self.spread)?,
+            score: output.narrow(2, NUMBERS, 1)?.contiguous()?.reshape((batch, MODES))?,
         })
     }
 }

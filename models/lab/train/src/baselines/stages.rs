@@ -12,7 +12,7 @@ use super::loss::{self, UNIT_M};
 use super::regressor::{NUMBERS, Regressed, Seen};
 use super::sight::{Points, Truth, asks_for_a_place, forget_goals};
 use super::unet::{Unet, steps};
-use super::{Kind, Networks, Plan};
+use super::{BaselineKind, Networks, Plan};
 use crate::polylines::SeenPiece;
 use crate::training::{Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, index, seeded};
 
@@ -56,7 +56,7 @@ impl Trainee for Networks {
     }
 
     fn draws_files_evenly(&self) -> bool {
-        self.plan.kind == Kind::TrafficGenConditional
+        self.plan.kind == BaselineKind::TrafficGenConditional
     }
 
     fn loss(
@@ -164,8 +164,8 @@ fn denoiser(
         }
     }
     let noisy = Tensor::from_vec(noisy, (truths.len(), MODES, NUMBERS), seen.vector.device())?;
-    let said = refiner.noise(seen, &noisy, &levels)?;
-    let mut gradient = said.flatten_all()?.to_vec1::<f32>()?;
+    let output = refiner.noise(seen, &noisy, &levels)?;
+    let mut gradient = output.flatten_all()?.to_vec1::<f32>()?;
     let rows = gradient.chunks_exact_mut(MODES * NUMBERS).zip(noise.chunks_exact(MODES * NUMBERS));
     for ((gradient, noise), truth) in rows.zip(truths) {
         let count = MODES as f32 * 2.0 * truth.valid.iter().sum::<f32>().max(1.0);
@@ -177,7 +177,7 @@ fn denoiser(
         }
         metrics.add("loss", total);
     }
-    seeded(&said, gradient)
+    seeded(&output, gradient)
 }
 
 /// The refined winner is pulled to the recording, from one of the steps on the way.

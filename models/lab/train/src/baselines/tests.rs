@@ -17,7 +17,7 @@ use crate::samples::{log, scene, shifted};
 use crate::scenes::blind;
 use crate::training::{Record, toy};
 
-fn random(kind: Kind, expert: &str, seed: u64) -> Networks {
+fn random(kind: BaselineKind, expert: &str, seed: u64) -> Networks {
     Networks::small(kind, expert, seed).unwrap()
 }
 
@@ -54,7 +54,7 @@ fn shapes_are_those_of_six_futures() {
         anchors: Box::new([[0.0; experts::features::ANCHOR]; MODES]),
         tangent: Box::new([[[0.0; scene::KNOTS]; scene::KNOTS]; 2]),
     };
-    let networks = random(Kind::Paper, "vehicle", 1);
+    let networks = random(BaselineKind::Paper, "vehicle", 1);
     let seen = networks.regressor.see(&[], &[&[], &[]], &[&features, &features]).unwrap();
     let regressed = networks.regressor.forward(&seen).unwrap();
     assert_eq!(regressed.points.dims(), [2, MODES, NUMBERS]);
@@ -63,7 +63,7 @@ fn shapes_are_those_of_six_futures() {
     let noise = refiner.noise(&seen, &regressed.points, &[5, 100]).unwrap();
     assert_eq!(noise.dims(), [2, MODES, NUMBERS]);
     assert_eq!(unet::steps(), [(5, 4), (4, 3), (3, 2), (2, 1), (1, 0)]);
-    assert!(random(Kind::TrafficGen, "vehicle", 1).refiner.is_none());
+    assert!(random(BaselineKind::TrafficGen, "vehicle", 1).refiner.is_none());
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn nothing_but_start_and_goal_changes_an_answer() {
             (state.x_m, state.vx_mps) = (state.x_m + 17.0, 0.0);
         }
     }
-    for kind in [Kind::TrafficGen, Kind::TrafficGenConditional, Kind::Paper] {
+    for kind in [BaselineKind::TrafficGen, BaselineKind::TrafficGenConditional, BaselineKind::Paper] {
         let networks = random(kind, kind.expert().unwrap_or("vehicle"), 3);
         let free = answers(&networks, &scene, Goal::default());
         assert_eq!(free.len(), MODES);
@@ -122,12 +122,12 @@ fn recordings_are_where_they_were() {
     }
 }
 
-fn options_of(folder: &Path, kind: Kind, stage: Stage, steps: u64) -> Options<Plan> {
+fn options_of(folder: &Path, kind: BaselineKind, stage: Stage, steps: u64) -> TrainOptions<Plan> {
     let records = folder.join("toy.records");
     if !records.exists() {
         toy::write(&records, &toy::scenes(40, 8, 7));
     }
-    Options {
+    TrainOptions {
         steps,
         batch: 40,
         rate: 3e-3,
@@ -141,9 +141,10 @@ fn options_of(folder: &Path, kind: Kind, stage: Stage, steps: u64) -> Options<Pl
 fn losses_fall_and_runs_repeat() {
     let folder = tempfile::tempdir().unwrap();
     let mean = |metrics: &Metrics, name| metrics.mean(name).unwrap();
-    for kind in [Kind::TrafficGen, Kind::TrafficGenConditional, Kind::Paper] {
+    for kind in [BaselineKind::TrafficGen, BaselineKind::TrafficGenConditional, BaselineKind::Paper] {
         let run = |steps, threads| {
-            let options = Options { threads, ..options_of(folder.path(), kind, Stage::Initializer, steps) };
+            let options =
+                TrainOptions { threads, ..options_of(folder.path(), kind, Stage::Initializer, steps) };
             let metrics = train(&options, &mut |_| ()).unwrap();
             (metrics, std::fs::read(&options.out).unwrap())
         };
@@ -153,20 +154,22 @@ fn losses_fall_and_runs_repeat() {
         assert!(run(80, 2).1 == bytes, "{kind:?}: another run gives other weights");
     }
     let init = folder.path().join("Paper.safetensors");
-    let joint =
-        Options { init: Some(init.clone()), ..options_of(folder.path(), Kind::Paper, Stage::Joint, 60) };
+    let joint = TrainOptions {
+        init: Some(init.clone()),
+        ..options_of(folder.path(), BaselineKind::Paper, Stage::Joint, 60)
+    };
     let refined = train(&joint, &mut |_| ()).unwrap();
     assert!(mean(&refined, "refined") < 1.5 * mean(&refined, "min"), "{refined}");
     // Going on from half of the way gives the same as one run.
     let expected = std::fs::read(&joint.out).unwrap();
     let mut half = None;
-    let stopped = Options {
+    let stopped = TrainOptions {
         validate_every: 30,
         init: None,
-        ..options_of(folder.path(), Kind::Paper, Stage::Joint, 60)
+        ..options_of(folder.path(), BaselineKind::Paper, Stage::Joint, 60)
     };
     train(&stopped, &mut |line| {
-        if let Progress::Validation { step: 60, .. } = line {
+        if let TrainProgress::Validation { step: 60, .. } = line {
             half = Some(std::fs::read(training::checkpoint_path(&stopped.out)).unwrap());
         }
     })
@@ -174,10 +177,10 @@ fn losses_fall_and_runs_repeat() {
     let straight = std::fs::read(&stopped.out).unwrap();
     assert!(straight != expected);
     std::fs::write(training::checkpoint_path(&stopped.out), half.unwrap()).unwrap();
-    train(&Options { resume: true, ..stopped.clone() }, &mut |_| ()).unwrap();
+    train(&TrainOptions { resume: true, ..stopped.clone() }, &mut |_| ()).unwrap();
     assert!(std::fs::read(&stopped.out).unwrap() == straight);
-    let other = Options { resume: true, architecture: Plan::small(Kind::TrafficGen), ..stopped };
-    let refused = train(&Options { stage: Stage::Joint, ..other }, &mut |_| ()).unwrap_err().to_string();
+    let other = TrainOptions { resume: true, architecture: Plan::small(BaselineKind::TrafficGen), ..stopped };
+    let refused = train(&TrainOptions { stage: Stage::Joint, ..other }, &mut |_| ()).unwrap_err().to_string();
     assert!(refused.contains("one stage"), "{refused}");
 }
 
@@ -187,32 +190,32 @@ fn every_variable_gets_a_gradient_in_its_stages() {
     let path = folder.path().join("toy.records");
     toy::write(&path, &toy::scenes(2, 8, 7));
     let (tools, shard) = toy::shard(&path);
-    let networks = random(Kind::Paper, "vehicle", 3);
+    let networks = random(BaselineKind::Paper, "vehicle", 3);
     toy::assert_gradients_by_stage(&networks, &tools, &shard);
 }
 
 #[test]
 fn files_come_back_and_bad_ones_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let networks = random(Kind::Paper, "vehicle", 5);
+    let networks = random(BaselineKind::Paper, "vehicle", 5);
     let path = written(folder.path(), "vehicle.safetensors", &networks);
     let bytes = std::fs::read(&path).unwrap();
     assert_eq!(Networks::load(&bytes, false, &Device::Cpu).unwrap().save().unwrap(), bytes);
     let refused = |path: &Path| Baseline::load("x", path).err().map(|e| format!("{e:#}")).unwrap();
     assert!(Baseline::load("x", folder.path()).is_ok());
-    written(folder.path(), "twice.safetensors", &random(Kind::Paper, "vehicle", 6));
+    written(folder.path(), "twice.safetensors", &random(BaselineKind::Paper, "vehicle", 6));
     assert!(refused(folder.path()).contains("same type"));
-    written(folder.path(), "twice.safetensors", &random(Kind::TrafficGen, "vehicle", 6));
+    written(folder.path(), "twice.safetensors", &random(BaselineKind::TrafficGen, "vehicle", 6));
     assert!(refused(folder.path()).contains("another method"));
     let bad = folder.path().join("bad");
     std::fs::write(&bad, &bytes[..bytes.len() - 3]).unwrap();
     assert!(refused(&bad).contains("not a safetensors file"));
-    written(folder.path(), "bad", &random(Kind::Paper, "tram", 6));
+    written(folder.path(), "bad", &random(BaselineKind::Paper, "tram", 6));
     assert!(refused(&bad).contains("expert \"tram\""));
     let expert = experts::net::Expert::random(1).unwrap();
     std::fs::write(&bad, expert.save().unwrap()).unwrap();
     assert!(refused(&bad).contains("not a baseline's weights"));
-    let mut fewer = random(Kind::Paper, "vehicle", 5);
+    let mut fewer = random(BaselineKind::Paper, "vehicle", 5);
     fewer.tensors.remove("refiner.levels");
     written(folder.path(), "bad", &fewer);
     assert!(refused(&bad).contains("\"refiner.levels\" is missing"));

@@ -7,7 +7,7 @@ mod report;
 #[cfg(test)]
 mod tests;
 
-pub use report::{Fit, LeftOut, Report, Split};
+pub use report::{Fit, LeftOut, PlaceSplit, PrepareReport};
 
 use crate::polylines::Polylines;
 use crate::scenes::{Crop, Cropped, mirrored, read_scenes, scene_files};
@@ -24,7 +24,7 @@ use std::sync::Arc;
 
 /// What to prepare.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct PrepareOptions {
     /// Files or folders of scenes in any format that can be read.
     pub inputs: Vec<PathBuf>,
     /// File of records to write.
@@ -49,10 +49,10 @@ pub struct Options {
 ///
 /// # Errors
 /// When nothing can be read or the records cannot be written.
-pub fn run(options: &Options, mut progress: impl FnMut(&Report)) -> Result<Report> {
+pub fn run(options: &PrepareOptions, mut progress: impl FnMut(&PrepareReport)) -> Result<PrepareReport> {
     let files = scene_files(&options.inputs)?;
     let mut writer = Writer::create(&options.out)?;
-    let mut report = Report::default();
+    let mut report = PrepareReport::default();
     let mut distances = Vec::new();
     for chunk in files.chunks(32) {
         let batches: Vec<Vec<SceneRecords>> =
@@ -113,7 +113,7 @@ impl SceneRecords {
     }
 }
 
-fn file_records(path: &Path, options: &Options) -> Vec<SceneRecords> {
+fn file_records(path: &Path, options: &PrepareOptions) -> Vec<SceneRecords> {
     let scenes = read_scenes(path).unwrap_or_default();
     let images = |scene: Scene| {
         let image = options.mirror.then(|| mirrored(&scene));
@@ -123,7 +123,7 @@ fn file_records(path: &Path, options: &Options) -> Vec<SceneRecords> {
 }
 
 /// Records of the part of a scene that is asked for.
-fn cropped_records(scene: Scene, options: &Options) -> SceneRecords {
+fn cropped_records(scene: Scene, options: &PrepareOptions) -> SceneRecords {
     let mut out = SceneRecords::new(&scene);
     match options.crop.apply(scene) {
         Cropped::Kept(scene, outside) => {
@@ -146,7 +146,7 @@ fn place_key(scene: &Scene) -> u64 {
     hash.as_bytes()[..8].iter().fold(0, |key, byte| (key << 8) | u64::from(*byte))
 }
 
-fn scene_records(scene: &Scene, options: &Options, out: &mut SceneRecords) {
+fn scene_records(scene: &Scene, options: &PrepareOptions, out: &mut SceneRecords) {
     let graph = Arc::new(LaneGraph::new(&scene.map));
     let mut draw = Draws::new(options.seed, scene.meta.source_id.as_deref().unwrap_or(&scene.name));
     let base = World::new(scene, graph.clone(), 0);

@@ -1,4 +1,4 @@
-//! What was prepared: counts, what was left out and why, the split, and how well recordings can be said.
+//! What was prepared: counts, what was left out and why, the split, and how well residuals follow recordings.
 
 use crate::quantile;
 use crate::training::is_held_out;
@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 /// What was prepared and what was left out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Report {
+pub struct PrepareReport {
     /// Files looked at.
     pub files: usize,
     /// Scenes read from them.
@@ -21,15 +21,15 @@ pub struct Report {
     /// What was left out and why.
     pub left_out: LeftOut,
     /// What training holds out of what was written.
-    pub split: Split,
-    /// How far recordings are from what a residual can say of them.
+    pub split: PlaceSplit,
+    /// How far recordings are from the nearest residual.
     pub fit: Fit,
     /// BLAKE3 of the whole file of records, in hex; empty while it is being written.
     pub blake3: String,
 }
 
-/// What was left out and why. Of every scene, [`Report::used`] and the counts of road users here add up to
-/// [`Report::road_users`].
+/// What was left out and why. Of every scene, [`PrepareReport::used`] and the counts of road users here add up to
+/// [`PrepareReport::road_users`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// Files that cannot be opened, that no format reads, or that hold no scene.
@@ -73,7 +73,7 @@ impl LeftOut {
 /// How what was written is split by place: scenes of one place go to one side. Training may look at fewer of
 /// those held out, never at others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Split {
+pub struct PlaceSplit {
     /// Places with records.
     pub places: usize,
     /// Those of them held out.
@@ -88,7 +88,7 @@ pub struct Split {
     keys: BTreeSet<u64>,
 }
 
-impl Split {
+impl PlaceSplit {
     /// Counts a scene that was written.
     pub(super) fn add(&mut self, key: u64, records: usize) {
         let held_out = usize::from(is_held_out(key));
@@ -138,7 +138,7 @@ mod tests {
     fn a_place_is_held_out_whole() {
         let held = (0..).find(|k| is_held_out(*k)).unwrap_or_default();
         let kept = (0..).find(|k| !is_held_out(*k)).unwrap_or_default();
-        let mut split = Split::default();
+        let mut split = PlaceSplit::default();
         split.add(held, 4);
         split.add(kept, 5);
         split.add(held, 2);

@@ -3,8 +3,8 @@ use crate::samples::{log, scene, shifted};
 use crate::training::{Records, is_held_out};
 use scene::Agent;
 
-fn options(folder: &Path) -> Options {
-    Options {
+fn options(folder: &Path) -> PrepareOptions {
+    PrepareOptions {
         inputs: vec![folder.join("scenes")],
         out: folder.join("a.records"),
         agent_type: AgentType::Vehicle,
@@ -41,7 +41,7 @@ fn mixed() -> Vec<Agent> {
     [log("mover", 8.0, 91), walker, late, short].into_iter().chain(standing).collect()
 }
 
-fn adds_up(report: &Report) {
+fn adds_up(report: &PrepareReport) {
     let out = &report.left_out;
     let left = out.in_scenes_with_too_few
         + out.outside_the_crop
@@ -66,11 +66,11 @@ fn reasons_are_counted_apart_and_add_up() {
     assert_eq!(out.standing + report.used, 5);
     adds_up(&report);
 
-    let one = Options { per_scene: 1, ..options(folder.path()) };
+    let one = PrepareOptions { per_scene: 1, ..options(folder.path()) };
     let report = run(&one, |_| {}).unwrap();
     assert_eq!(report.used, 1);
     adds_up(&report);
-    let never = Options { most_records: 0, ..options(folder.path()) };
+    let never = PrepareOptions { most_records: 0, ..options(folder.path()) };
     let report = run(&never, |_| {}).unwrap();
     assert_eq!((report.records, report.used, report.fit.records), (0, 0, 0));
     assert!(report.left_out.over_the_files_limit > 0);
@@ -82,7 +82,7 @@ fn crops_take_road_users_and_scenes_out() {
     let folder = tempfile::tempdir().unwrap();
     let far = shifted(log("far", 8.0, 91), 61.0, 0.0);
     write(folder.path(), vec![vec![log("a", 8.0, 91), far], vec![log("a", 8.0, 91)]]);
-    let cropped = |crop| run(&Options { crop, ..options(folder.path()) }, |_| {}).unwrap();
+    let cropped = |crop| run(&PrepareOptions { crop, ..options(folder.path()) }, |_| {}).unwrap();
     let square = cropped(Crop { side_m: Some(120.0), least_agents: 0 });
     assert_eq!((square.left_out.outside_the_crop, square.used, square.split.scenes), (1, 2, 2));
     adds_up(&square);
@@ -114,7 +114,7 @@ fn hash_and_split_are_those_of_the_file() {
 }
 
 #[test]
-fn even_motion_along_a_lane_is_said_well() {
+fn residuals_follow_even_motion_along_a_lane() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), (0..4).map(|_| vec![log("a", 8.0, 91)]).collect());
     let report = run(&options(folder.path()), |_| {}).unwrap();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum TrainError {
     /// A file cannot be read or written.
-    #[error("{path}: {source}")]
+    #[error("cannot use {path}")]
     Io {
         /// File.
         path: PathBuf,
@@ -21,7 +21,7 @@ pub enum TrainError {
         /// What was found and what was expected.
         reason: String,
     },
-    /// Options or data that do not make sense together.
+    /// TrainOptions or data that do not make sense together.
     #[error("{0}")]
     Invalid(String),
     /// No graphics card can be used.

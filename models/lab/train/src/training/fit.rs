@@ -33,7 +33,7 @@ pub(super) fn recorded(route: &Route, agent: &AgentFeatures, target: &Target) ->
     residual
 }
 
-/// How far recordings are from the best that a residual can say of them: what no training can mend.
+/// How far recordings are from their best residual: what no training can mend.
 pub struct FitError(Route);
 
 impl FitError {

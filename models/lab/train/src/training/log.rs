@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::run::Progress;
+use super::run::TrainProgress;
 use super::{TrainError, checkpoint};
 
 /// Width and height of a panel, and the space around it, in pixels.
@@ -57,14 +57,14 @@ impl Log {
     }
 
     /// Keeps a line; after a validation both files are written anew.
-    pub(super) fn add(&mut self, progress: &Progress) -> Result<(), TrainError> {
+    pub(super) fn add(&mut self, progress: &TrainProgress) -> Result<(), TrainError> {
         let means = |metrics: &super::Metrics| metrics.means().map(|(n, v)| (n.to_owned(), v)).collect();
         let line = match progress {
-            Progress::Begin { .. } => return Ok(()),
-            Progress::Training { step, rate, metrics, .. } => {
+            TrainProgress::Begin { .. } => return Ok(()),
+            TrainProgress::Training { step, rate, metrics, .. } => {
                 Line { step: *step, held_out: false, rate: Some(*rate), means: means(metrics) }
             }
-            Progress::Validation { step, metrics } => {
+            TrainProgress::Validation { step, metrics } => {
                 Line { step: *step, held_out: true, rate: None, means: means(metrics) }
             }
         };
@@ -150,16 +150,16 @@ mod tests {
     use super::super::Metrics;
     use super::*;
 
-    fn training(step: u64, loss: f32) -> Progress {
+    fn training(step: u64, loss: f32) -> TrainProgress {
         let mut metrics = Metrics::new(1);
         metrics.add("loss", loss);
-        Progress::Training { step, rate: 1e-3, gradient: 1.0, metrics, speed: 1.0 }
+        TrainProgress::Training { step, rate: 1e-3, gradient: 1.0, metrics, speed: 1.0 }
     }
 
-    fn validation(step: u64, loss: f32) -> Progress {
+    fn validation(step: u64, loss: f32) -> TrainProgress {
         let mut metrics = Metrics::new(1);
         metrics.add("loss", loss);
-        Progress::Validation { step, metrics }
+        TrainProgress::Validation { step, metrics }
     }
 
     #[test]

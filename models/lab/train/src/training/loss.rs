@@ -16,16 +16,16 @@ const MIDDLE: f32 = 0.3;
 /// Mean distance above which a losing mode is not pulled, metres.
 const FAR: f32 = 60.0;
 
-/// What the initializer said about one road user.
+/// What the initializer gives for one road user.
 #[derive(Clone, Debug)]
-pub(super) struct Said {
+pub(super) struct InitialOutput {
     pub(super) residual: [[f32; RESIDUAL]; MODES],
     pub(super) log_scale: [[f32; RESIDUAL]; MODES],
     pub(super) score: [f32; MODES],
     pub(super) stays: f32,
 }
 
-impl Said {
+impl InitialOutput {
     pub(super) fn zero() -> Self {
         Self {
             residual: [[0.0; RESIDUAL]; MODES],
@@ -101,12 +101,12 @@ pub(super) fn initial(
     target: &Target,
     recorded: &[[f32; RESIDUAL]; MODES],
     bound: bool,
-    said: &Said,
-) -> (InitialParts, Said) {
-    let mut grad = Said::zero();
+    output: &InitialOutput,
+) -> (InitialParts, InitialOutput) {
+    let mut grad = InitialOutput::zero();
     let weight = speed_weight(target);
     let distances: [(f32, [f32; RESIDUAL]); MODES] =
-        std::array::from_fn(|mode| distance(route, target, mode, &said.residual[mode]));
+        std::array::from_fn(|mode| distance(route, target, mode, &output.residual[mode]));
     let ade = distances.map(|(ade, _)| ade);
     let best = least(&ade);
     let mut total = weight * ade[best];
@@ -120,20 +120,25 @@ pub(super) fn initial(
             total += weight * MIDDLE * ade;
             pull += weight * MIDDLE;
         }
-        let size = (said.residual[mode].iter().map(|r| r * r).sum::<f32>() + 1e-3).sqrt();
+        let size = (output.residual[mode].iter().map(|r| r * r).sum::<f32>() + 1e-3).sqrt();
         total += 0.004 * size / MODES as f32;
         for i in 0..RESIDUAL {
-            grad.residual[mode][i] = pull * slope[i] + 0.004 / MODES as f32 * said.residual[mode][i] / size;
+            grad.residual[mode][i] = pull * slope[i] + 0.004 / MODES as f32 * output.residual[mode][i] / size;
         }
     }
-    let (score_nll, score_grad) = index(&said.score, best);
+    let (score_nll, score_grad) = index(&output.score, best);
     grad.score = score_grad.map(|g| 0.5 * g);
-    let (stays_bce, stays_grad) = binary(said.stays, target.stays);
+    let (stays_bce, stays_grad) = binary(output.stays, target.stays);
     grad.stays = 0.2 * stays_grad;
-    let scale_nll =
-        scales(&recorded[best], &said.residual[best], &said.log_scale[best], 0.02, &mut grad.log_scale[best]);
+    let scale_nll = scales(
+        &recorded[best],
+        &output.residual[best],
+        &output.log_scale[best],
+        0.02,
+        &mut grad.log_scale[best],
+    );
     total += 0.5 * score_nll + 0.2 * stays_bce + 0.02 * scale_nll;
-    let first_ade = if bound { ade[0] } else { ade[least(&said.score.map(|score| -score))] };
+    let first_ade = if bound { ade[0] } else { ade[least(&output.score.map(|score| -score))] };
     (InitialParts { total, min_ade: ade[best], first_ade, score_nll, stays_bce, scale_nll }, grad)
 }
 
@@ -219,18 +224,18 @@ mod tests {
     use super::*;
     use crate::training::{fit, toy};
 
-    fn said(seed: u64) -> Said {
+    fn output(seed: u64) -> InitialOutput {
         let mut value = seed as f32 * 0.37;
         let mut next = || {
             value = (value * 1.7 + 0.31) % 1.0;
             value - 0.5
         };
-        let mut said = Said::zero();
-        said.residual.as_flattened_mut().iter_mut().for_each(|r| *r = next());
-        said.log_scale.as_flattened_mut().iter_mut().for_each(|r| *r = next());
-        said.score.iter_mut().for_each(|r| *r = next());
-        said.stays = next();
-        said
+        let mut output = InitialOutput::zero();
+        output.residual.as_flattened_mut().iter_mut().for_each(|r| *r = next());
+        output.log_scale.as_flattened_mut().iter_mut().for_each(|r| *r = next());
+        output.score.iter_mut().for_each(|r| *r = next());
+        output.stays = next();
+        output
     }
 
     fn close(slope: f32, expected: f32, what: &str) {
@@ -245,12 +250,12 @@ mod tests {
         let route = Route::new();
         for (seed, record) in toy::scenes(1, 5, 3)[0].2.iter().enumerate() {
             let recorded = fit::recorded(&route, &record.agent, &record.target);
-            let said = said(seed as u64 + 1);
+            let output = output(seed as u64 + 1);
             let bound = seed % 2 == 1;
-            let (_, grad) = initial(&route, &record.target, &recorded, bound, &said);
-            let slope = |change: &dyn Fn(&mut Said, f32)| {
+            let (_, grad) = initial(&route, &record.target, &recorded, bound, &output);
+            let slope = |change: &dyn Fn(&mut InitialOutput, f32)| {
                 let at = |delta: f32| {
-                    let mut moved = said.clone();
+                    let mut moved = output.clone();
                     change(&mut moved, delta);
                     let (parts, _) = initial(&route, &record.target, &recorded, bound, &moved);
                     // Scales and scores do not move the residual: their losses are held apart.
@@ -261,13 +266,17 @@ mod tests {
             };
             for mode in 0..MODES {
                 for i in (0..RESIDUAL).step_by(3) {
-                    let (all, apart) = slope(&|said, d| said.residual[mode][i] += d);
+                    let (all, apart) = slope(&|output, d| output.residual[mode][i] += d);
                     close(all - apart, grad.residual[mode][i], "residual");
-                    close(slope(&|said, d| said.log_scale[mode][i] += d).0, grad.log_scale[mode][i], "scale");
+                    close(
+                        slope(&|output, d| output.log_scale[mode][i] += d).0,
+                        grad.log_scale[mode][i],
+                        "scale",
+                    );
                 }
-                close(slope(&|said, d| said.score[mode] += d).0, grad.score[mode], "score");
+                close(slope(&|output, d| output.score[mode] += d).0, grad.score[mode], "score");
             }
-            close(slope(&|said, d| said.stays += d).0, grad.stays, "stays");
+            close(slope(&|output, d| output.stays += d).0, grad.stays, "stays");
         }
     }
 
@@ -276,7 +285,7 @@ mod tests {
         let route = Route::new();
         let record = &toy::scenes(1, 1, 3)[0].2[0];
         let recorded = fit::recorded(&route, &record.agent, &record.target);
-        let (a, b) = (said(1).residual, said(2).residual);
+        let (a, b) = (output(1).residual, output(2).residual);
         for i in 0..RESIDUAL {
             let slope = |loss: &dyn Fn(&[f32; RESIDUAL]) -> f32| {
                 let (mut up, mut down) = (b[2], b[2]);

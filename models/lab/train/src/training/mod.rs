@@ -8,7 +8,6 @@
 //! and step, and sums are taken in a fixed order. On a graphics card the same holds but for the last bits.
 
 mod checkpoint;
-mod codec;
 pub mod dataset;
 mod error;
 mod fit;
@@ -34,7 +33,7 @@ pub use error::TrainError;
 pub use fit::FitError;
 pub use metrics::Metrics;
 pub use processor::Processor;
-pub use run::{Options, Progress, checkpoint_path, run};
+pub use run::{TrainOptions, TrainProgress, checkpoint_path, run};
 pub use sample::is_held_out;
 pub use stages::Stage;
 

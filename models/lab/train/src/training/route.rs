@@ -5,7 +5,7 @@ use scene::KNOTS;
 
 use super::{AnchorPath, Record};
 
-/// Progress and offset at the instants, metres.
+/// TrainProgress and offset at the instants, metres.
 pub(crate) type RouteCoordinates = [[f32; 2]; INSTANTS];
 
 /// The basis, with the scales of normalised residuals in it.

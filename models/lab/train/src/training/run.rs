@@ -26,7 +26,7 @@ const HELD_OUT: usize = 2048;
 
 /// What to train on, how, and where to put the result.
 #[derive(Clone, Debug)]
-pub struct Options<A = Architecture> {
+pub struct TrainOptions<A = Architecture> {
     /// Files of records.
     pub records: Vec<PathBuf>,
     /// Name of the expert: vehicle, pedestrian or cyclist.
@@ -67,14 +67,14 @@ pub struct Options<A = Architecture> {
     pub refining: Refining,
 }
 
-impl Options {
+impl TrainOptions {
     /// Usual values for the three things that have none.
     pub fn new(records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> Self {
         Self::of(records, stage, out, Architecture::default())
     }
 }
 
-impl<A> Options<A> {
+impl<A> TrainOptions<A> {
     /// Usual values for networks of an architecture.
     pub(crate) fn of(records: Vec<PathBuf>, stage: Stage, out: PathBuf, architecture: A) -> Self {
         Self {
@@ -109,7 +109,7 @@ pub fn checkpoint_path(out: &Path) -> PathBuf {
 
 /// A line of a run's report.
 #[derive(Clone, Debug)]
-pub enum Progress {
+pub enum TrainProgress {
     /// The run begins or goes on.
     Begin {
         /// Records to train on and held out.
@@ -141,7 +141,7 @@ pub enum Progress {
     },
 }
 
-impl fmt::Display for Progress {
+impl fmt::Display for TrainProgress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Begin { records, parameters, step } => write!(
@@ -161,21 +161,21 @@ impl fmt::Display for Progress {
 ///
 /// # Errors
 /// When files cannot be read or written, or a checkpoint belongs to another run.
-pub fn run(options: &Options, report: &mut dyn FnMut(&Progress)) -> Result<Metrics, TrainError> {
+pub fn run(options: &TrainOptions, report: &mut dyn FnMut(&TrainProgress)) -> Result<Metrics, TrainError> {
     run_of::<Expert>(options, report)
 }
 
 /// [`run`] of whatever can be trained.
 pub(crate) fn run_of<T: Trainee>(
-    options: &Options<T::Architecture>,
-    report: &mut dyn FnMut(&Progress),
+    options: &TrainOptions<T::Architecture>,
+    report: &mut dyn FnMut(&TrainProgress),
 ) -> Result<Metrics, TrainError> {
     let device = options.processor.device()?;
     let records = Records::load(&options.records)?;
     let mut run = Run::<T>::begin(options, &records, &device)?;
     let even = run.trained.draws_files_evenly();
     let split = Split::new(&records, HELD_OUT, even, |record| run.trained.takes(record))?;
-    report(&Progress::Begin {
+    report(&TrainProgress::Begin {
         records: (split.train(), split.held_out.len()),
         parameters: run.trained.tensors().values().map(Tensor::elem_count).sum(),
         step: run.adam.step,
@@ -191,7 +191,7 @@ pub(crate) fn run_of<T: Trainee>(
         threads,
     };
     let mut log = Log::open(&options.out, run.adam.step)?;
-    let mut report = |line: &Progress| {
+    let mut report = |line: &TrainProgress| {
         report(line);
         log.add(line)
     };
@@ -239,8 +239,8 @@ impl Since {
         self.steps += 1;
     }
 
-    fn line(&self, step: u64, rate: f64) -> Progress {
-        Progress::Training {
+    fn line(&self, step: u64, rate: f64) -> TrainProgress {
+        TrainProgress::Training {
             step,
             rate,
             gradient: self.lengths / self.steps.max(1) as f64,
@@ -251,7 +251,7 @@ impl Since {
 }
 
 struct Run<'a, T: Trainee> {
-    options: &'a Options<T::Architecture>,
+    options: &'a TrainOptions<T::Architecture>,
     trained: T,
     /// The same with the running mean of the weights.
     mean: T,
@@ -263,7 +263,7 @@ struct Run<'a, T: Trainee> {
 
 impl<'a, T: Trainee> Run<'a, T> {
     fn begin(
-        options: &'a Options<T::Architecture>,
+        options: &'a TrainOptions<T::Architecture>,
         records: &Records,
         device: &Device,
     ) -> Result<Self, TrainError> {
@@ -305,11 +305,11 @@ impl<'a, T: Trainee> Run<'a, T> {
         &mut self,
         workers: &Workers<'_>,
         split: &Split,
-        report: &mut dyn FnMut(&Progress) -> Result<(), TrainError>,
+        report: &mut dyn FnMut(&TrainProgress) -> Result<(), TrainError>,
     ) -> Result<Metrics, TrainError> {
         self.adam.write_means(self.mean.vars())?;
         let metrics = workers.validate(&self.mean, &split.held_out)?;
-        report(&Progress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
+        report(&TrainProgress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
         self.save()?;
         Ok(metrics)
     }
@@ -335,7 +335,10 @@ impl<'a, T: Trainee> Run<'a, T> {
     }
 }
 
-fn first_weights<T: Trainee>(options: &Options<T::Architecture>, device: &Device) -> Result<T, TrainError> {
+fn first_weights<T: Trainee>(
+    options: &TrainOptions<T::Architecture>,
+    device: &Device,
+) -> Result<T, TrainError> {
     let mut trained = match &options.init {
         Some(path) => {
             let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
@@ -362,7 +365,7 @@ fn first_weights<T: Trainee>(options: &Options<T::Architecture>, device: &Device
 
 fn same_run<A: PartialEq>(
     path: &Path,
-    options: &Options<A>,
+    options: &TrainOptions<A>,
     records: &str,
     state: &State<A>,
 ) -> Result<(), TrainError> {

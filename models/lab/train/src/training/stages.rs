@@ -11,7 +11,7 @@ use scene::KNOTS;
 use scene::geometry::overlap_energy::{Growth, MovingBox, absent, gap, overlap_energy};
 use scene::random::Stream;
 
-use super::loss::{self, InitialParts, Said};
+use super::loss::{self, InitialOutput, InitialParts};
 use super::metrics::Metrics;
 use super::route::{Placed, Route};
 use super::sample::Shard;
@@ -84,7 +84,7 @@ fn energy(
 }
 
 /// The refiner's second input for drafts.
-fn pushes(tools: &Tools, shard: &Shard, counts: &[Vec<bool>], drafts: &[Modes]) -> Vec<Modes> {
+fn repulsions(tools: &Tools, shard: &Shard, counts: &[Vec<bool>], drafts: &[Modes]) -> Vec<Modes> {
     if !tools.refining.push {
         return vec![[[0.0; RESIDUAL]; MODES]; drafts.len()];
     }
@@ -158,14 +158,14 @@ fn initializer(
 ) -> std::result::Result<(Tensor, Initial), TrainError> {
     let initial = expert.initializer.forward(context)?;
     let mut grads = Vec::with_capacity(shard.records.len());
-    for (index, said) in said(&initial)?.iter().enumerate() {
+    for (index, output) in outputs(&initial)?.iter().enumerate() {
         let Record { agent, target, .. } = &shard.records[index];
         let bound = agent.own[OWN_GOAL_POSITION] > 0.0;
-        let (parts, grad) = loss::initial(&tools.route, target, &shard.recorded[index], bound, said);
+        let (parts, grad) = loss::initial(&tools.route, target, &shard.recorded[index], bound, output);
         add_parts(metrics, &parts);
         grads.push(grad);
     }
-    let of = |part: &dyn Fn(&Said) -> Vec<f32>| grads.iter().flat_map(part).collect::<Vec<f32>>();
+    let of = |part: &dyn Fn(&InitialOutput) -> Vec<f32>| grads.iter().flat_map(part).collect::<Vec<f32>>();
     let loss = (seeded(&initial.residual, of(&|g| g.residual.as_flattened().to_vec()))?
         + seeded(&initial.log_scale, of(&|g| g.log_scale.as_flattened().to_vec()))?)?;
     let loss = (loss + seeded(&initial.score, of(&|g| g.score.to_vec()))?)?;
@@ -182,13 +182,18 @@ fn add_parts(metrics: &mut Metrics, parts: &InitialParts) {
     metrics.add("scale", parts.scale_nll);
 }
 
-fn said(initial: &Initial) -> Result<Vec<Said>> {
+fn outputs(initial: &Initial) -> Result<Vec<InitialOutput>> {
     let (residual, log_scale) = (arrays(&initial.residual)?, arrays(&initial.log_scale)?);
     let score = initial.score.flatten_all()?.to_vec1::<f32>()?;
     let stays = initial.stays.to_vec1::<f32>()?;
     let score = score.as_chunks::<MODES>().0;
     Ok((0..residual.len())
-        .map(|i| Said { residual: residual[i], log_scale: log_scale[i], score: score[i], stays: stays[i] })
+        .map(|i| InitialOutput {
+            residual: residual[i],
+            log_scale: log_scale[i],
+            score: score[i],
+            stays: stays[i],
+        })
         .collect())
 }
 
@@ -215,8 +220,8 @@ fn denoiser(
         expert.refiner.add_noise(&prepared, &clean, &tensor(&noise(rng, count, 1.0), device)?, &levels)?;
     let counts: Vec<Vec<bool>> =
         shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
-    let push = tensor(&pushes(tools, shard, &counts, &arrays(&noisy)?), device)?;
-    let denoised = expert.refiner.denoise(&prepared, &noisy, &push, &levels)?;
+    let repulsion = tensor(&repulsions(tools, shard, &counts, &arrays(&noisy)?), device)?;
+    let denoised = expert.refiner.denoise(&prepared, &noisy, &repulsion, &levels)?;
     let mut grads = Vec::with_capacity(count);
     for (index, refined) in arrays(&denoised)?.iter().enumerate() {
         let (target, recorded) = (&shard.records[index].target, &shard.recorded[index]);
@@ -275,8 +280,8 @@ fn joint(
         &noise(rng, shard.records.len(), scale),
     )?;
     let levels = vec![steps[taken].0; shard.records.len()];
-    let push = tensor(&pushes(tools, shard, &counts, &arrays(&before)?), expert.device())?;
-    let refined = expert.refiner.denoise(&prepared, &before, &push, &levels)?;
+    let repulsion = tensor(&repulsions(tools, shard, &counts, &arrays(&before)?), expert.device())?;
+    let refined = expert.refiner.denoise(&prepared, &before, &repulsion, &levels)?;
     let mut grads = Vec::with_capacity(shard.records.len());
     for (index, refined) in arrays(&refined)?.iter().enumerate() {
         let (record, draft) = (&shard.records[index], &drafts[index]);
@@ -332,8 +337,8 @@ fn joint_gradient(
         if mode == winner {
             metrics.add("refined", near);
         }
-        let (overlap, push) = energy(tools, record, mode, &refined[mode], counted, Growth::Linear);
-        let overlap_slope = loss::to_knots(route, &push);
+        let (overlap, repulsion) = energy(tools, record, mode, &refined[mode], counted, Growth::Linear);
+        let overlap_slope = loss::to_knots(route, &repulsion);
         let share = PENALTY / MODES as f32;
         penalties += overlap / MODES as f32;
         total += weight * pull * near + share * overlap;
@@ -362,8 +367,9 @@ impl Walk<'_> {
         let mut residual =
             refiner.add_noise(&self.prepared, drafts, &tensor(noise, device)?, &levels)?.detach();
         for &step in steps {
-            let push = pushes(self.tools, self.shard, self.counts, &arrays(&residual)?);
-            residual = refiner.step(&self.prepared, &residual, &tensor(&push, device)?, step, None)?.detach();
+            let repulsion = repulsions(self.tools, self.shard, self.counts, &arrays(&residual)?);
+            residual =
+                refiner.step(&self.prepared, &residual, &tensor(&repulsion, device)?, step, None)?.detach();
         }
         Ok(residual)
     }

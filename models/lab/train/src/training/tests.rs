@@ -18,17 +18,17 @@ fn records(folder: &Path, scenes: usize) -> PathBuf {
     path
 }
 
-fn options(folder: &Path, stage: Stage, steps: u64) -> Options {
-    Options {
+fn options(folder: &Path, stage: Stage, steps: u64) -> TrainOptions {
+    TrainOptions {
         steps,
         batch: 40,
         rate: 3e-3,
         architecture: small(),
-        ..Options::new(vec![folder.join("toy.records")], stage, folder.join("out.safetensors"))
+        ..TrainOptions::new(vec![folder.join("toy.records")], stage, folder.join("out.safetensors"))
     }
 }
 
-fn trained(options: &Options) -> (Metrics, Vec<u8>) {
+fn trained(options: &TrainOptions) -> (Metrics, Vec<u8>) {
     let metrics = run(options, &mut |line| eprintln!("{line}")).unwrap();
     (metrics, std::fs::read(&options.out).unwrap())
 }
@@ -41,20 +41,20 @@ fn stopping_and_going_on_changes_nothing() {
         let straight = options(folder.path(), stage, 20);
         let (_, expected) = trained(&straight);
         // The run is stopped after ten steps, as a killed one would be: the file of step ten is put back.
-        let stopped = Options { validate_every: 10, ..straight.clone() };
+        let stopped = TrainOptions { validate_every: 10, ..straight.clone() };
         let mut at_ten = None;
         run(&stopped, &mut |line| {
             // Reported before it is saved, so the file is still that of step ten.
-            if let Progress::Validation { step: 20, .. } = line {
+            if let TrainProgress::Validation { step: 20, .. } = line {
                 at_ten = Some(std::fs::read(checkpoint_path(&stopped.out)).unwrap());
             }
         })
         .unwrap();
         std::fs::write(checkpoint_path(&stopped.out), at_ten.unwrap()).unwrap();
-        let resumed = Options { resume: true, threads: 2, ..straight.clone() };
+        let resumed = TrainOptions { resume: true, threads: 2, ..straight.clone() };
         let mut from = 0;
         run(&resumed, &mut |line| {
-            if let Progress::Begin { step, .. } = line {
+            if let TrainProgress::Begin { step, .. } = line {
                 from = *step;
             }
         })
@@ -62,7 +62,7 @@ fn stopping_and_going_on_changes_nothing() {
         assert_eq!(from, 10);
         assert!(std::fs::read(&resumed.out).unwrap() == expected, "{stage:?}: weights differ");
     }
-    let other = Options { resume: true, seed: 2, ..options(folder.path(), Stage::Joint, 20) };
+    let other = TrainOptions { resume: true, seed: 2, ..options(folder.path(), Stage::Joint, 20) };
     assert!(run(&other, &mut |_| ()).unwrap_err().to_string().contains("another seed"));
 }
 
@@ -72,19 +72,19 @@ fn losses_fall_on_a_toy_world() {
     records(folder.path(), 60);
     let first = options(folder.path(), Stage::Initializer, 1);
     let (before, _) = trained(&first);
-    let (after, _) = trained(&Options { threads: 2, ..options(folder.path(), Stage::Initializer, 120) });
+    let (after, _) = trained(&TrainOptions { threads: 2, ..options(folder.path(), Stage::Initializer, 120) });
     let mean = |metrics: &Metrics, name| metrics.mean(name).unwrap();
     assert!(mean(&after, "min") < 0.7 * mean(&before, "min"), "{before} | {after}");
     assert!(mean(&after, "score") < mean(&before, "score"));
     let init = folder.path().join("initializer.safetensors");
     std::fs::rename(&first.out, &init).unwrap();
-    let joint = Options { init: Some(init), threads: 2, ..options(folder.path(), Stage::Joint, 60) };
+    let joint = TrainOptions { init: Some(init), threads: 2, ..options(folder.path(), Stage::Joint, 60) };
     let (refined, bytes) = trained(&joint);
     assert!(mean(&refined, "overlap'") < mean(&refined, "overlap"), "{refined}");
     assert!(mean(&refined, "refined") < 2.0 * mean(&refined, "min"), "{refined}");
     let expert = Expert::load(&bytes).unwrap();
     assert!(!expert.card.untrained && expert.card.notes.contains_key("joint steps"));
-    let (denoised, _) = trained(&Options { threads: 2, ..options(folder.path(), Stage::Denoiser, 20) });
+    let (denoised, _) = trained(&TrainOptions { threads: 2, ..options(folder.path(), Stage::Denoiser, 20) });
     assert!(denoised.means().all(|(_, mean)| mean.is_finite()));
 }
 

@@ -103,8 +103,12 @@ impl Workers<'_> {
             }
         };
         std::thread::scope(|scope| {
-            for _ in 1..self.threads.min(shards.len()) {
-                scope.spawn(run);
+            for number in 1..self.threads.min(shards.len()) {
+                let thread = std::thread::Builder::new().name(format!("train-{number}"));
+                // Where the system gives no further thread, those that are there do the work.
+                if thread.spawn_scoped(scope, run).is_err() {
+                    break;
+                }
             }
             run();
         });

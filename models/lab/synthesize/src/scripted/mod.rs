@@ -5,7 +5,7 @@
 mod turning;
 
 use super::filters::interpolate;
-use super::fleet::{Fleet, Kind};
+use super::fleet::{ActorKind, Fleet};
 use super::recording::Actor;
 use super::tracks::{self, Cleaned};
 use super::{DT_S, RECORDED_S, WARM_UP_S};
@@ -44,7 +44,7 @@ pub fn add(net: &Net, fleet: &Fleet, actors: &mut Vec<Actor>, draw: &mut Stream)
         let found = (0..3).find_map(|_| {
             let record =
                 if leaves { lanes.leaving(&actors[i], draw) } else { lanes.arriving(&actors[i], draw) }?;
-            let kind = Kind {
+            let kind = ActorKind {
                 agent_type: AgentType::Vehicle,
                 subtype: actors[i].subtype,
                 size: actors[i].size,
