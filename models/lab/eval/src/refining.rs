@@ -19,7 +19,7 @@ const DRAWS: usize = 12;
 /// A collision sooner than this at constant velocity is a near miss, seconds.
 const SOON_S: f64 = 1.5;
 
-/// A way to refine.
+/// A variant of refinement.
 #[derive(Clone, Copy)]
 struct Variant {
     name: &'static str,
@@ -31,17 +31,17 @@ struct Variant {
 /// Rows of the table: the product first.
 fn variants() -> Vec<Variant> {
     let full = Refining::default();
-    let way = |name, steps, refining| Variant { name, steps, diversity: 1.0, refining };
+    let variant = |name, steps, refining| Variant { name, steps, diversity: 1.0, refining };
     vec![
-        way("complete: 5 steps", 5, full),
-        Variant { diversity: 0.0, ..way("off, without noise", 0, full) },
-        way("1 step", 1, full),
-        way("2 steps", 2, full),
-        way("10 steps", 10, full),
-        way("start level 5", 5, Refining { start: 5, ..full }),
-        way("start level 20", 5, Refining { start: 20, ..full }),
-        way("no repulsion", 5, Refining { push: false, ..full }),
-        way("overlaps not resolved", 5, Refining { settle: false, ..full }),
+        variant("complete: 5 steps", 5, full),
+        Variant { diversity: 0.0, ..variant("off, without noise", 0, full) },
+        variant("1 step", 1, full),
+        variant("2 steps", 2, full),
+        variant("10 steps", 10, full),
+        variant("start level 5", 5, Refining { start: 5, ..full }),
+        variant("start level 20", 5, Refining { start: 20, ..full }),
+        variant("no repulsion", 5, Refining { push: false, ..full }),
+        variant("overlaps not resolved", 5, Refining { settle: false, ..full }),
     ]
 }
 
@@ -167,15 +167,16 @@ fn refining(
     for own in judged {
         for goals in [false, true] {
             let mut complete: Vec<SceneFigures> = Vec::new();
-            for (index, way) in variants().into_iter().enumerate() {
-                let ask = Ask { steps: way.steps, diversity: way.diversity, ..Ask::shipped(goals, seed) };
+            for (index, variant) in variants().into_iter().enumerate() {
+                let ask =
+                    Ask { steps: variant.steps, diversity: variant.diversity, ..Ask::shipped(goals, seed) };
                 let jobs: Vec<_> = sites.iter().zip(&left_out).collect();
                 let rows: Result<Vec<SceneFigures>> = jobs
                     .par_iter()
-                    .map(|(site, out)| row(&own.generator, site, out, ask, way.refining))
+                    .map(|(site, out)| row(&own.generator, site, out, ask, variant.refining))
                     .collect();
                 let rows = rows?;
-                let keys = [own.name.as_str(), if goals { "all fixed" } else { "none" }, way.name];
+                let keys = [own.name.as_str(), if goals { "all fixed" } else { "none" }, variant.name];
                 let cell = |i: usize| {
                     Cell::of(boot.estimate(rows.iter().filter_map(|row| row.values[i])), COLUMNS[i].1)
                 };
@@ -237,9 +238,10 @@ mod tests {
             _ => panic!("no figure"),
         };
         for (k, line) in differences.lines.iter().enumerate() {
-            let (block, way) = (k / (count - 1) * count, k % (count - 1) + 1);
-            assert_eq!(line.keys, figures.lines[block + way].keys);
-            let cells = [&figures.lines[block + way], &figures.lines[block], line].map(|l| mean(&l.cells[3]));
+            let (block, variant) = (k / (count - 1) * count, k % (count - 1) + 1);
+            assert_eq!(line.keys, figures.lines[block + variant].keys);
+            let cells =
+                [&figures.lines[block + variant], &figures.lines[block], line].map(|l| mean(&l.cells[3]));
             assert!((cells[0] - cells[1] - cells[2]).abs() < 1e-9, "{cells:?}");
         }
         // Ways differ from each other, as far as random weights can tell.
