@@ -11,7 +11,7 @@
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
-use rand_distr::Distribution;
+use rand_distr::{Beta, Distribution, Exp1, Poisson};
 use std::f64::consts::TAU;
 
 /// What a stream of numbers is for: numbers and words, folded by BLAKE3 in the order given.
@@ -33,6 +33,12 @@ impl Key {
     pub fn text(mut self, text: &str) -> Self {
         self.0.update(text.as_bytes());
         self
+    }
+
+    /// With words, each folded behind its length, so that none runs into the next.
+    #[must_use]
+    pub fn words(self, words: &[&str]) -> Self {
+        words.iter().fold(self, |key, word| key.number(word.len() as u64).text(word))
     }
 
     /// The stream of this key, from its beginning.
@@ -81,6 +87,17 @@ impl Stream {
         last.filter(|_| total > 0.0 && total.is_finite())
     }
 
+    /// One of some values.
+    pub fn one_of<T: Copy, const N: usize>(&mut self, values: [T; N]) -> T {
+        values[self.below(N)]
+    }
+
+    /// One of some values, each in proportion to its weight; the first where no weight is positive.
+    pub fn weighted<T: Copy, const N: usize>(&mut self, values: [(T, f64); N]) -> T {
+        let index = self.among(values.iter().map(|(_, weight)| *weight));
+        values[index.unwrap_or(0)].0
+    }
+
     /// Two standard normal numbers, by the formula of Box and Muller: answers that have been given rest on its
     /// bits, and it is the same on every machine.
     pub fn normal_pair(&mut self) -> [f64; 2] {
@@ -92,6 +109,32 @@ impl Stream {
     /// A standard normal number.
     pub fn normal(&mut self) -> f64 {
         self.normal_pair()[0]
+    }
+
+    /// A normal number with this mean and standard deviation.
+    pub fn normal_about(&mut self, mean: f64, deviation: f64) -> f64 {
+        mean + deviation * self.normal()
+    }
+
+    /// The same, held between `low` and `high`.
+    pub fn clipped(&mut self, mean: f64, deviation: f64, low: f64, high: f64) -> f64 {
+        self.normal_about(mean, deviation).clamp(low, high)
+    }
+
+    /// Exponential with this mean.
+    pub fn exponential(&mut self, mean: f64) -> f64 {
+        mean * self.draw::<f64>(&Exp1)
+    }
+
+    /// How often what happens at random happens, `mean` being how often on average; never where that is not
+    /// positive.
+    pub fn poisson(&mut self, mean: f64) -> usize {
+        Poisson::new(mean).map_or(0, |often| self.draw::<f64>(&often) as usize)
+    }
+
+    /// A share of the beta distribution with these two shapes, both positive; a half where one is not.
+    pub fn beta(&mut self, a: f64, b: f64) -> f64 {
+        Beta::new(a, b).map_or(0.5, |share| self.draw(&share))
     }
 
     /// Of any other distribution.
@@ -125,6 +168,15 @@ mod tests {
         assert!((mean(&mut || stream.normal().powi(2)) - 1.0).abs() < 0.05);
         assert!((mean(&mut || f64::from(u8::from(stream.chance(0.2)))) - 0.2).abs() < 0.02);
         assert!((mean(&mut || stream.below(5) as f64) - 2.0).abs() < 0.05);
+        assert!((mean(&mut || stream.normal_about(2.0, 3.0)) - 2.0).abs() < 0.1);
+        assert!((mean(&mut || stream.exponential(4.0)) - 4.0).abs() < 0.15);
+        assert!((mean(&mut || stream.poisson(5.0) as f64) - 5.0).abs() < 0.1);
+        assert!((mean(&mut || stream.beta(2.0, 2.3)) - 2.0 / 4.3).abs() < 0.01);
+        assert!((mean(&mut || stream.weighted([(0.0, 1.0), (7.0, 0.0), (2.0, 3.0)])) - 1.5).abs() < 0.05);
+        assert_eq!(
+            (stream.poisson(0.0), stream.one_of([4]), stream.clipped(9.0, 1.0, 0.0, 1.0)),
+            (0, 4, 1.0)
+        );
     }
 
     #[test]

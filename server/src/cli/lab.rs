@@ -4,11 +4,11 @@ use super::{Common, Exit, Failure, output};
 use clap::{Args, ValueEnum};
 use experts::Refining;
 use experts::net::Architecture;
-use lab::baselines::{self, Baseline, Kind};
-use lab::crop::Crop;
-use lab::eval::{Judged, Table};
-use lab::synthesize::{self, Options, Template};
-use lab::train::{Processor, Stage};
+use lab_eval::{Judged, Table};
+use lab_synthesize::{SynthesizeOptions, Template};
+use lab_train::baselines::{self, Baseline, BaselineKind};
+use lab_train::scenes::Crop;
+use lab_train::training::{Processor, Stage};
 use scene::AgentType;
 use std::path::PathBuf;
 
@@ -239,7 +239,7 @@ enum BaselineWord {
     Paper,
 }
 
-impl From<BaselineWord> for Kind {
+impl From<BaselineWord> for BaselineKind {
     fn from(word: BaselineWord) -> Self {
         match word {
             BaselineWord::Trafficgen => Self::TrafficGen,
@@ -363,7 +363,7 @@ fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
 /// # Errors
 /// Exit 1 without SUMO, 4 when some seeds failed.
 pub fn synthesize(args: SynthesizeArgs, common: &Common) -> Result<(), Failure> {
-    let options = Options {
+    let options = SynthesizeOptions {
         seeds: args.seed..args.seed.saturating_add(args.count),
         out_dir: args.output,
         threads: args.threads,
@@ -372,14 +372,14 @@ pub fn synthesize(args: SynthesizeArgs, common: &Common) -> Result<(), Failure> 
         template: args.template.map(Template::from),
     };
     let quiet = common.quiet;
-    let report = synthesize::run(&options, &|progress| {
+    let report = lab_synthesize::run(&options, &|progress| {
         if !quiet {
             let (done, all) = progress.finished;
             let windows = progress.windows.map_or("there already".into(), |n| format!("{n} windows"));
             output::complain(&format!("seed {}: {windows} ({done} of {all})", progress.seed));
         }
     })
-    .map_err(|error| Failure::new(Exit::Failure, error.to_string()))?;
+    .map_err(failed)?;
     let [vehicles, pedestrians, cyclists] = report.agents;
     let line = serde_json::json!({
         "written": report.written, "skipped": report.skipped, "windows": report.windows,
@@ -405,12 +405,12 @@ pub fn statistics(args: StatisticsArgs) -> Result<(), Failure> {
     for set in &args.sets {
         let (name, path) =
             set.split_once('=').ok_or_else(|| unreadable(format!("{set}: expected NAME=PATH")))?;
-        let files =
-            lab::prepare::scene_files(&[PathBuf::from(path)]).map_err(|e| unreadable(e.to_string()))?;
+        let files = lab_train::scenes::scene_files(&[PathBuf::from(path)])
+            .map_err(|e| unreadable(format!("{e:#}")))?;
         let every = files.len().div_ceil(args.most.max(1)).max(1);
-        let mut statistics = lab::statistics::Statistics::default();
+        let mut statistics = lab_synthesize::statistics::Statistics::default();
         for file in files.iter().step_by(every) {
-            let scenes = lab::prepare::read_scenes(file).map_err(|e| unreadable(e.to_string()))?;
+            let scenes = lab_train::scenes::read_scenes(file).map_err(|e| unreadable(format!("{e:#}")))?;
             scenes.iter().for_each(|scene| statistics.add(scene));
         }
         columns.push((name.to_owned(), statistics));
@@ -420,7 +420,7 @@ pub fn statistics(args: StatisticsArgs) -> Result<(), Failure> {
             columns.iter().map(|(n, s)| (n, s.summaries())).collect();
         return print_json(&rows);
     }
-    output::print(lab::statistics::markdown(&columns).as_bytes())
+    output::print(lab_synthesize::statistics::markdown(&columns).as_bytes())
 }
 
 /// Makes training records.
@@ -428,7 +428,7 @@ pub fn statistics(args: StatisticsArgs) -> Result<(), Failure> {
 /// # Errors
 /// Exit 3 when nothing can be read, 1 when the records cannot be written.
 pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
-    let options = lab::prepare::Options {
+    let options = lab_train::prepare::PrepareOptions {
         inputs: args.inputs,
         out: args.output,
         agent_type: args.expert.agent_type(),
@@ -439,7 +439,7 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
         crop: Crop { side_m: args.crop, least_agents: args.least_agents },
         mirror: args.mirror,
     };
-    let progress = |report: &lab::prepare::Report| {
+    let progress = |report: &lab_train::prepare::PrepareReport| {
         if !common.quiet {
             output::complain(&format!(
                 "{} files, {} scenes, {} records",
@@ -447,7 +447,7 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
             ));
         }
     };
-    let report = lab::prepare::run(&options, progress).map_err(failed)?;
+    let report = lab_train::prepare::run(&options, progress).map_err(failed)?;
     print_json(&report)
 }
 
@@ -459,19 +459,19 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
     let stage = args.stage.map_or(Stage::Initializer, Stage::from);
     let (records, output) = (args.records.clone(), args.output.clone());
     let quiet = common.quiet;
-    let mut report = |line: &lab::train::Progress| {
+    let mut report = |line: &lab_train::training::TrainProgress| {
         if !quiet {
             output::complain(&line.to_string());
         }
     };
     let expert = args.expert.map(ExpertWord::name);
-    let done = match args.baseline.map(Kind::from) {
+    let done = match args.baseline.map(BaselineKind::from) {
         None => {
-            let mut options = lab::train::Options::new(records, stage, output);
+            let mut options = lab_train::training::TrainOptions::new(records, stage, output);
             options.architecture = args
                 .expert
                 .map_or_else(Architecture::default, |expert| Architecture::of(expert.agent_type()));
-            lab::train::run(&args.set(options, expert.unwrap_or_default()), &mut report)
+            lab_train::training::run(&args.set(options, expert.unwrap_or_default()), &mut report)
         }
         Some(kind) => {
             let expert = kind.expert().or(expert);
@@ -481,13 +481,17 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
             baselines::train(&args.set(options, expert), &mut report)
         }
     };
-    done.map(drop).map_err(|error| Failure::new(Exit::Failure, error.to_string()))
+    done.map(drop).map_err(failed)
 }
 
 impl TrainArgs {
     /// Fills in what all trainings have.
-    fn set<A>(self, options: lab::train::Options<A>, expert: &str) -> lab::train::Options<A> {
-        lab::train::Options {
+    fn set<A>(
+        self,
+        options: lab_train::training::TrainOptions<A>,
+        expert: &str,
+    ) -> lab_train::training::TrainOptions<A> {
+        lab_train::training::TrainOptions {
             expert: expert.to_owned(),
             init: self.init,
             steps: self.steps,
@@ -510,13 +514,13 @@ impl TrainArgs {
 /// # Errors
 /// Exit 1 when nothing can be read, 8 when the output exists.
 pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), Failure> {
-    let options = lab::placement::Options { inputs: args.inputs, trained_on: args.trained_on };
-    let progress = |summary: &lab::placement::Summary| {
+    let options = lab_train::placement::PlacementOptions { inputs: args.inputs, trained_on: args.trained_on };
+    let progress = |summary: &lab_train::placement::PlacementSummary| {
         if !common.quiet {
             output::complain(&format!("{} files, {} scenes", summary.files, summary.scenes));
         }
     };
-    let (model, summary) = lab::placement::run(&options, progress).map_err(failed)?;
+    let (model, summary) = lab_train::placement::run(&options, progress).map_err(failed)?;
     let bytes = model.save().map_err(|e| Failure::new(Exit::Failure, e.to_string()))?;
     output::write(Some(&args.output), &bytes, args.force)?;
     print_json(&summary)
@@ -529,9 +533,13 @@ pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), 
 pub fn eval_place(args: EvalPlaceArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
     let generator = super::generator(common)?;
-    let options = lab::placement::EvalOptions { radius_m: args.radius, seeds: args.seeds };
-    let report = lab::placement::eval(&generator, &scenes, options).map_err(failed)?;
-    if args.json { print_json(&report) } else { output::print(lab::placement::markdown(&report).as_bytes()) }
+    let options = lab_eval::placement::EvalPlaceOptions { radius_m: args.radius, seeds: args.seeds };
+    let report = lab_eval::placement::eval(&generator, &scenes, options).map_err(failed)?;
+    if args.json {
+        print_json(&report)
+    } else {
+        output::print(lab_eval::placement::markdown(&report).as_bytes())
+    }
 }
 
 /// Judges the experts on scenes: the tables to stdout as Markdown, everything to the output folder.
@@ -556,7 +564,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
         })
         .collect();
     let baselines = baselines?;
-    let options = lab::eval::Options {
+    let options = lab_eval::EvalOptions {
         tables: args.tables.into_iter().filter_map(Table::numbered).collect(),
         seed: args.seed,
         pictures: args.output.is_some(),
@@ -569,7 +577,7 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
             output::complain(line);
         }
     };
-    let report = lab::eval::run(judged, &baselines, &scenes, &options, &progress).map_err(failed)?;
+    let report = lab_eval::run(judged, &baselines, &scenes, &options, &progress).map_err(failed)?;
     if let Some(folder) = &args.output {
         report.write(folder).map_err(failed)?;
     }
@@ -587,7 +595,7 @@ pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
     for threads in [1, 2] {
         let generator = super::generator(common)?.with_threads(threads);
         generator.warm_up();
-        rows.extend(lab::eval::cost::latency(&generator, threads, &scenes).map_err(failed)?);
+        rows.extend(lab_eval::cost::latency(&generator, threads, &scenes).map_err(failed)?);
     }
     print_json(&rows)
 }
@@ -595,9 +603,9 @@ pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
 /// # Errors
 /// Exit 3 when no file holds a scene.
 fn scenes(args: &SceneArgs) -> Result<Vec<scene::Scene>, Failure> {
-    let unreadable = |error: anyhow::Error| Failure::new(Exit::Input, error.to_string());
-    let files = lab::prepare::scene_files(&args.inputs).map_err(unreadable)?;
-    let read = files.iter().take(args.scenes).map(|file| lab::prepare::read_scenes(file));
+    let unreadable = |error: anyhow::Error| Failure::new(Exit::Input, format!("{error:#}"));
+    let files = lab_train::scenes::scene_files(&args.inputs).map_err(unreadable)?;
+    let read = files.iter().take(args.scenes).map(|file| lab_train::scenes::read_scenes(file));
     let scenes: Vec<scene::Scene> = read.filter_map(Result::ok).flatten().collect();
     if scenes.is_empty() {
         return Err(Failure::new(Exit::Input, "no file holds a scene that can be read"));
@@ -605,8 +613,9 @@ fn scenes(args: &SceneArgs) -> Result<Vec<scene::Scene>, Failure> {
     Ok(scenes)
 }
 
-fn failed(error: anyhow::Error) -> Failure {
-    Failure::new(Exit::Failure, error.to_string())
+/// An error with its causes.
+fn failed(error: impl Into<anyhow::Error>) -> Failure {
+    Failure::new(Exit::Failure, format!("{:#}", error.into()))
 }
 
 fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {

@@ -1,0 +1,67 @@
+//! Judging the experts on scenes: eight tables of figures with intervals, and pictures.
+//!
+//! [`run`] makes everything that `dragtraffic eval` writes. A table is a module; they share the cases, the
+//! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
+//! ([`stats`]). The same scenes, weights and seed give the same bytes, except for the clock's readings of
+//! table 6, which stand in files of their own.
+
+mod ablation;
+mod cases;
+mod coherence;
+mod control;
+pub mod cost;
+pub mod measure;
+mod parked;
+pub mod picture;
+pub mod placement;
+pub mod quality;
+mod realism;
+mod refining;
+mod report;
+pub mod rivals;
+mod roads;
+mod run;
+pub mod sheet;
+pub mod stats;
+mod table;
+pub mod together;
+mod variety;
+
+pub use cases::{Case, Site, Subset, cases};
+pub use quality::type_name;
+pub use report::{CropReport, EvalReport};
+pub use run::{EvalOptions, run};
+pub use table::{TABLES, Table};
+
+use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};
+use lab_train::baselines::Baseline;
+
+/// Weights under judgement.
+pub struct Judged {
+    /// Name in tables.
+    pub name: String,
+    /// The experts.
+    pub generator: Generator,
+}
+
+/// Everybody who learned to answer.
+#[derive(Clone, Copy)]
+pub struct Entrants<'a> {
+    /// The experts.
+    pub judged: &'a [Judged],
+    /// Their learned rivals.
+    pub baselines: &'a [Baseline],
+}
+
+/// Runs a call to its end.
+///
+/// # Errors
+/// What the call reports.
+pub fn answer(generator: &Generator, request: Request) -> Result<Answer, GenerateError> {
+    for event in generator.start(request, Cancel::default())? {
+        if let Event::Final(answer) = event? {
+            return Ok(answer);
+        }
+    }
+    Err(GenerateError::Expert("the call ended without an answer".into()))
+}

@@ -1,0 +1,159 @@
+//! Pictures of futures over the map, as SVG.
+
+use super::quality::{Method, Outcome, alone};
+use super::{Site, Subset, type_name};
+use anyhow::Result;
+use experts::Generator;
+use rayon::prelude::*;
+use scene::map::LaneType;
+use scene::random::Key;
+use scene::{AgentFutures, AgentType, Scene, Vec2};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// Pictures of each kind.
+const EACH: usize = 10;
+
+/// The ten best, ten worst and ten random cases of each type by minADE, without a goal and with its position
+/// fixed: name (`vehicle-pos-worst-01-SCENE-AGENT.svg`) and SVG.
+///
+/// # Errors
+/// When the generator fails.
+pub fn of_outcomes(
+    generator: &Generator,
+    sites: &[Site<'_>],
+    outcomes: &[Outcome],
+    seed: u64,
+) -> Result<Vec<(String, String)>> {
+    let mut wanted: Vec<(String, &Outcome)> = Vec::new();
+    for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
+        for subset in [Subset::None, Subset::Pos] {
+            let mine = |o: &&Outcome| {
+                o.method == Method::Refined(0) && o.agent_type == agent_type && o.subset == subset
+            };
+            let mut all: Vec<&Outcome> = outcomes.iter().filter(mine).collect();
+            all.sort_by(|a, b| a.measured.min_ade.total_cmp(&b.measured.min_ade));
+            let best: Vec<&Outcome> = all.iter().take(EACH).copied().collect();
+            let worst: Vec<&Outcome> = all.iter().rev().take(EACH).copied().collect();
+            Key::default()
+                .number(seed)
+                .words(&["pictures", type_name(agent_type), subset.name()])
+                .stream()
+                .shuffle(&mut all);
+            all.truncate(EACH);
+            for (word, list) in [("best", best), ("worst", worst), ("random", all)] {
+                for (i, outcome) in list.into_iter().enumerate() {
+                    let name = format!("{}-{}-{word}-{:02}", type_name(agent_type), subset.name(), i + 1);
+                    wanted.push((name, outcome));
+                }
+            }
+        }
+    }
+    let drawn: Result<Vec<_>> = wanted
+        .par_iter()
+        .map(|(name, outcome)| Ok((name, drawn(generator, &sites[outcome.site], outcome, seed)?)))
+        .collect();
+    let drawn = drawn?.into_iter();
+    Ok(drawn.filter_map(|(name, found)| found.map(|(who, svg)| (format!("{name}-{who}.svg"), svg))).collect())
+}
+
+/// Scene and road user as words for a file's name, and the picture.
+fn drawn(
+    generator: &Generator,
+    site: &Site<'_>,
+    outcome: &Outcome,
+    seed: u64,
+) -> Result<Option<(String, String)>> {
+    let case = &site.cases[outcome.case];
+    let Some((futures, _)) = alone(generator, site, case, outcome.subset, true, seed)? else {
+        return Ok(None);
+    };
+    // The picture shows the log, which the experts were not shown.
+    let mut scene = site.scene.clone();
+    let agent = &mut scene.agents[case.agent];
+    agent.conditions.goal = case.goal(site.scene, outcome.subset);
+    let id = agent.id.clone();
+    let plain: String = site.name().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
+    let who = format!("{}-{}", if plain.is_empty() { "scene" } else { &plain }, id.replace(':', "_"));
+    let futures = BTreeMap::from([(id, futures)]);
+    Ok(Some((who, futures_svg(&scene, &futures, case.start.position()))))
+}
+
+/// Half the side of the square that is shown, metres.
+const HALF_M: f64 = 70.0;
+const SIDE_PX: f64 = 900.0;
+
+/// Lanes grey, edges dark, boxes at the start, log black, futures orange, the shown one red, goals as stars.
+pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, centre: Vec2) -> String {
+    let mut out = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='{SIDE_PX}' height='{SIDE_PX}' style='background:#fff'>\n"
+    );
+    let scale = SIDE_PX / (2.0 * HALF_M);
+    let at = |p: Vec2| ((p.x - centre.x + HALF_M) * scale, (HALF_M - (p.y - centre.y)) * scale);
+    let line = |out: &mut String, points: &mut dyn Iterator<Item = Vec2>, style: &str| {
+        let mut path = String::new();
+        for p in points {
+            let (x, y) = at(p);
+            let _ = write!(path, "{x:.1},{y:.1} ");
+        }
+        let _ = writeln!(out, "<polyline points='{path}' fill='none' {style}/>");
+    };
+    for lane in &scene.map.lanes {
+        let colour = match lane.lane_type {
+            LaneType::BikeLane => "#bfe3cd",
+            LaneType::Sidewalk => "#efe6da",
+            _ => "#dcdfe4",
+        };
+        let style =
+            format!("stroke='{colour}' stroke-width='{:.1}'", lane.width_or_assumed_m() * 0.8 * scale);
+        line(&mut out, &mut lane.points.xy.iter().copied(), &style);
+    }
+    for edge in &scene.map.road_edges {
+        line(&mut out, &mut edge.points.xy.iter().copied(), "stroke='#777' stroke-width='1.2'");
+    }
+    for crosswalk in &scene.map.crosswalks {
+        line(&mut out, &mut crosswalk.polygon.xy.iter().copied(), "stroke='#99a' stroke-dasharray='3 3'");
+    }
+    for agent in &scene.agents {
+        let Some(start) = agent.state_at(0) else { continue };
+        let colour = match agent.agent_type {
+            AgentType::Pedestrian => "#7a4b6e",
+            AgentType::Cyclist => "#c06a00",
+            _ => "#3867d6",
+        };
+        let outline = scene::geometry::obb::OrientedBox::of_state(&start, &agent.size);
+        let corners = outline.corners();
+        let fill = format!("stroke='{colour}' stroke-width='1.5'");
+        line(&mut out, &mut corners.iter().chain(&corners[..1]).copied(), &fill);
+        if futures.contains_key(&agent.id) {
+            let mut logged = agent.track.states.iter().flatten().map(scene::State::position);
+            line(&mut out, &mut logged, "stroke='#000' stroke-width='1.6' stroke-dasharray='5 3'");
+        }
+    }
+    for (id, all) in futures {
+        for (i, future) in all.modes.iter().enumerate().rev() {
+            let style = if i == all.chosen {
+                "stroke='#d92d20' stroke-width='2.4'".to_owned()
+            } else {
+                format!(
+                    "stroke='#f79009' stroke-width='{:.1}' stroke-opacity='0.75'",
+                    1.0 + 2.0 * future.probability
+                )
+            };
+            line(&mut out, &mut future.states.iter().map(scene::State::position), &style);
+            for second in future.states.iter().skip(9).step_by(10) {
+                let (x, y) = at(second.position());
+                let _ = writeln!(out, "<circle cx='{x:.1}' cy='{y:.1}' r='1.6' fill='#444'/>");
+            }
+        }
+        if let Some(goal) = scene.agent(id).and_then(|a| a.conditions.goal.position) {
+            let (x, y) = at(goal);
+            let _ = writeln!(
+                out,
+                "<circle cx='{x:.1}' cy='{y:.1}' r='5' fill='none' stroke='#00794c' stroke-width='2'/>"
+            );
+        }
+    }
+    out.push_str("</svg>\n");
+    out
+}

@@ -1,0 +1,97 @@
+//! What a table of the evaluation is, and the list of all. A table is one file and one line of [`TABLES`].
+
+use super::sheet::Sheet;
+use super::stats::Bootstrap;
+use super::{Entrants, Judged, Site};
+use super::{ablation, coherence, control, cost, quality, realism, refining, variety};
+use anyhow::Result;
+use lab_train::baselines::Baseline;
+use scene::Scene;
+
+/// A table of the evaluation.
+#[derive(Debug)]
+pub struct Table {
+    /// Its number, which the titles of its sheets begin with.
+    pub number: usize,
+    /// What it is about.
+    pub name: &'static str,
+    /// Makes it.
+    pub(super) make: fn(&mut Trial<'_>) -> Result<Made>,
+}
+
+/// All tables, in the order of their numbers.
+pub const TABLES: [Table; 8] = [
+    quality::TABLE,
+    coherence::TABLE,
+    control::TABLE,
+    realism::TABLE,
+    variety::TABLE,
+    cost::TABLE,
+    ablation::TABLE,
+    refining::TABLE,
+];
+
+impl Table {
+    /// By its number.
+    pub fn numbered(number: usize) -> Option<&'static Self> {
+        const { &TABLES }.iter().find(|table| table.number == number)
+    }
+}
+
+/// Who is judged, on what, and how: what a table is made from.
+pub(super) struct Trial<'a> {
+    /// The experts.
+    pub(super) judged: Vec<Judged>,
+    /// Their learned rivals.
+    pub(super) baselines: &'a [Baseline],
+    /// The scenes.
+    pub(super) scenes: &'a [Scene],
+    /// The same, made ready.
+    pub(super) sites: Vec<Site<'a>>,
+    /// Resamples of the scenes.
+    pub(super) boot: Bootstrap,
+    /// Draws noise, drags and random pictures.
+    pub(super) seed: u64,
+    /// Steps after which the product plans anew, a line of table 2 each.
+    pub(super) replan_steps: &'a [usize],
+    /// Whether pictures are wanted.
+    pub(super) pictures: bool,
+}
+
+impl Trial<'_> {
+    /// Everybody who learned to answer.
+    pub(super) fn entrants(&self) -> Entrants<'_> {
+        Entrants { judged: &self.judged, baselines: self.baselines }
+    }
+}
+
+/// What a table comes to.
+#[derive(Default)]
+pub(super) struct Made {
+    /// Figures, the same for the same seed.
+    pub(super) sheets: Vec<Sheet>,
+    /// The clock's readings, never the same twice.
+    pub(super) times: Vec<Sheet>,
+    /// File name and SVG.
+    pub(super) pictures: Vec<(String, String)>,
+}
+
+impl From<Vec<Sheet>> for Made {
+    fn from(sheets: Vec<Sheet>) -> Self {
+        Self { sheets, ..Self::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_found_by_their_numbers() {
+        for (place, table) in TABLES.iter().enumerate() {
+            assert_eq!(table.number, place + 1, "{}", table.name);
+            assert_eq!(Table::numbered(table.number).map(|found| found.name), Some(table.name));
+        }
+        assert!(Table::numbered(0).is_none() && Table::numbered(9).is_none());
+    }
+}

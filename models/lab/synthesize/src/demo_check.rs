@@ -1,0 +1,149 @@
+//! What must hold in a demo scene: nobody overlaps, nobody is off the road, nobody jumps.
+
+use formats::sumo::polyline::{contains, distance_to};
+use scene::geometry::obb::{OrientedBox, signed_gap};
+use scene::{Agent, AgentType, STEP_S, Scene, Vec2};
+
+/// How far a corner of a vehicle may stick out over the kerb, metres.
+const OVERHANG_M: f64 = 0.35;
+
+/// Takes people and cyclists out who touch others, or stand where the picture's checks would fail.
+pub fn without_overlaps(mut scene: Scene) -> Scene {
+    loop {
+        let Some((i, j)) = overlapping(&scene) else { return scene };
+        // The one that matters less; of two vehicles, the parked or the later one.
+        let weight = |k: usize| match (scene.agents[k].agent_type, scene.agents[k].role.as_deref()) {
+            (AgentType::Pedestrian, _) => 0,
+            (AgentType::Cyclist, _) => 1,
+            (_, Some("parked")) => 2,
+            (_, None) => 3,
+            _ => 4,
+        };
+        let out = if weight(i) < weight(j) { i } else { j };
+        scene.agents.remove(out);
+    }
+}
+
+fn overlapping(scene: &Scene) -> Option<(usize, usize)> {
+    for step in 0..scene.time.steps {
+        let boxes: Vec<Option<OrientedBox>> = scene
+            .agents
+            .iter()
+            .map(|a| a.track.at(step).map(|s| OrientedBox::of_state(s, &a.size)))
+            .collect();
+        for (i, a) in boxes.iter().enumerate() {
+            let Some(a) = a else { continue };
+            for (j, b) in boxes.iter().enumerate().skip(i + 1) {
+                let Some(b) = b else { continue };
+                let near = (a.center() - b.center()).norm() < a.radius_m() + b.radius_m();
+                if near && signed_gap(a, b) < 0.0 {
+                    return Some((i, j));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Everything that is wrong with a scene, in words; empty when it is fit to be shown.
+pub fn faults(scene: &Scene) -> Vec<String> {
+    let mut faults = Vec::new();
+    if let Err(problems) = scene.clone().checked() {
+        faults.extend(problems.iter().map(ToString::to_string));
+    }
+    if let Some((i, j)) = overlapping(scene) {
+        faults.push(format!("{} and {} overlap", scene.agents[i].id, scene.agents[j].id));
+    }
+    for agent in &scene.agents {
+        faults.extend(off_road(scene, agent));
+        faults.extend(jump(agent));
+    }
+    faults
+}
+
+/// Distance of a point from everything paved; zero inside.
+fn off_pavement(scene: &Scene, p: Vec2) -> f64 {
+    let areas = scene.map.drivable.iter().chain(&scene.map.driveways);
+    let distance = |ring: &[Vec2]| {
+        if contains(ring, p) {
+            return 0.0;
+        }
+        let mut closed = ring.to_vec();
+        closed.extend(ring.first());
+        distance_to(&closed, p)
+    };
+    areas.map(|a| distance(&a.polygon.xy)).fold(f64::INFINITY, f64::min)
+}
+
+fn off_road(scene: &Scene, agent: &Agent) -> Option<String> {
+    if agent.agent_type != AgentType::Vehicle {
+        return None;
+    }
+    for (step, state) in agent.track.states.iter().enumerate().step_by(5) {
+        let Some(state) = state else { continue };
+        let outline = OrientedBox::of_state(state, &agent.size);
+        let out = outline.corners().iter().map(|c| off_pavement(scene, *c)).fold(0.0, f64::max);
+        // Long vehicles swing their corners over the kerb.
+        let allowed = OVERHANG_M + 0.05 * agent.size.length_m;
+        if out > allowed {
+            return Some(format!("vehicle {} is {out:.1} m off the road at step {step}", agent.id));
+        }
+    }
+    None
+}
+
+fn jump(agent: &Agent) -> Option<String> {
+    let pairs = agent.track.states.windows(2).enumerate();
+    for (step, pair) in pairs {
+        let [Some(a), Some(b)] = pair else { continue };
+        let moved = (b.position() - a.position()).norm();
+        let turned = scene::wrap_angle(b.heading_rad - a.heading_rad).abs();
+        let wheels = agent.agent_type != AgentType::Pedestrian;
+        if moved > a.speed_mps().max(b.speed_mps()) * STEP_S + 0.15 || wheels && turned > 0.12 {
+            return Some(format!("{} jumps at step {step}: {moved:.2} m, {turned:.2} rad", agent.id));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::demo::DEMOS;
+    use super::*;
+    use formats::native;
+
+    fn shipped(id: &str) -> Vec<u8> {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../assets/scenes");
+        std::fs::read(format!("{folder}/{id}.json")).unwrap()
+    }
+
+    #[test]
+    fn shipped_demos_are_fit_to_be_shown() {
+        for demo in &DEMOS {
+            let bytes = shipped(demo.id);
+            assert!(bytes.len() < 600_000, "{}: {} bytes", demo.id, bytes.len());
+            let scene = native::read(&bytes).unwrap();
+            assert_eq!((scene.id.as_deref(), scene.name.as_str()), (Some(demo.id), demo.name));
+            assert_eq!(scene.meta.licence.as_deref(), Some("cc0"));
+            assert_eq!(faults(&scene), Vec::<String>::new(), "{}", demo.id);
+            let [vehicles, pedestrians, cyclists, others] = scene.counts();
+            assert!(vehicles >= 10 && pedestrians >= 5 && cyclists >= 4 && others == 0, "{}", demo.id);
+        }
+    }
+
+    #[test]
+    fn faults_are_found() {
+        let mut scene = native::read(&shipped("demo-crossing")).unwrap();
+        let first = scene.agents[0].clone();
+        scene.agents[1].track = first.track.clone();
+        assert!(faults(&scene).iter().any(|f| f.contains("overlap")));
+        let healed = without_overlaps(scene.clone());
+        assert!(healed.agents.len() < scene.agents.len() && faults(&healed).is_empty());
+        for state in scene.agents[0].track.states[40..].iter_mut().flatten() {
+            state.y_m += 40.0;
+        }
+        let faults = faults(&scene);
+        assert!(faults.iter().any(|f| f.contains("jumps at step 39")), "{faults:?}");
+        assert!(faults.iter().any(|f| f.contains("off the road")), "{faults:?}");
+    }
+}

@@ -1,0 +1,187 @@
+//! Learned rivals of the experts, trained on the same records with the same machinery and as many steps:
+//! what others' networks bring where the experts have lanes, control space and projection.
+//!
+//! * [`BaselineKind::TrafficGen`] (Feng et al., "TrafficGen", 2022): multi-context gating over map and road users to
+//!   six futures as points, squared error of the best one and likelihood of its index. Vehicles alone,
+//!   nothing is asked of them.
+//! * [`BaselineKind::TrafficGenConditional`]: one such network for all types, which sees the condition.
+//! * [`BaselineKind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type, and a
+//!   conditional diffusion model that refines its futures: a one-dimensional U-Net over the points, five
+//!   steps from the fifth level of noise of a hundred.
+//!
+//! All see the road user itself, map pieces and neighbours as the experts do, but no routes. A future is 18
+//! points, one every half second, in the road user's frame at the start; [`curve`] makes states of them. A
+//! goal is something that the networks see, and nothing makes them meet it.
+
+mod answer;
+mod curve;
+mod loss;
+mod regressor;
+mod sight;
+mod stages;
+mod unet;
+
+#[cfg(test)]
+mod tests;
+
+pub use answer::Baseline;
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::PathBuf;
+
+use candle_core::{Device, Tensor, Var};
+use experts::net::{Architecture, Card, NetError, Params, on_cpu};
+use scene::AgentType;
+use serde::{Deserialize, Serialize};
+
+use crate::training::{self, Metrics, Stage, TrainError, TrainOptions, TrainProgress};
+use regressor::Regressor;
+use unet::Unet;
+
+/// The one member of a file's metadata.
+const HEADER: &str = "dragtraffic-baseline";
+/// Name of a network for all types.
+const EVERYBODY: &str = "everybody";
+
+/// Whose method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BaselineKind {
+    /// TrafficGen: vehicles, no condition.
+    #[serde(rename = "trafficgen")]
+    TrafficGen,
+    /// One TrafficGen for all types, with the condition.
+    #[serde(rename = "trafficgen-conditional")]
+    TrafficGenConditional,
+    /// The paper's architecture at its own outputs.
+    Paper,
+}
+
+impl BaselineKind {
+    /// It sees goals.
+    pub fn has_condition(self) -> bool {
+        self != Self::TrafficGen
+    }
+
+    /// Whose records it learns from, where the method says so.
+    pub fn expert(self) -> Option<&'static str> {
+        match self {
+            Self::TrafficGen => Some("vehicle"),
+            Self::TrafficGenConditional => Some(EVERYBODY),
+            Self::Paper => None,
+        }
+    }
+}
+
+/// What a baseline's networks are.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// Whose method.
+    pub kind: BaselineKind,
+    /// Widths and counts, as the experts have them.
+    pub sizes: Architecture,
+}
+
+#[cfg(any(test, feature = "samples"))]
+impl Plan {
+    /// Small networks, for tests.
+    fn small(kind: BaselineKind) -> Self {
+        Self { kind, sizes: Architecture { width: 32, gating_blocks: 2, ..Architecture::default() } }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Header {
+    plan: Plan,
+    card: Card,
+}
+
+/// The networks of a baseline.
+struct Networks {
+    plan: Plan,
+    card: Card,
+    regressor: Regressor,
+    refiner: Option<Unet>,
+    tensors: BTreeMap<String, Tensor>,
+    vars: BTreeMap<String, Var>,
+}
+
+impl Networks {
+    fn build(plan: Plan, card: Card, mut p: Params) -> Result<Self, NetError> {
+        plan.sizes.check()?;
+        let regressor = Regressor::new(&mut p, &plan.sizes)?;
+        let refiner = match plan.kind {
+            BaselineKind::Paper => Some(Unet::new(&mut p, &plan.sizes)?),
+            BaselineKind::TrafficGen | BaselineKind::TrafficGenConditional => None,
+        };
+        let (tensors, vars) = p.finish()?;
+        Ok(Self { plan, card, regressor, refiner, tensors, vars })
+    }
+
+    /// Small random networks, for tests.
+    #[cfg(any(test, feature = "samples"))]
+    fn small(kind: BaselineKind, expert: &str, seed: u64) -> Result<Self, NetError> {
+        let card = Card {
+            expert: expert.into(),
+            licence: String::new(),
+            trained_on: String::new(),
+            untrained: true,
+            notes: BTreeMap::new(),
+        };
+        Self::build(Plan::small(kind), card, Params::random(seed, true, &Device::Cpu))
+    }
+
+    fn load(bytes: &[u8], trainable: bool, device: &Device) -> Result<Self, NetError> {
+        let format = |error: safetensors::SafeTensorError| NetError::Format(error.to_string());
+        let header = |reason: String| NetError::Header { member: HEADER, reason };
+        let (_, metadata) = safetensors::SafeTensors::read_metadata(bytes).map_err(format)?;
+        let text = metadata.metadata().as_ref().and_then(|m| m.get(HEADER));
+        let text = text.ok_or_else(|| header("absent: these are not a baseline's weights".into()))?;
+        let Header { plan, card } = serde_json::from_str(text).map_err(|e| header(e.to_string()))?;
+        let tensors = candle_core::safetensors::load_buffer(bytes, &Device::Cpu)?.into_iter().collect();
+        Self::build(plan, card, Params::given(tensors, trainable, device))
+    }
+
+    fn save(&self) -> Result<Vec<u8>, NetError> {
+        let header = Header { plan: self.plan.clone(), card: self.card.clone() };
+        let text = serde_json::to_string(&header).map_err(|error| NetError::Format(error.to_string()))?;
+        let tensors = on_cpu(&self.tensors)?;
+        safetensors::serialize(&tensors, Some(HashMap::from([(HEADER.to_owned(), text)])))
+            .map_err(|error| NetError::Format(error.to_string()))
+    }
+
+    /// Types that it answers for.
+    fn types(&self) -> Result<&'static [AgentType], NetError> {
+        match self.card.expert.as_str() {
+            "vehicle" => Ok(&[AgentType::Vehicle]),
+            "pedestrian" => Ok(&[AgentType::Pedestrian]),
+            "cyclist" => Ok(&[AgentType::Cyclist]),
+            EVERYBODY => Ok(&[AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist]),
+            other => Err(NetError::Header {
+                member: HEADER,
+                reason: format!("expert \"{other}\"; vehicle, pedestrian, cyclist or {EVERYBODY} expected"),
+            }),
+        }
+    }
+}
+
+/// Usual options of a baseline's training.
+pub fn options(kind: BaselineKind, records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> TrainOptions<Plan> {
+    TrainOptions::of(records, stage, out, Plan { kind, sizes: Architecture::default() })
+}
+
+/// Trains a baseline and writes its weights; `report` gets each line. Gives the last validation.
+///
+/// # Errors
+/// When the method has no such stage, files cannot be read or written, or a checkpoint belongs to another run.
+pub fn train(
+    options: &TrainOptions<Plan>,
+    report: &mut dyn FnMut(&TrainProgress),
+) -> Result<Metrics, TrainError> {
+    if options.architecture.kind != BaselineKind::Paper && options.stage != Stage::Initializer {
+        return Err(TrainError::Invalid("this baseline has one stage: initializer".into()));
+    }
+    training::run_of::<Networks>(options, report)
+}

@@ -1,0 +1,388 @@
+//! Fits the placement weights to recorded scenes. The same input gives the same bytes.
+
+use crate::scenes::{read_scenes, scene_files};
+use anyhow::{Result, ensure};
+use experts::placement::learn::{
+    ANY_CONTEXT, CellCounts, FORMAT, Histogram, Observation, PlacementModel, Rate, SPEED_CLASSES, SiteKind,
+    TypeModel, VERSION, fact_classes, group_context, heading_classes, kinds, lateral_classes, observe,
+};
+use rayon::prelude::*;
+use scene::routes::LaneGraph;
+use scene::{AgentType, Scene};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Steps of a window that are looked at; between them the traffic has moved on.
+const STEPS: [usize; 3] = [0, 45, 90];
+/// Sweeps over the factors; each step is exact for one fact, and they settle quickly.
+const SWEEPS: usize = 60;
+/// Road users that a class of a fact is held to have had at the average rate: rare classes stay near it.
+const PRIOR_COUNT: f64 = 2.0;
+/// The same of a speed context, towards the one without the leader.
+const PRIOR_SPEEDS: f64 = 8.0;
+/// Speeds that a context needs to be kept.
+const LEAST_SPEEDS: f64 = 20.0;
+/// Classes of boxes, metres.
+const BOX_LENGTH_M: f64 = 0.25;
+const BOX_WIDTH_M: f64 = 0.1;
+/// Boxes kept: this share of all.
+const BOX_SHARE: f64 = 0.99;
+
+/// What to learn from.
+#[derive(Clone, Debug)]
+pub struct PlacementOptions {
+    /// Files or folders of scenes in any format that can be read.
+    pub inputs: Vec<PathBuf>,
+    /// What the data are, for the weights' header.
+    pub trained_on: String,
+}
+
+/// What was learned from.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct PlacementSummary {
+    pub files: usize,
+    pub unreadable: usize,
+    pub scenes: u64,
+    /// Road users in cells by type and kind of place.
+    pub seen: BTreeMap<AgentType, BTreeMap<SiteKind, f64>>,
+    /// Road users in no cell, by type.
+    pub nowhere: BTreeMap<AgentType, usize>,
+}
+
+/// Sums over scenes.
+#[derive(Default)]
+struct Sums {
+    scenes: u64,
+    cells: CellCounts,
+    lateral: BTreeMap<(AgentType, u16), Vec<f64>>,
+    heading: BTreeMap<(AgentType, u16), Vec<f64>>,
+    boxes: BTreeMap<(AgentType, SiteKind), BTreeMap<(u32, u32), Box2>>,
+    speeds: BTreeMap<AgentType, BTreeMap<u16, Vec<f64>>>,
+    nowhere: BTreeMap<AgentType, usize>,
+}
+
+/// Boxes of one class: how many, and their summed length and width.
+#[derive(Clone, Copy, Default)]
+struct Box2 {
+    count: f64,
+    length_m: f64,
+    width_m: f64,
+}
+
+/// Reads scenes and fits the weights; files in order of their names.
+///
+/// # Errors
+/// When nothing can be read.
+pub fn run(
+    options: &PlacementOptions,
+    mut progress: impl FnMut(&PlacementSummary),
+) -> Result<(PlacementModel, PlacementSummary)> {
+    let files = scene_files(&options.inputs)?;
+    let (mut sums, mut summary) = (Sums::default(), PlacementSummary::default());
+    for chunk in files.chunks(16) {
+        // Sums of whole numbers and of a file's own values in order: threads change no byte.
+        let found: Vec<Option<Sums>> = chunk.par_iter().map(|file| of_file(file)).collect();
+        for one in found {
+            summary.files += 1;
+            match one {
+                Some(one) => sums.add(one),
+                None => summary.unreadable += 1,
+            }
+        }
+        summary.scenes = sums.scenes;
+        progress(&summary);
+    }
+    ensure!(sums.scenes > 0, "no scene could be read");
+    summary.nowhere = sums.nowhere.clone();
+    for ((agent_type, kind, _), (_, count)) in &sums.cells {
+        *summary.seen.entry(*agent_type).or_default().entry(*kind).or_default() += count;
+    }
+    Ok((sums.model(options), summary))
+}
+
+fn of_file(path: &Path) -> Option<Sums> {
+    let scenes = read_scenes(path).ok().filter(|s| !s.is_empty())?;
+    let mut sums = Sums::default();
+    for scene in &scenes {
+        sums.scene(scene);
+    }
+    Some(sums)
+}
+
+fn add_to<K: Ord, T>(into: &mut BTreeMap<K, Vec<T>>, more: BTreeMap<K, Vec<T>>) {
+    for (key, values) in more {
+        into.entry(key).or_default().extend(values);
+    }
+}
+
+impl Sums {
+    fn scene(&mut self, scene: &Scene) {
+        let graph = LaneGraph::new(&scene.map);
+        self.scenes += 1;
+        for step in STEPS.into_iter().filter(|s| *s < scene.time.steps) {
+            self.observation(observe(scene, &graph, step));
+        }
+    }
+
+    fn observation(&mut self, seen: Observation) {
+        self.cells(seen.cells);
+        for (agent_type, context, value) in seen.lateral {
+            self.lateral.entry((agent_type, context)).or_default().push(value);
+        }
+        for (agent_type, context, value) in seen.heading {
+            self.heading.entry((agent_type, context)).or_default().push(value);
+        }
+        for (agent_type, kind, length_m, width_m) in seen.sizes {
+            let class = ((length_m / BOX_LENGTH_M) as u32, (width_m / BOX_WIDTH_M) as u32);
+            let of_class = self.boxes.entry((agent_type, kind)).or_default().entry(class).or_default();
+            of_class.count += 1.0;
+            of_class.length_m += length_m;
+            of_class.width_m += width_m;
+        }
+        for (agent_type, context, class) in seen.speeds {
+            let of_type = self.speeds.entry(agent_type).or_default();
+            for context in contexts(context) {
+                of_type.entry(context).or_insert_with(|| vec![0.0; SPEED_CLASSES])[class] += 1.0;
+            }
+        }
+        for (agent_type, count) in seen.nowhere {
+            *self.nowhere.entry(agent_type).or_default() += count;
+        }
+    }
+
+    fn cells(&mut self, cells: CellCounts) {
+        for (key, (extent, count)) in cells {
+            let cell = self.cells.entry(key).or_default();
+            cell.0 += extent;
+            cell.1 += count;
+        }
+    }
+
+    fn add(&mut self, other: Self) {
+        self.scenes += other.scenes;
+        self.cells(other.cells);
+        add_to(&mut self.lateral, other.lateral);
+        add_to(&mut self.heading, other.heading);
+        for (key, classes) in other.boxes {
+            for (class, more) in classes {
+                let of_class = self.boxes.entry(key).or_default().entry(class).or_default();
+                of_class.count += more.count;
+                of_class.length_m += more.length_m;
+                of_class.width_m += more.width_m;
+            }
+        }
+        for (agent_type, rows) in other.speeds {
+            for (context, counts) in rows {
+                let of_type = self.speeds.entry(agent_type).or_default();
+                let row = of_type.entry(context).or_insert_with(|| vec![0.0; SPEED_CLASSES]);
+                row.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+            }
+        }
+        for (agent_type, count) in other.nowhere {
+            *self.nowhere.entry(agent_type).or_default() += count;
+        }
+    }
+
+    fn model(&self, options: &PlacementOptions) -> PlacementModel {
+        let mut types = BTreeMap::new();
+        for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
+            let mut model = TypeModel::default();
+            for &kind in kinds(agent_type) {
+                if let Some(rate) = self.rate(agent_type, kind) {
+                    model.rates.insert(kind, rate);
+                }
+                let boxes = self.boxes.get(&(agent_type, kind)).map(common_boxes).unwrap_or_default();
+                if !boxes.is_empty() {
+                    model.sizes.insert(kind, boxes);
+                }
+            }
+            let of_type = |all: &BTreeMap<(AgentType, u16), Vec<f64>>,
+                           classes: fn(u16) -> (f64, f64, usize)| {
+                let own = all.iter().filter(|((t, _), _)| *t == agent_type);
+                own.map(|((_, context), values)| (*context, histogram(values, classes(*context)))).collect()
+            };
+            model.lateral = of_type(&self.lateral, lateral_classes);
+            model.heading = of_type(&self.heading, heading_classes);
+            model.speed = self.speeds.get(&agent_type).map(speed_rows).unwrap_or_default();
+            types.insert(agent_type, model);
+        }
+        PlacementModel {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            licence: "MIT OR Apache-2.0".to_owned(),
+            trained_on: options.trained_on.clone(),
+            scenes: self.scenes,
+            types,
+        }
+    }
+
+    /// Poisson regression by backfitting: each factor in turn is set so that its classes have the
+    /// observed number of road users.
+    fn rate(&self, agent_type: AgentType, kind: SiteKind) -> Option<Rate> {
+        let own = || self.cells.iter().filter(|((t, k, _), _)| *t == agent_type && *k == kind);
+        let (extent, count) = own().fold((0.0, 0.0), |sum, (_, c)| (sum.0 + c.0, sum.1 + c.1));
+        if extent <= 0.0 {
+            return None;
+        }
+        let factors = fact_classes(kind).iter().map(|n| vec![1.0; *n]).collect();
+        let mut rate = Rate { per_m: count / extent, factors };
+        for _ in 0..SWEEPS {
+            for fact in 0..rate.factors.len() {
+                let classes = rate.factors[fact].len();
+                let (mut seen, mut expected) = (vec![PRIOR_COUNT; classes], vec![PRIOR_COUNT; classes]);
+                for ((_, _, facts), (extent, count)) in own() {
+                    let class = usize::from(facts[fact]);
+                    seen[class] += count;
+                    expected[class] += extent * rate.per_m * rate.factor(facts);
+                }
+                for (factor, (seen, expected)) in
+                    rate.factors[fact].iter_mut().zip(seen.iter().zip(&expected))
+                {
+                    // The prior pulls towards one, not towards the value of the last sweep.
+                    let without = (expected - PRIOR_COUNT) / *factor;
+                    *factor = (seen / (without + PRIOR_COUNT)).max(1e-6);
+                }
+            }
+            let expected: f64 =
+                own().map(|((_, _, facts), (extent, _))| extent * rate.per_m * rate.factor(facts)).sum();
+            if expected > 0.0 {
+                rate.per_m *= count / expected;
+            }
+        }
+        rate.per_m = short(rate.per_m);
+        rate.factors.iter_mut().flatten().for_each(|f| *f = short(*f));
+        Some(rate)
+    }
+}
+
+/// A speed context and those it falls back on.
+fn contexts(context: u16) -> Vec<u16> {
+    if context < 1000 { vec![context, group_context(context), ANY_CONTEXT] } else { vec![context] }
+}
+
+/// Three digits are what the data say.
+fn short(value: f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return 0.0;
+    }
+    let parts = 10f64.powi(2 - value.abs().log10().floor() as i32);
+    (value * parts).round() / parts
+}
+
+/// Shares; those outside the classes are left out.
+fn histogram(values: &[f64], (low, step, classes): (f64, f64, usize)) -> Histogram {
+    let mut counts = vec![0.0; classes];
+    for value in values {
+        let class = ((value - low) / step).floor();
+        if class >= 0.0 && (class as usize) < classes {
+            counts[class as usize] += 1.0;
+        }
+    }
+    if counts.iter().all(|c| *c == 0.0) {
+        // Nothing inside: the class of zero, or the first.
+        counts[((-low / step) as usize).min(classes - 1)] = 1.0;
+    }
+    let total: f64 = counts.iter().sum();
+    Histogram { low, step, share: counts.into_iter().map(|c| short(c / total)).collect() }
+}
+
+/// The most frequent boxes with their mean length and width.
+fn common_boxes(classes: &BTreeMap<(u32, u32), Box2>) -> Vec<[f64; 3]> {
+    let total: f64 = classes.values().map(|b| b.count).sum();
+    let mut sorted: Vec<&Box2> = classes.values().collect();
+    sorted.sort_by(|a, b| b.count.total_cmp(&a.count));
+    let mut held = 0.0;
+    let mut boxes = Vec::new();
+    for one in sorted {
+        if held >= BOX_SHARE * total {
+            break;
+        }
+        held += one.count;
+        let mean = |sum: f64| ((sum / one.count) * 100.0).round() / 100.0;
+        boxes.push([
+            mean(one.length_m).clamp(0.3, 25.0),
+            mean(one.width_m).clamp(0.3, 3.2),
+            short(one.count / total),
+        ]);
+    }
+    boxes
+}
+
+/// Shares by context, rare contexts drawn towards the one without the leader.
+fn speed_rows(counts: &BTreeMap<u16, Vec<f64>>) -> BTreeMap<u16, Vec<f64>> {
+    let blended = |context: u16, row: &Vec<f64>, prior: Option<&Vec<f64>>| {
+        let total: f64 = row.iter().sum();
+        let shares = (0..SPEED_CLASSES).map(|class| {
+            let before = prior.map_or(0.0, |p| PRIOR_SPEEDS * p[class]);
+            short((row[class] + before) / (total + if prior.is_some() { PRIOR_SPEEDS } else { 0.0 }))
+        });
+        (context, shares.collect::<Vec<f64>>())
+    };
+    let mut rows: BTreeMap<u16, Vec<f64>> = BTreeMap::new();
+    // From the general to the particular: 2000, then 1000 and on, then the rest.
+    let (leading, whole): (Vec<_>, Vec<_>) = counts.iter().partition(|(c, _)| **c < 1000);
+    for (context, row) in whole.into_iter().rev().chain(leading) {
+        if row.iter().sum::<f64>() < LEAST_SPEEDS {
+            continue;
+        }
+        let parent = match *context {
+            c if c < 1000 => Some(group_context(c)),
+            c if c < ANY_CONTEXT => Some(ANY_CONTEXT),
+            _ => None,
+        };
+        let (context, shares) = blended(*context, row, parent.and_then(|p| rows.get(&p)));
+        rows.insert(context, shares);
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn factors_are_found_again() {
+        // Twice as many in class 1 of the first fact, three times in class 2 of the second.
+        let mut sums = Sums::default();
+        for a in 0..4u8 {
+            for b in 0..5u8 {
+                let rate = 0.01 * if a == 1 { 2.0 } else { 1.0 } * if b == 2 { 3.0 } else { 1.0 };
+                let extent = 1e6 + 1e5 * f64::from(a * b);
+                let cell = (AgentType::Pedestrian, SiteKind::Pavement, [a, b, 0, 0, 0, 0]);
+                sums.cells.insert(cell, (extent, extent * rate));
+            }
+        }
+        let rate = sums.rate(AgentType::Pedestrian, SiteKind::Pavement).unwrap();
+        let of = |a: u8, b: u8| rate.per_m * rate.factor(&[a, b, 0, 0, 0, 0]);
+        for (a, b, expected) in [(0, 0, 0.01), (1, 0, 0.02), (0, 2, 0.03), (1, 2, 0.06)] {
+            assert!((of(a, b) / expected - 1.0).abs() < 0.01, "{a} {b}: {} for {expected}", of(a, b));
+        }
+        assert!(sums.rate(AgentType::Cyclist, SiteKind::Pavement).is_none());
+    }
+
+    #[test]
+    fn rare_speed_contexts_lean_on_common_ones() {
+        let mut counts = BTreeMap::new();
+        let row = |class: usize, n: f64| {
+            let mut row = vec![0.0; SPEED_CLASSES];
+            row[class] = n;
+            row
+        };
+        counts.insert(ANY_CONTEXT, row(10, 1000.0));
+        counts.insert(group_context(3), row(10, 1000.0));
+        counts.insert(3, row(0, 24.0));
+        counts.insert(4, row(0, 1.0));
+        let rows = speed_rows(&counts);
+        assert_eq!((rows[&3][0], rows[&3][10]), (0.75, 0.25));
+        assert!(!rows.contains_key(&4));
+        assert_eq!(rows[&ANY_CONTEXT][10], 1.0);
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!([short(0.123456), short(12345.6), short(0.0), short(1.0)], [0.123, 12300.0, 0.0, 1.0]);
+        let histogram = histogram(&[0.05, 0.15, 0.16, 9.0], (0.0, 0.1, 3));
+        assert_eq!(histogram.share, [0.333, 0.667, 0.0]);
+    }
+}

@@ -1,0 +1,48 @@
+//! What can go wrong in training.
+
+use std::path::{Path, PathBuf};
+
+/// Why training or its files failed.
+#[derive(Debug, thiserror::Error)]
+pub enum TrainError {
+    /// A file cannot be read or written.
+    #[error("cannot use {path}")]
+    Io {
+        /// File.
+        path: PathBuf,
+        /// Cause.
+        source: std::io::Error,
+    },
+    /// A file is not what it should be.
+    #[error("{path}: {reason}")]
+    Damaged {
+        /// File.
+        path: PathBuf,
+        /// What was found and what was expected.
+        reason: String,
+    },
+    /// TrainOptions or data that do not make sense together.
+    #[error("{0}")]
+    Invalid(String),
+    /// No graphics card can be used.
+    #[error("no CUDA device to train on: {0}")]
+    Device(String),
+    /// The network library failed.
+    #[error(transparent)]
+    Tensor(#[from] candle_core::Error),
+    /// Weights cannot be used.
+    #[error(transparent)]
+    Net(#[from] experts::net::NetError),
+}
+
+impl TrainError {
+    /// Adds the file to an I/O error.
+    pub fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
+        move |source| Self::Io { path: path.to_path_buf(), source }
+    }
+
+    /// A damaged file.
+    pub fn damaged(path: &Path, reason: impl Into<String>) -> Self {
+        Self::Damaged { path: path.to_path_buf(), reason: reason.into() }
+    }
+}

@@ -1,0 +1,188 @@
+//! The recording as residuals: least squares within the goal's tangent space.
+
+use experts::features::{AgentFeatures, Target};
+
+use experts::planning::{INSTANTS, MODES, RESIDUAL};
+use scene::KNOTS;
+
+use super::Record;
+use super::route::Route;
+
+/// Ridge, square metres per square of a normalised knot: what noise in the recording costs.
+const RIDGE: f64 = 0.05;
+
+/// The recorded residual on each mode's anchor.
+pub(super) fn recorded(route: &Route, agent: &AgentFeatures, target: &Target) -> [[f32; RESIDUAL]; MODES] {
+    let mut residual = [[0.0; RESIDUAL]; MODES];
+    for half in 0..2 {
+        let (factor, design) = factorised(route.rows(half), &agent.tangent[half], &target.valid);
+        for (mode, residual) in residual.iter_mut().enumerate() {
+            let wanted: [f64; INSTANTS] = std::array::from_fn(|i| {
+                f64::from(match half {
+                    0 => target.along[mode][i] - target.base_along[mode][i],
+                    _ => target.across[mode][i],
+                })
+            });
+            let free = solve(&factor, &project_back(&design, &wanted, &target.valid));
+            for i in 0..KNOTS {
+                let knot: f64 = (0..KNOTS).map(|j| f64::from(agent.tangent[half][i][j]) * free[j]).sum();
+                residual[half * KNOTS + i] = knot as f32;
+            }
+        }
+    }
+    residual
+}
+
+/// How far recordings are from their best residual: what no training can mend.
+pub struct FitError(Route);
+
+impl FitError {
+    /// Ready to measure.
+    pub fn new() -> Self {
+        Self(Route::new())
+    }
+
+    /// Mean distance over the recorded instants, metres, of a recording from its own residual (the one that
+    /// training is shown) on the anchor where that is least. `None` where no instant is recorded.
+    pub fn of(&self, record: &Record) -> Option<f64> {
+        let target = &record.target;
+        let valid: Vec<usize> = (0..INSTANTS).filter(|i| target.valid[*i] > 0.0).collect();
+        if valid.is_empty() {
+            return None;
+        }
+        let residual = recorded(&self.0, &record.agent, target);
+        let apart = |mode: usize| {
+            let found = self.0.coordinates(&target.base_along[mode], &residual[mode]);
+            let distance = |&i: &usize| {
+                let along = f64::from(found[i][0]) - f64::from(target.along[mode][i]);
+                let across = f64::from(found[i][1]) - f64::from(target.across[mode][i]);
+                along.hypot(across)
+            };
+            valid.iter().map(distance).sum::<f64>() / valid.len() as f64
+        };
+        (0..MODES).map(apart).min_by(f64::total_cmp)
+    }
+}
+
+impl Default for FitError {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+type Matrix = [[f64; KNOTS]; KNOTS];
+type Design = [[f64; KNOTS]; INSTANTS];
+
+/// Cholesky factor of `A' A + ridge` over the valid instants, and `A = B P`.
+fn factorised(
+    rows: &[[f32; KNOTS]; INSTANTS],
+    tangent: &[[f32; KNOTS]; KNOTS],
+    valid: &[f32; INSTANTS],
+) -> (Matrix, Design) {
+    let mut design = [[0.0; KNOTS]; INSTANTS];
+    for (row, out) in rows.iter().zip(&mut design) {
+        for (k, row) in row.iter().enumerate() {
+            for j in 0..KNOTS {
+                out[j] += f64::from(*row) * f64::from(tangent[k][j]);
+            }
+        }
+    }
+    let mut normal = [[0.0; KNOTS]; KNOTS];
+    for (row, valid) in design.iter().zip(valid) {
+        for i in 0..KNOTS {
+            for j in 0..KNOTS {
+                normal[i][j] += f64::from(*valid) * row[i] * row[j];
+            }
+        }
+    }
+    for (i, row) in normal.iter_mut().enumerate() {
+        row[i] += RIDGE;
+    }
+    (cholesky(&normal), design)
+}
+
+fn project_back(design: &Design, wanted: &[f64; INSTANTS], valid: &[f32; INSTANTS]) -> [f64; KNOTS] {
+    let mut right = [0.0; KNOTS];
+    for ((row, wanted), valid) in design.iter().zip(wanted).zip(valid) {
+        for i in 0..KNOTS {
+            right[i] += f64::from(*valid) * row[i] * wanted;
+        }
+    }
+    right
+}
+
+fn cholesky(a: &Matrix) -> Matrix {
+    let mut lower = [[0.0; KNOTS]; KNOTS];
+    for i in 0..KNOTS {
+        for j in 0..=i {
+            let rest: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+            lower[i][j] =
+                if i == j { (a[i][i] - rest).max(1e-12).sqrt() } else { (a[i][j] - rest) / lower[j][j] };
+        }
+    }
+    lower
+}
+
+fn solve(lower: &Matrix, right: &[f64; KNOTS]) -> [f64; KNOTS] {
+    let mut x = *right;
+    for i in 0..KNOTS {
+        let rest: f64 = (0..i).map(|j| lower[i][j] * x[j]).sum();
+        x[i] = (x[i] - rest) / lower[i][i];
+    }
+    for i in (0..KNOTS).rev() {
+        let rest: f64 = (i + 1..KNOTS).map(|j| lower[j][i] * x[j]).sum();
+        x[i] = (x[i] - rest) / lower[i][i];
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::training::toy;
+
+    #[test]
+    fn a_recording_is_followed() {
+        let route = Route::new();
+        for record in &toy::scenes(1, 20, 3)[0].2 {
+            let residual = recorded(&route, &record.agent, &record.target);
+            for mode in 0..MODES {
+                let found = route.coordinates(&record.target.base_along[mode], &residual[mode]);
+                for i in (0..INSTANTS).filter(|&i| record.target.valid[i] > 0.0) {
+                    assert!((found[i][0] - record.target.along[mode][i]).abs() < 0.3);
+                    assert!((found[i][1] - record.target.across[mode][i]).abs() < 0.2);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn errors_are_those_of_the_best_anchor() {
+        let fit = FitError::new();
+        let mut record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
+        let good = fit.of(&record).unwrap();
+        assert!(good < 0.2, "{good}");
+        // A metre to and fro from one half second to the next is no motion that one knot a second can say;
+        // with all other anchors as bad, the one left as it was counts.
+        let zigzag = |record: &mut Record, mode: usize| {
+            for (i, across) in record.target.across[mode].iter_mut().enumerate() {
+                *across += if i % 2 == 0 { 1.0 } else { -1.0 };
+            }
+        };
+        (1..MODES).for_each(|mode| zigzag(&mut record, mode));
+        assert!((fit.of(&record).unwrap() - good).abs() < 0.1);
+        zigzag(&mut record, 0);
+        let bad = fit.of(&record).unwrap();
+        assert!((0.5..1.5).contains(&bad), "{bad}");
+        record.target.valid = [0.0; INSTANTS];
+        assert_eq!(fit.of(&record), None);
+    }
+
+    #[test]
+    fn a_fixed_goal_is_kept() {
+        let mut record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
+        record.agent.tangent[0][9] = [0.0; KNOTS];
+        let residual = recorded(&Route::new(), &record.agent, &record.target);
+        assert!(residual.iter().all(|r| r[9] == 0.0 && r[8] != 0.0));
+    }
+}

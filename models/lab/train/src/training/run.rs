@@ -1,0 +1,384 @@
+//! A training run from records to weights.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use candle_core::{Device, Tensor};
+use experts::Refining;
+use experts::net::{Architecture, Card, Expert};
+
+use super::checkpoint::{self, Resumed, State};
+use super::log::Log;
+use super::metrics::Metrics;
+use super::optim::{AdamW, rate};
+use super::processor::Processor;
+use super::sample::Split;
+use super::stages::{Stage, Tools};
+use super::trainee::Trainee;
+use super::workers::{SHARD, Workers};
+use super::{Records, TrainError};
+
+/// Steps between two lines of a report.
+const REPORT: u64 = 100;
+/// Records held out that are used at most.
+const HELD_OUT: usize = 2048;
+
+/// What to train on, how, and where to put the result.
+#[derive(Clone, Debug)]
+pub struct TrainOptions<A = Architecture> {
+    /// Files of records.
+    pub records: Vec<PathBuf>,
+    /// Name of the expert: vehicle, pedestrian or cyclist.
+    pub expert: String,
+    /// Licence that goes into the weights' header.
+    pub licence: String,
+    /// What the records were made from, for the header.
+    pub trained_on: String,
+    /// Which part is trained.
+    pub stage: Stage,
+    /// Weights to begin with; random ones without.
+    pub init: Option<PathBuf>,
+    /// Steps in all.
+    pub steps: u64,
+    /// Records a step.
+    pub batch: usize,
+    /// Top learning rate.
+    pub rate: f64,
+    /// What computes the networks; only on the CPU does a run repeat bit for bit.
+    pub processor: Processor,
+    /// Threads on the CPU; the result does not depend on it.
+    pub threads: usize,
+    /// Where the weights go (their running mean). Beside it go the checkpoint and the log, as JSON lines and
+    /// as curves: `.checkpoint`, `.jsonl` and `.svg` are added to its name.
+    pub out: PathBuf,
+    /// Whether to go on from the checkpoint when there is one.
+    pub resume: bool,
+    /// Seed of the weights, the batches and the noise.
+    pub seed: u64,
+    /// Ends the run after this time, with the rate falling accordingly; the result then depends on the
+    /// machine's speed.
+    pub minutes: Option<f64>,
+    /// Steps between two validations, each followed by a save.
+    pub validate_every: u64,
+    /// Sizes of new networks.
+    pub architecture: A,
+    /// What the refiner is given: parts are left out to see what they bring.
+    pub refining: Refining,
+}
+
+impl TrainOptions {
+    /// Usual values for the three things that have none.
+    pub fn new(records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> Self {
+        Self::of(records, stage, out, Architecture::default())
+    }
+}
+
+impl<A> TrainOptions<A> {
+    /// Usual values for networks of an architecture.
+    pub(crate) fn of(records: Vec<PathBuf>, stage: Stage, out: PathBuf, architecture: A) -> Self {
+        Self {
+            records,
+            expert: "vehicle".into(),
+            licence: "MIT OR Apache-2.0".into(),
+            trained_on: "synthetic traffic".into(),
+            stage,
+            init: None,
+            steps: 20_000,
+            batch: 64,
+            rate: 1e-3,
+            processor: Processor::default(),
+            threads: 1,
+            out,
+            resume: false,
+            seed: 1,
+            minutes: None,
+            validate_every: 1000,
+            architecture,
+            refining: Refining::default(),
+        }
+    }
+}
+
+/// Where the checkpoint of a run lies.
+pub fn checkpoint_path(out: &Path) -> PathBuf {
+    let mut path = out.as_os_str().to_owned();
+    path.push(".checkpoint");
+    path.into()
+}
+
+/// A line of a run's report.
+#[derive(Clone, Debug)]
+pub enum TrainProgress {
+    /// The run begins or goes on.
+    Begin {
+        /// Records to train on and held out.
+        records: (usize, usize),
+        /// Trained numbers.
+        parameters: usize,
+        /// Steps already done.
+        step: u64,
+    },
+    /// Means over the steps since the line before.
+    Training {
+        /// Steps done.
+        step: u64,
+        /// Learning rate now.
+        rate: f64,
+        /// Mean length of the gradient before clipping.
+        gradient: f64,
+        /// Losses and distances.
+        metrics: Metrics,
+        /// Records a second.
+        speed: f64,
+    },
+    /// Figures of the running mean of the weights on records held out.
+    Validation {
+        /// Steps done.
+        step: u64,
+        /// Losses and distances.
+        metrics: Metrics,
+    },
+}
+
+impl fmt::Display for TrainProgress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Begin { records, parameters, step } => write!(
+                f,
+                "{} records, {} held out, {parameters} parameters, from step {step}",
+                records.0, records.1
+            ),
+            Self::Training { step, rate, gradient, metrics, speed } => {
+                write!(f, "{step:>7}  {metrics}  gradient {gradient:.2}  rate {rate:.1e}  {speed:.0}/s")
+            }
+            Self::Validation { step, metrics } => write!(f, "{step:>7}  held out: {metrics}"),
+        }
+    }
+}
+
+/// Trains an expert and writes the weights; `report` gets each line. Gives the last validation.
+///
+/// # Errors
+/// When files cannot be read or written, or a checkpoint belongs to another run.
+pub fn run(options: &TrainOptions, report: &mut dyn FnMut(&TrainProgress)) -> Result<Metrics, TrainError> {
+    run_of::<Expert>(options, report)
+}
+
+/// [`run`] of whatever can be trained.
+pub(crate) fn run_of<T: Trainee>(
+    options: &TrainOptions<T::Architecture>,
+    report: &mut dyn FnMut(&TrainProgress),
+) -> Result<Metrics, TrainError> {
+    let device = options.processor.device()?;
+    let records = Records::load(&options.records)?;
+    let mut run = Run::<T>::begin(options, &records, &device)?;
+    let even = run.trained.draws_files_evenly();
+    let split = Split::new(&records, HELD_OUT, even, |record| run.trained.takes(record))?;
+    report(&TrainProgress::Begin {
+        records: (split.train(), split.held_out.len()),
+        parameters: run.trained.tensors().values().map(Tensor::elem_count).sum(),
+        step: run.adam.step,
+    });
+    // A graphics card is busiest with whole batches, and they come to it one after another.
+    let (shard, threads) = if device.is_cpu() { (SHARD, options.threads) } else { (options.batch, 1) };
+    let workers = Workers {
+        records: &records,
+        tools: Tools::new(options.refining),
+        stage: options.stage,
+        seed: options.seed,
+        shard,
+        threads,
+    };
+    let mut log = Log::open(&options.out, run.adam.step)?;
+    let mut report = |line: &TrainProgress| {
+        report(line);
+        log.add(line)
+    };
+    let mut since = Since::new();
+    let mut validated = None;
+    while run.progress() < 1.0 {
+        let rate = rate(options.rate, run.adam.step, options.steps.min(200), run.progress());
+        let batch = split.batch(options.seed, run.adam.step, options.batch);
+        let (gradients, metrics) = workers.train(&run.trained, &batch, run.adam.step)?;
+        let length = run.adam.apply(run.trained.vars(), &gradients, rate)?;
+        run.adam.average(run.trained.vars())?;
+        since.add(&metrics, length);
+        let step = run.adam.step;
+        if step.is_multiple_of(REPORT) {
+            report(&since.line(step, rate))?;
+            since = Since::new();
+        }
+        if step.is_multiple_of(options.validate_every.max(1)) {
+            validated = Some((step, run.finish(&workers, &split, &mut report)?));
+            since = Since::new();
+        }
+    }
+    match validated {
+        Some((step, metrics)) if step == run.adam.step => Ok(metrics),
+        _ => run.finish(&workers, &split, &mut report),
+    }
+}
+
+/// What was measured since the last line.
+struct Since {
+    metrics: Metrics,
+    lengths: f64,
+    steps: u64,
+    clock: Instant,
+}
+
+impl Since {
+    fn new() -> Self {
+        Self { metrics: Metrics::default(), lengths: 0.0, steps: 0, clock: Instant::now() }
+    }
+
+    fn add(&mut self, metrics: &Metrics, length: f64) {
+        self.metrics.merge(metrics);
+        self.lengths += length;
+        self.steps += 1;
+    }
+
+    fn line(&self, step: u64, rate: f64) -> TrainProgress {
+        TrainProgress::Training {
+            step,
+            rate,
+            gradient: self.lengths / self.steps.max(1) as f64,
+            metrics: self.metrics.clone(),
+            speed: self.metrics.records() as f64 / self.clock.elapsed().as_secs_f64().max(1e-9),
+        }
+    }
+}
+
+struct Run<'a, T: Trainee> {
+    options: &'a TrainOptions<T::Architecture>,
+    trained: T,
+    /// The same with the running mean of the weights.
+    mean: T,
+    adam: AdamW,
+    records: String,
+    clock: Instant,
+    seconds_before: f64,
+}
+
+impl<'a, T: Trainee> Run<'a, T> {
+    fn begin(
+        options: &'a TrainOptions<T::Architecture>,
+        records: &Records,
+        device: &Device,
+    ) -> Result<Self, TrainError> {
+        let path = checkpoint_path(&options.out);
+        let hash = records.hash().to_hex().to_string();
+        let resumed =
+            if options.resume && path.exists() { Some(checkpoint::load::<T>(&path, device)?) } else { None };
+        let (trained, adam, seconds_before) = match resumed {
+            Some(resumed) => {
+                same_run(&path, options, &hash, &resumed.state)?;
+                let Resumed { state, trained, adam } = resumed;
+                (trained, adam, state.seconds)
+            }
+            None => {
+                let trained: T = first_weights(options, device)?;
+                let adam = AdamW::new(trained.vars(), options.stage)?;
+                (trained, adam, 0.0)
+            }
+        };
+        let mean = T::random(trained.architecture().clone(), trained.card().clone(), 0, device)?;
+        Ok(Self { options, trained, mean, adam, records: hash, clock: Instant::now(), seconds_before })
+    }
+
+    fn seconds(&self) -> f64 {
+        self.seconds_before + self.clock.elapsed().as_secs_f64()
+    }
+
+    /// Share of the run that is done.
+    fn progress(&self) -> f64 {
+        let steps = self.adam.step as f64 / self.options.steps.max(1) as f64;
+        match self.options.minutes {
+            Some(minutes) => steps.max(self.seconds() / (60.0 * minutes)),
+            None => steps,
+        }
+    }
+
+    /// Validates, reports and saves.
+    fn finish(
+        &mut self,
+        workers: &Workers<'_>,
+        split: &Split,
+        report: &mut dyn FnMut(&TrainProgress) -> Result<(), TrainError>,
+    ) -> Result<Metrics, TrainError> {
+        self.adam.write_means(self.mean.vars())?;
+        let metrics = workers.validate(&self.mean, &split.held_out)?;
+        report(&TrainProgress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
+        self.save()?;
+        Ok(metrics)
+    }
+
+    fn save(&mut self) -> Result<(), TrainError> {
+        let options = self.options;
+        let notes = &mut self.mean.card_mut().notes;
+        notes.insert(format!("{:?} steps", options.stage).to_lowercase(), self.adam.step.to_string());
+        notes.insert("records".into(), self.records.clone());
+        self.adam.write_means(self.mean.vars())?;
+        checkpoint::replace(&options.out, &self.mean.write()?)?;
+        let state = State {
+            architecture: self.trained.architecture().clone(),
+            card: self.trained.card().clone(),
+            stage: options.stage,
+            seed: options.seed,
+            batch: options.batch,
+            step: self.adam.step,
+            seconds: self.seconds(),
+            records: self.records.clone(),
+        };
+        checkpoint::save(&checkpoint_path(&options.out), &state, &self.trained, &self.adam)
+    }
+}
+
+fn first_weights<T: Trainee>(
+    options: &TrainOptions<T::Architecture>,
+    device: &Device,
+) -> Result<T, TrainError> {
+    let mut trained = match &options.init {
+        Some(path) => {
+            let bytes = std::fs::read(path).map_err(TrainError::io(path))?;
+            T::read(&bytes, device)?
+        }
+        None => {
+            let card = Card {
+                expert: String::new(),
+                licence: String::new(),
+                trained_on: String::new(),
+                untrained: false,
+                notes: Default::default(),
+            };
+            T::random(options.architecture.clone(), card, options.seed, device)?
+        }
+    };
+    let card = trained.card_mut();
+    card.expert.clone_from(&options.expert);
+    card.licence.clone_from(&options.licence);
+    card.trained_on.clone_from(&options.trained_on);
+    card.untrained = false;
+    Ok(trained)
+}
+
+fn same_run<A: PartialEq>(
+    path: &Path,
+    options: &TrainOptions<A>,
+    records: &str,
+    state: &State<A>,
+) -> Result<(), TrainError> {
+    let differs = |what: &str| {
+        Err(TrainError::damaged(path, format!("the checkpoint is of a run with another {what}")))
+    };
+    match () {
+        () if state.records != records => differs("set of records"),
+        () if state.stage != options.stage => differs("stage"),
+        () if state.seed != options.seed => differs("seed"),
+        () if state.batch != options.batch => differs("batch"),
+        () if state.card.expert != options.expert => differs("expert"),
+        () if options.init.is_none() && state.architecture != options.architecture => differs("architecture"),
+        () => Ok(()),
+    }
+}

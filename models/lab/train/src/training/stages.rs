@@ -1,0 +1,450 @@
+//! The three stages' losses of a shard, and what is measured on records held out.
+
+use candle_core::{Device, Result, Tensor};
+use experts::Refining;
+use experts::features::AgentFeatures;
+use experts::features::OWN_GOAL_POSITION;
+use experts::net::{Context, Expert, Initial, Prepared, schedule};
+use experts::planning::pullback::Pullback;
+use experts::planning::{ALONG_SCALE, INSTANT_S, MODES, RESIDUAL};
+use scene::KNOTS;
+use scene::geometry::overlap_energy::{Growth, MovingBox, absent, gap, overlap_energy};
+use scene::random::Stream;
+
+use super::loss::{self, InitialOutput, InitialParts};
+use super::metrics::Metrics;
+use super::route::{Placed, Route};
+use super::sample::Shard;
+use super::{Record, TrainError};
+
+/// Residuals of a record's modes.
+pub(super) type Modes = [[f32; RESIDUAL]; MODES];
+
+/// Weight of the overlap penalty in the joint stage, of energies summed over the instants.
+const PENALTY: f32 = 6.888_889;
+/// Weight of staying near the draft, for the modes that did not win.
+const STAY: f32 = 0.5;
+
+/// Which part of the expert is trained, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    /// The refiner learns to take noise off recorded residuals.
+    Denoiser,
+    /// The initializer learns six futures and their probabilities.
+    Initializer,
+    /// The refiner learns on the initializer's own drafts, with the overlap penalty; the rest follows at
+    /// a lower rate.
+    Joint,
+}
+
+/// Constants of all shards.
+pub(crate) struct Tools {
+    pub(super) route: Route,
+    pullback: Pullback,
+    /// What the refiner is given.
+    refining: Refining,
+}
+
+impl Tools {
+    pub(super) fn new(refining: Refining) -> Self {
+        Self { route: Route::new(), pullback: Pullback::default(), refining }
+    }
+}
+
+/// Which recorded neighbours count for a record: not those that overlap the road user in the recording.
+fn counted(record: &Record, recorded: &Modes) -> Vec<bool> {
+    let mode = loss::least(&recorded.map(|r| r.iter().map(|x| x * x).sum::<f32>()));
+    let coordinates = std::array::from_fn(|i| [record.target.along[mode][i], record.target.across[mode][i]]);
+    let placed = Placed::new(record, mode, &coordinates);
+    let clear = |logged: &super::LoggedBox| {
+        let pairs = placed.poses.iter().zip(&logged.poses).zip(&record.target.valid);
+        pairs
+            .filter(|((_, other), valid)| **valid > 0.0 && !absent(other))
+            .all(|((own, other), _)| gap(*own, record.half, *other, logged.half).0 > 0.0)
+    };
+    record.boxes.iter().map(clear).collect()
+}
+
+/// Overlap energy of one residual, and its gradient along and across at the instants.
+fn energy(
+    tools: &Tools,
+    record: &Record,
+    mode: usize,
+    residual: &[f32; RESIDUAL],
+    counted: &[bool],
+    growth: Growth,
+) -> (f32, [[f32; 2]; experts::planning::INSTANTS]) {
+    let coordinates = tools.route.coordinates(&record.target.base_along[mode], residual);
+    let placed = Placed::new(record, mode, &coordinates);
+    let boxes = record.boxes.iter().zip(counted).filter(|(_, counted)| **counted);
+    let obstacles = boxes.map(|(logged, _)| MovingBox { poses: &logged.poses, half: logged.half });
+    let overlap = overlap_energy(&placed.poses, record.half, obstacles, growth);
+    (overlap.energy, placed.along_across(&overlap.gradient))
+}
+
+/// The refiner's second input for drafts.
+fn repulsions(tools: &Tools, shard: &Shard, counts: &[Vec<bool>], drafts: &[Modes]) -> Vec<Modes> {
+    if !tools.refining.push {
+        return vec![[[0.0; RESIDUAL]; MODES]; drafts.len()];
+    }
+    let all = shard.records.iter().zip(counts).zip(drafts);
+    all.map(|((record, counted), draft)| {
+        std::array::from_fn(|mode| {
+            let (energy, slope) = energy(tools, record, mode, &draft[mode], counted, Growth::Square);
+            if energy > 0.0 { tools.pullback.push(&slope, &record.agent.tangent) } else { [0.0; RESIDUAL] }
+        })
+    })
+    .collect()
+}
+
+fn context(expert: &Expert, shard: &Shard) -> std::result::Result<Context, TrainError> {
+    let agents: Vec<&AgentFeatures> = shard.records.iter().map(|record| &record.agent).collect();
+    Ok(expert.encode(&agents)?)
+}
+
+fn tensor(values: &[Modes], device: &Device) -> Result<Tensor> {
+    Tensor::from_slice(values.as_flattened().as_flattened(), (values.len(), MODES, RESIDUAL), device)
+}
+
+fn arrays(tensor: &Tensor) -> Result<Vec<Modes>> {
+    let values = tensor.flatten_all()?.to_vec1::<f32>()?;
+    Ok(values.as_chunks::<RESIDUAL>().0.as_chunks::<MODES>().0.to_vec())
+}
+
+/// `sum(output * gradient)`: its backward pass hands `gradient` on to `output`.
+pub(crate) fn seeded(output: &Tensor, gradient: Vec<f32>) -> Result<Tensor> {
+    (output * Tensor::from_vec(gradient, output.shape(), output.device())?)?.sum_all()
+}
+
+fn seeded_modes(output: &Tensor, gradient: &[Modes]) -> Result<Tensor> {
+    seeded(output, gradient.as_flattened().as_flattened().to_vec())
+}
+
+fn noise(rng: &mut Stream, count: usize, scale: f32) -> Vec<Modes> {
+    (0..count)
+        .map(|_| std::array::from_fn(|_| std::array::from_fn(|_| scale * rng.normal() as f32)))
+        .collect()
+}
+
+/// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and what was
+/// measured.
+pub(super) fn train(
+    expert: &Expert,
+    tools: &Tools,
+    shard: &Shard,
+    stage: Stage,
+    rng: &mut Stream,
+) -> std::result::Result<(Tensor, Metrics), TrainError> {
+    let context = context(expert, shard)?;
+    let mut metrics = Metrics::new(shard.records.len());
+    let loss = match stage {
+        Stage::Denoiser => denoiser(expert, tools, shard, &context, rng, &mut metrics)?,
+        Stage::Initializer => initializer(expert, tools, shard, &context, &mut metrics)?.0,
+        Stage::Joint => {
+            let (first, initial) = initializer(expert, tools, shard, &context, &mut metrics)?;
+            (first + joint(expert, tools, shard, &context, &initial, rng, &mut metrics)?)?
+        }
+    };
+    Ok((loss, metrics))
+}
+
+fn initializer(
+    expert: &Expert,
+    tools: &Tools,
+    shard: &Shard,
+    context: &Context,
+    metrics: &mut Metrics,
+) -> std::result::Result<(Tensor, Initial), TrainError> {
+    let initial = expert.initializer.forward(context)?;
+    let mut grads = Vec::with_capacity(shard.records.len());
+    for (index, output) in outputs(&initial)?.iter().enumerate() {
+        let Record { agent, target, .. } = &shard.records[index];
+        let bound = agent.own[OWN_GOAL_POSITION] > 0.0;
+        let (parts, grad) = loss::initial(&tools.route, target, &shard.recorded[index], bound, output);
+        add_parts(metrics, &parts);
+        grads.push(grad);
+    }
+    let of = |part: &dyn Fn(&InitialOutput) -> Vec<f32>| grads.iter().flat_map(part).collect::<Vec<f32>>();
+    let loss = (seeded(&initial.residual, of(&|g| g.residual.as_flattened().to_vec()))?
+        + seeded(&initial.log_scale, of(&|g| g.log_scale.as_flattened().to_vec()))?)?;
+    let loss = (loss + seeded(&initial.score, of(&|g| g.score.to_vec()))?)?;
+    let loss = (loss + seeded(&initial.stays, of(&|g| vec![g.stays]))?)?;
+    Ok((loss, initial))
+}
+
+fn add_parts(metrics: &mut Metrics, parts: &InitialParts) {
+    metrics.add("loss", parts.total);
+    metrics.add("min", parts.min_ade);
+    metrics.add("first", parts.first_ade);
+    metrics.add("score", parts.score_nll);
+    metrics.add("stays", parts.stays_bce);
+    metrics.add("scale", parts.scale_nll);
+}
+
+fn outputs(initial: &Initial) -> Result<Vec<InitialOutput>> {
+    let (residual, log_scale) = (arrays(&initial.residual)?, arrays(&initial.log_scale)?);
+    let score = initial.score.flatten_all()?.to_vec1::<f32>()?;
+    let stays = initial.stays.to_vec1::<f32>()?;
+    let score = score.as_chunks::<MODES>().0;
+    Ok((0..residual.len())
+        .map(|i| InitialOutput {
+            residual: residual[i],
+            log_scale: log_scale[i],
+            score: score[i],
+            stays: stays[i],
+        })
+        .collect())
+}
+
+fn denoiser(
+    expert: &Expert,
+    tools: &Tools,
+    shard: &Shard,
+    context: &Context,
+    rng: &mut Stream,
+    metrics: &mut Metrics,
+) -> std::result::Result<Tensor, TrainError> {
+    let prepared = expert.refiner.prepare(context)?;
+    let count = shard.records.len();
+    // Half of the levels are those that refinement walks through.
+    let levels: Vec<usize> = (0..count)
+        .map(|_| {
+            let top = if rng.chance(0.5) { schedule::START } else { schedule::LEVELS };
+            1 + rng.below(top)
+        })
+        .collect();
+    let device = expert.device();
+    let clean = tensor(&shard.recorded, device)?;
+    let noisy =
+        expert.refiner.add_noise(&prepared, &clean, &tensor(&noise(rng, count, 1.0), device)?, &levels)?;
+    let counts: Vec<Vec<bool>> =
+        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
+    let repulsion = tensor(&repulsions(tools, shard, &counts, &arrays(&noisy)?), device)?;
+    let denoised = expert.refiner.denoise(&prepared, &noisy, &repulsion, &levels)?;
+    let mut grads = Vec::with_capacity(count);
+    for (index, refined) in arrays(&denoised)?.iter().enumerate() {
+        let (target, recorded) = (&shard.records[index].target, &shard.recorded[index]);
+        let weight = loss::speed_weight(target);
+        let shares = shares(recorded);
+        let mut grad = [[0.0; RESIDUAL]; MODES];
+        let mut total = 0.0;
+        for mode in 0..MODES {
+            let (loss, slope) = loss::denoised(&tools.route, target, mode, &recorded[mode], &refined[mode]);
+            total += weight * shares[mode] * loss;
+            grad[mode] = slope.map(|s| weight * shares[mode] * s);
+        }
+        let best = loss::least(&shares.map(|share| -share));
+        metrics.add("loss", total);
+        metrics.add("ade", loss::distance(&tools.route, target, best, &refined[best]).0);
+        grads.push(grad);
+    }
+    Ok(seeded_modes(&denoised, &grads)?)
+}
+
+/// How much each mode's recorded residual counts: an anchor far from the recording needs residuals that
+/// no draft will have. Sums to 1.
+fn shares(recorded: &Modes) -> [f32; MODES] {
+    let size = recorded.map(|r| (r.iter().map(|x| x * x).sum::<f32>() / RESIDUAL as f32).sqrt());
+    let least = size[loss::least(&size)];
+    let share = size.map(|size| (-4.0 * (size - least)).exp());
+    let total: f32 = share.iter().sum();
+    share.map(|share| share / total)
+}
+
+fn joint(
+    expert: &Expert,
+    tools: &Tools,
+    shard: &Shard,
+    context: &Context,
+    initial: &Initial,
+    rng: &mut Stream,
+    metrics: &mut Metrics,
+) -> std::result::Result<Tensor, TrainError> {
+    let prepared = expert.refiner.prepare(context)?;
+    let mut drafts = arrays(&initial.residual)?;
+    for (record, draft) in shard.records.iter().zip(&mut drafts) {
+        take_by_surprise(&tools.route, record, draft, rng);
+    }
+    let counts: Vec<Vec<bool>> =
+        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
+    let scale = [0.0, rng.unit() as f32, 1.0][rng.below(3)];
+    let start = if rng.chance(0.2) { 0 } else { schedule::START };
+    let walk = Walk { expert, tools, shard, counts: &counts, prepared: prepared.detach() };
+    let steps = schedule::ddim(start, schedule::STEPS);
+    let taken = rng.below(steps.len());
+    let before = walk.go(
+        &tensor(&drafts, expert.device())?,
+        start,
+        &steps[..taken],
+        &noise(rng, shard.records.len(), scale),
+    )?;
+    let levels = vec![steps[taken].0; shard.records.len()];
+    let repulsion = tensor(&repulsions(tools, shard, &counts, &arrays(&before)?), expert.device())?;
+    let refined = expert.refiner.denoise(&prepared, &before, &repulsion, &levels)?;
+    let mut grads = Vec::with_capacity(shard.records.len());
+    for (index, refined) in arrays(&refined)?.iter().enumerate() {
+        let (record, draft) = (&shard.records[index], &drafts[index]);
+        grads.push(joint_gradient(tools, record, &counts[index], draft, refined, metrics));
+    }
+    Ok(seeded_modes(&refined, &grads)?)
+}
+
+/// In half of the records one mode changes its pace as the initializer would not have it: the generator makes such
+/// futures where two coincide, and refinement must leave them theirs.
+fn take_by_surprise(route: &Route, record: &Record, draft: &mut Modes, rng: &mut Stream) {
+    let [takes, mode, rate, until] = std::array::from_fn(|_| rng.unit());
+    if takes < 0.5 {
+        return;
+    }
+    let mode = (mode * MODES as f64) as usize;
+    let base = &record.target.base_along[mode];
+    let speed_mps = f64::from(base[0]) / INSTANT_S;
+    let rate = (2.0 * rate - 1.0) * (0.3 + 0.15 * speed_mps);
+    let until = (1.0 + until * (KNOTS - 1) as f64) as usize;
+    let mut changed = draft[mode];
+    for (row, knot) in record.agent.tangent[0].iter().zip(&mut changed) {
+        *knot += rate as f32 / ALONG_SCALE * row[..until].iter().sum::<f32>();
+    }
+    let along = route.coordinates(base, &changed);
+    if along.windows(2).all(|pair| pair[0][0] <= pair[1][0]) {
+        draft[mode] = changed;
+    }
+}
+
+/// The winner is pulled to the recording, the others to their drafts, all away from overlaps.
+fn joint_gradient(
+    tools: &Tools,
+    record: &Record,
+    counted: &[bool],
+    draft: &Modes,
+    refined: &Modes,
+    metrics: &mut Metrics,
+) -> Modes {
+    let weight = loss::speed_weight(&record.target);
+    let route = &tools.route;
+    let winner = loss::least(&std::array::from_fn::<f32, MODES, _>(|mode| {
+        loss::distance(route, &record.target, mode, &draft[mode]).0
+    }));
+    let mut grads = [[0.0; RESIDUAL]; MODES];
+    let (mut total, mut penalties) = (0.0, 0.0);
+    for mode in 0..MODES {
+        let (pull, (near, slope)) = if mode == winner {
+            (1.0, loss::distance(route, &record.target, mode, &refined[mode]))
+        } else {
+            (STAY / (MODES - 1) as f32, loss::moved(route, &draft[mode], &refined[mode]))
+        };
+        if mode == winner {
+            metrics.add("refined", near);
+        }
+        let (overlap, repulsion) = energy(tools, record, mode, &refined[mode], counted, Growth::Linear);
+        let overlap_slope = loss::to_knots(route, &repulsion);
+        let share = PENALTY / MODES as f32;
+        penalties += overlap / MODES as f32;
+        total += weight * pull * near + share * overlap;
+        for i in 0..RESIDUAL {
+            grads[mode][i] = weight * pull * slope[i] + share * overlap_slope[i];
+        }
+    }
+    metrics.add("loss", total);
+    metrics.add("penalty", penalties);
+    grads
+}
+
+/// Refinement steps through which nothing flows back.
+struct Walk<'a> {
+    expert: &'a Expert,
+    tools: &'a Tools,
+    shard: &'a Shard,
+    counts: &'a [Vec<bool>],
+    prepared: Prepared,
+}
+
+impl Walk<'_> {
+    fn go(&self, drafts: &Tensor, start: usize, steps: &[(usize, usize)], noise: &[Modes]) -> Result<Tensor> {
+        let (refiner, device) = (&self.expert.refiner, self.expert.device());
+        let levels = vec![start; self.shard.records.len()];
+        let mut residual =
+            refiner.add_noise(&self.prepared, drafts, &tensor(noise, device)?, &levels)?.detach();
+        for &step in steps {
+            let repulsion = repulsions(self.tools, self.shard, self.counts, &arrays(&residual)?);
+            residual =
+                refiner.step(&self.prepared, &residual, &tensor(&repulsion, device)?, step, None)?.detach();
+        }
+        Ok(residual)
+    }
+}
+
+/// What is reported on records held out: the initializer's figures, and unless only it is trained those
+/// of five refinement steps from its drafts with full noise.
+pub(super) fn validate(
+    expert: &Expert,
+    tools: &Tools,
+    shard: &Shard,
+    stage: Stage,
+    rng: &mut Stream,
+) -> std::result::Result<Metrics, TrainError> {
+    let context = context(expert, shard)?;
+    let mut metrics = Metrics::new(shard.records.len());
+    let (_, initial) = initializer(expert, tools, shard, &context, &mut metrics)?;
+    if stage == Stage::Initializer {
+        return Ok(metrics);
+    }
+    let counts: Vec<Vec<bool>> =
+        shard.records.iter().zip(&shard.recorded).map(|(r, log)| counted(r, log)).collect();
+    let prepared = expert.refiner.prepare(&context)?.detach();
+    let walk = Walk { expert, tools, shard, counts: &counts, prepared };
+    let drafts = initial.residual.detach();
+    let steps = schedule::ddim(schedule::START, schedule::STEPS);
+    let noise = noise(rng, shard.records.len(), 1.0);
+    let refined = arrays(&walk.go(&drafts, schedule::START, &steps, &noise)?)?;
+    for (index, draft) in arrays(&drafts)?.iter().enumerate() {
+        let record = &shard.records[index];
+        let ade =
+            |modes: &Modes, mode: usize| loss::distance(&tools.route, &record.target, mode, &modes[mode]).0;
+        let min = (0..MODES).map(|mode| ade(&refined[index], mode)).fold(f32::INFINITY, f32::min);
+        metrics.add("refined", min);
+        for (name, modes) in [("overlap", draft), ("overlap'", &refined[index])] {
+            let hit = |mode: &usize| {
+                energy(tools, record, *mode, &modes[*mode], &counts[index], Growth::Linear).0 > 0.3 * 0.5
+            };
+            metrics.add(name, (0..MODES).filter(hit).count() as f32 / MODES as f32);
+        }
+    }
+    Ok(metrics)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::training::toy;
+    use scene::random::Key;
+
+    #[test]
+    fn a_surprise_changes_the_pace_of_one_mode_and_keeps_the_goal() {
+        let route = Route::new();
+        let mut rng = Key::default().number(5).stream();
+        let (mut changed, mut calls) = (0, 0);
+        for (.., records) in toy::scenes(12, 5, 3) {
+            for record in &records {
+                let drafts = [[0.0; RESIDUAL]; MODES];
+                let mut taken = drafts;
+                take_by_surprise(&route, record, &mut taken, &mut rng);
+                calls += 1;
+                let modes: Vec<usize> = (0..MODES).filter(|mode| taken[*mode] != drafts[*mode]).collect();
+                assert!(modes.len() <= 1);
+                let Some(&mode) = modes.first() else { continue };
+                changed += 1;
+                assert!(taken[mode][KNOTS..] == drafts[mode][KNOTS..], "across");
+                let along = route.coordinates(&record.target.base_along[mode], &taken[mode]);
+                assert!(along.windows(2).all(|pair| pair[0][0] <= pair[1][0]), "backwards");
+                // A fixed goal's projection has nothing left to take away.
+                for (row, knot) in record.agent.tangent[0].iter().zip(&taken[mode]) {
+                    let kept: f32 = row.iter().zip(&taken[mode]).map(|(p, r)| p * r).sum();
+                    assert!((kept - knot).abs() < 1e-4, "{kept} {knot}");
+                }
+            }
+        }
+        assert!((calls / 8..calls * 3 / 4).contains(&changed), "{changed} of {calls}");
+    }
+}

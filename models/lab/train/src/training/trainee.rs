@@ -1,0 +1,130 @@
+//! What a training run asks of whatever it trains.
+
+use std::collections::BTreeMap;
+
+use candle_core::{Device, Tensor, Var};
+use experts::net::{Architecture, Card, Expert, NetError};
+use scene::random::Stream;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::metrics::Metrics;
+use super::sample::Shard;
+use super::stages::{self, Stage, Tools};
+use super::{Record, TrainError};
+
+/// Networks with their losses. Parameters whose names begin with `refiner.` are trained in the stages
+/// [`Stage::Denoiser`] and [`Stage::Joint`] alone, all others slower in the latter.
+pub(crate) trait Trainee: Sized + Sync {
+    /// What decides the shapes of the tensors and what they mean.
+    type Architecture: Clone + PartialEq + Serialize + DeserializeOwned;
+
+    /// Random weights from a seed.
+    fn random(
+        architecture: Self::Architecture,
+        card: Card,
+        seed: u64,
+        device: &Device,
+    ) -> Result<Self, NetError>;
+    /// Weights of a file, to be trained further.
+    fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError>;
+    /// The bytes of a weights file.
+    fn write(&self) -> Result<Vec<u8>, NetError>;
+    /// What the networks are.
+    fn architecture(&self) -> &Self::Architecture;
+    /// What the file says about the weights.
+    fn card(&self) -> &Card;
+    /// The same, to be changed.
+    fn card_mut(&mut self) -> &mut Card;
+    /// All tensors by name.
+    fn tensors(&self) -> &BTreeMap<String, Tensor>;
+    /// All variables by name.
+    fn vars(&self) -> &BTreeMap<String, Var>;
+
+    /// Whether it can learn from a record.
+    fn takes(&self, record: &Record) -> bool;
+    /// Whether each file of records has the same chance to be drawn from, however many it holds.
+    fn draws_files_evenly(&self) -> bool;
+
+    /// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and what
+    /// was measured.
+    fn loss(
+        &self,
+        tools: &Tools,
+        shard: &Shard,
+        stage: Stage,
+        rng: &mut Stream,
+    ) -> Result<(Tensor, Metrics), TrainError>;
+    /// What is reported on records held out.
+    fn validate(
+        &self,
+        tools: &Tools,
+        shard: &Shard,
+        stage: Stage,
+        rng: &mut Stream,
+    ) -> Result<Metrics, TrainError>;
+}
+
+impl Trainee for Expert {
+    type Architecture = Architecture;
+
+    fn random(architecture: Architecture, card: Card, seed: u64, device: &Device) -> Result<Self, NetError> {
+        Self::trainable(architecture, card, seed, device)
+    }
+
+    fn read(bytes: &[u8], device: &Device) -> Result<Self, NetError> {
+        Self::load_trainable(bytes, device)
+    }
+
+    fn write(&self) -> Result<Vec<u8>, NetError> {
+        self.save()
+    }
+
+    fn architecture(&self) -> &Architecture {
+        &self.architecture
+    }
+
+    fn card(&self) -> &Card {
+        &self.card
+    }
+
+    fn card_mut(&mut self) -> &mut Card {
+        &mut self.card
+    }
+
+    fn tensors(&self) -> &BTreeMap<String, Tensor> {
+        self.tensors()
+    }
+
+    fn vars(&self) -> &BTreeMap<String, Var> {
+        self.vars()
+    }
+
+    fn takes(&self, _: &Record) -> bool {
+        true
+    }
+
+    fn draws_files_evenly(&self) -> bool {
+        false
+    }
+
+    fn loss(
+        &self,
+        tools: &Tools,
+        shard: &Shard,
+        stage: Stage,
+        rng: &mut Stream,
+    ) -> Result<(Tensor, Metrics), TrainError> {
+        stages::train(self, tools, shard, stage, rng)
+    }
+
+    fn validate(
+        &self,
+        tools: &Tools,
+        shard: &Shard,
+        stage: Stage,
+        rng: &mut Stream,
+    ) -> Result<Metrics, TrainError> {
+        stages::validate(self, tools, shard, stage, rng)
+    }
+}
