@@ -528,9 +528,9 @@ pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), 
 /// Exit 3 when nothing can be read, 7 without weights.
 pub fn eval_place(args: EvalPlaceArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
-    let generator = super::generator(common)?;
+    let placer = super::engine(common)?.placer;
     let options = lab::placement::EvalOptions { radius_m: args.radius, seeds: args.seeds };
-    let report = lab::placement::eval(&generator, &scenes, options).map_err(failed)?;
+    let report = lab::placement::eval(&placer, &scenes, options).map_err(failed)?;
     if args.json { print_json(&report) } else { output::print(lab::placement::markdown(&report).as_bytes()) }
 }
 

@@ -11,6 +11,7 @@ use super::actor::{Guessed, Role};
 use super::report::{self, Outcome};
 use super::window::{Decided, MOST_ACTORS, Spec, Window, steps};
 use super::{Generator, KnownMap};
+use crate::clock::milliseconds;
 use crate::planning::world::World;
 use crate::request::{
     Accepted, Answer, Cancel, Event, GenerateError, Intermediate, ReachReport, React, Request, Resolved,
@@ -23,7 +24,7 @@ use scenes::{find, known_to_the_end, within_reach};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::Duration;
 
 #[derive(Clone, Copy)]
 enum Stage {
@@ -84,10 +85,6 @@ pub struct Generation<'g> {
     timings: Timings,
 }
 
-fn milliseconds(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
-}
-
 /// Steps that each window executes, from the call's start.
 fn spans(request: &Request) -> Vec<Range<usize>> {
     let horizon = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
@@ -102,9 +99,9 @@ impl<'g> Generation<'g> {
         cancel: Cancel,
     ) -> Result<Self, GenerateError> {
         request.horizon_steps = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
-        let started = Instant::now();
+        let started = (generator.clock)();
         let scene = request.scene.clone();
-        let map = generator.known_map(&scene.map);
+        let map = generator.maps.known(&scene.map);
         let world = World::new(&scene, map.graph.clone(), request.start_step);
         let movable: BTreeSet<usize> =
             world.present.iter().filter(|p| p.agent_type != AgentType::Other).map(|p| p.index).collect();
@@ -166,7 +163,7 @@ impl<'g> Generation<'g> {
             samples: Vec::new(),
             resolved: BTreeMap::new(),
             warnings: Vec::new(),
-            timings: Timings { encode_ms: milliseconds(started), ..Timings::default() },
+            timings: Timings { encode_ms: milliseconds(generator.clock, started), ..Timings::default() },
         })
     }
 
@@ -185,6 +182,11 @@ impl<'g> Generation<'g> {
             windows: self.spans.len(),
             warnings: Vec::new(),
         }
+    }
+
+    /// Milliseconds since the clock showed this.
+    fn since(&self, started: Duration) -> f64 {
+        milliseconds(self.generator.clock, started)
     }
 
     fn reacting(&self, agent: &usize) -> bool {
@@ -206,7 +208,7 @@ impl<'g> Generation<'g> {
             self.later = None;
             return Ok(());
         }
-        let started = Instant::now();
+        let started = (self.generator.clock)();
         let step = self.request.start_step + self.spans[number].start;
         let mut scene = if number == 0 { self.base.clone() } else { Arc::new(self.reached(number)) };
         self.aim(number, &mut scene);
@@ -256,7 +258,7 @@ impl<'g> Generation<'g> {
             self.later = Some(window);
         }
         if self.sample == 0 {
-            self.timings.initial_ms += milliseconds(started);
+            self.timings.initial_ms += self.since(started);
         }
         Ok(())
     }
@@ -276,22 +278,22 @@ impl<'g> Generation<'g> {
     }
 
     fn refine(&mut self, step: usize) -> Result<(), GenerateError> {
-        let started = Instant::now();
+        let started = (self.generator.clock)();
         self.window_mut()?.refine(step)?;
         if self.sample == 0 {
-            self.timings.step_ms.push(milliseconds(started));
+            self.timings.step_ms.push(self.since(started));
         }
         Ok(())
     }
 
     /// Chooses one future each and goes along them to where the next window starts.
     fn execute(&mut self, number: usize) -> Result<(), GenerateError> {
-        let started = Instant::now();
+        let started = (self.generator.clock)();
         let decided = self.window()?.decide();
         for decided in &decided {
             self.follow(number, decided)?;
         }
-        self.timings.choice_ms += milliseconds(started);
+        self.timings.choice_ms += self.since(started);
         Ok(())
     }
 

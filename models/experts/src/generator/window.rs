@@ -4,13 +4,14 @@
 use super::actor::{Actor, Role, come_near, kept_states};
 use super::noise::Key;
 use super::realise::{Motion, may_rest, realise, rest, without_creep};
-use super::{Generator, KnownMap, parallel, twins};
+use super::{Generator, KnownMap, twins};
 use crate::features::stays_in_the_world;
 use crate::net::{Context, NetError, Prepared, schedule};
 use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
 use crate::planning::{MODES, RESIDUAL, STAYS_WITHIN_M};
 use crate::request::{Draft, GenerateError, React, Request, Shown};
+use crate::weights::EXPERTS;
 use scene::motion::Trajectory;
 use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, Scene, State, Vec2};
 use std::collections::BTreeSet;
@@ -136,7 +137,7 @@ impl<'g> Window<'g> {
         let role = |index| spec.moving.iter().find(|m| m.0 == index).map(|m| m.1);
         let wanted: Vec<_> =
             world.present.iter().filter_map(|p| role(p.index).map(|role| (p, role))).collect();
-        let mut actors = parallel::map(generator.threads(), &wanted, |(who, role)| {
+        let mut actors = generator.workers.map(&wanted, |(who, role)| {
             let mut actor = Actor::regenerated(&world, who, *role);
             if spec.number > 0 {
                 actor.goes_on(spec.parked.contains(&who.index));
@@ -181,7 +182,7 @@ impl<'g> Window<'g> {
             })
             .collect();
         let candidates: Vec<_> = world.present.iter().filter(|p| candidates.contains(&p.index)).collect();
-        let found = parallel::map(self.generator.threads(), &candidates, |who| {
+        let found = self.generator.workers.map(&candidates, |who| {
             let kept = kept_states(world.scene, world.agent(who), world.step);
             let asked = matches!(self.request.react, React::Only(_));
             let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < STAYS_WITHIN_M);
@@ -198,16 +199,16 @@ impl<'g> Window<'g> {
 
     /// Runs encoder and initializer on road users that will be numbered from `first`.
     fn encode(&self, actors: &mut [Actor], first: usize) -> Result<Vec<Batch>, GenerateError> {
-        let threads = self.generator.threads();
+        let threads = self.generator.workers.threads();
         let mut groups: Vec<(AgentType, Vec<usize>)> = Vec::new();
-        for (agent_type, _) in super::EXPERTS {
+        for (agent_type, _) in EXPERTS {
             let all: Vec<usize> =
                 (0..actors.len()).filter(|i| actors[*i].planned.present.agent_type == agent_type).collect();
             let run = all.len().div_ceil(threads).max(4);
             groups.extend(all.chunks(run).map(|part| (agent_type, part.to_vec())));
         }
         let shared = &*actors;
-        let results = parallel::map(threads, &groups, |(agent_type, members)| {
+        let results = self.generator.workers.map(&groups, |(agent_type, members)| {
             let expert = self.generator.expert(*agent_type)?;
             let features: Vec<_> = members.iter().map(|i| &shared[*i].planned.features).collect();
             let context: Context = expert.encode(&features)?;
@@ -291,7 +292,7 @@ impl<'g> Window<'g> {
             vec![[[0.0; RESIDUAL]; MODES]; self.actors.len()]
         };
         let drafts = &self.drafts;
-        let results = parallel::map(self.generator.threads(), &self.batches, |batch| {
+        let results = self.generator.workers.map(&self.batches, |batch| {
             let residual: Vec<Residuals> = batch.actors.iter().map(|i| drafts[*i]).collect();
             let push: Vec<Residuals> = batch.actors.iter().map(|i| pushes[*i]).collect();
             let expert = self.generator.expert(batch.agent_type)?;
@@ -315,7 +316,7 @@ impl<'g> Window<'g> {
     pub(super) fn draft(&self, step: usize) -> Draft {
         let all = self.request.stream_all || self.actors.len() < SHOW_ALL_BELOW;
         let indices: Vec<usize> = (0..self.actors.len()).collect();
-        let shown = parallel::map(self.generator.threads(), &indices, |&i| {
+        let shown = self.generator.workers.map(&indices, |&i| {
             let modes = if all { self.request.modes } else { 1 };
             let motions = self.motions(i, modes);
             let middle = options::middle_slot(&self.actors[i]);

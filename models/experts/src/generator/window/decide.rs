@@ -5,7 +5,6 @@ use super::super::choice::{Choice, distance};
 use super::super::realise::{Motion, middle, realise, without_creep};
 use super::options::{middle_slot, options, shown_motion};
 use super::{Decided, Window};
-use crate::generator::parallel;
 use crate::planning::MODES;
 use crate::request::Shown;
 
@@ -13,17 +12,16 @@ impl Window<'_> {
     /// Chooses one future each. Those that keep what they do, or whose future is pinned, are left out.
     pub(in super::super) fn decide(&self) -> Vec<Decided> {
         let indices: Vec<usize> = (0..self.actors.len()).collect();
-        let mut motions: Vec<Vec<(f64, usize, Motion)>> =
-            parallel::map(self.generator.threads(), &indices, |&i| {
-                let mut motions = self.motions(i, MODES);
-                motions.extend(self.extras(i, &motions));
-                if let Some(residual) = &self.settled[i] {
-                    let (planned, slot) = (&self.actors[i].planned, self.standing_for[i]);
-                    let motion = without_creep(planned, self.number, realise(planned, slot, residual));
-                    motions.push((0.0, slot, motion));
-                }
-                motions
-            });
+        let mut motions: Vec<Vec<(f64, usize, Motion)>> = self.generator.workers.map(&indices, |&i| {
+            let mut motions = self.motions(i, MODES);
+            motions.extend(self.extras(i, &motions));
+            if let Some(residual) = &self.settled[i] {
+                let (planned, slot) = (&self.actors[i].planned, self.standing_for[i]);
+                let motion = without_creep(planned, self.number, realise(planned, slot, residual));
+                motions.push((0.0, slot, motion));
+            }
+            motions
+        });
         let world = self.world();
         let fixed = self.in_the_way(&world).map(|p| kept_boxes(&world, p)).collect();
         let mut choice = Choice { agents: Vec::new(), fixed };

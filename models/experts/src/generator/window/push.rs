@@ -6,7 +6,6 @@ use super::super::realise::{Motion, PER_INSTANT, places, realise};
 use super::kerb::kerb;
 use super::options::{options, shown_motion};
 use super::{Residuals, Window};
-use crate::generator::parallel;
 use crate::planning::world::{Present, World};
 use crate::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::Vec2;
@@ -72,7 +71,7 @@ impl Window<'_> {
         let moving = self.standing();
         let kept = self.kept_poses(&self.world());
         let indices: Vec<usize> = (0..self.actors.len()).collect();
-        parallel::map(self.generator.threads(), &indices, |&i| {
+        self.generator.workers.map(&indices, |&i| {
             let actor = &self.actors[i];
             if actor.rests {
                 return [[0.0; RESIDUAL]; MODES];
@@ -249,7 +248,7 @@ impl Window<'_> {
         let concerned: Vec<usize> = (0..self.actors.len())
             .filter(|i| conflict[*i] && !self.actors[*i].rests && self.actors[*i].pinned.is_none())
             .collect();
-        let guided = parallel::map(self.generator.threads(), &concerned, |&i| {
+        let guided = self.generator.workers.map(&concerned, |&i| {
             let actor = &self.actors[i];
             let others = present.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, p)| p).chain(&kept);
             let others: Vec<&Outline> = others.collect();
