@@ -10,6 +10,7 @@ pub mod net;
 pub mod placement;
 pub mod planning;
 pub mod request;
+pub mod tuning;
 pub mod weights;
 
 pub use clock::Clock;
@@ -22,4 +23,5 @@ pub use request::{
     Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
     React, Refining, Request, Resolved, Shown, Source, Stages, Timings, Warning,
 };
+pub use tuning::Tuning;
 pub use weights::{WeightsError, WeightsInfo};

@@ -496,7 +496,7 @@ impl TrainArgs {
             processor: self.device.into(),
             threads: self.workers,
             seed: self.seed,
-            refining: Refining { push: !self.without.contains(&PartWord::Push), ..options.refining },
+            refining: Refining { repulsion: !self.without.contains(&PartWord::Push), ..options.refining },
             minutes: self.minutes,
             resume: self.resume,
             trained_on: self.trained_on,

@@ -4,7 +4,7 @@
 use super::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN};
 use crate::planning::anchors::{Anchor, PathKind, anchors};
 use crate::planning::profile::speed_at;
-use crate::planning::world::{Present, World};
+use crate::planning::world::{AgentAtStart, World};
 use crate::planning::{MODES, hat, integrated_hat, twice_integrated_hat};
 use nalgebra::DMatrix;
 use scene::geometry::{direction, rotate};
@@ -15,9 +15,9 @@ use std::ops::Range;
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub struct AgentPlan {
     /// Who and where.
-    pub present: Present,
+    pub present: AgentAtStart,
     /// How it can move.
     pub model: MotionModel,
     /// What it must meet.
@@ -38,13 +38,13 @@ pub const OWN_GOAL_POSITION: usize = 12;
 pub const NEIGHBOUR_GOAL: Range<usize> = 15..19;
 
 /// Works out anchors and features of one road user.
-pub fn plan(world: &World<'_>, who: &Present) -> Planned {
+pub fn plan(world: &World<'_>, who: &AgentAtStart) -> AgentPlan {
     let anchors = anchors(world, who, &world.model(who), &world.target(who));
     plan_with(world, who, anchors)
 }
 
 /// Features of a road user with given anchors, [`MODES`] of them.
-pub fn plan_with(world: &World<'_>, who: &Present, anchors: Vec<Anchor>) -> Planned {
+pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) -> AgentPlan {
     let model = world.model(who);
     let target = world.target(who);
     let frame = Frame::of(who);
@@ -68,7 +68,7 @@ pub fn plan_with(world: &World<'_>, who: &Present, anchors: Vec<Anchor>) -> Plan
         tangent: Box::new(tangent(&target)),
     };
     let projected = world.planning.projection;
-    Planned { present: who.clone(), model, target, anchors, features, projected }
+    AgentPlan { present: who.clone(), model, target, anchors, features, projected }
 }
 
 /// The road user's frame: x ahead, y left.
@@ -78,7 +78,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn of(who: &Present) -> Self {
+    fn of(who: &AgentAtStart) -> Self {
         Self { origin: who.start.position(), heading_rad: who.start.heading_rad }
     }
 
@@ -134,7 +134,7 @@ fn type_flags<const N: usize>(out: &mut Filler<N>, agent_type: AgentType, subtyp
 
 fn encode_own(
     world: &World<'_>,
-    who: &Present,
+    who: &AgentAtStart,
     model: &MotionModel,
     target: &Target,
     frame: &Frame,
@@ -174,7 +174,7 @@ fn encode_own(
     out.push(off.cos());
     out.push(off.sin());
     let near = |reach: f64| {
-        let close = |p: &&Present| (p.start.position() - who.start.position()).norm() < reach;
+        let close = |p: &&AgentAtStart| (p.start.position() - who.start.position()).norm() < reach;
         world.present.iter().filter(close).count() as f64 - 1.0
     };
     out.push(near(10.0) / 5.0);
@@ -182,8 +182,8 @@ fn encode_own(
     out.values
 }
 
-fn neighbours(world: &World<'_>, who: &Present, frame: &Frame) -> Vec<[f32; NEIGHBOUR]> {
-    let mut order: Vec<(f64, &Present)> = world
+fn neighbours(world: &World<'_>, who: &AgentAtStart, frame: &Frame) -> Vec<[f32; NEIGHBOUR]> {
+    let mut order: Vec<(f64, &AgentAtStart)> = world
         .present
         .iter()
         .filter(|p| p.index != who.index)
@@ -200,7 +200,7 @@ fn neighbours(world: &World<'_>, who: &Present, frame: &Frame) -> Vec<[f32; NEIG
     order.into_iter().map(|(_, p)| encode_neighbour(world, p, frame)).collect()
 }
 
-fn encode_neighbour(world: &World<'_>, other: &Present, frame: &Frame) -> [f32; NEIGHBOUR] {
+fn encode_neighbour(world: &World<'_>, other: &AgentAtStart, frame: &Frame) -> [f32; NEIGHBOUR] {
     let mut out = Filler::<NEIGHBOUR>::new();
     let agent = world.agent(other);
     let local = frame.point(other.start.position());
@@ -258,7 +258,7 @@ struct Junction {
 }
 
 impl PathFacts {
-    fn of(world: &World<'_>, who: &Present, anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Self {
+    fn of(world: &World<'_>, who: &AgentAtStart, anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Self {
         let light = anchor.route.as_ref().and_then(|route| {
             let ahead = speed::first_signal(route, &world.graph, &world.signals)?;
             Some((ahead.state, ahead.distance_m, world.signal_ages_s.get(ahead.index).copied()?))

@@ -1,24 +1,36 @@
 //! The generator: three experts behind their gate, and calls that yield events.
 
 mod actor;
+mod background;
+mod candidates;
 mod choice;
-mod halfway;
+mod costs;
+mod decide;
+mod duplicate_modes;
+mod extrapolation;
+mod generation;
+mod guidance;
+mod kerb;
 mod noise;
-mod realise;
+mod overlaps;
+mod reacting;
 mod report;
-mod rollout;
+mod repulsion;
+mod retimed;
 #[cfg(test)]
 mod samples;
-mod twins;
+mod subgoal;
+mod trajectory;
 mod window;
 mod workers;
 
-pub use rollout::Generation;
+pub use generation::Generation;
 
 use crate::clock::{self, Clock};
 use crate::maps::{KnownMap, Maps};
 use crate::net::Expert;
 use crate::request::{Cancel, GenerateError, Request};
+use crate::tuning::{self, Tuning};
 use crate::weights::{EXPERTS, Files, WeightsError, WeightsInfo};
 use scene::map::Lane;
 use scene::{Agent, AgentType, LaneMap, Scene, State, Subtype, Vec2};
@@ -34,6 +46,7 @@ pub struct Generator {
     maps: Arc<Maps>,
     workers: Workers,
     clock: Clock,
+    tuning: Tuning,
 }
 
 impl Generator {
@@ -49,7 +62,14 @@ impl Generator {
             info.insert(name.to_owned(), WeightsInfo::of(name, bytes, &expert));
             experts.insert(agent_type, expert);
         }
-        Ok(Self { experts, info, maps, workers: Workers::of_machine(), clock: clock::standing })
+        Ok(Self {
+            experts,
+            info,
+            maps,
+            workers: Workers::of_machine(),
+            clock: clock::standing,
+            tuning: tuning::SHIPPED,
+        })
     }
 
     /// Random weights, for tests of everything but quality.
@@ -70,6 +90,17 @@ impl Generator {
     #[must_use]
     pub fn with_clock(self, clock: Clock) -> Self {
         Self { clock, ..self }
+    }
+
+    /// With other tuned numbers than the shipped ones.
+    #[must_use]
+    pub fn with_tuning(self, tuning: Tuning) -> Self {
+        Self { tuning, ..self }
+    }
+
+    /// The tuned numbers.
+    pub fn tuning(&self) -> &Tuning {
+        &self.tuning
     }
 
     /// Runs each expert once on a small scene so that the first user does not pay for it: fills the heap and

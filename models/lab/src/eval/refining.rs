@@ -38,8 +38,8 @@ fn ways() -> Vec<Way> {
         way("10 steps", 10, full),
         way("start level 5", 5, Refining { start: 5, ..full }),
         way("start level 20", 5, Refining { start: 20, ..full }),
-        way("no push", 5, Refining { push: false, ..full }),
-        way("no settling", 5, Refining { settle: false, ..full }),
+        way("no push", 5, Refining { repulsion: false, ..full }),
+        way("no settling", 5, Refining { resolve_overlaps: false, ..full }),
     ]
 }
 

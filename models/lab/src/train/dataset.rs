@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use experts::features::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN, Target};
+use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, NEIGHBOURS, OWN};
 
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::KNOTS;
@@ -40,7 +40,7 @@ pub struct LoggedBox {
 /// The path of an anchor, one point a metre, in the road user's frame at t = 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnchorPath {
-    /// Progress of the first point, metres on the scale of [`Target::base_along`]; may be negative.
+    /// Progress of the first point, metres on the scale of [`GroundTruth::base_along`]; may be negative.
     pub start: f32,
     /// At least two and at most [`PATH_POINTS`] points (x, y).
     pub points: Vec<[f32; 2]>,
@@ -54,7 +54,7 @@ pub struct Record {
     /// What a baseline sees of the map. Indices are those of the scene's pieces.
     pub pieces: Vec<SeenPiece>,
     /// What happened.
-    pub target: Target,
+    pub target: GroundTruth,
     /// Recorded neighbours, at most [`BOXES`], nearest first.
     pub boxes: Vec<LoggedBox>,
     /// The road user's own half length and half width, metres.
@@ -231,7 +231,7 @@ fn decode(bytes: &[u8]) -> Result<Record, String> {
     cursor.fill(anchors.as_flattened_mut())?;
     let mut tangent = Box::new([[[0.0; KNOTS]; KNOTS]; 2]);
     cursor.fill(tangent.as_flattened_mut().as_flattened_mut())?;
-    let mut target = Target {
+    let mut target = GroundTruth {
         base_along: [[0.0; INSTANTS]; MODES],
         along: [[0.0; INSTANTS]; MODES],
         across: [[0.0; INSTANTS]; MODES],
