@@ -10,7 +10,7 @@ use crate::store::Store;
 use crate::{embed, observe, routes};
 use axum::Router;
 use axum::response::{IntoResponse, Response};
-use experts::Generator;
+use experts::{Generator, Placer};
 use metrics_exporter_prometheus::PrometheusHandle;
 use std::any::Any;
 use std::ops::Deref;
@@ -37,6 +37,8 @@ pub struct Inside {
     pub pool: Arc<Pool>,
     /// Experts.
     pub generator: Arc<Generator>,
+    /// Placement.
+    pub placer: Placer,
     /// Experts are warm.
     pub warm: AtomicBool,
     /// Counters.

@@ -1,6 +1,13 @@
-//! Wall-clock time as RFC 3339 text in UTC, with milliseconds.
+//! Wall-clock time as RFC 3339 text in UTC, with milliseconds; and time that passes evenly.
 
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::sync::LazyLock;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+/// Since the program first asked.
+pub fn monotonic() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed()
+}
 
 /// Now.
 pub fn now() -> String {

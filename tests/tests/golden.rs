@@ -12,7 +12,7 @@ mod compare;
 use cases::{CASES, Case};
 use compare::Differences;
 use dragtraffic_tests::program::root;
-use experts::{Cancel, Event, Generator};
+use experts::{Cancel, Engine, Event};
 use scene::{AgentFutures, Sample, State};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -94,13 +94,13 @@ fn event(event: Event) -> Value {
 }
 
 /// What the program says to a case now.
-fn answer(generator: &Generator, case: &Case) -> Value {
+fn answer(engine: &Engine, case: &Case) -> Value {
     match case {
         Case::Generate(request) => {
-            generator.start(request(), Cancel::default()).unwrap().map(|e| event(e.unwrap())).collect()
+            engine.generator.start(request(), Cancel::default()).unwrap().map(|e| event(e.unwrap())).collect()
         }
         Case::Place(request) => {
-            let placed = generator.place(&request(), &Cancel::default()).unwrap();
+            let placed = engine.placer.place(&request(), &Cancel::default()).unwrap();
             let agents = placed.agents.iter().map(|a| {
                 let starts: Vec<Value> = a.track.states.iter().flatten().map(state).collect();
                 json!({"id": a.id, "type": a.agent_type, "subtype": a.subtype, "length_m": a.size.length_m,
@@ -113,11 +113,12 @@ fn answer(generator: &Generator, case: &Case) -> Value {
 
 #[test]
 fn the_shipped_weights_answer_as_they_did() {
-    let generator = Generator::built_in().unwrap().with_threads(1);
+    let Engine { generator, placer } = Engine::built_in().unwrap();
+    let engine = Engine { generator: generator.with_threads(1), placer };
     let mode = mode();
     let mut failed = Vec::new();
     for (name, case) in CASES {
-        let now = answer(&generator, case);
+        let now = answer(&engine, case);
         let golden = std::fs::read(file(name)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
         let differences = golden.map(|golden: Value| Differences::between(&golden, &now));
         let equal = differences.as_ref().is_some_and(Differences::is_empty);

@@ -64,7 +64,7 @@ pub struct Stages {
     pub guidance: bool,
     /// Those who keep their motion are in the way. Where their motion is withheld, so that nothing leaks,
     /// a guess at it would be an obstacle that is not there.
-    pub kept_in_the_way: bool,
+    pub background_in_the_way: bool,
     /// Of futures that coincide one takes another course; otherwise both stay as the initializer has them.
     pub parted: bool,
     /// How each road user's futures are planned. The choice knows the whole map either way.
@@ -79,15 +79,15 @@ pub struct Refining {
     /// Noise level, of 100, at which it begins; with more steps than that, as many levels as steps.
     pub start: usize,
     /// The networks are shown the way downhill in the scene's energy and take their share of it.
-    pub push: bool,
+    pub repulsion: bool,
     /// After the last step, drawn futures that still conflict are moved downhill without the networks; not
     /// those of a first sample that is chosen.
-    pub settle: bool,
+    pub resolve_overlaps: bool,
 }
 
 impl Default for Refining {
     fn default() -> Self {
-        Self { start: schedule::START, push: true, settle: true }
+        Self { start: schedule::START, repulsion: true, resolve_overlaps: true }
     }
 }
 
@@ -96,7 +96,7 @@ impl Default for Stages {
         Self {
             shown: Shown::Chosen,
             guidance: true,
-            kept_in_the_way: true,
+            background_in_the_way: true,
             parted: true,
             planning: Planning::default(),
             refining: Refining::default(),

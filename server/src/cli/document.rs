@@ -53,8 +53,8 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
 /// # Errors
 /// Exit 7 without weights.
 pub fn info(common: &Common) -> Result<(), Failure> {
-    let generator = super::generator(common)?;
-    let info = crate::routes::info::document(&generator, &crate::limits::Limits::default());
+    let experts::Engine { generator, placer } = super::engine(common)?;
+    let info = crate::routes::info::document(&generator, &placer, &crate::limits::Limits::default());
     let mut text = serde_json::to_string_pretty(&info).unwrap_or_default();
     text.push('\n');
     output::print(text.as_bytes())

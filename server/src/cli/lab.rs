@@ -500,7 +500,7 @@ impl TrainArgs {
             processor: self.device.into(),
             threads: self.workers,
             seed: self.seed,
-            refining: Refining { push: !self.without.contains(&PartWord::Push), ..options.refining },
+            refining: Refining { repulsion: !self.without.contains(&PartWord::Push), ..options.refining },
             minutes: self.minutes,
             resume: self.resume,
             trained_on: self.trained_on,
@@ -532,9 +532,9 @@ pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), 
 /// Exit 3 when nothing can be read, 7 without weights.
 pub fn eval_place(args: EvalPlaceArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
-    let generator = super::generator(common)?;
+    let placer = super::engine(common)?.placer;
     let options = lab_eval::placement::EvalPlaceOptions { radius_m: args.radius, seeds: args.seeds };
-    let report = lab_eval::placement::eval(&generator, &scenes, options).map_err(failed)?;
+    let report = lab_eval::placement::eval(&placer, &scenes, options).map_err(failed)?;
     if args.json {
         print_json(&report)
     } else {

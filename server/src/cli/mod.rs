@@ -200,14 +200,23 @@ fn log(common: &Common) {
     let _ = done;
 }
 
-/// The experts, from a folder or from inside the program.
+/// Generator and placer, from a folder or from inside the program.
+///
+/// # Errors
+/// Exit 7.
+pub fn engine(common: &Common) -> Result<experts::Engine, Failure> {
+    let loaded = match &common.weights {
+        Some(folder) => experts::Engine::from_dir(folder),
+        None => experts::Engine::built_in(),
+    };
+    let engine = loaded.map_err(|error| Failure::new(Exit::Weights, error.to_string()))?;
+    Ok(experts::Engine { generator: engine.generator.with_clock(crate::clock::monotonic), ..engine })
+}
+
+/// The generator alone.
 ///
 /// # Errors
 /// Exit 7.
 pub fn generator(common: &Common) -> Result<experts::Generator, Failure> {
-    let loaded = match &common.weights {
-        Some(folder) => experts::Generator::from_dir(folder),
-        None => experts::Generator::built_in(),
-    };
-    loaded.map_err(|error| Failure::new(Exit::Weights, error.to_string()))
+    Ok(engine(common)?.generator)
 }

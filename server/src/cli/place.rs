@@ -57,10 +57,10 @@ pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
     let mut scene = read_scene(&args.scene)?;
     let body: PlaceBody = serde_json::from_value(body(&args)?)
         .map_err(|error| Failure::new(Exit::Usage, format!("options: {error}")))?;
-    let generator = super::generator(common)?;
+    let placer = super::engine(common)?.placer;
     let shared = Arc::new(scene.clone());
     let placement = body
-        .run(&shared, &generator, &Cancel::default())
+        .run(&shared, &placer, &Cancel::default())
         .map_err(|problem| super::files::refused(&args.scene, &problem))?;
     if let Some(reason) = &placement.reason {
         let unplaced: usize = placement.unplaced.values().sum();

@@ -87,7 +87,8 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let db = args.db.clone().map_or_else(default_db, Ok)?;
     let store = Store::open(&db, &limits)
         .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error}", db.display())))?;
-    let generator = Arc::new(super::generator(common)?);
+    let experts::Engine { generator, placer } = super::engine(common)?;
+    let generator = Arc::new(generator);
     let handle = metrics::install().map_err(|reason| Failure::new(Exit::Failure, reason))?;
     metrics::identity(generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())));
     let app = App::new(Inside {
@@ -97,6 +98,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         maps: MapCache::new(limits.cached_maps as usize),
         pool: Pool::start(&generator, &limits),
         generator,
+        placer,
         warm: AtomicBool::new(false),
         metrics: handle,
         refuse_nc: args.refuse_nc,

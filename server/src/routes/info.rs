@@ -9,11 +9,15 @@ use serde_json::{Value, json};
 #[utoipa::path(get, path = "/v1/info", operation_id = "info", tag = "server",
     responses((status = 200, body = ref("#/components/schemas/Info"))))]
 pub async fn info(State(app): State<App>) -> axum::Json<Value> {
-    axum::Json(document(&app.generator, &app.limits))
+    axum::Json(document(&app.generator, &app.placer, &app.limits))
 }
 
 /// The object, for the command line too.
-pub fn document(generator: &experts::Generator, limits: &crate::limits::Limits) -> Value {
+pub fn document(
+    generator: &experts::Generator,
+    placer: &experts::Placer,
+    limits: &crate::limits::Limits,
+) -> Value {
     let range = |t| json!(formats::native::Ranges::of(t));
     json!({
         "name": "dragtraffic",
@@ -21,7 +25,7 @@ pub fn document(generator: &experts::Generator, limits: &crate::limits::Limits) 
         "build": {"target": env!("BUILD_TARGET"), "profile": env!("BUILD_PROFILE")},
         "device": "cpu",
         "weights": generator.weights(),
-        "placement": generator.placement(),
+        "placement": placer.info(),
         "limits": limits.to_json(),
         "condition_ranges": {
             "vehicle": range(AgentType::Vehicle),

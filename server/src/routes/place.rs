@@ -9,7 +9,7 @@ use experts::placement::{
     Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, Region, map_bounds,
     ring_area_m2,
 };
-use experts::{Cancel, GenerateError, Generator};
+use experts::{Cancel, GenerateError, Placer};
 use formats::native::{AgentDoc, MAX_SAFE_INTEGER, Members, SceneDoc};
 use formats::{FieldProblem, ReadError};
 use scene::{AgentType, STEP_S, Scene, Vec2};
@@ -165,7 +165,7 @@ pub async fn place(
     let cancel = Cancel::default();
     let (limit_s, stop) = (app.limits.generate_s, cancel.clone());
     let work = body::blocking(move || {
-        let placement = body.run(&scene, &app.generator, &cancel)?;
+        let placement = body.run(&scene, &app.placer, &cancel)?;
         Ok(axum::Json(PlaceReply::from(&placement)))
     });
     // The wait ends with the limit or the connection; the work ends with it.
@@ -190,14 +190,9 @@ impl PlaceBody {
     ///
     /// # Errors
     /// Every fault of the options; a cancelled call.
-    pub fn run(
-        &self,
-        scene: &Arc<Scene>,
-        generator: &Generator,
-        cancel: &Cancel,
-    ) -> Result<Placement, Problem> {
+    pub fn run(&self, scene: &Arc<Scene>, placer: &Placer, cancel: &Cancel) -> Result<Placement, Problem> {
         let request = self.request(scene)?;
-        generator.place(&request, cancel).map_err(|error| match error {
+        placer.place(&request, cancel).map_err(|error| match error {
             GenerateError::UnknownAgent(_) => Problem::field("/keep", Code::UnknownAgent, error.to_string()),
             other => other.into(),
         })

@@ -7,14 +7,14 @@ use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
-use crate::planning::world::{Present, World};
+use crate::planning::world::{AgentAtStart, World};
 use scene::motion::{MotionModel, Target};
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub struct AgentPlan {
     /// Who and where.
-    pub present: Present,
+    pub present: AgentAtStart,
     /// How it can move.
     pub model: MotionModel,
     /// What it must meet.
@@ -28,13 +28,13 @@ pub struct Planned {
 }
 
 /// Works out anchors and features of one road user.
-pub fn plan(world: &World<'_>, who: &Present) -> Planned {
+pub fn plan(world: &World<'_>, who: &AgentAtStart) -> AgentPlan {
     let anchors = anchors(world, who, &world.model(who), &world.target(who));
     plan_with(world, who, anchors)
 }
 
 /// Features of a road user with given anchors, [`MODES`] of them.
-pub fn plan_with(world: &World<'_>, who: &Present, anchors: Vec<Anchor>) -> Planned {
+pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) -> AgentPlan {
     let model = world.model(who);
     let target = world.target(who);
     let frame = Frame::of(who);
@@ -58,5 +58,5 @@ pub fn plan_with(world: &World<'_>, who: &Present, anchors: Vec<Anchor>) -> Plan
         tangent: Box::new(tangent(&target)),
     };
     let projected = world.planning.projection;
-    Planned { present: who.clone(), model, target, anchors, features, projected }
+    AgentPlan { present: who.clone(), model, target, anchors, features, projected }
 }

@@ -1,7 +1,7 @@
 //! What lies ahead on a path: who drives there, lights and signs, who crosses it, the junction.
 
 use crate::planning::anchors::Anchor;
-use crate::planning::world::{Present, World};
+use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::direction;
 use scene::routes::{Beside, LaneGraph, Leg, Route, speed};
 use scene::{SignalState, wrap_angle};
@@ -60,7 +60,7 @@ pub(super) struct Junction {
 impl PathFacts {
     pub(super) fn of(
         world: &World<'_>,
-        who: &Present,
+        who: &AgentAtStart,
         anchor: &Anchor,
         obstacles: &[speed::Obstacle],
     ) -> Self {

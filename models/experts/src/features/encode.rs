@@ -10,7 +10,7 @@ use super::tables::{
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, PathKind};
 use crate::planning::profile::speed_at;
-use crate::planning::world::{Present, World};
+use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::{direction, rotate};
 use scene::motion::{MotionModel, Target};
 use scene::{AgentType, HORIZON_STEPS, STANDING_MPS, STEP_S, SignalState, Subtype, Vec2, wrap_angle};
@@ -29,7 +29,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    pub(super) fn of(who: &Present) -> Self {
+    pub(super) fn of(who: &AgentAtStart) -> Self {
         Self { origin: who.start.position(), heading_rad: who.start.heading_rad }
     }
 
@@ -58,7 +58,7 @@ fn kind_flags(agent_type: AgentType, subtype: Subtype) -> KindFlags {
 /// The road user itself and its target.
 pub(super) fn own(
     world: &World<'_>,
-    who: &Present,
+    who: &AgentAtStart,
     model: &MotionModel,
     target: &Target,
     frame: &Frame,
@@ -75,7 +75,7 @@ pub(super) fn own(
     let lane = lanes.first();
     let off = lane.map_or(0.0, |l| wrap_angle(who.start.heading_rad - l.heading_rad));
     let others_within = |reach_m: f64| {
-        let close = |p: &&Present| (p.start.position() - who.start.position()).norm() < reach_m;
+        let close = |p: &&AgentAtStart| (p.start.position() - who.start.position()).norm() < reach_m;
         world.present.iter().filter(close).count() as f64 - 1.0
     };
     encoded(&Own {
@@ -111,8 +111,8 @@ pub(super) fn own(
 }
 
 /// The others that matter most: near ones first, those ahead before those behind, moving before standing.
-pub(super) fn neighbours(world: &World<'_>, who: &Present, frame: &Frame) -> Vec<[f32; NEIGHBOUR]> {
-    let mut order: Vec<(f64, &Present)> = world
+pub(super) fn neighbours(world: &World<'_>, who: &AgentAtStart, frame: &Frame) -> Vec<[f32; NEIGHBOUR]> {
+    let mut order: Vec<(f64, &AgentAtStart)> = world
         .present
         .iter()
         .filter(|p| p.index != who.index)
@@ -129,7 +129,7 @@ pub(super) fn neighbours(world: &World<'_>, who: &Present, frame: &Frame) -> Vec
     order.into_iter().map(|(_, p)| neighbour(world, p, frame)).collect()
 }
 
-fn neighbour(world: &World<'_>, other: &Present, frame: &Frame) -> [f32; NEIGHBOUR] {
+fn neighbour(world: &World<'_>, other: &AgentAtStart, frame: &Frame) -> [f32; NEIGHBOUR] {
     let local = frame.point(other.start.position());
     let heading = frame.heading(other.start.heading_rad);
     let velocity = frame.vector(other.start.velocity());

@@ -27,8 +27,8 @@ pub const MOVING_DRAWS: f64 = 2.0;
 
 /// Probability of staying as the world has it, from what a network says that was trained on few standing
 /// road users (see [`STANDING_SHARE`]).
-pub fn stays_in_the_world(said: f64) -> f64 {
-    let odds = said / (1.0 - said).max(1e-9) * (MOVING_DRAWS / STANDING_SHARE);
+pub fn stays_in_the_world(output: f64) -> f64 {
+    let odds = output / (1.0 - output).max(1e-9) * (MOVING_DRAWS / STANDING_SHARE);
     odds / (1.0 + odds)
 }
 
@@ -47,7 +47,7 @@ pub struct AgentFeatures {
 
 /// What really happened, in each anchor's route coordinates; only training has it.
 #[derive(Clone, Debug)]
-pub struct Target {
+pub struct GroundTruth {
     /// Base progress of each anchor at the instants, metres.
     pub base_along: [[f32; INSTANTS]; MODES],
     /// Recorded progress, metres.

@@ -1,6 +1,6 @@
 //! What the networks see of scenes drawn by hand.
 
-use super::agent::{Planned, plan};
+use super::agent::{AgentPlan, plan};
 use super::block::{Block, described};
 use super::tables::{AnchorInputs, Neighbour, Own, tables, tables_hash};
 use crate::planning::MODES;
@@ -62,7 +62,7 @@ fn street() -> LaneMap {
     LaneMap { lanes, ..LaneMap::default() }
 }
 
-fn planned(agents: Vec<Agent>, signals: Vec<Signal>) -> Planned {
+fn planned(agents: Vec<Agent>, signals: Vec<Signal>) -> AgentPlan {
     let scene = Scene { signals, ..Scene::bare("street", street(), agents) };
     let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), 0);
     let who = world.present.iter().find(|p| world.agent(p).id == "1").unwrap();

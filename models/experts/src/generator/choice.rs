@@ -1,16 +1,13 @@
-//! One future a road user so that the scene is coherent: coordinate descent with pair moves
-//! (`refinement.md` section 1). It costs no accuracy and microseconds of time.
+//! One candidate an actor so that the scene is coherent: coordinate descent with pair moves. It costs no
+//! accuracy and microseconds of time.
 
+use crate::tuning::ChoiceTuning;
 use scene::Size;
 use scene::State;
 use scene::motion::Trajectory;
 use scene::score::{Overlap, SweptBoxes, overlap};
 use std::collections::HashMap;
 
-/// Cost of an overlap.
-const OVERLAP: f64 = 5.0;
-/// Cost of coming closer than half a metre.
-const CLOSE: f64 = 1.5;
 /// Every third step is looked at, the start left out: what overlaps there cannot be helped.
 const STRIDE: usize = 3;
 const MOST_SWEEPS: usize = 12;
@@ -28,8 +25,8 @@ pub(super) fn swept(states: &Trajectory, size: &Size) -> SweptBoxes {
     SweptBoxes::of_states(states.iter().map(Some), size)
 }
 
-/// Boxes of a kept road user; `at` gives its state at a step of the window.
-pub(super) fn swept_kept(at: impl Fn(usize) -> Option<State>, size: &Size) -> SweptBoxes {
+/// Boxes of somebody in the background; `at` gives its state at a step of the window.
+pub(super) fn swept_background(at: impl Fn(usize) -> Option<State>, size: &Size) -> SweptBoxes {
     let states: Vec<Option<State>> = (STRIDE..=scene::HORIZON_STEPS).step_by(STRIDE).map(at).collect();
     SweptBoxes::of_states(states.iter().map(Option::as_ref), size)
 }
@@ -40,7 +37,7 @@ pub(super) fn distance(a: &Trajectory, b: &Trajectory) -> f64 {
     sum / 18.0
 }
 
-/// Costs of a road user's options by themselves: expected distance to its modes over the least of them.
+/// Costs of an actor's options by themselves: expected distance to its modes over the least of them.
 pub(super) fn medoid_costs(options: &[&Trajectory], modes: &[(&Trajectory, f64)]) -> Vec<f64> {
     let expected: Vec<f64> =
         options.iter().map(|o| modes.iter().map(|(m, p)| p * distance(o, m)).sum::<f64>()).collect();
@@ -49,16 +46,17 @@ pub(super) fn medoid_costs(options: &[&Trajectory], modes: &[(&Trajectory, f64)]
 }
 
 /// The scene's options and its fixed motions.
-pub(super) struct Choice {
+pub(super) struct Choice<'a> {
     pub(super) agents: Vec<Vec<Choosable>>,
-    pub(super) fixed: Vec<SweptBoxes>,
+    pub(super) fixed: &'a [SweptBoxes],
+    pub(super) tuning: &'a ChoiceTuning,
 }
 
-impl Choice {
+impl Choice<'_> {
     /// Index of the chosen option of each road user. Ties go to the lower index.
     pub(super) fn solve(&self) -> Vec<usize> {
         let own = self.own_costs();
-        let mut pairs = Pairs { agents: &self.agents, known: HashMap::new() };
+        let mut pairs = Pairs { agents: &self.agents, tuning: self.tuning, known: HashMap::new() };
         let mut chosen: Vec<usize> = own.iter().map(|costs| least(costs.iter().copied())).collect();
         let near = self.near();
         for _ in 0..MOST_SWEEPS {
@@ -145,7 +143,9 @@ impl Choice {
 
     /// Each option by itself and against what is fixed.
     fn own_costs(&self) -> Vec<Vec<f64>> {
-        let against = |boxes: &SweptBoxes| self.fixed.iter().map(|f| price(overlap(boxes, f))).sum::<f64>();
+        let against = |boxes: &SweptBoxes| {
+            self.fixed.iter().map(|f| price(overlap(boxes, f), self.tuning)).sum::<f64>()
+        };
         self.agents
             .iter()
             .map(|options| options.iter().map(|o| o.cost + against(&o.boxes)).collect())
@@ -174,25 +174,25 @@ impl Choice {
 /// Costs of pairs of options, worked out once.
 struct Pairs<'a> {
     agents: &'a [Vec<Choosable>],
+    tuning: &'a ChoiceTuning,
     known: HashMap<(usize, usize, usize, usize), f64>,
 }
 
 impl Pairs<'_> {
     fn cost(&mut self, i: usize, a: usize, j: usize, b: usize) -> f64 {
         let key = if i < j { (i, a, j, b) } else { (j, b, i, a) };
-        let agents = self.agents;
-        *self
-            .known
-            .entry(key)
-            .or_insert_with(|| price(overlap(&agents[key.0][key.1].boxes, &agents[key.2][key.3].boxes)))
+        let (agents, tuning) = (self.agents, self.tuning);
+        *self.known.entry(key).or_insert_with(|| {
+            price(overlap(&agents[key.0][key.1].boxes, &agents[key.2][key.3].boxes), tuning)
+        })
     }
 }
 
-fn price(found: Overlap) -> f64 {
+fn price(found: Overlap, tuning: &ChoiceTuning) -> f64 {
     if found.overlaps {
-        OVERLAP + CLOSE
+        tuning.overlap + tuning.close
     } else if found.close {
-        CLOSE
+        tuning.close
     } else {
         0.0
     }
@@ -211,6 +211,7 @@ fn least(costs: impl Iterator<Item = f64>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tuning::SHIPPED;
     use scene::Vec2;
     use scene::geometry::obb::OrientedBox;
 
@@ -223,8 +224,9 @@ mod tests {
     fn the_cheaper_way_out_is_taken() {
         // Both start alike; the second may also change lane.
         let choice = Choice {
+            tuning: &SHIPPED.choice,
             agents: vec![vec![ride(0.0, 8.0, 1.0)], vec![ride(0.5, 8.0, 1.0), ride(4.0, 8.0, 2.0)]],
-            fixed: Vec::new(),
+            fixed: &[],
         };
         assert_eq!(choice.solve(), vec![0, 1]);
         assert_eq!(choice.in_conflict(&[0, 1]), vec![false, false]);
@@ -235,16 +237,20 @@ mod tests {
     fn pairs_move_together() {
         // Changing alone meets the other's present choice; only both together are free.
         let swap = |left: f64, right: f64| vec![ride(left, 8.0, 1.0), ride(right, 8.0, 1.2)];
-        let choice =
-            Choice { agents: vec![swap(0.0, 8.0), swap(0.0, 4.0)], fixed: vec![ride(8.3, 8.0, 0.0).boxes] };
+        let choice = Choice {
+            agents: vec![swap(0.0, 8.0), swap(0.0, 4.0)],
+            fixed: &[ride(8.3, 8.0, 0.0).boxes],
+            tuning: &SHIPPED.choice,
+        };
         assert_eq!(choice.solve(), vec![0, 1]);
     }
 
     #[test]
     fn fixed_motions_are_avoided() {
         let choice = Choice {
+            tuning: &SHIPPED.choice,
             agents: vec![vec![ride(0.0, 8.0, 1.0), ride(4.0, 8.0, 3.0)]],
-            fixed: vec![ride(0.0, 8.0, 0.0).boxes],
+            fixed: &[ride(0.0, 8.0, 0.0).boxes],
         };
         assert_eq!(choice.solve(), vec![1]);
     }

@@ -2,8 +2,8 @@
 //! words, and warnings.
 
 use super::actor::Actor;
-use super::realise::Motion;
-use crate::planning::world::{Present, World};
+use super::trajectory::Motion;
+use crate::planning::world::{AgentAtStart, World};
 use crate::request::{Field, Intermediate, NearestState, ReachReport, Resolved, Source, Warning};
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::motion::{Kind, Limiting, MotionState, Reach};
@@ -24,7 +24,7 @@ impl From<&MotionState> for NearestState {
 /// What became of one road user over all windows.
 pub(super) struct Outcome<'a> {
     /// At the start of the call.
-    pub(super) present: &'a Present,
+    pub(super) present: &'a AgentAtStart,
     /// As the user fixed them.
     pub(super) conditions: &'a Conditions,
     /// Scene step at which the goal is due.
@@ -107,7 +107,7 @@ fn limit_name(limiting: Limiting) -> &'static str {
 
 /// One sentence or two: what cannot be, and what can.
 fn words(actor: &Actor, nearest: &MotionState, limiting: Limiting, needs: Option<f64>) -> String {
-    let planned = &actor.planned;
+    let planned = &actor.plan;
     let seconds = planned.target.step as f64 * STEP_S;
     let what = match planned.present.agent_type {
         AgentType::Pedestrian => "pedestrian",
@@ -151,7 +151,7 @@ pub(super) fn warnings<'a>(
 ) -> Vec<Warning> {
     let mut out = Vec::new();
     for actor in actors {
-        let present = &actor.planned.present;
+        let present = &actor.plan.present;
         let (conditions, due) = asked(present.index);
         let mut warn = |code: &str, detail: String| {
             out.push(Warning { code: code.to_owned(), agent: Some(actor.id.clone()), detail });
@@ -167,8 +167,7 @@ pub(super) fn warnings<'a>(
             }
             let distance = (position - present.start.position()).norm();
             let seconds = due as f64 * STEP_S;
-            if distance > 1.1 * seconds * actor.planned.model.limits.speed_mps.max(present.start.speed_mps())
-            {
+            if distance > 1.1 * seconds * actor.plan.model.limits.speed_mps.max(present.start.speed_mps()) {
                 warn(
                     "goal-unreachable",
                     format!("{distance:.0} m in {seconds:.1} s is beyond the top speed."),

@@ -1,36 +1,37 @@
-//! One planning window: first drafts of everybody concerned, refinement steps, then one future each so
-//! that the scene is coherent. What happens before and after it is [`super::rollout`]'s matter.
+//! One planning window: first drafts of everybody concerned and refinement steps. What is chosen of them is
+//! [`super::decide`]'s matter, what happens before and after a window [`super::generation`]'s.
 
-use super::actor::{Actor, Role, come_near, kept_states};
+use super::actor::{Actor, Drafts};
+use super::background::Background;
+use super::candidates::{Candidate, Material, Slot, leads_by_probability, middle};
 use super::noise::Key;
-use super::realise::{Motion, may_rest, realise, rest, without_creep};
-use super::{Generator, KnownMap, parallel, twins};
+use super::overlaps::resolve_overlaps;
+use super::reacting::reacting;
+use super::repulsion::{SceneEnergy, repulsions};
+use super::trajectory::may_rest;
+use super::workers::Workers;
+use super::{Generator, KnownMap, costs, duplicate_modes};
 use crate::features::stays_in_the_world;
-use crate::net::{Context, NetError, Prepared, schedule};
+use crate::net::{Context, InitialOutput, NetError, Prepared, schedule};
 use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
-use crate::planning::{MODES, RESIDUAL, STAYS_WITHIN_M};
-use crate::request::{Draft, GenerateError, React, Request, Shown};
+use crate::planning::{MODES, Modes, RESIDUAL};
+use crate::request::{Draft, GenerateError, Intermediate, Request, Shown};
+use crate::tuning::Tuning;
+use crate::weights::EXPERTS;
 use scene::motion::Trajectory;
-use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, Scene, State, Vec2};
-use std::collections::BTreeSet;
+use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, State};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-mod decide;
-mod kerb;
-mod options;
-mod push;
 
 /// Most road users that get new futures in one call.
 pub(super) const MOST_ACTORS: usize = 128;
 /// Most road users for which every mode is shown while it refines; above, the likeliest alone.
 const SHOW_ALL_BELOW: usize = 5;
-
-/// Temperature of the probabilities where no goal position is fixed: what was learned from simulated drivers
-/// is surer than recorded ones warrant (log loss on 71 recorded scenes 1.96 without it, 1.78 with it).
-const DOUBT: f64 = 2.5;
-
-pub(super) type Residuals = [[f32; RESIDUAL]; MODES];
+/// Fewest road users of a type in one network call, so that cutting them over threads pays.
+const FEWEST_IN_BATCH: usize = 4;
+/// What is more likely than this to stay does.
+const STAYS_ABOVE: f64 = 0.5;
 
 /// Road users of one expert that run in one network call.
 struct Batch {
@@ -45,65 +46,36 @@ impl From<NetError> for GenerateError {
     }
 }
 
-/// What a window is planned from. Road users are indices into the scene's agents.
-pub(super) struct Spec<'a> {
-    /// From 0.
-    pub(super) number: usize,
-    /// Scene step at which the window starts.
-    pub(super) step: usize,
-    /// The scene as it stands at that step: states reached, conditions that hold from here on.
-    pub(super) scene: Arc<Scene>,
+/// Who acts in a window. Road users are indices into the scene's agents.
+pub(super) struct Cast {
     /// Those that get new futures in any case.
-    pub(super) moving: Vec<(usize, Role)>,
+    pub(super) acting: BTreeSet<usize>,
     /// Those that may answer them.
-    pub(super) candidates: &'a BTreeSet<usize>,
-    /// Those among the moving that were parked when the call began: they stay.
-    pub(super) parked: &'a BTreeSet<usize>,
-}
-
-/// What a window decided for one road user.
-pub(super) struct Decided {
-    /// Index into the scene's agents.
-    pub(super) agent: usize,
-    /// Index into [`Window::actors`].
-    pub(super) actor: usize,
-    /// Index into `motions`.
-    pub(super) chosen: usize,
-    /// Probability, slot and motion, at most as many as were asked for.
-    pub(super) motions: Vec<(f64, usize, Motion)>,
-}
-
-impl Decided {
-    /// The motion that is shown.
-    pub(super) fn motion(&self) -> &Motion {
-        &self.motions[self.chosen].2
-    }
-
-    /// The road user stays where it is.
-    pub(super) fn rests(&self) -> bool {
-        self.motions[self.chosen].1 == usize::MAX
-    }
+    pub(super) may_react: BTreeSet<usize>,
+    /// Those among the acting that were parked when the call began: they stay.
+    pub(super) parked: BTreeSet<usize>,
 }
 
 /// One planning window of one call.
 pub(super) struct Window<'g> {
     generator: &'g Generator,
-    request: Arc<Request>,
-    scene: Arc<Scene>,
-    map: Arc<KnownMap>,
+    pub(super) request: Arc<Request>,
+    pub(super) map: Arc<KnownMap>,
+    /// The scene at the window's start and what is asked of everybody in it.
+    pub(super) world: World<'g>,
+    /// From 0.
     number: usize,
-    step: usize,
     pub(super) actors: Vec<Actor>,
     batches: Vec<Batch>,
-    drafts: Vec<Residuals>,
-    /// Slots by falling probability, one list an actor.
-    order: Vec<[usize; MODES]>,
-    /// The mode that stands for each actor while the others refine.
-    standing_for: Vec<usize>,
-    /// Where settling led those drafts that it moved.
-    settled: Vec<Option<[f32; RESIDUAL]>>,
-    sample: usize,
+    /// The states on the way that those are sent to whose goal is due after its end, by agent of the scene.
+    pub(super) subgoals: BTreeMap<usize, Intermediate>,
+    /// Those who get no new futures; nobody where they do not count.
+    pub(super) background: Background,
     pullback: Pullback,
+    /// The present sample, from 0.
+    pub(super) sample: usize,
+    /// Its drafts, one entry an actor.
+    pub(super) drafts: Vec<Drafts>,
 }
 
 impl<'g> Window<'g> {
@@ -112,127 +84,117 @@ impl<'g> Window<'g> {
         generator: &'g Generator,
         request: Arc<Request>,
         map: Arc<KnownMap>,
-        spec: Spec<'_>,
+        world: World<'g>,
+        number: usize,
+        cast: &Cast,
     ) -> Result<Self, GenerateError> {
         let mut window = Self {
             generator,
             request,
-            scene: spec.scene,
             map,
-            number: spec.number,
-            step: spec.step,
+            world,
+            number,
             actors: Vec::new(),
             batches: Vec::new(),
-            drafts: Vec::new(),
-            order: Vec::new(),
-            standing_for: Vec::new(),
-            settled: Vec::new(),
-            sample: 0,
+            subgoals: BTreeMap::new(),
+            background: Background::none(),
             pullback: Pullback::default(),
+            sample: 0,
+            drafts: Vec::new(),
         };
-        let scene = window.scene.clone();
-        let mut world = World::new(&scene, window.map.graph.clone(), spec.step);
-        world.planning = window.request.stages.planning;
-        let role = |index| spec.moving.iter().find(|m| m.0 == index).map(|m| m.1);
-        let wanted: Vec<_> =
-            world.present.iter().filter_map(|p| role(p.index).map(|role| (p, role))).collect();
-        let mut actors = parallel::map(generator.threads(), &wanted, |(who, role)| {
-            let mut actor = Actor::regenerated(&world, who, *role);
-            if spec.number > 0 {
-                actor.goes_on(spec.parked.contains(&who.index));
-            }
-            actor
-        });
-        let mut batches = window.encode(&mut actors, 0)?;
-        for actor in &mut actors {
-            actor.pinned = window.request.pinned.get(&actor.id).cloned();
+        window.act(cast)?;
+        window.answer(cast)?;
+        let (tuning, map) = (&generator.tuning, window.map.clone());
+        for actor in &mut window.actors {
+            actor.keeps_to_the_road = costs::starts_on_the_road(actor, &map, &tuning.choice);
         }
-        let mut reacting = window.reacting(&world, &actors, spec.candidates);
-        let first = actors.len();
-        batches.extend(window.encode(&mut reacting, first)?);
-        actors.extend(reacting);
-        window.order = actors.iter().map(|a| by_probability(&a.probability)).collect();
-        for actor in &mut actors {
-            actor.keeps_to_the_road = options::starts_on_the_road(actor, &window.map);
+        if window.request.stages.background_in_the_way {
+            window.background = Background::of(&window.world, &window.actors, &tuning.overlaps);
         }
-        window.batches = batches;
-        window.actors = actors;
         Ok(window)
     }
 
-    /// The scene at the window's start.
-    pub(super) fn world(&self) -> World<'_> {
-        World::new(&self.scene, self.map.graph.clone(), self.step)
-    }
-
-    /// Candidates that come near what the regenerated ones are about to do.
-    fn reacting(&self, world: &World<'_>, actors: &[Actor], candidates: &BTreeSet<usize>) -> Vec<Actor> {
-        if candidates.is_empty() {
-            return Vec::new();
-        }
-        let paths: Vec<(Vec<Vec2>, f64)> = actors
-            .iter()
-            .map(|a| {
-                let mode = a.likeliest();
-                let motion =
-                    if a.rests { rest(&a.planned) } else { realise(&a.planned, mode, &a.residual[mode]) };
-                let path = motion.states.iter().skip(1).map(|s| s.position).collect();
-                (path, a.planned.present.size.length_m)
-            })
-            .collect();
-        let candidates: Vec<_> = world.present.iter().filter(|p| candidates.contains(&p.index)).collect();
-        let found = parallel::map(self.generator.threads(), &candidates, |who| {
-            let kept = kept_states(world.scene, world.agent(who), world.step);
-            let asked = matches!(self.request.react, React::Only(_));
-            let parked = kept.iter().all(|s| (s.position() - who.start.position()).norm() < STAYS_WITHIN_M);
-            let reach = |length: f64| 5.0 + 0.5 * (length + who.size.length_m);
-            let near = paths.iter().any(|(path, length)| come_near(path, &kept, reach(*length)));
-            let unmoved = world.conditions[who.index].start == scene::Start::default();
-            if !asked && unmoved && (parked || !near) {
-                return None;
+    /// Plans those that get new futures in any case.
+    fn act(&mut self, cast: &Cast) -> Result<(), GenerateError> {
+        let (world, later) = (&self.world, self.number > 0);
+        let acting: Vec<_> = world.present.iter().filter(|p| cast.acting.contains(&p.index)).collect();
+        let mut actors = self.workers().map(&acting, |who| {
+            let mut actor = Actor::asked(world, who);
+            if later {
+                actor.goes_on(cast.parked.contains(&who.index));
             }
-            Some(Actor::reacting(world, who, kept))
+            actor
         });
-        found.into_iter().flatten().take(MOST_ACTORS - actors.len()).collect()
+        self.batches = self.encode(&mut actors)?;
+        for actor in &mut actors {
+            actor.pinned = self.request.pinned.get(&actor.id).cloned();
+        }
+        self.actors = actors;
+        Ok(())
     }
 
-    /// Runs encoder and initializer on road users that will be numbered from `first`.
-    fn encode(&self, actors: &mut [Actor], first: usize) -> Result<Vec<Batch>, GenerateError> {
-        let threads = self.generator.threads();
+    /// Plans those that answer them.
+    fn answer(&mut self, cast: &Cast) -> Result<(), GenerateError> {
+        let tuning = &self.tuning().reacting;
+        let found =
+            reacting(&self.world, self.workers(), &self.actors, &cast.may_react, &self.request.react, tuning);
+        let room = MOST_ACTORS.saturating_sub(self.actors.len());
+        let mut found: Vec<Actor> = found.into_iter().take(room).collect();
+        let batches = self.encode(&mut found)?;
+        self.batches.extend(batches);
+        self.actors.extend(found);
+        Ok(())
+    }
+
+    pub(super) fn workers(&self) -> &'g Workers {
+        &self.generator.workers
+    }
+
+    pub(super) fn tuning(&self) -> &'g Tuning {
+        &self.generator.tuning
+    }
+
+    /// Indices of the actors.
+    pub(super) fn indices(&self) -> Vec<usize> {
+        (0..self.actors.len()).collect()
+    }
+
+    /// The scene's energy.
+    pub(super) fn energy(&self) -> SceneEnergy<'_> {
+        let (pullback, drivable) = (&self.pullback, &self.map.drivable);
+        SceneEnergy { pullback, drivable, tuning: &self.tuning().overlaps }
+    }
+
+    /// What an actor's candidates are made from.
+    pub(super) fn material(&self, i: usize) -> Material<'_> {
+        let tuning = &self.tuning().middle;
+        Material { actor: &self.actors[i], drafts: &self.drafts[i], window: self.number, tuning }
+    }
+
+    /// Runs encoder and initializer on road users that will be numbered after the actors there are.
+    fn encode(&self, actors: &mut [Actor]) -> Result<Vec<Batch>, GenerateError> {
+        let first = self.actors.len();
         let mut groups: Vec<(AgentType, Vec<usize>)> = Vec::new();
-        for (agent_type, _) in super::EXPERTS {
-            let all: Vec<usize> =
-                (0..actors.len()).filter(|i| actors[*i].planned.present.agent_type == agent_type).collect();
-            let run = all.len().div_ceil(threads).max(4);
+        for (agent_type, _) in EXPERTS {
+            let of_type = |i: &usize| actors[*i].plan.present.agent_type == agent_type;
+            let all: Vec<usize> = (0..actors.len()).filter(of_type).collect();
+            let run = all.len().div_ceil(self.workers().threads()).max(FEWEST_IN_BATCH);
             groups.extend(all.chunks(run).map(|part| (agent_type, part.to_vec())));
         }
         let shared = &*actors;
-        let results = parallel::map(threads, &groups, |(agent_type, members)| {
+        let results = self.workers().map(&groups, |(agent_type, members)| {
             let expert = self.generator.expert(*agent_type)?;
-            let features: Vec<_> = members.iter().map(|i| &shared[*i].planned.features).collect();
+            let features: Vec<_> = members.iter().map(|i| &shared[*i].plan.features).collect();
             let context: Context = expert.encode(&features)?;
-            let said = expert.initialize(&context)?;
+            let output = expert.initialize(&context)?;
             let prepared = expert.prepare_refine(&context)?;
-            Ok::<_, GenerateError>((said, prepared))
+            Ok::<_, GenerateError>((output, prepared))
         });
         let mut batches = Vec::with_capacity(groups.len());
         for ((agent_type, members), result) in groups.into_iter().zip(results) {
-            let (said, prepared) = result?;
+            let (output, prepared) = result?;
             for (row, index) in members.iter().enumerate() {
-                let actor = &mut actors[*index];
-                finite(&said.residual[row], 0, &actor.id)?;
-                if !actor.keeps_its_path() {
-                    actor.residual = said.residual[row];
-                    let sure = actor.planned.target.position.is_some();
-                    actor.probability = softmax(&said.log_prob[row], if sure { 1.0 } else { DOUBT });
-                    if self.request.stages.parted {
-                        twins::part(&actor.planned, &mut actor.residual, &mut actor.probability);
-                    }
-                }
-                actor.stays_probability = stays_in_the_world(f64::from(said.stays[row]));
-                let free = actor.planned.target.is_free();
-                let stays = !free || actor.stays_probability > 0.5 || actor.is_parked();
-                actor.rests = actor.stays_parked || (may_rest(&actor.planned, self.number) && stays);
+                self.initialize(&mut actors[*index], &output, row)?;
             }
             let actors = members.into_iter().map(|i| i + first).collect();
             batches.push(Batch { agent_type, actors, prepared });
@@ -240,43 +202,53 @@ impl<'g> Window<'g> {
         Ok(batches)
     }
 
-    /// Fresh drafts for the present sample: the modes with the draw's noise.
+    /// Sets an actor's first modes, and whether it rests, from a row of the initializer's output.
+    fn initialize(&self, actor: &mut Actor, output: &InitialOutput, row: usize) -> Result<(), GenerateError> {
+        finite(&output.residual[row], 0, &actor.id)?;
+        if !actor.keeps_its_path() {
+            let sure = actor.plan.target.position.is_some();
+            let temperature = if sure { 1.0 } else { self.tuning().probability.temperature };
+            let mut modes = output.residual[row];
+            let mut probability = softmax(&output.log_prob[row], temperature);
+            if self.request.stages.parted {
+                let tuning = &self.tuning().duplicates;
+                duplicate_modes::replace(&actor.plan, &mut modes, &mut probability, tuning);
+            }
+            actor.set_modes(modes, probability);
+        }
+        actor.stays_probability = stays_in_the_world(f64::from(output.stays[row]));
+        let free = actor.plan.target.is_free();
+        let stays = !free || actor.stays_probability > STAYS_ABOVE || actor.is_parked();
+        actor.rests = actor.stays_parked || (may_rest(&actor.plan, self.number) && stays);
+        Ok(())
+    }
+
+    /// Fresh drafts for a sample: the modes with the draw's noise.
     pub(super) fn begin_sample(&mut self, sample: usize) -> Result<(), GenerateError> {
         self.sample = sample;
         let (seed, window) = (self.request.seed, self.number);
-        let key = |agent, step| Key { seed, sample, agent, window, step };
-        let likeliest = match self.request.stages.shown {
-            Shown::Chosen => sample == 0,
-            Shown::Likeliest => true,
-            Shown::Drawn => false,
+        let key = Key { seed, sample, agent: "", window, step: 0 };
+        let by_probability = leads_by_probability(self.request.stages.shown, sample);
+        let fresh = |actor: &Actor| {
+            let leading = if by_probability {
+                actor.likeliest()
+            } else {
+                pick(&actor.probability, Key { agent: &actor.id, step: usize::MAX, ..key }.unit())
+            };
+            Drafts { modes: actor.modes, leading, settled: None }
         };
-        self.standing_for =
-            self.actors
-                .iter()
-                .map(|a| {
-                    if likeliest {
-                        a.likeliest()
-                    } else {
-                        pick(&a.probability, key(&a.id, usize::MAX).unit())
-                    }
-                })
-                .collect();
-        self.drafts = self.actors.iter().map(|a| a.residual).collect();
-        self.settled = vec![None; self.actors.len()];
+        self.drafts = self.actors.iter().map(fresh).collect();
         let Some(&(level, _)) = levels(&self.request).first() else {
             return Ok(());
         };
         for batch in &self.batches {
-            let residual: Vec<Residuals> = batch.actors.iter().map(|i| self.drafts[*i]).collect();
-            let noise: Vec<Residuals> = batch
-                .actors
-                .iter()
-                .map(|i| key(&self.actors[*i].id, 0).normals(self.request.diversity))
-                .collect();
+            let modes: Vec<Modes> = batch.actors.iter().map(|i| self.drafts[*i].modes).collect();
+            let noise = |i: &usize| Key { agent: &self.actors[*i].id, ..key }.normals(self.request.diversity);
+            let noise: Vec<Modes> = batch.actors.iter().map(noise).collect();
             let expert = self.generator.expert(batch.agent_type)?;
-            let noisy = expert.add_noise(&batch.prepared, &residual, &noise, level)?;
-            for (i, draft) in batch.actors.iter().zip(noisy) {
-                self.drafts[*i] = draft;
+            let noisy = expert.add_noise(&batch.prepared, &modes, &noise, level)?;
+            for (i, modes) in batch.actors.iter().zip(noisy) {
+                self.drafts[*i].modes = modes;
             }
         }
         Ok(())
@@ -284,29 +256,33 @@ impl<'g> Window<'g> {
 
     /// One refinement step for everybody.
     pub(super) fn refine(&mut self, step: usize) -> Result<(), GenerateError> {
-        let Some(&level) = levels(&self.request).get(step - 1) else { return Ok(()) };
-        let pushes = if self.request.stages.refining.push {
-            self.pushes()
+        let levels = levels(&self.request);
+        let Some(&level) = levels.get(step - 1) else { return Ok(()) };
+        let Self { actors, drafts, background, .. } = &*self;
+        let refining = &self.request.stages.refining;
+        let repulsions = if refining.repulsion {
+            repulsions(&self.energy(), self.workers(), actors, drafts, &background.outlines)
         } else {
-            vec![[[0.0; RESIDUAL]; MODES]; self.actors.len()]
+            vec![[[0.0; RESIDUAL]; MODES]; actors.len()]
         };
-        let drafts = &self.drafts;
-        let results = parallel::map(self.generator.threads(), &self.batches, |batch| {
-            let residual: Vec<Residuals> = batch.actors.iter().map(|i| drafts[*i]).collect();
-            let push: Vec<Residuals> = batch.actors.iter().map(|i| pushes[*i]).collect();
+        let results = self.workers().map(&self.batches, |batch| {
+            let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].modes).collect();
+            let repulsion: Vec<Modes> = batch.actors.iter().map(|i| repulsions[*i]).collect();
             let expert = self.generator.expert(batch.agent_type)?;
-            Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &residual, &push, level, None)?)
+            Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &modes, &repulsion, level, None)?)
         });
         for (batch, result) in self.batches.iter().zip(results) {
-            for (i, draft) in batch.actors.iter().zip(result?) {
-                finite(&draft, step, &self.actors[*i].id)?;
-                self.drafts[*i] = draft;
+            for (i, modes) in batch.actors.iter().zip(result?) {
+                finite(&modes, step, &self.actors[*i].id)?;
+                self.drafts[*i].modes = modes;
             }
         }
-        // A first scene that is chosen does without: choice and guidance clear it, and its user waits.
+        // A first sample that is chosen does without: choice and guidance clear it, and its user waits.
         let drawn = self.sample > 0 || self.request.stages.shown != Shown::Chosen;
-        if drawn && self.request.stages.refining.settle && step == levels(&self.request).len() {
-            self.settle();
+        if drawn && self.request.stages.refining.resolve_overlaps && step == levels.len() {
+            let mut drafts = std::mem::take(&mut self.drafts);
+            resolve_overlaps(&self.energy(), &self.actors, &mut drafts, &self.background.outlines);
+            self.drafts = drafts;
         }
         Ok(())
     }
@@ -314,13 +290,14 @@ impl<'g> Window<'g> {
     /// The present drafts as futures that can be shown.
     pub(super) fn draft(&self, step: usize) -> Draft {
         let all = self.request.stream_all || self.actors.len() < SHOW_ALL_BELOW;
-        let indices: Vec<usize> = (0..self.actors.len()).collect();
-        let shown = parallel::map(self.generator.threads(), &indices, |&i| {
-            let modes = if all { self.request.modes } else { 1 };
-            let motions = self.motions(i, modes);
-            let middle = options::middle_slot(&self.actors[i]);
-            let shown = motions.iter().position(|m| middle == Some(m.1)).unwrap_or(0);
-            (self.actors[i].id.clone(), self.futures(shown, &motions))
+        let count = if all { self.request.modes } else { 1 };
+        let shown = self.workers().map(&self.indices(), |&i| {
+            let actor = &self.actors[i];
+            let alternatives = self.material(i).alternatives(count);
+            let middle = middle(actor);
+            let is_middle = |c: &Candidate| middle.is_some() && c.origin.slot() == middle;
+            let shown = alternatives.iter().position(is_middle).unwrap_or(0);
+            (actor.id.clone(), self.futures(shown, &alternatives))
         });
         Draft {
             window: self.number,
@@ -331,45 +308,21 @@ impl<'g> Window<'g> {
         }
     }
 
-    /// Motions of an actor's drafts with their probabilities and slots, likeliest first.
-    fn motions(&self, i: usize, count: usize) -> Vec<(f64, usize, Motion)> {
-        let actor = &self.actors[i];
-        let mut out = Vec::with_capacity(count + 1);
-        let mut share = 1.0;
-        if actor.rests {
-            let certain = self.mode_count(i) == 1;
-            let p = if certain { 1.0 } else { actor.stays_probability };
-            out.push((p, usize::MAX, rest(&actor.planned)));
-            if certain {
-                return out;
-            }
-            share = 1.0 - p;
-        }
-        for &slot in self.order[i].iter().take(count.saturating_sub(out.len())) {
-            let is_middle = options::middle_slot(actor) == Some(slot);
-            let learned = if is_middle { options::learned_share(actor) } else { 1.0 };
-            let motion = realise(&actor.planned, slot, &self.drafts[i][slot].map(|r| learned * r));
-            let motion = without_creep(&actor.planned, self.number, motion);
-            out.push((share * actor.probability[slot], slot, motion));
-        }
-        out
-    }
-
-    /// Motions as futures, cut to what was asked for.
-    pub(super) fn futures(&self, chosen: usize, motions: &[(f64, usize, Motion)]) -> AgentFutures {
-        let total: f64 = motions.iter().map(|m| m.0).sum();
-        let modes = motions.iter().map(|(p, slot, motion)| Future {
-            anchor: u32::try_from(*slot).ok(),
-            probability: if total > 0.0 { p / total } else { 1.0 / motions.len() as f64 },
-            first_step: self.step + 1,
-            states: self.cut(&motion.states),
+    /// Alternatives as futures, cut to what was asked for.
+    pub(super) fn futures(&self, chosen: usize, alternatives: &[Candidate]) -> AgentFutures {
+        let total: f64 = alternatives.iter().map(|c| c.probability).sum();
+        let modes = alternatives.iter().map(|c| Future {
+            anchor: c.origin.slot().map(Slot::number),
+            probability: if total > 0.0 { c.probability / total } else { 1.0 / alternatives.len() as f64 },
+            first_step: self.world.step + 1,
+            states: self.cut(&c.motion.states),
         });
         AgentFutures { chosen, modes: modes.collect() }
     }
 
-    /// The asked-for part of a rollout, the start left out.
+    /// The asked-for part of a trajectory, the start left out.
     fn cut(&self, states: &Trajectory) -> Vec<State> {
-        let left = self.request.start_step + self.request.horizon_steps - self.step;
+        let left = self.request.start_step + self.request.horizon_steps - self.world.step;
         states.iter().skip(1).take(left.min(HORIZON_STEPS)).map(State::from).collect()
     }
 }
@@ -384,21 +337,16 @@ pub(super) fn steps(request: &Request) -> usize {
     levels(request).len()
 }
 
-fn by_probability(probability: &[f64; MODES]) -> [usize; MODES] {
-    let mut order: [usize; MODES] = std::array::from_fn(|i| i);
-    order.sort_by(|a, b| probability[*b].total_cmp(&probability[*a]).then(a.cmp(b)));
-    order
-}
-
-fn pick(probability: &[f64; MODES], at: f64) -> usize {
+/// The mode at a share `at` of all probability.
+fn pick(probability: &[f64; MODES], at: f64) -> Slot {
     let mut left = at;
-    for (i, p) in probability.iter().enumerate() {
+    for (slot, p) in Slot::all().zip(probability) {
         if left < *p {
-            return i;
+            return slot;
         }
         left -= p;
     }
-    MODES - 1
+    Slot::new(MODES - 1)
 }
 
 /// Probabilities, the flatter the higher the temperature.
@@ -408,9 +356,30 @@ fn softmax(log_prob: &[f32; MODES], temperature: f64) -> [f64; MODES] {
     values.map(|v| v / sum.max(1e-12))
 }
 
-fn finite(residual: &Residuals, step: usize, agent: &AgentId) -> Result<(), GenerateError> {
-    if residual.as_flattened().iter().all(|v| v.is_finite()) {
+fn finite(modes: &Modes, step: usize, agent: &AgentId) -> Result<(), GenerateError> {
+    if modes.as_flattened().iter().all(|v| v.is_finite()) {
         return Ok(());
     }
     Err(GenerateError::NonFinite { step, agent: agent.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_draw_follows_the_probabilities() {
+        let probability = [0.5, 0.0, 0.25, 0.25, 0.0, 0.0];
+        let slots = [0.0, 0.49, 0.5, 0.76, 0.999].map(|at| pick(&probability, at).index());
+        assert_eq!(slots, [0, 0, 2, 3, 3]);
+        assert_eq!(pick(&probability, 1.0).index(), MODES - 1);
+    }
+
+    #[test]
+    fn temperature_flattens() {
+        let log_prob = [0.0, -1.0, -2.0, -3.0, -4.0, -5.0];
+        let (sharp, flat) = (softmax(&log_prob, 1.0), softmax(&log_prob, 2.5));
+        assert!(sharp[0] > flat[0] && sharp[5] < flat[5]);
+        assert!((flat.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    }
 }

@@ -9,6 +9,7 @@ pub mod learn;
 mod model;
 mod observe;
 mod place;
+mod placer;
 mod pose;
 mod random;
 mod region;
@@ -18,7 +19,5 @@ mod stops;
 
 pub use model::{PlacementInfo, PlacementModel};
 pub use place::{Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, place};
+pub use placer::Placer;
 pub use region::{Region, map_bounds, ring_area_m2};
-
-/// Name of the weights file, beside those of the experts.
-pub const FILE_NAME: &str = "placement.json";

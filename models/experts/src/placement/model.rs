@@ -4,7 +4,7 @@
 //! are histograms by context. All of it is one JSON file, small enough to read.
 
 use super::sites::{FACTS, Site, SiteKind};
-use crate::generator::WeightsError;
+use crate::weights::{PLACEMENT_FILE, WeightsError};
 use scene::{AgentType, ContentHash};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -127,7 +127,7 @@ impl PlacementModel {
     /// # Errors
     /// When it is of another form, or has numbers that cannot be.
     pub fn load(bytes: &[u8]) -> Result<Self, WeightsError> {
-        let wrong = |reason: String| WeightsError { path: super::FILE_NAME.to_owned(), reason };
+        let wrong = |reason: String| WeightsError { path: PLACEMENT_FILE.to_owned(), reason };
         if bytes.len() > MAX_BYTES {
             return Err(wrong(format!("{} bytes, at most {MAX_BYTES} expected", bytes.len())));
         }

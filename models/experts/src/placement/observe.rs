@@ -235,7 +235,7 @@ fn nearest(
     sites: &Sites<'_>,
     position: Vec2,
     wanted: impl Fn(&Site) -> bool,
-    cost: impl Fn(&Site, &scene::routes::Projection) -> Option<f64>,
+    cost: impl Fn(&Site, &scene::routes::Foot) -> Option<f64>,
 ) -> Option<usize> {
     let near = |site: &Site| (site.center - position).norm() < PARKED_M + site.extent();
     let candidates = sites.all.iter().enumerate().filter(|(_, s)| wanted(s) && near(s));

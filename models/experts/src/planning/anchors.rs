@@ -1,11 +1,12 @@
-//! Anchors: where a road user may go, before any network speaks (`model.md` sections 3 and 4).
+//! Anchors: where a road user may go, before any network speaks.
 //!
 //! With a goal position they are lane routes to it (or the least-effort motion where that is as good);
 //! without one, routes ahead, each with several timings. Pedestrians get straight lines beside routes.
 
 use super::MODES;
 use super::profile::{Caps, Progress, arriving, cruising, reaching_speed};
-use super::world::{Present, World};
+use super::world::{AgentAtStart, World};
+use crate::tuning::AnchorTuning;
 use scene::geometry::direction;
 use scene::motion::{Kind, MotionModel, Target, Tension, project};
 use scene::routes::{
@@ -58,16 +59,8 @@ const SLOTS: [[usize; MODES]; MODES] = [
 /// The first path to a goal gets more of the slots than the others.
 const GOAL_SLOTS: [[usize; 3]; 3] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
 
-/// How far a rider's smooth way to a goal may be from the route's, metres.
-const RIDERS_BERTH_M: f64 = 3.0;
-
-/// How long the velocity of the moment lasts on foot, where it is mostly sway, and on a bicycle, seconds. Of what
-/// was tried on recorded scenes these come nearest.
-const WALKERS_RELAX_S: f64 = 0.8;
-const RIDERS_RELAX_S: f64 = 5.0;
-
 /// A path before it has timings.
-struct Candidate {
+struct Way {
     path: Polyline,
     caps_mps: Vec<f64>,
     limit_mps: f64,
@@ -79,7 +72,7 @@ struct Candidate {
 }
 
 /// The six anchors of a road user.
-pub fn anchors(world: &World<'_>, who: &Present, model: &MotionModel, target: &Target) -> Vec<Anchor> {
+pub fn anchors(world: &World<'_>, who: &AgentAtStart, model: &MotionModel, target: &Target) -> Vec<Anchor> {
     match target.position {
         Some(goal) => anchors_to_goal(world, who, model, target, goal),
         None => anchors_ahead(world, who, model, target),
@@ -88,7 +81,7 @@ pub fn anchors(world: &World<'_>, who: &Present, model: &MotionModel, target: &T
 
 fn anchors_to_goal(
     world: &World<'_>,
-    who: &Present,
+    who: &AgentAtStart,
     model: &MotionModel,
     target: &Target,
     goal: Vec2,
@@ -100,9 +93,15 @@ fn anchors_to_goal(
     let slots = GOAL_SLOTS[candidates.len().clamp(1, 3) - 1];
     for (candidate, count) in candidates.into_iter().zip(slots) {
         // Whoever must be there in time takes bends as fast as that asks.
-        let base = candidate
-            .pace
-            .unwrap_or_else(|| arriving(v0, goal_progress(&candidate.path, goal), seconds, target.speed_mps));
+        let base = candidate.pace.unwrap_or_else(|| {
+            arriving(
+                v0,
+                goal_progress(&candidate.path, goal),
+                seconds,
+                target.speed_mps,
+                world.tuning.anchors.setting_off_mps2,
+            )
+        });
         for timing in 0..count {
             out.push(candidate.anchor(base, (timing, count)));
         }
@@ -119,15 +118,15 @@ fn goal_progress(path: &Polyline, goal: Vec2) -> f64 {
 
 fn paths_to_goal(
     world: &World<'_>,
-    who: &Present,
+    who: &AgentAtStart,
     model: &MotionModel,
     target: &Target,
     goal: Vec2,
-) -> Vec<Candidate> {
+) -> Vec<Way> {
     let v0 = model.start_speed_mps();
     let end = EndPose { position: goal, heading_rad: target.heading_rad };
     if model.kind == Kind::Walk {
-        return vec![walk_to(who, model, target, goal)];
+        return vec![walk_to(who, model, target, goal, &world.tuning.anchors)];
     }
     let least = project(model, &model.coasting(), target, None);
     let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));
@@ -139,20 +138,29 @@ fn paths_to_goal(
         goal_heading_rad: target.heading_rad,
         least_effort_m: Some(least_path.length_m()),
     };
-    let mut out: Vec<Candidate> = Vec::new();
+    let mut out: Vec<Way> = Vec::new();
     let routes = if world.planning.routes { routes_to_goal(&world.graph, &query) } else { Vec::new() };
     for found in routes {
         let path = base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end));
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
         let identity = identity_of(&found.route);
-        out.push(Candidate::new(path, 3.5, f64::INFINITY, kind, Some(found.route), identity));
+        out.push(Way::new(
+            path,
+            3.5,
+            f64::INFINITY,
+            kind,
+            Some(found.route),
+            identity,
+            &world.tuning.anchors,
+        ));
     }
     // Riders keep to no lane's middle and use pavements: the smooth way serves unless a route with the traffic
     // goes elsewhere.
     if who.agent_type == AgentType::Cyclist
-        && let Some(mut smooth) = smooth_to(who, model, target, goal)
+        && let Some(mut smooth) = smooth_to(who, model, target, goal, &world.tuning.anchors)
         && out.first().is_none_or(|c| {
-            c.kind != PathKind::Route || greatest_distance(&smooth.path, &c.path) < RIDERS_BERTH_M
+            c.kind != PathKind::Route
+                || greatest_distance(&smooth.path, &c.path) < world.tuning.anchors.riders_berth_m
         })
     {
         smooth.route = if out.is_empty() { None } else { out.remove(0).route };
@@ -168,7 +176,10 @@ fn paths_to_goal(
         let route = if near { out.remove(0).route } else { None };
         // Off the lanes a goal with a heading is met straight away; without one the lanes say how.
         let place = usize::from(joined && !near && target.heading_rad.is_none());
-        out.insert(place, Candidate::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, route, 1));
+        out.insert(
+            place,
+            Way::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, route, 1, &world.tuning.anchors),
+        );
     }
     out.truncate(3);
     out
@@ -176,8 +187,14 @@ fn paths_to_goal(
 
 /// On foot, a spline under tension: it leaves as the person walks now and arrives as the goal asks. Where that
 /// would wind, or there is hardly a way to go, the straight line.
-fn walk_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) -> Candidate {
-    if let Some(smooth) = smooth_to(who, model, target, goal) {
+fn walk_to(
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    goal: Vec2,
+    tuning: &AnchorTuning,
+) -> Way {
+    if let Some(smooth) = smooth_to(who, model, target, goal, tuning) {
         return smooth;
     }
     let start = who.start.position();
@@ -188,13 +205,19 @@ fn walk_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) -> C
     } else {
         Polyline::new([start, start + direction(who.start.heading_rad)])
     };
-    Candidate::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2)
+    Way::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2, tuning)
 }
 
 /// The spline under tension to the goal, as a path with its pace; `None` where it would wind or hardly move.
-fn smooth_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) -> Option<Candidate> {
+fn smooth_to(
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    goal: Vec2,
+    tuning: &AnchorTuning,
+) -> Option<Way> {
     let from = (who.start.position(), who.start.velocity());
-    let relax_s = if model.kind == Kind::Walk { WALKERS_RELAX_S } else { RIDERS_RELAX_S };
+    let relax_s = if model.kind == Kind::Walk { tuning.walkers_relax_s } else { tuning.riders_relax_s };
     let curve = Tension::to_target(from, target, relax_s)?;
     let mut pace = [0.0; HORIZON_STEPS + 1];
     let mut points = vec![from.0];
@@ -208,17 +231,17 @@ fn smooth_to(who: &Present, model: &MotionModel, target: &Target, goal: Vec2) ->
     }
     points.truncate(target.step + 1);
     let path = Polyline::new(points);
-    let candidate = Candidate::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2);
-    Some(Candidate { pace: Some(pace), ..candidate })
+    let candidate = Way::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2, tuning);
+    Some(Way { pace: Some(pace), ..candidate })
 }
 
 /// Whether a way of this length to the goal does not wind.
-fn is_direct(length_m: f64, who: &Present, goal: Vec2) -> bool {
+fn is_direct(length_m: f64, who: &AgentAtStart, goal: Vec2) -> bool {
     length_m < 1.25 * (goal - who.start.position()).norm() + 0.3
 }
 
 /// A path long enough to have a direction: very short ones go on along the start heading.
-fn with_tail(path: Polyline, who: &Present) -> Polyline {
+fn with_tail(path: Polyline, who: &AgentAtStart) -> Polyline {
     if path.length_m() > 1.0 {
         return path;
     }
@@ -231,7 +254,7 @@ fn greatest_distance(path: &Polyline, other: &Polyline) -> f64 {
     path.points().iter().step_by(5).map(|p| other.project(*p).distance_m).fold(0.0, f64::max)
 }
 
-fn anchors_ahead(world: &World<'_>, who: &Present, model: &MotionModel, target: &Target) -> Vec<Anchor> {
+fn anchors_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel, target: &Target) -> Vec<Anchor> {
     let candidates = paths_ahead(world, who, model);
     let v0 = model.start_speed_mps();
     let seconds = target.step as f64 * STEP_S;
@@ -246,7 +269,9 @@ fn anchors_ahead(world: &World<'_>, who: &Present, model: &MotionModel, target: 
                     let sag = (share - 0.5) * 0.5 * v0.max(speed).max(1.0);
                     reaching_speed(v0, speed, seconds, sag, &caps)
                 }
-                (None, Kind::Drive) => cruising(v0, share * 1.15 * candidate.limit_mps.max(v0), &caps),
+                (None, Kind::Drive) => {
+                    cruising(v0, share * world.tuning.anchors.over_limit * candidate.limit_mps.max(v0), &caps)
+                }
                 (None, Kind::Walk) => cruising(v0, walking_speed(v0, timing, count), &caps),
             };
             out.push(candidate.anchor(base, (timing, count)));
@@ -263,7 +288,7 @@ fn walking_speed(v0: f64, timing: usize, count: usize) -> f64 {
     [v0, 0.0, 0.6 * v0 + 0.2, 1.3 * v0, 1.35, 0.3][timing % 6]
 }
 
-fn paths_ahead(world: &World<'_>, who: &Present, model: &MotionModel) -> Vec<Candidate> {
+fn paths_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel) -> Vec<Way> {
     let v0 = model.start_speed_mps();
     let graph = &world.graph;
     let walking = model.kind == Kind::Walk;
@@ -273,9 +298,9 @@ fn paths_ahead(world: &World<'_>, who: &Present, model: &MotionModel) -> Vec<Can
     } else {
         Vec::new()
     };
-    let mut out: Vec<Candidate> = Vec::with_capacity(MODES);
+    let mut out: Vec<Way> = Vec::with_capacity(MODES);
     if walking || routes.is_empty() {
-        out.push(straight_on(who, model, length));
+        out.push(straight_on(who, model, length, &world.tuning.anchors));
     }
     let most = if walking { 3 } else { MODES };
     for route in routes {
@@ -286,22 +311,23 @@ fn paths_ahead(world: &World<'_>, who: &Present, model: &MotionModel) -> Vec<Can
         let limit = route.limits_mps.first().copied().unwrap_or(model.limits.speed_mps);
         let identity = identity_of(&route);
         let comfort = model.limits.comfort_lateral_mps2;
-        out.push(Candidate::new(
+        out.push(Way::new(
             path,
             comfort,
             limit.min(model.limits.speed_mps),
             PathKind::Route,
             Some(route),
             identity,
+            &world.tuning.anchors,
         ));
     }
     if out.len() == 1 && !walking && out[0].kind == PathKind::Straight {
-        out.extend([0.6, -0.6].map(|bend| bent(who, model, length, bend)));
+        out.extend([0.6, -0.6].map(|bend| bent(who, model, length, bend, &world.tuning.anchors)));
     }
     out
 }
 
-fn straight_on(who: &Present, model: &MotionModel, length: f64) -> Candidate {
+fn straight_on(who: &AgentAtStart, model: &MotionModel, length: f64, tuning: &AnchorTuning) -> Way {
     let start = who.start.position();
     let (faces, velocity) = (direction(who.start.heading_rad), who.start.velocity());
     // The velocity of a walker sways, so the way it faces says better where it goes, unless it goes elsewhere.
@@ -310,11 +336,11 @@ fn straight_on(who: &Present, model: &MotionModel, length: f64) -> Candidate {
     let ahead = if aside { velocity.normalize() } else { faces };
     let n = length.ceil().max(2.0) as usize;
     let path = Polyline::new((0..=n).map(|i| start + ahead * i as f64));
-    Candidate::new(path, 2.0, assumed_speed(who.agent_type), PathKind::Straight, None, 3)
+    Way::new(path, 2.0, assumed_speed(who.agent_type), PathKind::Straight, None, 3, tuning)
 }
 
 /// An arc that turns by `bend` radians over the length.
-fn bent(who: &Present, model: &MotionModel, length: f64, bend: f64) -> Candidate {
+fn bent(who: &AgentAtStart, model: &MotionModel, length: f64, bend: f64, tuning: &AnchorTuning) -> Way {
     let n = length.ceil().max(2.0) as usize;
     let mut at = who.start.position();
     let points: Vec<Vec2> = (0..=n)
@@ -326,13 +352,14 @@ fn bent(who: &Present, model: &MotionModel, length: f64, bend: f64) -> Candidate
         .collect();
     let comfort = model.limits.comfort_lateral_mps2;
     let identity = if bend > 0.0 { 4 } else { 5 };
-    Candidate::new(
+    Way::new(
         Polyline::new(points),
         comfort,
         assumed_speed(who.agent_type),
         PathKind::Straight,
         None,
         identity,
+        tuning,
     )
 }
 
@@ -345,7 +372,7 @@ fn assumed_speed(agent_type: AgentType) -> f64 {
     }
 }
 
-impl Candidate {
+impl Way {
     fn new(
         path: Polyline,
         lateral_mps2: f64,
@@ -353,7 +380,9 @@ impl Candidate {
         kind: PathKind,
         route: Option<Route>,
         identity: u64,
+        tuning: &AnchorTuning,
     ) -> Self {
+        let over_limit = tuning.over_limit;
         let limits: Vec<f64> = match (&route, limit_mps.is_finite()) {
             (Some(route), true) => path
                 .arc_m()
@@ -361,10 +390,10 @@ impl Candidate {
                 .map(|s| {
                     let i = (*s as usize).min(route.limits_mps.len().saturating_sub(1));
                     // Many drive faster than the sign says.
-                    route.limits_mps.get(i).map_or(limit_mps, |l| 1.15 * l)
+                    route.limits_mps.get(i).map_or(limit_mps, |l| over_limit * l)
                 })
                 .collect(),
-            _ => vec![if limit_mps.is_finite() { 1.15 * limit_mps } else { 60.0 }; path.points().len()],
+            _ => vec![if limit_mps.is_finite() { over_limit * limit_mps } else { 60.0 }; path.points().len()],
         };
         let rules = SpeedRules { lateral_mps2, ..SpeedRules::default() };
         let caps_mps = speed::speed_caps(&path, &limits, rules);

@@ -19,6 +19,10 @@ pub const INSTANTS: usize = 18;
 pub const INSTANT_S: f64 = scene::HORIZON_STEPS as f64 / INSTANTS as f64 * scene::STEP_S;
 /// Numbers of one future in route coordinates: along knots, then across knots.
 pub const RESIDUAL: usize = 2 * KNOTS;
+/// One future in route coordinates, relative to its anchor.
+pub type Residual = [f32; RESIDUAL];
+/// The futures of all modes of a road user, each relative to its own anchor.
+pub type Modes = [Residual; MODES];
 
 /// Who keeps within this of its place for a whole window stays there, metres.
 pub const STAYS_WITHIN_M: f64 = 0.5;

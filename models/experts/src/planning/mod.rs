@@ -14,6 +14,6 @@ mod tests;
 pub mod world;
 
 pub use coordinates::{
-    ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, MODES, RESIDUAL, STAYS_WITHIN_M, hat,
-    integrated_hat, twice_integrated_hat,
+    ACROSS_SCALE, ALONG_SCALE, Basis, INSTANT_S, INSTANTS, MODES, Modes, RESIDUAL, Residual, STAYS_WITHIN_M,
+    hat, integrated_hat, twice_integrated_hat,
 };

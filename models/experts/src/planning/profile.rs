@@ -61,12 +61,10 @@ pub fn reaching_speed(v0: f64, speed_mps: f64, seconds: f64, sag: f64, caps: &Ca
     integrate(v0, caps, 8.0, wish)
 }
 
-/// How a standing vehicle sets off, m/s2. Of what was tried on recorded scenes 1.0 to 1.2 come nearest.
-const SETTING_OFF_MPS2: f64 = 1.1;
-
-/// Stands as long as there is time to, then speeds up evenly; beyond the end it goes on as fast as it is then.
-fn setting_off(length_m: f64, seconds: f64) -> Progress {
-    let rate = SETTING_OFF_MPS2.max(2.0 * length_m / (seconds * seconds));
+/// Stands as long as there is time to, then speeds up evenly, by `easy_mps2` where that is enough; beyond the end
+/// it goes on as fast as it is then.
+fn setting_off(length_m: f64, seconds: f64, easy_mps2: f64) -> Progress {
+    let rate = easy_mps2.max(2.0 * length_m / (seconds * seconds));
     let wait = (seconds - (2.0 * length_m / rate).sqrt()).max(0.0);
     std::array::from_fn(|i| {
         let t = i as f64 * STEP_S;
@@ -77,10 +75,10 @@ fn setting_off(length_m: f64, seconds: f64) -> Progress {
 
 /// Covers `length_m` in `seconds`, ending at `end_mps` when that is given, with the smoothest speed of a
 /// one-parameter family (linear acceleration that fades out, or a parabola through both speeds). Whoever
-/// stands and may end at any speed leaves as late as an easy start allows.
-pub fn arriving(v0: f64, length_m: f64, seconds: f64, end_mps: Option<f64>) -> Progress {
+/// stands and may end at any speed leaves as late as a start by `easy_mps2` allows.
+pub fn arriving(v0: f64, length_m: f64, seconds: f64, end_mps: Option<f64>, easy_mps2: f64) -> Progress {
     if v0 < STANDING_MPS && end_mps.is_none() && length_m > 0.0 {
-        return setting_off(length_m, seconds);
+        return setting_off(length_m, seconds, easy_mps2);
     }
     let step = (seconds / STEP_S).round().clamp(1.0, HORIZON_STEPS as f64) as usize;
     let wish = |shape: f64| {
@@ -121,7 +119,7 @@ mod tests {
             (0.0, 12.0, 9.0, None),
             (0.1, 90.0, 6.0, None),
         ] {
-            let p = arriving(v0, length, seconds, end);
+            let p = arriving(v0, length, seconds, end, 1.1);
             let step = (seconds / STEP_S).round() as usize;
             assert!((p[step] - length).abs() < 0.1, "{} for {length}", p[step]);
             assert!(p.windows(2).all(|w| w[1] >= w[0]));
@@ -133,12 +131,12 @@ mod tests {
 
     #[test]
     fn who_stands_leaves_when_it_must() {
-        let near = arriving(0.0, 5.0, 9.0, None);
+        let near = arriving(0.0, 5.0, 9.0, None, 1.1);
         assert!(near[50] < 0.01 && (near[90] - 5.0).abs() < 1e-9);
-        let far = arriving(0.0, 60.0, 9.0, None);
+        let far = arriving(0.0, 60.0, 9.0, None, 1.1);
         assert!(far[10] > 0.5 && (far[90] - 60.0).abs() < 1e-9);
         // A goal that is met before the end is driven past.
-        let early = arriving(0.0, 5.0, 6.0, None);
+        let early = arriving(0.0, 5.0, 6.0, None, 1.1);
         assert!(early[90] > early[60] + 3.0 * 0.9 * speed_at(&early, 60));
     }
 

@@ -3,7 +3,7 @@
 use super::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL, smooth};
 use scene::KNOTS;
 
-/// Longest push, in normalised knots.
+/// Longest step downhill, in normalised knots.
 const LONGEST: f32 = 0.8;
 
 /// Takes gradients at the instants back to the knots of a residual.
@@ -39,7 +39,7 @@ impl Pullback {
     /// The refiner's input: the way downhill in the knots' correlation, tangent to the goal, of bounded
     /// length. `route` as in [`Pullback::knots`]; `tangent` as in
     /// [`AgentFeatures`](crate::features::AgentFeatures).
-    pub fn push(
+    pub fn downhill(
         &self,
         route: &[[f32; 2]; INSTANTS],
         tangent: &[[[f32; KNOTS]; KNOTS]; 2],
@@ -155,7 +155,7 @@ mod tests {
     fn a_push_lowers_the_energy() {
         let mut knots = [0.0; RESIDUAL];
         let before = energy(&knots, Growth::Square);
-        let push = Pullback::default().push(&before.gradient, &STRAIGHT);
+        let push = Pullback::default().downhill(&before.gradient, &STRAIGHT);
         assert!(push.iter().map(|p| p * p).sum::<f32>().sqrt() <= LONGEST + 1e-5);
         for (knot, push) in knots.iter_mut().zip(push) {
             *knot += 0.02 * push;

@@ -1,10 +1,12 @@
 //! One moment of a scene as the experts read it: who stands where at the start, on which lane graph.
 
+use crate::tuning::{self, Tuning};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
 use scene::routes::speed::{LaneSignal, Obstacle};
 use scene::routes::{LaneGraph, Pose};
-use scene::{Agent, AgentType, Conditions, HORIZON_STEPS, Scene, Size, State, Vec2};
+use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, Scene, Size, State, Vec2};
+use std::ops::Deref;
 use std::sync::Arc;
 
 /// How the futures of one road user are planned. An evaluation leaves parts out to see what they bring; users
@@ -25,7 +27,7 @@ impl Default for Planning {
 
 /// A road user at the start of a window.
 #[derive(Clone, Debug)]
-pub struct Present {
+pub struct AgentAtStart {
     /// Index into the scene's agents.
     pub index: usize,
     /// Type that selects the expert (a condition may override the agent's own).
@@ -36,17 +38,56 @@ pub struct Present {
     pub start: State,
 }
 
+/// A scene that is borrowed for as long as a world lives, or shared with it.
+#[derive(Clone, Debug)]
+pub enum SceneHandle<'a> {
+    /// Borrowed.
+    Borrowed(&'a Scene),
+    /// Shared.
+    Shared(Arc<Scene>),
+}
+
+impl Deref for SceneHandle<'_> {
+    type Target = Scene;
+
+    fn deref(&self) -> &Scene {
+        match self {
+            Self::Borrowed(scene) => scene,
+            Self::Shared(scene) => scene,
+        }
+    }
+}
+
+impl<'a> From<&'a Scene> for SceneHandle<'a> {
+    fn from(scene: &'a Scene) -> Self {
+        Self::Borrowed(scene)
+    }
+}
+
+impl<'a> From<&'a Arc<Scene>> for SceneHandle<'a> {
+    fn from(scene: &'a Arc<Scene>) -> Self {
+        Self::Borrowed(scene)
+    }
+}
+
+impl From<Arc<Scene>> for SceneHandle<'_> {
+    fn from(scene: Arc<Scene>) -> Self {
+        Self::Shared(scene)
+    }
+}
+
 /// A scene at one step. Nothing later than this step enters, except what the user fixed.
 pub struct World<'a> {
     /// The scene.
-    pub scene: &'a Scene,
+    pub scene: SceneHandle<'a>,
     /// Its map's lanes with their links.
     pub graph: Arc<LaneGraph>,
     /// Start of the window, scene step.
     pub step: usize,
     /// Road users present at the start, by id.
-    pub present: Vec<Present>,
-    /// What the user fixed, one entry an agent of the scene.
+    pub present: Vec<AgentAtStart>,
+    /// What is fixed in this window, one entry an agent of the scene. It stands here and not in the scene: a
+    /// window may be asked something else than the user fixed.
     pub conditions: Vec<Conditions>,
     /// Signals of lanes in the graph.
     pub signals: Vec<LaneSignal>,
@@ -54,24 +95,28 @@ pub struct World<'a> {
     pub signal_ages_s: Vec<f64>,
     /// How its road users' futures are planned.
     pub planning: Planning,
+    /// The tuned numbers of planning.
+    pub tuning: &'a Tuning,
 }
 
 impl<'a> World<'a> {
     /// The scene at `step` with the conditions' start fields applied.
-    pub fn new(scene: &'a Scene, graph: Arc<LaneGraph>, step: usize) -> Self {
+    pub fn new(scene: impl Into<SceneHandle<'a>>, graph: Arc<LaneGraph>, step: usize) -> Self {
+        let scene = scene.into();
         let conditions = scene.agents.iter().map(|a| a.conditions.clone()).collect();
         Self::with_conditions(scene, graph, step, conditions)
     }
 
     /// The scene at `step` under other conditions than its own, one entry an agent.
     pub fn with_conditions(
-        scene: &'a Scene,
+        scene: impl Into<SceneHandle<'a>>,
         graph: Arc<LaneGraph>,
         step: usize,
         conditions: Vec<Conditions>,
     ) -> Self {
+        let scene = scene.into();
         let agents = scene.agents.iter().zip(&conditions).enumerate();
-        let mut present: Vec<Present> =
+        let mut present: Vec<AgentAtStart> =
             agents.filter_map(|(index, (agent, c))| present(index, agent, c, step)).collect();
         // Sums over road users run in this order, so that the scene's own order changes no byte.
         present.sort_by(|a, b| scene.agents[a.index].id.cmp(&scene.agents[b.index].id));
@@ -84,22 +129,28 @@ impl<'a> World<'a> {
             }
         }
         let planning = Planning::default();
-        Self { scene, graph, step, present, conditions, signals, signal_ages_s, planning }
+        let tuning = &tuning::SHIPPED;
+        Self { scene, graph, step, present, conditions, signals, signal_ages_s, planning, tuning }
     }
 
     /// The scene's agent behind a present road user.
-    pub fn agent(&self, present: &Present) -> &'a Agent {
+    pub fn agent(&self, present: &AgentAtStart) -> &Agent {
         &self.scene.agents[present.index]
     }
 
     /// Motion model of a present road user.
-    pub fn model(&self, present: &Present) -> MotionModel {
+    pub fn model(&self, present: &AgentAtStart) -> MotionModel {
         let subtype = self.agent(present).subtype;
         MotionModel::new(present.agent_type, subtype, present.size, present.start)
     }
 
-    /// What the user fixed about a road user's goal, as a target of the window.
-    pub fn target(&self, present: &Present) -> Target {
+    /// Asks something else of a road user in this window. Nothing that is worked out so far depends on goals.
+    pub fn aim(&mut self, agent: usize, goal: Goal) {
+        self.conditions[agent].goal = goal;
+    }
+
+    /// What is fixed about a road user's goal, as a target of the window.
+    pub fn target(&self, present: &AgentAtStart) -> Target {
         let goal = &self.conditions[present.index].goal;
         let step = goal.step_in_window(self.step as f64 * scene::STEP_S);
         Target {
@@ -122,7 +173,7 @@ impl<'a> World<'a> {
     }
 }
 
-impl Present {
+impl AgentAtStart {
     /// Pose at the start.
     pub fn pose(&self) -> Pose {
         Pose::new(self.start.position(), self.start.heading_rad)
@@ -130,7 +181,7 @@ impl Present {
 }
 
 /// The road user at `step` with its conditions applied; `None` when nothing says where it is.
-fn present(index: usize, agent: &Agent, conditions: &Conditions, step: usize) -> Option<Present> {
+fn present(index: usize, agent: &Agent, conditions: &Conditions, step: usize) -> Option<AgentAtStart> {
     let logged = agent.state_at(step);
     let fixed = &conditions.start;
     let position = fixed.position.or(logged.map(|s| s.position()))?;
@@ -151,5 +202,5 @@ fn present(index: usize, agent: &Agent, conditions: &Conditions, step: usize) ->
     };
     let start =
         State { x_m: position.x, y_m: position.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y };
-    Some(Present { index, agent_type: conditions.kind_of(agent), size, start })
+    Some(AgentAtStart { index, agent_type: conditions.kind_of(agent), size, start })
 }

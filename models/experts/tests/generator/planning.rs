@@ -3,11 +3,11 @@
 use super::*;
 use ::scene::routes::LaneGraph;
 use experts::Planning;
-use experts::features::agent::{Planned, plan};
+use experts::features::agent::{AgentPlan, plan};
 use experts::planning::anchors::PathKind;
 use experts::planning::world::World;
 
-fn planned(scene: &Scene, planning: Planning) -> Planned {
+fn planned(scene: &Scene, planning: Planning) -> AgentPlan {
     let mut world = World::new(scene, Arc::new(LaneGraph::new(&scene.map)), 0);
     world.planning = planning;
     let who = world.present.iter().find(|p| scene.agents[p.index].id == "1").unwrap();
@@ -29,7 +29,7 @@ fn each_takes_away_its_own_part_alone() {
         let mut bare = scene.clone();
         bare.map = Arc::new(LaneMap::default());
         let bare = planned(&bare, Planning::default());
-        let points = |p: &Planned| p.anchors.iter().map(|a| a.path.points().to_vec()).collect::<Vec<_>>();
+        let points = |p: &AgentPlan| p.anchors.iter().map(|a| a.path.points().to_vec()).collect::<Vec<_>>();
         assert_eq!(points(&free), points(&bare));
     }
 }

@@ -31,9 +31,11 @@ fn every_switch_shows() {
     let full = Refining::default();
     let all = drawn(crossing(), 1, full).samples;
     assert!(all == drawn(crossing(), 1, full).samples, "the same call");
-    for changed in
-        [Refining { start: 20, ..full }, Refining { push: false, ..full }, Refining { settle: false, ..full }]
-    {
+    for changed in [
+        Refining { start: 20, ..full },
+        Refining { repulsion: false, ..full },
+        Refining { resolve_overlaps: false, ..full },
+    ] {
         assert!(drawn(crossing(), 1, changed).samples != all, "{changed:?}");
     }
 }
@@ -43,7 +45,10 @@ fn settling_clears_drawn_scenes_whatever_the_order_of_road_users() {
     let scene = crossing();
     let count = |settle| {
         let of = |seed| {
-            overlapping(&scene, &drawn(scene.clone(), seed, Refining { settle, ..Refining::default() }))
+            overlapping(
+                &scene,
+                &drawn(scene.clone(), seed, Refining { resolve_overlaps: settle, ..Refining::default() }),
+            )
         };
         (0..8).map(of).sum::<usize>()
     };
@@ -63,6 +68,6 @@ fn who_is_alone_is_neither_pushed_nor_settled() {
     scene.map = Arc::default();
     let full = Refining::default();
     let all = drawn(scene.clone(), 1, full).samples;
-    assert!(all == drawn(scene.clone(), 1, Refining { push: false, ..full }).samples);
-    assert!(all == drawn(scene, 1, Refining { settle: false, ..full }).samples);
+    assert!(all == drawn(scene.clone(), 1, Refining { repulsion: false, ..full }).samples);
+    assert!(all == drawn(scene, 1, Refining { resolve_overlaps: false, ..full }).samples);
 }

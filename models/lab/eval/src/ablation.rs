@@ -254,7 +254,7 @@ mod tests {
             ];
             let changed = differs.iter().filter(|d| **d).count();
             assert_eq!(changed, usize::from(without != Without::Nothing), "{without:?}");
-            assert!(!request.stages.kept_in_the_way);
+            assert!(!request.stages.background_in_the_way);
             let goal = |r: &Request| r.scene.agents[0].conditions.goal;
             assert_eq!(goal(&request), goal(&complete));
         }

@@ -61,7 +61,7 @@ pub fn latency(generator: &Generator, threads: usize, scenes: &[Scene]) -> Resul
     // Drags by scene, with the size of the scene's map.
     let mut drags: Vec<(usize, Vec<Call>)> = Vec::new();
     for scene in scenes {
-        generator.forget_maps();
+        generator.maps().forget();
         let mut calls = Vec::new();
         for (i, case) in cases(scene).into_iter().step_by(3).enumerate() {
             let mut changed = scene.clone();

@@ -40,8 +40,8 @@ fn variants() -> Vec<Variant> {
         variant("10 steps", 10, full),
         variant("start level 5", 5, Refining { start: 5, ..full }),
         variant("start level 20", 5, Refining { start: 20, ..full }),
-        variant("no repulsion", 5, Refining { push: false, ..full }),
-        variant("overlaps not resolved", 5, Refining { settle: false, ..full }),
+        variant("no repulsion", 5, Refining { repulsion: false, ..full }),
+        variant("overlaps not resolved", 5, Refining { resolve_overlaps: false, ..full }),
     ]
 }
 

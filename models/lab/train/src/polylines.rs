@@ -2,7 +2,7 @@
 //! stretches of at most 20 m, each in its own frame. The experts do without (anchors say what they need of
 //! the map); the baselines see these.
 
-use experts::planning::world::{Present, World};
+use experts::planning::world::{AgentAtStart, World};
 use scene::geometry::polyline::Polyline;
 use scene::geometry::{direction, rotate};
 use scene::map::{LaneMap, LaneType};
@@ -135,7 +135,7 @@ impl Polylines {
     }
 
     /// What a road user sees of the map: at most [`PIECES`], the nearest first, biased ahead and to its goal.
-    pub fn seen(&self, world: &World<'_>, who: &Present) -> Vec<SeenPiece> {
+    pub fn seen(&self, world: &World<'_>, who: &AgentAtStart) -> Vec<SeenPiece> {
         let (origin, heading_rad) = (who.start.position(), who.start.heading_rad);
         let local = |p: Vec2| rotate(p - origin, -heading_rad);
         let goal = world.target(who).position.map(local);

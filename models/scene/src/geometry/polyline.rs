@@ -36,7 +36,7 @@ impl Pose {
 
 /// Foot of a point on a [`Polyline`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Projection {
+pub struct Foot {
     /// Arc length of the foot, metres.
     pub s_m: f64,
     /// Signed offset, positive to the left of the line, metres. Before the start and beyond the end it
@@ -221,12 +221,12 @@ impl Polyline {
     }
 
     /// Foot of `point` on the whole line.
-    pub fn project(&self, point: Vec2) -> Projection {
+    pub fn project(&self, point: Vec2) -> Foot {
         self.project_between(point, 0.0, f64::INFINITY)
     }
 
     /// Foot of `point` on the part from `from_m` to `to_m`; for lines that come near themselves again.
-    pub fn project_between(&self, point: Vec2, from_m: f64, to_m: f64) -> Projection {
+    pub fn project_between(&self, point: Vec2, from_m: f64, to_m: f64) -> Foot {
         let (mut best, mut best_d2, mut foot_s) = (0, f64::INFINITY, 0.0);
         for i in 0..self.points.len().saturating_sub(1) {
             if self.arc[i + 1] < from_m || self.arc[i] > to_m {
@@ -239,13 +239,13 @@ impl Polyline {
             }
         }
         if best_d2.is_infinite() {
-            return self.projection_at(self.locate(from_m).0, from_m.clamp(0.0, self.length_m()), point);
+            return self.foot_at(self.locate(from_m).0, from_m.clamp(0.0, self.length_m()), point);
         }
-        self.projection_at(best, foot_s.clamp(from_m, to_m.max(from_m)), point)
+        self.foot_at(best, foot_s.clamp(from_m, to_m.max(from_m)), point)
     }
 
-    /// Projection of `point` whose foot lies on piece `piece` at arc length `s_m`.
-    pub(crate) fn projection_at(&self, piece: usize, s_m: f64, point: Vec2) -> Projection {
+    /// Foot of `point` whose foot lies on piece `piece` at arc length `s_m`.
+    pub(crate) fn foot_at(&self, piece: usize, s_m: f64, point: Vec2) -> Foot {
         let Pose { position: foot, heading_rad } = self.sample(s_m);
         let away = point - foot;
         let distance_m = away.norm();
@@ -256,7 +256,7 @@ impl Polyline {
         let side = cross(along, away);
         let inside = s_m > 0.0 && s_m < self.length_m();
         let lateral_m = if inside { distance_m.copysign(side) } else { side };
-        Projection { s_m, lateral_m, distance_m, heading_rad }
+        Foot { s_m, lateral_m, distance_m, heading_rad }
     }
 
     /// Foot of `point` on piece `piece`: arc length and squared distance.

@@ -44,7 +44,7 @@ impl Target {
 
 /// How far a state is from a target; zero for free fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Residuals {
+pub struct GoalError {
     /// Metres.
     pub position_m: f64,
     /// Radians, not negative.
@@ -53,7 +53,7 @@ pub struct Residuals {
     pub speed_mps: f64,
 }
 
-impl Residuals {
+impl GoalError {
     /// Of a state against a target.
     pub fn of(state: &MotionState, target: &Target) -> Self {
         Self {
@@ -92,13 +92,13 @@ pub enum Limiting {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// All fixed fields hold.
-    Reached(Residuals),
+    Reached(GoalError),
     /// No motion within the limits was found that meets it.
     Unreachable {
         /// State at the target's step that came nearest.
         nearest: MotionState,
         /// What is left.
-        residuals: Residuals,
+        residuals: GoalError,
         /// The limit that binds.
         limiting: Limiting,
         /// What it would take in that limit's unit, where a formula tells.
@@ -144,7 +144,7 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
     let near = model.legal(near);
     if target.is_free() {
         let trajectory = model.rollout(&near);
-        return Projection { knots: near, trajectory, reach: Reach::Reached(Residuals::default()) };
+        return Projection { knots: near, trajectory, reach: Reach::Reached(GoalError::default()) };
     }
     let target = Target { step: target.step.clamp(1, HORIZON_STEPS), ..*target };
     let mut best: Option<(f64, MotionModel, Knots, Trajectory)> = None;
@@ -152,7 +152,7 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
         let knots = solve(&variant, &near, first_guess(&variant, &near, &target, warm), &target);
         let knots = calm_after(&variant, knots, &near, &target);
         let trajectory = variant.rollout(&knots);
-        let residuals = Residuals::of(&trajectory[target.step], &target);
+        let residuals = GoalError::of(&trajectory[target.step], &target);
         let norm = residuals.norm();
         if best.as_ref().is_none_or(|b| norm < b.0) {
             best = Some((norm, variant, knots, trajectory));
@@ -163,7 +163,7 @@ pub fn project(model: &MotionModel, near: &Knots, target: &Target, warm: Option<
     }
     let (_, variant, knots, trajectory) =
         best.unwrap_or_else(|| (f64::MAX, *model, near, model.rollout(&near)));
-    let residuals = Residuals::of(&trajectory[target.step], &target);
+    let residuals = GoalError::of(&trajectory[target.step], &target);
     let reach = if residuals.is_met() {
         Reach::Reached(residuals)
     } else {

@@ -207,7 +207,7 @@ impl LaneGraph {
         feet.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         feet.dedup_by_key(|foot| foot.0);
         let hit = |(lane, _, piece, s): (usize, f64, usize, f64)| {
-            let foot = self.lanes[lane].path.projection_at(piece, s, point);
+            let foot = self.lanes[lane].path.foot_at(piece, s, point);
             LaneHit {
                 lane,
                 s_m: s,

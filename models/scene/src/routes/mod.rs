@@ -17,7 +17,7 @@ mod start;
 pub mod to_goal;
 mod walks;
 
-pub use crate::geometry::polyline::{Polyline, Pose, Projection};
+pub use crate::geometry::polyline::{Foot, Polyline, Pose};
 pub use ahead::{MAX_ROUTES, route_length_m, routes_ahead};
 pub use blend::{EndPose, base_path};
 pub use graph::{Beside, GraphLane, LaneGraph, LaneHit, LaneSource};

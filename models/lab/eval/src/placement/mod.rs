@@ -8,7 +8,7 @@ pub use table::markdown;
 use anyhow::Result;
 use distance::{jensen_shannon, wasserstein};
 use experts::placement::{Amount, PlaceRequest, PlacementModel, Region, place};
-use experts::{Cancel, Generator};
+use experts::{Cancel, Placer};
 use rayon::prelude::*;
 use scene::geometry::obb::{OrientedBox, overlaps, shared_area_m2};
 use scene::random::Key;
@@ -160,8 +160,8 @@ type Three = [Values; 3];
 ///
 /// # Errors
 /// When placement fails.
-pub fn eval(generator: &Generator, scenes: &[Scene], options: EvalPlaceOptions) -> Result<PlacementReport> {
-    let model = generator.placement_model();
+pub fn eval(placer: &Placer, scenes: &[Scene], options: EvalPlaceOptions) -> Result<PlacementReport> {
+    let model = placer.model();
     let judged: Vec<Result<Option<Three>>> =
         scenes.par_iter().map(|scene| of_scene(model, scene, options)).collect();
     let mut all: Vec<Three> = Vec::new();

@@ -188,7 +188,7 @@ pub(super) fn request(scene: Scene, id: &str, refined: bool, seed: u64) -> Reque
     request.agents = Some(BTreeSet::from([id.to_owned()]));
     request.seed = seed;
     // What the others do is withheld; a guess at it must not be kept out of.
-    request.stages.kept_in_the_way = false;
+    request.stages.background_in_the_way = false;
     if !refined {
         (request.steps, request.diversity) = (0, 0.0);
     }

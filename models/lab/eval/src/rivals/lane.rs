@@ -3,7 +3,7 @@
 
 use super::state;
 use experts::planning::profile::Caps;
-use experts::planning::world::{Present, World};
+use experts::planning::world::{AgentAtStart, World};
 use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
 use scene::{HORIZON_STEPS, STEP_S, State};
 
@@ -49,7 +49,13 @@ fn limits(path: &Polyline, route: &Route) -> Vec<f64> {
     path.arc_m().iter().map(at).collect()
 }
 
-fn everything_ahead(world: &World<'_>, who: &Present, route: &Route, path: &Polyline, v0: f64) -> Vec<Ahead> {
+fn everything_ahead(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    route: &Route,
+    path: &Polyline,
+    v0: f64,
+) -> Vec<Ahead> {
     let length_m = who.size.length_m;
     let leader = speed::leader(path, length_m, &world.obstacles(who.index))
         .map(|l| Ahead { gap_m: l.gap_m, speed_mps: l.speed_mps });

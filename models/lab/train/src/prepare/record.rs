@@ -2,10 +2,10 @@
 
 use crate::polylines::Polylines;
 use crate::training::{AnchorPath, BOXES, LoggedBox, PATH_POINTS, Record};
-use experts::features::Target;
-use experts::features::agent::{Planned, plan};
+use experts::features::GroundTruth;
+use experts::features::agent::{AgentPlan, plan};
 use experts::planning::anchors::Anchor;
-use experts::planning::world::{Present, World};
+use experts::planning::world::{AgentAtStart, World};
 use experts::planning::{INSTANTS, MODES, STAYS_WITHIN_M};
 use scene::geometry::{direction, rotate};
 use scene::{Agent, HORIZON_STEPS};
@@ -34,8 +34,8 @@ pub(super) fn record(world: &World<'_>, polylines: &Polylines, index: usize) -> 
     })
 }
 
-fn target(planned: &Planned, agent: &Agent, start_step: usize) -> Target {
-    let mut out = Target {
+fn target(planned: &AgentPlan, agent: &Agent, start_step: usize) -> GroundTruth {
+    let mut out = GroundTruth {
         base_along: [[0.0; INSTANTS]; MODES],
         along: [[0.0; INSTANTS]; MODES],
         across: [[0.0; INSTANTS]; MODES],
@@ -67,7 +67,7 @@ fn stays(agent: &Agent, start_step: usize) -> bool {
 }
 
 /// The path, one point a metre, in the road user's frame.
-fn path(anchor: &Anchor, who: &Present) -> AnchorPath {
+fn path(anchor: &Anchor, who: &AgentAtStart) -> AnchorPath {
     let count = (anchor.path.length_m().ceil() as usize + 8).clamp(2, PATH_POINTS);
     let local = |i: usize| {
         let p = anchor.path.extrapolate(i as f64).position - who.start.position();
@@ -78,9 +78,9 @@ fn path(anchor: &Anchor, who: &Present) -> AnchorPath {
 }
 
 /// Recorded boxes of those who come nearest.
-fn boxes(world: &World<'_>, who: &Present, agent: &Agent) -> Vec<LoggedBox> {
+fn boxes(world: &World<'_>, who: &AgentAtStart, agent: &Agent) -> Vec<LoggedBox> {
     let instants = || (1..=INSTANTS).map(|i| world.step + i * PER_INSTANT);
-    let mut order: Vec<(f64, &Present)> = world
+    let mut order: Vec<(f64, &AgentAtStart)> = world
         .present
         .iter()
         .filter(|p| p.index != who.index)
@@ -94,7 +94,7 @@ fn boxes(world: &World<'_>, who: &Present, agent: &Agent) -> Vec<LoggedBox> {
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.index.cmp(&b.1.index)));
     order.truncate(BOXES);
-    let logged = |p: &Present| {
+    let logged = |p: &AgentAtStart| {
         let mut poses = [[0.0; 4]; INSTANTS];
         for (pose, step) in poses.iter_mut().zip(instants()) {
             if let Some(state) = world.agent(p).state_at(step) {

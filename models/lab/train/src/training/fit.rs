@@ -1,6 +1,6 @@
 //! The recording as residuals: least squares within the goal's tangent space.
 
-use experts::features::{AgentFeatures, Target};
+use experts::features::{AgentFeatures, GroundTruth};
 
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::KNOTS;
@@ -12,7 +12,11 @@ use super::route::Route;
 const RIDGE: f64 = 0.05;
 
 /// The recorded residual on each mode's anchor.
-pub(super) fn recorded(route: &Route, agent: &AgentFeatures, target: &Target) -> [[f32; RESIDUAL]; MODES] {
+pub(super) fn recorded(
+    route: &Route,
+    agent: &AgentFeatures,
+    target: &GroundTruth,
+) -> [[f32; RESIDUAL]; MODES] {
     let mut residual = [[0.0; RESIDUAL]; MODES];
     for half in 0..2 {
         let (factor, design) = factorised(route.rows(half), &agent.tangent[half], &target.valid);

@@ -1,7 +1,7 @@
 //! Losses with their gradients, written out: the networks' outputs are few numbers, and their loss
 //! through the tensor library would cost more than some of the networks.
 
-use experts::features::Target;
+use experts::features::GroundTruth;
 
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
 use scene::KNOTS;
@@ -50,7 +50,7 @@ pub(super) struct InitialParts {
 /// Distance of a residual to the recording, mean over the valid instants, and its gradient.
 pub(super) fn distance(
     route: &Route,
-    target: &Target,
+    target: &GroundTruth,
     mode: usize,
     residual: &[f32; RESIDUAL],
 ) -> (f32, [f32; RESIDUAL]) {
@@ -83,7 +83,7 @@ pub(super) fn to_knots(route: &Route, pull: &[[f32; 2]; INSTANTS]) -> [f32; RESI
 }
 
 /// Weight of a road user by its speed, so that fast ones do not drown the rest.
-pub(super) fn speed_weight(target: &Target) -> f32 {
+pub(super) fn speed_weight(target: &GroundTruth) -> f32 {
     let speed = target.base_along.iter().map(|base| base[0].abs()).fold(0.0, f32::max) / 0.5;
     1.0 / (1.0 + 0.05 * speed)
 }
@@ -98,7 +98,7 @@ pub(crate) fn least(values: &[f32]) -> usize {
 /// parts and the gradient.
 pub(super) fn initial(
     route: &Route,
-    target: &Target,
+    target: &GroundTruth,
     recorded: &[[f32; RESIDUAL]; MODES],
     bound: bool,
     output: &InitialOutput,
@@ -188,7 +188,7 @@ fn scales(
 /// A denoised residual against the recording: metres at the instants and, a little, the knots.
 pub(super) fn denoised(
     route: &Route,
-    target: &Target,
+    target: &GroundTruth,
     mode: usize,
     recorded: &[f32; RESIDUAL],
     residual: &[f32; RESIDUAL],

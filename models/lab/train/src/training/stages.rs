@@ -18,7 +18,7 @@ use super::sample::Shard;
 use super::{Record, TrainError};
 
 /// Residuals of a record's modes.
-pub(super) type Modes = [[f32; RESIDUAL]; MODES];
+pub(super) use experts::planning::Modes;
 
 /// Weight of the overlap penalty in the joint stage, of energies summed over the instants.
 const PENALTY: f32 = 6.888_889;
@@ -85,14 +85,18 @@ fn energy(
 
 /// The refiner's second input for drafts.
 fn repulsions(tools: &Tools, shard: &Shard, counts: &[Vec<bool>], drafts: &[Modes]) -> Vec<Modes> {
-    if !tools.refining.push {
+    if !tools.refining.repulsion {
         return vec![[[0.0; RESIDUAL]; MODES]; drafts.len()];
     }
     let all = shard.records.iter().zip(counts).zip(drafts);
     all.map(|((record, counted), draft)| {
         std::array::from_fn(|mode| {
             let (energy, slope) = energy(tools, record, mode, &draft[mode], counted, Growth::Square);
-            if energy > 0.0 { tools.pullback.push(&slope, &record.agent.tangent) } else { [0.0; RESIDUAL] }
+            if energy > 0.0 {
+                tools.pullback.downhill(&slope, &record.agent.tangent)
+            } else {
+                [0.0; RESIDUAL]
+            }
         })
     })
     .collect()

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use experts::Refining;
-use experts::features::{ANCHOR, AgentFeatures, NEIGHBOUR, OWN, Target};
+use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, OWN};
 use experts::planning::{INSTANTS, MODES};
 use scene::random::{Key, Stream};
 
@@ -104,8 +104,8 @@ fn record(rng: &mut Stream, pieces: usize) -> Record {
     }
 }
 
-fn target(speed: f32, accel: f32, aside: f32) -> Target {
-    let mut target = Target {
+fn target(speed: f32, accel: f32, aside: f32) -> GroundTruth {
+    let mut target = GroundTruth {
         base_along: [[0.0; INSTANTS]; MODES],
         along: [[0.0; INSTANTS]; MODES],
         across: [[0.0; INSTANTS]; MODES],

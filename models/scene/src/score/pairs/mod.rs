@@ -51,7 +51,7 @@ pub(super) struct Mover {
     /// Greatest distance from its first place, metres.
     pub travel_m: f64,
     /// Farthest any point of its box moves from one seen step to the next, metres.
-    most_stir_m: f64,
+    max_displacement_m: f64,
     /// Greatest speed, m/s.
     top_mps: f64,
     /// Holds its boxes at all steps.
@@ -71,7 +71,7 @@ pub(super) struct Moment {
     pub velocity: Vec2,
     pub speed_mps: f64,
     /// Bound on how far any point of the box moves to the next step, metres; none without one.
-    stir_m: Option<f64>,
+    displacement_m: Option<f64>,
 }
 
 impl Mover {
@@ -80,21 +80,26 @@ impl Mover {
         let moment = |step| {
             let state = actor.state(step)?;
             let outline = OrientedBox::of_state(state, &actor.size);
-            Some(Moment { outline, velocity: state.velocity(), speed_mps: state.speed_mps(), stir_m: None })
+            Some(Moment {
+                outline,
+                velocity: state.velocity(),
+                speed_mps: state.speed_mps(),
+                displacement_m: None,
+            })
         };
         let mut moments: Vec<Option<Moment>> = input.steps.clone().map(moment).collect();
         for step in 1..moments.len() {
             if let [Some(from), Some(to)] = &mut moments[step - 1..=step] {
-                from.stir_m = Some(stir(from, to));
+                from.displacement_m = Some(displacement(from, to));
             }
         }
         let seen: Vec<&Moment> = moments.iter().flatten().collect();
-        let most_stir_m = seen.windows(2).map(|w| stir(w[0], w[1])).fold(0.0, f64::max);
+        let max_displacement_m = seen.windows(2).map(|w| displacement(w[0], w[1])).fold(0.0, f64::max);
         let top_mps = seen.iter().map(|m| m.speed_mps).fold(0.0, f64::max);
         let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
         let reach = rectangle(moments.iter().flatten().map(|m| (m.outline, m.velocity * LOOK_AHEAD_S)));
         let travel_m = actor.travel_m(input.steps.clone());
-        Self { moments, travel_m, most_stir_m, top_mps, places, reach, agent_type: actor.agent_type }
+        Self { moments, travel_m, max_displacement_m, top_mps, places, reach, agent_type: actor.agent_type }
     }
 
     /// Box between two steps, `part` from 0 to 1 of the way; places and headings change evenly.
@@ -111,7 +116,7 @@ impl Mover {
 }
 
 /// Bound on how far any point of the box moves from the first moment to the second, metres.
-fn stir(from: &Moment, to: &Moment) -> f64 {
+fn displacement(from: &Moment, to: &Moment) -> f64 {
     let turn = wrap_angle(to.outline.heading_rad() - from.outline.heading_rad()).abs();
     (to.outline.center() - from.outline.center()).norm() + turn * from.outline.radius_m()
 }
@@ -240,15 +245,15 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
         // The gap matters where it can be a new least, a near miss, or a collision before the next step.
         let gap_m = known.gap_m.min(pair.min_distance_m.unwrap_or(f64::INFINITY)).max(limits.gap_m);
         let horizon_s = known.ttc_s.min(pair.min_ttc_s.unwrap_or(LOOK_AHEAD_S)).max(limits.ttc_s);
-        let stir_m = a.most_stir_m + b.most_stir_m;
-        let matter_m = gap_m.max(stir_m).max((a.top_mps + b.top_mps) * horizon_s);
-        if apart > matter_m + stir_m {
+        let displacement_m = a.max_displacement_m + b.max_displacement_m;
+        let matter_m = gap_m.max(displacement_m).max((a.top_mps + b.top_mps) * horizon_s);
+        if apart > matter_m + displacement_m {
             // Nothing matters until the two have come that near.
             // Two that stand still never come nearer: the quotient is infinite then.
-            next = step.saturating_add(((apart - matter_m) / stir_m) as usize);
+            next = step.saturating_add(((apart - matter_m) / displacement_m) as usize);
             continue;
         }
-        let matters = apart < gap_m.max(p.stir_m.unwrap_or(0.0) + q.stir_m.unwrap_or(0.0));
+        let matters = apart < gap_m.max(p.displacement_m.unwrap_or(0.0) + q.displacement_m.unwrap_or(0.0));
         let (gap, towards) =
             if matters { gap_and_direction(&p.outline, &q.outline) } else { (apart, Vec2::zeros()) };
         let ttc_s = if moving { ttc(p, q, horizon_s) } else { None };
@@ -279,11 +284,11 @@ fn ttc(p: &Moment, q: &Moment, horizon_s: f64) -> Option<f64> {
 
 /// Looks for collisions from this step to just before the next.
 fn collide(pair: &mut Pair, input: &ScoreInput<'_>, (a, b): (&Mover, &Mover), step: usize, gap: f64) {
-    let stir_m = |m: &Mover| m.moments.get(step)?.as_ref()?.stir_m;
-    let stir = stir_m(a).zip(stir_m(b)).map(|(p, q)| p + q);
-    let moments = if gap > stir.unwrap_or(0.0) {
+    let displacement_m = |m: &Mover| m.moments.get(step)?.as_ref()?.displacement_m;
+    let displacement = displacement_m(a).zip(displacement_m(b)).map(|(p, q)| p + q);
+    let moments = if gap > displacement.unwrap_or(0.0) {
         return;
-    } else if stir.is_some() {
+    } else if displacement.is_some() {
         SUBSTEPS
     } else {
         1

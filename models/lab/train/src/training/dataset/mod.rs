@@ -17,7 +17,7 @@ pub use read::Records;
 pub use write::Writer;
 
 use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
-use experts::features::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN, Target};
+use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, NEIGHBOURS, OWN};
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
 
 /// Most neighbours whose recorded boxes are kept for the overlap energy.
@@ -42,7 +42,7 @@ pub struct LoggedBox {
 /// The path of an anchor, one point a metre, in the road user's frame at t = 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnchorPath {
-    /// TrainProgress of the first point, metres on the scale of [`Target::base_along`]; may be negative.
+    /// TrainProgress of the first point, metres on the scale of [`GroundTruth::base_along`]; may be negative.
     pub start: f32,
     /// At least two and at most [`PATH_POINTS`] points (x, y).
     pub points: Vec<[f32; 2]>,
@@ -56,7 +56,7 @@ pub struct Record {
     /// What a baseline sees of the map. Indices are those of the scene's pieces.
     pub pieces: Vec<SeenPiece>,
     /// What happened.
-    pub target: Target,
+    pub target: GroundTruth,
     /// Recorded neighbours, at most [`BOXES`], nearest first.
     pub boxes: Vec<LoggedBox>,
     /// The road user's own half length and half width, metres.

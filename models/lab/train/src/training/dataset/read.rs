@@ -4,7 +4,7 @@ use super::codec::Cursor;
 use super::{AnchorPath, BOXES, DIMENSIONS, LoggedBox, MAGIC, PATH_POINTS, Record, check};
 use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
 use crate::training::TrainError;
-use experts::features::{ANCHOR, AgentFeatures, NEIGHBOUR, NEIGHBOURS, OWN, Target};
+use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, NEIGHBOURS, OWN};
 use experts::planning::{INSTANTS, MODES};
 use scene::KNOTS;
 use std::fs::File;
@@ -24,7 +24,7 @@ fn decode(bytes: &[u8]) -> Result<Record, String> {
     cursor.fill(anchors.as_flattened_mut())?;
     let mut tangent = Box::new([[[0.0; KNOTS]; KNOTS]; 2]);
     cursor.fill(tangent.as_flattened_mut().as_flattened_mut())?;
-    let mut target = Target {
+    let mut target = GroundTruth {
         base_along: [[0.0; INSTANTS]; MODES],
         along: [[0.0; INSTANTS]; MODES],
         across: [[0.0; INSTANTS]; MODES],

@@ -1,6 +1,6 @@
-//! Goals that are due after a window's end: where to be by then, on the way to them.
+//! Subgoals: where a window should lead a road user whose goal is due after the window's end.
 
-use crate::planning::world::{Present, World};
+use crate::planning::world::{AgentAtStart, World};
 use crate::request::NearestState;
 use scene::motion::{Kind, MotionModel};
 use scene::routes::{EndPose, GoalQuery, Polyline, base_path, routes_to_goal};
@@ -14,7 +14,7 @@ const THERE_M: f64 = 0.05;
 /// The state at the window's end on the way to a goal that is due `left` steps after the window's start,
 /// more than a window has. The way is the lanes' where they lead to the goal, else a straight line; the
 /// acceleration along it is constant (or changes evenly where the goal fixes the speed too).
-pub(super) fn on_the_way(world: &World<'_>, who: &Present, goal: &Goal, left: usize) -> NearestState {
+pub(super) fn subgoal(world: &World<'_>, who: &AgentAtStart, goal: &Goal, left: usize) -> NearestState {
     let model = world.model(who);
     let v0 = model.start_speed_mps();
     let Some(position) = goal.position else {
@@ -51,7 +51,7 @@ pub(super) fn as_goal(state: &NearestState, kind: Kind, goal: &Goal, left: usize
 }
 
 /// A goal that fixes no place: its speed is approached evenly, its heading held in view.
-fn changing(who: &Present, v0: f64, goal: &Goal, left: usize) -> NearestState {
+fn changing(who: &AgentAtStart, v0: f64, goal: &Goal, left: usize) -> NearestState {
     let share = HORIZON_STEPS as f64 / left as f64;
     let speed_mps = goal.speed_mps.map_or(v0, |v| v0 + (v - v0) * share);
     let start = &who.start;
@@ -59,7 +59,13 @@ fn changing(who: &Present, v0: f64, goal: &Goal, left: usize) -> NearestState {
     NearestState { x_m: start.x_m, y_m: start.y_m, heading_rad, speed_mps }
 }
 
-fn path_to(world: &World<'_>, who: &Present, model: &MotionModel, goal: &Goal, position: Vec2) -> Polyline {
+fn path_to(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    model: &MotionModel,
+    goal: &Goal,
+    position: Vec2,
+) -> Polyline {
     let straight = || Polyline::new([who.start.position(), position]);
     if model.kind == Kind::Walk {
         return straight();

@@ -1,13 +1,14 @@
 //! From route coordinates to motion: residual knots on an anchor, to positions, to control knots, to a
 //! rollout that meets the goal and the limits.
 
-use crate::features::agent::Planned;
-use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, RESIDUAL, STAYS_WITHIN_M};
+use super::candidates::Slot;
+use crate::features::agent::AgentPlan;
+use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, Residual, STAYS_WITHIN_M};
 use scene::geometry::direction;
 use scene::motion::{
-    Gear, Kind, Knots, MotionState, Projection, Reach, Residuals, Sampled, Target, Trajectory, fit, project,
+    Gear, GoalError, Kind, Knots, MotionState, Projection, Reach, Sampled, Target, Trajectory, fit, project,
 };
-use scene::{HORIZON_STEPS, KNOTS, Vec2, wrap_angle};
+use scene::{HORIZON_STEPS, KNOTS, State, Vec2, wrap_angle};
 use std::sync::LazyLock;
 
 /// Steps between two instants.
@@ -29,12 +30,8 @@ impl From<Projection> for Motion {
 }
 
 /// Progress and offset of a draft at the instants.
-pub(super) fn route_coordinates(
-    planned: &Planned,
-    slot: usize,
-    residual: &[f32; RESIDUAL],
-) -> [(f64, f64); INSTANTS] {
-    let anchor = &planned.anchors[slot];
+pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residual) -> [(f64, f64); INSTANTS] {
+    let anchor = &plan.anchors[slot.index()];
     let mut out = [(0.0, 0.0); INSTANTS];
     let mut last = 0.0_f64;
     for (i, place) in out.iter_mut().enumerate() {
@@ -51,44 +48,45 @@ pub(super) fn route_coordinates(
 }
 
 /// Box centres and headings of a draft at the instants, before any motion model has its say.
-pub(super) fn places(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL]) -> [(Vec2, f64); INSTANTS] {
-    let anchor = &planned.anchors[slot];
-    route_coordinates(planned, slot, residual).map(|(along, across)| anchor.place(along, across))
+pub(super) fn places(plan: &AgentPlan, slot: Slot, residual: &Residual) -> [(Vec2, f64); INSTANTS] {
+    let anchor = &plan.anchors[slot.index()];
+    route_coordinates(plan, slot, residual).map(|(along, across)| anchor.place(along, across))
 }
 
 /// The motion of a draft: fitted to its places and projected onto goal and limits.
-pub(super) fn realise(planned: &Planned, slot: usize, residual: &[f32; RESIDUAL]) -> Motion {
-    if planned.model.gear == Gear::Reverse {
-        return backing(planned);
+pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -> Motion {
+    if plan.model.gear == Gear::Reverse {
+        return backing(plan);
     }
-    through(planned, places(planned, slot, residual))
+    through(plan, places(plan, slot, residual))
 }
 
-/// The motion between drafts (probability, slot, residual) on one path: their mean progress and offset.
-pub(super) fn middle(planned: &Planned, drafts: &[(f64, usize, [f32; RESIDUAL])]) -> Motion {
+/// The motion between drafts on one path: the mean of their progress and offset by probability. They lie on the
+/// path of the first of them, `path`.
+pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot, &Residual)]) -> Motion {
     let total: f64 = drafts.iter().map(|d| d.0).sum::<f64>().max(1e-12);
     let mut mean = [(0.0, 0.0); INSTANTS];
     for (probability, slot, residual) in drafts {
-        let own = route_coordinates(planned, *slot, residual);
+        let own = route_coordinates(plan, *slot, residual);
         for (mean, own) in mean.iter_mut().zip(own) {
             mean.0 += probability / total * own.0;
             mean.1 += probability / total * own.1;
         }
     }
-    let anchor = &planned.anchors[drafts[0].1];
-    through(planned, mean.map(|(along, across)| anchor.place(along, across)))
+    let anchor = &plan.anchors[path.index()];
+    through(plan, mean.map(|(along, across)| anchor.place(along, across)))
 }
 
 /// What motions are projected onto: the goal, or nothing but the limits.
-fn projected_onto(planned: &Planned) -> Target {
-    let target = planned.target;
-    if planned.projected { target } else { Target { step: target.step, ..Target::default() } }
+fn projected_onto(plan: &AgentPlan) -> Target {
+    let target = plan.target;
+    if plan.projected { target } else { Target { step: target.step, ..Target::default() } }
 }
 
 /// The motion that passes near these places (box centres and the path's headings) at the instants.
-fn through(planned: &Planned, places: [(Vec2, f64); INSTANTS]) -> Motion {
+fn through(plan: &AgentPlan, places: [(Vec2, f64); INSTANTS]) -> Motion {
     let mut samples = Vec::with_capacity(INSTANTS);
-    let mut last = (planned.present.start.position(), planned.present.start.heading_rad);
+    let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
     for (i, (position, path_heading)) in places.into_iter().enumerate() {
         // Drifting across a path turns the body; at a crawl the path says it better.
         let chord = position - last.0;
@@ -98,12 +96,12 @@ fn through(planned: &Planned, places: [(Vec2, f64); INSTANTS]) -> Motion {
         samples.push(Sampled { step: (i + 1) * PER_INSTANT, position, heading_rad });
         last = (position, heading_rad);
     }
-    let knots = fit(&planned.model, &samples);
-    let motion = project(&planned.model, &knots, &projected_onto(planned), None);
+    let knots = fit(&plan.model, &samples);
+    let motion = project(&plan.model, &knots, &projected_onto(plan), None);
     if motion.reach.is_reached() {
         return motion.into();
     }
-    reversing(planned, &motion).unwrap_or_else(|| motion.into())
+    reversing(plan, &motion).unwrap_or_else(|| motion.into())
 }
 
 /// Braking of what rolls backwards without a reason to, m/s2.
@@ -111,58 +109,68 @@ const BACKING_BRAKE_MPS2: f64 = 1.5;
 
 /// What rolls backwards already (from an earlier window) goes on to its goal or comes to rest: a window
 /// never changes the gear of a vehicle in motion.
-fn backing(planned: &Planned) -> Motion {
+fn backing(plan: &AgentPlan) -> Motion {
     let braking = Knots { first: [-BACKING_BRAKE_MPS2; KNOTS], ..Knots::default() };
-    project(&planned.model, &braking, &projected_onto(planned), None).into()
+    project(&plan.model, &braking, &projected_onto(plan), None).into()
 }
 
 /// A goal behind a standing vehicle may be met backwards.
-fn reversing(planned: &Planned, forwards: &Projection) -> Option<Motion> {
-    let goal = planned.target.position?;
-    let local = planned.model.to_local(goal);
-    let may = planned.model.kind == Kind::Drive
-        && planned.model.start.velocity().dot(&direction(planned.model.start.heading_rad)) < 0.5
+fn reversing(plan: &AgentPlan, forwards: &Projection) -> Option<Motion> {
+    let goal = plan.target.position?;
+    let local = plan.model.to_local(goal);
+    let may = plan.model.kind == Kind::Drive
+        && plan.model.start.velocity().dot(&direction(plan.model.start.heading_rad)) < 0.5
         && local.x < 1.0
         && local.norm() < 30.0;
     if !may {
         return None;
     }
-    let model = planned.model.in_gear(Gear::Reverse);
-    let backwards = project(&model, &model.coasting(), &planned.target, None);
+    let model = plan.model.in_gear(Gear::Reverse);
+    let backwards = project(&model, &model.coasting(), &plan.target, None);
     let better = |p: &Projection| {
-        let r = Residuals::of(&p.trajectory[planned.target.step], &planned.target);
+        let r = GoalError::of(&p.trajectory[plan.target.step], &plan.target);
         r.position_m + 5.0 * r.heading_rad + r.speed_mps
     };
     (better(&backwards) < better(forwards)).then(|| backwards.into())
 }
 
 /// The start pose without motion.
-fn still(planned: &Planned) -> MotionState {
-    let start = &planned.present.start;
+fn still(plan: &AgentPlan) -> MotionState {
+    let start = &plan.present.start;
     MotionState { position: start.position(), heading_rad: start.heading_rad, velocity: Vec2::zeros() }
 }
 
 /// Exact rest at the start pose.
-pub(super) fn rest(planned: &Planned) -> Motion {
-    let still = still(planned);
-    let residuals = Residuals::of(&still, &planned.target);
-    Motion { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(residuals) }
+pub(super) fn rest(plan: &AgentPlan) -> Motion {
+    let still = still(plan);
+    let error = GoalError::of(&still, &plan.target);
+    Motion { states: vec![still; HORIZON_STEPS + 1], reach: Reach::Reached(error) }
 }
 
-/// Who stands and is not asked to go does not creep: less than [`STAYS_WITHIN_M`] in all is rest.
-pub(super) fn without_creep(planned: &Planned, window: usize, motion: Motion) -> Motion {
-    let start = planned.present.start.position();
+/// The motion of somebody who is at these states from the first step on, whatever was asked.
+pub(super) fn as_it_is(plan: &AgentPlan, states: &[State]) -> Motion {
+    let states: Trajectory = std::iter::once(&plan.present.start)
+        .chain(states)
+        .map(|s| MotionState { position: s.position(), heading_rad: s.heading_rad, velocity: s.velocity() })
+        .collect();
+    let due = states.get(plan.target.step).or(states.last()).copied().unwrap_or_default();
+    Motion { reach: Reach::Reached(GoalError::of(&due, &plan.target)), states }
+}
+
+/// A road user that stands and is not asked to go does not creep: less than [`STAYS_WITHIN_M`] in the whole
+/// window is rest.
+pub(super) fn without_creep(plan: &AgentPlan, window: usize, motion: Motion) -> Motion {
+    let start = plan.present.start.position();
     let creeps = |s: &MotionState| (s.position - start).norm() < STAYS_WITHIN_M;
-    let rests = planned.target.is_free() && may_rest(planned, window) && motion.states.iter().all(creeps);
-    if rests { rest(planned) } else { motion }
+    let rests = plan.target.is_free() && may_rest(plan, window) && motion.states.iter().all(creeps);
+    if rests { rest(plan) } else { motion }
 }
 
 /// Standing at the start, and rest meets whatever is asked. What a recording shows standing may creep by
 /// its jitter; what an earlier window brought here has to have come to rest by its own motion.
-pub(super) fn may_rest(planned: &Planned, window: usize) -> bool {
+pub(super) fn may_rest(plan: &AgentPlan, window: usize) -> bool {
     let standing_mps = if window == 0 { 0.3 } else { 0.05 };
-    planned.present.start.speed_mps() < standing_mps
-        && Residuals::of(&still(planned), &planned.target).is_met()
+    plan.present.start.speed_mps() < standing_mps && GoalError::of(&still(plan), &plan.target).is_met()
 }
 
 #[cfg(test)]
@@ -174,12 +182,12 @@ mod tests {
     #[test]
     fn who_stands_goes_or_stays_to_the_last_bit() {
         // To the front at an even pace, this far in all.
-        let crept = |planned: &Planned, metres: f64| {
-            let mut motion = rest(planned);
+        let crept = |plan: &AgentPlan, metres: f64| {
+            let mut motion = rest(plan);
             for (step, state) in motion.states.iter_mut().enumerate() {
                 state.position.x += metres * step as f64 / HORIZON_STEPS as f64;
             }
-            without_creep(planned, 0, motion).states[HORIZON_STEPS].position.x
+            without_creep(plan, 0, motion).states[HORIZON_STEPS].position.x
         };
         let standing = car_on_a_street(0.0, Goal::default());
         assert_eq!([crept(&standing, 0.4), crept(&standing, 0.6)], [0.0, 0.6]);

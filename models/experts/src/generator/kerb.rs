@@ -6,15 +6,14 @@ use scene::geometry::overlap_energy::OverlapEnergy;
 use scene::score::Drivable;
 use scene::{Size, Vec2};
 
-/// Weight of a square metre that a corner is past the road's edge.
-const WEIGHT: f32 = 0.3;
-
 /// Energy of a box whose centre and heading at the instants are `places`, by how far each corner lies off
-/// the road, and its gradient to the centre, headings held. Zero where the map does not say.
+/// the road (`weight` a square metre), and its gradient to the centre, headings held. Zero where the map does not
+/// say.
 pub(super) fn kerb(
     ground: &Drivable,
     size: &Size,
     places: &[(Vec2, f64); INSTANTS],
+    weight: f32,
 ) -> OverlapEnergy<INSTANTS> {
     let mut out = OverlapEnergy { energy: 0.0, gradient: [[0.0; 2]; INSTANTS] };
     for (gradient, (position, heading_rad)) in out.gradient.iter_mut().zip(places) {
@@ -24,9 +23,9 @@ pub(super) fn kerb(
         }
         for (outside_m, way) in outline.corners().into_iter().filter_map(|corner| ground.beyond(corner)) {
             let outside = outside_m as f32;
-            out.energy += WEIGHT * outside * outside;
-            gradient[0] += 2.0 * WEIGHT * outside * way.x as f32;
-            gradient[1] += 2.0 * WEIGHT * outside * way.y as f32;
+            out.energy += weight * outside * outside;
+            gradient[0] += 2.0 * weight * outside * way.x as f32;
+            gradient[1] += 2.0 * weight * outside * way.y as f32;
         }
     }
     out
@@ -37,6 +36,7 @@ mod tests {
     use super::*;
     use scene::map::{Lane, LaneMap, TypedLine};
 
+    const WEIGHT: f32 = 0.3;
     const CAR: Size = Size { length_m: 4.6, width_m: 2.0, height_m: None };
 
     /// A street eastwards with an edge 4 m to its right, straight or slanting.
@@ -54,16 +54,16 @@ mod tests {
 
     #[test]
     fn what_is_on_the_road_costs_nothing() {
-        let found = kerb(&street(0.0), &CAR, &beside(-2.9, 0.0));
+        let found = kerb(&street(0.0), &CAR, &beside(-2.9, 0.0), WEIGHT);
         assert_eq!((found.energy, found.gradient), (0.0, [[0.0; 2]; INSTANTS]));
-        let nowhere = kerb(&Drivable::default(), &CAR, &beside(-9.0, 0.0));
+        let nowhere = kerb(&Drivable::default(), &CAR, &beside(-9.0, 0.0), WEIGHT);
         assert_eq!(nowhere.energy, 0.0);
     }
 
     #[test]
     fn a_wheel_past_the_edge_is_pulled_back() {
         // Both right corners are half a metre past it.
-        let found = kerb(&street(0.0), &CAR, &beside(-3.5, 0.0));
+        let found = kerb(&street(0.0), &CAR, &beside(-3.5, 0.0), WEIGHT);
         assert!((found.energy - INSTANTS as f32 * 2.0 * WEIGHT * 0.25).abs() < 1e-3, "{}", found.energy);
         for gradient in found.gradient {
             assert!(gradient[0].abs() < 1e-6 && (gradient[1] + 2.0 * WEIGHT).abs() < 1e-4, "{gradient:?}");
@@ -74,14 +74,14 @@ mod tests {
     fn gradient_matches_differences() {
         let ground = street(6.0);
         let places = beside(-3.0, 0.2);
-        let found = kerb(&ground, &CAR, &places);
+        let found = kerb(&ground, &CAR, &places, WEIGHT);
         assert!(found.energy > 0.0);
         for instant in 0..INSTANTS {
             for axis in 0..2 {
                 let at = |delta: f64| {
                     let mut moved = places;
                     moved[instant].0[axis] += delta;
-                    f64::from(kerb(&ground, &CAR, &moved).energy)
+                    f64::from(kerb(&ground, &CAR, &moved, WEIGHT).energy)
                 };
                 let slope = (at(1e-2) - at(-1e-2)) / 2e-2;
                 let expected = f64::from(found.gradient[instant][axis]);

@@ -1,0 +1,16 @@
+//! The one clock of this crate: whoever has one hands it in.
+
+use std::time::Duration;
+
+/// Time that passes evenly, since whatever moment.
+pub type Clock = fn() -> Duration;
+
+/// A clock that stands: every span is zero.
+pub(crate) fn standing() -> Duration {
+    Duration::ZERO
+}
+
+/// Milliseconds that a clock has gone since it showed `since`.
+pub(crate) fn milliseconds(clock: Clock, since: Duration) -> f64 {
+    clock().saturating_sub(since).as_secs_f64() * 1e3
+}

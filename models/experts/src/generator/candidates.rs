@@ -1,0 +1,304 @@
+//! What an actor could do, each with where it came from. The choice picks one of them for every actor.
+
+use super::actor::{Actor, Drafts};
+use super::choice::distance;
+use super::trajectory::{Motion, as_it_is, mean_trajectory, rest, to_trajectory, without_creep};
+use crate::planning::{MODES, Modes, Residual};
+use crate::request::Shown;
+use crate::tuning::MiddleTuning;
+use scene::AgentType;
+
+/// A mode by its place among an actor's anchors and drafts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Slot(u8);
+
+impl Slot {
+    /// The first: trained to be the middle of what may happen, where there is a place to go.
+    pub(super) const FIRST: Self = Self(0);
+
+    /// Of an index below [`MODES`].
+    pub(super) fn new(index: usize) -> Self {
+        debug_assert!(index < MODES);
+        Self(index as u8)
+    }
+
+    /// As the answer names it.
+    pub(super) fn number(self) -> u32 {
+        u32::from(self.0)
+    }
+
+    /// Every slot in order.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        (0..MODES).map(Self::new)
+    }
+
+    /// Index below [`MODES`].
+    pub(super) fn index(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// The draft in this slot.
+    pub(super) fn of(self, modes: &Modes) -> &Residual {
+        &modes[self.index()]
+    }
+}
+
+/// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
+/// only candidate that its actor has ([`Origin::Pinned`]). A rejected one belongs here as well: the modes
+/// near it are taken out in [`candidates`], before anything is made from them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// The motion that a reacting actor has without this call.
+    Kept,
+    /// The future that a person picked.
+    Pinned,
+    /// Standing where it is.
+    Rest,
+    /// The draft of a mode.
+    Mode(Slot),
+    /// The mean of all modes of one path, nearest to this one.
+    PathMean(Slot),
+    /// The draft of this mode after overlaps were resolved.
+    Settled(Slot),
+    /// The draft of this mode, guided out of a conflict of the chosen scene.
+    Guided(Slot),
+}
+
+impl Origin {
+    /// The mode that it is, was made from, or is nearest to.
+    pub(super) fn slot(self) -> Option<Slot> {
+        match self {
+            Self::Kept | Self::Pinned | Self::Rest => None,
+            Self::Mode(slot) | Self::PathMean(slot) | Self::Settled(slot) | Self::Guided(slot) => Some(slot),
+        }
+    }
+
+    /// It is no motion of this answer: the actor had it before, or a person gave it.
+    pub(super) fn is_given(self) -> bool {
+        matches!(self, Self::Kept | Self::Pinned)
+    }
+
+    /// It is an alternative of the answer by itself; all other motions of this answer take an alternative's place
+    /// where they are chosen.
+    pub(super) fn is_alternative(self) -> bool {
+        matches!(self, Self::Rest | Self::Mode(_))
+    }
+}
+
+/// One thing that an actor could do.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    /// Of an alternative; zero for what is given or was made from alternatives.
+    pub(super) probability: f64,
+    /// Where it came from.
+    pub(super) origin: Origin,
+    /// What it is.
+    pub(super) motion: Motion,
+}
+
+/// The drafts of one actor in one sample, to make candidates from.
+pub(super) struct Material<'a> {
+    pub(super) actor: &'a Actor,
+    pub(super) drafts: &'a Drafts,
+    /// Planning window, from 0.
+    pub(super) window: usize,
+    pub(super) tuning: &'a MiddleTuning,
+}
+
+impl Material<'_> {
+    /// All that the actor could do, in the order in which ties are decided. What is given comes first.
+    pub(super) fn candidates(&self) -> Vec<Candidate> {
+        let Actor { plan, pinned, kept, .. } = self.actor;
+        let given = |origin, states| Candidate { probability: 0.0, origin, motion: as_it_is(plan, states) };
+        if let Some(pinned) = pinned {
+            return vec![given(Origin::Pinned, pinned)];
+        }
+        let mut out: Vec<Candidate> = kept.iter().map(|kept| given(Origin::Kept, kept)).collect();
+        let alternatives = self.alternatives(MODES);
+        let means = self.path_means(&alternatives);
+        out.extend(alternatives);
+        out.extend(means);
+        if let Some(residual) = &self.drafts.settled {
+            let slot = self.drafts.leading;
+            let motion = self.without_creep(to_trajectory(plan, slot, residual));
+            out.push(Candidate { probability: 0.0, origin: Origin::Settled(slot), motion });
+        }
+        out
+    }
+
+    /// Rest where the actor may rest, then modes by falling probability, `count` in all.
+    pub(super) fn alternatives(&self, count: usize) -> Vec<Candidate> {
+        let actor = self.actor;
+        let mut out = Vec::with_capacity(count);
+        let mut share = 1.0;
+        if actor.rests {
+            let certain = actor.only_rests();
+            let probability = if certain { 1.0 } else { actor.stays_probability };
+            out.push(Candidate { probability, origin: Origin::Rest, motion: rest(&actor.plan) });
+            if certain {
+                return out;
+            }
+            share = 1.0 - probability;
+        }
+        for &slot in actor.order.iter().take(count.saturating_sub(out.len())) {
+            let learned = if middle(actor) == Some(slot) { self.learned_share() } else { 1.0 };
+            let residual = slot.of(&self.drafts.modes).map(|r| learned * r);
+            let motion = self.without_creep(to_trajectory(&actor.plan, slot, &residual));
+            let probability = share * actor.probability[slot.index()];
+            out.push(Candidate { probability, origin: Origin::Mode(slot), motion });
+        }
+        out
+    }
+
+    /// Where no mode is the middle of what may happen, the mean of each path's modes, which is nearer to all of
+    /// them than any one is.
+    fn path_means(&self, alternatives: &[Candidate]) -> Vec<Candidate> {
+        let actor = self.actor;
+        if middle(actor).is_some() || actor.keeps_its_path() || actor.only_rests() {
+            return Vec::new();
+        }
+        let path = |slot: Slot| actor.plan.anchors[slot.index()].identity / 8;
+        let mut paths: Vec<(Slot, Vec<(Slot, &Candidate)>)> = Vec::new();
+        for mode in alternatives {
+            let Origin::Mode(slot) = mode.origin else { continue };
+            match paths.iter_mut().find(|(first, _)| path(*first) == path(slot)) {
+                Some((_, modes)) => modes.push((slot, mode)),
+                None => paths.push((slot, vec![(slot, mode)])),
+            }
+        }
+        let mean = |(first, modes): (Slot, Vec<(Slot, &Candidate)>)| {
+            let drafts: Vec<_> =
+                modes.iter().map(|(slot, m)| (m.probability, *slot, slot.of(&self.drafts.modes))).collect();
+            let motion = self.without_creep(mean_trajectory(&actor.plan, first, &drafts));
+            let apart = |m: &Candidate| distance(&m.motion.states, &motion.states);
+            let (nearest, _) = modes.iter().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)))?;
+            Some(Candidate { probability: 0.0, origin: Origin::PathMean(*nearest), motion })
+        };
+        paths.into_iter().filter(|(_, modes)| modes.len() > 1).filter_map(mean).collect()
+    }
+
+    fn without_creep(&self, motion: Motion) -> Motion {
+        without_creep(&self.actor.plan, self.window, motion)
+    }
+
+    /// Share of what was learned in the mode in the middle.
+    fn learned_share(&self) -> f32 {
+        let share = match self.actor.plan.present.agent_type {
+            AgentType::Pedestrian => self.tuning.learned_on_foot,
+            _ => self.tuning.learned,
+        };
+        share as f32
+    }
+
+    /// The mode that the scene is built around: in the first sample the middle of what may happen, where a mode
+    /// is that; in further ones the mode that was drawn, so that each is one of its own.
+    pub(super) fn around(&self, sample: usize) -> Option<Slot> {
+        match sample {
+            0 => middle(self.actor),
+            _ => (!self.actor.rests && !self.actor.keeps_its_path()).then_some(self.drafts.leading),
+        }
+    }
+}
+
+/// The mode that is the middle of what may happen, where there is a place to go.
+pub(super) fn middle(actor: &Actor) -> Option<Slot> {
+    let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
+    (moves && actor.plan.target.position.is_some()).then_some(Slot::FIRST)
+}
+
+/// The candidate that is shown where nothing is chosen: what is given or rests, else the leading draft.
+pub(super) fn own(actor: &Actor, leading: Slot, candidates: &[Candidate]) -> usize {
+    let of = |origin: Origin| candidates.iter().position(|c| c.origin == origin);
+    if actor.pinned.is_some() || actor.kept.is_some() || actor.rests {
+        return 0;
+    }
+    of(Origin::Settled(leading)).or_else(|| of(Origin::Mode(leading))).unwrap_or(0)
+}
+
+/// The alternatives of an answer, at most `count`, and which of them is shown; `None` where the actor goes on with
+/// what it was given. A shown candidate that is no alternative takes the place of the one of its slot.
+pub(super) fn shown(
+    mut candidates: Vec<Candidate>,
+    chosen: usize,
+    count: usize,
+) -> Option<(usize, Vec<Candidate>)> {
+    let Candidate { origin, motion, .. } = candidates.get(chosen)?.clone();
+    if origin.is_given() {
+        return None;
+    }
+    candidates.retain(|c| c.origin.is_alternative());
+    let stands_for = |c: &Candidate| match origin {
+        Origin::Rest => c.origin == Origin::Rest,
+        _ => c.origin.slot() == origin.slot(),
+    };
+    let mut at = candidates.iter().position(stands_for)?;
+    candidates[at] = Candidate { origin, motion, ..candidates[at] };
+    if at >= count {
+        candidates.swap(at, 0);
+        at = 0;
+    }
+    candidates.truncate(count);
+    Some((at, candidates))
+}
+
+/// Whether first drafts lead by probability or by draw.
+pub(super) fn leads_by_probability(how: Shown, sample: usize) -> bool {
+    match how {
+        Shown::Chosen => sample == 0,
+        Shown::Likeliest => true,
+        Shown::Drawn => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use scene::Goal;
+
+    fn candidate(probability: f64, origin: Origin) -> Candidate {
+        Candidate { probability, origin, motion: rest(&car_on_a_street(0.0, Goal::default())) }
+    }
+
+    fn six() -> Vec<Candidate> {
+        Slot::all().map(|slot| candidate(0.1, Origin::Mode(slot))).collect()
+    }
+
+    #[test]
+    fn what_was_made_from_a_mode_takes_its_place_and_its_probability() {
+        let slot = Slot::new(3);
+        let mut all = six();
+        all[3].probability = 0.5;
+        all.push(candidate(0.0, Origin::Guided(slot)));
+        let (at, alternatives) = shown(all, 6, 6).unwrap();
+        assert_eq!((at, alternatives.len()), (3, 6));
+        assert_eq!((alternatives[3].origin, alternatives[3].probability), (Origin::Guided(slot), 0.5));
+    }
+
+    #[test]
+    fn what_is_shown_is_among_the_alternatives_however_few_are_asked_for() {
+        let mut all = six();
+        all.push(candidate(0.0, Origin::PathMean(Slot::new(4))));
+        let (at, alternatives) = shown(all, 6, 2).unwrap();
+        let origins: Vec<Origin> = alternatives.iter().map(|c| c.origin).collect();
+        assert_eq!((at, origins), (0, vec![Origin::PathMean(Slot::new(4)), Origin::Mode(Slot::new(1))]));
+    }
+
+    #[test]
+    fn what_is_given_is_no_part_of_the_answer() {
+        assert!(shown(vec![candidate(0.0, Origin::Pinned)], 0, 6).is_none());
+        let mut reacting = vec![candidate(0.0, Origin::Kept)];
+        reacting.extend(six());
+        assert!(shown(reacting.clone(), 0, 6).is_none());
+        let (at, alternatives) = shown(reacting, 1, 6).unwrap();
+        assert_eq!((at, alternatives.len(), alternatives[0].origin), (0, 6, Origin::Mode(Slot::FIRST)));
+    }
+
+    #[test]
+    fn rest_stands_for_itself() {
+        let mut all = vec![candidate(0.7, Origin::Rest)];
+        all.extend(six().into_iter().take(5));
+        let (at, alternatives) = shown(all, 0, 6).unwrap();
+        assert_eq!((at, alternatives[0].origin, alternatives.len()), (0, Origin::Rest, 6));
+    }
+}

@@ -1,0 +1,136 @@
+//! What each candidate of an actor costs by itself.
+
+use super::KnownMap;
+use super::actor::Actor;
+use super::candidates::{Candidate, Slot};
+use super::choice::{Choosable, medoid_costs, swept};
+use super::trajectory::PER_INSTANT;
+use crate::planning::INSTANTS;
+use crate::tuning::ChoiceTuning;
+use scene::geometry::obb::OrientedBox;
+use scene::motion::{MotionState, Trajectory};
+use scene::{AgentType, State};
+
+/// What the joint choice weighs: one entry a candidate, in their order. `around` is the mode that the scene is
+/// built around.
+pub(super) fn options(
+    actor: &Actor,
+    candidates: &[Candidate],
+    around: Option<Slot>,
+    map: &KnownMap,
+    tuning: &ChoiceTuning,
+) -> Vec<Choosable> {
+    let size = &actor.plan.present.size;
+    let costs = match &actor.kept {
+        Some(kept) => candidates
+            .iter()
+            .map(|c| tuning.deviating + deviation_m(&c.motion.states, kept) / tuning.deviation_m)
+            .collect(),
+        None => central(candidates, around, tuning),
+    };
+    let option = |(c, cost): (&Candidate, f64)| {
+        let boxes = swept(&c.motion.states, size);
+        // What is given costs nothing by itself.
+        let given = c.origin.is_given();
+        let cost = if given { 0.0 } else { cost + off_road(actor, &c.motion.states, map, tuning) };
+        Choosable { boxes, cost }
+    };
+    candidates.iter().zip(costs).map(option).collect()
+}
+
+/// How far each candidate is from all alternatives by their probability, and whether it misses its goal.
+fn central(candidates: &[Candidate], around: Option<Slot>, tuning: &ChoiceTuning) -> Vec<f64> {
+    let all: Vec<&Trajectory> = candidates.iter().map(|c| &c.motion.states).collect();
+    let extra = |c: &Candidate| {
+        if around.is_some() && c.origin.slot() == around { tuning.around } else { 0.0 }
+    };
+    let alternatives = candidates.iter().filter(|c| c.origin.is_alternative());
+    let weighted: Vec<(&Trajectory, f64)> =
+        alternatives.map(|c| (&c.motion.states, c.probability + extra(c))).collect();
+    let missed = |c: &Candidate| if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed };
+    medoid_costs(&all, &weighted).into_iter().zip(candidates).map(|(cost, c)| cost + missed(c)).collect()
+}
+
+/// A vehicle whose box lies within the road's edges at the start.
+pub(super) fn starts_on_the_road(actor: &Actor, map: &KnownMap, tuning: &ChoiceTuning) -> bool {
+    let present = &actor.plan.present;
+    let outline = OrientedBox::of_state(&present.start, &present.size);
+    present.agent_type == AgentType::Vehicle
+        && map.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
+}
+
+/// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the
+/// road's edges to have a corner beyond them.
+fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceTuning) -> f64 {
+    let present = &actor.plan.present;
+    let Some(start) = states.first().filter(|_| present.agent_type == AgentType::Vehicle) else {
+        return 0.0;
+    };
+    let away = |s: &MotionState| {
+        map.graph.nearest_for(s.position, tuning.off_lanes_m, present.agent_type).is_empty()
+    };
+    let beyond = |s: &MotionState| {
+        let outline = OrientedBox::of_state(&State::from(s), &present.size);
+        map.drivable.box_outside_m(&outline).is_some_and(|outside| outside > tuning.past_edge_m)
+    };
+    let share = |off: &dyn Fn(&MotionState) -> bool| {
+        if off(start) {
+            0.0
+        } else {
+            let looked_at = states.iter().step_by(PER_INSTANT);
+            looked_at.filter(|s| off(s)).count() as f64 / (INSTANTS + 1) as f64
+        }
+    };
+    tuning.off_lanes * share(&away) + tuning.past_edges * share(&beyond)
+}
+
+/// Mean distance of a motion from the one that the actor keeps, metres.
+fn deviation_m(states: &Trajectory, kept: &[State]) -> f64 {
+    let pairs = states.iter().skip(1).zip(kept).step_by(5);
+    let (sum, n) =
+        pairs.fold((0.0, 0.0), |(sum, n), (a, b)| (sum + (a.position - b.position()).norm(), n + 1.0));
+    if n > 0.0 { sum / n } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::candidates::Origin;
+    use crate::generator::samples::car_on_a_street;
+    use crate::generator::trajectory::rest;
+    use crate::tuning::SHIPPED;
+    use scene::Goal;
+
+    /// Standing, at so many metres to the front.
+    fn at(x_m: f64, probability: f64, origin: Origin) -> Candidate {
+        let mut motion = rest(&car_on_a_street(0.0, Goal::default()));
+        motion.states.iter_mut().for_each(|s| s.position.x = x_m);
+        Candidate { probability, origin, motion }
+    }
+
+    #[test]
+    fn the_middle_costs_least_and_what_a_scene_is_built_around_draws_it() {
+        let modes = [0.0, 4.0, 8.0];
+        let of = |i: usize| at(modes[i], 1.0 / 3.0, Origin::Mode(Slot::new(i)));
+        let all = [of(0), of(1), of(2), at(4.0, 0.0, Origin::PathMean(Slot::new(1)))];
+        let free = central(&all, None, &SHIPPED.choice);
+        assert!(free[1] < free[0] && free[1] < free[2] && free[1] == free[3], "{free:?}");
+        let around = central(&all, Some(Slot::new(2)), &SHIPPED.choice);
+        assert!(around[2] < around[1] && around[1] < around[0], "{around:?}");
+    }
+
+    #[test]
+    fn a_missed_goal_is_worse() {
+        use scene::motion::{GoalError, Limiting, Reach};
+        let mut all = [at(0.0, 0.5, Origin::Mode(Slot::new(0))), at(0.0, 0.5, Origin::Mode(Slot::new(1)))];
+        let nearest = all[0].motion.states[0];
+        all[0].motion.reach = Reach::Unreachable {
+            residuals: GoalError::default(),
+            nearest,
+            limiting: Limiting::Speed,
+            needs: None,
+        };
+        let costs = central(&all, None, &SHIPPED.choice);
+        assert!((costs[0] - costs[1] - SHIPPED.choice.goal_missed).abs() < 1e-12, "{costs:?}");
+    }
+}

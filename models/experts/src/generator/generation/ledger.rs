@@ -1,0 +1,202 @@
+//! The ledger of a call: what everybody has done so far in the present sample, and what the answer will say.
+
+use super::targets::due;
+use crate::generator::actor::Actor;
+use crate::generator::candidates::Candidate;
+use crate::generator::decide::Decided;
+use crate::generator::extrapolation::Guessed;
+use crate::generator::report::{self, Outcome};
+use crate::generator::window::Window;
+use crate::planning::world::World;
+use crate::request::{Answer, Intermediate, ReachReport, Request, Resolved, Timings, Warning};
+use scene::{AgentFutures, AgentId, Future, STEP_S, Sample, Scene, State};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// What a road user has done so far in the present sample.
+pub(super) struct Progress {
+    /// Of the window in which it first got any.
+    futures: AgentFutures,
+    /// To where the next window begins, from the step after the call's start or, for one that came in
+    /// later, after its first.
+    pub(super) executed: Vec<State>,
+    /// Steps of the call that passed before `executed`.
+    absent: usize,
+    /// Was parked at the start and has not moved.
+    parked: bool,
+    reach: ReachReport,
+    intermediate: Vec<Intermediate>,
+}
+
+/// All that a call writes down on its way to the answer.
+#[derive(Default)]
+pub(super) struct Ledger {
+    progress: BTreeMap<usize, Progress>,
+    samples: Vec<Sample>,
+    resolved: BTreeMap<AgentId, Resolved>,
+    pub(super) warnings: Vec<Warning>,
+    pub(super) timings: Timings,
+}
+
+impl Ledger {
+    /// What a road user has done in the present sample, if it got futures.
+    pub(super) fn progress(&self, agent: usize) -> Option<&Progress> {
+        self.progress.get(&agent)
+    }
+
+    /// Those that got futures in the present sample.
+    pub(super) fn acted(&self) -> BTreeSet<usize> {
+        self.progress.keys().copied().collect()
+    }
+
+    /// Those among them that were parked at the start and have not moved.
+    pub(super) fn parked(&self) -> BTreeSet<usize> {
+        self.progress.iter().filter(|(_, p)| p.parked).map(|(i, _)| *i).collect()
+    }
+
+    /// The present sample, from 0.
+    pub(super) fn sample(&self) -> usize {
+        self.samples.len()
+    }
+
+    /// Writes down where a road user goes in the steps `span` after the call's start that a window executes.
+    /// `base` has what it did before the window in which it first gives up the motion that it had.
+    pub(super) fn follow(
+        &mut self,
+        request: &Request,
+        base: &Scene,
+        window: &Window<'_>,
+        decided: &Decided,
+        span: Range<usize>,
+    ) {
+        let agent = decided.agent;
+        let actor = &window.actors[decided.actor];
+        let later = span.start > 0;
+        let since_s = later.then(|| (request.start_step + span.start) as f64 * STEP_S);
+        let reach = report::reach_report(actor, decided.motion(), since_s);
+        let mut progress = match self.progress.remove(&agent) {
+            Some(known) => Progress { parked: known.parked && decided.rests(), ..known },
+            None => first_of(window, actor, decided, later, before(base, request, agent, span.start), &reach),
+        };
+        progress.executed.extend(decided.motion().states.iter().skip(1).take(span.len()).map(State::from));
+        // What was asked lies behind after the goal: the verdict stands.
+        if due(request, agent) > span.start as isize {
+            if let Some(sent) = window.subgoals.get(&agent) {
+                let reached = decided.motion().reach.is_reached();
+                progress.intermediate.push(Intermediate { reached, ..*sent });
+            }
+            progress.reach = reach;
+        }
+        self.progress.insert(agent, progress);
+    }
+
+    /// Ends a sample: one continuous future each. The first one says what became of everybody's conditions;
+    /// `world` is that of the first window.
+    pub(super) fn finish_sample(
+        &mut self,
+        request: &Request,
+        world: &World<'_>,
+        guesses: impl Iterator<Item = (usize, Guessed)>,
+    ) {
+        let progress = std::mem::take(&mut self.progress);
+        if self.samples.is_empty() {
+            self.resolve(request, world, &progress);
+            self.warn_of_guesses(request, &progress, guesses);
+        }
+        let mut sample = Sample::default();
+        for (i, Progress { mut futures, executed, absent, .. }) in progress {
+            if let Some(future) = futures.modes.get_mut(futures.chosen) {
+                let first_step = request.start_step + 1 + absent;
+                *future = Future { first_step, states: executed, ..future.clone() };
+            }
+            sample.agents.insert(request.scene.agents[i].id.clone(), futures);
+        }
+        self.samples.push(sample);
+    }
+
+    /// What became of everybody's conditions.
+    fn resolve(&mut self, request: &Request, world: &World<'_>, progress: &BTreeMap<usize, Progress>) {
+        let agents = &request.scene.agents;
+        for (i, progress) in progress {
+            let Some(present) = world.present.iter().find(|p| p.index == *i) else { continue };
+            let due = due(request, *i).max(1) as usize;
+            let end = progress.executed.get(due - 1).or(progress.executed.last());
+            let outcome = Outcome {
+                present,
+                conditions: &agents[*i].conditions,
+                due_step: request.start_step + due,
+                end: end.copied().unwrap_or(present.start),
+                reach: progress.reach.clone(),
+                intermediate: progress.intermediate.clone(),
+            };
+            self.resolved.insert(agents[*i].id.clone(), report::resolved(world, outcome));
+        }
+    }
+
+    fn warn_of_guesses(
+        &mut self,
+        request: &Request,
+        progress: &BTreeMap<usize, Progress>,
+        guesses: impl Iterator<Item = (usize, Guessed)>,
+    ) {
+        let end = request.start_step + request.horizon_steps;
+        for (i, guessed) in guesses {
+            if progress.contains_key(&i) || !guessed.moving || guessed.step > end {
+                continue;
+            }
+            self.warnings.push(Warning {
+                code: "extrapolated".into(),
+                agent: Some(request.scene.agents[i].id.clone()),
+                detail: format!(
+                    "Nothing says where it is from {:.1} s on; taken to go straight on at its speed.",
+                    guessed.step as f64 * STEP_S
+                ),
+            });
+        }
+    }
+
+    /// The answer, once all samples are finished.
+    pub(super) fn answer(&mut self, windows: usize) -> Answer {
+        for (id, resolved) in &self.resolved {
+            if let ReachReport::Unreachable { words, .. } = &resolved.reach {
+                let known = |w: &Warning| w.code == "goal-unreachable" && w.agent.as_ref() == Some(id);
+                if !self.warnings.iter().any(known) {
+                    let agent = Some(id.clone());
+                    let code = "goal-unreachable".into();
+                    self.warnings.push(Warning { code, agent, detail: words.clone() });
+                }
+            }
+        }
+        let Self { samples, resolved, warnings, timings, .. } = std::mem::take(self);
+        Answer { samples, windows, resolved, warnings, timings }
+    }
+}
+
+/// A road user's first window: its alternatives are those of the answer. One that comes later has the future that
+/// is shown alone.
+fn first_of(
+    window: &Window<'_>,
+    actor: &Actor,
+    decided: &Decided,
+    later: bool,
+    executed: Vec<State>,
+    reach: &ReachReport,
+) -> Progress {
+    let futures = if later {
+        window.futures(0, &[Candidate { probability: 1.0, ..decided.shown().clone() }])
+    } else {
+        window.futures(decided.chosen, &decided.alternatives)
+    };
+    let absent = window.world.step - window.request.start_step - executed.len();
+    let parked = actor.is_parked() && decided.rests();
+    Progress { futures, executed, absent, parked, reach: reach.clone(), intermediate: Vec::new() }
+}
+
+/// What a road user that keeps its motion did before a window in which it first gives it up. The first
+/// state of one that came in later is its start and left out like any other's.
+fn before(base: &Scene, request: &Request, agent: usize, steps: usize) -> Vec<State> {
+    let track = &base.agents[agent].track;
+    let start = request.start_step;
+    let late = usize::from(track.at(start).is_none());
+    (1..=steps).filter_map(|i| track.at(start + i).copied()).skip(late).collect()
+}

@@ -1,0 +1,303 @@
+//! One call: planning windows one after the other, each from the states that the last one reached, and
+//! the answer made of what was executed.
+//!
+//! A window plans 9 s ahead; its first seconds, up to the next re-planning, are executed. The next one
+//! sees everybody where they are by then: those with futures where these led, the rest on their log (or
+//! straight on where it has ended). Nothing of an earlier window is planned again.
+
+mod ledger;
+mod roster;
+mod scenes;
+mod targets;
+
+use super::window::{Window, steps};
+use super::{Generator, KnownMap, report};
+use crate::clock::milliseconds;
+use crate::planning::world::World;
+use crate::request::{Accepted, Answer, Cancel, Event, GenerateError, Request, Warning};
+use ledger::Ledger;
+use roster::{Part, Roster};
+use scene::{HORIZON_STEPS, MAX_HORIZON_STEPS, Scene};
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Duration;
+use targets::{Targets, due};
+
+/// What comes next of a call.
+#[derive(Clone, Copy)]
+enum Stage {
+    Accept,
+    /// First drafts of a window.
+    Initial(usize),
+    /// A window's refinement step, from 1.
+    Step(usize, usize),
+    Finish,
+    Done,
+}
+
+/// Steps after the call's start that each window executes.
+struct Spans(Vec<Range<usize>>);
+
+impl Spans {
+    fn of(request: &Request) -> Self {
+        let horizon = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
+        let interval = request.replan_steps.unwrap_or(HORIZON_STEPS).clamp(1, HORIZON_STEPS);
+        Self((0..horizon).step_by(interval).map(|from| from..horizon.min(from + interval)).collect())
+    }
+
+    /// Windows; at least one.
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    fn window(&self, number: usize) -> Range<usize> {
+        self.0[number].clone()
+    }
+
+    /// Where the last one begins.
+    fn last_start(&self) -> usize {
+        self.0.last().map_or(0, |span| span.start)
+    }
+}
+
+/// The windows of a call that are planned at present.
+struct Windows<'g> {
+    spans: Spans,
+    /// What they are cut from: the call's scene, with what is kept known to the last window's end.
+    base: Arc<Scene>,
+    /// The moment at which the first begins, until it is planned.
+    start: Option<World<'g>>,
+    /// The first serves all samples, a later one the present sample alone.
+    first: Option<Window<'g>>,
+    later: Option<Window<'g>>,
+}
+
+impl<'g> Windows<'g> {
+    fn present(&self) -> Result<&Window<'g>, GenerateError> {
+        self.later.as_ref().or(self.first.as_ref()).ok_or_else(no_window)
+    }
+
+    fn present_mut(&mut self) -> Result<&mut Window<'g>, GenerateError> {
+        self.later.as_mut().or(self.first.as_mut()).ok_or_else(no_window)
+    }
+}
+
+/// A call under way: yields events until the final one.
+pub struct Generation<'g> {
+    generator: &'g Generator,
+    request: Arc<Request>,
+    cancel: Cancel,
+    map: Arc<KnownMap>,
+    stage: Stage,
+    roster: Roster,
+    windows: Windows<'g>,
+    ledger: Ledger,
+}
+
+impl<'g> Generation<'g> {
+    pub(super) fn new(
+        generator: &'g Generator,
+        mut request: Request,
+        cancel: Cancel,
+    ) -> Result<Self, GenerateError> {
+        let started = (generator.clock)();
+        request.horizon_steps = request.horizon_steps.clamp(1, MAX_HORIZON_STEPS);
+        let request = Arc::new(request);
+        let map = generator.maps.known(&request.scene.map);
+        let start = world(generator, &map, &request, request.scene.clone(), request.start_step);
+        let spans = Spans::of(&request);
+        let (roster, base) = Roster::of(&request, &start, &spans, &generator.tuning.reacting)?;
+        // All who are there at the start are there in both scenes alike.
+        let start = World { scene: base.clone().into(), ..start };
+        let windows = Windows { spans, base, start: Some(start), first: None, later: None };
+        let mut ledger = Ledger::default();
+        ledger.timings.encode_ms = milliseconds(generator.clock, started);
+        Ok(Self { generator, request, cancel, map, stage: Stage::Accept, roster, windows, ledger })
+    }
+
+    fn accept(&self) -> Accepted {
+        let agents = &self.request.scene.agents;
+        let ids = |is: fn(Part) -> bool| self.roster.with(is).map(|i| agents[i].id.clone()).collect();
+        Accepted {
+            seed: self.request.seed,
+            regenerated: ids(Part::is_asked),
+            reacting: ids(Part::answers),
+            fixed: ids(|part| !part.is_asked() && !part.answers()),
+            steps: self.request.steps,
+            windows: self.windows.spans.count(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Plans a window and makes it the present one.
+    fn begin_window(&mut self, number: usize) -> Result<(), GenerateError> {
+        if number == 0 && self.windows.first.is_some() {
+            self.windows.later = None;
+            return Ok(());
+        }
+        let started = (self.generator.clock)();
+        let span = self.windows.spans.window(number);
+        let mut world = match self.windows.start.take() {
+            Some(start) if number == 0 => start,
+            _ => {
+                let step = self.request.start_step + span.start;
+                let scene = scenes::reached(&self.windows.base, &self.roster, &self.ledger, step);
+                world(self.generator, &self.map, &self.request, Arc::new(scene), step)
+            }
+        };
+        let targets = Targets::of(&self.request, &world, number);
+        for (agent, goal) in targets.goals {
+            world.aim(agent, goal);
+        }
+        let (end, tuning) = (self.request.start_step + span.end, &self.generator.tuning.reacting);
+        let mut cast = self.roster.in_window(number, &world, end, &self.ledger.acted(), tuning);
+        cast.parked = self.ledger.parked();
+        let (request, map) = (self.request.clone(), self.map.clone());
+        let mut window = Window::plan(self.generator, request, map, world, number, &cast)?;
+        window.subgoals = targets.subgoals;
+        if number == 0 {
+            self.ledger.warnings = self.first_warnings(&window);
+            self.windows.first = Some(window);
+        } else {
+            self.windows.later = Some(window);
+        }
+        if self.ledger.sample() == 0 {
+            self.ledger.timings.initial_ms += self.since(started);
+        }
+        Ok(())
+    }
+
+    fn first_warnings(&self, window: &Window<'_>) -> Vec<Warning> {
+        report::warnings(&window.world, &window.actors, |i| {
+            let due = due(&self.request, i).clamp(1, MAX_HORIZON_STEPS as isize);
+            (&self.request.scene.agents[i].conditions, due as usize)
+        })
+    }
+
+    /// Milliseconds since the clock showed this.
+    fn since(&self, started: Duration) -> f64 {
+        milliseconds(self.generator.clock, started)
+    }
+
+    fn begin(&mut self, number: usize) -> Result<(), GenerateError> {
+        self.begin_window(number)?;
+        let sample = self.ledger.sample();
+        self.windows.present_mut()?.begin_sample(sample)
+    }
+
+    fn refine(&mut self, step: usize) -> Result<(), GenerateError> {
+        let started = (self.generator.clock)();
+        self.windows.present_mut()?.refine(step)?;
+        if self.ledger.sample() == 0 {
+            let took_ms = self.since(started);
+            self.ledger.timings.step_ms.push(took_ms);
+        }
+        Ok(())
+    }
+
+    /// Chooses one future each and goes along them to where the next window starts.
+    fn execute(&mut self, number: usize) -> Result<(), GenerateError> {
+        let started = (self.generator.clock)();
+        let span = self.windows.spans.window(number);
+        let window = self.windows.present()?;
+        for decided in &window.decide() {
+            self.ledger.follow(&self.request, &self.windows.base, window, decided, span.clone());
+        }
+        self.ledger.timings.choice_ms += self.since(started);
+        Ok(())
+    }
+
+    fn finish_sample(&mut self) -> Result<(), GenerateError> {
+        let world = &self.windows.first.as_ref().ok_or_else(no_window)?.world;
+        self.ledger.finish_sample(&self.request, world, self.roster.guesses());
+        Ok(())
+    }
+
+    fn answer(&mut self) -> Result<Answer, GenerateError> {
+        let windows = self.windows.spans.count();
+        self.execute(windows - 1)?;
+        self.finish_sample()?;
+        while self.ledger.sample() < self.request.samples.max(1) {
+            for number in 0..windows {
+                self.stop_if_cancelled()?;
+                self.begin(number)?;
+                for step in 1..=steps(&self.request) {
+                    self.stop_if_cancelled()?;
+                    self.refine(step)?;
+                }
+                self.execute(number)?;
+            }
+            self.finish_sample()?;
+        }
+        Ok(self.ledger.answer(windows))
+    }
+
+    fn stop_if_cancelled(&self) -> Result<(), GenerateError> {
+        if self.cancel.is_cancelled() { Err(GenerateError::Cancelled) } else { Ok(()) }
+    }
+
+    /// What comes after the last draft of a window.
+    fn after(&self, number: usize) -> Stage {
+        if number + 1 < self.windows.spans.count() { Stage::Initial(number + 1) } else { Stage::Finish }
+    }
+
+    fn advance(&mut self) -> Result<Event, GenerateError> {
+        self.stop_if_cancelled()?;
+        match self.stage {
+            Stage::Accept => {
+                self.stage = Stage::Initial(0);
+                Ok(Event::Accepted(self.accept()))
+            }
+            Stage::Initial(number) => {
+                if let Some(last) = number.checked_sub(1) {
+                    self.execute(last)?;
+                }
+                self.begin(number)?;
+                let refines = steps(&self.request) > 0;
+                self.stage = if refines { Stage::Step(number, 1) } else { self.after(number) };
+                Ok(Event::Draft(self.windows.present()?.draft(0)))
+            }
+            Stage::Step(number, step) => {
+                self.refine(step)?;
+                let more = step < steps(&self.request);
+                self.stage = if more { Stage::Step(number, step + 1) } else { self.after(number) };
+                Ok(Event::Draft(self.windows.present()?.draft(step)))
+            }
+            Stage::Finish | Stage::Done => {
+                self.stage = Stage::Done;
+                Ok(Event::Final(self.answer()?))
+            }
+        }
+    }
+}
+
+impl Iterator for Generation<'_> {
+    type Item = Result<Event, GenerateError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if matches!(self.stage, Stage::Done) {
+            return None;
+        }
+        let event = self.advance();
+        if event.is_err() {
+            self.stage = Stage::Done;
+        }
+        Some(event)
+    }
+}
+
+/// A scene at one step, to be planned as the request says.
+fn world<'g>(
+    generator: &'g Generator,
+    map: &KnownMap,
+    request: &Request,
+    scene: Arc<Scene>,
+    step: usize,
+) -> World<'g> {
+    let world = World::new(scene, map.graph.clone(), step);
+    World { planning: request.stages.planning, tuning: &generator.tuning, ..world }
+}
+
+fn no_window() -> GenerateError {
+    GenerateError::Expert("no window is planned".into())
+}

@@ -1,0 +1,231 @@
+//! The roster of a call: one part for every road user of the scene, and who acts in each window.
+
+use super::Spans;
+use super::scenes::known_to_the_end;
+use crate::generator::extrapolation::Guessed;
+use crate::generator::reacting::within_reach;
+use crate::generator::window::{Cast, MOST_ACTORS};
+use crate::planning::world::World;
+use crate::request::{GenerateError, React, Request};
+use crate::tuning::ReactingTuning;
+use scene::{AgentId, AgentType, Scene};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// What a road user does in a call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// It was asked for.
+    Asked,
+    /// It was asked for, and a person picked its future: it is planned around in the first window and is
+    /// background after it.
+    Picked,
+    /// It may answer those that were asked for.
+    MayReact,
+    /// It keeps a future which ends before the call does, and plans on from its end.
+    Continues,
+    /// It comes in after the start of a call that is about everybody, and plans on where its log ends.
+    Arrives,
+    /// It keeps the motion it has.
+    Kept,
+    /// It is not there at the start.
+    Absent,
+}
+
+impl Part {
+    /// It may get new futures without having been asked for.
+    pub(super) fn answers(self) -> bool {
+        matches!(self, Self::MayReact | Self::Continues | Self::Arrives)
+    }
+
+    /// It was asked for.
+    pub(super) fn is_asked(self) -> bool {
+        matches!(self, Self::Asked | Self::Picked)
+    }
+}
+
+/// Everybody's part, one entry an agent of the scene.
+pub(super) struct Roster {
+    parts: Vec<Part>,
+    /// From where on nothing is known of those that keep their motion, in calls of several windows.
+    guessed: Vec<Option<Guessed>>,
+    /// Who may react is near those that act, whatever was known when the call began.
+    looks_again: bool,
+}
+
+impl Roster {
+    /// Everybody's part in a call, and the scene that its windows are cut from: the call's own, with what is
+    /// kept known to the last window's end.
+    ///
+    /// # Errors
+    /// Unknown ids, ids of those that cannot move, too many that were asked for.
+    pub(super) fn of(
+        request: &Request,
+        world: &World<'_>,
+        spans: &Spans,
+        tuning: &ReactingTuning,
+    ) -> Result<(Self, Arc<Scene>), GenerateError> {
+        let scene = &request.scene;
+        let movable: BTreeSet<usize> =
+            world.present.iter().filter(|p| p.agent_type != AgentType::Other).map(|p| p.index).collect();
+        let asked = match &request.agents {
+            None => movable.clone(),
+            Some(ids) => find(scene, &movable, ids)?,
+        };
+        let several = spans.count() > 1;
+        let mut may_react = match &request.react {
+            React::Nobody => BTreeSet::new(),
+            // In several windows, who is near is looked at in each.
+            React::Everyone if several => movable.clone(),
+            React::Everyone => within_reach(world, &movable, &asked, tuning),
+            React::Only(ids) => find(scene, &movable, ids)?,
+        };
+        may_react.retain(|i| !asked.contains(i));
+        if asked.len() > MOST_ACTORS {
+            return Err(GenerateError::TooManyAgents { found: asked.len(), most: MOST_ACTORS });
+        }
+        let here: BTreeSet<usize> = world.present.iter().map(|p| p.index).collect();
+        let picked = |i: usize| request.pinned.contains_key(&scene.agents[i].id);
+        let (base, guessed) = if several {
+            known_to_the_end(request, |i| asked.contains(&i) && !picked(i), spans)
+        } else {
+            (scene.clone(), vec![None; scene.agents.len()])
+        };
+        let everybody = request.agents.is_none() || matches!(request.react, React::Everyone);
+        let keeps_a_future = |i: usize| {
+            let generated = scene.generated.as_ref();
+            generated.is_some_and(|g| g.chosen_future(&scene.agents[i].id).is_some())
+        };
+        let part = |i: usize| {
+            let ends = guessed[i].is_some();
+            let moves = scene.agents[i].kind() != AgentType::Other;
+            match () {
+                () if asked.contains(&i) => {
+                    if picked(i) {
+                        Part::Picked
+                    } else {
+                        Part::Asked
+                    }
+                }
+                () if may_react.contains(&i) => Part::MayReact,
+                () if movable.contains(&i) && ends && keeps_a_future(i) => Part::Continues,
+                () if !here.contains(&i) && ends && everybody && moves => Part::Arrives,
+                () if here.contains(&i) => Part::Kept,
+                () => Part::Absent,
+            }
+        };
+        let parts = (0..scene.agents.len()).map(part).collect();
+        let looks_again = matches!(request.react, React::Everyone);
+        Ok((Self { parts, guessed, looks_again }, base))
+    }
+
+    /// A road user's part.
+    pub(super) fn part(&self, agent: usize) -> Part {
+        self.parts[agent]
+    }
+
+    /// Road users with a part like this.
+    pub(super) fn with(&self, is: impl Fn(Part) -> bool) -> impl Iterator<Item = usize> {
+        self.parts.iter().enumerate().filter(move |(_, part)| is(**part)).map(|(i, _)| i)
+    }
+
+    /// From where on nothing is known of a road user that keeps its motion.
+    pub(super) fn guesses(&self) -> impl Iterator<Item = (usize, Guessed)> {
+        self.guessed.iter().enumerate().filter_map(|(i, guessed)| Some((i, (*guessed)?)))
+    }
+
+    /// Who acts in window `number`, which begins at `world.step` and is executed up to scene step `end`. `acted`
+    /// are those that got futures in earlier windows of the sample; `parked` is left to the caller.
+    pub(super) fn in_window(
+        &self,
+        number: usize,
+        world: &World<'_>,
+        end: usize,
+        acted: &BTreeSet<usize>,
+        tuning: &ReactingTuning,
+    ) -> Cast {
+        let first = number == 0;
+        // A picked future is background after the first window, like any other motion that is kept.
+        let asked = self.with(|part| part == Part::Asked || (part == Part::Picked && first));
+        let mut acting: BTreeSet<usize> = asked.collect();
+        acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked()));
+        let new = |part: Part| self.with(move |p| p == part).filter(move |i| !acted.contains(i));
+        let mut may_react: BTreeSet<usize> = new(Part::MayReact).collect();
+        if !first {
+            let known_until = |i: usize, step: usize| self.guessed[i].is_some_and(|g| g.step <= step);
+            // Nothing is left to keep for those whose log ends in what this window executes.
+            let seen = |i: &usize| world.scene.agents[*i].track.at(world.step).is_some();
+            let ended = new(Part::MayReact).chain(new(Part::Arrives).filter(seen));
+            let ended = ended.filter(|i| known_until(*i, end));
+            let ended: Vec<usize> = ended.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
+            may_react.retain(|i| !ended.contains(i));
+            acting.extend(ended);
+            let over = new(Part::Continues).filter(|i| known_until(*i, world.step + 1));
+            let over: Vec<usize> = over.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
+            acting.extend(over);
+        }
+        if self.looks_again {
+            may_react = within_reach(world, &may_react, &acting, tuning);
+        }
+        Cast { acting, may_react, parked: BTreeSet::new() }
+    }
+}
+
+/// Indices of agents by id; all must be able to move.
+fn find(
+    scene: &Scene,
+    movable: &BTreeSet<usize>,
+    ids: &BTreeSet<AgentId>,
+) -> Result<BTreeSet<usize>, GenerateError> {
+    ids.iter()
+        .map(|id| {
+            let index = scene.agents.iter().position(|a| a.id == *id);
+            let index = index.ok_or_else(|| GenerateError::UnknownAgent(id.clone()))?;
+            let missing = GenerateError::StartMissing { agent: id.clone(), field: "position" };
+            movable.contains(&index).then_some(index).ok_or(missing)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tuning::SHIPPED;
+    use scene::routes::LaneGraph;
+    use scene::{Agent, LaneMap, State, Subtype};
+
+    /// Known at so many steps from `first` on, standing apart from each other.
+    fn agent(id: &str, agent_type: AgentType, first: usize, steps: usize) -> Agent {
+        let mut agent = Agent::bare(id, agent_type, Subtype::Unknown, Vec::new());
+        let x_m = 10.0 * id.len() as f64;
+        agent.track.first_step = first;
+        agent.track.states = vec![Some(State { x_m, vx_mps: 5.0, ..State::default() }); steps];
+        agent
+    }
+
+    fn parts(react: React, agents: Option<&[&str]>, horizon_steps: usize) -> Vec<Part> {
+        let all = vec![
+            agent("a", AgentType::Vehicle, 0, 91),
+            agent("aa", AgentType::Vehicle, 0, 91),
+            agent("aaa", AgentType::Other, 0, 91),
+            agent("aaaa", AgentType::Vehicle, 40, 30),
+        ];
+        let scene = Arc::new(Scene::bare("", LaneMap::default(), all));
+        let mut request = Request { react, horizon_steps, ..Request::new(scene.clone()) };
+        request.agents = agents.map(|ids| ids.iter().map(|id| (*id).to_owned()).collect());
+        let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), 0);
+        let spans = Spans::of(&request);
+        let (roster, _) = Roster::of(&request, &world, &spans, &SHIPPED.reacting).unwrap();
+        (0..4).map(|i| roster.part(i)).collect()
+    }
+
+    #[test]
+    fn everybody_has_one_part() {
+        use Part::*;
+        assert_eq!(parts(React::Nobody, Some(&["a"]), 90), [Asked, Kept, Kept, Absent]);
+        assert_eq!(parts(React::Everyone, Some(&["a"]), 90), [Asked, MayReact, Kept, Absent]);
+        // Only in a call of several windows somebody may come in.
+        assert_eq!(parts(React::Nobody, None, 180), [Asked, Asked, Kept, Arrives]);
+        assert_eq!(parts(React::Nobody, Some(&["a"]), 180), [Asked, Kept, Kept, Absent]);
+    }
+}

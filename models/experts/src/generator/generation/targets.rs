@@ -1,0 +1,96 @@
+//! What each window asks of the road users with a goal.
+
+use crate::generator::subgoal::{as_goal, subgoal};
+use crate::planning::world::World;
+use crate::request::{Intermediate, Request};
+use scene::{Goal, HORIZON_STEPS, STEP_S};
+use std::collections::BTreeMap;
+
+/// Goals of one window.
+#[derive(Default)]
+pub(super) struct Targets {
+    /// What is asked in place of the fixed goal, by agent of the scene.
+    pub(super) goals: Vec<(usize, Goal)>,
+    /// The state on the way that a window is sent to, where the goal is due after its end.
+    pub(super) subgoals: BTreeMap<usize, Intermediate>,
+}
+
+/// Steps after the call's start at which the goal of a road user is due; the end when nobody said.
+pub(super) fn due(request: &Request, agent: usize) -> isize {
+    let goal = &request.scene.agents[agent].conditions.goal;
+    match goal.time_s {
+        Some(t) => (t / STEP_S).round() as isize - request.start_step as isize,
+        None => request.horizon_steps as isize,
+    }
+}
+
+impl Targets {
+    /// What window `number` is asked: goals that are past are dropped, those due after its end become the state on
+    /// the way.
+    pub(super) fn of(request: &Request, world: &World<'_>, number: usize) -> Self {
+        let mut targets = Self::default();
+        let step = world.step;
+        let passed = step as isize - request.start_step as isize;
+        for (i, agent) in request.scene.agents.iter().enumerate() {
+            let goal = &agent.conditions.goal;
+            if goal.is_free() {
+                continue;
+            }
+            let left = due(request, i) - passed;
+            if left <= 0 {
+                targets.goals.push((i, Goal::default()));
+            } else if left as usize <= HORIZON_STEPS {
+                let time_s = Some((step as isize + left) as f64 * STEP_S);
+                if goal.step_in_window(step as f64 * STEP_S) != left as usize {
+                    targets.goals.push((i, Goal { time_s, ..*goal }));
+                }
+            } else if let Some(who) = world.present.iter().find(|p| p.index == i) {
+                let state = subgoal(world, who, goal, left as usize);
+                let time_s = (step + HORIZON_STEPS) as f64 * STEP_S;
+                let asked = as_goal(&state, world.model(who).kind, goal, left as usize, time_s);
+                if !asked.is_free() {
+                    let sent = Intermediate { window: number, time_s, state, reached: false };
+                    targets.subgoals.insert(i, sent);
+                }
+                targets.goals.push((i, asked));
+            }
+        }
+        targets
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::routes::LaneGraph;
+    use scene::{Agent, AgentType, LaneMap, Scene, State, Subtype, Vec2};
+    use std::sync::Arc;
+
+    fn of(time_s: f64, start_step: usize, step: usize) -> Targets {
+        let start = State { vx_mps: 5.0, ..State::default() };
+        let mut car = Agent::bare("a", AgentType::Vehicle, Subtype::Car, vec![Some(start); 120]);
+        car.conditions.goal =
+            Goal { position: Some(Vec2::new(90.0, 0.0)), time_s: Some(time_s), ..Goal::default() };
+        let scene = Arc::new(Scene::bare("", LaneMap::default(), vec![car]));
+        let request = Request { start_step, horizon_steps: 200, ..Request::new(scene.clone()) };
+        let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), step);
+        Targets::of(&request, &world, 1)
+    }
+
+    #[test]
+    fn a_goal_is_asked_where_it_is_due_and_dropped_after_it() {
+        // Asked as it was fixed.
+        let due = of(12.0, 0, 60);
+        assert!(due.goals.is_empty() && due.subgoals.is_empty());
+        assert!(of(6.0, 0, 60).goals[0].1.is_free());
+    }
+
+    #[test]
+    fn a_goal_due_later_becomes_a_state_on_the_way() {
+        let later = of(18.0, 0, 60);
+        let sent = later.subgoals[&0];
+        assert_eq!((sent.window, sent.time_s), (1, 15.0));
+        assert!(sent.state.x_m > 30.0 && sent.state.x_m < 90.0, "{}", sent.state.x_m);
+        assert_eq!(later.goals[0].1.position, Some(sent.state.position()));
+    }
+}

@@ -1,0 +1,52 @@
+//! Guidance: drafts of a chosen scene that conflict, led out of each other's way.
+
+use super::actor::Actor;
+use super::candidates::{Candidate, Origin, Slot};
+use super::repulsion::{Outline, SceneEnergy, Terms};
+use super::trajectory::{Motion, places, to_trajectory};
+use crate::planning::{Modes, Residual};
+use crate::tuning::GuidanceTuning;
+
+/// A further candidate for each mode of an actor that something repels, with the others where they are chosen.
+pub(super) fn guided(
+    energy: &SceneEnergy<'_>,
+    tuning: &GuidanceTuning,
+    actor: &Actor,
+    modes: &Modes,
+    candidates: &[Candidate],
+    others: &[&Outline],
+) -> Vec<Candidate> {
+    let guide = |candidate: &Candidate| {
+        let Origin::Mode(slot) = candidate.origin else { return None };
+        let motion = out_of_the_way(energy, tuning, actor, slot, slot.of(modes), others)?;
+        Some(Candidate { probability: 0.0, origin: Origin::Guided(slot), motion })
+    };
+    candidates.iter().filter_map(guide).collect()
+}
+
+/// Where steps downhill lead a draft; `None` when nothing repels it.
+fn out_of_the_way(
+    energy: &SceneEnergy<'_>,
+    tuning: &GuidanceTuning,
+    actor: &Actor,
+    slot: Slot,
+    residual: &Residual,
+    others: &[&Outline],
+) -> Option<Motion> {
+    let share = tuning.share as f32;
+    let mut moved = *residual;
+    let mut repelled = false;
+    for _ in 0..tuning.steps as usize {
+        // Out of the boxes' way is far enough; on the way there the road counts too.
+        let places = places(&actor.plan, slot, &moved);
+        if energy.at(actor, &places, others, Terms::Boxes).0 == 0.0 {
+            break;
+        }
+        let Some((_, downhill)) = energy.downhill(actor, slot, &moved, others, Terms::All) else { break };
+        repelled = true;
+        for (value, step) in moved.iter_mut().zip(downhill) {
+            *value += share * step;
+        }
+    }
+    repelled.then(|| to_trajectory(&actor.plan, slot, &moved))
+}

@@ -1,0 +1,100 @@
+//! Overlaps of drawn drafts, resolved without the networks.
+
+use super::actor::{Actor, Drafts};
+use super::candidates::Slot;
+use super::repulsion::{Outline, Poses, SceneEnergy, Terms, leading_outlines, poses_of};
+use super::trajectory::places;
+use crate::planning::Residual;
+
+/// Plain steps downhill from the leading drafts, one actor after the other, so that of two in each other's way the
+/// second sees where the first has gone. A step that does not lower the energy is not taken. The drafts stay as
+/// they are: where the steps lead is one more thing that each actor could do, [`Drafts::settled`].
+pub(super) fn resolve_overlaps(
+    energy: &SceneEnergy<'_>,
+    actors: &[Actor],
+    drafts: &mut [Drafts],
+    background: &[Outline],
+) {
+    let mut outlines = leading_outlines(actors, drafts, energy.tuning);
+    // The order of road users in the scene must not show.
+    let mut order: Vec<usize> = (0..actors.len()).collect();
+    order.sort_by(|a, b| actors[*a].id.cmp(&actors[*b].id));
+    // An actor that has found nothing to gain looks again when somebody near it has moved.
+    let may_look: Vec<bool> = actors.iter().map(|actor| !actor.keeps_still()).collect();
+    let mut looks = may_look.clone();
+    for _ in 0..energy.tuning.rounds as usize {
+        for &i in &order {
+            if !std::mem::take(&mut looks[i]) {
+                continue;
+            }
+            let actor = &actors[i];
+            let Drafts { leading, modes, settled } = &drafts[i];
+            let others = outlines.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
+            let others: Vec<&Outline> = others.chain(background).collect();
+            let from = settled.as_ref().unwrap_or(leading.of(modes));
+            let Some((residual, poses)) = step_downhill(energy, actor, *leading, from, &others) else {
+                continue;
+            };
+            drafts[i].settled = Some(residual);
+            let now = Outline::new(poses, &actor.plan.present, energy.tuning);
+            let before = std::mem::replace(&mut outlines[i], now);
+            for (k, looks) in looks.iter_mut().enumerate() {
+                let near = k == i || outlines[k].near(&outlines[i]) || outlines[k].near(&before);
+                *looks |= may_look[k] && near;
+            }
+        }
+    }
+}
+
+/// A step downhill from a draft, the longest of a few that lowers the energy.
+fn step_downhill(
+    energy: &SceneEnergy<'_>,
+    actor: &Actor,
+    slot: Slot,
+    residual: &Residual,
+    others: &[&Outline],
+) -> Option<(Residual, Poses)> {
+    let (before, downhill) = energy.downhill(actor, slot, residual, others, Terms::All)?;
+    let longest = energy.tuning.share as f32;
+    [longest, 0.5 * longest, 0.25 * longest].into_iter().find_map(|share| {
+        let moved = std::array::from_fn(|i| residual[i] + share * downhill[i]);
+        let places = places(&actor.plan, slot, &moved);
+        let lower = energy.at(actor, &places, others, Terms::All).0 < before;
+        lower.then(|| (moved, poses_of(&places)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use crate::planning::pullback::Pullback;
+    use crate::planning::{MODES, RESIDUAL};
+    use crate::tuning::SHIPPED;
+    use scene::score::Drivable;
+    use scene::{Goal, Vec2};
+
+    #[test]
+    fn two_on_one_way_part_and_who_is_far_stays() {
+        let (pullback, drivable) = (Pullback::default(), Drivable::default());
+        let energy = SceneEnergy { pullback: &pullback, drivable: &drivable, tuning: &SHIPPED.overlaps };
+        let ride = |id: &str, y: f64| {
+            let mut plan = car_on_a_street(8.0, Goal::default());
+            for anchor in &mut plan.anchors {
+                let moved = anchor.path.points().iter().map(|p| p + Vec2::new(0.0, y));
+                anchor.path = scene::routes::Polyline::new(moved);
+            }
+            Actor::new(id.into(), plan, None)
+        };
+        let actors = [ride("a", 0.0), ride("b", 1.2), ride("c", 40.0)];
+        let drafts = Drafts { modes: [[0.0; RESIDUAL]; MODES], leading: Slot::FIRST, settled: None };
+        let mut drafts = vec![drafts; 3];
+        resolve_overlaps(&energy, &actors, &mut drafts, &[]);
+        assert!(drafts[0].settled.is_some() && drafts[2].settled.is_none());
+        let across = |i: usize| {
+            let settled = drafts[i].settled.unwrap_or([0.0; RESIDUAL]);
+            settled[scene::KNOTS..].iter().sum::<f32>()
+        };
+        assert!(across(0) < 0.0 && across(1) >= 0.0, "{} {}", across(0), across(1));
+    }
+}

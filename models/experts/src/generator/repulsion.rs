@@ -1,0 +1,231 @@
+//! The scene's energy (boxes too close, now or soon, and corners past a kerb) and what repels a draft: the way
+//! downhill in it.
+
+use super::actor::{Actor, Drafts};
+use super::candidates::Slot;
+use super::kerb::kerb;
+use super::trajectory::{PER_INSTANT, places};
+use super::workers::Workers;
+use crate::planning::pullback::Pullback;
+use crate::planning::world::AgentAtStart;
+use crate::planning::{INSTANTS, MODES, Modes, RESIDUAL, Residual};
+use crate::tuning::OverlapTuning;
+use scene::Vec2;
+use scene::geometry::direction;
+use scene::geometry::overlap_energy::{Growth, MovingBox, absent, carried_back, carried_on, overlap_energy};
+use scene::motion::MotionState;
+use scene::score::Drivable;
+
+/// Boxes farther apart than this do not matter to each other, metres.
+const NEAR_M: f32 = 1.0;
+
+/// Places and headings at the instants; [`ABSENT`] where somebody is not there.
+pub(super) type Poses = scene::geometry::overlap_energy::Poses<INSTANTS>;
+
+/// The pose of nobody.
+pub(super) const ABSENT: [f32; 4] = [0.0; 4];
+
+/// Somebody as an obstacle.
+pub(super) struct Outline {
+    poses: Poses,
+    /// Where it would be soon.
+    soon: Poses,
+    /// Half length and half width, metres.
+    half: [f32; 2],
+}
+
+impl Outline {
+    /// Of somebody's box along these poses.
+    pub(super) fn new(poses: Poses, who: &AgentAtStart, tuning: &OverlapTuning) -> Self {
+        let soon = carried_on(&poses, tuning.soon_intervals as f32);
+        Self { soon, poses, half: half_size(who) }
+    }
+
+    /// Whether two come near each other, now or soon.
+    pub(super) fn near(&self, other: &Self) -> bool {
+        let reach = NEAR_M + self.half[0] + self.half[1] + other.half[0] + other.half[1];
+        let close = |a: &Poses, b: &Poses| {
+            a.iter().zip(b).any(|(a, b)| {
+                let far = (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > reach;
+                !far && !absent(a) && !absent(b)
+            })
+        };
+        close(&self.poses, &other.poses) || close(&self.soon, &other.soon)
+    }
+}
+
+/// Which terms of the scene's energy count.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Terms {
+    /// Boxes that are too close: what the networks were trained with.
+    Boxes,
+    /// Also boxes that soon will be, and corners past the road's edge.
+    All,
+}
+
+/// The scene's energy as one actor's draft sees it.
+#[derive(Clone, Copy)]
+pub(super) struct SceneEnergy<'a> {
+    pub(super) pullback: &'a Pullback,
+    pub(super) drivable: &'a Drivable,
+    pub(super) tuning: &'a OverlapTuning,
+}
+
+impl SceneEnergy<'_> {
+    /// The energy at a draft, and the way downhill in its knots; `None` where the energy is zero.
+    pub(super) fn downhill(
+        &self,
+        actor: &Actor,
+        slot: Slot,
+        residual: &Residual,
+        others: &[&Outline],
+        terms: Terms,
+    ) -> Option<(f32, Residual)> {
+        let places = places(&actor.plan, slot, residual);
+        let (energy, gradient) = self.at(actor, &places, others, terms);
+        if energy == 0.0 {
+            return None;
+        }
+        let mut route = [[0.0; 2]; INSTANTS];
+        for (i, (_, heading)) in places.iter().enumerate() {
+            let (sin, cos) = (heading.sin() as f32, heading.cos() as f32);
+            let [gx, gy] = gradient[i];
+            route[i] = [gx * cos + gy * sin, gy * cos - gx * sin];
+        }
+        Some((energy, self.pullback.downhill(&route, &actor.plan.features.tangent)))
+    }
+
+    /// The energy of a draft's places and its gradient to the box centres.
+    pub(super) fn at(
+        &self,
+        actor: &Actor,
+        places: &[(Vec2, f64); INSTANTS],
+        others: &[&Outline],
+        terms: Terms,
+    ) -> (f32, [[f32; 2]; INSTANTS]) {
+        let own = poses_of(places);
+        let half = half_size(&actor.plan.present);
+        let obstacles = others.iter().map(|o| MovingBox { poses: &o.poses, half: o.half });
+        let found = overlap_energy(&own, half, obstacles, Growth::Square);
+        let (mut energy, mut gradient) = (found.energy, found.gradient);
+        let mut add = |weight: f32, more: f32, slope: [[f32; 2]; INSTANTS]| {
+            energy += weight * more;
+            for (sum, slope) in gradient.as_flattened_mut().iter_mut().zip(slope.as_flattened()) {
+                *sum += weight * slope;
+            }
+        };
+        if terms == Terms::All {
+            let soon_intervals = self.tuning.soon_intervals as f32;
+            let obstacles = others.iter().map(|o| MovingBox { poses: &o.soon, half: o.half });
+            let soon = overlap_energy(&carried_on(&own, soon_intervals), half, obstacles, Growth::Square);
+            add(self.tuning.soon as f32, soon.energy, carried_back(&soon.gradient, soon_intervals));
+            if actor.keeps_to_the_road {
+                let size = &actor.plan.present.size;
+                let kerb = kerb(self.drivable, size, places, self.tuning.kerb as f32);
+                add(1.0, kerb.energy, kerb.gradient);
+            }
+        }
+        (energy, gradient)
+    }
+}
+
+/// What repels every mode of every actor: the refiner's input.
+pub(super) fn repulsions(
+    energy: &SceneEnergy<'_>,
+    workers: &Workers,
+    actors: &[Actor],
+    drafts: &[Drafts],
+    background: &[Outline],
+) -> Vec<Modes> {
+    let leading = leading_outlines(actors, drafts, energy.tuning);
+    let indices: Vec<usize> = (0..actors.len()).collect();
+    workers.map(&indices, |&i| {
+        let actor = &actors[i];
+        if actor.rests {
+            return [[0.0; RESIDUAL]; MODES];
+        }
+        let others = leading.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
+        let others: Vec<&Outline> = others.chain(background).collect();
+        std::array::from_fn(|mode| {
+            let slot = Slot::new(mode);
+            let found = energy.downhill(actor, slot, slot.of(&drafts[i].modes), &others, Terms::Boxes);
+            found.map_or([0.0; RESIDUAL], |(_, downhill)| downhill)
+        })
+    })
+}
+
+/// Every actor along its leading draft.
+pub(super) fn leading_outlines(actors: &[Actor], drafts: &[Drafts], tuning: &OverlapTuning) -> Vec<Outline> {
+    let outline = |(actor, drafts): (&Actor, &Drafts)| {
+        let start = &actor.plan.present.start;
+        let poses = if actor.rests {
+            [pose_of(start.position(), start.heading_rad); INSTANTS]
+        } else {
+            poses_of(&places(&actor.plan, drafts.leading, drafts.leading.of(&drafts.modes)))
+        };
+        Outline::new(poses, &actor.plan.present, tuning)
+    };
+    actors.iter().zip(drafts).map(outline).collect()
+}
+
+fn half_size(who: &AgentAtStart) -> [f32; 2] {
+    [0.5 * who.size.length_m as f32, 0.5 * who.size.width_m as f32]
+}
+
+/// One place and heading.
+pub(super) fn pose_of(position: Vec2, heading_rad: f64) -> [f32; 4] {
+    let ahead = direction(heading_rad);
+    [position.x as f32, position.y as f32, ahead.x as f32, ahead.y as f32]
+}
+
+/// Places and headings of a draft.
+pub(super) fn poses_of(places: &[(Vec2, f64); INSTANTS]) -> Poses {
+    places.map(|(position, heading)| pose_of(position, heading))
+}
+
+/// Places and headings of a motion; nobody is there after its end.
+pub(super) fn poses_of_states(states: &[MotionState]) -> Poses {
+    let at = |i: usize| states.get((i + 1) * PER_INSTANT);
+    std::array::from_fn(|i| at(i).map_or(ABSENT, |s| pose_of(s.position, s.heading_rad)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use crate::tuning::SHIPPED;
+    use scene::Goal;
+
+    /// A car at 8 m/s, and somebody who stands at `x`, `y`.
+    fn energy_of(x: f64, y: f64, terms: Terms) -> Option<(f32, Residual)> {
+        let plan = car_on_a_street(8.0, Goal::default());
+        let who = plan.present.clone();
+        let actor = Actor::new("1".into(), plan, None);
+        let standing = Outline::new([pose_of(Vec2::new(x, y), 0.0); INSTANTS], &who, &SHIPPED.overlaps);
+        let (pullback, drivable) = (Pullback::default(), Drivable::default());
+        let energy = SceneEnergy { pullback: &pullback, drivable: &drivable, tuning: &SHIPPED.overlaps };
+        energy.downhill(&actor, Slot::FIRST, &[0.0; RESIDUAL], &[&standing], terms)
+    }
+
+    #[test]
+    fn what_stands_on_the_way_repels_and_what_stands_aside_does_not() {
+        // A little to the left of the way, so that there is a side to go to.
+        let (energy, downhill) = energy_of(24.0, 0.6, Terms::Boxes).unwrap();
+        let aside: f32 = downhill[scene::KNOTS..].iter().sum();
+        assert!(energy > 0.0 && aside < 0.0, "{energy} {aside}");
+        assert!(energy_of(24.0, 9.0, Terms::All).is_none());
+    }
+
+    #[test]
+    fn all_terms_see_farther_than_boxes() {
+        let (boxes, _) = energy_of(24.0, 0.6, Terms::Boxes).unwrap();
+        let (all, _) = energy_of(24.0, 0.6, Terms::All).unwrap();
+        assert!(all > boxes, "{all} {boxes}");
+    }
+
+    #[test]
+    fn nobody_is_where_a_motion_has_ended() {
+        let poses = poses_of_states(&[MotionState::default(); 11]);
+        assert!(poses[1] != ABSENT && poses[2] == ABSENT);
+    }
+}

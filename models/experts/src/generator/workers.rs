@@ -1,0 +1,68 @@
+//! Work cut over a few threads, results in the order of the items.
+
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::OnceLock;
+
+/// A fixed number of threads of a generator's own, started when they are first needed.
+pub(super) struct Workers {
+    threads: usize,
+    /// `None` where threads cannot be had: the caller's does the work then, and the answer is the same.
+    pool: OnceLock<Option<ThreadPool>>,
+}
+
+impl Workers {
+    /// So many threads, at least one.
+    pub(super) fn new(threads: usize) -> Self {
+        Self { threads: threads.max(1), pool: OnceLock::new() }
+    }
+
+    /// As many threads as the machine runs at a time.
+    pub(super) fn of_machine() -> Self {
+        Self::new(std::thread::available_parallelism().map_or(1, usize::from))
+    }
+
+    /// How many there are.
+    pub(super) fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// `f` of each item. With one thread, or one item, the caller's thread does it all.
+    pub(super) fn map<T: Sync, R: Send>(&self, items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+        match self.pool() {
+            Some(pool) if items.len() > 1 => pool.install(|| items.par_iter().map(f).collect()),
+            _ => items.iter().map(f).collect(),
+        }
+    }
+
+    fn pool(&self) -> Option<&ThreadPool> {
+        let start = || {
+            let named = ThreadPoolBuilder::new().thread_name(|i| format!("generator-{i}"));
+            named.num_threads(self.threads).build().ok()
+        };
+        if self.threads > 1 { self.pool.get_or_init(start).as_ref() } else { None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Workers;
+
+    #[test]
+    fn order_is_kept() {
+        let items: Vec<usize> = (0..17).collect();
+        for threads in [1, 2, 5, 40] {
+            let doubled = Workers::new(threads).map(&items, |i| i * 2);
+            assert_eq!(doubled, items.iter().map(|i| i * 2).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn threads_have_a_name_and_none_starts_for_one() {
+        let name = |_: &usize| std::thread::current().name().map(str::to_owned);
+        let names = Workers::new(2).map(&[0; 8], name);
+        assert!(names.iter().all(|n| n.as_ref().is_some_and(|n| n.starts_with("generator-"))), "{names:?}");
+        let own = std::thread::current().name().map(str::to_owned);
+        assert_eq!(Workers::new(1).map(&[0; 2], name), [own.clone(), own]);
+    }
+}

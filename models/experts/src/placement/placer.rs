@@ -1,0 +1,47 @@
+//! Placement with its weights and the maps that it knows.
+
+use super::{PlaceRequest, Placement, PlacementInfo, PlacementModel, place};
+use crate::maps::Maps;
+use crate::request::{Cancel, GenerateError};
+use crate::weights::WeightsError;
+use std::sync::Arc;
+
+/// Places road users. Cheap to share; calls may run at the same time.
+pub struct Placer {
+    weights: Option<(PlacementModel, PlacementInfo)>,
+    maps: Arc<Maps>,
+}
+
+impl Placer {
+    /// Of the bytes of a weights file; without one, road users are placed evenly along lanes.
+    ///
+    /// # Errors
+    /// When the file is of another form, or has numbers that cannot be.
+    pub fn new(weights: Option<&[u8]>, maps: Arc<Maps>) -> Result<Self, WeightsError> {
+        let read = |bytes| {
+            let model = PlacementModel::load(bytes)?;
+            let info = model.info(bytes);
+            Ok((model, info))
+        };
+        Ok(Self { weights: weights.map(read).transpose()?, maps })
+    }
+
+    /// Facts about the weights; `None` when road users are placed evenly along lanes.
+    pub fn info(&self) -> Option<&PlacementInfo> {
+        self.weights.as_ref().map(|(_, info)| info)
+    }
+
+    /// The weights themselves.
+    pub fn model(&self) -> Option<&PlacementModel> {
+        self.weights.as_ref().map(|(model, _)| model)
+    }
+
+    /// Places road users. The same request gives the same answer.
+    ///
+    /// # Errors
+    /// An unknown id among those kept, and [`GenerateError::Cancelled`].
+    pub fn place(&self, request: &PlaceRequest, cancel: &Cancel) -> Result<Placement, GenerateError> {
+        let map = self.maps.known(&request.scene.map);
+        place(self.model(), &map.graph, request, cancel)
+    }
+}
