@@ -1,13 +1,15 @@
 //! What every handler can reach, and the table of routes.
 
-use crate::catalog::MapCache;
-use crate::guard::Guard;
-use crate::jobs::Pool;
-use crate::library::Library;
-use crate::limits::Limits;
-use crate::problem::Problem;
-use crate::store::Store;
-use crate::{embed, observe, routes};
+use crate::base::limits::Limits;
+use crate::base::problem::Problem;
+use crate::http::embed;
+use crate::http::guard::Guard;
+use crate::http::observe;
+use crate::routes;
+use crate::scenes::catalog::MapCache;
+use crate::scenes::library::Library;
+use crate::scenes::store::Store;
+use crate::work::Pool;
 use axum::Router;
 use axum::response::{IntoResponse, Response};
 use experts::Generator;

@@ -25,7 +25,7 @@ pub struct SchemaArgs {
 /// # Errors
 /// Exit 1 on a difference.
 pub fn openapi(args: OpenapiArgs) -> Result<(), Failure> {
-    show(&crate::openapi::text(), args.check.as_deref(), "openapi")
+    show(&crate::routes::openapi::text(), args.check.as_deref(), "openapi")
 }
 
 /// Prints or checks the scene's JSON Schema.
@@ -54,7 +54,7 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
 /// Exit 7 without weights.
 pub fn info(common: &Common) -> Result<(), Failure> {
     let generator = super::generator(common)?;
-    let info = crate::routes::info::document(&generator, &crate::limits::Limits::default());
+    let info = crate::routes::info::document(&generator, &crate::base::limits::Limits::default());
     let mut text = serde_json::to_string_pretty(&info).unwrap_or_default();
     text.push('\n');
     output::print(text.as_bytes())

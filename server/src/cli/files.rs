@@ -1,10 +1,10 @@
 //! `dragtraffic import`, `convert`, `export` and `score`: files in, files out.
 
 use super::{Exit, Failure, output};
-use crate::problem::Problem;
+use crate::base::problem::Problem;
+use crate::generation::scoring;
 use crate::routes::import::range;
-use crate::scoring;
-use crate::transfer::{self, Imported, Motion};
+use crate::scenes::transfer::{self, Imported, Motion};
 use clap::Args;
 use scene::Scene;
 use scene::score::ScoreInput;

@@ -2,7 +2,7 @@
 
 use super::files::read_scene;
 use super::{Common, Exit, Failure, output};
-use crate::events::GeneratedHead;
+use crate::generation::events::GeneratedHead;
 use crate::routes::generate::GenerateRequest;
 use clap::Args;
 use experts::{Cancel, Event};
@@ -68,9 +68,9 @@ pub fn run(args: GenerateArgs, common: &Common) -> Result<(), Failure> {
     let scene = read_scene(&args.scene)?;
     let body: GenerateRequest = serde_json::from_value(body(&args)?)
         .map_err(|error| Failure::new(Exit::Usage, format!("options: {error}")))?;
-    let refused = |problem: crate::problem::Problem| super::files::refused(&args.scene, &problem);
+    let refused = |problem: crate::base::problem::Problem| super::files::refused(&args.scene, &problem);
     let generator = super::generator(common)?;
-    let task = body.task(scene, &crate::limits::Limits::default(), &generator).map_err(refused)?;
+    let task = body.task(scene, &crate::base::limits::Limits::default(), &generator).map_err(refused)?;
     let mut scene = (*task.request.scene).clone();
     let failed = |error: experts::GenerateError| Failure::new(Exit::Failure, error.to_string());
     let events = generator.start(task.request, Cancel::default()).map_err(failed)?;
@@ -99,7 +99,7 @@ fn generated(head: GeneratedHead, samples: Vec<scene::Sample>) -> Generated {
         weights: head.weights,
         seed: head.seed,
         request: head.request,
-        created_at: crate::clock::now(),
+        created_at: crate::base::clock::now(),
         chosen_sample: 0,
         samples,
     }

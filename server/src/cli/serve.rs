@@ -2,13 +2,14 @@
 
 use super::{Common, Exit, Failure, output};
 use crate::app::{App, Inside, router};
-use crate::catalog::MapCache;
-use crate::guard::Guard;
-use crate::jobs::Pool;
-use crate::library::Library;
-use crate::limits::Limits;
-use crate::store::Store;
-use crate::{metrics, net};
+use crate::base::limits::Limits;
+use crate::base::metrics;
+use crate::http::guard::Guard;
+use crate::http::net;
+use crate::scenes::catalog::MapCache;
+use crate::scenes::library::Library;
+use crate::scenes::store::Store;
+use crate::work::Pool;
 use clap::Args;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};

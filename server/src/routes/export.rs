@@ -2,11 +2,11 @@
 
 use super::{Id, Params};
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::metrics;
-use crate::problem::Problem;
-use crate::transfer::{self, Motion};
+use crate::base::metrics;
+use crate::base::problem::Problem;
+use crate::http::body::{self, Json};
+use crate::scenes::catalog;
+use crate::scenes::transfer::{self, Motion};
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};

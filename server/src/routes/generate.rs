@@ -2,13 +2,13 @@
 
 use super::is_id;
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::events::GeneratedHead;
-use crate::jobs::{Caller, Task};
-use crate::limits::Limits;
-use crate::problem::{Code, Problem};
-use crate::stream::{self, Form};
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
+use crate::generation::events::GeneratedHead;
+use crate::generation::stream::{self, Form};
+use crate::http::body::{self, Json};
+use crate::scenes::catalog;
+use crate::work::{Caller, Task};
 use axum::extract::{FromRequest, Request, State};
 use axum::response::Response;
 use experts::React;

@@ -1,7 +1,7 @@
 //! `/healthz`, `/readyz`, `/metrics`.
 
 use crate::app::App;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
 use axum::extract::State;
 use axum::http::header;
 use axum::response::IntoResponse;

@@ -3,11 +3,11 @@
 use super::Params;
 use super::scenes::store_new;
 use crate::app::App;
-use crate::body;
-use crate::catalog::Facts;
-use crate::metrics;
-use crate::problem::{Code, Problem};
-use crate::transfer;
+use crate::base::metrics;
+use crate::base::problem::{Code, Problem};
+use crate::http::body;
+use crate::scenes::catalog::Facts;
+use crate::scenes::transfer;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Multipart, Request, State};
 use axum::http::{StatusCode, header};

@@ -13,7 +13,7 @@ pub async fn info(State(app): State<App>) -> axum::Json<Value> {
 }
 
 /// The object, for the command line too.
-pub fn document(generator: &experts::Generator, limits: &crate::limits::Limits) -> Value {
+pub fn document(generator: &experts::Generator, limits: &crate::base::limits::Limits) -> Value {
     let range = |t| json!(formats::native::Ranges::of(t));
     json!({
         "name": "dragtraffic",
@@ -28,7 +28,7 @@ pub fn document(generator: &experts::Generator, limits: &crate::limits::Limits) 
             "pedestrian": range(AgentType::Pedestrian),
             "cyclist": range(AgentType::Cyclist),
         },
-        "formats": crate::transfer::table(),
+        "formats": crate::scenes::transfer::table(),
         "notices": [],
     })
 }

@@ -1,9 +1,9 @@
 //! `/v1/maps`: immutable maps by content hash.
 
 use crate::app::App;
-use crate::body::blocking;
-use crate::catalog;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
+use crate::http::body::blocking;
+use crate::scenes::catalog;
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};

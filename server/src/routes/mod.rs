@@ -8,12 +8,13 @@ pub mod import;
 pub mod info;
 pub mod jobs;
 pub mod maps;
+pub mod openapi;
 pub mod place;
 pub mod scenes;
 pub mod score;
 
 use crate::app::App;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
 use axum::Router;
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::HeaderMap;
@@ -26,7 +27,7 @@ use utoipa_axum::routes;
 
 /// Every route of the document.
 pub fn all() -> OpenApiRouter<App> {
-    OpenApiRouter::with_openapi(crate::openapi::head())
+    OpenApiRouter::with_openapi(openapi::head())
         .routes(routes!(scenes::list, scenes::create))
         .routes(routes!(scenes::read, scenes::replace, scenes::rename, scenes::remove))
         .routes(routes!(scenes::duplicate))

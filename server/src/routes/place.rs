@@ -1,9 +1,9 @@
 //! `/v1/place`: road users where there are none yet.
 
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
+use crate::http::body::{self, Json};
+use crate::scenes::catalog;
 use axum::extract::State;
 use experts::placement::{
     Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, Region, map_bounds,

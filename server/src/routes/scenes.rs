@@ -2,10 +2,10 @@
 
 use super::{Id, Params, if_match, if_none_match};
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog::{self, Item};
-use crate::problem::{Code, Problem};
-use crate::store::{Expect, MapRecord, SceneRecord};
+use crate::base::problem::{Code, Problem};
+use crate::http::body::{self, Json};
+use crate::scenes::catalog::{self, Item};
+use crate::scenes::store::{Expect, MapRecord, SceneRecord};
 use axum::extract::{FromRequest, Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};

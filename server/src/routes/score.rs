@@ -1,10 +1,10 @@
 //! `/v1/score`: collisions, near misses, off-road driving, kinematics, goals.
 
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::problem::{Code, Problem};
-use crate::scoring;
+use crate::base::problem::{Code, Problem};
+use crate::generation::scoring;
+use crate::http::body::{self, Json};
+use crate::scenes::catalog;
 use axum::extract::State;
 use formats::native::{Members, SceneDoc};
 use formats::{FieldProblem, ReadError};

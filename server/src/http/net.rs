@@ -4,7 +4,7 @@
 //! Here hyper's HTTP/1 builder runs with a timer, and when all places are taken the connection that
 //! has waited longest without a request makes room.
 
-use crate::limits::Limits;
+use crate::base::limits::Limits;
 use axum::Router;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;

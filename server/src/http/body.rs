@@ -4,8 +4,8 @@
 //! small body can never become a large one in memory.
 
 use crate::app::App;
-use crate::limits::Limits;
-use crate::problem::{Code, Problem};
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
 use axum::body::{Body, Bytes};
 use axum::extract::{FromRequest, Request};
 use axum::http::{HeaderMap, header};

@@ -8,8 +8,8 @@ mod records;
 
 pub use records::{Expect, MapRecord, SceneRecord, SceneSummary};
 
-use crate::limits::Limits;
-use crate::problem::{Code, Problem};
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
 use rusqlite::{Connection, OpenFlags};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};

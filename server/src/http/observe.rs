@@ -2,8 +2,8 @@
 //! problems are written.
 
 use crate::app::App;
-use crate::guard;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
+use crate::http::guard;
 use axum::body::Body;
 use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
@@ -39,7 +39,7 @@ pub async fn observe(State(app): State<App>, request: Request, next: Next) -> Re
     }
     let status = response.status();
     let seconds = began.elapsed().as_secs_f64();
-    crate::metrics::request(&route, &method, status, seconds);
+    crate::base::metrics::request(&route, &method, status, seconds);
     tracing::info!(target: "access", %method, route, status = status.as_u16(), ms = seconds * 1e3, request_id = id);
     response
 }

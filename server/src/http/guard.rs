@@ -2,8 +2,8 @@
 //!
 //! A web page can point its own name at 127.0.0.1, so the Host decides first, on every address.
 
-use crate::limits::Limits;
-use crate::problem::{Code, Problem};
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
 use axum::extract::Request;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -176,7 +176,7 @@ fn same_bytes(a: &[u8], b: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Guard, check};
-    use crate::limits::Limits;
+    use crate::base::limits::Limits;
     use axum::body::Body;
     use axum::extract::Request;
 

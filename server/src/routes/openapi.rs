@@ -1,7 +1,7 @@
 //! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the
 //! table of codes.
 
-use crate::problem::Code;
+use crate::base::problem::Code;
 use crate::routes::{generate, maps, place, scenes, score};
 use formats::native::{MapDoc, SceneDoc};
 use schemars::generate::SchemaSettings;
@@ -220,7 +220,7 @@ fn schemas() -> Map<String, Value> {
     all.insert("Scene".into(), scene);
     all.insert("Map".into(), json!({"$ref": "#/components/schemas/MapDoc"}));
     let written: Map<String, Value> =
-        serde_json::from_str(include_str!("../openapi/replies.json")).unwrap_or_default();
+        serde_json::from_str(include_str!("../../openapi/replies.json")).unwrap_or_default();
     all.extend(written);
     let codes: Vec<&str> = Code::ALL.iter().map(|code| code.name()).collect();
     if let Some(problem) = all.get_mut("Problem") {

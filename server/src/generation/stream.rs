@@ -1,7 +1,7 @@
 //! One sequence of events in three representations: SSE, NDJSON, or the last event alone as JSON.
 
-use crate::jobs::{End, Handle, Message};
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
+use crate::work::{End, Handle, Message};
 use axum::body::{Body, Bytes};
 use axum::http::{HeaderMap, HeaderValue, header};
 use axum::response::{IntoResponse, Response};

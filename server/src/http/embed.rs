@@ -1,6 +1,6 @@
 //! Files that travel inside the program: the editor and the demo scenes.
 
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};

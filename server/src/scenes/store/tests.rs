@@ -1,6 +1,6 @@
 use super::records::{Expect, MapRecord, SceneRecord};
 use super::{Store, StoreError};
-use crate::limits::Limits;
+use crate::base::limits::Limits;
 use std::sync::Arc;
 
 fn record(name: &str) -> SceneRecord {

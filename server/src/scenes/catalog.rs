@@ -2,9 +2,9 @@
 //! content hash.
 
 use crate::app::App;
-use crate::body::blocking;
-use crate::problem::{Code, Problem};
-use crate::store::{MapRecord, SceneRecord, SceneSummary};
+use crate::base::problem::{Code, Problem};
+use crate::http::body::blocking;
+use crate::scenes::store::{MapRecord, SceneRecord, SceneSummary};
 use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
 use scene::{ContentHash, LaneMap, Scene};
 use serde::Serialize;

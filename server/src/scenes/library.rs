@@ -3,11 +3,11 @@
 //! Files are read once in the background for the list; a scene is parsed again when it is opened,
 //! and a few stay in memory.
 
-use crate::body::blocking;
-use crate::catalog::{Facts, Item, Opened};
-use crate::clock;
-use crate::embed::DemoScenes;
-use crate::problem::Problem;
+use crate::base::clock;
+use crate::base::problem::Problem;
+use crate::http::body::blocking;
+use crate::http::embed::DemoScenes;
+use crate::scenes::catalog::{Facts, Item, Opened};
 use formats::native;
 use scene::{ContentHash, LaneMap, Scene};
 use std::collections::{BTreeMap, VecDeque};
@@ -201,7 +201,7 @@ fn read(place: &Place) -> Result<Scene, Problem> {
 fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let read = crate::transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
+    let read = crate::scenes::transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
     let read = read.map_err(|problem| problem.detail)?;
     Ok((bytes, read.scenes.into_iter().map(|s| s.scene).collect()))
 }

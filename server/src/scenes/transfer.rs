@@ -1,7 +1,7 @@
 //! Files in and out: the formats of the `formats` crate behind the words that routes and the command
 //! line use.
 
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
 use formats::registry::{self, ExportOptions, FORMATS, ImportOptions};
 use formats::womd;
 use scene::Scene;

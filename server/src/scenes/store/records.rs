@@ -1,7 +1,7 @@
 //! Rows of the store, and the questions asked of it.
 
 use super::{Store, StoreError};
-use crate::clock;
+use crate::base::clock;
 use rusqlite::{OptionalExtension, Row, Transaction, named_params};
 use scene::ContentHash;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -209,7 +209,7 @@ impl Store {
     pub async fn measure(&self) -> Result<(), StoreError> {
         self.read(|connection| {
             let scenes: i64 = connection.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
-            crate::metrics::store(scenes.unsigned_abs(), file_bytes(connection)?);
+            crate::base::metrics::store(scenes.unsigned_abs(), file_bytes(connection)?);
             Ok(())
         })
         .await

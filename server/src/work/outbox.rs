@@ -1,7 +1,7 @@
 //! Events on their way from a worker to a reader. The worker never waits: `step` events are dropped
 //! for a slow reader, all others are kept.
 
-use crate::problem::Problem;
+use crate::base::problem::Problem;
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -66,7 +66,7 @@ impl Outbox {
             return false;
         }
         if message.event == "step" && inside.waiting.len() >= self.most {
-            crate::metrics::dropped_event();
+            crate::base::metrics::dropped_event();
             return true;
         }
         if inside.waiting.is_empty() {

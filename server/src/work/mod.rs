@@ -10,9 +10,9 @@ mod worker;
 
 pub use outbox::{End, Message};
 
-use crate::events::{Envelope, ErrorBody, GeneratedHead, SupersededBody};
-use crate::limits::Limits;
-use crate::problem::{Code, Problem};
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
+use crate::generation::events::{Envelope, ErrorBody, GeneratedHead, SupersededBody};
 use clients::Clients;
 use experts::{Cancel, Generator, Request};
 use outbox::Outbox;
@@ -101,7 +101,7 @@ impl Job {
         };
         self.cancel.cancel();
         if first {
-            crate::metrics::generated(outcome);
+            crate::base::metrics::generated(outcome);
         }
     }
 
@@ -193,7 +193,7 @@ impl Pool {
         });
         state.jobs.insert(id, Arc::clone(&job));
         state.queue.push_back(Arc::clone(&job));
-        crate::metrics::load(state.queue.len(), state.running);
+        crate::base::metrics::load(state.queue.len(), state.running);
         drop(state);
         self.arrived.notify_one();
         Ok(Handle { job, pool: Arc::clone(self) })
@@ -242,7 +242,7 @@ impl Pool {
         if state.queue.len() < before {
             state.jobs.remove(&job.id);
         }
-        crate::metrics::load(state.queue.len(), state.running);
+        crate::base::metrics::load(state.queue.len(), state.running);
     }
 
     /// The next job to work on; `None` when the pool has stopped.
@@ -255,7 +255,7 @@ impl Pool {
             if let Some(job) = state.queue.pop_front() {
                 state.running += 1;
                 *lock(&job.began) = Some(Instant::now());
-                crate::metrics::load(state.queue.len(), state.running);
+                crate::base::metrics::load(state.queue.len(), state.running);
                 return Some(job);
             }
             state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
@@ -267,7 +267,7 @@ impl Pool {
         state.running -= 1;
         state.jobs.remove(&job.id);
         state.mean_s = 0.8 * state.mean_s + 0.2 * took.as_secs_f64();
-        crate::metrics::load(state.queue.len(), state.running);
+        crate::base::metrics::load(state.queue.len(), state.running);
     }
 
     /// Ends jobs that take too long or whose reader has stopped reading.

@@ -1,9 +1,9 @@
 //! One worker: takes jobs, drives the generator, turns its events into messages.
 
 use super::{End, Job, Pool, Task, lock};
-use crate::events::{self, AcceptedBody, DraftBody, FinalBody, TimingBody};
-use crate::metrics;
-use crate::problem::Problem;
+use crate::base::metrics;
+use crate::base::problem::Problem;
+use crate::generation::events::{self, AcceptedBody, DraftBody, FinalBody, TimingBody};
 use experts::{Answer, Draft, Event, GenerateError, Generator};
 use formats::native::SampleDoc;
 use scene::{AgentType, Scene};
@@ -107,7 +107,8 @@ fn final_body(head: &events::GeneratedHead, answer: &Answer, queued: Duration) -
 
 fn add_scores(body: &mut FinalBody, scene: &Scene, answer: &Answer) {
     let began = Instant::now();
-    let scores: Vec<_> = answer.samples.iter().map(|sample| crate::scoring::sample(scene, sample)).collect();
+    let scores: Vec<_> =
+        answer.samples.iter().map(|sample| crate::generation::scoring::sample(scene, sample)).collect();
     body.timing.score_ms = round(began.elapsed().as_secs_f64() * 1e3);
     body.scores = Some(scores);
 }

@@ -1,6 +1,6 @@
 //! What a generation tells, as JSON objects: the same in all three representations.
 
-use crate::problem::Problem;
+use crate::base::problem::Problem;
 use experts::{Accepted, Answer, Draft, Field, Resolved, Warning};
 use formats::native::{AgentFuturesDoc, FutureDoc, SampleDoc};
 use scene::AgentFutures;
@@ -130,7 +130,7 @@ impl GeneratedHead {
     pub fn to_json(&self) -> Value {
         json!({
             "input_sha256": self.input_sha256, "stale": false, "weights": self.weights, "seed": self.seed,
-            "request": self.request, "created_at": crate::clock::now(), "chosen_sample": 0,
+            "request": self.request, "created_at": crate::base::clock::now(), "chosen_sample": 0,
         })
     }
 }

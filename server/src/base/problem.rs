@@ -1,6 +1,6 @@
 //! Refusals: RFC 9457 `application/problem+json` with one table of codes.
 //!
-//! A handler returns a [`Problem`]; [`crate::observe`] writes it out once the request id and the
+//! A handler returns a [`Problem`]; [`crate::http::observe`] writes it out once the request id and the
 //! path are at hand. Clients switch on `code`, which never changes.
 
 use axum::http::{HeaderName, HeaderValue, StatusCode, header};
@@ -197,7 +197,7 @@ impl Problem {
 }
 
 impl IntoResponse for Problem {
-    /// A reply without a body that carries the problem to [`crate::observe`], which writes it.
+    /// A reply without a body that carries the problem to [`crate::http::observe`], which writes it.
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.code.status()).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let mut response = status.into_response();

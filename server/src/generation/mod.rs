@@ -1,0 +1,5 @@
+//! Events of generations, and the reply made of them.
+
+pub mod events;
+pub mod scoring;
+pub mod stream;
