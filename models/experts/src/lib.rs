@@ -10,6 +10,7 @@ pub mod request;
 pub use features::world::Planning;
 pub use generator::{Generation, Generator, WeightsError, WeightsInfo};
 pub use request::{
-    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
-    React, Refining, Request, Resolved, Shown, Source, Stages, Timings, Warning,
+    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, Limiting, NearestState,
+    ReachReport, React, Refining, Request, Resolved, ResolvedGoal, ResolvedStart, Shown, Source, Stages,
+    Timings, Warning, WarningCode,
 };

@@ -1,13 +1,14 @@
 //! What can be wrong with outside data, in one shape for every format.
 
 use scene::{Scene, SceneError};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
 /// Most faults that one refusal lists.
 pub const MAX_PROBLEMS: usize = 32;
 
-/// The codes of `api.md` section 8 that a reader can give. They never change.
+/// The codes that a reader can give. Programs switch on them, so they never change.
 pub mod code {
     #![allow(missing_docs, reason = "the names say it")]
     pub const MALFORMED_JSON: &str = "malformed-json";
@@ -28,12 +29,17 @@ pub mod code {
     pub const CANNOT_REPRESENT: &str = "cannot-represent";
 }
 
+/// Text as one token of a JSON pointer (RFC 6901): `~` and `/` are escaped.
+pub fn pointer_token(text: &str) -> String {
+    text.replace('~', "~0").replace('/', "~1")
+}
+
 /// One fault and its place.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FieldProblem {
-    /// JSON pointer into the document; empty for the whole of it.
+    /// JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter.
     pub pointer: String,
-    /// One of [`code`].
+    /// A word that programs can switch on.
     pub code: &'static str,
     /// What was found and what was expected, for people.
     pub detail: String,
@@ -180,7 +186,8 @@ impl fmt::Display for ReadError {
 impl std::error::Error for ReadError {}
 
 /// Something a reader changed or left out without refusing.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "ImportWarning")]
 pub struct Warning {
     /// A word that programs can switch on.
     pub code: &'static str,

@@ -1,6 +1,8 @@
 //! Every bound of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
 
-use serde_json::{Map, Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
 
 macro_rules! limits {
     ($($field:ident = $default:expr, $what:literal;)*) => {
@@ -37,9 +39,9 @@ limits! {
     regenerated_agents = 128, "road users regenerated or reacting in one call";
     reply_points = 500_000, "samples x modes x road users x steps of a reply";
     import_scenes = 200, "scenes taken from one upload";
-    running = 0, "generations at the same time; 0 means half the cores, 1 to 8";
-    queue = 16, "generations that wait";
-    generate_s = 60, "wall time of a generation";
+    running = 0, "generations and other long work at the same time; 0 means half the cores, 1 to 8";
+    queue = 16, "calls that wait";
+    generate_s = 60, "wall time of a generation and of other work";
     stream_s = 120, "wall time of a reply, waiting included";
     stalled_s = 15, "time a reader may leave an event waiting";
     buffered_events = 8, "events kept for a slow reader before steps are dropped";
@@ -54,8 +56,14 @@ limits! {
     store_bytes = 4 << 30, "size of the store's file";
     map_keep_s = 86_400, "time an unused map is kept";
     cached_maps = 64, "maps kept in memory";
+    cached_scenes = 8, "scenes of demos and the data folder kept in memory";
     shutdown_s = 10, "time running work gets when the server stops";
 }
+
+/// Most joint scenes of a call.
+pub const SAMPLES: u64 = 32;
+/// Most alternatives kept per road user.
+pub const MODES: u64 = 6;
 
 /// Bounds that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
 fn fixed() -> [(&'static str, u64, &'static str); 10] {
@@ -68,8 +76,8 @@ fn fixed() -> [(&'static str, u64, &'static str); 10] {
         ("polyline_points", scene::MAX_POLYLINE_POINTS as u64, "points of one line"),
         ("signals", scene::MAX_SIGNALS as u64, "signals in a scene"),
         ("coordinate_m", scene::MAX_COORDINATE_M as u64, "distance from the origin"),
-        ("samples", 32, "joint scenes per call"),
-        ("modes", 6, "alternatives kept per road user"),
+        ("samples", SAMPLES, "joint scenes per call"),
+        ("modes", MODES, "alternatives kept per road user"),
     ]
 }
 
@@ -100,15 +108,27 @@ impl Limits {
         }
     }
 
-    /// All bounds for `/v1/info`.
-    pub fn to_json(&self) -> Value {
-        let mut object = Map::new();
-        for (name, number, what) in self.table().into_iter().chain(fixed()) {
-            let number = if name == "running" { self.workers() as u64 } else { number };
-            object.insert(name.to_owned(), json!({"value": number, "what": what}));
-        }
-        Value::Object(object)
+    /// Calls that may be worked on beside them and never wait for them: reading and writing of documents.
+    pub fn readers(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        cores.saturating_sub(self.workers()).clamp(1, 4)
     }
+
+    /// All bounds for `/v1/info`.
+    pub fn bounds(&self) -> BTreeMap<&'static str, Bound> {
+        let rows = self.table().into_iter().chain(fixed());
+        let in_force = |name, number| if name == "running" { self.workers() as u64 } else { number };
+        rows.map(|(name, number, what)| (name, Bound { value: in_force(name, number), what })).collect()
+    }
+}
+
+/// One bound as it is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Bound {
+    /// In the unit of the bound's name.
+    pub value: u64,
+    /// What it bounds.
+    pub what: &'static str,
 }
 
 #[cfg(test)]

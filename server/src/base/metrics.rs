@@ -30,9 +30,17 @@ pub fn request(route: &str, method: &Method, status: StatusCode, seconds: f64) {
     histogram!("dragtraffic_http_request_seconds", "route" => route.to_owned()).record(seconds);
 }
 
-/// A generation ended as `final`, `error`, `superseded` or `cancelled`.
-pub fn generated(outcome: &'static str) {
-    counter!("dragtraffic_generates_total", "outcome" => outcome).increment(1);
+/// Work of a kind ended as `final`, `error`, `superseded` or `cancelled`.
+pub fn ended(kind: &'static str, outcome: &'static str) {
+    counter!("dragtraffic_work_total", "kind" => kind, "outcome" => outcome).increment(1);
+    if kind == "generate" {
+        counter!("dragtraffic_generates_total", "outcome" => outcome).increment(1);
+    }
+}
+
+/// Time that work of a kind took: `queue` before a worker had it, `work` with one.
+pub fn work(kind: &'static str, phase: &'static str, seconds: f64) {
+    histogram!("dragtraffic_work_seconds", "kind" => kind, "phase" => phase).record(seconds);
 }
 
 /// Time of one phase of a generation: `queue`, `encode`, `initial` or `step`.
@@ -50,7 +58,7 @@ pub fn agents(expert: &'static str, count: u64) {
     counter!("dragtraffic_agents_total", "expert" => expert).increment(count);
 }
 
-/// Length of the queue and generations under way.
+/// Jobs that wait and jobs under way, of all kinds.
 pub fn load(queued: usize, running: usize) {
     gauge!("dragtraffic_queue_length").set(queued as f64);
     gauge!("dragtraffic_running").set(running as f64);

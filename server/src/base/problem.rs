@@ -1,13 +1,15 @@
 //! Refusals: RFC 9457 `application/problem+json` with one table of codes.
 //!
-//! A handler returns a [`Problem`]; [`crate::http::observe`] writes it out once the request id and the
-//! path are at hand. Clients switch on `code`, which never changes.
+//! A handler returns a [`Problem`]; `http::observe` writes it out once the request id and the path are
+//! at hand. Clients switch on `code`, which never changes.
 
 use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use experts::GenerateError;
-use formats::{Kind, ReadError};
-use serde_json::{Map, Value, json};
+use formats::{FieldProblem, Kind, ReadError};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Serialize, Serializer};
+use std::borrow::Cow;
 
 macro_rules! codes {
     ($($variant:ident $name:literal $status:literal $title:literal $when:literal;)*) => {
@@ -51,7 +53,7 @@ codes! {
     Exists "exists" 409 "Exists already" "Something with this id exists already.";
     Superseded "superseded" 409 "Overtaken by a newer revision" "The same client sent a newer revision; `by_revision` names it.";
     StaleRevision "stale-revision" 409 "Revision not newer" "The revision is not above the highest that this client has sent.";
-    Cancelled "cancelled" 409 "Cancelled" "The job was cancelled by its id.";
+    Cancelled "cancelled" 409 "Cancelled" "The job was cancelled by its id, or its reader left.";
     StaleEtag "stale-etag" 412 "Changed in the meantime" "The stored scene is another than the one the precondition names; its current `etag` is given.";
     BodyTooLarge "body-too-large" 413 "Body too large" "The body is larger than `limit` bytes.";
     DecodedTooLarge "decoded-too-large" 413 "Decoded body too large" "The body decodes to more than `limit` bytes.";
@@ -79,7 +81,7 @@ codes! {
     Busy "busy" 503 "Busy" "The queue is full. Retry-After says when to ask again.";
     NotReady "not-ready" 503 "Not ready" "`failing` lists what is not ready.";
     ShuttingDown "shutting-down" 503 "Shutting down" "The server is about to stop.";
-    GenerateTimeout "generate-timeout" 504 "Took too long" "The generation took longer than `limit` seconds.";
+    GenerateTimeout "generate-timeout" 504 "Took too long" "The work took longer than `limit` seconds.";
     StoreFull "store-full" 507 "Store is full" "The store holds as many scenes or bytes as it may.";
 }
 
@@ -111,6 +113,113 @@ impl Code {
     }
 }
 
+/// The word of a [`Code`], as JSON has it.
+#[derive(Clone, Copy, Debug)]
+pub struct CodeName(Code);
+
+impl Serialize for CodeName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0.name())
+    }
+}
+
+impl JsonSchema for CodeName {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Code".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let names: Vec<&str> = Code::ALL.iter().map(|code| code.name()).collect();
+        json_schema!({"type": "string", "enum": names})
+    }
+}
+
+/// What a refusal says beyond its sentence; each member only where it means something.
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+pub struct Members {
+    /// All faults that were found in the body or the query.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 32))]
+    pub errors: Option<Vec<FieldProblem>>,
+    /// The bound that was met.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<u64>,
+    /// ETag of the scene as it is stored now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub etag: Option<String>,
+    /// When the scene was stored, RFC 3339.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub updated_at: Option<String>,
+    /// Seconds after which to ask again, as in Retry-After.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub retry_after_s: Option<u64>,
+    /// Byte of the decoded file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub offset: Option<u64>,
+    /// What the reader of a file found there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Line of the fault, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+    /// Column of the fault in bytes, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<usize>,
+    /// The revision that took over.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_revision: Option<u64>,
+    /// The highest revision that the client has sent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub highest_revision: Option<u64>,
+    /// What is not ready.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failing: Option<Vec<&'static str>>,
+    /// Refinement step at which an expert failed; 0 is the first guess.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<usize>,
+    /// Road user that an expert failed for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub agent: Option<String>,
+}
+
+/// RFC 9457 problem. Switch on `code`, which never changes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Problem")]
+pub struct ProblemDoc {
+    /// Page about the code, relative to this server.
+    #[serde(rename = "type")]
+    page: String,
+    /// A few words for people, the same for each occurrence.
+    title: &'static str,
+    /// HTTP status.
+    #[schemars(range(min = 400, max = 599))]
+    status: u16,
+    /// What happened this time.
+    detail: String,
+    /// The word to switch on.
+    code: CodeName,
+    /// Address that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    instance: Option<String>,
+    /// Id of the request, as in X-Request-Id and in the server's log.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    request_id: Option<String>,
+    #[serde(flatten)]
+    members: Members,
+}
+
+impl ProblemDoc {
+    /// The document as text.
+    pub fn text(&self) -> String {
+        // Plain members with string keys: serde_json writes those without fail.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
 /// One refusal.
 #[derive(Clone, Debug)]
 pub struct Problem {
@@ -119,7 +228,7 @@ pub struct Problem {
     /// What happened this time; never has paths, queries or stack traces.
     pub detail: String,
     /// Further members, such as `limit` or `errors`.
-    pub members: Map<String, Value>,
+    pub members: Box<Members>,
     /// Headers that go with it, such as Retry-After.
     pub headers: Vec<(HeaderName, HeaderValue)>,
 }
@@ -127,21 +236,20 @@ pub struct Problem {
 impl Problem {
     /// A refusal with one sentence.
     pub fn new(code: Code, detail: impl Into<String>) -> Self {
-        Self { code, detail: detail.into(), members: Map::new(), headers: Vec::new() }
+        Self { code, detail: detail.into(), members: Box::default(), headers: Vec::new() }
     }
 
     /// One field's fault.
     pub fn field(pointer: &str, code: Code, detail: impl Into<String>) -> Self {
         let detail = detail.into();
-        let error = json!({"pointer": pointer, "code": code.name(), "detail": detail});
-        Self::new(code, detail).with("errors", json!([error]))
+        let error = FieldProblem::new(pointer, code.name(), detail.clone());
+        Self::new(code, detail).with(|m| m.errors = Some(vec![error]))
     }
 
     /// A number outside its range.
     pub fn range(pointer: &str, min: f64, max: f64, got: f64) -> Self {
-        let detail = format!("{got} found, {min} to {max} expected");
-        let error = json!({"pointer": pointer, "code": "out-of-range", "detail": detail, "min": min, "max": max, "got": got});
-        Self::new(Code::OutOfRange, detail).with("errors", json!([error]))
+        let error = FieldProblem::range(pointer, min, max, got);
+        Self::new(Code::OutOfRange, error.detail.clone()).with(|m| m.errors = Some(vec![error]))
     }
 
     /// A defect: the cause goes to the log, the client gets a plain sentence.
@@ -150,22 +258,24 @@ impl Problem {
         Self::new(Code::Internal, "The server failed; its log says more.")
     }
 
-    /// Adds a member.
+    /// Sets members.
     #[must_use]
-    pub fn with(mut self, name: &str, value: impl Into<Value>) -> Self {
-        self.members.insert(name.to_owned(), value.into());
+    pub fn with(mut self, set: impl FnOnce(&mut Members)) -> Self {
+        set(&mut self.members);
         self
+    }
+
+    /// Names the bound that was met.
+    #[must_use]
+    pub fn limit(self, limit: u64) -> Self {
+        self.with(|m| m.limit = Some(limit))
     }
 
     /// Puts a prefix before the pointers: the problem is about a part of the body.
     #[must_use]
     pub fn under(mut self, prefix: &str) -> Self {
-        let errors = self.members.get_mut("errors").and_then(Value::as_array_mut);
-        for error in errors.into_iter().flatten() {
-            let pointer = error.get("pointer").and_then(Value::as_str).map(|p| format!("{prefix}{p}"));
-            if let (Some(object), Some(pointer)) = (error.as_object_mut(), pointer) {
-                object.insert("pointer".into(), pointer.into());
-            }
+        for error in self.members.errors.iter_mut().flatten() {
+            error.pointer.insert_str(0, prefix);
         }
         self
     }
@@ -174,30 +284,26 @@ impl Problem {
     #[must_use]
     pub fn retry_after(mut self, seconds: u64) -> Self {
         self.headers.push((header::RETRY_AFTER, HeaderValue::from(seconds)));
-        self.with("retry_after_s", seconds)
+        self.with(|m| m.retry_after_s = Some(seconds))
     }
 
     /// The object of RFC 9457.
-    pub fn body(&self, instance: Option<&str>, request_id: Option<&str>) -> Value {
-        let mut object = Map::new();
-        object.insert("type".into(), format!("/docs/problems#{}", self.code.name()).into());
-        object.insert("title".into(), self.code.title().into());
-        object.insert("status".into(), self.code.status().into());
-        object.insert("detail".into(), self.detail.clone().into());
-        object.insert("code".into(), self.code.name().into());
-        if let Some(instance) = instance {
-            object.insert("instance".into(), instance.into());
+    pub fn doc(&self, instance: Option<&str>, request_id: Option<&str>) -> ProblemDoc {
+        ProblemDoc {
+            page: format!("/docs/problems#{}", self.code.name()),
+            title: self.code.title(),
+            status: self.code.status(),
+            detail: self.detail.clone(),
+            code: CodeName(self.code),
+            instance: instance.map(str::to_owned),
+            request_id: request_id.map(str::to_owned),
+            members: (*self.members).clone(),
         }
-        if let Some(id) = request_id {
-            object.insert("request_id".into(), id.into());
-        }
-        object.extend(self.members.clone());
-        Value::Object(object)
     }
 }
 
 impl IntoResponse for Problem {
-    /// A reply without a body that carries the problem to [`crate::http::observe`], which writes it.
+    /// A reply without a body that carries the problem to `http::observe`, which writes it.
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.code.status()).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let mut response = status.into_response();
@@ -231,17 +337,17 @@ impl From<ReadError> for Problem {
         if error.problems.len() > 1 {
             detail.push_str(&format!(" (and {} more)", error.problems.len() - 1));
         }
+        let problem = Self::new(code, detail);
         match error.kind {
             Kind::MalformedJson { line, column } => {
-                Self::new(code, detail).with("line", line).with("column", column)
+                problem.with(|m| (m.line, m.column) = (Some(line), Some(column)))
             }
             Kind::MalformedFile { offset } => {
-                let reason = error.problems.first().map(|p| p.detail.clone()).unwrap_or_default();
-                Self::new(code, detail).with("offset", offset).with("reason", reason)
+                let reason = error.problems.into_iter().next().map(|p| p.detail).unwrap_or_default();
+                problem.with(|m| (m.offset, m.reason) = (Some(offset), Some(reason)))
             }
-            Kind::TooLarge { limit } => Self::new(code, detail).with("limit", limit),
-            Kind::Invalid => Self::new(code, detail)
-                .with("errors", serde_json::to_value(&error.problems).unwrap_or(Value::Null)),
+            Kind::TooLarge { limit } => problem.limit(limit),
+            Kind::Invalid => problem.with(|m| m.errors = Some(error.problems)),
         }
     }
 }
@@ -252,15 +358,14 @@ impl From<GenerateError> for Problem {
         match error {
             GenerateError::UnknownAgent(_) => Self::field("/agents", Code::UnknownAgent, detail),
             GenerateError::StartMissing { agent, field } => {
-                let pointer = format!("/conditions/{agent}/start/{field}");
+                let pointer = format!("/conditions/{}/start/{field}", formats::pointer_token(&agent));
                 Self::field(&pointer, Code::StartMissing, detail)
             }
             GenerateError::TooManyAgents { most, .. } => {
-                Self::field("/agents", Code::TooManyAgents, detail).with("limit", most)
+                Self::field("/agents", Code::TooManyAgents, detail).limit(most as u64)
             }
-            GenerateError::NonFinite { step, agent } => {
-                Self::new(Code::NonFiniteOutput, detail).with("step", step).with("agent", agent)
-            }
+            GenerateError::NonFinite { step, agent } => Self::new(Code::NonFiniteOutput, detail)
+                .with(|m| (m.step, m.agent) = (Some(step), Some(agent))),
             GenerateError::Cancelled => Self::new(Code::Cancelled, detail),
             GenerateError::Expert(cause) => Self::internal(cause),
         }
@@ -282,11 +387,20 @@ mod tests {
 
     #[test]
     fn body_has_the_members_of_rfc_9457() {
-        let body = Problem::new(Code::Busy, "full").retry_after(3).body(Some("/v1/generate"), Some("r1"));
+        let doc = Problem::new(Code::Busy, "full").retry_after(3).doc(Some("/v1/generate"), Some("r1"));
+        let body: serde_json::Value = serde_json::from_str(&doc.text()).unwrap();
         assert_eq!(body["type"], "/docs/problems#busy");
         assert_eq!(body["status"], 503);
+        assert_eq!(body["code"], "busy");
         assert_eq!(body["instance"], "/v1/generate");
         assert_eq!(body["request_id"], "r1");
         assert_eq!(body["retry_after_s"], 3);
+        assert!(body.get("errors").is_none());
+    }
+
+    #[test]
+    fn a_part_of_a_body_is_named_by_its_place() {
+        let problem = Problem::range("/time/steps", 1.0, 600.0, 0.0).under("/scene");
+        assert_eq!(problem.members.errors.unwrap()[0].pointer, "/scene/time/steps");
     }
 }

@@ -1,17 +1,41 @@
 //! What a generation tells, as JSON objects: the same in all three representations.
 
-use crate::base::problem::Problem;
-use experts::{Accepted, Answer, Draft, Field, Resolved, Warning};
+use crate::base::clock;
+use crate::base::problem::{Problem, ProblemDoc};
+use experts::{Accepted, Draft, Resolved, Warning};
 use formats::native::{AgentFuturesDoc, FutureDoc, SampleDoc};
 use scene::AgentFutures;
+use scene::score::Score;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::Value;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+/// What one sort of event alone carries.
+pub trait EventBody {
+    /// Values of `event`; the first one, unless the body says otherwise.
+    const NAMES: &'static [&'static str];
+
+    /// Value of `event`.
+    fn name(&self) -> &'static str {
+        Self::NAMES.first().copied().unwrap_or_default()
+    }
+}
+
+fn names<T: EventBody>(_: &mut SchemaGenerator) -> Schema {
+    match T::NAMES {
+        [one] => json_schema!({"type": "string", "const": one}),
+        many => json_schema!({"type": "string", "enum": many}),
+    }
+}
+
 /// What every event carries.
-#[derive(Clone, Debug, Serialize)]
-pub struct Envelope<'a, T> {
-    /// `accepted`, `initial`, `step`, `final`, `error` or `superseded`.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "{T}Event")]
+pub struct Envelope<'a, T: EventBody> {
+    /// What it is.
+    #[schemars(schema_with = "names::<T>")]
     pub event: &'static str,
     /// Rises by one an event; a gap shows events that were dropped for a slow reader.
     pub seq: u64,
@@ -28,28 +52,37 @@ pub struct Envelope<'a, T> {
 }
 
 /// `accepted`: what will be done.
-#[derive(Debug, Serialize)]
-pub struct AcceptedBody<'a> {
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Accepted")]
+pub struct AcceptedBody {
     #[serde(flatten)]
-    accepted: &'a Accepted,
+    accepted: Accepted,
+    /// Jobs before this one when it was asked for.
     queue_position: usize,
 }
 
-impl<'a> AcceptedBody<'a> {
+impl AcceptedBody {
     /// With the place in the queue that the call was given.
-    pub fn new(accepted: &'a Accepted, queue_position: usize) -> Self {
+    pub fn new(accepted: Accepted, queue_position: usize) -> Self {
         Self { accepted, queue_position }
     }
 }
 
-/// `initial` and `step`: futures that are not settled yet.
-#[derive(Debug, Serialize)]
+/// `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where
+/// it begins.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Draft")]
 pub struct DraftBody {
+    /// Planning window, from 0.
     window: usize,
+    /// Joint scene, from 0.
     sample: usize,
+    /// Refinement step, from 1; not in `initial`.
     #[serde(skip_serializing_if = "Option::is_none")]
     step: Option<usize>,
+    /// Refinement steps of a window.
     steps: usize,
+    /// Futures by road user; the chosen ones alone, or all as `stream_modes` says.
     agents: BTreeMap<String, AgentFuturesDoc>,
 }
 
@@ -60,11 +93,6 @@ impl DraftBody {
         let agents = agents.map(|(id, futures)| (id.clone(), futures_doc(futures, all_modes))).collect();
         let step = (draft.step > 0).then_some(draft.step);
         Self { window: draft.window, sample: draft.sample, step, steps: draft.steps, agents }
-    }
-
-    /// Name of the event.
-    pub fn event(&self) -> &'static str {
-        if self.step.is_some() { "step" } else { "initial" }
     }
 }
 
@@ -77,7 +105,8 @@ fn futures_doc(futures: &AgentFutures, all_modes: bool) -> AgentFuturesDoc {
 }
 
 /// Time spent, milliseconds.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[schemars(rename = "Timing")]
 pub struct TimingBody {
     /// Waiting for a worker.
     pub queue_ms: f64,
@@ -94,93 +123,133 @@ pub struct TimingBody {
 }
 
 /// `final`: the answer.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Final")]
 pub struct FinalBody {
-    /// Planning windows that were run, one after the other.
+    /// Planning windows that were run. A chosen future runs through all of them; its alternatives are those
+    /// of the first and end with its plan.
     pub windows: usize,
     /// Joint scenes.
     pub samples: Vec<SampleDoc>,
     /// Every condition field as it was used.
-    pub resolved: BTreeMap<String, Value>,
+    pub resolved: BTreeMap<String, Resolved>,
     /// One report a sample, or null when none was asked for.
-    pub scores: Option<Vec<Value>>,
+    pub scores: Option<Vec<Score>>,
     /// Unlikely things that were done anyway.
     pub warnings: Vec<Warning>,
     /// Where the time went.
     pub timing: TimingBody,
-    /// Members of a scene's `generated` part, all but `samples`.
-    pub generated: Value,
+    /// The scene's `generated` member, all but `samples`: put `samples` in and save.
+    pub generated: GeneratedHead,
 }
 
 /// The members of `generated` that do not come from the generator.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct GeneratedHead {
-    /// Hash of the user's part.
+    /// Hash of the user's part that the futures answer.
     pub input_sha256: String,
-    /// Expert to weights.
+    /// The user's part has changed since.
+    pub stale: bool,
+    /// Expert's name to the hash of its weights.
     pub weights: BTreeMap<String, String>,
-    /// Seed.
+    /// Seed that repeats the answer.
     pub seed: u64,
     /// The request's options as sent, without scene and conditions.
     pub request: Value,
+    /// RFC 3339 time.
+    pub created_at: String,
+    /// Index into `samples`.
+    pub chosen_sample: usize,
 }
 
 impl GeneratedHead {
-    /// The object that a client completes with `samples` and stores in the scene.
-    pub fn to_json(&self) -> Value {
-        json!({
-            "input_sha256": self.input_sha256, "stale": false, "weights": self.weights, "seed": self.seed,
-            "request": self.request, "created_at": crate::base::clock::now(), "chosen_sample": 0,
-        })
+    /// Of an answer to come.
+    pub fn new(input_sha256: String, weights: BTreeMap<String, String>, seed: u64, request: Value) -> Self {
+        let created_at = String::new();
+        Self { input_sha256, stale: false, weights, seed, request, created_at, chosen_sample: 0 }
     }
-}
 
-/// Resolved fields as nested objects: `start.x_m` becomes `{"start":{"x_m":{"value":..,"from":..}}}`.
-pub fn resolved(answer: &Answer) -> BTreeMap<String, Value> {
-    answer.resolved.iter().map(|(id, resolved)| (id.clone(), resolved_doc(resolved))).collect()
-}
-
-fn resolved_doc(resolved: &Resolved) -> Value {
-    let mut object = Map::new();
-    object.insert("type".into(), json!(resolved.agent_type));
-    for (name, field) in &resolved.fields {
-        let Field { value, from } = field;
-        let entry = json!({"value": value, "from": from});
-        match name.split_once('.') {
-            None => {
-                object.insert(name.clone(), entry);
-            }
-            Some((group, name)) => {
-                let slot = object.entry(group).or_insert_with(|| Value::Object(Map::new()));
-                if let Value::Object(members) = slot {
-                    members.insert(name.to_owned(), entry);
-                }
-            }
-        }
+    /// The same, made now.
+    #[must_use]
+    pub fn dated(self) -> Self {
+        Self { created_at: clock::now(), ..self }
     }
-    object.insert("reach".into(), json!(resolved.reach));
-    if !resolved.intermediate.is_empty() {
-        object.insert("intermediate".into(), json!(resolved.intermediate));
-    }
-    Value::Object(object)
 }
 
 /// `error`: the problem object.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Error")]
 pub struct ErrorBody {
-    problem: Value,
+    /// What a refusal before the stream would have been answered with.
+    problem: ProblemDoc,
 }
 
 impl ErrorBody {
     /// Of a problem.
     pub fn new(problem: &Problem) -> Self {
-        Self { problem: problem.body(Some("/v1/generate"), None) }
+        Self { problem: problem.doc(Some("/v1/generate"), None) }
     }
 }
 
 /// `superseded`: a newer revision took over.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Superseded")]
 pub struct SupersededBody {
     /// The newer one.
     pub by_revision: u64,
+}
+
+/// A sign of life between events, in NDJSON alone: SSE has comments for it.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "HeartbeatEvent")]
+pub struct Heartbeat {
+    #[schemars(extend("const" = "heartbeat"))]
+    event: &'static str,
+}
+
+/// One event of the stream. Exactly one of final, error and superseded ends it.
+pub struct Event;
+
+impl JsonSchema for Event {
+    fn schema_name() -> Cow<'static, str> {
+        "Event".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let schemas = [
+            generator.subschema_for::<Envelope<'static, AcceptedBody>>(),
+            generator.subschema_for::<Envelope<'static, DraftBody>>(),
+            generator.subschema_for::<Envelope<'static, FinalBody>>(),
+            generator.subschema_for::<Envelope<'static, ErrorBody>>(),
+            generator.subschema_for::<Envelope<'static, SupersededBody>>(),
+            generator.subschema_for::<Heartbeat>(),
+        ];
+        json_schema!({
+            "description": "One event of the stream. Exactly one of final, error and superseded ends it.",
+            "oneOf": schemas,
+        })
+    }
+}
+
+macro_rules! names {
+    ($($body:ident $($name:literal)+;)*) => {$(
+        impl EventBody for $body {
+            const NAMES: &'static [&'static str] = &[$($name),+];
+        }
+    )*};
+}
+
+names! {
+    AcceptedBody "accepted";
+    FinalBody "final";
+    ErrorBody "error";
+    SupersededBody "superseded";
+}
+
+impl EventBody for DraftBody {
+    const NAMES: &'static [&'static str] = &["initial", "step"];
+
+    fn name(&self) -> &'static str {
+        if self.step.is_some() { "step" } else { "initial" }
+    }
 }

@@ -1,98 +1,35 @@
 //! One sequence of events in three representations: SSE, NDJSON, or the last event alone as JSON.
 
-use crate::base::problem::{Code, Problem};
-use crate::work::{End, Handle, Message};
+use super::feed::Reader;
+use super::outbox::{End, Message};
+use crate::base::problem::Problem;
+use crate::http::accept::Form;
+use crate::work::{Stop, superseded};
 use axum::body::{Body, Bytes};
-use axum::http::{HeaderMap, HeaderValue, header};
+use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
 use std::convert::Infallible;
 use std::time::Duration;
 
-/// How a reply is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// The last event.
-    Json,
-    /// One event a line.
-    Ndjson,
-    /// Server-sent events.
-    Sse,
-}
-
-const FORMS: [(Form, &str); 3] = [
-    (Form::Json, "application/json"),
-    (Form::Ndjson, "application/x-ndjson"),
-    (Form::Sse, "text/event-stream"),
-];
-
-impl Form {
-    /// The form that Accept likes best; JSON without one.
-    ///
-    /// # Errors
-    /// `not-acceptable` when it names none of the three.
-    pub fn negotiate(headers: &HeaderMap) -> Result<Self, Problem> {
-        let given: Vec<&str> =
-            headers.get_all(header::ACCEPT).iter().map(|v| v.to_str().unwrap_or_default()).collect();
-        if given.is_empty() {
-            return Ok(Self::Json);
-        }
-        let quality =
-            |form: &(Form, &str)| given.iter().map(|list| quality(list, form.1)).fold(0.0, f64::max);
-        let best =
-            FORMS.iter().map(|form| (form.0, quality(form))).reduce(|a, b| if b.1 > a.1 { b } else { a });
-        match best {
-            Some((form, quality)) if quality > 0.0 => Ok(form),
-            _ => {
-                let known = FORMS.map(|f| f.1).join(", ");
-                Err(Problem::new(Code::NotAcceptable, format!("Replies come as {known}.")))
-            }
-        }
-    }
-}
-
-/// Quality that an Accept list gives a media type: the most specific range decides.
-pub fn quality(list: &str, media_type: &str) -> f64 {
-    let family = media_type.split('/').next().unwrap_or_default();
-    let mut best = (0, 0.0);
-    for range in list.split(',') {
-        let mut parts = range.split(';').map(str::trim);
-        let name = parts.next().unwrap_or_default().to_ascii_lowercase();
-        let weight = match name.as_str() {
-            "*/*" => 1,
-            n if n == media_type => 3,
-            n if n.strip_suffix("/*") == Some(family) => 2,
-            _ => 0,
-        };
-        let q = parts.find_map(|p| p.strip_prefix("q=")).map_or(1.0, |q| q.parse().unwrap_or(0.0));
-        if weight > best.0 {
-            best = (weight, q);
-        }
-    }
-    best.1
-}
-
 /// Answers with the events of a job.
-pub async fn reply(handle: Handle, form: Form, heartbeat: Duration) -> Response {
+pub async fn reply(reader: Reader, form: Form, heartbeat: Duration) -> Response {
     match form {
-        Form::Json => last(handle).await,
-        Form::Ndjson | Form::Sse => first(handle, form, heartbeat).await,
+        Form::Json => last(reader).await,
+        Form::Ndjson | Form::Sse => first(reader, form, heartbeat).await,
     }
 }
 
 /// JSON: the last event, or a problem in its place.
-async fn last(handle: Handle) -> Response {
-    while let Some(message) = handle.next().await {
+async fn last(reader: Reader) -> Response {
+    while let Some(message) = reader.next().await {
         match message.end {
             Some(End::Final) => {
-                return ([(header::CONTENT_TYPE, "application/json")], Body::from(message.json))
-                    .into_response();
+                let head = [(header::CONTENT_TYPE, Form::Json.media_type())];
+                return (head, Body::from(message.json)).into_response();
             }
-            Some(End::Superseded(by)) => {
-                let detail = format!("Revision {by} of the same client took over.");
-                return Problem::new(Code::Superseded, detail).with("by_revision", by).into_response();
-            }
-            Some(End::Problem(problem)) => return problem.into_response(),
+            Some(End::Stopped(Stop::Superseded(by))) => return superseded(by).into_response(),
+            Some(End::Stopped(Stop::Problem(problem))) => return problem.into_response(),
             None => {}
         }
     }
@@ -101,29 +38,25 @@ async fn last(handle: Handle) -> Response {
 
 /// A stream. What is refused before anything was accepted is an ordinary problem reply; a wait
 /// longer than the heartbeat begins the stream in any case.
-async fn first(handle: Handle, form: Form, heartbeat: Duration) -> Response {
-    let first = tokio::time::timeout(heartbeat, handle.next()).await.ok().flatten();
-    if let Some(Message { end: Some(End::Problem(problem)), .. }) = first {
+async fn first(reader: Reader, form: Form, heartbeat: Duration) -> Response {
+    let first = tokio::time::timeout(heartbeat, reader.next()).await.ok().flatten();
+    if let Some(Message { end: Some(End::Stopped(Stop::Problem(problem))), .. }) = first {
         return problem.into_response();
     }
-    let source = Source { handle, form, heartbeat, first, done: false };
+    let source = Source { reader, form, heartbeat, first, done: false };
     let events = stream::unfold(source, |mut source| async move {
         source.next().await.map(|bytes| (Ok::<_, Infallible>(bytes), source))
     });
-    let media_type = match form {
-        Form::Sse => "text/event-stream",
-        _ => "application/x-ndjson",
-    };
     let mut response = Body::from_stream(events).into_response();
     let headers = response.headers_mut();
-    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(media_type));
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(form.media_type()));
     headers.insert("x-accel-buffering", HeaderValue::from_static("no"));
     headers.insert(header::CONNECTION, HeaderValue::from_static("close"));
     response
 }
 
 struct Source {
-    handle: Handle,
+    reader: Reader,
     form: Form,
     heartbeat: Duration,
     first: Option<Message>,
@@ -137,7 +70,7 @@ impl Source {
         }
         let message = match self.first.take() {
             Some(message) => message,
-            None => match tokio::time::timeout(self.heartbeat, self.handle.next()).await {
+            None => match tokio::time::timeout(self.heartbeat, self.reader.next()).await {
                 Ok(message) => message?,
                 Err(_) => return Some(self.sign_of_life()),
             },
@@ -163,30 +96,5 @@ impl Source {
         bytes.extend_from_slice(&message.json);
         bytes.extend_from_slice(if self.form == Form::Sse { b"\n\n" } else { b"\n" });
         bytes.into()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Form, quality};
-    use axum::http::{HeaderMap, header};
-
-    fn form(accept: &str) -> Option<Form> {
-        let mut headers = HeaderMap::new();
-        headers.insert(header::ACCEPT, accept.parse().unwrap());
-        Form::negotiate(&headers).ok()
-    }
-
-    #[test]
-    fn accept_is_weighed() {
-        assert_eq!(form("*/*"), Some(Form::Json));
-        assert_eq!(form("text/event-stream"), Some(Form::Sse));
-        assert_eq!(form("application/x-ndjson, application/json;q=0.5"), Some(Form::Ndjson));
-        assert_eq!(form("text/*"), Some(Form::Sse));
-        assert_eq!(form("application/json;q=0, */*"), Some(Form::Ndjson));
-        assert_eq!(form("image/png"), None);
-        assert_eq!(form("application/xml, text/html;q=0.9"), None);
-        assert_eq!(Form::negotiate(&HeaderMap::new()).ok(), Some(Form::Json));
-        assert!(quality("text/*;q=0.3", "text/event-stream") > 0.2);
     }
 }

@@ -3,35 +3,68 @@
 //! The encoded bytes are bounded while they arrive, the decoded ones while they are unpacked, so a
 //! small body can never become a large one in memory.
 
-use crate::app::App;
 use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
+use crate::work::Pool;
 use axum::body::{Body, Bytes};
-use axum::extract::{FromRequest, Request};
+use axum::extract::{FromRef, FromRequest, Request};
 use axum::http::{HeaderMap, header};
+use axum::response::{IntoResponse, Response};
 use http_body_util::BodyExt;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::Read;
+use std::sync::Arc;
 use std::time::Duration;
 
-/// Bodies up to this size are parsed on the spot; larger ones on a thread for such work.
-const SMALL: usize = 32 << 10;
 /// Growth below this size is never too much.
 const FREE_EXPANSION: u64 = 1 << 20;
 
 /// Media types of JSON documents.
 pub const JSON: &[&str] = &["application/json", "application/vnd.dragtraffic.scene+json"];
 
+/// What reading a body takes.
+#[derive(Clone)]
+pub struct Reading {
+    /// Bounds.
+    pub limits: Arc<Limits>,
+    /// Where long bodies are decoded and parsed.
+    pub pool: Arc<Pool>,
+}
+
 /// A JSON body read into a document type.
 pub struct Json<T>(pub T);
 
-impl<T: DeserializeOwned + Send + 'static> FromRequest<App> for Json<T> {
+impl<S: Send + Sync, T: DeserializeOwned + Send + 'static> FromRequest<S> for Json<T>
+where
+    Reading: FromRef<S>,
+{
     type Rejection = Problem;
 
-    async fn from_request(request: Request, app: &App) -> Result<Self, Problem> {
+    async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
         media_type(request.headers(), JSON)?;
-        let bytes = read_json(request, &app.limits).await?;
-        parse(bytes).await.map(Self)
+        let reading = Reading::from_ref(state);
+        let bytes = reading.json(request).await?;
+        reading.parse(bytes).await.map(Self)
+    }
+}
+
+/// A value as JSON text, made where the value was: a long one takes time.
+pub struct JsonText(Vec<u8>);
+
+impl JsonText {
+    /// Of a value.
+    ///
+    /// # Errors
+    /// When it cannot be written as JSON.
+    pub fn of(value: &impl Serialize) -> Result<Self, Problem> {
+        serde_json::to_vec(value).map(Self).map_err(Problem::internal)
+    }
+}
+
+impl IntoResponse for JsonText {
+    fn into_response(self) -> Response {
+        ([(header::CONTENT_TYPE, "application/json")], self.0).into_response()
     }
 }
 
@@ -49,53 +82,63 @@ pub fn media_type(headers: &HeaderMap, allowed: &[&str]) -> Result<String, Probl
     Err(Problem::new(Code::UnsupportedMediaType, detail))
 }
 
-/// Reads and unpacks a JSON-sized body.
-///
-/// # Errors
-/// Every limit of such a body.
-pub async fn read_json(request: Request, limits: &Limits) -> Result<Bytes, Problem> {
-    let bounds = Bounds {
-        encoded: limits.json_encoded_bytes,
-        decoded: limits.json_decoded_bytes,
-        ratio: limits.expansion_ratio,
-        time: Duration::from_secs(limits.body_read_s),
-    };
-    read(request, bounds).await
-}
-
-/// Reads and unpacks an uploaded file.
-///
-/// # Errors
-/// Every limit of such a body.
-pub async fn read_upload(request: Request, limits: &Limits) -> Result<Bytes, Problem> {
-    let bounds = Bounds {
-        encoded: limits.import_encoded_bytes,
-        decoded: limits.import_decoded_bytes,
-        ratio: limits.expansion_ratio,
-        time: Duration::from_secs(limits.import_read_s),
-    };
-    read(request, bounds).await
-}
-
-/// Parses JSON, away from the network threads when it is long.
-///
-/// # Errors
-/// `malformed-json`, or 422 with the place of the fault.
-pub async fn parse<T: DeserializeOwned + Send + 'static>(bytes: Bytes) -> Result<T, Problem> {
-    if bytes.len() <= SMALL {
-        return formats::native::from_json(&bytes).map_err(Problem::from);
+impl Reading {
+    /// Reads and unpacks a JSON-sized body.
+    ///
+    /// # Errors
+    /// Every limit of such a body.
+    pub async fn json(&self, request: Request) -> Result<Bytes, Problem> {
+        let bounds = Bounds {
+            encoded: self.limits.json_encoded_bytes,
+            decoded: self.limits.json_decoded_bytes,
+            ratio: self.limits.expansion_ratio,
+            time: Duration::from_secs(self.limits.body_read_s),
+        };
+        self.read(request, bounds).await
     }
-    blocking(move || formats::native::from_json(&bytes).map_err(Problem::from)).await
-}
 
-/// Runs CPU work away from the network threads; a panic there is a 500 here.
-///
-/// # Errors
-/// The work's own problem, or `internal`.
-pub async fn blocking<T: Send + 'static>(
-    work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
-) -> Result<T, Problem> {
-    tokio::task::spawn_blocking(work).await.unwrap_or_else(|error| Err(Problem::internal(error)))
+    /// Reads and unpacks an uploaded file.
+    ///
+    /// # Errors
+    /// Every limit of such a body.
+    pub async fn upload(&self, request: Request) -> Result<Bytes, Problem> {
+        let bounds = Bounds {
+            encoded: self.limits.import_encoded_bytes,
+            decoded: self.limits.import_decoded_bytes,
+            ratio: self.limits.expansion_ratio,
+            time: Duration::from_secs(self.limits.import_read_s),
+        };
+        self.read(request, bounds).await
+    }
+
+    /// Parses JSON, away from the network threads when it is long.
+    ///
+    /// # Errors
+    /// `malformed-json`, or 422 with the place of the fault.
+    pub async fn parse<T: DeserializeOwned + Send + 'static>(&self, bytes: Bytes) -> Result<T, Problem> {
+        let size = bytes.len();
+        let parse = move || formats::native::from_json(&bytes).map_err(Problem::from);
+        self.pool.document(size, parse).await
+    }
+
+    async fn read(&self, request: Request, bounds: Bounds) -> Result<Bytes, Problem> {
+        let encoding = encoding_of(request.headers())?;
+        let length = request.headers().get(header::CONTENT_LENGTH);
+        let declared: Option<u64> = length.and_then(|v| v.to_str().ok()?.parse().ok());
+        if declared.is_some_and(|length| length > bounds.encoded) {
+            return Err(too_large(bounds.encoded));
+        }
+        let encoded = tokio::time::timeout(bounds.time, collect(request.into_body(), bounds.encoded));
+        let encoded = encoded.await.map_err(|_| {
+            let detail = format!("The body did not arrive within {} s.", bounds.time.as_secs());
+            Problem::new(Code::BodyTimeout, detail)
+        })??;
+        match encoding {
+            Encoding::Identity => Ok(encoded),
+            // A few bytes can decode to many, so even the smallest goes to the pool.
+            _ => self.pool.document(usize::MAX, move || unpack(&encoded, encoding, bounds)).await,
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -111,23 +154,6 @@ enum Encoding {
     Identity,
     Gzip,
     Zstd,
-}
-
-async fn read(request: Request, bounds: Bounds) -> Result<Bytes, Problem> {
-    let encoding = encoding_of(request.headers())?;
-    let declared = request.headers().get(header::CONTENT_LENGTH).and_then(|v| v.to_str().ok()?.parse().ok());
-    if declared.is_some_and(|length: u64| length > bounds.encoded) {
-        return Err(too_large(bounds.encoded));
-    }
-    let encoded = tokio::time::timeout(bounds.time, collect(request.into_body(), bounds.encoded));
-    let encoded = encoded.await.map_err(|_| {
-        let detail = format!("The body did not arrive within {} s.", bounds.time.as_secs());
-        Problem::new(Code::BodyTimeout, detail)
-    })??;
-    match encoding {
-        Encoding::Identity => Ok(encoded),
-        _ => blocking(move || unpack(&encoded, encoding, bounds)).await,
-    }
 }
 
 fn encoding_of(headers: &HeaderMap) -> Result<Encoding, Problem> {
@@ -161,14 +187,13 @@ async fn collect(mut body: Body, limit: u64) -> Result<Bytes, Problem> {
 }
 
 fn too_large(limit: u64) -> Problem {
-    Problem::new(Code::BodyTooLarge, format!("The body may have {limit} bytes.")).with("limit", limit)
+    Problem::new(Code::BodyTooLarge, format!("The body may have {limit} bytes.")).limit(limit)
 }
 
 fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds) -> Result<Bytes, Problem> {
     let broken = |error: std::io::Error| {
         Problem::new(Code::MalformedFile, format!("The body cannot be decoded: {error}."))
-            .with("offset", 0)
-            .with("reason", error.to_string())
+            .with(|m| (m.offset, m.reason) = (Some(0), Some(error.to_string())))
     };
     let mut reader: Box<dyn Read + '_> = match encoding {
         Encoding::Zstd => {
@@ -188,11 +213,11 @@ fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds) -> Result<Bytes, P
         let size = decoded.len() as u64;
         if size > bounds.decoded {
             let detail = format!("The body may decode to {} bytes.", bounds.decoded);
-            return Err(Problem::new(Code::DecodedTooLarge, detail).with("limit", bounds.decoded));
+            return Err(Problem::new(Code::DecodedTooLarge, detail).limit(bounds.decoded));
         }
         if size > FREE_EXPANSION && size > bounds.ratio.saturating_mul(encoded.len() as u64) {
             let detail = format!("The body may grow {} times when decoded.", bounds.ratio);
-            return Err(Problem::new(Code::ExpansionTooHigh, detail).with("limit", bounds.ratio));
+            return Err(Problem::new(Code::ExpansionTooHigh, detail).limit(bounds.ratio));
         }
     }
     Ok(decoded.into())

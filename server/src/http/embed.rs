@@ -1,4 +1,4 @@
-//! Files that travel inside the program: the editor and the demo scenes.
+//! The editor, which travels inside the program.
 
 use crate::base::problem::{Code, Problem};
 use axum::body::Body;
@@ -11,12 +11,6 @@ use rust_embed::RustEmbed;
 #[folder = "../web/dist"]
 #[allow_missing = true]
 struct Editor;
-
-/// Demo scenes in native JSON.
-#[derive(RustEmbed)]
-#[folder = "../assets/scenes"]
-#[allow_missing = true]
-pub struct DemoScenes;
 
 /// Everything without a route of its own: the editor's files; its page for unknown addresses;
 /// a problem below `/v1`.

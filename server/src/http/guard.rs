@@ -103,17 +103,17 @@ fn check_size(limits: &Limits, request: &Request) -> Result<(), Problem> {
     let uri = request.uri().path_and_query().map_or(0, |p| p.as_str().len()) as u64;
     if uri > limits.uri_bytes {
         let detail = format!("The address has {uri} bytes; at most {}.", limits.uri_bytes);
-        return Err(Problem::new(Code::UriTooLong, detail).with("limit", limits.uri_bytes));
+        return Err(Problem::new(Code::UriTooLong, detail).limit(limits.uri_bytes));
     }
     let headers = request.headers();
     let bytes: usize = headers.iter().map(|(name, value)| name.as_str().len() + value.len() + 4).sum();
     if headers.len() as u64 > limits.header_fields {
         let detail = format!("{} header fields; at most {}.", headers.len(), limits.header_fields);
-        return Err(Problem::new(Code::HeadersTooLarge, detail).with("limit", limits.header_fields));
+        return Err(Problem::new(Code::HeadersTooLarge, detail).limit(limits.header_fields));
     }
     if bytes as u64 > limits.header_bytes {
         let detail = format!("{bytes} bytes of header fields; at most {}.", limits.header_bytes);
-        return Err(Problem::new(Code::HeadersTooLarge, detail).with("limit", limits.header_bytes));
+        return Err(Problem::new(Code::HeadersTooLarge, detail).limit(limits.header_bytes));
     }
     Ok(())
 }

@@ -1,14 +1,16 @@
 //! The outermost layer: request id, access line, metrics, security headers, and the one place where
 //! problems are written.
 
-use crate::app::App;
+use super::guard::{self, Guard};
+use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
-use crate::http::guard;
+use crate::base::{id, metrics};
 use axum::body::Body;
 use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Header that names a request in logs and problems.
@@ -18,16 +20,25 @@ const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'sel
     font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; \
     frame-ancestors 'none'";
 
+/// What is looked at before a handler is.
+#[derive(Clone)]
+pub struct Gate {
+    /// Who may talk to the server.
+    pub guard: Arc<Guard>,
+    /// Bounds of a request's head.
+    pub limits: Arc<Limits>,
+}
+
 /// Wraps every request.
-pub async fn observe(State(app): State<App>, request: Request, next: Next) -> Response {
+pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> Response {
     let began = Instant::now();
     let id = request_id(request.headers());
     let method = request.method().clone();
     let path = request.uri().path().to_owned();
     let route =
         request.extensions().get::<MatchedPath>().map_or("(none)".to_owned(), |p| p.as_str().to_owned());
-    let foreign = app.guard.foreign_origin(&request);
-    let response = match guard::check(&app.guard, &app.limits, &request) {
+    let foreign = gate.guard.foreign_origin(&request);
+    let response = match guard::check(&gate.guard, &gate.limits, &request) {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
         Ok(()) => next.run(request).await,
         Err(refusal) => refusal.into_response(),
@@ -39,17 +50,13 @@ pub async fn observe(State(app): State<App>, request: Request, next: Next) -> Re
     }
     let status = response.status();
     let seconds = began.elapsed().as_secs_f64();
-    crate::base::metrics::request(&route, &method, status, seconds);
+    metrics::request(&route, &method, status, seconds);
     tracing::info!(target: "access", %method, route, status = status.as_u16(), ms = seconds * 1e3, request_id = id);
     response
 }
 
 fn request_id(headers: &HeaderMap) -> String {
-    let legal = |text: &&str| {
-        (1..=64).contains(&text.len())
-            && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
-    };
-    match headers.get(REQUEST_ID).and_then(|v| v.to_str().ok()).filter(legal) {
+    match headers.get(REQUEST_ID).and_then(|v| v.to_str().ok()).filter(|given| id::is_id(given)) {
         Some(given) => given.to_owned(),
         None => uuid::Uuid::now_v7().simple().to_string(),
     }
@@ -66,7 +73,7 @@ fn written(mut response: Response, method: &Method, path: &str, id: &str) -> Res
     if problem.code.status() == 500 {
         tracing::error!(code = problem.code.name(), detail = problem.detail, request_id = id, "refused");
     }
-    let body = problem.body(Some(path), Some(id)).to_string();
+    let body = problem.doc(Some(path), Some(id)).text();
     let headers = response.headers_mut();
     headers.remove(header::CONTENT_LENGTH);
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));

@@ -1,8 +1,8 @@
 //! `/openapi.json`, `/docs`, `/docs/problems`: pages made from the document and the table of codes,
 //! without scripts and without anything from elsewhere.
 
+use super::openapi;
 use crate::base::problem::Code;
-use crate::routes::openapi;
 use axum::http::header;
 use axum::response::{Html, IntoResponse};
 use serde_json::Value;

@@ -1,88 +1,15 @@
 //! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the
 //! table of codes.
 
-use crate::base::problem::Code;
-use crate::routes::{generate, maps, place, scenes, score};
+use super::{generate, health, import, info, maps, place, scenes, score};
+use crate::base::problem::ProblemDoc;
+use crate::generation::events;
 use formats::native::{MapDoc, SceneDoc};
+use scene::score::Score;
+use schemars::SchemaGenerator;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
-use std::collections::BTreeMap;
 use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
-
-/// Codes that any operation can answer with.
-const ANYWHERE: &[Code] = &[
-    Code::BadHost,
-    Code::HostNotAllowed,
-    Code::CrossSite,
-    Code::UriTooLong,
-    Code::HeadersTooLarge,
-    Code::Internal,
-];
-/// Codes of operations that change something.
-const CHANGES: &[Code] = &[Code::BadOrigin];
-/// Codes of operations that take a body.
-const BODIES: &[Code] = &[
-    Code::MalformedJson,
-    Code::MalformedFile,
-    Code::BodyTimeout,
-    Code::BodyTooLarge,
-    Code::DecodedTooLarge,
-    Code::ExpansionTooHigh,
-    Code::UnsupportedMediaType,
-    Code::InvalidField,
-    Code::OutOfRange,
-];
-/// Codes of operations that take a scene.
-const SCENES: &[Code] =
-    &[Code::HalfPosition, Code::UnknownMap, Code::TooManyAgents, Code::MapTooLarge, Code::UnsupportedVersion];
-
-/// Further codes of single operations.
-fn own_codes(operation: &str) -> &'static [Code] {
-    match operation {
-        "listScenes" => &[Code::InvalidField, Code::OutOfRange],
-        "createScene" => &[Code::StoreFull, Code::Exists],
-        "readScene" => &[Code::NotFound, Code::InvalidField],
-        "replaceScene" => {
-            &[Code::NotFound, Code::StaleEtag, Code::PreconditionRequired, Code::ReadOnly, Code::StoreFull]
-        }
-        "renameScene" => {
-            &[Code::NotFound, Code::StaleEtag, Code::PreconditionRequired, Code::ReadOnly, Code::StoreFull]
-        }
-        "deleteScene" => &[Code::NotFound, Code::StaleEtag, Code::PreconditionRequired, Code::ReadOnly],
-        "duplicateScene" => &[Code::NotFound, Code::StoreFull],
-        "exportScene" => &[
-            Code::NotFound,
-            Code::FormatUnknown,
-            Code::CannotRepresent,
-            Code::InvalidField,
-            Code::OutOfRange,
-        ],
-        "exportUnsaved" => &[Code::FormatUnknown, Code::CannotRepresent],
-        "importScenes" => &[Code::FormatUnknown, Code::LicenceRefused, Code::StoreFull],
-        "readMap" => &[Code::NotFound],
-        "generate" => &[
-            Code::NotFound,
-            Code::NotAcceptable,
-            Code::Exists,
-            Code::Superseded,
-            Code::StaleRevision,
-            Code::Cancelled,
-            Code::StaleEtag,
-            Code::StartMissing,
-            Code::UnknownAgent,
-            Code::ReplyTooLarge,
-            Code::NonFiniteOutput,
-            Code::Busy,
-            Code::ShuttingDown,
-            Code::GenerateTimeout,
-        ],
-        "place" => &[Code::NotFound, Code::UnknownAgent, Code::Cancelled, Code::GenerateTimeout],
-        "cancelJob" => &[Code::NotFound],
-        "score" => &[Code::NotFound, Code::UnknownAgent],
-        "readyz" => &[Code::NotReady],
-        _ => &[],
-    }
-}
 
 /// The document before its paths.
 pub fn head() -> OpenApi {
@@ -103,17 +30,12 @@ pub fn head() -> OpenApi {
 
 /// The whole document; equal builds give equal text.
 pub fn document() -> Value {
-    let (_, paths) = crate::routes::all().split_for_parts();
+    let (_, paths) = super::documented().split_for_parts();
     let mut document = serde_json::to_value(paths).unwrap_or(Value::Null);
     document["servers"] = json!([{"url": "/", "description": "the server that gave this document"}]);
     let token = json!({"type": "http", "scheme": "bearer", "description": "with --token-file only"});
     document["security"] = json!([{}, {"token": []}]);
     document["components"] = json!({"schemas": schemas(), "securitySchemes": {"token": token}});
-    let methods = document["paths"].as_object_mut().into_iter().flatten();
-    for operation in methods.flat_map(|(_, item)| item.as_object_mut().into_iter().flatten()) {
-        let (method, operation) = operation;
-        complete(method, operation);
-    }
     document
 }
 
@@ -124,109 +46,60 @@ pub fn text() -> String {
     text
 }
 
-/// Adds problem replies and examples to one operation.
-fn complete(method: &str, operation: &mut Value) {
-    for (status, reply) in operation["responses"].as_object_mut().into_iter().flatten() {
-        if reply["description"].as_str().is_none_or(str::is_empty) {
-            reply["description"] = if status == "201" { "stored" } else { "the answer" }.into();
-        }
-    }
-    let id = operation["operationId"].as_str().unwrap_or_default().to_owned();
-    let mut codes: Vec<Code> = ANYWHERE.to_vec();
-    if method != "get" {
-        codes.extend(CHANGES);
-    }
-    let body = operation["requestBody"].to_string();
-    if body != "null" {
-        codes.extend(BODIES);
-    }
-    if body.contains("schemas/Scene\"")
-        || body.contains("GenerateRequest")
-        || body.contains("ScoreRequest")
-        || body.contains("PlaceBody")
-        || id == "importScenes"
-    {
-        codes.extend(SCENES);
-    }
-    codes.extend(own_codes(&id));
-    let mut by_status: BTreeMap<u16, Vec<&'static str>> = BTreeMap::new();
-    for code in codes {
-        let names = by_status.entry(code.status()).or_default();
-        if !names.contains(&code.name()) {
-            names.push(code.name());
-        }
-    }
-    for (status, names) in by_status {
-        let reference = json!({"$ref": "#/components/schemas/Problem"});
-        let narrowed = json!({"allOf": [reference, {"properties": {"code": {"enum": names}}}]});
-        operation["responses"][status.to_string()] = json!({
-            "description": names.join(", "),
-            "content": {"application/problem+json": {"schema": narrowed}},
-        });
-    }
-    if let Some(example) = example(&id)
-        && let Some(content) = operation["requestBody"]["content"].as_object_mut()
-    {
-        for (_, media) in content {
-            media["example"] = example.clone();
-        }
-    }
-    if id == "generate" {
-        for media in ["application/x-ndjson", "text/event-stream"] {
-            operation["responses"]["200"]["content"][media]["x-stream-item"] = true.into();
-        }
-    }
+/// What replies are made of: members that are always there are required.
+fn replies(generator: &mut SchemaGenerator) {
+    generator.subschema_for::<ProblemDoc>();
+    generator.subschema_for::<events::Event>();
+    generator.subschema_for::<Score>();
+    generator.subschema_for::<place::PlaceReply>();
+    generator.subschema_for::<import::ImportReply>();
+    generator.subschema_for::<info::Info>();
+    generator.subschema_for::<health::Health>();
+    generator.subschema_for::<scenes::SceneList>();
+    generator.subschema_for::<scenes::Saved>();
+    generator.subschema_for::<maps::MapList>();
 }
 
-fn example(operation: &str) -> Option<Value> {
-    match operation {
-        "generate" => Some(json!({
-            "scene_id": "demo-crossing", "agents": ["5"], "seed": 7,
-            "conditions": {"5": {"goal": {"x_m": 14.0, "y_m": 0.4, "speed_mps": 6.0}}},
-        })),
-        "place" => Some(json!({
-            "scene_id": "demo-crossing", "density": {"count": 20}, "seed": 7, "keep": [],
-            "types": {"vehicle": 0.7, "pedestrian": 0.2, "cyclist": 0.1},
-            "region": {"circle": {"x_m": 0.0, "y_m": 0.0, "radius_m": 60.0}},
-        })),
-        "score" => Some(json!({"scene_id": "demo-crossing"})),
-        "renameScene" => Some(json!({"name": "left turn, late"})),
-        "duplicateScene" => Some(json!({"name": "left turn, later"})),
-        _ => None,
-    }
-}
-
-fn schemas() -> Map<String, Value> {
-    let settings = SchemaSettings::draft2020_12().with(|s| s.definitions_path = "/components/schemas".into());
-    let mut generator = settings.into_generator();
-    let scene = generator.root_schema_for::<SceneDoc>();
+/// What requests are made of, and the documents that travel both ways: members with a default may be left
+/// out.
+fn requests(generator: &mut SchemaGenerator) {
+    generator.subschema_for::<SceneDoc>();
     generator.subschema_for::<MapDoc>();
     generator.subschema_for::<generate::GenerateRequest>();
     generator.subschema_for::<score::ScoreRequest>();
     generator.subschema_for::<place::PlaceBody>();
-    generator.subschema_for::<place::PlaceReply>();
-    generator.subschema_for::<scenes::SceneList>();
-    generator.subschema_for::<scenes::Saved>();
     generator.subschema_for::<scenes::ScenePatch>();
     generator.subschema_for::<scenes::DuplicateRequest>();
-    generator.subschema_for::<maps::MapList>();
-    let mut all: BTreeMap<String, Value> = generator.take_definitions(true).into_iter().collect();
-    let mut scene = scene.to_value();
-    if let Some(scene) = scene.as_object_mut() {
-        scene.remove("$schema");
-        scene.remove("$defs");
-        scene.remove("components");
-    }
-    all.insert("Scene".into(), scene);
+}
+
+fn settings() -> SchemaSettings {
+    SchemaSettings::draft2020_12().with(|s| s.definitions_path = "/components/schemas".into())
+}
+
+/// All components by name.
+fn schemas() -> Map<String, Value> {
+    let mut told = settings().for_serialize().into_generator();
+    let mut asked = settings().for_deserialize().into_generator();
+    replies(&mut told);
+    requests(&mut asked);
+    let mut all = told.take_definitions(true);
+    // A type that is in both is a document: what is sent can be sent back.
+    all.extend(asked.take_definitions(true));
+    all.insert("Scene".into(), json!({"$ref": "#/components/schemas/SceneDoc"}));
     all.insert("Map".into(), json!({"$ref": "#/components/schemas/MapDoc"}));
-    let written: Map<String, Value> =
-        serde_json::from_str(include_str!("../../openapi/replies.json")).unwrap_or_default();
-    all.extend(written);
-    let codes: Vec<&str> = Code::ALL.iter().map(|code| code.name()).collect();
-    if let Some(problem) = all.get_mut("Problem") {
-        problem["properties"]["code"]["enum"] = json!(codes);
+    let mut all: Vec<(String, Value)> = all.into_iter().collect();
+    all.sort_by(|a, b| a.0.cmp(&b.0));
+    all.into_iter().map(|(name, schema)| (name.clone(), titled(name, schema))).collect()
+}
+
+/// A schema with its name as title, which readers of the document show.
+fn titled(name: String, mut schema: Value) -> Value {
+    if let Some(object) = schema.as_object_mut()
+        && !object.contains_key("$ref")
+    {
+        object.entry("title").or_insert_with(|| name.into());
     }
-    all.into_iter().collect()
+    schema
 }
 
 #[cfg(test)]
@@ -256,10 +129,39 @@ mod tests {
             for (method, operation) in item.as_object().unwrap() {
                 let id = operation["operationId"].as_str().unwrap_or_else(|| panic!("{method} {path}"));
                 assert!(ids.insert(id.to_owned()), "{id} twice");
-                assert!(operation["responses"]["421"].is_object(), "{id}");
+                let replies = operation["responses"].as_object().unwrap();
+                // 421 is in every list of refusals: an operation without it has declared none.
+                assert!(replies.contains_key("421"), "{id} declares no refusals");
+                for (status, reply) in replies {
+                    let words = reply["description"].as_str().unwrap_or_default();
+                    assert!(!words.is_empty(), "{id} {status} has no description");
+                }
             }
         }
         assert_eq!(document["openapi"], "3.1.0");
+    }
+
+    #[test]
+    fn every_component_has_a_title_or_is_another_name() {
+        let document = super::document();
+        for (name, schema) in document["components"]["schemas"].as_object().unwrap() {
+            assert!(schema["title"].is_string() || schema["$ref"].is_string(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_means_one_type_in_requests_and_replies() {
+        let mut told = super::settings().for_serialize().into_generator();
+        let mut asked = super::settings().for_deserialize().into_generator();
+        super::replies(&mut told);
+        super::requests(&mut asked);
+        let (told, asked) = (told.take_definitions(true), asked.take_definitions(true));
+        let members = |schema: &Value| -> BTreeSet<String> {
+            schema["properties"].as_object().into_iter().flatten().map(|(name, _)| name.clone()).collect()
+        };
+        for (name, schema) in told.iter().filter(|(name, _)| asked.contains_key(*name)) {
+            assert_eq!(members(schema), members(&asked[name]), "{name}");
+        }
     }
 
     fn collect(value: &Value, into: &mut BTreeSet<String>) {

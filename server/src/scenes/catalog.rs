@@ -1,180 +1,22 @@
 //! Scenes wherever they are: saved by the user, shipped as demos, or in the data folder; and maps by
 //! content hash.
 
-use crate::app::App;
+use super::library::Library;
+use super::record::{self, size};
+use super::store::{Expect, SceneRecord, Store, Written};
+use crate::base::cache::Cache;
 use crate::base::problem::{Code, Problem};
-use crate::http::body::blocking;
-use crate::scenes::store::{MapRecord, SceneRecord, SceneSummary};
+use crate::work::Pool;
 use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
 use scene::{ContentHash, LaneMap, Scene};
-use serde::Serialize;
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
-/// A scene as lists show it.
-#[derive(Clone, Debug, Serialize, schemars::JsonSchema)]
-#[schemars(rename = "SceneItem")]
-pub struct Item {
-    /// Id of the scene.
-    pub id: String,
-    /// For people.
-    pub name: String,
-    /// With quotes, as in the ETag header.
-    pub etag: String,
-    /// RFC 3339.
-    pub created_at: String,
-    /// RFC 3339.
-    pub updated_at: String,
-    /// Road users by type, and steps.
-    #[serde(flatten)]
-    pub facts: Facts,
-    /// Content hash of the map, 64 hex digits.
-    pub map_sha256: String,
-    /// Words to find it by.
-    pub tags: Vec<String>,
-    /// Scene it is a variant of.
-    pub parent_id: Option<String>,
-    /// Size as stored.
-    pub bytes: u64,
-    /// Demo scenes and those of the data folder; duplicate one to change it.
-    pub readonly: bool,
-}
-
-/// Road users by type.
-#[derive(Clone, Copy, Debug, Default, Serialize, serde::Deserialize, schemars::JsonSchema)]
-#[allow(missing_docs, reason = "the names say it")]
-pub struct Counts {
-    pub vehicle: usize,
-    pub pedestrian: usize,
-    pub cyclist: usize,
-    pub other: usize,
-}
-
-/// What lists say about a scene's content.
-#[derive(Clone, Debug, Default, Serialize, serde::Deserialize, schemars::JsonSchema)]
-pub struct Facts {
-    /// Road users by type.
-    pub counts: Counts,
-    /// Steps of 0.1 s.
-    pub steps: usize,
-    /// Format or tool it came from.
-    pub source: String,
-    /// Id in the source.
-    pub source_id: Option<String>,
-    /// Licence of the content.
-    pub licence: Option<String>,
-    /// Has generated futures.
-    pub generated: bool,
-}
-
-impl Facts {
-    /// Of a scene.
-    pub fn of(scene: &Scene) -> Self {
-        let [vehicle, pedestrian, cyclist, other] = scene.counts();
-        Self {
-            counts: Counts { vehicle, pedestrian, cyclist, other },
-            steps: scene.time.steps,
-            source: scene.meta.source.clone(),
-            source_id: scene.meta.source_id.clone(),
-            licence: scene.meta.licence.clone(),
-            generated: scene.generated.is_some(),
-        }
-    }
-}
-
-impl From<SceneSummary> for Item {
-    fn from(row: SceneSummary) -> Self {
-        Self {
-            facts: serde_json::from_str(&row.meta).unwrap_or_default(),
-            tags: serde_json::from_str(&row.tags).unwrap_or_default(),
-            id: row.id,
-            name: row.name,
-            etag: row.etag,
-            created_at: row.created_at,
-            updated_at: row.updated_at,
-            map_sha256: row.map_sha,
-            parent_id: row.parent_id,
-            bytes: row.bytes,
-            readonly: false,
-        }
-    }
-}
-
-/// Maps in memory, the longest unused dropped first.
-#[derive(Debug)]
-pub struct MapCache {
-    most: usize,
-    kept: Mutex<VecDeque<(ContentHash, Arc<LaneMap>)>>,
-}
-
-impl MapCache {
-    /// An empty cache of so many maps.
-    pub fn new(most: usize) -> Self {
-        Self { most: most.max(1), kept: Mutex::default() }
-    }
-
-    fn get(&self, hash: &ContentHash) -> Option<Arc<LaneMap>> {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let at = kept.iter().position(|(key, _)| key == hash)?;
-        let entry = kept.remove(at)?;
-        let map = Arc::clone(&entry.1);
-        kept.push_back(entry);
-        Some(map)
-    }
-
-    fn put(&self, hash: ContentHash, map: &Arc<LaneMap>) {
-        if self.get(&hash).is_some() {
-            return;
-        }
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.len() >= self.most {
-            kept.pop_front();
-        }
-        kept.push_back((hash, Arc::clone(map)));
-    }
-}
-
-/// The map of a hash, wherever it is.
-pub async fn map(app: &App, hash: ContentHash) -> Result<Option<Arc<LaneMap>>, Problem> {
-    if let Some(map) = app.maps.get(&hash) {
-        return Ok(Some(map));
-    }
-    let map = match app.store.map(&hash.hex()).await? {
-        Some(json) => Some(blocking(move || parse_map(&json)).await?),
-        None => app.library.map(&hash).await?,
-    };
-    if let Some(map) = &map {
-        app.maps.put(hash, map);
-    }
-    Ok(map)
-}
-
-fn parse_map(json: &[u8]) -> Result<Arc<LaneMap>, Problem> {
-    let doc: MapDoc = native::from_json(json)?;
-    Ok(Arc::new(doc.into_map()?))
-}
-
-/// A document's scene, its map looked up when given by hash and remembered when given inline.
-pub async fn scene_of(app: &App, doc: SceneDoc) -> Result<Scene, Problem> {
-    let wanted = match &doc.map {
-        MapField::Ref(reference) => reference.hash.strip_prefix("sha256:").and_then(ContentHash::from_hex),
-        MapField::Inline(_) => None,
-    };
-    let known = match wanted {
-        Some(hash) => map(app, hash).await?,
-        None => None,
-    };
-    let app = app.clone();
-    blocking(move || {
-        let inline = matches!(doc.map, MapField::Inline(_));
-        let scene = doc.into_scene(|_| known)?;
-        if inline {
-            app.maps.put(scene.map.hash(), &scene.map);
-        }
-        Ok(scene)
-    })
-    .await
-}
+/// Bytes that one step of one road user takes in JSON, about.
+const STEP_BYTES: usize = 40;
+/// Bytes that one point of a map takes in JSON, about.
+const POINT_BYTES: usize = 20;
+/// Bytes that one line of a map takes in JSON, about.
+const LINE_BYTES: usize = 32 * POINT_BYTES;
 
 /// A scene that is open, with its ETag.
 #[derive(Clone)]
@@ -185,18 +27,126 @@ pub struct Opened {
     pub etag: String,
 }
 
-/// Opens a scene by id.
-///
-/// # Errors
-/// `not-found`.
-pub async fn open(app: &App, id: &str) -> Result<Opened, Problem> {
-    if let Some(opened) = app.library.open(id).await? {
-        return Ok(opened);
+/// All scenes and maps that the server knows. Cheap to clone.
+#[derive(Clone)]
+pub struct Catalog {
+    /// Saved scenes.
+    pub store: Store,
+    /// Read-only scenes.
+    pub library: Library,
+    maps: Arc<Cache<ContentHash, Arc<LaneMap>>>,
+    pool: Arc<Pool>,
+}
+
+impl Catalog {
+    /// Over a store and a library, with so many maps in memory.
+    pub fn new(store: Store, library: Library, pool: Arc<Pool>, cached_maps: usize) -> Self {
+        Self { store, library, maps: Arc::new(Cache::new(cached_maps)), pool }
     }
-    let (summary, json) = app.store.get(id).await?.ok_or_else(not_found)?;
-    let doc = blocking(move || Ok(native::read_doc(&json)?)).await?;
-    let scene = Arc::new(scene_of(app, doc).await?);
-    Ok(Opened { scene, etag: summary.etag })
+
+    /// The map of a hash, wherever it is.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub async fn map(&self, hash: ContentHash) -> Result<Option<Arc<LaneMap>>, Problem> {
+        if let Some(map) = self.maps.get(&hash) {
+            return Ok(Some(map));
+        }
+        let map = match self.store.map(&hash.hex()).await? {
+            Some(json) => Some(self.pool.document(json.len(), move || parse_map(&json)).await?),
+            None => self.library.map(&hash).await?,
+        };
+        if let Some(map) = &map {
+            self.maps.put(hash, Arc::clone(map));
+        }
+        Ok(map)
+    }
+
+    /// A document's scene, its map looked up when given by hash and remembered when given inline.
+    ///
+    /// # Errors
+    /// `unknown-map`, or every fault of the scene.
+    pub async fn scene_of(&self, doc: SceneDoc) -> Result<Scene, Problem> {
+        let wanted = match &doc.map {
+            MapField::Ref(reference) => {
+                reference.hash.strip_prefix("sha256:").and_then(ContentHash::from_hex)
+            }
+            MapField::Inline(_) => None,
+        };
+        let known = match wanted {
+            Some(hash) => self.map(hash).await?,
+            None => None,
+        };
+        let (bytes, maps) = (doc_bytes(&doc), Arc::clone(&self.maps));
+        let read = move || {
+            let inline = matches!(doc.map, MapField::Inline(_));
+            let scene = doc.into_scene(|_| known)?;
+            if inline {
+                maps.put(scene.map.hash(), Arc::clone(&scene.map));
+            }
+            Ok(scene)
+        };
+        self.pool.document(bytes, read).await
+    }
+
+    /// Opens a scene by id.
+    ///
+    /// # Errors
+    /// `not-found`.
+    pub async fn open(&self, id: &str) -> Result<Opened, Problem> {
+        if let Some(opened) = self.library.open(id).await? {
+            return Ok(opened);
+        }
+        let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
+        let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
+        let scene = Arc::new(self.scene_of(doc).await?);
+        Ok(Opened { scene, etag: summary.etag })
+    }
+
+    /// JSON of an open scene.
+    ///
+    /// # Errors
+    /// A full queue, or a defect.
+    pub async fn written(&self, scene: Arc<Scene>, form: MapForm) -> Result<Vec<u8>, Problem> {
+        let bytes = bytes_of(&scene);
+        self.pool.document(bytes, move || Ok(native::write_doc(&SceneDoc::from_scene(&scene, form)))).await
+    }
+
+    /// JSON of a saved scene with its map put in place of the reference.
+    ///
+    /// # Errors
+    /// When the map is missing or the stored text is broken.
+    pub async fn with_map(&self, json: Vec<u8>, map_sha: &str) -> Result<Vec<u8>, Problem> {
+        let map = self.store.map(map_sha).await?;
+        let map = map.ok_or_else(|| Problem::internal("a stored scene's map is missing"))?;
+        let bytes = json.len() + map.len();
+        self.pool.document(bytes, move || record::with_map(&json, &map)).await
+    }
+
+    /// Keeps a scene under an id.
+    ///
+    /// # Errors
+    /// When the store is full or the precondition does not hold.
+    pub async fn save(&self, id: &str, expect: Expect, scene: Scene) -> Result<Written, Problem> {
+        let (key, bytes) = (id.to_owned(), bytes_of(&scene));
+        let packed = self.pool.document(bytes, move || record::of_scene(scene, &key)?.packed()).await?;
+        Ok(self.store.put(id, expect, packed).await?)
+    }
+
+    /// Keeps a row that is made already.
+    ///
+    /// # Errors
+    /// As [`Self::save`].
+    pub async fn save_record(
+        &self,
+        id: &str,
+        expect: Expect,
+        record: SceneRecord,
+    ) -> Result<Written, Problem> {
+        let bytes = record.json.len();
+        let packed = self.pool.document(bytes, move || record.packed()).await?;
+        Ok(self.store.put(id, expect, packed).await?)
+    }
 }
 
 /// Nothing has this id.
@@ -204,50 +154,27 @@ pub fn not_found() -> Problem {
     Problem::new(Code::NotFound, "No scene has this id.")
 }
 
-/// The row that keeps a scene under an id. Marks its futures stale when they answer another scene.
-pub fn record(mut scene: Scene, id: &str) -> SceneRecord {
-    let input = scene.input_hash().hex();
-    if let Some(generated) = &mut scene.generated {
-        generated.stale = generated.input_sha256 != input;
-    }
-    scene.meta.created_with.get_or_insert_with(|| env!("CARGO_PKG_VERSION").to_owned());
-    scene.id = Some(id.to_owned());
-    let doc = SceneDoc::from_scene(&scene, MapForm::Ref);
-    let (polylines, points) = size(&scene.map);
-    SceneRecord {
-        name: scene.name.clone(),
-        tags: scene.meta.tags.clone(),
-        parent_id: scene.meta.parent_id.clone(),
-        meta: serde_json::to_string(&Facts::of(&scene)).unwrap_or_default(),
-        json: native::write_doc(&doc),
-        map: MapRecord { sha: scene.map.hash().hex(), polylines, points, json: Some(map_json(&scene.map)) },
-    }
+fn parse_map(json: &[u8]) -> Result<Arc<LaneMap>, Problem> {
+    let doc: MapDoc = native::from_json(json)?;
+    Ok(Arc::new(doc.into_map()?))
 }
 
-/// Native JSON of a map.
-pub fn map_json(map: &LaneMap) -> Vec<u8> {
-    serde_json::to_vec(&MapDoc::from_map(map)).unwrap_or_default()
+/// About how many bytes a scene has as JSON: what work on it costs grows with them.
+pub fn bytes_of(scene: &Scene) -> usize {
+    let steps: usize = scene.agents.iter().map(|agent| agent.track.states.len()).sum();
+    steps * STEP_BYTES + map_bytes(&scene.map)
 }
 
-/// Lines (with areas) and points of a map.
-pub fn size(map: &LaneMap) -> (usize, usize) {
-    let lines = map.road_lines.iter().chain(&map.road_edges).map(|l| l.points.xy.len());
-    let areas = [&map.crosswalks, &map.speed_bumps, &map.driveways, &map.drivable];
-    let areas = areas.into_iter().flatten().map(|a| a.polygon.xy.len());
-    let counts = map.lanes.iter().map(|l| l.points.xy.len()).chain(lines).chain(areas);
-    counts.fold((0, 0), |(lines, points), n| (lines + 1, points + n))
+/// About how many bytes a map has as JSON.
+pub fn map_bytes(map: &LaneMap) -> usize {
+    size(map).1 * POINT_BYTES
 }
 
-/// A stored document with its map put in place of the reference.
-///
-/// The reference is found as text: it is written by [`native::write_doc`] before any member that a
-/// user can name, and quotes inside strings are escaped, so its first occurrence is the map member.
-pub fn with_map(json: &[u8], sha: &str, map: &[u8]) -> Vec<u8> {
-    let reference = format!("\"map\":{{\"ref\":\"sha256:{sha}\"}}");
-    let at = json.windows(reference.len()).position(|window| window == reference.as_bytes());
-    let Some((before, after)) = at.and_then(|at| Some((json.get(..at)?, json.get(at + reference.len()..)?)))
-    else {
-        return json.to_vec();
+fn doc_bytes(doc: &SceneDoc) -> usize {
+    let steps: usize = doc.agents.iter().map(|agent| agent.track.x_m.len()).sum();
+    let lines = match &doc.map {
+        MapField::Inline(map) => map.lanes.len() + map.road_lines.len() + map.road_edges.len(),
+        MapField::Ref(_) => 0,
     };
-    [before, b"\"map\":", map, after].concat()
+    steps * STEP_BYTES + lines * LINE_BYTES
 }

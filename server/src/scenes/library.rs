@@ -3,20 +3,29 @@
 //! Files are read once in the background for the list; a scene is parsed again when it is opened,
 //! and a few stay in memory.
 
+use super::catalog::Opened;
+use super::item::{Facts, Item};
+use super::transfer;
+use crate::base::cache::Cache;
 use crate::base::clock;
+use crate::base::id;
 use crate::base::problem::Problem;
-use crate::http::body::blocking;
-use crate::http::embed::DemoScenes;
-use crate::scenes::catalog::{Facts, Item, Opened};
+use crate::work::Pool;
 use formats::native;
+use rust_embed::RustEmbed;
 use scene::{ContentHash, LaneMap, Scene};
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock};
 use std::time::SystemTime;
 
-/// Scenes kept in memory.
-const KEPT: usize = 8;
+/// Demo scenes in native JSON.
+#[derive(RustEmbed)]
+#[folder = "../assets/scenes"]
+#[allow_missing = true]
+struct DemoScenes;
+
 /// Most files taken from the data folder.
 const MOST_FILES: usize = 5_000;
 
@@ -34,47 +43,48 @@ struct Entry {
     place: Place,
 }
 
-#[derive(Default)]
 struct Inside {
-    entries: BTreeMap<String, Entry>,
-    open: VecDeque<(String, Opened)>,
+    entries: RwLock<BTreeMap<String, Entry>>,
+    open: Cache<String, Opened>,
+    pool: Arc<Pool>,
 }
 
 /// All read-only scenes. Cheap to clone.
-#[derive(Clone, Default)]
-pub struct Library(Arc<RwLock<Inside>>);
+#[derive(Clone)]
+pub struct Library(Arc<Inside>);
 
 impl Library {
-    /// The demos at once; the folder's files as they are read.
-    pub fn start(folder: Option<&Path>) -> Self {
-        let library = Self::default();
+    /// The demos at once; the folder's files as they are read. Keeps so many opened scenes in memory.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached: usize) -> io::Result<Self> {
+        let inside = Inside { entries: RwLock::default(), open: Cache::new(cached), pool };
+        let library = Self(Arc::new(inside));
         let folder = folder.map(Path::to_owned);
         let filled = library.clone();
-        std::thread::spawn(move || {
+        let fill = move || {
             filled.add_demos();
             if let Some(folder) = folder {
                 filled.add_folder(&folder);
             }
-        });
-        library
+        };
+        std::thread::Builder::new().name("library".into()).spawn(fill)?;
+        Ok(library)
     }
 
-    fn with<T>(&self, look: impl FnOnce(&Inside) -> T) -> T {
-        look(&self.0.read().unwrap_or_else(PoisonError::into_inner))
-    }
-
-    fn change(&self, change: impl FnOnce(&mut Inside)) {
-        change(&mut self.0.write().unwrap_or_else(PoisonError::into_inner));
+    fn with<T>(&self, look: impl FnOnce(&BTreeMap<String, Entry>) -> T) -> T {
+        look(&self.0.entries.read().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// For lists, by id.
     pub fn items(&self) -> Vec<Item> {
-        self.with(|inside| inside.entries.values().map(|e| e.item.clone()).collect())
+        self.with(|entries| entries.values().map(|e| e.item.clone()).collect())
     }
 
     /// True when this id is one of the library's.
     pub fn has(&self, id: &str) -> bool {
-        self.with(|inside| inside.entries.contains_key(id))
+        self.with(|entries| entries.contains_key(id))
     }
 
     /// Opens a scene; `None` when the id is not one of the library's.
@@ -82,25 +92,20 @@ impl Library {
     /// # Errors
     /// When its file cannot be read any more.
     pub async fn open(&self, id: &str) -> Result<Option<Opened>, Problem> {
-        let known = self.with(|i| i.open.iter().find(|(key, _)| key == id).map(|(_, opened)| opened.clone()));
-        if known.is_some() {
-            return Ok(known);
+        let key = id.to_owned();
+        if let Some(known) = self.0.open.get(&key) {
+            return Ok(Some(known));
         }
-        let Some(entry) = self.with(|inside| inside.entries.get(id).cloned()) else { return Ok(None) };
-        let id = id.to_owned();
-        let scene = blocking(move || {
+        let Some(entry) = self.with(|entries| entries.get(id).cloned()) else { return Ok(None) };
+        let bytes = usize::try_from(entry.item.bytes).unwrap_or(usize::MAX);
+        let open = move || {
             let mut scene = read(&entry.place)?;
             scene.id = Some(entry.item.id.clone());
             scene.name.clone_from(&entry.item.name);
             Ok(Opened { scene: Arc::new(scene), etag: entry.item.etag })
-        });
-        let opened = scene.await?;
-        self.change(|inside| {
-            if inside.open.len() >= KEPT {
-                inside.open.pop_front();
-            }
-            inside.open.push_back((id, opened.clone()));
-        });
+        };
+        let opened = self.0.pool.document(bytes, open).await?;
+        self.0.open.put(key, opened.clone());
         Ok(Some(opened))
     }
 
@@ -110,9 +115,8 @@ impl Library {
     /// When its file cannot be read any more.
     pub async fn map(&self, hash: &ContentHash) -> Result<Option<Arc<LaneMap>>, Problem> {
         let hex = hash.hex();
-        let holder = self.with(|inside| {
-            inside.entries.values().find(|e| e.item.map_sha256 == hex).map(|e| e.item.id.clone())
-        });
+        let holder = self
+            .with(|entries| entries.values().find(|e| e.item.map_sha256 == hex).map(|e| e.item.id.clone()));
         match holder {
             Some(id) => Ok(self.open(&id).await?.map(|opened| Arc::clone(&opened.scene.map))),
             None => Ok(None),
@@ -135,15 +139,14 @@ impl Library {
             readonly: true,
             id: id.clone(),
         };
-        self.change(|inside| {
-            inside.entries.insert(id, Entry { item, place });
-        });
+        let mut entries = self.0.entries.write().unwrap_or_else(PoisonError::into_inner);
+        entries.insert(id, Entry { item, place });
     }
 
     fn add_demos(&self) {
         for name in DemoScenes::iter() {
             let Some(file) = DemoScenes::get(&name) else { continue };
-            let Some(id) = name.strip_suffix(".json").filter(|id| crate::routes::is_id(id)) else { continue };
+            let Some(id) = name.strip_suffix(".json").filter(|id| id::is_id(id)) else { continue };
             match native::read(&file.data) {
                 Ok(scene) => {
                     let place = Place::Demo(name.to_string());
@@ -201,7 +204,7 @@ fn read(place: &Place) -> Result<Scene, Problem> {
 fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let read = crate::scenes::transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
+    let read = transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
     let read = read.map_err(|problem| problem.detail)?;
     Ok((bytes, read.scenes.into_iter().map(|s| s.scene).collect()))
 }
@@ -212,6 +215,5 @@ fn file_id(path: &Path, scene: &Scene, index: usize) -> String {
     let stem = path.file_name().unwrap_or_default().to_string_lossy();
     let stem = stem.split('.').next().unwrap_or_default();
     let own = scene.meta.source_id.clone().unwrap_or_else(|| format!("{stem}-{index}"));
-    let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
-    format!("{source}-{own}").chars().map(clean).take(64).collect()
+    id::cleaned(&format!("{source}-{own}"))
 }

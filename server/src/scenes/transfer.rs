@@ -6,7 +6,6 @@ use formats::registry::{self, ExportOptions, FORMATS, ImportOptions};
 use formats::womd;
 use scene::Scene;
 use serde::Deserialize;
-use serde_json::{Value, json};
 
 /// One scene of a file.
 pub struct Imported {
@@ -55,8 +54,8 @@ pub fn names() -> Vec<&'static str> {
 }
 
 /// The formats for `/v1/info`.
-pub fn table() -> Value {
-    json!(FORMATS.iter().map(|format| format.info()).collect::<Vec<_>>())
+pub fn table() -> Vec<registry::Info> {
+    FORMATS.iter().map(|format| format.info()).collect()
 }
 
 /// `scene` is another word for the native format.

@@ -1,124 +1,89 @@
-//! Generations: a fixed pool of workers, a bounded queue, latest wins, and every way to stop.
+//! CPU work: fixed workers, bounded queues, latest wins, and every way to stop.
 //!
-//! A job ends exactly once, with the first [`End`] that is put into its outbox: the worker's answer
-//! or failure, a newer revision, DELETE, a dropped connection, a time limit, or shutdown. All but
-//! the first set the generator's cancel flag too, which it looks at between denoising steps.
+//! There are two lanes. Long work (generations, placements, scores, files in and out) waits for one of
+//! the workers. Short work (reading and writing of documents) has threads of its own beside them, so that
+//! a newer revision is read, and a scene saved, while all workers are busy.
+//!
+//! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision,
+//! DELETE, a dropped connection, a time limit, or shutdown. All but the result set its [`Cancel`] too,
+//! which the work looks at between its steps.
 
+mod call;
 mod clients;
-mod outbox;
-mod worker;
+mod job;
+mod kind;
 
-pub use outbox::{End, Message};
+pub use call::superseded;
+pub use job::{Caller, Ending, Stop, Ticket, Work};
+pub use kind::Kind;
 
+use crate::base::id;
 use crate::base::limits::Limits;
+use crate::base::metrics;
 use crate::base::problem::{Code, Problem};
-use crate::generation::events::{Envelope, ErrorBody, GeneratedHead, SupersededBody};
 use clients::Clients;
-use experts::{Cancel, Generator, Request};
-use outbox::Outbox;
-use serde::Serialize;
+use job::Job;
+use kind::Lane;
 use std::collections::{HashMap, VecDeque};
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-
-/// What a worker is to do.
-#[derive(Debug)]
-pub struct Task {
-    /// For the generator.
-    pub request: Request,
-    /// All alternatives in drafts, not the chosen ones alone.
-    pub all_modes: bool,
-    /// Score each sample.
-    pub score: bool,
-    /// The rest of `generated`.
-    pub head: GeneratedHead,
-}
-
-/// Who asks.
-#[derive(Clone, Debug, Default)]
-pub struct Caller {
-    /// The caller's own id for the job.
-    pub job: Option<String>,
-    /// Client whose newer revisions take over.
-    pub client: Option<(String, u64)>,
-}
-
-/// One generation.
-#[derive(Debug)]
-pub struct Job {
-    /// Id, unique among those under way.
-    pub id: String,
-    client: Option<(String, u64)>,
-    cancel: Cancel,
-    outbox: Outbox,
-    seq: AtomicU64,
-    queue_position: AtomicUsize,
-    asked: Instant,
-    /// When a worker took it.
-    began: Mutex<Option<Instant>>,
-    task: Mutex<Option<Task>>,
-}
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Job {
-    /// Sends one event; with `end`, the last one. False when the job has ended already.
-    fn send<T: Serialize>(&self, event: &'static str, body: T, end: Option<End>) -> bool {
-        if self.outbox.is_closed() {
-            return false;
-        }
-        let seq = self.seq.fetch_add(1, Ordering::Relaxed);
-        let elapsed_ms = (self.asked.elapsed().as_secs_f64() * 1e4).round() / 10.0;
-        let revision = self.client.as_ref().map(|c| c.1);
-        let envelope = Envelope { event, seq, job: &self.id, revision, elapsed_ms, body };
-        match serde_json::to_vec(&envelope) {
-            Ok(json) => self.outbox.push(Message { event, seq, json: json.into(), end }),
-            Err(error) => {
-                let problem = Problem::internal(error);
-                let json = problem.body(None, None).to_string().into();
-                self.outbox.push(Message { event: "error", seq, json, end: Some(End::Problem(problem)) })
-            }
-        }
-    }
-
-    /// Ends the job and stops its work, unless it has ended already.
-    fn end(&self, end: End) {
-        let outcome = match &end {
-            End::Superseded(_) => "superseded",
-            End::Problem(p) if p.code == Code::Cancelled => "cancelled",
-            _ => "error",
-        };
-        let first = match &end {
-            End::Superseded(by_revision) => {
-                let body = SupersededBody { by_revision: *by_revision };
-                self.send("superseded", body, Some(end))
-            }
-            End::Problem(problem) => self.send("error", ErrorBody::new(problem), Some(end.clone())),
-            End::Final => false,
-        };
-        self.cancel.cancel();
-        if first {
-            crate::base::metrics::generated(outcome);
-        }
-    }
-
-    fn fail(&self, problem: Problem) {
-        self.end(End::Problem(problem));
-    }
+/// Jobs of one lane that wait.
+#[derive(Default)]
+struct Waiting {
+    queue: VecDeque<Arc<Job>>,
+    /// Running mean of a job's time, seconds.
+    mean_s: f64,
 }
 
-#[derive(Debug)]
 struct State {
-    queue: VecDeque<Arc<Job>>,
+    long: Waiting,
+    short: Waiting,
     jobs: HashMap<String, Arc<Job>>,
     clients: Clients,
     running: usize,
     closing: bool,
-    /// Running mean of a generation's time, seconds.
-    mean_s: f64,
+}
+
+impl State {
+    fn lane(&mut self, lane: Lane) -> &mut Waiting {
+        match lane {
+            Lane::Long => &mut self.long,
+            Lane::Short => &mut self.short,
+        }
+    }
+
+    /// Ends what this client has running or queued.
+    fn supersede(&mut self, client: &str, revision: u64) {
+        let of_client = |job: &&Arc<Job>| job.ticket.client.as_ref().is_some_and(|c| c.0 == client);
+        let older: Vec<_> = self.jobs.values().filter(of_client).cloned().collect();
+        for job in older {
+            job.stop(Stop::Superseded(revision));
+            self.forget_queued(&job);
+        }
+    }
+
+    /// Takes a job that has ended out of its queue, if it still waits there.
+    fn forget_queued(&mut self, job: &Arc<Job>) {
+        let queue = &mut self.lane(job.kind.lane()).queue;
+        let before = queue.len();
+        queue.retain(|queued| !Arc::ptr_eq(queued, job));
+        if queue.len() < before {
+            self.jobs.remove(&job.ticket.id);
+        }
+        self.show();
+    }
+
+    fn show(&self) {
+        metrics::load(self.long.queue.len() + self.short.queue.len(), self.running);
+    }
 }
 
 /// Shared by handlers and workers.
@@ -131,14 +96,17 @@ pub struct Pool {
 
 impl Pool {
     /// Starts the workers and the one that watches time limits.
-    pub fn start(generator: &Arc<Generator>, limits: &Arc<Limits>) -> Arc<Self> {
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(limits: &Arc<Limits>) -> io::Result<Arc<Self>> {
         let state = State {
-            queue: VecDeque::new(),
+            long: Waiting { mean_s: 0.3, ..Waiting::default() },
+            short: Waiting { mean_s: 0.03, ..Waiting::default() },
             jobs: HashMap::new(),
             clients: Clients::new(limits.clients as usize, Duration::from_secs(limits.client_idle_s)),
             running: 0,
             closing: false,
-            mean_s: 0.3,
         };
         let pool = Arc::new(Self {
             state: Mutex::new(state),
@@ -146,56 +114,63 @@ impl Pool {
             limits: Arc::clone(limits),
             stopped: AtomicBool::new(false),
         });
-        for _ in 0..limits.workers() {
-            let (pool, generator) = (Arc::clone(&pool), Arc::clone(generator));
-            std::thread::spawn(move || worker::work(&pool, &generator));
+        for number in 0..limits.workers() {
+            pool.spawn(format!("worker-{number}"), |pool| pool.work(&[Lane::Long, Lane::Short]))?;
         }
-        let watched = Arc::clone(&pool);
-        std::thread::spawn(move || watched.watch());
-        pool
+        for number in 0..limits.readers() {
+            pool.spawn(format!("reader-{number}"), |pool| pool.work(&[Lane::Short]))?;
+        }
+        pool.spawn("watch".into(), Self::watch)?;
+        Ok(pool)
     }
 
-    /// Queues a generation.
+    fn spawn(self: &Arc<Self>, name: String, run: impl FnOnce(&Self) + Send + 'static) -> io::Result<()> {
+        let pool = Arc::clone(self);
+        std::thread::Builder::new().name(name).spawn(move || run(&pool)).map(drop)
+    }
+
+    /// Queues a job. `make` gives what is to be done and where its end goes.
     ///
     /// # Errors
     /// `shutting-down`, `exists`, `stale-revision` or `busy`.
-    pub fn submit(self: &Arc<Self>, caller: Caller, task: Task) -> Result<Handle, Problem> {
+    pub fn submit<E: Ending + 'static>(
+        self: &Arc<Self>,
+        kind: Kind,
+        caller: Caller,
+        make: impl FnOnce(&Arc<Ticket>) -> (Arc<E>, Work),
+    ) -> Result<Handle, Problem> {
         let mut state = lock(&self.state);
         if state.closing {
             return Err(Problem::new(Code::ShuttingDown, "The server is about to stop.").retry_after(5));
         }
-        let id = caller.job.unwrap_or_else(|| uuid::Uuid::now_v7().to_string());
+        let id = caller.job.unwrap_or_else(id::new);
         if state.jobs.contains_key(&id) {
             return Err(Problem::new(Code::Exists, "A job with this id is under way."));
         }
         if let Some((client, revision)) = &caller.client {
             state.clients.advance(client, *revision, Instant::now()).map_err(|highest| {
                 let detail = format!("Revision {revision} is not above {highest}.");
-                Problem::new(Code::StaleRevision, detail).with("highest_revision", highest)
+                Problem::new(Code::StaleRevision, detail).with(|m| m.highest_revision = Some(highest))
             })?;
             state.supersede(client, *revision);
         }
-        if state.queue.len() as u64 >= self.limits.queue {
-            let wait = (state.queue.len() as f64 * state.mean_s).ceil().clamp(1.0, 30.0);
-            let detail = format!("{} generations are waiting already.", state.queue.len());
+        let running = state.running;
+        let lane = state.lane(kind.lane());
+        let waiting = lane.queue.len();
+        if waiting as u64 >= self.limits.queue {
+            let wait = (waiting as f64 * lane.mean_s).ceil().clamp(1.0, 30.0);
+            let detail = format!("{waiting} calls are waiting already.");
             return Err(Problem::new(Code::Busy, detail).retry_after(wait as u64));
         }
-        let job = Arc::new(Job {
-            id: id.clone(),
-            client: caller.client,
-            cancel: Cancel::default(),
-            outbox: Outbox::new(self.limits.buffered_events as usize),
-            seq: AtomicU64::new(0),
-            queue_position: AtomicUsize::new(state.queue.len() + state.running),
-            asked: Instant::now(),
-            began: Mutex::new(None),
-            task: Mutex::new(Some(task)),
-        });
-        state.jobs.insert(id, Arc::clone(&job));
-        state.queue.push_back(Arc::clone(&job));
-        crate::base::metrics::load(state.queue.len(), state.running);
+        let ticket = Arc::new(Ticket::new(id, caller.client, waiting + running));
+        let (ending, work) = make(&ticket);
+        let job = Arc::new(Job::new(kind, ticket, ending, work));
+        lane.queue.push_back(Arc::clone(&job));
+        state.jobs.insert(job.ticket.id.clone(), Arc::clone(&job));
+        state.show();
         drop(state);
-        self.arrived.notify_one();
+        // All: a thread that does not take this lane must not swallow the call.
+        self.arrived.notify_all();
         Ok(Handle { job, pool: Arc::clone(self) })
     }
 
@@ -204,14 +179,14 @@ impl Pool {
         let job = lock(&self.state).jobs.get(id).cloned();
         if let Some(job) = job {
             job.fail(Problem::new(Code::Cancelled, "The job was cancelled."));
-            self.forget_queued(&job);
+            lock(&self.state).forget_queued(&job);
         }
     }
 
     /// True when another call would be queued.
     pub fn has_room(&self) -> bool {
         let state = lock(&self.state);
-        !state.closing && (state.queue.len() as u64) < self.limits.queue
+        !state.closing && (state.long.queue.len() as u64) < self.limits.queue
     }
 
     /// Takes no more jobs.
@@ -225,7 +200,8 @@ impl Pool {
         let jobs: Vec<_> = {
             let mut state = lock(&self.state);
             state.closing = true;
-            state.queue.clear();
+            state.long.queue.clear();
+            state.short.queue.clear();
             state.jobs.values().cloned().collect()
         };
         for job in jobs {
@@ -234,40 +210,46 @@ impl Pool {
         self.arrived.notify_all();
     }
 
-    /// Takes a job that has ended out of the queue, if it still waits there.
-    fn forget_queued(&self, job: &Arc<Job>) {
-        let mut state = lock(&self.state);
-        let before = state.queue.len();
-        state.queue.retain(|queued| !Arc::ptr_eq(queued, job));
-        if state.queue.len() < before {
-            state.jobs.remove(&job.id);
+    /// Works on jobs of these lanes, the first one first, until the pool stops.
+    fn work(&self, lanes: &[Lane]) {
+        while let Some((job, work)) = self.take(lanes) {
+            let began = Instant::now();
+            metrics::work(job.kind.name(), "queue", job.ticket.elapsed().as_secs_f64());
+            if let Some(work) = work.filter(|_| !job.is_over()) {
+                // Work shares caches of plain values only, so they are usable after a panic.
+                if catch_unwind(AssertUnwindSafe(work)).is_err() {
+                    job.fail(Problem::internal(format!("a {} panicked", job.kind.noun())));
+                }
+            }
+            self.finished(&job, began.elapsed());
         }
-        crate::base::metrics::load(state.queue.len(), state.running);
     }
 
     /// The next job to work on; `None` when the pool has stopped.
-    fn take(&self) -> Option<Arc<Job>> {
+    fn take(&self, lanes: &[Lane]) -> Option<(Arc<Job>, Option<Work>)> {
         let mut state = lock(&self.state);
         loop {
             if self.stopped.load(Ordering::Relaxed) {
                 return None;
             }
-            if let Some(job) = state.queue.pop_front() {
+            if let Some(job) = lanes.iter().find_map(|lane| state.lane(*lane).queue.pop_front()) {
                 state.running += 1;
-                *lock(&job.began) = Some(Instant::now());
-                crate::base::metrics::load(state.queue.len(), state.running);
-                return Some(job);
+                state.show();
+                let work = job.begin();
+                return Some((job, work));
             }
             state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
     fn finished(&self, job: &Job, took: Duration) {
+        metrics::work(job.kind.name(), "work", took.as_secs_f64());
         let mut state = lock(&self.state);
         state.running -= 1;
-        state.jobs.remove(&job.id);
-        state.mean_s = 0.8 * state.mean_s + 0.2 * took.as_secs_f64();
-        crate::base::metrics::load(state.queue.len(), state.running);
+        state.jobs.remove(&job.ticket.id);
+        let lane = state.lane(job.kind.lane());
+        lane.mean_s = 0.8 * lane.mean_s + 0.2 * took.as_secs_f64();
+        state.show();
     }
 
     /// Ends jobs that take too long or whose reader has stopped reading.
@@ -277,40 +259,19 @@ impl Pool {
             std::thread::sleep(Duration::from_millis(100));
             let jobs: Vec<_> = lock(&self.state).jobs.values().cloned().collect();
             for job in jobs {
-                let worked = lock(&job.began).map_or(Duration::ZERO, |began| began.elapsed());
-                let limit = if worked > seconds(self.limits.generate_s) {
+                let limit = if job.worked() > seconds(self.limits.generate_s) {
                     self.limits.generate_s
-                } else if job.asked.elapsed() > seconds(self.limits.stream_s) {
+                } else if job.ticket.elapsed() > seconds(self.limits.stream_s) {
                     self.limits.stream_s
-                } else if job.outbox.stalled() > seconds(self.limits.stalled_s) {
+                } else if job.stalled() > seconds(self.limits.stalled_s) {
                     job.fail(Problem::new(Code::Cancelled, "The reader stopped reading."));
                     continue;
                 } else {
                     continue;
                 };
-                let detail = format!("The generation took longer than {limit} s.");
-                job.fail(Problem::new(Code::GenerateTimeout, detail).with("limit", limit));
-                self.forget_queued(&job);
-            }
-        }
-    }
-}
-
-impl State {
-    /// Ends what this client has running or queued.
-    fn supersede(&mut self, client: &str, revision: u64) {
-        let older: Vec<_> = self
-            .jobs
-            .values()
-            .filter(|job| job.client.as_ref().is_some_and(|c| c.0 == client))
-            .cloned()
-            .collect();
-        for job in older {
-            job.end(End::Superseded(revision));
-            let before = self.queue.len();
-            self.queue.retain(|queued| !Arc::ptr_eq(queued, &job));
-            if self.queue.len() < before {
-                self.jobs.remove(&job.id);
+                let detail = format!("The {} took longer than {limit} s.", job.kind.noun());
+                job.fail(Problem::new(Code::GenerateTimeout, detail).limit(limit));
+                lock(&self.state).forget_queued(&job);
             }
         }
     }
@@ -318,23 +279,15 @@ impl State {
 
 /// A reader's hold on its job: dropping it before the end stops the work.
 pub struct Handle {
-    /// The job.
-    pub job: Arc<Job>,
+    job: Arc<Job>,
     pool: Arc<Pool>,
-}
-
-impl Handle {
-    /// The next event; `None` after the last.
-    pub async fn next(&self) -> Option<Message> {
-        self.job.outbox.next().await
-    }
 }
 
 impl Drop for Handle {
     fn drop(&mut self) {
-        if !self.job.outbox.is_closed() {
+        if !self.job.is_over() {
             self.job.fail(Problem::new(Code::Cancelled, "The connection was dropped."));
-            self.pool.forget_queued(&self.job);
+            lock(&self.pool.state).forget_queued(&self.job);
         }
     }
 }

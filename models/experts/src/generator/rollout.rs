@@ -14,7 +14,7 @@ use super::{Generator, KnownMap};
 use crate::features::world::World;
 use crate::request::{
     Accepted, Answer, Cancel, Event, GenerateError, Intermediate, ReachReport, React, Request, Resolved,
-    Timings, Warning,
+    Timings, Warning, WarningCode,
 };
 use scene::{
     AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, MAX_HORIZON_STEPS, STEP_S, Sample, Scene, State,
@@ -398,7 +398,7 @@ impl<'g> Generation<'g> {
                 continue;
             }
             self.warnings.push(Warning {
-                code: "extrapolated".into(),
+                code: WarningCode::Extrapolated,
                 agent: Some(self.request.scene.agents[*i].id.clone()),
                 detail: format!(
                     "Nothing says where it is from {:.1} s on; taken to go straight on at its speed.",
@@ -426,10 +426,11 @@ impl<'g> Generation<'g> {
         }
         for (id, resolved) in &self.resolved {
             if let ReachReport::Unreachable { words, .. } = &resolved.reach {
-                let known = |w: &Warning| w.code == "goal-unreachable" && w.agent.as_ref() == Some(id);
+                let known =
+                    |w: &Warning| w.code == WarningCode::GoalUnreachable && w.agent.as_ref() == Some(id);
                 if !self.warnings.iter().any(known) {
                     let agent = Some(id.clone());
-                    let code = "goal-unreachable".into();
+                    let code = WarningCode::GoalUnreachable;
                     self.warnings.push(Warning { code, agent, detail: words.clone() });
                 }
             }

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Facts about one expert's weights.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct WeightsInfo {
     pub name: String,

@@ -1,20 +1,21 @@
 //! Saved scenes and maps in one SQLite file.
 //!
-//! Write-ahead log, `synchronous=FULL`, one writer thread, a few readers. A write is answered after
-//! its commit, so a reply of success survives a power cut.
+//! Write-ahead log, `synchronous=FULL`, one writer thread, a few reading ones, each with a connection of
+//! its own: nothing else runs on them. A write is answered after its commit, so a reply of success
+//! survives a power cut.
 
 mod migrations;
 mod records;
 
-pub use records::{Expect, MapRecord, SceneRecord, SceneSummary};
+pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
 
 use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
 use rusqlite::{Connection, OpenFlags};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::time::Duration;
-use tokio::sync::{Semaphore, oneshot};
+use tokio::sync::oneshot;
 
 const READERS: usize = 4;
 
@@ -27,6 +28,9 @@ pub enum StoreError {
     /// A stored body cannot be read.
     #[error("stored body: {0}")]
     Body(#[from] std::io::Error),
+    /// The system gives no thread.
+    #[error("no thread for the store: {0}")]
+    Thread(std::io::Error),
     /// Written by a later version of the program.
     #[error("the file has schema {0}, this program knows up to {known}", known = migrations::LATEST)]
     Newer(i64),
@@ -55,7 +59,8 @@ impl From<StoreError> for Problem {
         match error {
             StoreError::Stale { etag, updated_at } => {
                 let detail = "The stored scene is another than the one you read.";
-                Self::new(Code::StaleEtag, detail).with("etag", etag).with("updated_at", updated_at)
+                Self::new(Code::StaleEtag, detail)
+                    .with(|m| (m.etag, m.updated_at) = (Some(etag), Some(updated_at)))
             }
             StoreError::Missing => Self::new(Code::NotFound, "No scene has this id."),
             StoreError::Full(what) => Self::new(Code::StoreFull, what),
@@ -71,14 +76,14 @@ impl From<StoreError> for Problem {
 
 type Work = Box<dyn FnOnce(&mut Connection) + Send>;
 
+type Query = Box<dyn FnOnce(&Connection) + Send>;
+
 /// The store. Cheap to clone.
 #[derive(Clone)]
 pub struct Store {
     writer: mpsc::Sender<Work>,
-    readers: Arc<Mutex<Vec<Connection>>>,
-    places: Arc<Semaphore>,
+    readers: mpsc::Sender<Query>,
     limits: Arc<Limits>,
-    path: PathBuf,
 }
 
 impl Store {
@@ -90,21 +95,19 @@ impl Store {
         let mut connection = Connection::open(path)?;
         prepare(&connection)?;
         migrations::run(&mut connection, path)?;
-        let readers: Result<Vec<_>, _> = (0..READERS).map(|_| open_reader(path)).collect();
         let (writer, work) = mpsc::channel::<Work>();
-        std::thread::spawn(move || {
-            for task in work {
-                task(&mut connection);
-            }
-        });
-        let store = Self {
-            writer,
-            readers: Arc::new(Mutex::new(readers?)),
-            places: Arc::new(Semaphore::new(READERS)),
-            limits: Arc::clone(limits),
-            path: path.to_owned(),
-        };
-        Ok(store)
+        spawn("store-writer".into(), move || work.into_iter().for_each(|task| task(&mut connection)))?;
+        let (readers, queries) = mpsc::channel::<Query>();
+        let queries = Arc::new(Mutex::new(queries));
+        for number in 0..READERS {
+            let (connection, queries) = (open_reader(path)?, Arc::clone(&queries));
+            spawn(format!("store-reader-{number}"), move || {
+                while let Some(query) = next(&queries) {
+                    query(&connection);
+                }
+            })?;
+        }
+        Ok(Self { writer, readers, limits: Arc::clone(limits) })
     }
 
     /// Runs a read on one of the reading connections.
@@ -112,18 +115,14 @@ impl Store {
         &self,
         task: impl FnOnce(&Connection) -> Result<T, StoreError> + Send + 'static,
     ) -> Result<T, StoreError> {
-        let place = Arc::clone(&self.places).acquire_owned().await.map_err(|_| StoreError::Closed)?;
-        let readers = Arc::clone(&self.readers);
-        let path = self.path.clone();
-        let done = tokio::task::spawn_blocking(move || {
-            let _place = place;
-            let lock = || readers.lock().unwrap_or_else(PoisonError::into_inner);
-            let taken = lock().pop();
-            let connection = taken.map_or_else(|| open_reader(&path), Ok)?;
-            let result = task(&connection);
-            lock().push(connection);
-            result
+        let (reply, done) = oneshot::channel();
+        let query: Query = Box::new(move |connection| {
+            // A caller that left does not want the answer any more.
+            if !reply.is_closed() {
+                let _ = reply.send(task(connection));
+            }
         });
+        self.readers.send(query).map_err(|_| StoreError::Closed)?;
         done.await.unwrap_or(Err(StoreError::Closed))
     }
 
@@ -156,6 +155,15 @@ impl Store {
         let probe = self.write(|tx| Ok(tx.query_row("SELECT 1", [], |row| row.get::<_, i64>(0))?));
         matches!(tokio::time::timeout(Duration::from_secs(2), probe).await, Ok(Ok(1)))
     }
+}
+
+/// The next query, for whichever thread comes first; `None` when the store is gone.
+fn next(queries: &Mutex<mpsc::Receiver<Query>>) -> Option<Query> {
+    queries.lock().unwrap_or_else(PoisonError::into_inner).recv().ok()
+}
+
+fn spawn(name: String, run: impl FnOnce() + Send + 'static) -> Result<(), StoreError> {
+    std::thread::Builder::new().name(name).spawn(run).map(drop).map_err(StoreError::Thread)
 }
 
 fn prepare(connection: &Connection) -> Result<(), StoreError> {

@@ -1,9 +1,11 @@
 //! Rows of the store, and the questions asked of it.
 
 use super::{Store, StoreError};
-use crate::base::clock;
+use crate::base::problem::Problem;
+use crate::base::{clock, metrics};
 use rusqlite::{OptionalExtension, Row, Transaction, named_params};
 use scene::ContentHash;
+use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Compression of bodies: beyond this level size hardly falls.
@@ -37,6 +39,39 @@ pub struct SceneRecord {
     pub json: Vec<u8>,
     /// Its map.
     pub map: MapRecord,
+}
+
+impl SceneRecord {
+    /// The row as it is stored, bodies compressed.
+    ///
+    /// # Errors
+    /// When the compressor fails.
+    pub fn packed(self) -> Result<PackedScene, Problem> {
+        let pack = |json: &Vec<u8>| zstd::encode_all(json.as_slice(), LEVEL).map_err(Problem::internal);
+        let (body, map_body) = (pack(&self.json)?, self.map.json.as_ref().map(pack).transpose()?);
+        Ok(PackedScene { record: self, body, map_body })
+    }
+}
+
+/// A scene ready to be written.
+#[derive(Clone, Debug)]
+pub struct PackedScene {
+    record: SceneRecord,
+    body: Vec<u8>,
+    map_body: Option<Vec<u8>>,
+}
+
+/// A map of the store, without its content.
+#[derive(Clone, Debug)]
+pub struct StoredMap {
+    /// Content hash, 64 hex digits.
+    pub sha256: String,
+    /// Size of its JSON.
+    pub bytes: u64,
+    /// Lines and areas.
+    pub polylines: u64,
+    /// Points of them all.
+    pub points: u64,
 }
 
 /// What a write gave.
@@ -125,15 +160,9 @@ impl Store {
     }
 
     /// Writes a scene under an id; checks the precondition in the same transaction.
-    pub async fn put(&self, id: &str, expect: Expect, record: SceneRecord) -> Result<Written, StoreError> {
-        let (id, limits) = (id.to_owned(), std::sync::Arc::clone(&self.limits));
-        let (record, body, map) = tokio::task::spawn_blocking(move || {
-            let body = zstd::encode_all(record.json.as_slice(), LEVEL)?;
-            let map = record.map.json.as_ref().map(|json| zstd::encode_all(json.as_slice(), LEVEL));
-            Ok::<_, StoreError>((record, body, map.transpose()?))
-        })
-        .await
-        .map_err(|_| StoreError::Closed)??;
+    pub async fn put(&self, id: &str, expect: Expect, scene: PackedScene) -> Result<Written, StoreError> {
+        let (id, limits) = (id.to_owned(), Arc::clone(&self.limits));
+        let PackedScene { record, body, map_body } = scene;
         let written = self
             .write(move |tx| {
                 let stored = current(tx, &id)?;
@@ -147,7 +176,7 @@ impl Store {
                 if file_bytes(tx)? >= limits.store_bytes {
                     return Err(StoreError::Full("The file has reached its size.".into()));
                 }
-                keep_map(tx, &record.map, map.as_deref())?;
+                keep_map(tx, &record.map, map_body.as_deref())?;
                 let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
                 let etag = etag(rev, &record.json);
                 save(tx, &id, rev, &etag, &record, &body)?;
@@ -182,14 +211,16 @@ impl Store {
         .await
     }
 
-    /// Hash, stored bytes, lines and points of all maps.
-    pub async fn maps(&self) -> Result<Vec<(String, u64, u64, u64)>, StoreError> {
+    /// All maps without their content.
+    pub async fn maps(&self) -> Result<Vec<StoredMap>, StoreError> {
         self.read(|connection| {
             let mut query =
                 connection.prepare_cached("SELECT sha, bytes, polylines, points FROM maps ORDER BY sha")?;
             let number = |row: &Row<'_>, i| row.get::<_, i64>(i).map(i64::unsigned_abs);
-            let rows = query
-                .query_map([], |row| Ok((row.get(0)?, number(row, 1)?, number(row, 2)?, number(row, 3)?)))?;
+            let rows = query.query_map([], |row| {
+                let (bytes, polylines, points) = (number(row, 1)?, number(row, 2)?, number(row, 3)?);
+                Ok(StoredMap { sha256: row.get(0)?, bytes, polylines, points })
+            })?;
             Ok(rows.collect::<Result<_, _>>()?)
         })
         .await
@@ -209,7 +240,7 @@ impl Store {
     pub async fn measure(&self) -> Result<(), StoreError> {
         self.read(|connection| {
             let scenes: i64 = connection.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
-            crate::base::metrics::store(scenes.unsigned_abs(), file_bytes(connection)?);
+            metrics::store(scenes.unsigned_abs(), file_bytes(connection)?);
             Ok(())
         })
         .await

@@ -1,9 +1,13 @@
-use super::records::{Expect, MapRecord, SceneRecord};
+use super::records::{Expect, MapRecord, PackedScene, SceneRecord};
 use super::{Store, StoreError};
 use crate::base::limits::Limits;
 use std::sync::Arc;
 
-fn record(name: &str) -> SceneRecord {
+fn record(name: &str) -> PackedScene {
+    unpacked(name).packed().unwrap()
+}
+
+fn unpacked(name: &str) -> SceneRecord {
     SceneRecord {
         name: name.into(),
         tags: vec!["t".into()],
@@ -33,7 +37,7 @@ async fn preconditions_guard_every_change() {
     let missing = store.put("b", Expect::Etags(vec!["*".into()]), record("x")).await;
     assert!(matches!(missing, Err(StoreError::Missing)));
     let (summary, json) = store.get("a").await.unwrap().unwrap();
-    assert_eq!((summary.name.as_str(), json), ("two", record("two").json));
+    assert_eq!((summary.name.as_str(), json), ("two", unpacked("two").json));
     store.delete("a", Expect::Etags(vec![second.etag])).await.unwrap();
     assert!(store.get("a").await.unwrap().is_none());
 }

@@ -1,67 +1,56 @@
-//! One worker: takes jobs, drives the generator, turns its events into messages.
+//! One generation: drives the generator, turns its events into messages.
 
-use super::{End, Job, Pool, Task, lock};
+use super::events::{AcceptedBody, DraftBody, FinalBody, GeneratedHead, TimingBody};
+use super::feed::Feed;
+use super::outbox::End;
+use super::{Task, scoring};
 use crate::base::metrics;
 use crate::base::problem::Problem;
-use crate::generation::events::{self, AcceptedBody, DraftBody, FinalBody, TimingBody};
+use crate::work::Kind;
 use experts::{Answer, Draft, Event, GenerateError, Generator};
 use formats::native::SampleDoc;
 use scene::{AgentType, Scene};
 use std::collections::BTreeSet;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-/// Works until the pool stops.
-pub fn work(pool: &Pool, generator: &Generator) {
-    while let Some(job) = pool.take() {
-        let began = Instant::now();
-        let task = lock(&job.task).take();
-        if let Some(task) = task.filter(|_| !job.outbox.is_closed()) {
-            // The generator keeps caches of plain values only, so it is usable after a panic.
-            let run = AssertUnwindSafe(|| generate(&job, generator, task));
-            if catch_unwind(run).is_err() {
-                job.fail(Problem::internal("a generation panicked"));
-            }
+/// Works until the answer is sent, something fails, or the job is stopped.
+pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
+    let fail = |problem: Problem| {
+        if feed.fail(problem) {
+            metrics::ended(Kind::Generate.name(), "error");
         }
-        pool.finished(&job, began.elapsed());
-    }
-}
-
-fn generate(job: &Job, generator: &Generator, task: Task) {
-    let queued = job.asked.elapsed();
+    };
+    let queued = feed.ticket.elapsed();
     metrics::phase("queue", queued.as_secs_f64());
     let scene = Arc::clone(&task.request.scene);
-    let generation = match generator.start(task.request, job.cancel.clone()) {
+    let generation = match generator.start(task.request, feed.ticket.cancel.clone()) {
         Ok(generation) => generation,
-        Err(error) => return job.fail(error.into()),
+        Err(error) => return fail(error.into()),
     };
     for event in generation {
         match event {
             Ok(Event::Accepted(accepted)) => {
-                let position = job.queue_position.load(Ordering::Relaxed);
-                job.send("accepted", AcceptedBody::new(&accepted, position), None);
+                feed.send(AcceptedBody::new(accepted, feed.ticket.queue_position), None);
             }
             Ok(Event::Draft(draft)) => {
                 count(&scene, &draft);
-                let body = DraftBody::new(&draft, task.all_modes);
-                job.send(body.event(), body, None);
+                feed.send(DraftBody::new(&draft, task.all_modes), None);
             }
             Ok(Event::Final(answer)) => {
                 let mut body = final_body(&task.head, &answer, queued);
                 if task.score {
                     add_scores(&mut body, &scene, &answer);
                 }
-                if job.send("final", body, Some(End::Final)) {
-                    metrics::generated("final");
+                if feed.send(body, Some(End::Final)) {
+                    metrics::ended(Kind::Generate.name(), "final");
                 }
                 return;
             }
-            Err(error) => return job.fail(error.into()),
+            Err(error) => return fail(error.into()),
         }
     }
-    job.fail(GenerateError::Expert("the generator ended without an answer".into()).into());
+    fail(GenerateError::Expert("the generator ended without an answer".into()).into());
 }
 
 fn count(scene: &Scene, draft: &Draft) {
@@ -81,7 +70,7 @@ fn expert_of(agent: &scene::Agent) -> &'static str {
     }
 }
 
-fn final_body(head: &events::GeneratedHead, answer: &Answer, queued: Duration) -> FinalBody {
+fn final_body(head: &GeneratedHead, answer: &Answer, queued: Duration) -> FinalBody {
     let t = &answer.timings;
     metrics::phase("encode", t.encode_ms / 1e3);
     metrics::phase("initial", t.initial_ms / 1e3);
@@ -97,18 +86,17 @@ fn final_body(head: &events::GeneratedHead, answer: &Answer, queued: Duration) -
     FinalBody {
         windows: answer.windows,
         samples: answer.samples.iter().map(SampleDoc::from_sample).collect(),
-        resolved: events::resolved(answer),
+        resolved: answer.resolved.clone(),
         scores: None,
         warnings: answer.warnings.clone(),
         timing,
-        generated: head.to_json(),
+        generated: head.clone().dated(),
     }
 }
 
 fn add_scores(body: &mut FinalBody, scene: &Scene, answer: &Answer) {
     let began = Instant::now();
-    let scores: Vec<_> =
-        answer.samples.iter().map(|sample| crate::generation::scoring::sample(scene, sample)).collect();
+    let scores: Vec<_> = answer.samples.iter().map(|sample| scoring::sample(scene, sample)).collect();
     body.timing.score_ms = round(began.elapsed().as_secs_f64() * 1e3);
     body.scores = Some(scores);
 }

@@ -1,7 +1,8 @@
 //! Events on their way from a worker to a reader. The worker never waits: `step` events are dropped
 //! for a slow reader, all others are kept.
 
-use crate::base::problem::Problem;
+use crate::base::metrics;
+use crate::work::Stop;
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -13,10 +14,8 @@ use tokio::sync::Notify;
 pub enum End {
     /// With an answer.
     Final,
-    /// A newer revision of the same client took over.
-    Superseded(u64),
-    /// With a refusal or failure.
-    Problem(Problem),
+    /// Without one.
+    Stopped(Stop),
 }
 
 /// One event, ready to be sent.
@@ -66,7 +65,7 @@ impl Outbox {
             return false;
         }
         if message.event == "step" && inside.waiting.len() >= self.most {
-            crate::base::metrics::dropped_event();
+            metrics::dropped_event();
             return true;
         }
         if inside.waiting.is_empty() {
