@@ -14,5 +14,5 @@ pub mod sumo;
 pub mod womd;
 
 pub use loss::Loss;
-pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning, pointer_token};
+pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning, never_null, pointer_token};
 pub use registry::Format;

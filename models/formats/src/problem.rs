@@ -1,8 +1,9 @@
 //! What can be wrong with outside data, in one shape for every format.
 
 use scene::{Scene, SceneError};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
+use serde_json::Value;
 use std::fmt;
 
 /// Most faults that one refusal lists.
@@ -34,8 +35,42 @@ pub fn pointer_token(text: &str) -> String {
     text.replace('~', "~0").replace('/', "~1")
 }
 
+/// Says in a schema of something written that members which may be absent are never null there: they are
+/// left out instead. For types whose optional members are all skipped when there is none.
+pub fn never_null(schema: &mut Schema) {
+    let required: Vec<String> = schema
+        .get("required")
+        .and_then(Value::as_array)
+        .into_iter()
+        .flatten()
+        .filter_map(|name| name.as_str().map(str::to_owned))
+        .collect();
+    let members = schema.get_mut("properties").and_then(Value::as_object_mut);
+    for (_, member) in members.into_iter().flatten().filter(|(name, _)| !required.contains(name)) {
+        let Some(member) = member.as_object_mut() else { continue };
+        if let Some(Value::Array(types)) = member.get_mut("type") {
+            types.retain(|kind| kind != "null");
+            if let [only] = types.as_slice() {
+                let only = only.clone();
+                member.insert("type".into(), only);
+            }
+        }
+        if let Some(Value::Array(choices)) = member.remove("anyOf") {
+            let mut choices: Vec<Value> = choices.into_iter().filter(|c| c["type"] != "null").collect();
+            match (choices.pop(), choices.is_empty()) {
+                (Some(Value::Object(only)), true) => member.extend(only),
+                (last, _) => {
+                    choices.extend(last);
+                    member.insert("anyOf".into(), choices.into());
+                }
+            }
+        }
+    }
+}
+
 /// One fault and its place.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(transform = never_null)]
 pub struct FieldProblem {
     /// JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter.
     pub pointer: String,

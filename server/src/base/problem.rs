@@ -188,7 +188,7 @@ pub struct Members {
 
 /// RFC 9457 problem. Switch on `code`, which never changes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-#[schemars(rename = "Problem")]
+#[schemars(rename = "Problem", transform = formats::never_null)]
 pub struct ProblemDoc {
     /// Page about the code, relative to this server.
     #[serde(rename = "type")]

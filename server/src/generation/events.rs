@@ -16,6 +16,8 @@ use std::collections::BTreeMap;
 pub trait EventBody {
     /// Values of `event`; the first one, unless the body says otherwise.
     const NAMES: &'static [&'static str];
+    /// What the event says, for the document.
+    const ABOUT: &'static str;
 
     /// Value of `event`.
     fn name(&self) -> &'static str {
@@ -32,7 +34,7 @@ fn names<T: EventBody>(_: &mut SchemaGenerator) -> Schema {
 
 /// What every event carries.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-#[schemars(rename = "{T}Event")]
+#[schemars(rename = "{T}Event", description = T::ABOUT, transform = formats::never_null)]
 pub struct Envelope<'a, T: EventBody> {
     /// What it is.
     #[schemars(schema_with = "names::<T>")]
@@ -232,22 +234,25 @@ impl JsonSchema for Event {
 }
 
 macro_rules! names {
-    ($($body:ident $($name:literal)+;)*) => {$(
+    ($($body:ident $name:literal $about:literal;)*) => {$(
         impl EventBody for $body {
-            const NAMES: &'static [&'static str] = &[$($name),+];
+            const NAMES: &'static [&'static str] = &[$name];
+            const ABOUT: &'static str = $about;
         }
     )*};
 }
 
 names! {
-    AcceptedBody "accepted";
-    FinalBody "final";
-    ErrorBody "error";
-    SupersededBody "superseded";
+    AcceptedBody "accepted" "First event: what will be done.";
+    FinalBody "final" "Last event of a call that succeeded: the answer.";
+    ErrorBody "error" "Last event of a call that failed or was cancelled.";
+    SupersededBody "superseded" "Last event of a call that a newer revision of its client took over.";
 }
 
 impl EventBody for DraftBody {
     const NAMES: &'static [&'static str] = &["initial", "step"];
+    const ABOUT: &'static str = "`initial`: the first guess. `step`: after a refinement step. The futures of a \
+        later window begin where it begins.";
 
     fn name(&self) -> &'static str {
         if self.step.is_some() { "step" } else { "initial" }

@@ -87,6 +87,7 @@ async fn form_of(request: Request) -> Result<Upload, Problem> {
 
 /// One scene of a file.
 #[derive(Debug, Serialize, JsonSchema)]
+#[schemars(transform = formats::never_null)]
 pub struct ImportedScene {
     /// Id it was stored under; not in a dry run.
     #[serde(skip_serializing_if = "Option::is_none")]
