@@ -10,6 +10,7 @@ pub type AgentId = String;
 /// What kind of road user; selects the expert and the motion model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum AgentType {
     /// Anything with an engine on a lane: cars, trucks, buses, motorcycles.
     Vehicle,
@@ -18,6 +19,7 @@ pub enum AgentType {
     /// A person on a bicycle or kick-scooter.
     Cyclist,
     /// Shown, never regenerated.
+    #[cfg_attr(feature = "cli", value(skip))]
     Other,
 }
 
