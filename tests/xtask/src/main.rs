@@ -32,7 +32,7 @@ const CHECKS: &[Check] = &[
     ("schema", || drift("schema", "assets/schema/scene.v1.schema.json")),
     ("domain", || drift("domain", "assets/domain.json")),
     ("machete", || tool("machete", &["machete"])),
-    ("deny", || tool("deny", &["deny", "--offline", "check", "licenses", "bans", "sources"])),
+    ("deny", || tool("deny", &["deny", "check", "licenses", "bans", "sources"])),
     ("browser", browser),
 ];
 
