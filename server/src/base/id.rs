@@ -19,17 +19,17 @@ pub fn cleaned(text: &str) -> String {
 }
 
 /// A new id that nothing else has.
-pub fn new() -> String {
+pub fn fresh() -> String {
     uuid::Uuid::now_v7().to_string()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{cleaned, is_id, new};
+    use super::{cleaned, fresh, is_id};
 
     #[test]
     fn ids_are_short_and_plain() {
-        assert!(is_id("a") && is_id("A_z-09") && is_id(&new()));
+        assert!(is_id("a") && is_id("A_z-09") && is_id(&fresh()));
         for bad in ["", "a b", "a/b", "ä", ".."] {
             assert!(!is_id(bad), "{bad}");
         }

@@ -2,6 +2,7 @@
 
 pub mod cache;
 pub mod clock;
+pub mod code;
 pub mod domain;
 pub mod id;
 pub mod limits;

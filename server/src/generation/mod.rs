@@ -43,14 +43,11 @@ pub fn submit(
 ) -> Result<Reader, Problem> {
     let generator = Arc::clone(generator);
     let most = limits.buffered_events as usize;
-    let mut kept = None;
-    let handle = pool.submit(Kind::Generate, caller, |ticket| {
+    let (feed, handle) = pool.submit(Kind::Generate, caller, |ticket| {
         let feed = Arc::new(Feed::new(Arc::clone(ticket), most));
-        kept = Some(Arc::clone(&feed));
         let fed = Arc::clone(&feed);
         let work: Work = Box::new(move || run::generate(&fed, &generator, task));
         (feed, work)
     })?;
-    let feed = kept.ok_or_else(|| Problem::internal("a generation was queued without its feed"))?;
     Ok(Reader::new(feed, handle))
 }

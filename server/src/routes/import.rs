@@ -221,7 +221,7 @@ impl Order {
             let name = scene.name.clone();
             let doc = self.dry_run.then(|| SceneDoc::from_scene(&scene, MapForm::Inline));
             if !self.dry_run {
-                let id = id::new();
+                let id = id::fresh();
                 let row = record::of_scene(scene, &id)?.packed()?;
                 rows.push((id, row));
             }

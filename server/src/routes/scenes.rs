@@ -185,7 +185,7 @@ refusals!(Uncreated: CHANGES BODY SCENE WORK, Exists, StoreFull);
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
     responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncreated))]
 pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Problem> {
-    let id = id::new();
+    let id = id::fresh();
     let scene = app.catalog.scene_of(doc).await?;
     let written = app.catalog.save(&id, Expect::Absent, scene).await?;
     Ok(saved(StatusCode::CREATED, id, written.etag))
@@ -329,7 +329,7 @@ pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> 
     let mut scene = (*opened.scene).clone();
     scene.name = options.name.unwrap_or_else(|| format!("{} copy", scene.name));
     scene.meta.parent_id = Some(id);
-    let copy = id::new();
+    let copy = id::fresh();
     let written = app.catalog.save(&copy, Expect::Absent, scene).await?;
     Ok(saved(StatusCode::CREATED, copy, written.etag))
 }

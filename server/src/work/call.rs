@@ -54,7 +54,7 @@ impl Pool {
     ) -> Result<T, Problem> {
         let (sender, receiver) = oneshot::channel();
         let answer = Arc::new(Answer(Mutex::new(Some(sender))));
-        let _hold = self.submit(kind, Caller::default(), |ticket| {
+        let (_, _hold) = self.submit(kind, Caller::default(), |ticket| {
             let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
             let work = move || {
                 let result = work(&ticket.cancel);
@@ -63,7 +63,7 @@ impl Pool {
                     metrics::ended(kind.name(), outcome);
                 }
             };
-            (Arc::clone(&answer), Box::new(work))
+            (answer, Box::new(work))
         })?;
         receiver.await.unwrap_or_else(|_| Err(Problem::internal("a call ended without its answer")))
     }

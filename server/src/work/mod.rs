@@ -138,12 +138,14 @@ impl Pool {
         kind: Kind,
         caller: Caller,
         make: impl FnOnce(&Arc<Ticket>) -> (Arc<E>, Work),
-    ) -> Result<Handle, Problem> {
+    ) -> Result<(Arc<E>, Handle), Problem> {
         let mut state = lock(&self.state);
-        if state.closing {
+        // Documents of calls that are under way are still read and written while the server closes.
+        let refused = state.closing && kind.lane() == Lane::Long;
+        if refused || self.stopped.load(Ordering::Relaxed) {
             return Err(Problem::new(Code::ShuttingDown, "The server is about to stop.").retry_after(5));
         }
-        let id = caller.job.unwrap_or_else(id::new);
+        let id = caller.job.unwrap_or_else(id::fresh);
         if state.jobs.contains_key(&id) {
             return Err(Problem::new(Code::Exists, "A job with this id is under way."));
         }
@@ -164,14 +166,14 @@ impl Pool {
         }
         let ticket = Arc::new(Ticket::new(id, caller.client, waiting + running));
         let (ending, work) = make(&ticket);
-        let job = Arc::new(Job::new(kind, ticket, ending, work));
+        let job = Arc::new(Job::new(kind, ticket, Arc::clone(&ending) as Arc<dyn Ending>, work));
         lane.queue.push_back(Arc::clone(&job));
         state.jobs.insert(job.ticket.id.clone(), Arc::clone(&job));
         state.show();
         drop(state);
         // All: a thread that does not take this lane must not swallow the call.
         self.arrived.notify_all();
-        Ok(Handle { job, pool: Arc::clone(self) })
+        Ok((ending, Handle { job, pool: Arc::clone(self) }))
     }
 
     /// Cancels a job by its id; unknown ids are nothing to do.
@@ -189,7 +191,7 @@ impl Pool {
         !state.closing && (state.long.queue.len() as u64) < self.limits.queue
     }
 
-    /// Takes no more jobs.
+    /// Takes no more long work.
     pub fn close(&self) {
         lock(&self.state).closing = true;
     }

@@ -49,7 +49,8 @@ impl SceneRecord {
     pub fn packed(self) -> Result<PackedScene, Problem> {
         let pack = |json: &Vec<u8>| zstd::encode_all(json.as_slice(), LEVEL).map_err(Problem::internal);
         let (body, map_body) = (pack(&self.json)?, self.map.json.as_ref().map(pack).transpose()?);
-        Ok(PackedScene { record: self, body, map_body })
+        let tags = serde_json::to_string(&self.tags).map_err(Problem::internal)?;
+        Ok(PackedScene { record: self, tags, body, map_body })
     }
 }
 
@@ -57,6 +58,8 @@ impl SceneRecord {
 #[derive(Clone, Debug)]
 pub struct PackedScene {
     record: SceneRecord,
+    /// JSON array.
+    tags: String,
     body: Vec<u8>,
     map_body: Option<Vec<u8>>,
 }
@@ -162,7 +165,7 @@ impl Store {
     /// Writes a scene under an id; checks the precondition in the same transaction.
     pub async fn put(&self, id: &str, expect: Expect, scene: PackedScene) -> Result<Written, StoreError> {
         let (id, limits) = (id.to_owned(), Arc::clone(&self.limits));
-        let PackedScene { record, body, map_body } = scene;
+        let PackedScene { record, tags, body, map_body } = scene;
         let written = self
             .write(move |tx| {
                 let stored = current(tx, &id)?;
@@ -179,7 +182,7 @@ impl Store {
                 keep_map(tx, &record.map, map_body.as_deref())?;
                 let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
                 let etag = etag(rev, &record.json);
-                save(tx, &id, rev, &etag, &record, &body)?;
+                save(tx, (&id, rev, &etag), &record, &tags, &body)?;
                 Ok(Written { etag, created: stored.is_none() })
             })
             .await?;
@@ -295,17 +298,15 @@ fn keep_map(tx: &Transaction<'_>, map: &MapRecord, packed: Option<&[u8]>) -> Res
 
 fn save(
     tx: &Transaction<'_>,
-    id: &str,
-    rev: i64,
-    etag: &str,
+    (id, rev, etag): (&str, i64, &str),
     record: &SceneRecord,
+    tags: &str,
     body: &[u8],
 ) -> Result<(), StoreError> {
     let sql = "INSERT INTO scenes (id, rev, etag, name, tags, parent_id, map_sha, meta, body, created_at, updated_at)
         VALUES (:id, :rev, :etag, :name, :tags, :parent, :map, :meta, :body, :now, :now)
         ON CONFLICT (id) DO UPDATE SET rev = :rev, etag = :etag, name = :name, tags = :tags,
             parent_id = :parent, map_sha = :map, meta = :meta, body = :body, updated_at = :now";
-    let tags = serde_json::to_string(&record.tags).unwrap_or_else(|_| "[]".into());
     tx.execute(
         sql,
         named_params! {
