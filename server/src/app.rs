@@ -1,18 +1,13 @@
-//! What every handler can reach, and the table of routes.
+//! What every handler can reach.
 
-use crate::catalog::MapCache;
-use crate::guard::Guard;
-use crate::jobs::Pool;
-use crate::library::Library;
-use crate::limits::Limits;
-use crate::problem::Problem;
-use crate::store::Store;
-use crate::{embed, observe, routes};
-use axum::Router;
-use axum::response::{IntoResponse, Response};
+use crate::base::limits::Limits;
+use crate::http::body::Reading;
+use crate::http::observe::Gate;
+use crate::scenes::Catalog;
+use crate::work::Pool;
+use axum::extract::FromRef;
 use experts::{Generator, Placer};
 use metrics_exporter_prometheus::PrometheusHandle;
-use std::any::Any;
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -26,19 +21,15 @@ pub struct Inside {
     /// Bounds.
     pub limits: Arc<Limits>,
     /// Who may talk to the server.
-    pub guard: Guard,
-    /// Saved scenes.
-    pub store: Store,
-    /// Read-only scenes.
-    pub library: Library,
-    /// Maps in memory.
-    pub maps: MapCache,
-    /// Generations.
+    pub gate: Gate,
+    /// Scenes and maps, wherever they are.
+    pub catalog: Catalog,
+    /// All CPU work.
     pub pool: Arc<Pool>,
     /// Experts.
     pub generator: Arc<Generator>,
     /// Placement.
-    pub placer: Placer,
+    pub placer: Arc<Placer>,
     /// Experts are warm.
     pub warm: AtomicBool,
     /// Counters.
@@ -62,21 +53,8 @@ impl Deref for App {
     }
 }
 
-/// All routes with their layers.
-pub fn router(app: &App) -> Router {
-    let (router, _) = routes::all().split_for_parts();
-    router
-        .merge(routes::pages())
-        .fallback(embed::fallback)
-        // Bodies are bounded by `body`, with limits of their own.
-        .layer(axum::extract::DefaultBodyLimit::disable())
-        .layer(tower_http::catch_panic::CatchPanicLayer::custom(panicked))
-        .layer(axum::middleware::from_fn_with_state(app.clone(), observe::observe))
-        .with_state(app.clone())
-}
-
-fn panicked(cause: Box<dyn Any + Send>) -> Response {
-    let text = cause.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| cause.downcast_ref::<&str>().copied()).unwrap_or("no message");
-    Problem::internal(format!("panic: {text}")).into_response()
+impl FromRef<App> for Reading {
+    fn from_ref(app: &App) -> Self {
+        Self { limits: Arc::clone(&app.limits), pool: Arc::clone(&app.pool) }
+    }
 }

@@ -3,26 +3,13 @@
 //! `dragtraffic` alone serves the editor; `dragtraffic --help` lists the rest.
 
 mod app;
-mod body;
-mod catalog;
+mod base;
 mod cli;
-mod clock;
-mod embed;
-mod events;
-mod guard;
-mod jobs;
-mod library;
-mod limits;
-mod metrics;
-mod net;
-mod observe;
-mod openapi;
-mod problem;
+mod generation;
+mod http;
 mod routes;
-mod scoring;
-mod store;
-mod stream;
-mod transfer;
+mod scenes;
+mod work;
 
 use std::process::ExitCode;
 

@@ -1,5 +1,6 @@
 //! A plain HTTP/1.1 client that can also send what a good client never would.
 
+use crate::contract::{Promise, promise};
 use anyhow::{Context, bail};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Write};
@@ -98,13 +99,17 @@ impl Request {
         Ok(stream)
     }
 
-    /// Sends the request and reads the reply.
+    /// Sends the request and reads the reply, which must be one that the API's document promises.
     ///
     /// # Errors
     /// When no reply can be read.
     pub fn send(&self, address: SocketAddr) -> anyhow::Result<Reply> {
         let stream = self.open(address)?;
-        Reply::read(&mut BufReader::new(stream), self.method == "HEAD")
+        let reply = Reply::read(&mut BufReader::new(stream), self.method == "HEAD")?;
+        if let Some(promise) = promise(&self.method, &self.path) {
+            promise.check(&reply);
+        }
+        Ok(reply)
     }
 
     /// Sends the request and gives the reply's head and a reader of its body's lines.
@@ -114,7 +119,9 @@ impl Request {
     pub fn stream(&self, address: SocketAddr) -> anyhow::Result<(Reply, Lines)> {
         let mut reader = BufReader::new(self.open(address)?);
         let head = Reply::head(&mut reader)?;
-        Ok((head, Lines { reader, rest: Vec::new(), ended: false }))
+        let is_events = head.header("content-type") == "application/x-ndjson";
+        let promise = promise(&self.method, &self.path).filter(|_| is_events);
+        Ok((head, Lines { reader, rest: Vec::new(), ended: false, promise }))
     }
 }
 
@@ -206,6 +213,8 @@ pub struct Lines {
     reader: BufReader<TcpStream>,
     rest: Vec<u8>,
     ended: bool,
+    /// What each line must be.
+    promise: Option<Promise>,
 }
 
 impl Iterator for Lines {
@@ -215,7 +224,11 @@ impl Iterator for Lines {
         loop {
             if let Some(at) = self.rest.iter().position(|b| *b == b'\n') {
                 let line: Vec<u8> = self.rest.drain(..=at).collect();
-                return Some(String::from_utf8_lossy(&line).trim_end().to_owned());
+                let line = String::from_utf8_lossy(&line).trim_end().to_owned();
+                if let Some(promise) = &self.promise {
+                    promise.check_event(&line);
+                }
+                return Some(line);
             }
             if self.ended {
                 return None;

@@ -422,3 +422,29 @@ fn every_malformed_request_is_refused_with_its_code() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
     assert!(cases.len() >= 45);
 }
+
+#[test]
+fn faults_of_a_scene_are_named_by_their_place_in_the_body() {
+    let server = Server::start(&[]).unwrap();
+    let mut scene = street(1, 5);
+    scene["agents"][0]["length_m"] = json!(-1.0);
+    for path in ["/v1/generate", "/v1/place", "/v1/score"] {
+        let reply = server.post(path, &json!({ "scene": scene })).unwrap();
+        assert_eq!(reply.status, 422, "{path}: {}", reply.text());
+        assert_eq!(reply.json()["errors"][0]["pointer"], "/scene/agents/0/length_m", "{path}");
+    }
+}
+
+#[test]
+fn every_call_about_a_scene_can_name_its_version() {
+    let server = Server::start(&[]).unwrap();
+    let kept = Request::new("PUT", "/v1/scenes/kept").header("if-none-match", "*").json(&street(2, 20));
+    let etag = server.send(&kept).unwrap().header("etag").to_owned();
+    for path in ["/v1/generate", "/v1/place", "/v1/score"] {
+        let known = server.post(path, &json!({"scene_id": "kept", "etag": etag})).unwrap();
+        assert_eq!(known.status, 200, "{path}: {}", known.text());
+        let stale = server.post(path, &json!({"scene_id": "kept", "etag": "\"0-0\""})).unwrap();
+        assert_eq!((stale.status, stale.code().as_str()), (412, "stale-etag"), "{path}");
+        assert_eq!(stale.json()["etag"], etag, "{path}");
+    }
+}

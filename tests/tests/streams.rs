@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a failed test panics")]
 
-use dragtraffic_tests::scenes::generate;
+use dragtraffic_tests::scenes::{generate, street};
 use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -202,6 +202,44 @@ fn a_full_queue_says_when_to_come_back() {
     let refused = server.post("/v1/generate", &long("c", 1)).unwrap();
     assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
     assert!((1..=30).contains(&refused.header("retry-after").parse::<u32>().unwrap()));
+    drop((waiting, running));
+}
+
+#[test]
+fn all_work_waits_in_the_same_queue() {
+    let server = Server::start(&["--limit", "queue=0"]).unwrap();
+    let scene = street(2, 20);
+    let calls = [
+        ("/v1/generate", generate(1)),
+        ("/v1/place", json!({"scene": scene, "density": {"count": 3}})),
+        ("/v1/score", json!({ "scene": scene })),
+        ("/v1/export?format=womd", scene.clone()),
+        ("/v1/import?dry_run=true", scene.clone()),
+        // Large enough not to be read on the spot.
+        ("/v1/scenes", street(40, 91)),
+    ];
+    for (path, body) in &calls {
+        let reply = server.post(path, body).unwrap();
+        assert_eq!((reply.status, reply.code().as_str()), (503, "busy"), "{path}: {}", reply.text());
+        assert!(reply.header("retry-after").parse::<u32>().is_ok(), "{path}");
+    }
+    assert_eq!(server.post("/v1/scenes", &scene).unwrap().status, 201, "little ones need no worker");
+}
+
+#[test]
+fn scenes_are_saved_while_all_workers_are_busy() {
+    let server = Server::start(&["--limit", "running=1", "--limit", "queue=1"]).unwrap();
+    let (_, mut running) = ask(&long("a", 1), "application/x-ndjson").stream(server.address).unwrap();
+    assert!(running.next().is_some());
+    let waiting = ask(&long("b", 1), "application/x-ndjson").open(server.address).unwrap();
+    while server.metric("dragtraffic_queue_length").unwrap() < 1.0 {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let saved = server.post("/v1/scenes", &street(40, 91)).unwrap();
+    assert_eq!(saved.status, 201, "{}", saved.text());
+    assert_eq!(server.get(saved.header("location")).unwrap().status, 200);
+    let refused = server.post("/v1/place", &json!({"scene": street(2, 20)})).unwrap();
+    assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
     drop((waiting, running));
 }
 

@@ -20,8 +20,9 @@ pub use maps::Maps;
 pub use placement::Placer;
 pub use planning::world::Planning;
 pub use request::{
-    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, NearestState, ReachReport,
-    React, Refining, Request, Resolved, Shown, Source, Stages, Timings, Warning,
+    Accepted, Answer, Cancel, Draft, Event, Field, GenerateError, Intermediate, Limiting, NearestState,
+    ReachReport, React, Refining, Request, Resolved, ResolvedGoal, ResolvedStart, Shown, Source, Stages,
+    Timings, Warning, WarningCode,
 };
 pub use tuning::Tuning;
 pub use weights::{WeightsError, WeightsInfo};

@@ -3,6 +3,7 @@
 use crate::net::schedule;
 use crate::planning::world::Planning;
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -116,6 +117,33 @@ pub enum Shown {
     Drawn,
 }
 
+/// What a request has when it does not say: the one place, for the API, the command line and clients.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Defaults {
+    /// Refinement steps.
+    pub steps: usize,
+    /// Alternatives kept per road user.
+    pub modes: usize,
+    /// Independent joint scenes.
+    pub samples: usize,
+    /// Scale of the draw's noise.
+    pub diversity: f64,
+    /// Seconds to generate.
+    pub horizon_s: f64,
+    /// Repeats the answer.
+    pub seed: u64,
+}
+
+/// The defaults in force.
+pub const DEFAULTS: Defaults = Defaults {
+    steps: schedule::STEPS,
+    modes: crate::planning::MODES,
+    samples: 1,
+    diversity: 0.5,
+    horizon_s: scene::HORIZON_STEPS as f64 * scene::STEP_S,
+    seed: 0,
+};
+
 impl Request {
     /// The defaults of `POST /v1/generate` for a scene.
     pub fn new(scene: Arc<Scene>) -> Self {
@@ -126,11 +154,11 @@ impl Request {
             start_step: 0,
             horizon_steps: scene::HORIZON_STEPS,
             replan_steps: None,
-            seed: 0,
-            samples: 1,
-            modes: 6,
-            diversity: 0.5,
-            steps: 5,
+            seed: DEFAULTS.seed,
+            samples: DEFAULTS.samples,
+            modes: DEFAULTS.modes,
+            diversity: DEFAULTS.diversity,
+            steps: DEFAULTS.steps,
             stream_all: false,
             pinned: BTreeMap::new(),
             stages: Stages::default(),
@@ -139,7 +167,7 @@ impl Request {
 }
 
 /// Where the value of a field came from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
     /// Fixed by the user.
@@ -153,7 +181,7 @@ pub enum Source {
 }
 
 /// A value and where it came from.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Field {
     /// In the unit of the field's name.
     pub value: f64,
@@ -161,8 +189,38 @@ pub struct Field {
     pub from: Source,
 }
 
-/// Whether a goal was met, and what would have been needed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The limit of motion that binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Limiting {
+    /// Speeding up, m/s2.
+    Acceleration,
+    /// Slowing down, m/s2.
+    Braking,
+    /// Top speed, m/s.
+    Speed,
+    /// Sideways acceleration, m/s2.
+    Lateral,
+    /// Tightness of a turn, 1/m.
+    Curvature,
+}
+
+impl From<scene::motion::Limiting> for Limiting {
+    fn from(limiting: scene::motion::Limiting) -> Self {
+        match limiting {
+            scene::motion::Limiting::Acceleration => Self::Acceleration,
+            scene::motion::Limiting::Braking => Self::Braking,
+            scene::motion::Limiting::Speed => Self::Speed,
+            scene::motion::Limiting::Lateral => Self::Lateral,
+            scene::motion::Limiting::Curvature => Self::Curvature,
+        }
+    }
+}
+
+/// Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and
+/// what it would take.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Reach")]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum ReachReport {
     /// Nothing was asked, or all fixed fields are met.
@@ -178,8 +236,8 @@ pub enum ReachReport {
     Unreachable {
         /// State at the goal time that comes nearest.
         nearest: NearestState,
-        /// Limit that binds: `acceleration`, `braking`, `lateral`, `curvature`, `speed`.
-        limiting: String,
+        /// Limit that binds.
+        limiting: Limiting,
         /// What it would take, in that limit's unit, when it can be told.
         needs: Option<f64>,
         /// One sentence for people.
@@ -188,7 +246,7 @@ pub enum ReachReport {
 }
 
 /// A pose and speed, scene frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct NearestState {
     pub x_m: f64,
@@ -206,7 +264,7 @@ impl NearestState {
 
 /// Where a window sent a road user whose goal is due after the window's end: the state there on the
 /// way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Intermediate {
     /// Planning window, from 0.
     pub window: usize,
@@ -219,14 +277,42 @@ pub struct Intermediate {
     pub reached: bool,
 }
 
+/// The start of a road user as it was used.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct ResolvedStart {
+    pub x_m: Field,
+    pub y_m: Field,
+    pub heading_rad: Field,
+    pub speed_mps: Field,
+}
+
+/// The goal of a road user as it was used, in the scene frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct ResolvedGoal {
+    pub x_m: Field,
+    pub y_m: Field,
+    pub heading_rad: Field,
+    pub speed_mps: Field,
+    /// Scene time at which it is due.
+    pub time_s: Field,
+}
+
 /// Every condition field of one road user as it was used.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolved {
     /// Expert that ran.
     #[serde(rename = "type")]
     pub agent_type: AgentType,
-    /// `start.x_m`, `goal.speed_mps`, `length_m` and so on.
-    pub fields: BTreeMap<String, Field>,
+    /// Along the heading.
+    pub length_m: Field,
+    /// Across the heading.
+    pub width_m: Field,
+    /// Where it begins.
+    pub start: ResolvedStart,
+    /// Where it goes.
+    pub goal: ResolvedGoal,
     /// Verdict on the goal.
     pub reach: ReachReport,
     /// One entry for each window that ended its plan before the goal was due.
@@ -234,11 +320,46 @@ pub struct Resolved {
     pub intermediate: Vec<Intermediate>,
 }
 
+/// What is unlikely.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum WarningCode {
+    /// No future within the limits meets the goal.
+    GoalUnreachable,
+    /// No lane is near the goal.
+    GoalOffRoad,
+    /// No lane is near the start.
+    StartOffRoad,
+    /// The start is in another road user's place.
+    StartOverlaps,
+    /// A log that ends was carried on.
+    Extrapolated,
+}
+
+impl WarningCode {
+    /// The word on the wire.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::GoalUnreachable => "goal-unreachable",
+            Self::GoalOffRoad => "goal-off-road",
+            Self::StartOffRoad => "start-off-road",
+            Self::StartOverlaps => "start-overlaps",
+            Self::Extrapolated => "extrapolated",
+        }
+    }
+}
+
+impl std::fmt::Display for WarningCode {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 /// Something unlikely that was done anyway.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Warning {
-    /// `goal-unreachable`, `start-off-road`, `start-overlaps`, `goal-off-road`, `extrapolated`.
-    pub code: String,
+    /// A word that programs can switch on.
+    pub code: WarningCode,
     /// Whom it concerns.
     pub agent: Option<AgentId>,
     /// One sentence.
@@ -246,15 +367,21 @@ pub struct Warning {
 }
 
 /// First event: what will be done.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[allow(missing_docs, reason = "the names say it")]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Accepted {
+    /// The seed in use.
     pub seed: u64,
+    /// Road users that get new futures.
     pub regenerated: Vec<AgentId>,
+    /// Road users that answer to them.
     pub reacting: Vec<AgentId>,
+    /// Road users that keep their motion.
     pub fixed: Vec<AgentId>,
+    /// Refinement steps of a window.
     pub steps: usize,
+    /// Planning windows, one after the other.
     pub windows: usize,
+    /// Unlikely things known by now.
     pub warnings: Vec<Warning>,
 }
 

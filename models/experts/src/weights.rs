@@ -24,7 +24,7 @@ pub struct WeightsError {
 }
 
 /// Facts about one expert's weights.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug, serde::Serialize, schemars::JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct WeightsInfo {
     pub name: String,

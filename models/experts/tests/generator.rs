@@ -1,7 +1,7 @@
 //! The generator's promises, with random weights: they hold whatever the networks say.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
-use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request};
+use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request, WarningCode};
 use scene::map::{Lane, LaneMap};
 use scene::motion::{MotionModel, MotionState, limit_excess};
 use scene::{Agent, AgentType, Future, Goal, Scene, State, Subtype, Vec2};
@@ -180,7 +180,7 @@ fn what_cannot_be_reached_is_said_with_the_nearest_state() {
     };
     assert!(words.starts_with("Too far for 4.0 s"), "{words}");
     assert!(nearest.x_m > -20.0 && nearest.x_m < 40.0);
-    assert!(answer.warnings.iter().any(|w| w.code == "goal-unreachable"));
+    assert!(answer.warnings.iter().any(|w| w.code == WarningCode::GoalUnreachable));
 }
 
 #[test]

@@ -8,7 +8,8 @@ use serde::Serialize;
 use std::io;
 
 /// What people and programs need to know about a format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]
+#[schemars(rename = "FormatInfo")]
 pub struct Info {
     /// Word for `--from`, `--to` and `?format=`.
     pub id: &'static str,

@@ -16,4 +16,4 @@ pub mod womd;
 
 pub use format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER};
 pub use loss::Loss;
-pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning};
+pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning, never_null, pointer_token};

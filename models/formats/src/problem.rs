@@ -1,13 +1,15 @@
 //! What can be wrong with outside data, in one shape for every format.
 
 use scene::{Scene, SceneError};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
+use serde_json::Value;
 use std::fmt;
 
 /// Most faults that one refusal lists.
 pub const MAX_PROBLEMS: usize = 32;
 
-/// The codes of `api.md` section 8 that a reader can give. They never change.
+/// The codes that a reader can give. Programs switch on them, so they never change.
 pub mod code {
     #![allow(missing_docs, reason = "the names say it")]
     pub const MALFORMED_JSON: &str = "malformed-json";
@@ -28,12 +30,51 @@ pub mod code {
     pub const CANNOT_REPRESENT: &str = "cannot-represent";
 }
 
+/// Text as one token of a JSON pointer (RFC 6901): `~` and `/` are escaped.
+pub fn pointer_token(text: &str) -> String {
+    text.replace('~', "~0").replace('/', "~1")
+}
+
+/// Says in a schema of something written that members which may be absent are never null there: they are
+/// left out instead. For types whose optional members are all skipped when there is none.
+pub fn never_null(schema: &mut Schema) {
+    let required: Vec<String> = schema
+        .get("required")
+        .and_then(Value::as_array)
+        .into_iter()
+        .flatten()
+        .filter_map(|name| name.as_str().map(str::to_owned))
+        .collect();
+    let members = schema.get_mut("properties").and_then(Value::as_object_mut);
+    for (_, member) in members.into_iter().flatten().filter(|(name, _)| !required.contains(name)) {
+        let Some(member) = member.as_object_mut() else { continue };
+        if let Some(Value::Array(types)) = member.get_mut("type") {
+            types.retain(|kind| kind != "null");
+            if let [only] = types.as_slice() {
+                let only = only.clone();
+                member.insert("type".into(), only);
+            }
+        }
+        if let Some(Value::Array(choices)) = member.remove("anyOf") {
+            let mut choices: Vec<Value> = choices.into_iter().filter(|c| c["type"] != "null").collect();
+            match (choices.pop(), choices.is_empty()) {
+                (Some(Value::Object(only)), true) => member.extend(only),
+                (last, _) => {
+                    choices.extend(last);
+                    member.insert("anyOf".into(), choices.into());
+                }
+            }
+        }
+    }
+}
+
 /// One fault and its place.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(transform = never_null)]
 pub struct FieldProblem {
-    /// JSON pointer into the document; empty for the whole of it.
+    /// JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter.
     pub pointer: String,
-    /// One of [`code`].
+    /// A word that programs can switch on.
     pub code: &'static str,
     /// What was found and what was expected, for people.
     pub detail: String,
@@ -180,7 +221,8 @@ impl fmt::Display for ReadError {
 impl std::error::Error for ReadError {}
 
 /// Something a reader changed or left out without refusing.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "ImportWarning")]
 pub struct Warning {
     /// A word that programs can switch on.
     pub code: &'static str,

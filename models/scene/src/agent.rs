@@ -1,14 +1,16 @@
 //! Road users: type, size, recorded track, conditions.
 
 use crate::{Conditions, Vec2, wrap_angle};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Identifier of a road user, unique in a scene, `[A-Za-z0-9_.:-]{1,64}`.
 pub type AgentId = String;
 
 /// What kind of road user; selects the expert and the motion model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum AgentType {
     /// Anything with an engine on a lane: cars, trucks, buses, motorcycles.
     Vehicle,
@@ -17,6 +19,7 @@ pub enum AgentType {
     /// A person on a bicycle or kick-scooter.
     Cyclist,
     /// Shown, never regenerated.
+    #[cfg_attr(feature = "cli", value(skip))]
     Other,
 }
 

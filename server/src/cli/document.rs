@@ -1,20 +1,14 @@
-//! `dragtraffic openapi`, `schema` and `info`.
+//! `dragtraffic openapi`, `schema`, `domain` and `info`.
 
 use super::{Common, Exit, Failure, output};
+use crate::base::limits::Limits;
+use crate::routes::info::Info;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Flags of `openapi`.
+/// Flags of `openapi`, `schema` and `domain`.
 #[derive(Args, Clone, Debug)]
-pub struct OpenapiArgs {
-    /// Compare with this file and exit 1 on a difference.
-    #[arg(long, value_name = "FILE")]
-    check: Option<PathBuf>,
-}
-
-/// Flags of `schema`.
-#[derive(Args, Clone, Debug)]
-pub struct SchemaArgs {
+pub struct CheckArgs {
     /// Compare with this file and exit 1 on a difference.
     #[arg(long, value_name = "FILE")]
     check: Option<PathBuf>,
@@ -24,18 +18,26 @@ pub struct SchemaArgs {
 ///
 /// # Errors
 /// Exit 1 on a difference.
-pub fn openapi(args: OpenapiArgs) -> Result<(), Failure> {
-    show(&crate::openapi::text(), args.check.as_deref(), "openapi")
+pub fn openapi(args: CheckArgs) -> Result<(), Failure> {
+    show(&crate::routes::openapi::text(), args.check.as_deref(), "openapi")
 }
 
 /// Prints or checks the scene's JSON Schema.
 ///
 /// # Errors
 /// Exit 1 on a difference.
-pub fn schema(args: SchemaArgs) -> Result<(), Failure> {
+pub fn schema(args: CheckArgs) -> Result<(), Failure> {
     let mut text = serde_json::to_string_pretty(&formats::native::schema()).unwrap_or_default();
     text.push('\n');
     show(&text, args.check.as_deref(), "schema")
+}
+
+/// Prints or checks motion limits, ranges of conditions and defaults of requests.
+///
+/// # Errors
+/// Exit 1 on a difference.
+pub fn domain(args: CheckArgs) -> Result<(), Failure> {
+    show(&crate::base::domain::text(), args.check.as_deref(), "domain")
 }
 
 fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> {
@@ -54,7 +56,7 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
 /// Exit 7 without weights.
 pub fn info(common: &Common) -> Result<(), Failure> {
     let experts::Engine { generator, placer } = super::engine(common)?;
-    let info = crate::routes::info::document(&generator, &placer, &crate::limits::Limits::default());
+    let info = Info::new(&generator, &placer, &Limits::default());
     let mut text = serde_json::to_string_pretty(&info).unwrap_or_default();
     text.push('\n');
     output::print(text.as_bytes())

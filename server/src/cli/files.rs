@@ -1,10 +1,10 @@
 //! `dragtraffic import`, `convert`, `export` and `score`: files in, files out.
 
 use super::{Exit, Failure, output};
-use crate::problem::Problem;
+use crate::base::problem::Problem;
+use crate::generation::scoring;
 use crate::routes::import::range;
-use crate::scoring;
-use crate::transfer::{self, Imported, Motion};
+use crate::scenes::transfer::{self, Imported, Motion};
 use clap::Args;
 use scene::Scene;
 use scene::score::ScoreInput;
@@ -85,11 +85,8 @@ pub struct ScoreArgs {
 /// Problems of files as failures of the command.
 pub fn refused(path: &Path, problem: &Problem) -> Failure {
     let mut message = format!("{}: {}", path.display(), problem.detail);
-    if let Some(Value::Array(errors)) = problem.members.get("errors") {
-        for error in errors.iter().skip(1) {
-            let text = |key: &str| error.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
-            message.push_str(&format!("\n  {} at \"{}\": {}", text("code"), text("pointer"), text("detail")));
-        }
+    for error in problem.members.errors.iter().flatten().skip(1) {
+        message.push_str(&format!("\n  {error}"));
     }
     Failure::new(Exit::Input, message)
 }

@@ -2,9 +2,12 @@
 
 use super::files::read_scene;
 use super::{Common, Exit, Failure, output};
-use crate::events::GeneratedHead;
+use crate::base::limits::Limits;
+use crate::base::problem::Problem;
+use crate::generation::events::GeneratedHead;
 use crate::routes::generate::GenerateRequest;
 use clap::Args;
+use experts::request::DEFAULTS;
 use experts::{Cancel, Event};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::{Generated, Scene};
@@ -29,19 +32,19 @@ pub struct GenerateArgs {
     #[arg(long, value_delimiter = ',', num_args = 0.., value_name = "ID")]
     react: Option<Vec<String>>,
     /// The same seed gives the same answer.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = DEFAULTS.seed)]
     seed: u64,
     /// Independent joint scenes.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = DEFAULTS.samples as u64)]
     samples: u64,
     /// Alternatives kept per road user.
-    #[arg(long, default_value_t = 6)]
+    #[arg(long, default_value_t = DEFAULTS.modes as u64)]
     modes: u64,
     /// Denoising steps.
-    #[arg(long, default_value_t = 5)]
+    #[arg(long, default_value_t = DEFAULTS.steps as u64)]
     steps: u64,
     /// Seconds to generate, 0.5 to 20. More than 9 is planned window after window.
-    #[arg(long, default_value_t = 9.0)]
+    #[arg(long, default_value_t = DEFAULTS.horizon_s)]
     horizon: f64,
     /// Scene time of the start, seconds.
     #[arg(long, default_value_t = 0.0)]
@@ -50,7 +53,7 @@ pub struct GenerateArgs {
     #[arg(long)]
     replan: Option<f64>,
     /// Scale of the noise, which makes seeds differ; 0 is the best guess.
-    #[arg(long, default_value_t = 0.5)]
+    #[arg(long, default_value_t = DEFAULTS.diversity)]
     diversity: f64,
     /// File to write the scene with its futures to; - or absent is stdout.
     #[arg(short, long)]
@@ -68,9 +71,9 @@ pub fn run(args: GenerateArgs, common: &Common) -> Result<(), Failure> {
     let scene = read_scene(&args.scene)?;
     let body: GenerateRequest = serde_json::from_value(body(&args)?)
         .map_err(|error| Failure::new(Exit::Usage, format!("options: {error}")))?;
-    let refused = |problem: crate::problem::Problem| super::files::refused(&args.scene, &problem);
+    let refused = |problem: Problem| super::files::refused(&args.scene, &problem);
     let generator = super::generator(common)?;
-    let task = body.task(scene, &crate::limits::Limits::default(), &generator).map_err(refused)?;
+    let task = body.task(&scene, &Limits::default(), &generator).map_err(refused)?;
     let mut scene = (*task.request.scene).clone();
     let failed = |error: experts::GenerateError| Failure::new(Exit::Failure, error.to_string());
     let events = generator.start(task.request, Cancel::default()).map_err(failed)?;
@@ -93,14 +96,15 @@ fn write(scene: &Scene, args: &GenerateArgs) -> Result<(), Failure> {
 }
 
 fn generated(head: GeneratedHead, samples: Vec<scene::Sample>) -> Generated {
+    let head = head.dated();
     Generated {
         input_sha256: head.input_sha256,
-        stale: false,
+        stale: head.stale,
         weights: head.weights,
         seed: head.seed,
         request: head.request,
-        created_at: crate::clock::now(),
-        chosen_sample: 0,
+        created_at: head.created_at,
+        chosen_sample: head.chosen_sample,
         samples,
     }
 }

@@ -8,6 +8,7 @@ mod output;
 mod place;
 mod serve;
 
+use crate::base::clock;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -112,9 +113,11 @@ enum Command {
     /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
     Score(files::ScoreArgs),
     /// Print the OpenAPI document, or compare it with a file.
-    Openapi(document::OpenapiArgs),
+    Openapi(document::CheckArgs),
     /// Print the JSON Schema of the scene document, or compare it with a file.
-    Schema(document::SchemaArgs),
+    Schema(document::CheckArgs),
+    /// Print motion limits, ranges of conditions and defaults of requests, or compare them with a file.
+    Domain(document::CheckArgs),
     /// Print version, weights, limits and formats as JSON.
     Info,
     /// Make training windows from procedural networks, driven through SUMO.
@@ -159,6 +162,7 @@ pub fn run() -> ExitCode {
         Some(Command::Score(args)) => files::score(args),
         Some(Command::Openapi(args)) => document::openapi(args),
         Some(Command::Schema(args)) => document::schema(args),
+        Some(Command::Domain(args)) => document::domain(args),
         Some(Command::Info) => document::info(&common),
         Some(Command::Synthesize(args)) => lab::synthesize(args, &common),
         Some(Command::Statistics(args)) => lab::statistics(args),
@@ -209,8 +213,8 @@ pub fn engine(common: &Common) -> Result<experts::Engine, Failure> {
         Some(folder) => experts::Engine::from_dir(folder),
         None => experts::Engine::built_in(),
     };
-    let engine = loaded.map_err(|error| Failure::new(Exit::Weights, error.to_string()))?;
-    Ok(experts::Engine { generator: engine.generator.with_clock(crate::clock::monotonic), ..engine })
+    let engine = loaded.map_err(|error| Failure::new(Exit::Weights, format!("{error:#}")))?;
+    Ok(experts::Engine { generator: engine.generator.with_clock(clock::monotonic), ..engine })
 }
 
 /// The generator alone.

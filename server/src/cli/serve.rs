@@ -1,14 +1,16 @@
 //! `dragtraffic serve`: the editor and the HTTP API.
 
 use super::{Common, Exit, Failure, output};
-use crate::app::{App, Inside, router};
-use crate::catalog::MapCache;
-use crate::guard::Guard;
-use crate::jobs::Pool;
-use crate::library::Library;
-use crate::limits::Limits;
-use crate::store::Store;
-use crate::{metrics, net};
+use crate::app::{App, Inside};
+use crate::base::limits::Limits;
+use crate::base::metrics;
+use crate::http::guard::Guard;
+use crate::http::net;
+use crate::http::observe::Gate;
+use crate::routes::router;
+use crate::scenes::store::Store;
+use crate::scenes::{Catalog, Library};
+use crate::work::Pool;
 use clap::Args;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
@@ -62,7 +64,7 @@ pub struct ServeArgs {
 pub fn run(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
-        .max_blocking_threads(32)
+        .thread_name("network")
         .enable_all()
         .build()?;
     let result = runtime.block_on(serve(args, common));
@@ -86,25 +88,26 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         .map_err(|reason| Failure::new(Exit::Usage, reason))?;
     let db = args.db.clone().map_or_else(default_db, Ok)?;
     let store = Store::open(&db, &limits)
-        .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error}", db.display())))?;
+        .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error:#}", db.display())))?;
     let experts::Engine { generator, placer } = super::engine(common)?;
     let generator = Arc::new(generator);
     let handle = metrics::install().map_err(|reason| Failure::new(Exit::Failure, reason))?;
     metrics::identity(generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())));
+    let pool = Pool::start(&limits)?;
+    let cached_scenes = limits.cached_scenes as usize;
+    let library = Library::start(args.data.as_deref(), Arc::clone(&pool), cached_scenes)?;
     let app = App::new(Inside {
-        guard,
-        store,
-        library: Library::start(args.data.as_deref()),
-        maps: MapCache::new(limits.cached_maps as usize),
-        pool: Pool::start(&generator, &limits),
+        gate: Gate { guard: Arc::new(guard), limits: Arc::clone(&limits) },
+        catalog: Catalog::new(store, library, Arc::clone(&pool), limits.cached_maps as usize),
+        pool,
         generator,
-        placer,
+        placer: Arc::new(placer),
         warm: AtomicBool::new(false),
         metrics: handle,
         refuse_nc: args.refuse_nc,
         limits: Arc::clone(&limits),
     });
-    start_background(&app);
+    start_background(&app)?;
     let url = format!("http://{address}/");
     output::print(format!("DragTraffic is at {url}\n").as_bytes())?;
     tracing::info!(%url, db = %db.display(), "serving");
@@ -124,25 +127,27 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
 }
 
 /// Warms the experts and tidies the store once an hour.
-fn start_background(app: &App) {
+fn start_background(app: &App) -> std::io::Result<()> {
     let warmed = app.clone();
-    std::thread::spawn(move || {
+    let warm_up = move || {
         warmed.generator.warm_up();
         warmed.warm.store(true, Ordering::Relaxed);
         tracing::info!("experts are warm");
-    });
+    };
+    std::thread::Builder::new().name("warm-up".into()).spawn(warm_up)?;
     let tidied = app.clone();
     tokio::spawn(async move {
         let mut hour = tokio::time::interval(Duration::from_secs(3_600));
         loop {
             hour.tick().await;
-            let done = tidied.store.drop_unused_maps().await;
-            let measured = tidied.store.measure().await;
+            let done = tidied.catalog.store.drop_unused_maps().await;
+            let measured = tidied.catalog.store.measure().await;
             if let Err(error) = done.map(|_| ()).and(measured) {
                 tracing::warn!(%error, "store could not be tidied");
             }
         }
     });
+    Ok(())
 }
 
 async fn listen(args: &ServeArgs, has_token: bool) -> Result<TcpListener, Failure> {

@@ -1,8 +1,8 @@
 //! `/openapi.json`, `/docs`, `/docs/problems`: pages made from the document and the table of codes,
 //! without scripts and without anything from elsewhere.
 
-use crate::openapi;
-use crate::problem::Code;
+use super::openapi;
+use crate::base::problem::Code;
 use axum::http::header;
 use axum::response::{Html, IntoResponse};
 use serde_json::Value;

@@ -1,12 +1,12 @@
 //! Files out of scenes: `/v1/scenes/{id}/export` and `/v1/export`.
 
-use super::{Id, Params};
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::metrics;
-use crate::problem::Problem;
-use crate::transfer::{self, Motion};
+use crate::base::metrics;
+use crate::base::problem::Problem;
+use crate::http::body::Json;
+use crate::http::extract::{Id, Params};
+use crate::scenes::transfer::{self, Motion};
+use crate::work::Kind;
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
@@ -36,38 +36,43 @@ impl Default for ExportParams {
     }
 }
 
+refusals!(Refused: QUERY WORK, NotFound, FormatUnknown, CannotRepresent);
+refusals!(Unwritten: CHANGES BODY SCENE WORK, FormatUnknown, CannotRepresent);
+
 /// Exports a scene of this server.
 #[utoipa::path(get, path = "/v1/scenes/{id}/export", operation_id = "exportScene", tag = "files",
     params(("id" = String, Path), ExportParams),
-    responses((status = 200, description = "the file", content_type = "application/octet-stream", body = Vec<u8>)))]
+    responses((status = 200, description = "the file", content_type = "application/octet-stream", body = Vec<u8>),
+        Refused))]
 pub async fn stored(
     State(app): State<App>,
     Id(id): Id,
     Params(params): Params<ExportParams>,
 ) -> Result<Response, Problem> {
-    let opened = catalog::open(&app, &id).await?;
-    export(opened.scene, params).await
+    let opened = app.catalog.open(&id).await?;
+    export(&app, opened.scene, params).await
 }
 
 /// Exports a scene given in the body.
 #[utoipa::path(post, path = "/v1/export", operation_id = "exportUnsaved", tag = "files", params(ExportParams),
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
-    responses((status = 200, description = "the file", content_type = "application/octet-stream", body = Vec<u8>)))]
+    responses((status = 200, description = "the file", content_type = "application/octet-stream", body = Vec<u8>),
+        Unwritten))]
 pub async fn unsaved(
     State(app): State<App>,
     Params(params): Params<ExportParams>,
     Json(doc): Json<SceneDoc>,
 ) -> Result<Response, Problem> {
-    let scene = Arc::new(catalog::scene_of(&app, doc).await?);
-    export(scene, params).await
+    let scene = Arc::new(app.catalog.scene_of(doc).await?);
+    export(&app, scene, params).await
 }
 
-async fn export(scene: Arc<Scene>, params: ExportParams) -> Result<Response, Problem> {
+async fn export(app: &App, scene: Arc<Scene>, params: ExportParams) -> Result<Response, Problem> {
     let licence = scene.meta.licence.clone();
     let name = scene.name.clone();
     let format = transfer::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
-    let written =
-        body::blocking(move || transfer::write(&scene, &params.format, params.sample, params.mode)).await;
+    let write = move |_: &_| transfer::write(&scene, &params.format, params.sample, params.mode);
+    let written = app.pool.run(Kind::Export, write).await;
     let file = written.inspect_err(|_| metrics::transfer(true, format, "error"))?;
     metrics::transfer(true, format, "done");
     let mut response = file.bytes.into_response();

@@ -1,19 +1,22 @@
 //! `/v1/generate`: conditions to futures.
 
-use super::is_id;
+use super::scene_ref::{AboutScene, SceneRef};
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::events::GeneratedHead;
-use crate::jobs::{Caller, Task};
-use crate::limits::Limits;
-use crate::problem::{Code, Problem};
-use crate::stream::{self, Form};
+use crate::base::id::is_id;
+use crate::base::limits::{self, Limits};
+use crate::base::problem::{Code, Problem};
+use crate::generation::events::GeneratedHead;
+use crate::generation::{self, Task, stream};
+use crate::http::accept::Form;
+use crate::http::body::Json;
+use crate::scenes::bytes_of;
+use crate::work::Caller;
 use axum::extract::{FromRequest, Request, State};
 use axum::response::Response;
 use experts::React;
+use experts::request::DEFAULTS;
 use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
-use formats::{FieldProblem, ReadError};
+use formats::{FieldProblem, ReadError, pointer_token};
 use scene::{MAX_HORIZON_STEPS, STEP_S, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -107,30 +110,30 @@ pub struct GenerateRequest {
     #[schemars(range(min = 0.0, max = 59.9))]
     start_s: f64,
     /// Seconds to generate. More than 9 is planned window after window.
-    #[serde(default = "nine")]
+    #[serde(default = "usual_horizon")]
     #[schemars(range(min = 0.5, max = 20.0))]
     horizon_s: f64,
     /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9; null is 9.
     #[serde(default)]
     replan_interval_s: Option<f64>,
     /// The same seed gives the same answer.
-    #[serde(default)]
+    #[serde(default = "usual_seed")]
     #[schemars(range(max = 9007199254740991u64))]
     seed: u64,
     /// Independent joint scenes.
-    #[serde(default = "one")]
+    #[serde(default = "usual_samples")]
     #[schemars(range(min = 1, max = 32))]
     samples: u64,
     /// Alternatives kept per road user.
-    #[serde(default = "six")]
+    #[serde(default = "usual_modes")]
     #[schemars(range(min = 1, max = 6))]
     modes: u64,
     /// Scale of the noise, which makes seeds differ; 0 is the best guess, the same for every seed.
-    #[serde(default = "half")]
+    #[serde(default = "usual_diversity")]
     #[schemars(range(min = 0.0, max = 2.0))]
     diversity: f64,
     /// Denoising steps; 0 returns the first guess.
-    #[serde(default = "five")]
+    #[serde(default = "usual_steps")]
     #[schemars(range(max = 100))]
     steps: u64,
     /// What drafts carry.
@@ -147,61 +150,60 @@ fn everyone() -> Who {
 fn nobody() -> Reacting {
     Reacting::Whether(false)
 }
-fn nine() -> f64 {
-    9.0
+fn usual_horizon() -> f64 {
+    DEFAULTS.horizon_s
 }
-fn half() -> f64 {
-    0.5
+fn usual_seed() -> u64 {
+    DEFAULTS.seed
 }
-fn one() -> u64 {
-    1
+fn usual_samples() -> u64 {
+    DEFAULTS.samples as u64
 }
-fn six() -> u64 {
-    6
+fn usual_modes() -> u64 {
+    DEFAULTS.modes as u64
 }
-fn five() -> u64 {
-    5
+fn usual_diversity() -> f64 {
+    DEFAULTS.diversity
+}
+fn usual_steps() -> u64 {
+    DEFAULTS.steps as u64
 }
 fn yes() -> bool {
     true
 }
 
+impl AboutScene for GenerateRequest {
+    fn take_scene(&mut self) -> SceneRef {
+        SceneRef { scene: self.scene.take(), scene_id: self.scene_id.take(), etag: self.etag.take() }
+    }
+}
+
+refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK,
+    NotAcceptable, Exists, Superseded, StaleRevision, ReplyTooLarge, NonFiniteOutput);
+
 /// Generates futures. The reply is a stream of events (NDJSON or SSE) or the last event alone (JSON),
 /// by Accept. Stores nothing.
 #[utoipa::path(post, path = "/v1/generate", operation_id = "generate", tag = "generate",
-    request_body(content = ref("#/components/schemas/GenerateRequest"), content_type = "application/json"),
-    responses((status = 200, content(
+    request_body(content = ref("#/components/schemas/GenerateRequest"), content_type = "application/json",
+        example = json!({
+            "scene_id": "demo-crossing", "agents": ["5"], "seed": 7,
+            "conditions": {"5": {"goal": {"x_m": 14.0, "y_m": 0.4, "speed_mps": 6.0}}},
+        })),
+    responses((status = 200, description = "the answer", content(
         (ref("#/components/schemas/FinalEvent") = "application/json"),
-        (ref("#/components/schemas/Event") = "application/x-ndjson"),
-        (ref("#/components/schemas/Event") = "text/event-stream")))))]
+        (ref("#/components/schemas/Event") = "application/x-ndjson", extensions(("x-stream-item" = json!(true)))),
+        (ref("#/components/schemas/Event") = "text/event-stream", extensions(("x-stream-item" = json!(true)))))),
+        Refused))]
 pub async fn generate(State(app): State<App>, request: Request) -> Result<Response, Problem> {
     let form = Form::negotiate(request.headers())?;
-    let Json(body) = Json::<GenerateRequest>::from_request(request, &app).await?;
+    let Json(mut body) = Json::<GenerateRequest>::from_request(request, &app).await?;
     let caller = body.caller()?;
-    let task = prepare(&app, body).await?;
-    let handle = app.pool.submit(caller, task)?;
-    Ok(stream::reply(handle, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await)
-}
-
-/// The task of a body.
-async fn prepare(app: &App, mut body: GenerateRequest) -> Result<Task, Problem> {
-    let scene = match (body.scene.take(), body.scene_id.take()) {
-        (Some(doc), None) => catalog::scene_of(app, doc).await.map_err(|p| p.under("/scene"))?,
-        (None, Some(id)) => {
-            let opened = catalog::open(app, &id).await?;
-            if body.etag.as_ref().is_some_and(|etag| *etag != opened.etag) {
-                let detail = "The stored scene is another than the one you read.";
-                return Err(Problem::new(Code::StaleEtag, detail).with("etag", opened.etag));
-            }
-            (*opened.scene).clone()
-        }
-        _ => {
-            let detail = "exactly one of scene and scene_id is needed";
-            return Err(Problem::field("/scene", Code::InvalidField, detail));
-        }
-    };
-    let app = app.clone();
-    body::blocking(move || body.task(scene, &app.limits, &app.generator)).await
+    let scene = body.take_scene().open(&app).await?;
+    let (shared, bytes) = (app.clone(), bytes_of(&scene));
+    let prepare = move || body.task(&scene, &shared.limits, &shared.generator);
+    let task = app.pool.document(bytes, prepare).await?;
+    let reader = generation::submit(&app.pool, &app.generator, &app.limits, caller, task)?;
+    Ok(stream::reply(reader, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await)
 }
 
 impl GenerateRequest {
@@ -211,20 +213,15 @@ impl GenerateRequest {
     /// Every fault of the options, conditions and ids.
     pub fn task(
         &self,
-        scene: Scene,
+        scene: &Scene,
         limits: &Limits,
         generator: &experts::Generator,
     ) -> Result<Task, Problem> {
         self.check_ranges()?;
-        let scene = Arc::new(self.apply(scene)?);
+        let scene = Arc::new(self.apply(scene.clone())?);
         let request = self.request(&scene, limits.regenerated_agents, limits.reply_points)?;
         let weights = generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone()));
-        let head = GeneratedHead {
-            input_sha256: scene.input_hash().hex(),
-            weights: weights.collect(),
-            seed: self.seed,
-            request: self.options(),
-        };
+        let head = GeneratedHead::new(scene.input_hash().hex(), weights.collect(), self.seed, self.options());
         let all_modes = self.stream_modes == StreamModes::All;
         Ok(Task { request, all_modes, score: self.score, head })
     }
@@ -257,8 +254,8 @@ impl GenerateRequest {
             ("/seed", 0.0, safe, self.seed as f64),
             ("/revision", 0.0, safe, self.revision.unwrap_or(0) as f64),
             ("/horizon_s", 0.5, MAX_HORIZON_STEPS as f64 * STEP_S, self.horizon_s),
-            ("/samples", 1.0, 32.0, self.samples as f64),
-            ("/modes", 1.0, 6.0, self.modes as f64),
+            ("/samples", 1.0, limits::SAMPLES as f64, self.samples as f64),
+            ("/modes", 1.0, limits::MODES as f64, self.modes as f64),
             ("/diversity", 0.0, 2.0, self.diversity),
             ("/steps", 0.0, 100.0, self.steps as f64),
         ];
@@ -295,7 +292,7 @@ impl GenerateRequest {
         let start_step = self.start_step();
         let window = Window { start_s: start_step as f64 * STEP_S, horizon_s: self.horizon_s };
         for (id, doc) in &self.conditions.0 {
-            let pointer = format!("/conditions/{}", id.replace('~', "~0").replace('/', "~1"));
+            let pointer = format!("/conditions/{}", pointer_token(id));
             let Some(agent) = scene.agents.iter_mut().find(|agent| agent.id == *id) else {
                 faults.push(unknown(pointer, id));
                 continue;
@@ -346,13 +343,13 @@ impl GenerateRequest {
         let named = agents.as_ref().map_or(0, BTreeSet::len);
         if named as u64 > most_agents {
             let detail = format!("{named} road users to regenerate; at most {most_agents}");
-            return Err(Problem::field("/agents", Code::TooManyAgents, detail).with("limit", most_agents));
+            return Err(Problem::field("/agents", Code::TooManyAgents, detail).limit(most_agents));
         }
         let horizon_steps = (self.horizon_s / STEP_S).round().max(1.0) as usize;
         let points = self.samples * self.modes * (count as u64).min(most_agents) * horizon_steps as u64;
         if points > most_points {
             let detail = format!("the reply would have {points} points; at most {most_points}");
-            return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).with("limit", most_points));
+            return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).limit(most_points));
         }
         let replan_steps = self.replan_interval_s.map(|s| (s / STEP_S).round() as usize);
         Ok(experts::Request {

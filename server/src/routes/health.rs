@@ -1,40 +1,63 @@
 //! `/healthz`, `/readyz`, `/metrics`.
 
 use crate::app::App;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
 use axum::extract::State;
 use axum::http::header;
 use axum::response::IntoResponse;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::sync::atomic::Ordering;
+
+/// A word for those who look after the server.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Condition {
+    /// The process answers.
+    Ok,
+    /// It takes work.
+    Ready,
+}
+
+/// How the server is.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Health {
+    status: Condition,
+}
+
+refusals!(Refused:);
+refusals!(NotYet:, NotReady);
 
 /// The process answers.
 #[utoipa::path(get, path = "/healthz", operation_id = "healthz", tag = "server",
-    responses((status = 200, description = "the process answers")))]
-pub async fn healthz() -> axum::Json<Value> {
-    axum::Json(json!({"status": "ok"}))
+    responses((status = 200, description = "the process answers", body = ref("#/components/schemas/Health")),
+        Refused))]
+pub async fn healthz() -> axum::Json<Health> {
+    axum::Json(Health { status: Condition::Ok })
 }
 
 /// Experts are warm, the store takes writes, the queue has room.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "server",
-    responses((status = 200, description = "ready for work")))]
-pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Value>, Problem> {
+    responses((status = 200, description = "ready for work", body = ref("#/components/schemas/Health")),
+        NotYet))]
+pub async fn readyz(State(app): State<App>) -> Result<axum::Json<Health>, Problem> {
     let checks = [
         ("experts", app.warm.load(Ordering::Relaxed)),
-        ("store", app.store.is_writable().await),
+        ("store", app.catalog.store.is_writable().await),
         ("queue", app.pool.has_room()),
     ];
     let failing: Vec<_> = checks.iter().filter(|(_, fine)| !fine).map(|(name, _)| *name).collect();
     if failing.is_empty() {
-        return Ok(axum::Json(json!({"status": "ready"})));
+        return Ok(axum::Json(Health { status: Condition::Ready }));
     }
     let detail = format!("Not ready: {}.", failing.join(", "));
-    Err(Problem::new(Code::NotReady, detail).with("failing", json!(failing)).retry_after(1))
+    Err(Problem::new(Code::NotReady, detail).with(|m| m.failing = Some(failing)).retry_after(1))
 }
 
 /// Counters in Prometheus' text form.
 #[utoipa::path(get, path = "/metrics", operation_id = "metrics", tag = "server",
-    responses((status = 200, description = "Prometheus text", content_type = "text/plain", body = String)))]
+    responses((status = 200, description = "Prometheus text", content_type = "text/plain", body = String),
+        Refused))]
 pub async fn metrics(State(app): State<App>) -> impl IntoResponse {
     app.metrics.run_upkeep();
     ([(header::CONTENT_TYPE, "text/plain; version=0.0.4; charset=utf-8")], app.metrics.render())

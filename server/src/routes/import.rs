@@ -1,20 +1,20 @@
 //! `/v1/import`: scenes out of files.
 
-use super::Params;
-use super::scenes::store_new;
 use crate::app::App;
-use crate::body;
-use crate::catalog::Facts;
-use crate::metrics;
-use crate::problem::{Code, Problem};
-use crate::transfer;
+use crate::base::problem::{Code, Problem, ProblemDoc};
+use crate::base::{id, metrics};
+use crate::http::body::{self, JsonText, Reading};
+use crate::http::extract::Params;
+use crate::scenes::store::{Expect, PackedScene};
+use crate::scenes::{Counts, Facts, record, transfer};
+use crate::work::Kind;
 use axum::body::Bytes;
-use axum::extract::{FromRequest, Multipart, Request, State};
+use axum::extract::{FromRef, FromRequest, Multipart, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use formats::native::{MapForm, SceneDoc};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Query of an import.
@@ -60,7 +60,7 @@ struct Upload {
 
 /// The parts `file` and, where there is one, `net` of a form.
 async fn form_of(request: Request) -> Result<Upload, Problem> {
-    let broken = |error: String| Problem::new(Code::MalformedFile, error).with("offset", 0);
+    let broken = |error: String| Problem::new(Code::MalformedFile, error).with(|m| m.offset = Some(0));
     let form = Multipart::from_request(request, &()).await;
     let mut form = form.map_err(|error| broken(error.body_text()))?;
     let mut file = None;
@@ -85,11 +85,75 @@ async fn form_of(request: Request) -> Result<Upload, Problem> {
     Ok(upload)
 }
 
+/// One scene of a file.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(transform = formats::never_null)]
+pub struct ImportedScene {
+    /// Id it was stored under; not in a dry run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    id: Option<String>,
+    /// As in the ETag header; not in a dry run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    etag: Option<String>,
+    /// For people.
+    name: String,
+    /// What the reader changed or left out.
+    warnings: Vec<formats::Warning>,
+    /// Road users by type.
+    counts: Counts,
+    /// Steps of 0.1 s.
+    steps: usize,
+    /// The scene itself, in a dry run alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scene: Option<SceneDoc>,
+}
+
+/// A record of a file that is no scene.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SkippedRecord {
+    /// Position in the file, from 0.
+    index: usize,
+    /// Why.
+    problem: ProblemDoc,
+}
+
+/// What an import gave.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ImportReply {
+    /// A name of the formats table.
+    format: &'static str,
+    /// Scenes in the order of the file.
+    scenes: Vec<ImportedScene>,
+    /// Records that are no scenes.
+    skipped: Vec<SkippedRecord>,
+}
+
+/// A file that was read, its scenes ready to be stored.
+struct Ready {
+    reply: ImportReply,
+    /// Rows in the order of the reply's scenes; none in a dry run.
+    rows: Vec<(String, PackedScene)>,
+}
+
+/// What the worker is to do with a file.
+struct Order {
+    upload: Upload,
+    format: Option<String>,
+    name: String,
+    /// Scenes to pass over, and how many to take.
+    window: (usize, usize),
+    most: usize,
+    dry_run: bool,
+    refuse_nc: bool,
+}
+
+refusals!(Refused: CHANGES BODY QUERY SCENE WORK, FormatUnknown, LicenceRefused, StoreFull);
+
 /// Stores the scenes of a file.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),
-    responses((status = 201, body = ref("#/components/schemas/ImportReply")),
-        (status = 200, description = "dry run", body = ref("#/components/schemas/ImportReply"))))]
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/ImportReply")),
+        (status = 200, description = "dry run", body = ref("#/components/schemas/ImportReply")), Refused))]
 pub async fn import(
     State(app): State<App>,
     Params(params): Params<ImportParams>,
@@ -98,67 +162,77 @@ pub async fn import(
     let media_type = body::media_type(request.headers(), UPLOADS)?;
     let wanted = params.index.as_deref().map(range).transpose()?;
     let (mut parts, unread) = request.into_parts();
-    let bytes = body::read_upload(Request::from_parts(parts.clone(), unread), &app.limits).await?;
-    let Upload { file, label, net } = if media_type == MULTIPART {
+    let bytes = Reading::from_ref(&app).upload(Request::from_parts(parts.clone(), unread)).await?;
+    let mut upload = if media_type == MULTIPART {
         parts.headers.remove(header::CONTENT_ENCODING);
         form_of(Request::from_parts(parts, bytes.into())).await?
     } else {
         Upload { file: bytes, ..Upload::default() }
     };
-    let format = params.format.filter(|f| f != "auto");
-    let name = params.name.or(label).unwrap_or_default();
     let most = app.limits.import_scenes as usize;
-    let asked = format.clone().unwrap_or_else(|| "auto".into());
-    let (skip, count) = wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1)));
-    let read =
-        body::blocking(move || transfer::read(&file, format.as_deref(), &name, skip, count, net)).await;
-    let read = read.inspect_err(|_| metrics::transfer(false, known(&asked), "error"))?;
-    if read.scenes.len() > most {
-        let detail =
-            format!("The file has more than {most} scenes; take some with index, or use the command line.");
-        return Err(Problem::field("/query/index", Code::OutOfRange, detail).with("limit", most));
+    let order = Order {
+        format: params.format.filter(|f| f != "auto"),
+        name: params.name.or_else(|| upload.label.take()).unwrap_or_default(),
+        window: wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1))),
+        upload,
+        most,
+        dry_run: params.dry_run,
+        refuse_nc: app.refuse_nc,
+    };
+    let asked = known(order.format.as_deref().unwrap_or("auto"));
+    let ready = app.pool.run(Kind::Import, move |_| order.run()).await;
+    let Ready { mut reply, rows } = ready.inspect_err(|_| metrics::transfer(false, asked, "error"))?;
+    for (scene, (id, row)) in reply.scenes.iter_mut().zip(rows) {
+        scene.etag = Some(app.catalog.store.put(&id, Expect::Absent, row).await?.etag);
+        scene.id = Some(id);
     }
-    let mut scenes = Vec::new();
-    for imported in read.scenes {
-        if app.refuse_nc && is_noncommercial(imported.scene.meta.licence.as_deref()) {
-            return Err(Problem::new(Code::LicenceRefused, "The source is for non-commercial use only."));
+    metrics::transfer(false, reply.format, "done");
+    let first = reply.scenes.first().and_then(|scene| scene.id.clone());
+    let bytes = if params.dry_run { usize::MAX } else { 0 };
+    let text = app.pool.document(bytes, move || JsonText::of(&reply)).await?;
+    Ok(match (params.dry_run, first) {
+        (true, _) => text.into_response(),
+        (false, Some(id)) => {
+            (StatusCode::CREATED, [(header::LOCATION, format!("/v1/scenes/{id}"))], text).into_response()
         }
-        scenes.push(keep(&app, imported, params.dry_run).await?);
-    }
-    metrics::transfer(false, read.format, "done");
-    let skipped: Vec<Value> = read
-        .skipped
-        .iter()
-        .map(|(index, problem)| json!({"index": index, "problem": problem.body(None, None)}))
-        .collect();
-    let reply = axum::Json(json!({"format": read.format, "scenes": scenes, "skipped": skipped}));
-    Ok(if params.dry_run { reply.into_response() } else { created(&scenes, reply) })
+        (false, None) => (StatusCode::CREATED, text).into_response(),
+    })
 }
 
-fn created(scenes: &[Value], reply: axum::Json<Value>) -> Response {
-    let first = scenes.first().and_then(|s| s.get("id")).and_then(Value::as_str);
-    match first {
-        Some(id) => {
-            (StatusCode::CREATED, [(header::LOCATION, format!("/v1/scenes/{id}"))], reply).into_response()
+impl Order {
+    /// Reads the file and makes its scenes ready: nothing is stored unless all of them can be.
+    fn run(self) -> Result<Ready, Problem> {
+        let Upload { file, net, .. } = self.upload;
+        let (skip, count) = self.window;
+        let read = transfer::read(&file, self.format.as_deref(), &self.name, skip, count, net)?;
+        if read.scenes.len() > self.most {
+            let most = self.most;
+            let detail = format!(
+                "The file has more than {most} scenes; take some with index, or use the command line."
+            );
+            return Err(Problem::field("/query/index", Code::OutOfRange, detail).limit(most as u64));
         }
-        None => (StatusCode::CREATED, reply).into_response(),
+        let (mut scenes, mut rows) = (Vec::new(), Vec::new());
+        for transfer::Imported { scene, warnings } in read.scenes {
+            if self.refuse_nc && is_noncommercial(scene.meta.licence.as_deref()) {
+                return Err(Problem::new(Code::LicenceRefused, "The source is for non-commercial use only."));
+            }
+            let facts = Facts::of(&scene);
+            let name = scene.name.clone();
+            let doc = self.dry_run.then(|| SceneDoc::from_scene(&scene, MapForm::Inline));
+            if !self.dry_run {
+                let id = id::fresh();
+                let row = record::of_scene(scene, &id)?.packed()?;
+                rows.push((id, row));
+            }
+            let (counts, steps) = (facts.counts, facts.steps);
+            scenes.push(ImportedScene { id: None, etag: None, name, warnings, counts, steps, scene: doc });
+        }
+        let skipped = read.skipped.iter();
+        let skipped =
+            skipped.map(|(index, problem)| SkippedRecord { index: *index, problem: problem.doc(None, None) });
+        Ok(Ready { reply: ImportReply { format: read.format, scenes, skipped: skipped.collect() }, rows })
     }
-}
-
-async fn keep(app: &App, imported: transfer::Imported, dry_run: bool) -> Result<Value, Problem> {
-    let transfer::Imported { scene, warnings } = imported;
-    let facts = Facts::of(&scene);
-    let mut object =
-        json!({"name": scene.name, "warnings": warnings, "counts": facts.counts, "steps": facts.steps});
-    if dry_run {
-        let doc = body::blocking(move || Ok(json!(SceneDoc::from_scene(&scene, MapForm::Inline)))).await?;
-        object["scene"] = doc;
-    } else {
-        let id = uuid::Uuid::now_v7().to_string();
-        object["etag"] = store_new(app, &id, scene).await?.into();
-        object["id"] = id.into();
-    }
-    Ok(object)
 }
 
 /// A name of the table, for labels.

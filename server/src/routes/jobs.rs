@@ -1,13 +1,15 @@
 //! `/v1/jobs`: stopping a generation by its id.
 
-use super::Id;
 use crate::app::App;
+use crate::http::extract::Id;
 use axum::extract::State;
 use axum::http::StatusCode;
 
+refusals!(Refused: CHANGES, NotFound);
+
 /// Cancels a generation; an id that is not under way is nothing to do.
 #[utoipa::path(delete, path = "/v1/jobs/{job}", operation_id = "cancelJob", tag = "generate",
-    params(("job" = String, Path)), responses((status = 204, description = "not under way any more")))]
+    params(("job" = String, Path)), responses((status = 204, description = "not under way any more"), Refused))]
 pub async fn cancel(State(app): State<App>, Id(job): Id) -> StatusCode {
     app.pool.cancel(&job);
     StatusCode::NO_CONTENT

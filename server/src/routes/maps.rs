@@ -1,9 +1,10 @@
 //! `/v1/maps`: immutable maps by content hash.
 
 use crate::app::App;
-use crate::body::blocking;
-use crate::catalog;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
+use crate::http::extract::if_none_match;
+use crate::scenes::store::StoredMap;
+use crate::scenes::{map_bytes, record};
 use axum::extract::{Path, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -29,19 +30,28 @@ pub struct MapList {
     maps: Vec<MapItem>,
 }
 
+refusals!(Refused:);
+refusals!(Unread: WORK, NotFound);
+
 /// Lists the maps of saved scenes.
 #[utoipa::path(get, path = "/v1/maps", operation_id = "listMaps", tag = "maps",
-    responses((status = 200, body = ref("#/components/schemas/MapList"))))]
+    responses((status = 200, description = "all maps", body = ref("#/components/schemas/MapList")), Refused))]
 pub async fn list(State(app): State<App>) -> Result<axum::Json<MapList>, Problem> {
-    let rows = app.store.maps().await?.into_iter();
-    let maps = rows.map(|(sha256, bytes, polylines, points)| MapItem { sha256, bytes, polylines, points });
+    let rows = app.catalog.store.maps().await?.into_iter();
+    let maps = rows.map(|StoredMap { sha256, bytes, polylines, points }| MapItem {
+        sha256,
+        bytes,
+        polylines,
+        points,
+    });
     Ok(axum::Json(MapList { maps: maps.collect() }))
 }
 
 /// Reads a map. It never changes, so it may be kept for ever.
 #[utoipa::path(get, path = "/v1/maps/{sha256}", operation_id = "readMap", tag = "maps",
     params(("sha256" = String, Path)),
-    responses((status = 200, body = ref("#/components/schemas/Map")), (status = 304, description = "not changed")))]
+    responses((status = 200, description = "the map", body = ref("#/components/schemas/Map")),
+        (status = 304, description = "not changed"), Unread))]
 pub async fn read(
     State(app): State<App>,
     path: Result<Path<String>, axum::extract::rejection::PathRejection>,
@@ -56,10 +66,11 @@ pub async fn read(
         (header::CACHE_CONTROL, "private, max-age=31536000, immutable".to_owned()),
         (header::CONTENT_TYPE, "application/json".to_owned()),
     ];
-    let map = catalog::map(&app, hash).await?.ok_or_else(missing)?;
-    if super::if_none_match(&headers).is_some_and(|tags| tags.contains(&etag)) {
+    let map = app.catalog.map(hash).await?.ok_or_else(missing)?;
+    if if_none_match(&headers).is_some_and(|tags| tags.contains(&etag)) {
         return Ok((StatusCode::NOT_MODIFIED, head).into_response());
     }
-    let json = blocking(move || Ok(catalog::map_json(&map))).await?;
+    let bytes = map_bytes(&map);
+    let json = app.pool.document(bytes, move || record::map_json(&map)).await?;
     Ok((head, json).into_response())
 }

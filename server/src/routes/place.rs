@@ -1,9 +1,10 @@
 //! `/v1/place`: road users where there are none yet.
 
+use super::scene_ref::{AboutScene, SceneRef, WithScene};
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::problem::{Code, Problem};
+use crate::base::problem::{Code, Problem};
+use crate::http::body::JsonText;
+use crate::work::Kind;
 use axum::extract::State;
 use experts::placement::{
     Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, Region, map_bounds,
@@ -11,13 +12,12 @@ use experts::placement::{
 };
 use experts::{Cancel, GenerateError, Placer};
 use formats::native::{AgentDoc, MAX_SAFE_INTEGER, Members, SceneDoc};
-use formats::{FieldProblem, ReadError};
+use formats::{FieldProblem, ReadError, pointer_token};
 use scene::{AgentType, STEP_S, Scene, Vec2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-use std::time::Duration;
 
 /// How far a region may reach beyond the map's box, metres: a hand-drawn ring is seldom exact.
 const REGION_MARGIN_M: f64 = 50.0;
@@ -75,6 +75,9 @@ pub struct PlaceBody {
     /// A scene of this server.
     #[serde(default)]
     scene_id: Option<String>,
+    /// With `scene_id`: refuse when the scene has changed.
+    #[serde(default)]
+    etag: Option<String>,
     /// Where; null is the whole map. It may reach 50 m beyond the map's box.
     #[serde(default)]
     region: Option<RegionDoc>,
@@ -120,17 +123,7 @@ pub struct PlaceReply {
     /// Why, in one sentence; null when all were placed.
     pub reason: Option<String>,
     /// `model`, or `lane-sampler` where the weights folder has no placement weights.
-    #[schemars(with = "MethodWord")]
     pub method: Method,
-}
-
-/// Words of [`Method`].
-#[derive(JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-#[allow(dead_code, reason = "stands for experts::placement::Method in the document")]
-enum MethodWord {
-    Model,
-    LaneSampler,
 }
 
 impl From<&Placement> for PlaceReply {
@@ -144,45 +137,33 @@ impl From<&Placement> for PlaceReply {
     }
 }
 
+impl AboutScene for PlaceBody {
+    fn take_scene(&mut self) -> SceneRef {
+        SceneRef { scene: self.scene.take(), scene_id: self.scene_id.take(), etag: self.etag.take() }
+    }
+}
+
+refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK);
+
 /// Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
 /// cyclists on bike lanes or on the right. Boxes keep 0.1 m apart and all centres lie in the region. Fewer
 /// than asked is no error. Stores nothing.
 #[utoipa::path(post, path = "/v1/place", operation_id = "place", tag = "generate",
-    request_body(content = ref("#/components/schemas/PlaceBody"), content_type = "application/json"),
-    responses((status = 200, body = ref("#/components/schemas/PlaceReply"))))]
+    request_body(content = ref("#/components/schemas/PlaceBody"), content_type = "application/json",
+        example = json!({
+            "scene_id": "demo-crossing", "density": {"count": 20}, "seed": 7, "keep": [],
+            "types": {"vehicle": 0.7, "pedestrian": 0.2, "cyclist": 0.1},
+            "region": {"circle": {"x_m": 0.0, "y_m": 0.0, "radius_m": 60.0}},
+        })),
+    responses((status = 200, description = "what was placed", body = ref("#/components/schemas/PlaceReply")),
+        Refused))]
 pub async fn place(
     State(app): State<App>,
-    Json(mut body): Json<PlaceBody>,
-) -> Result<axum::Json<PlaceReply>, Problem> {
-    let scene = match (body.scene.take(), body.scene_id.take()) {
-        (Some(doc), None) => Arc::new(catalog::scene_of(&app, doc).await.map_err(|p| p.under("/scene"))?),
-        (None, Some(id)) => catalog::open(&app, &id).await?.scene,
-        _ => {
-            let detail = "exactly one of scene and scene_id is needed";
-            return Err(Problem::field("/scene", Code::InvalidField, detail));
-        }
-    };
-    let cancel = Cancel::default();
-    let (limit_s, stop) = (app.limits.generate_s, cancel.clone());
-    let work = body::blocking(move || {
-        let placement = body.run(&scene, &app.placer, &cancel)?;
-        Ok(axum::Json(PlaceReply::from(&placement)))
-    });
-    // The wait ends with the limit or the connection; the work ends with it.
-    let _guard = StopOnDrop(stop);
-    tokio::time::timeout(Duration::from_secs(limit_s), work).await.unwrap_or_else(|_| {
-        let detail = format!("The placement took longer than {limit_s} s.");
-        Err(Problem::new(Code::GenerateTimeout, detail).with("limit", limit_s))
-    })
-}
-
-/// Cancels when the reply is no longer waited for.
-struct StopOnDrop(Cancel);
-
-impl Drop for StopOnDrop {
-    fn drop(&mut self) {
-        self.0.cancel();
-    }
+    WithScene(body, scene): WithScene<PlaceBody>,
+) -> Result<JsonText, Problem> {
+    let placer = Arc::clone(&app.placer);
+    let work = move |cancel: &Cancel| JsonText::of(&PlaceReply::from(&body.run(&scene, &placer, cancel)?));
+    app.pool.run(Kind::Place, work).await
 }
 
 impl PlaceBody {
@@ -271,7 +252,7 @@ fn shares(types: &Members<f64>, faults: &mut Vec<FieldProblem>) -> BTreeMap<Agen
             "cyclist" => AgentType::Cyclist,
             _ => {
                 let detail = "vehicle, pedestrian and cyclist can be placed";
-                let pointer = format!("/types/{}", name.replace('~', "~0").replace('/', "~1"));
+                let pointer = format!("/types/{}", pointer_token(name));
                 faults.push(FieldProblem::new(pointer, "invalid-field", detail));
                 continue;
             }

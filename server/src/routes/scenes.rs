@@ -1,12 +1,13 @@
 //! `/v1/scenes`: list, read, create, replace, rename, delete, duplicate.
 
-use super::{Id, Params, if_match, if_none_match};
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog::{self, Item};
-use crate::problem::{Code, Problem};
-use crate::store::{Expect, MapRecord, SceneRecord};
-use axum::extract::{FromRequest, Request, State};
+use crate::base::id;
+use crate::base::problem::{Code, Problem};
+use crate::http::body::{self, Json, Reading};
+use crate::http::extract::{Id, Params, if_match, if_none_match};
+use crate::scenes::store::Expect;
+use crate::scenes::{Item, not_found, record};
+use axum::extract::{FromRef, FromRequest, Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use formats::native::{self, MapForm, SceneDoc};
@@ -48,9 +49,11 @@ pub struct SceneList {
     next: Option<String>,
 }
 
+refusals!(Unlisted: QUERY);
+
 /// Lists scenes without their content: saved ones, demos, and those of the data folder.
 #[utoipa::path(get, path = "/v1/scenes", operation_id = "listScenes", tag = "scenes", params(ListParams),
-    responses((status = 200, body = ref("#/components/schemas/SceneList"))))]
+    responses((status = 200, description = "a page", body = ref("#/components/schemas/SceneList")), Unlisted))]
 pub async fn list(
     State(app): State<App>,
     Params(params): Params<ListParams>,
@@ -60,8 +63,8 @@ pub async fn list(
     }
     let order = order(&params.sort)?;
     let text = params.q.map(|q| q.to_lowercase());
-    let mut items: Vec<Item> = app.store.list().await?.into_iter().map(Item::from).collect();
-    items.extend(app.library.items());
+    let mut items: Vec<Item> = app.catalog.store.list().await?.into_iter().map(Item::from).collect();
+    items.extend(app.catalog.library.items());
     items.retain(|item| {
         text.as_ref().is_none_or(|q| item.name.to_lowercase().contains(q))
             && params.tag.as_ref().is_none_or(|tag| item.tags.contains(tag))
@@ -116,10 +119,13 @@ pub enum MapParam {
     Ref,
 }
 
+refusals!(Unread: QUERY WORK, NotFound);
+
 /// Reads a scene.
 #[utoipa::path(get, path = "/v1/scenes/{id}", operation_id = "readScene", tag = "scenes",
     params(("id" = String, Path), ReadParams),
-    responses((status = 200, body = ref("#/components/schemas/Scene")), (status = 304, description = "not changed")))]
+    responses((status = 200, description = "the scene", body = ref("#/components/schemas/Scene")),
+        (status = 304, description = "not changed"), Unread))]
 pub async fn read(
     State(app): State<App>,
     Id(id): Id,
@@ -130,26 +136,21 @@ pub async fn read(
         let known = if_none_match(&headers).unwrap_or_default();
         !known.iter().any(|tag| tag == "*" || tag.trim_start_matches("W/") == etag)
     };
-    if let Some(opened) = app.library.open(&id).await? {
+    if let Some(opened) = app.catalog.library.open(&id).await? {
         if !fresh(&opened.etag) {
             return Ok(not_modified(&opened.etag));
         }
         let form = if params.map == MapParam::Ref { MapForm::Ref } else { MapForm::Inline };
-        let scene = opened.scene;
-        let json = body::blocking(move || Ok(native::write_doc(&SceneDoc::from_scene(&scene, form)))).await?;
+        let json = app.catalog.written(opened.scene, form).await?;
         return Ok(scene_reply(&opened.etag, json));
     }
-    let (summary, json) = app.store.get(&id).await?.ok_or_else(catalog::not_found)?;
+    let (summary, json) = app.catalog.store.get(&id).await?.ok_or_else(not_found)?;
     if !fresh(&summary.etag) {
         return Ok(not_modified(&summary.etag));
     }
     let json = match params.map {
         MapParam::Ref => json,
-        MapParam::Inline => {
-            let map = app.store.map(&summary.map_sha).await?;
-            let map = map.ok_or_else(|| Problem::internal("a stored scene's map is missing"))?;
-            catalog::with_map(&json, &summary.map_sha, &map)
-        }
+        MapParam::Inline => app.catalog.with_map(json, &summary.map_sha).await?,
     };
     Ok(scene_reply(&summary.etag, json))
 }
@@ -166,6 +167,7 @@ fn not_modified(etag: &str) -> Response {
 /// What a change gave.
 #[derive(Debug, Serialize, schemars::JsonSchema)]
 pub struct Saved {
+    /// Of the scene.
     id: String,
     /// As in the ETag header.
     etag: String,
@@ -176,33 +178,28 @@ fn saved(status: StatusCode, id: String, etag: String) -> Response {
     (status, head, axum::Json(Saved { id, etag })).into_response()
 }
 
+refusals!(Uncreated: CHANGES BODY SCENE WORK, Exists, StoreFull);
+
 /// Saves a new scene; the id of the document is ignored.
 #[utoipa::path(post, path = "/v1/scenes", operation_id = "createScene", tag = "scenes",
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
-    responses((status = 201, body = ref("#/components/schemas/Saved"))))]
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncreated))]
 pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result<Response, Problem> {
-    let id = uuid::Uuid::now_v7().to_string();
-    let scene = catalog::scene_of(&app, doc).await?;
-    let etag = store_new(&app, &id, scene).await?;
-    Ok(saved(StatusCode::CREATED, id, etag))
+    let id = id::fresh();
+    let scene = app.catalog.scene_of(doc).await?;
+    let written = app.catalog.save(&id, Expect::Absent, scene).await?;
+    Ok(saved(StatusCode::CREATED, id, written.etag))
 }
 
-/// Keeps a scene under a new id.
-///
-/// # Errors
-/// When the store is full or the id is taken.
-pub async fn store_new(app: &App, id: &str, scene: scene::Scene) -> Result<String, Problem> {
-    let key = id.to_owned();
-    let record = body::blocking(move || Ok(catalog::record(scene, &key))).await?;
-    Ok(app.store.put(id, Expect::Absent, record).await?.etag)
-}
+refusals!(Unreplaced: CHANGES BODY SCENE WORK,
+    NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
 
 /// Replaces a scene (If-Match) or makes one under the client's own id (If-None-Match: *).
 #[utoipa::path(put, path = "/v1/scenes/{id}", operation_id = "replaceScene", tag = "scenes",
     params(("id" = String, Path), ("If-Match" = Option<String>, Header), ("If-None-Match" = Option<String>, Header)),
     request_body(content = ref("#/components/schemas/Scene"), content_type = "application/json"),
-    responses((status = 200, body = ref("#/components/schemas/Saved")),
-        (status = 201, body = ref("#/components/schemas/Saved"))))]
+    responses((status = 200, description = "replaced", body = ref("#/components/schemas/Saved")),
+        (status = 201, description = "made", body = ref("#/components/schemas/Saved")), Unreplaced))]
 pub async fn replace(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Problem> {
     let expect = match (if_match(request.headers()), if_none_match(request.headers())) {
         (Some(tags), _) => Expect::Etags(tags),
@@ -211,10 +208,8 @@ pub async fn replace(State(app): State<App>, Id(id): Id, request: Request) -> Re
     };
     writable(&app, &id)?;
     let Json(doc) = Json::<SceneDoc>::from_request(request, &app).await?;
-    let scene = catalog::scene_of(&app, doc).await?;
-    let key = id.clone();
-    let record = body::blocking(move || Ok(catalog::record(scene, &key))).await?;
-    let written = app.store.put(&id, expect, record).await?;
+    let scene = app.catalog.scene_of(doc).await?;
+    let written = app.catalog.save(&id, expect, scene).await?;
     let status = if written.created { StatusCode::CREATED } else { StatusCode::OK };
     Ok(saved(status, id, written.etag))
 }
@@ -225,7 +220,7 @@ fn precondition_required() -> Problem {
 }
 
 fn writable(app: &App, id: &str) -> Result<(), Problem> {
-    if app.library.has(id) {
+    if app.catalog.library.has(id) {
         let detail = "This scene is read-only; POST to its /duplicate and change the copy.";
         return Err(Problem::new(Code::ReadOnly, detail));
     }
@@ -254,18 +249,24 @@ fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(
     Option::deserialize(d).map(Some)
 }
 
+refusals!(Unrenamed: CHANGES BODY SCENE WORK,
+    NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
+
 /// Renames a scene, or changes its tags or notes (RFC 7396 merge patch).
 #[utoipa::path(patch, path = "/v1/scenes/{id}", operation_id = "renameScene", tag = "scenes",
     params(("id" = String, Path), ("If-Match" = Option<String>, Header)),
-    request_body(content = ref("#/components/schemas/ScenePatch"), content_type = "application/merge-patch+json"),
-    responses((status = 200, body = ref("#/components/schemas/Saved"))))]
+    request_body(content = ref("#/components/schemas/ScenePatch"),
+        content_type = "application/merge-patch+json", example = json!({"name": "left turn, late"})),
+    responses((status = 200, description = "changed", body = ref("#/components/schemas/Saved")), Unrenamed))]
 pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Problem> {
     let tags = if_match(request.headers()).ok_or_else(precondition_required)?;
     body::media_type(request.headers(), &["application/merge-patch+json", "application/json"])?;
     writable(&app, &id)?;
-    let patch: ScenePatch = body::parse(body::read_json(request, &app.limits).await?).await?;
-    let (summary, json) = app.store.get(&id).await?.ok_or_else(catalog::not_found)?;
-    let mut doc = body::blocking(move || Ok(native::read_doc(&json)?)).await?;
+    let reading = Reading::from_ref(&app);
+    let patch: ScenePatch = reading.parse(reading.json(request).await?).await?;
+    let (summary, json) = app.catalog.store.get(&id).await?.ok_or_else(not_found)?;
+    let bytes = json.len();
+    let mut doc = app.pool.document(bytes, move || Ok(native::read_doc(&json)?)).await?;
     if let Some(name) = patch.name {
         doc.name = name.unwrap_or_default();
     }
@@ -276,35 +277,26 @@ pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Res
         doc.meta.notes = notes.unwrap_or_default();
     }
     // The whole scene is checked again, so that a patch cannot store what a PUT could not.
-    catalog::scene_of(&app, doc.clone()).await?;
-    let record = same_map(&doc, summary.parent_id, summary.meta, summary.map_sha);
+    app.catalog.scene_of(doc.clone()).await?;
+    let make = move || record::of_doc(&doc, summary.parent_id, summary.meta, summary.map_sha);
+    let record = app.pool.document(bytes, make).await?;
     // Between the read above and this write the scene may have changed: the ETag read decides too.
     let held = tags.iter().any(|t| t == "*" || *t == summary.etag);
     let expect = if held { vec![summary.etag] } else { tags };
-    let written = app.store.put(&id, Expect::Etags(expect), record).await?;
+    let written = app.catalog.save_record(&id, Expect::Etags(expect), record).await?;
     Ok(saved(StatusCode::OK, id, written.etag))
 }
 
-/// A row whose map is stored already.
-fn same_map(doc: &SceneDoc, parent_id: Option<String>, meta: String, sha: String) -> SceneRecord {
-    SceneRecord {
-        name: doc.name.clone(),
-        tags: doc.meta.tags.clone(),
-        parent_id,
-        meta,
-        json: native::write_doc(doc),
-        map: MapRecord { sha, polylines: 0, points: 0, json: None },
-    }
-}
+refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnly);
 
 /// Deletes a scene.
 #[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",
     params(("id" = String, Path), ("If-Match" = Option<String>, Header)),
-    responses((status = 204, description = "deleted")))]
+    responses((status = 204, description = "deleted"), Undeleted))]
 pub async fn remove(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<StatusCode, Problem> {
     let tags = if_match(&headers).ok_or_else(precondition_required)?;
     writable(&app, &id)?;
-    app.store.delete(&id, Expect::Etags(tags)).await?;
+    app.catalog.store.delete(&id, Expect::Etags(tags)).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -316,24 +308,28 @@ pub struct DuplicateRequest {
     name: Option<String>,
 }
 
+refusals!(Uncopied: CHANGES BODY WORK, NotFound, StoreFull);
+
 /// Copies a scene, read-only ones too; `meta.parent_id` names the original.
 #[utoipa::path(post, path = "/v1/scenes/{id}/duplicate", operation_id = "duplicateScene", tag = "scenes",
     params(("id" = String, Path)),
-    request_body(content = ref("#/components/schemas/DuplicateRequest"), content_type = "application/json"),
-    responses((status = 201, body = ref("#/components/schemas/Saved"))))]
+    request_body(content = ref("#/components/schemas/DuplicateRequest"), content_type = "application/json",
+        example = json!({"name": "left turn, later"})),
+    responses((status = 201, description = "stored", body = ref("#/components/schemas/Saved")), Uncopied))]
 pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> Result<Response, Problem> {
     let typed = request.headers().contains_key(header::CONTENT_TYPE);
     if typed {
         body::media_type(request.headers(), body::JSON)?;
     }
-    let bytes = body::read_json(request, &app.limits).await?;
+    let reading = Reading::from_ref(&app);
+    let bytes = reading.json(request).await?;
     let options: DuplicateRequest =
-        if bytes.is_empty() && !typed { DuplicateRequest::default() } else { body::parse(bytes).await? };
-    let opened = catalog::open(&app, &id).await?;
+        if bytes.is_empty() && !typed { DuplicateRequest::default() } else { reading.parse(bytes).await? };
+    let opened = app.catalog.open(&id).await?;
     let mut scene = (*opened.scene).clone();
     scene.name = options.name.unwrap_or_else(|| format!("{} copy", scene.name));
     scene.meta.parent_id = Some(id);
-    let copy = uuid::Uuid::now_v7().to_string();
-    let etag = store_new(&app, &copy, scene).await?;
-    Ok(saved(StatusCode::CREATED, copy, etag))
+    let copy = id::fresh();
+    let written = app.catalog.save(&copy, Expect::Absent, scene).await?;
+    Ok(saved(StatusCode::CREATED, copy, written.etag))
 }

@@ -1,13 +1,14 @@
 //! `/v1/score`: collisions, near misses, off-road driving, kinematics, goals.
 
+use super::scene_ref::{AboutScene, SceneRef, WithScene};
 use crate::app::App;
-use crate::body::{self, Json};
-use crate::catalog;
-use crate::problem::{Code, Problem};
-use crate::scoring;
+use crate::base::problem::Problem;
+use crate::generation::scoring;
+use crate::http::body::JsonText;
+use crate::work::Kind;
 use axum::extract::State;
 use formats::native::{Members, SceneDoc};
-use formats::{FieldProblem, ReadError};
+use formats::{FieldProblem, ReadError, pointer_token};
 use scene::score::{PairChoice, Score, ScoreInput, Thresholds};
 use scene::{AgentFutures, Future, Sample, Scene, State as AgentState, Track};
 use schemars::JsonSchema;
@@ -56,6 +57,9 @@ pub struct ScoreRequest {
     /// A scene of this server.
     #[serde(default)]
     scene_id: Option<String>,
+    /// With `scene_id`: refuse when the scene has changed.
+    #[serde(default)]
+    etag: Option<String>,
     /// Motion to score; for the rest the chosen futures, else the log.
     #[serde(default)]
     trajectories: Members<TrajectoryDoc>,
@@ -64,40 +68,31 @@ pub struct ScoreRequest {
     reference: Option<Reference>,
     /// `all` or `regenerated`.
     #[serde(default)]
-    #[schemars(with = "PairWord")]
     pairs: PairChoice,
     /// Numbers that decide what counts; those absent have their defaults.
     #[serde(default)]
-    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     thresholds: Thresholds,
 }
 
-/// Which pairs are looked at.
-#[derive(JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[allow(dead_code, reason = "stands for scene::score::PairChoice in the document")]
-enum PairWord {
-    All,
-    Regenerated,
+impl AboutScene for ScoreRequest {
+    fn take_scene(&mut self) -> SceneRef {
+        SceneRef { scene: self.scene.take(), scene_id: self.scene_id.take(), etag: self.etag.take() }
+    }
 }
+
+refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK);
 
 /// Scores a scene: chosen futures or the given motion, and the log of the rest.
 #[utoipa::path(post, path = "/v1/score", operation_id = "score", tag = "score",
-    request_body(content = ref("#/components/schemas/ScoreRequest"), content_type = "application/json"),
-    responses((status = 200, body = ref("#/components/schemas/ScoreReply"))))]
+    request_body(content = ref("#/components/schemas/ScoreRequest"), content_type = "application/json",
+        example = json!({"scene_id": "demo-crossing"})),
+    responses((status = 200, description = "the score", body = ref("#/components/schemas/ScoreReply")),
+        Refused))]
 pub async fn score(
     State(app): State<App>,
-    Json(mut request): Json<ScoreRequest>,
-) -> Result<axum::Json<Score>, Problem> {
-    let scene = match (request.scene.take(), request.scene_id.take()) {
-        (Some(doc), None) => std::sync::Arc::new(catalog::scene_of(&app, doc).await?),
-        (None, Some(id)) => catalog::open(&app, &id).await?.scene,
-        _ => {
-            let detail = "exactly one of scene and scene_id is needed";
-            return Err(Problem::field("/scene", Code::InvalidField, detail));
-        }
-    };
-    body::blocking(move || of(&scene, &request).map(axum::Json)).await
+    WithScene(request, scene): WithScene<ScoreRequest>,
+) -> Result<JsonText, Problem> {
+    app.pool.run(Kind::Score, move |_| JsonText::of(&of(&scene, &request)?)).await
 }
 
 fn of(scene: &Scene, request: &ScoreRequest) -> Result<Score, Problem> {
@@ -140,7 +135,7 @@ fn states(
     doc: &TrajectoryDoc,
     faults: &mut Vec<FieldProblem>,
 ) -> Option<Vec<AgentState>> {
-    let at = format!("{base}/{}", id.replace('~', "~0").replace('/', "~1"));
+    let at = format!("{base}/{}", pointer_token(id));
     let before = faults.len();
     if scene.agent(id).is_none() {
         faults.push(FieldProblem::new(at.clone(), "unknown-agent", "the scene has no such road user"));

@@ -32,6 +32,9 @@ const CHECKS: &[Check] = &[
     ("test", || cargo(&["test", "--workspace", "--locked"])),
     ("openapi", || drift("openapi", "assets/openapi.json")),
     ("schema", || drift("schema", "assets/schema/scene.v1.schema.json")),
+    ("domain", || drift("domain", "assets/domain.json")),
+    ("machete", || tool("machete", &["machete"])),
+    ("deny", || tool("deny", &["deny", "check", "licenses", "bans", "sources"])),
     ("browser", browser),
 ];
 
@@ -100,6 +103,16 @@ fn run(command: &mut Command) -> anyhow::Result<Outcome> {
 fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
     let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     run(Command::new(program).args(arguments).current_dir(root()))
+}
+
+/// Runs a cargo tool that is installed apart; without it the check is skipped.
+fn tool(name: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
+    let program = format!("cargo-{name}");
+    let found = Command::new(&program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    if !found.is_ok_and(|status| status.success()) {
+        return Ok(Outcome::Skipped(format!("{program} is not here; cargo install --locked {program}")));
+    }
+    cargo(arguments)
 }
 
 fn npm(folder: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {

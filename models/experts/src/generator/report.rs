@@ -4,11 +4,13 @@
 use super::actor::Actor;
 use super::trajectory::Motion;
 use crate::planning::world::{AgentAtStart, World};
-use crate::request::{Field, Intermediate, NearestState, ReachReport, Resolved, Source, Warning};
+use crate::request::{
+    Field, Intermediate, NearestState, ReachReport, Resolved, ResolvedGoal, ResolvedStart, Source, Warning,
+    WarningCode,
+};
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::motion::{Kind, Limiting, MotionState, Reach};
 use scene::{AgentType, Conditions, STEP_S, State, wrap_angle};
-use std::collections::BTreeMap;
 
 impl From<&MotionState> for NearestState {
     fn from(s: &MotionState) -> Self {
@@ -41,36 +43,45 @@ pub(super) struct Outcome<'a> {
 pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
     let Outcome { present, conditions, due_step, end, reach, intermediate } = outcome;
     let agent = world.agent(present);
-    let mut fields = BTreeMap::new();
-    let mut put = |name: &str, value: f64, from: Source| {
-        fields.insert(name.to_owned(), Field { value, from });
-    };
     let logged = agent.state_at(world.step).is_some();
-    let start = |fixed: bool| match (fixed, logged) {
-        (true, _) => Source::User,
-        (false, true) => Source::Log,
-        (false, false) => Source::Default,
+    let start = |value: f64, fixed: bool| {
+        let from = match (fixed, logged) {
+            (true, _) => Source::User,
+            (false, true) => Source::Log,
+            (false, false) => Source::Default,
+        };
+        Field { value, from }
     };
-    let (s, c) = (&present.start, &conditions.start);
-    put("start.x_m", s.x_m, start(c.position.is_some()));
-    put("start.y_m", s.y_m, start(c.position.is_some()));
-    put("start.heading_rad", s.heading_rad, start(c.heading_rad.is_some()));
-    put("start.speed_mps", s.speed_mps(), start(c.speed_mps.is_some()));
-    let size = |fixed: bool| if fixed { Source::User } else { Source::Log };
-    put("length_m", present.size.length_m, size(conditions.length_m.is_some()));
-    put("width_m", present.size.width_m, size(conditions.width_m.is_some()));
-    let asked = &conditions.goal;
-    let goal = |fixed: bool| if fixed { Source::User } else { Source::Model };
+    let size =
+        |value: f64, fixed: bool| Field { value, from: if fixed { Source::User } else { Source::Log } };
+    let goal =
+        |value: f64, fixed: bool| Field { value, from: if fixed { Source::User } else { Source::Model } };
+    let (s, c, asked) = (&present.start, &conditions.start, &conditions.goal);
     let position = asked.position.unwrap_or(end.position());
-    put("goal.x_m", position.x, goal(asked.position.is_some()));
-    put("goal.y_m", position.y, goal(asked.position.is_some()));
-    let heading = asked.heading_rad.unwrap_or(end.heading_rad);
-    put("goal.heading_rad", wrap_angle(heading), goal(asked.heading_rad.is_some()));
-    let speed = asked.speed_mps.unwrap_or_else(|| end.speed_mps());
-    put("goal.speed_mps", speed, goal(asked.speed_mps.is_some()));
-    let due = due_step as f64 * STEP_S;
-    put("goal.time_s", due, if asked.time_s.is_some() { Source::User } else { Source::Default });
-    Resolved { agent_type: present.agent_type, fields, reach, intermediate }
+    let due_from = if asked.time_s.is_some() { Source::User } else { Source::Default };
+    Resolved {
+        agent_type: present.agent_type,
+        length_m: size(present.size.length_m, conditions.length_m.is_some()),
+        width_m: size(present.size.width_m, conditions.width_m.is_some()),
+        start: ResolvedStart {
+            x_m: start(s.x_m, c.position.is_some()),
+            y_m: start(s.y_m, c.position.is_some()),
+            heading_rad: start(s.heading_rad, c.heading_rad.is_some()),
+            speed_mps: start(s.speed_mps(), c.speed_mps.is_some()),
+        },
+        goal: ResolvedGoal {
+            x_m: goal(position.x, asked.position.is_some()),
+            y_m: goal(position.y, asked.position.is_some()),
+            heading_rad: goal(
+                wrap_angle(asked.heading_rad.unwrap_or(end.heading_rad)),
+                asked.heading_rad.is_some(),
+            ),
+            speed_mps: goal(asked.speed_mps.unwrap_or_else(|| end.speed_mps()), asked.speed_mps.is_some()),
+            time_s: Field { value: due_step as f64 * STEP_S, from: due_from },
+        },
+        reach,
+        intermediate,
+    }
 }
 
 /// Verdict of one window on what it was asked. `since_s` is the scene time of a later window's start:
@@ -87,21 +98,11 @@ pub(super) fn reach_report(actor: &Actor, motion: &Motion, since_s: Option<f64>)
             let words = since_s.map_or(words.clone(), |s| format!("From {s:.1} s on: {words}"));
             ReachReport::Unreachable {
                 nearest: nearest.into(),
-                limiting: limit_name(*limiting).to_owned(),
+                limiting: (*limiting).into(),
                 needs: *needs,
                 words,
             }
         }
-    }
-}
-
-fn limit_name(limiting: Limiting) -> &'static str {
-    match limiting {
-        Limiting::Acceleration => "acceleration",
-        Limiting::Braking => "braking",
-        Limiting::Speed => "speed",
-        Limiting::Lateral => "lateral",
-        Limiting::Curvature => "curvature",
     }
 }
 
@@ -153,8 +154,8 @@ pub(super) fn warnings<'a>(
     for actor in actors {
         let present = &actor.plan.present;
         let (conditions, due) = asked(present.index);
-        let mut warn = |code: &str, detail: String| {
-            out.push(Warning { code: code.to_owned(), agent: Some(actor.id.clone()), detail });
+        let mut warn = |code: WarningCode, detail: String| {
+            out.push(Warning { code, agent: Some(actor.id.clone()), detail });
         };
         let off_road = |point| {
             present.agent_type != AgentType::Pedestrian
@@ -163,25 +164,28 @@ pub(super) fn warnings<'a>(
         };
         if let Some(position) = conditions.goal.position {
             if off_road(position) {
-                warn("goal-off-road", "There is no lane within 6 m of the goal.".into());
+                warn(WarningCode::GoalOffRoad, "There is no lane within 6 m of the goal.".into());
             }
             let distance = (position - present.start.position()).norm();
             let seconds = due as f64 * STEP_S;
             if distance > 1.1 * seconds * actor.plan.model.limits.speed_mps.max(present.start.speed_mps()) {
                 warn(
-                    "goal-unreachable",
+                    WarningCode::GoalUnreachable,
                     format!("{distance:.0} m in {seconds:.1} s is beyond the top speed."),
                 );
             }
         }
         if conditions.start.position.is_some() {
             if off_road(present.start.position()) {
-                warn("start-off-road", "There is no lane within 6 m of the start.".into());
+                warn(WarningCode::StartOffRoad, "There is no lane within 6 m of the start.".into());
             }
             let own = OrientedBox::of_state(&present.start, &present.size);
             for other in world.present.iter().filter(|p| p.index != present.index) {
                 if iou(&own, &OrientedBox::of_state(&other.start, &other.size)) > 0.02 {
-                    warn("start-overlaps", format!("The start overlaps {}.", world.agent(other).id));
+                    warn(
+                        WarningCode::StartOverlaps,
+                        format!("The start overlaps {}.", world.agent(other).id),
+                    );
                 }
             }
         }

@@ -77,7 +77,7 @@ pub struct PlacementModel {
 }
 
 /// Facts about placement weights.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, schemars::JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct PlacementInfo {
     pub sha256: String,

@@ -56,7 +56,8 @@ pub enum Amount {
 }
 
 /// How road users are placed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[schemars(rename = "PlacementMethod")]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// By learned rates and distributions.

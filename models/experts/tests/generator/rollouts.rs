@@ -91,7 +91,7 @@ fn goals_of_later_windows_are_met() {
                 assert!(excess(&scene, "1", future) <= 0.0, "{at}");
                 let resolved = &answer.resolved["1"];
                 assert!(matches!(resolved.reach, ReachReport::Reached { .. }), "{at}: {:?}", resolved.reach);
-                assert_eq!(resolved.fields["goal.time_s"].value, time_s);
+                assert_eq!(resolved.goal.time_s.value, time_s);
                 // A heading alone is held in view only when little time is left for it.
                 let told = resolved.intermediate.iter().map(|i| i.window);
                 assert!(subset == 2 || told.eq(0..resolved.intermediate.len()), "{at}");
@@ -123,7 +123,7 @@ fn a_goal_without_a_time_is_due_at_the_end() {
         assert_eq!(future.states.len(), horizon);
         let end = future.states.last().unwrap();
         assert!((end.position() - Vec2::new(0.0, -1.75)).norm() < 0.1, "{horizon}: {end:?}");
-        assert!((answer.resolved["1"].fields["goal.time_s"].value - 0.1 * horizon as f64).abs() < 1e-9);
+        assert!((answer.resolved["1"].goal.time_s.value - 0.1 * horizon as f64).abs() < 1e-9);
     }
 }
 
@@ -140,7 +140,7 @@ fn what_no_window_can_reach_is_said() {
         assert!(excess(&scene, "1", future) <= 0.0);
         if let ReachReport::Unreachable { words, .. } = &answer.resolved["1"].reach {
             assert!(words.starts_with("From 9.0 s on: "), "{words}");
-            assert!(answer.warnings.iter().any(|w| w.code == "goal-unreachable"));
+            assert!(answer.warnings.iter().any(|w| w.code == WarningCode::GoalUnreachable));
         }
     }
 }
@@ -212,13 +212,13 @@ fn who_is_kept_goes_straight_on_where_the_log_ends_and_that_is_said() {
     let told: Vec<&str> = answer
         .warnings
         .iter()
-        .filter(|w| w.code == "extrapolated")
+        .filter(|w| w.code == WarningCode::Extrapolated)
         .filter_map(|w| w.agent.as_deref())
         .collect();
     assert_eq!(told, ["2", "3", "4", "5"], "all that move; the parked car stays where it is");
     assert!(!answer.samples[0].agents.contains_key("2"));
     let nine = run(&GENERATOR, rollout(crossing(), Some(&["1"]), 90, 30));
-    assert!(nine.warnings.iter().all(|w| w.code != "extrapolated"), "the log lasts as long");
+    assert!(nine.warnings.iter().all(|w| w.code != WarningCode::Extrapolated), "the log lasts as long");
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn who_comes_in_later_plans_on_where_the_log_ends() {
     let future = chosen(&answer, "7");
     assert_eq!((future.first_step, future.states.len()), (41, 160));
     assert!(future.states[..50] == log[1..], "the log as far as it goes");
-    assert!(answer.warnings.iter().all(|w| w.code != "extrapolated"));
+    assert!(answer.warnings.iter().all(|w| w.code != WarningCode::Extrapolated));
     let kept = run(&GENERATOR, rollout(scene, Some(&["1"]), 200, 90));
     assert!(!kept.samples[0].agents.contains_key("7"));
     assert!(kept.warnings.iter().any(|w| w.agent.as_deref() == Some("7")));

@@ -184,7 +184,7 @@ impl GeneratedDoc {
         for (s, sample) in self.samples.into_iter().enumerate() {
             let mut agents = BTreeMap::new();
             for (id, futures) in sample.agents.0 {
-                let at = format!("{pointer}/samples/{s}/agents/{}", super::json::escape(&id));
+                let at = format!("{pointer}/samples/{s}/agents/{}", crate::problem::pointer_token(&id));
                 if futures.chosen >= futures.modes.len() as u64 {
                     let detail = format!("{} of {} modes", futures.chosen, futures.modes.len());
                     problems.invalid(format!("{at}/chosen"), detail);

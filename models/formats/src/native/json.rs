@@ -1,6 +1,6 @@
 //! From bytes to a typed document with the place of the fault.
 
-use crate::problem::{FieldProblem, ReadError, code};
+use crate::problem::{FieldProblem, ReadError, code, pointer_token};
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
@@ -75,15 +75,10 @@ fn pointer_of(path: &Path) -> String {
             Segment::Seq { index } => pointer.push_str(&format!("/{index}")),
             Segment::Map { key } | Segment::Enum { variant: key } => {
                 pointer.push('/');
-                pointer.push_str(&escape(key));
+                pointer.push_str(&pointer_token(key));
             }
             Segment::Unknown => {}
         }
     }
     pointer
-}
-
-/// Escapes one member name for a JSON pointer.
-pub(crate) fn escape(key: &str) -> String {
-    key.replace('~', "~0").replace('/', "~1")
 }

@@ -16,7 +16,8 @@ const ANGLE_RAD: (f64, f64) = (-1_000.0, 1_000.0);
 const COORDINATE_M: (f64, f64) = (-MAX_COORDINATE_M, MAX_COORDINATE_M);
 
 /// Allowed sizes and speeds of one agent type; both ends are allowed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, schemars::JsonSchema)]
+#[schemars(rename = "ConditionRange")]
 pub struct Ranges {
     /// Metres.
     pub length_m: (f64, f64),

@@ -49,6 +49,7 @@ const DT_S: f64 = STEP_S;
 
 /// Kind of network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Template {
     /// One crossing with its arms and side streets.
     Crossing,

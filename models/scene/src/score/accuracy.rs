@@ -3,11 +3,12 @@
 use super::input::Actor;
 use super::report::mean;
 use crate::{Future, State, Track, wrap_angle};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
 /// Which step counts as the end of a future.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Endpoint {
     /// The last one.
@@ -18,7 +19,7 @@ pub enum Endpoint {
 }
 
 /// Errors against the reference, over the steps at which both are known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Accuracy {
     /// Least mean distance of any future, metres.
     pub min_ade_m: Option<f64>,

@@ -3,10 +3,11 @@
 use super::input::{Actor, Thresholds};
 use super::report::mean;
 use crate::{STEP_S, wrap_angle};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Error at the goal time; a member is missing where its field was free.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct GoalError {
     /// Distance from the goal, metres.
     #[serde(skip_serializing_if = "Option::is_none")]

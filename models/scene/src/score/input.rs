@@ -3,12 +3,13 @@
 use super::drivable::Drivable;
 use crate::geometry::obb::OrientedBox;
 use crate::{Agent, AgentType, Future, Goal, LaneMap, Scene, Signal, Size, State, Subtype, Track};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Numbers that decide what counts. Defaults are those of `api.md` section 7 and `editor.md` item 21.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// Numbers that decide what counts. Those absent in a document have their defaults.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Thresholds {
     /// Boxes collide when their intersection over union is above this.
@@ -62,7 +63,7 @@ impl Default for Thresholds {
 }
 
 /// Which pairs are looked at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PairChoice {
     /// Every pair.

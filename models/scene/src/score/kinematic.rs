@@ -5,6 +5,7 @@ use super::report::{Stretch, maximum, stretches};
 use crate::geometry::cross;
 use crate::limits::Limits;
 use crate::{AgentType, STEP_S, State, Subtype, wrap_angle};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ pub struct KinematicLimits {
 }
 
 impl KinematicLimits {
-    /// Vehicles: the row of `api.md` section 7 (curvature wider where the kind turns tighter).
+    /// Vehicles: wider than what motion keeps (curvature wider where the kind turns tighter).
     /// Cyclists and pedestrians: the hard limits by the same factors.
     pub fn of(agent_type: AgentType, subtype: Subtype, length_m: f64) -> Self {
         let hard = Limits::of(agent_type, subtype, length_m);
@@ -66,7 +67,7 @@ impl KinematicLimits {
 }
 
 /// Greatest values of a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Kinematic {
     /// Greatest speed, m/s.
     pub speed_mps: f64,

@@ -1,4 +1,4 @@
-//! Scores of whole scenes (`api.md` section 7): collisions and near misses, distance and time to
+//! Scores of whole scenes: collisions and near misses, distance and time to
 //! collision, post-encroachment time, off-road and wrong-way driving, red lights, kinematic limits,
 //! goals met, distance from the log.
 //!

@@ -1,4 +1,4 @@
-//! The score as it is answered: member names are those of `api.md` section 7.
+//! The score as it is answered: these are the members of the reply to `POST /v1/score`.
 
 use super::accuracy::Accuracy;
 use super::goal::GoalError;
@@ -6,11 +6,13 @@ use super::input::{ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
 use super::pairs::PairScores;
 use crate::AgentId;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Answer to a score request.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "ScoreReply")]
 pub struct Score {
     /// The scene as a whole.
     pub scene: SceneScore,
@@ -21,7 +23,7 @@ pub struct Score {
 }
 
 /// Two road users overlap. One entry a pair.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Collision {
     /// The one listed first.
     pub a: AgentId,
@@ -37,7 +39,7 @@ pub struct Collision {
 }
 
 /// Two moving road users nearly collide. One entry a pair, at its worst moment.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NearMiss {
     /// The one listed first.
     pub a: AgentId,
@@ -54,7 +56,7 @@ pub struct NearMiss {
 }
 
 /// Something one road user does over a stretch of time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Stretch {
     /// Who.
     pub agent: AgentId,
@@ -68,7 +70,7 @@ pub struct Stretch {
 }
 
 /// A stop line is crossed while its signal says stop.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RedLight {
     /// Who.
     pub agent: AgentId,
@@ -81,7 +83,7 @@ pub struct RedLight {
 }
 
 /// Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SceneScore {
     /// By time, then by pair.
     pub collisions: Vec<Collision>,
@@ -137,7 +139,7 @@ pub struct SceneScore {
 }
 
 /// Score of one road user.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct AgentScore {
     /// Collisions it is part of.
     pub collisions: usize,

@@ -8,7 +8,7 @@ use crate::generator::extrapolation::Guessed;
 use crate::generator::report::{self, Outcome};
 use crate::generator::window::Window;
 use crate::planning::world::World;
-use crate::request::{Answer, Intermediate, ReachReport, Request, Resolved, Timings, Warning};
+use crate::request::{Answer, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode};
 use scene::{AgentFutures, AgentId, Future, STEP_S, Sample, Scene, State};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -145,7 +145,7 @@ impl Ledger {
                 continue;
             }
             self.warnings.push(Warning {
-                code: "extrapolated".into(),
+                code: WarningCode::Extrapolated,
                 agent: Some(request.scene.agents[i].id.clone()),
                 detail: format!(
                     "Nothing says where it is from {:.1} s on; taken to go straight on at its speed.",
@@ -159,10 +159,11 @@ impl Ledger {
     pub(super) fn answer(&mut self, windows: usize) -> Answer {
         for (id, resolved) in &self.resolved {
             if let ReachReport::Unreachable { words, .. } = &resolved.reach {
-                let known = |w: &Warning| w.code == "goal-unreachable" && w.agent.as_ref() == Some(id);
+                let known =
+                    |w: &Warning| w.code == WarningCode::GoalUnreachable && w.agent.as_ref() == Some(id);
                 if !self.warnings.iter().any(known) {
                     let agent = Some(id.clone());
-                    let code = "goal-unreachable".into();
+                    let code = WarningCode::GoalUnreachable;
                     self.warnings.push(Warning { code, agent, detail: words.clone() });
                 }
             }

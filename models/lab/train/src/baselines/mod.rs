@@ -46,12 +46,15 @@ const EVERYBODY: &str = "everybody";
 /// Whose method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum BaselineKind {
     /// TrafficGen: vehicles, no condition.
     #[serde(rename = "trafficgen")]
+    #[cfg_attr(feature = "cli", value(name = "trafficgen"))]
     TrafficGen,
     /// One TrafficGen for all types, with the condition.
     #[serde(rename = "trafficgen-conditional")]
+    #[cfg_attr(feature = "cli", value(name = "trafficgen-conditional"))]
     TrafficGenConditional,
     /// The paper's architecture at its own outputs.
     Paper,

@@ -6,6 +6,7 @@ use super::TrainError;
 
 /// What computes the networks. Records, losses and the optimiser stay on the CPU.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Processor {
     /// The CPU, where a run repeats bit for bit.
     #[default]

@@ -28,6 +28,7 @@ const STAY: f32 = 0.5;
 /// Which part of the expert is trained, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Stage {
     /// The refiner learns to take noise off recorded residuals.
     Denoiser,

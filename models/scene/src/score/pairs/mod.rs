@@ -9,7 +9,7 @@ use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
 use crate::geometry::{Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_6;
 
-/// Moments looked at between two steps, the step itself counted (`api.md` section 7).
+/// Moments looked at between two steps, the step itself counted.
 pub const SUBSTEPS: usize = 4;
 
 /// A road user that stays within this of its first place all the time is parked, metres.

@@ -1,0 +1,147 @@
+//! The codes of refusals: one table. Clients switch on a code's name, which never changes.
+
+use axum::http::StatusCode;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Serialize, Serializer};
+use std::borrow::Cow;
+
+macro_rules! codes {
+    ($($variant:ident $name:literal $status:literal $title:literal $when:literal;)*) => {
+        /// Every code that a refusal can carry.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[allow(missing_docs, reason = "the table says it")]
+        pub enum Code { $($variant,)* }
+
+        impl Code {
+            /// All codes in the order of the documentation.
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
+
+            /// The word clients switch on.
+            pub fn name(self) -> &'static str { match self { $(Self::$variant => $name,)* } }
+
+            /// HTTP status.
+            pub fn status(self) -> u16 { match self { $(Self::$variant => $status,)* } }
+
+            /// A few words for people, the same for each occurrence.
+            pub fn title(self) -> &'static str { match self { $(Self::$variant => $title,)* } }
+
+            /// When it is given and what to do about it.
+            pub fn when(self) -> &'static str { match self { $(Self::$variant => $when,)* } }
+        }
+    };
+}
+
+codes! {
+    MalformedJson "malformed-json" 400 "Not JSON" "The body is not JSON. Line and column of the fault are given; NaN, Infinity and numbers beyond f64 are not JSON.";
+    MalformedFile "malformed-file" 400 "Broken file" "The uploaded file is broken at byte `offset` of its decoded form.";
+    BadHeader "bad-header" 400 "Unusable header" "A header of the request cannot be read.";
+    BadHost "bad-host" 400 "Host missing or given twice" "A request needs exactly one Host header.";
+    Unauthorized "unauthorized" 401 "Token needed" "This server was started with a token; send it as `Authorization: Bearer`.";
+    BadOrigin "bad-origin" 403 "Origin not allowed" "The Origin is neither this server's nor one given with --allow-origin.";
+    CrossSite "cross-site" 403 "Request from another site" "A browser sent this on behalf of another site.";
+    ReadOnly "read-only" 403 "Scene is read-only" "Demo scenes and those of the data folder cannot be changed; duplicate the scene and change the copy.";
+    NotFound "not-found" 404 "Not found" "Nothing has this address or id.";
+    MethodNotAllowed "method-not-allowed" 405 "Method not allowed" "The Allow header lists the methods that this address knows.";
+    NotAcceptable "not-acceptable" 406 "No acceptable representation" "None of the media types in Accept can be given.";
+    BodyTimeout "body-timeout" 408 "Body too slow" "The body did not arrive in time.";
+    Exists "exists" 409 "Exists already" "Something with this id exists already.";
+    Superseded "superseded" 409 "Overtaken by a newer revision" "The same client sent a newer revision; `by_revision` names it.";
+    StaleRevision "stale-revision" 409 "Revision not newer" "The revision is not above the highest that this client has sent.";
+    Cancelled "cancelled" 409 "Cancelled" "The job was cancelled by its id, or its reader left.";
+    StaleEtag "stale-etag" 412 "Changed in the meantime" "The stored scene is another than the one the precondition names; its current `etag` is given.";
+    BodyTooLarge "body-too-large" 413 "Body too large" "The body is larger than `limit` bytes.";
+    DecodedTooLarge "decoded-too-large" 413 "Decoded body too large" "The body decodes to more than `limit` bytes.";
+    ExpansionTooHigh "expansion-too-high" 413 "Expands too much" "The body grows by more than `limit` when decoded.";
+    UriTooLong "uri-too-long" 414 "Address too long" "The address is longer than `limit` bytes.";
+    UnsupportedMediaType "unsupported-media-type" 415 "Media type not supported" "This address does not take this Content-Type or Content-Encoding.";
+    HostNotAllowed "host-not-allowed" 421 "Host not served here" "The Host is not this machine's own name; --allow-host adds one. This guards against DNS rebinding.";
+    InvalidField "invalid-field" 422 "Field not valid" "A field has the wrong type or form, is unknown, missing or given twice; `errors` lists all faults found.";
+    OutOfRange "out-of-range" 422 "Number out of range" "A number lies outside what its field can hold; `errors` gives the bounds.";
+    HalfPosition "half-position" 422 "Half a position" "`x_m` and `y_m` are fixed together or not at all.";
+    StartMissing "start-missing" 422 "Start unknown" "A start field is free and neither the log nor a default fills it.";
+    UnknownAgent "unknown-agent" 422 "No such road user" "An id names no road user of the scene.";
+    UnknownMap "unknown-map" 422 "Map not known here" "No map with this hash is known to the server; send the map inline.";
+    TooManyAgents "too-many-agents" 422 "Too many road users" "More road users than a scene may hold or a call may regenerate.";
+    MapTooLarge "map-too-large" 422 "Map too large" "The map has more lines, points or signals than a scene may hold.";
+    ReplyTooLarge "reply-too-large" 422 "Reply would be too large" "samples x modes x road users x steps is above `limit`.";
+    UnsupportedVersion "unsupported-version" 422 "Newer version" "The document was written by a newer version of the format.";
+    FormatUnknown "format-unknown" 422 "Format not recognised" "The file is in no format this server reads, or no format has this name.";
+    CannotRepresent "cannot-represent" 422 "Format cannot hold this" "The format has no place for something that the scene cannot do without.";
+    LicenceRefused "licence-refused" 422 "Licence refused" "This server was started with --refuse-nc and the source is for non-commercial use only.";
+    PreconditionRequired "precondition-required" 428 "Precondition needed" "Send If-Match with the ETag last read (or If-None-Match: * to create), so that no change is lost.";
+    HeadersTooLarge "headers-too-large" 431 "Headers too large" "The request has more than `limit` header fields or bytes.";
+    Internal "internal" 500 "Defect of the server" "A defect of the program. The log has more under the request id.";
+    NonFiniteOutput "non-finite-output" 500 "Expert gave no number" "An expert gave NaN or Infinity; `step` and `agent` say where. Nothing of it is sent.";
+    Busy "busy" 503 "Busy" "The queue is full. Retry-After says when to ask again.";
+    NotReady "not-ready" 503 "Not ready" "`failing` lists what is not ready.";
+    ShuttingDown "shutting-down" 503 "Shutting down" "The server is about to stop.";
+    GenerateTimeout "generate-timeout" 504 "Took too long" "The work took longer than `limit` seconds.";
+    StoreFull "store-full" 507 "Store is full" "The store holds as many scenes or bytes as it may.";
+}
+
+impl Code {
+    /// The code of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|code| code.name() == name)
+    }
+
+    /// The code that stands for a bare status of the HTTP layers below.
+    pub fn from_status(status: StatusCode) -> Self {
+        match status.as_u16() {
+            401 => Self::Unauthorized,
+            403 => Self::BadOrigin,
+            404 => Self::NotFound,
+            405 => Self::MethodNotAllowed,
+            406 => Self::NotAcceptable,
+            408 => Self::BodyTimeout,
+            412 => Self::StaleEtag,
+            413 => Self::BodyTooLarge,
+            414 => Self::UriTooLong,
+            415 => Self::UnsupportedMediaType,
+            422 => Self::InvalidField,
+            431 => Self::HeadersTooLarge,
+            503 => Self::Busy,
+            400..=499 => Self::BadHeader,
+            _ => Self::Internal,
+        }
+    }
+}
+
+/// The word of a [`Code`], as JSON has it.
+#[derive(Clone, Copy, Debug)]
+pub struct CodeName(pub Code);
+
+impl Serialize for CodeName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0.name())
+    }
+}
+
+impl JsonSchema for CodeName {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Code".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let names: Vec<&str> = Code::ALL.iter().map(|code| code.name()).collect();
+        json_schema!({"type": "string", "enum": names})
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Code;
+
+    #[test]
+    fn codes_are_unique_and_found_by_name() {
+        for code in Code::ALL {
+            assert_eq!(Code::from_name(code.name()), Some(*code));
+            assert!((400..600).contains(&code.status()), "{}", code.name());
+            assert!(!code.title().is_empty() && !code.when().is_empty());
+        }
+    }
+}

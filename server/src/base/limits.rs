@@ -1,0 +1,147 @@
+//! Every bound of the server as data: defaults, `--limit NAME=N`, and the table in `/v1/info`.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+macro_rules! limits {
+    ($($field:ident = $default:expr, $what:literal;)*) => {
+        /// Bounds that the server keeps. All are whole numbers in the unit of their name.
+        #[derive(Clone, Debug, PartialEq, Eq)]
+        pub struct Limits { $(#[doc = $what] pub $field: u64,)* }
+
+        impl Default for Limits {
+            fn default() -> Self { Self { $($field: $default,)* } }
+        }
+
+        impl Limits {
+            /// Name, number and meaning of each bound.
+            pub fn table(&self) -> Vec<(&'static str, u64, &'static str)> {
+                vec![$((stringify!($field), self.$field, $what),)*]
+            }
+
+            fn slot(&mut self, name: &str) -> Option<&mut u64> {
+                match name { $(stringify!($field) => Some(&mut self.$field),)* _ => None }
+            }
+        }
+    };
+}
+
+limits! {
+    json_encoded_bytes = 16 << 20, "JSON body as it arrives";
+    json_decoded_bytes = 64 << 20, "JSON body after Content-Encoding is undone";
+    import_encoded_bytes = 256 << 20, "uploaded file as it arrives";
+    import_decoded_bytes = 1 << 30, "uploaded file after Content-Encoding is undone";
+    expansion_ratio = 100, "decoded to encoded size, beyond the first MiB";
+    header_bytes = 16 << 10, "names and values of all header fields";
+    header_fields = 64, "header fields of a request";
+    uri_bytes = 8 << 10, "path and query of a request";
+    regenerated_agents = 128, "road users regenerated or reacting in one call";
+    reply_points = 500_000, "samples x modes x road users x steps of a reply";
+    import_scenes = 200, "scenes taken from one upload";
+    running = 0, "generations and other long work at the same time; 0 means half the cores, 1 to 8";
+    queue = 16, "calls that wait";
+    generate_s = 60, "wall time of a generation and of other work";
+    stream_s = 120, "wall time of a reply, waiting included";
+    stalled_s = 15, "time a reader may leave an event waiting";
+    buffered_events = 8, "events kept for a slow reader before steps are dropped";
+    heartbeat_s = 10, "time between signs of life in a stream";
+    header_read_s = 10, "time for a request's head, and between requests of a connection";
+    body_read_s = 30, "time for a JSON body";
+    import_read_s = 120, "time for an upload";
+    connections = 256, "open connections; the longest idle one makes room";
+    clients = 1_024, "clients whose revisions are remembered";
+    client_idle_s = 600, "time after which a client is forgotten";
+    stored_scenes = 10_000, "scenes in the store";
+    store_bytes = 4 << 30, "size of the store's file";
+    map_keep_s = 86_400, "time an unused map is kept";
+    cached_maps = 64, "maps kept in memory";
+    cached_scenes = 8, "scenes of demos and the data folder kept in memory";
+    shutdown_s = 10, "time running work gets when the server stops";
+}
+
+/// Most joint scenes of a call.
+pub const SAMPLES: u64 = 32;
+/// Most alternatives kept per road user.
+pub const MODES: u64 = 6;
+
+/// Bounds that are part of the scene format (`scene::Scene::checked`) and cannot be changed.
+fn fixed() -> [(&'static str, u64, &'static str); 10] {
+    [
+        ("json_depth", 128, "nesting of a JSON document"),
+        ("agents", scene::MAX_AGENTS as u64, "road users in a scene"),
+        ("scene_steps", scene::MAX_STEPS as u64, "steps in a scene"),
+        ("map_polylines", scene::MAX_POLYLINES as u64, "lines and areas of a map"),
+        ("map_points", scene::MAX_MAP_POINTS as u64, "points of a map"),
+        ("polyline_points", scene::MAX_POLYLINE_POINTS as u64, "points of one line"),
+        ("signals", scene::MAX_SIGNALS as u64, "signals in a scene"),
+        ("coordinate_m", scene::MAX_COORDINATE_M as u64, "distance from the origin"),
+        ("samples", SAMPLES, "joint scenes per call"),
+        ("modes", MODES, "alternatives kept per road user"),
+    ]
+}
+
+impl Limits {
+    /// Applies one `NAME=N`.
+    ///
+    /// # Errors
+    /// A sentence when the name or the number cannot be read.
+    pub fn set(&mut self, assignment: &str) -> Result<(), String> {
+        let (name, number) =
+            assignment.split_once('=').ok_or_else(|| format!("\"{assignment}\": NAME=N expected"))?;
+        let number =
+            number.parse().map_err(|_| format!("\"{number}\" is not a whole number for limit {name}"))?;
+        let slot = self.slot(name).ok_or_else(|| {
+            let names: Vec<_> = Self::default().table().iter().map(|row| row.0).collect();
+            format!("no limit is named \"{name}\"; there are {}", names.join(", "))
+        })?;
+        *slot = number;
+        Ok(())
+    }
+
+    /// Generations that may run at the same time.
+    pub fn workers(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        match self.running {
+            0 => (cores / 2).clamp(1, 8),
+            n => n.min(64) as usize,
+        }
+    }
+
+    /// Calls that may be worked on beside them and never wait for them: reading and writing of documents.
+    pub fn readers(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        cores.saturating_sub(self.workers()).clamp(1, 4)
+    }
+
+    /// All bounds for `/v1/info`.
+    pub fn bounds(&self) -> BTreeMap<&'static str, Bound> {
+        let rows = self.table().into_iter().chain(fixed());
+        let in_force = |name, number| if name == "running" { self.workers() as u64 } else { number };
+        rows.map(|(name, number, what)| (name, Bound { value: in_force(name, number), what })).collect()
+    }
+}
+
+/// One bound as it is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Bound {
+    /// In the unit of the bound's name.
+    pub value: u64,
+    /// What it bounds.
+    pub what: &'static str,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Limits;
+
+    #[test]
+    fn a_limit_is_set_by_name() {
+        let mut limits = Limits::default();
+        assert!(limits.set("queue=3").is_ok());
+        assert_eq!(limits.queue, 3);
+        assert!(limits.set("queue").is_err());
+        assert!(limits.set("queue=-1").is_err());
+        assert!(limits.set("tail=1").unwrap_err().contains("queue"));
+    }
+}

@@ -1,0 +1,97 @@
+//! Counters in Prometheus' text form. Labels are templates and fixed words, never ids or paths.
+
+use axum::http::{Method, StatusCode};
+use metrics::{counter, gauge, histogram};
+use metrics_exporter_prometheus::{Matcher, PrometheusBuilder, PrometheusHandle};
+
+const SECONDS: &[f64] = &[0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 60.0];
+
+/// Installs the recorder of this process.
+///
+/// # Errors
+/// When one is installed already.
+pub fn install() -> Result<PrometheusHandle, String> {
+    PrometheusBuilder::new()
+        .set_buckets_for_metric(Matcher::Suffix("_seconds".into()), SECONDS)
+        .and_then(PrometheusBuilder::install_recorder)
+        .map_err(|error| error.to_string())
+}
+
+/// One finished request.
+pub fn request(route: &str, method: &Method, status: StatusCode, seconds: f64) {
+    let method = match *method {
+        Method::GET | Method::HEAD | Method::POST | Method::PUT | Method::PATCH | Method::DELETE => {
+            method.to_string()
+        }
+        _ => "OTHER".to_owned(),
+    };
+    let labels = [("route", route.to_owned()), ("method", method), ("status", status.as_str().to_owned())];
+    counter!("dragtraffic_http_requests_total", &labels).increment(1);
+    histogram!("dragtraffic_http_request_seconds", "route" => route.to_owned()).record(seconds);
+}
+
+/// Work of a kind ended as `final`, `error`, `superseded` or `cancelled`.
+pub fn ended(kind: &'static str, outcome: &'static str) {
+    counter!("dragtraffic_work_total", "kind" => kind, "outcome" => outcome).increment(1);
+    if kind == "generate" {
+        counter!("dragtraffic_generates_total", "outcome" => outcome).increment(1);
+    }
+}
+
+/// Time that work of a kind took: `queue` before a worker had it, `work` with one.
+pub fn work(kind: &'static str, phase: &'static str, seconds: f64) {
+    histogram!("dragtraffic_work_seconds", "kind" => kind, "phase" => phase).record(seconds);
+}
+
+/// Time of one phase of a generation: `queue`, `encode`, `initial` or `step`.
+pub fn phase(phase: &'static str, seconds: f64) {
+    histogram!("dragtraffic_generate_seconds", "phase" => phase).record(seconds);
+}
+
+/// One denoising step of one expert.
+pub fn step(expert: &'static str) {
+    counter!("dragtraffic_steps_total", "expert" => expert).increment(1);
+}
+
+/// Road users that an expert answered for.
+pub fn agents(expert: &'static str, count: u64) {
+    counter!("dragtraffic_agents_total", "expert" => expert).increment(count);
+}
+
+/// Jobs that wait and jobs under way, of all kinds.
+pub fn load(queued: usize, running: usize) {
+    gauge!("dragtraffic_queue_length").set(queued as f64);
+    gauge!("dragtraffic_running").set(running as f64);
+}
+
+/// An event that a slow reader did not get.
+pub fn dropped_event() {
+    counter!("dragtraffic_events_dropped_total").increment(1);
+}
+
+/// An import or export; `format` is a name of the formats table.
+pub fn transfer(exports: bool, format: &str, outcome: &'static str) {
+    let name = if exports { "dragtraffic_exports_total" } else { "dragtraffic_imports_total" };
+    counter!(name, "format" => format.to_owned(), "outcome" => outcome).increment(1);
+}
+
+/// Size of the store.
+pub fn store(scenes: u64, bytes: u64) {
+    gauge!("dragtraffic_store_scenes").set(scenes as f64);
+    gauge!("dragtraffic_store_bytes").set(bytes as f64);
+}
+
+/// Facts about this build and its weights.
+pub fn identity(weights: impl Iterator<Item = (String, String)>) {
+    gauge!("dragtraffic_build_info", "version" => env!("CARGO_PKG_VERSION")).set(1.0);
+    for (expert, sha256) in weights {
+        gauge!("dragtraffic_weights_info", "expert" => expert, "sha256" => sha256).set(1.0);
+    }
+    for outcome in ["final", "error", "superseded", "cancelled"] {
+        counter!("dragtraffic_generates_total", "outcome" => outcome).increment(0);
+    }
+    for expert in ["vehicle", "pedestrian", "cyclist"] {
+        counter!("dragtraffic_steps_total", "expert" => expert).increment(0);
+    }
+    load(0, 0);
+}

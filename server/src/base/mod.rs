@@ -1,0 +1,10 @@
+//! What every room stands on: ids, the clock, bounds, refusals, counters, facts about the domain.
+
+pub mod cache;
+pub mod clock;
+pub mod code;
+pub mod domain;
+pub mod id;
+pub mod limits;
+pub mod metrics;
+pub mod problem;

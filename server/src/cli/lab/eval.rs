@@ -1,0 +1,125 @@
+//! `dragtraffic eval` and `bench`.
+
+use super::{SceneArgs, failed, print_json, scenes};
+use crate::cli::{Common, Exit, Failure, generator, output};
+use clap::Args;
+use lab_eval::{Judged, Table};
+use lab_train::baselines::Baseline;
+use lab_train::scenes::Crop;
+use std::path::PathBuf;
+
+/// Flags of `eval`.
+#[derive(Args, Clone, Debug)]
+pub struct EvalArgs {
+    #[command(flatten)]
+    scenes: SceneArgs,
+    /// Name of the weights in the tables.
+    #[arg(long, default_value = "ours")]
+    name: String,
+    /// Further weights to judge beside them.
+    #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
+    also: Vec<(String, PathBuf)>,
+    /// Learned rivals to stand beside them in tables 1, 2 and 4: weights made by `train --baseline`, a file or
+    /// a folder with one for each type.
+    #[arg(long, value_name = "NAME=PATH", value_parser = named_folder)]
+    baseline: Vec<(String, PathBuf)>,
+    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations; and the long
+    /// 8, refinement (some ten minutes of a core for 40 scenes).
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7],
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=8))]
+    tables: Vec<usize>,
+    /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Draws noise, resamples, drags and random pictures.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Table 2: lines for the product re-planned every so many seconds, 0.1 to 9 each.
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values = ["3", "6", "9"],
+          value_parser = replan_steps)]
+    replan: Vec<usize>,
+    /// The paper's crop: road users of a 120 m square about the ego alone, scenes with at least 32 of them.
+    #[arg(long)]
+    paper_crop: bool,
+}
+
+/// Flags of `bench`.
+#[derive(Args, Clone, Debug)]
+pub struct BenchArgs {
+    #[command(flatten)]
+    scenes: SceneArgs,
+}
+
+/// Seconds as steps of the scene.
+fn replan_steps(text: &str) -> Result<usize, String> {
+    let steps = text.parse::<f64>().map(|seconds| (seconds / scene::STEP_S).round());
+    match steps {
+        Ok(steps) if (1.0..=scene::HORIZON_STEPS as f64).contains(&steps) => Ok(steps as usize),
+        _ => Err("0.1 to 9 seconds expected".into()),
+    }
+}
+
+fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, folder)) if !name.is_empty() && !folder.is_empty() => Ok((name.into(), folder.into())),
+        _ => Err("NAME=DIR expected".into()),
+    }
+}
+
+/// Judges the experts on scenes: the tables to stdout as Markdown, everything to the output folder.
+///
+/// # Errors
+/// Exit 3 when nothing can be read, 7 without weights.
+pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
+    let scenes = scenes(&args.scenes)?;
+    // Scenes are judged side by side, each on one thread.
+    let one =
+        |name: String, generator: experts::Generator| Judged { name, generator: generator.with_threads(1) };
+    let mut judged = vec![one(args.name, generator(common)?)];
+    for (name, folder) in args.also {
+        let common = Common { weights: Some(folder), ..common.clone() };
+        judged.push(one(name, generator(&common)?));
+    }
+    let baselines: Result<Vec<Baseline>, Failure> = args
+        .baseline
+        .iter()
+        .map(|(name, path)| {
+            Baseline::load(name, path).map_err(|e| Failure::new(Exit::Weights, format!("{e:#}")))
+        })
+        .collect();
+    let baselines = baselines?;
+    let options = lab_eval::EvalOptions {
+        tables: args.tables.into_iter().filter_map(Table::numbered).collect(),
+        seed: args.seed,
+        pictures: args.output.is_some(),
+        replan_steps: args.replan,
+        crop: if args.paper_crop { Crop::PAPER } else { Crop::default() },
+    };
+    let quiet = common.quiet;
+    let progress = |line: &str| {
+        if !quiet {
+            output::complain(line);
+        }
+    };
+    let report = lab_eval::run(judged, &baselines, &scenes, &options, &progress).map_err(failed)?;
+    if let Some(folder) = &args.output {
+        report.write(folder).map_err(failed)?;
+    }
+    let cost: String = report.cost.iter().map(|sheet| sheet.markdown()).collect();
+    output::print(format!("{}{cost}", report.markdown()).as_bytes())
+}
+
+/// Times answers at one thread and at two.
+///
+/// # Errors
+/// Exit 3 when nothing can be read, 7 without weights.
+pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
+    let scenes = scenes(&args.scenes)?;
+    let mut rows = Vec::new();
+    for threads in [1, 2] {
+        let generator = generator(common)?.with_threads(threads);
+        generator.warm_up();
+        rows.extend(lab_eval::cost::latency(&generator, threads, &scenes).map_err(failed)?);
+    }
+    print_json(&rows)
+}

@@ -1,0 +1,72 @@
+//! `dragtraffic train-placement` and `eval-place`.
+
+use super::{SceneArgs, failed, print_json, scenes};
+use crate::cli::{Common, Failure, engine, output};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Flags of `train-placement`.
+#[derive(Args, Clone, Debug)]
+pub struct TrainPlacementArgs {
+    /// Files or folders of scenes in any format.
+    #[arg(required = true)]
+    inputs: Vec<PathBuf>,
+    /// Weights file to write.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Overwrite the output.
+    #[arg(long)]
+    force: bool,
+    /// What the data are, for the weights' header.
+    #[arg(long, default_value = "Synthetic traffic made by dragtraffic synthesize (CC0)")]
+    trained_on: String,
+}
+
+/// Flags of `eval-place`.
+#[derive(Args, Clone, Debug)]
+pub struct EvalPlaceArgs {
+    #[command(flatten)]
+    scenes: SceneArgs,
+    /// Region: a circle of this radius about the ego, metres.
+    #[arg(long, default_value_t = 60.0)]
+    radius: f64,
+    /// Placements of each scene.
+    #[arg(long, default_value_t = 4)]
+    seeds: u64,
+    /// JSON in place of Markdown.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Learns the placement weights.
+///
+/// # Errors
+/// Exit 1 when nothing can be read, 8 when the output exists.
+pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), Failure> {
+    let options = lab_train::placement::PlacementOptions { inputs: args.inputs, trained_on: args.trained_on };
+    let progress = |summary: &lab_train::placement::PlacementSummary| {
+        if !common.quiet {
+            output::complain(&format!("{} files, {} scenes", summary.files, summary.scenes));
+        }
+    };
+    let (model, summary) = lab_train::placement::run(&options, progress).map_err(failed)?;
+    let bytes = model.save().map_err(failed)?;
+    output::write(Some(&args.output), &bytes, args.force)?;
+    print_json(&summary)
+}
+
+/// Compares placed road users with recorded ones.
+///
+/// # Errors
+/// Exit 3 when nothing can be read, 7 without weights.
+pub fn eval_place(args: EvalPlaceArgs, common: &Common) -> Result<(), Failure> {
+    let scenes = scenes(&args.scenes)?;
+    let placer = engine(common)?.placer;
+    let options = lab_eval::placement::EvalPlaceOptions { radius_m: args.radius, seeds: args.seeds };
+    let report = lab_eval::placement::eval(&placer, &scenes, options).map_err(failed)?;
+    if args.json {
+        print_json(&report)
+    } else {
+        output::print(lab_eval::placement::markdown(&report).as_bytes())
+    }
+}

@@ -1,0 +1,79 @@
+//! `dragtraffic prepare`.
+
+use super::{failed, print_json};
+use crate::cli::{Common, Failure, output};
+use clap::Args;
+use lab_train::scenes::Crop;
+use scene::AgentType;
+use std::path::PathBuf;
+
+/// Flags of `prepare`.
+#[derive(Args, Clone, Debug)]
+pub struct PrepareArgs {
+    /// Files or folders of scenes in any format.
+    #[arg(required = true)]
+    inputs: Vec<PathBuf>,
+    /// File of records to write.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Whose expert the records are for.
+    #[arg(long, value_enum)]
+    expert: AgentType,
+    /// Draws road users and conditions.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Most road users of a scene.
+    #[arg(long, default_value_t = 6)]
+    per_scene: usize,
+    /// Choices of conditions for each moving road user.
+    #[arg(long, default_value_t = 2)]
+    draws: usize,
+    /// Stop after so many records.
+    #[arg(long, default_value_t = 200_000)]
+    most: u64,
+    /// Side of a square about the ego (else the first road user), metres: those outside are left out. The
+    /// paper's is 120.
+    #[arg(long, value_name = "METRES", value_parser = metres)]
+    crop: Option<f64>,
+    /// Leave out scenes with fewer road users at the first step. The paper's least is 32.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    least_agents: usize,
+    /// Take each scene's mirror image too: twice the records from few scenes.
+    #[arg(long)]
+    mirror: bool,
+}
+
+fn metres(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(metres) if f64::is_finite(metres) && metres > 0.0 => Ok(metres),
+        _ => Err("a length above 0 in metres expected".into()),
+    }
+}
+
+/// Makes training records.
+///
+/// # Errors
+/// Exit 3 when nothing can be read, 1 when the records cannot be written.
+pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
+    let options = lab_train::prepare::PrepareOptions {
+        inputs: args.inputs,
+        out: args.output,
+        agent_type: args.expert,
+        seed: args.seed,
+        per_scene: args.per_scene,
+        draws: args.draws,
+        most_records: args.most,
+        crop: Crop { side_m: args.crop, least_agents: args.least_agents },
+        mirror: args.mirror,
+    };
+    let progress = |report: &lab_train::prepare::PrepareReport| {
+        if !common.quiet {
+            output::complain(&format!(
+                "{} files, {} scenes, {} records",
+                report.files, report.scenes, report.records
+            ));
+        }
+    };
+    let report = lab_train::prepare::run(&options, progress).map_err(failed)?;
+    print_json(&report)
+}

@@ -1,0 +1,70 @@
+//! `dragtraffic synthesize`.
+
+use super::failed;
+use crate::cli::{Common, Exit, Failure, output};
+use clap::Args;
+use lab_synthesize::{SynthesizeOptions, Template};
+use std::path::PathBuf;
+
+/// Flags of `synthesize`.
+#[derive(Args, Clone, Debug)]
+pub struct SynthesizeArgs {
+    /// Seeds to work on; each gives one file.
+    #[arg(long, default_value_t = 1)]
+    count: u64,
+    /// First seed.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Folder to write to; files that are there already are kept.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Windows of 9 seconds cut from each seed's two minutes.
+    #[arg(long, default_value_t = 40)]
+    per_seed: usize,
+    /// Seeds worked on at the same time; 0 means one a core.
+    #[arg(long, default_value_t = 0)]
+    threads: usize,
+    /// SUMO's folder, with bin/ in it; else SUMO_HOME, else PATH.
+    #[arg(long, value_name = "DIR")]
+    sumo_home: Option<PathBuf>,
+    /// Kind of all networks; mixed when absent.
+    #[arg(long, value_enum)]
+    template: Option<Template>,
+}
+
+/// Makes training windows.
+///
+/// # Errors
+/// Exit 1 without SUMO, 4 when some seeds failed.
+pub fn synthesize(args: SynthesizeArgs, common: &Common) -> Result<(), Failure> {
+    let options = SynthesizeOptions {
+        seeds: args.seed..args.seed.saturating_add(args.count),
+        out_dir: args.output,
+        threads: args.threads,
+        sumo_home: args.sumo_home,
+        per_seed: args.per_seed,
+        template: args.template,
+    };
+    let quiet = common.quiet;
+    let report = lab_synthesize::run(&options, &|progress| {
+        if !quiet {
+            let (done, all) = progress.finished;
+            let windows = progress.windows.map_or("there already".into(), |n| format!("{n} windows"));
+            output::complain(&format!("seed {}: {windows} ({done} of {all})", progress.seed));
+        }
+    })
+    .map_err(failed)?;
+    let [vehicles, pedestrians, cyclists] = report.agents;
+    let line = serde_json::json!({
+        "written": report.written, "skipped": report.skipped, "windows": report.windows,
+        "vehicles": vehicles, "pedestrians": pedestrians, "cyclists": cyclists, "failed": report.failed.len(),
+    });
+    output::print(format!("{line}\n").as_bytes())?;
+    for (seed, reason) in &report.failed {
+        output::complain(&format!("seed {seed} failed: {reason}"));
+    }
+    if report.failed.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::new(Exit::Partly, format!("{} seeds failed", report.failed.len())))
+}

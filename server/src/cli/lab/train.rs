@@ -1,0 +1,133 @@
+//! `dragtraffic train`.
+
+use super::failed;
+use crate::cli::{Common, Exit, Failure, output};
+use clap::{Args, ValueEnum};
+use experts::Refining;
+use experts::net::Architecture;
+use lab_train::baselines::{self, BaselineKind};
+use lab_train::training::{Processor, Stage};
+use scene::AgentType;
+use std::path::PathBuf;
+
+/// The part of refinement that shows the way downhill in the scene's energy.
+const PUSH: &str = "push";
+
+/// Flags of `train`.
+#[derive(Args, Clone, Debug)]
+pub struct TrainArgs {
+    /// Files made by `prepare`.
+    #[arg(required = true)]
+    records: Vec<PathBuf>,
+    /// denoiser, then initializer, then joint.
+    #[arg(long, value_enum, required_unless_present = "baseline")]
+    stage: Option<Stage>,
+    /// Which expert.
+    #[arg(long, value_enum, required_unless_present = "baseline")]
+    expert: Option<AgentType>,
+    /// Train a rival of the experts in their place, for `eval --baseline`. trafficgen takes vehicles' records,
+    /// trafficgen-conditional a file of each type, paper an --expert and the three stages.
+    #[arg(long, value_enum)]
+    baseline: Option<BaselineKind>,
+    /// Weights file to write; its checkpoint lies beside it.
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Weights of the stage before.
+    #[arg(long)]
+    init: Option<PathBuf>,
+    /// Optimiser steps.
+    #[arg(long, default_value_t = 3000)]
+    steps: u64,
+    /// Records a step.
+    #[arg(long, default_value_t = 64)]
+    batch: usize,
+    /// Greatest learning rate.
+    #[arg(long, default_value_t = 1e-3)]
+    rate: f64,
+    /// What computes the networks. cuda is the first NVIDIA graphics card, in a program built with the feature
+    /// cuda; only the CPU gives the same bits again.
+    #[arg(long, value_enum, default_value = "cpu")]
+    device: Processor,
+    /// Threads that share a step on the CPU; the result does not depend on it.
+    #[arg(long, default_value_t = 1)]
+    workers: usize,
+    /// Draws records and first weights.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Parts of refinement to leave out, to see what they bring.
+    #[arg(long, value_delimiter = ',', value_parser = [PUSH])]
+    without: Vec<String>,
+    /// End after this time, the rate falling accordingly; the result then depends on the machine's speed.
+    #[arg(long, value_name = "MINUTES")]
+    minutes: Option<f64>,
+    /// Go on from the checkpoint.
+    #[arg(long)]
+    resume: bool,
+    /// What the data are, for the weights' header.
+    #[arg(long, default_value = "Synthetic traffic made by dragtraffic synthesize (CC0)")]
+    trained_on: String,
+}
+
+/// The word of a type on the command line, which names its expert.
+fn word(agent_type: AgentType) -> String {
+    agent_type.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+}
+
+/// Trains an expert.
+///
+/// # Errors
+/// Exit 1 with the reason.
+pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
+    let stage = args.stage.unwrap_or(Stage::Initializer);
+    let (records, output) = (args.records.clone(), args.output.clone());
+    let quiet = common.quiet;
+    let mut report = |line: &lab_train::training::TrainProgress| {
+        if !quiet {
+            output::complain(&line.to_string());
+        }
+    };
+    let expert = args.expert.map(word);
+    let done = match args.baseline {
+        None => {
+            let mut options = lab_train::training::TrainOptions::new(records, stage, output);
+            options.architecture = args.expert.map_or_else(Architecture::default, Architecture::of);
+            lab_train::training::run(&args.set(options, expert.unwrap_or_default()), &mut report)
+        }
+        Some(kind) => {
+            let expert = kind.expert().map(str::to_owned).or(expert);
+            let expert = expert
+                .ok_or_else(|| Failure::new(Exit::Usage, "--baseline paper: --expert says whose it is"))?;
+            let options = baselines::options(kind, records, stage, output);
+            baselines::train(&args.set(options, expert), &mut report)
+        }
+    };
+    done.map(drop).map_err(failed)
+}
+
+impl TrainArgs {
+    /// Fills in what all trainings have.
+    fn set<A>(
+        self,
+        options: lab_train::training::TrainOptions<A>,
+        expert: String,
+    ) -> lab_train::training::TrainOptions<A> {
+        lab_train::training::TrainOptions {
+            expert,
+            init: self.init,
+            steps: self.steps,
+            batch: self.batch,
+            rate: self.rate,
+            processor: self.device,
+            threads: self.workers,
+            seed: self.seed,
+            refining: Refining {
+                repulsion: !self.without.iter().any(|part| part == PUSH),
+                ..options.refining
+            },
+            minutes: self.minutes,
+            resume: self.resume,
+            trained_on: self.trained_on,
+            ..options
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! What a generation tells, as JSON objects: the same in all three representations.
+
+use crate::base::clock;
+use crate::base::problem::{Problem, ProblemDoc};
+use experts::{Accepted, Draft, Resolved, Warning};
+use formats::native::{AgentFuturesDoc, FutureDoc, SampleDoc};
+use scene::AgentFutures;
+use scene::score::Score;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Serialize;
+use serde_json::Value;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// What one sort of event alone carries.
+pub trait EventBody {
+    /// Values of `event`; the first one, unless the body says otherwise.
+    const NAMES: &'static [&'static str];
+    /// What the event says, for the document.
+    const ABOUT: &'static str;
+
+    /// Value of `event`.
+    fn name(&self) -> &'static str {
+        Self::NAMES.first().copied().unwrap_or_default()
+    }
+}
+
+fn names<T: EventBody>(_: &mut SchemaGenerator) -> Schema {
+    match T::NAMES {
+        [one] => json_schema!({"type": "string", "const": one}),
+        many => json_schema!({"type": "string", "enum": many}),
+    }
+}
+
+/// What every event carries.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "{T}Event", description = T::ABOUT, transform = formats::never_null)]
+pub struct Envelope<'a, T: EventBody> {
+    /// What it is.
+    #[schemars(schema_with = "names::<T>")]
+    pub event: &'static str,
+    /// Rises by one an event; a gap shows events that were dropped for a slow reader.
+    pub seq: u64,
+    /// Id of the job.
+    pub job: &'a str,
+    /// Revision of the request, when it had one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub revision: Option<u64>,
+    /// Since the request was read, milliseconds.
+    pub elapsed_ms: f64,
+    /// What this event alone carries.
+    #[serde(flatten)]
+    pub body: T,
+}
+
+/// `accepted`: what will be done.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Accepted")]
+pub struct AcceptedBody {
+    #[serde(flatten)]
+    accepted: Accepted,
+    /// Jobs before this one when it was asked for.
+    queue_position: usize,
+}
+
+impl AcceptedBody {
+    /// With the place in the queue that the call was given.
+    pub fn new(accepted: Accepted, queue_position: usize) -> Self {
+        Self { accepted, queue_position }
+    }
+}
+
+/// `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where
+/// it begins.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Draft")]
+pub struct DraftBody {
+    /// Planning window, from 0.
+    window: usize,
+    /// Joint scene, from 0.
+    sample: usize,
+    /// Refinement step, from 1; not in `initial`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<usize>,
+    /// Refinement steps of a window.
+    steps: usize,
+    /// Futures by road user; the chosen ones alone, or all as `stream_modes` says.
+    agents: BTreeMap<String, AgentFuturesDoc>,
+}
+
+impl DraftBody {
+    /// Of a draft; with `all_modes`, all alternatives and not the chosen ones alone.
+    pub fn new(draft: &Draft, all_modes: bool) -> Self {
+        let agents = draft.futures.agents.iter();
+        let agents = agents.map(|(id, futures)| (id.clone(), futures_doc(futures, all_modes))).collect();
+        let step = (draft.step > 0).then_some(draft.step);
+        Self { window: draft.window, sample: draft.sample, step, steps: draft.steps, agents }
+    }
+}
+
+fn futures_doc(futures: &AgentFutures, all_modes: bool) -> AgentFuturesDoc {
+    if all_modes {
+        return AgentFuturesDoc::from_futures(futures);
+    }
+    let chosen = futures.modes.get(futures.chosen).map(FutureDoc::from_future);
+    AgentFuturesDoc { chosen: 0, modes: chosen.into_iter().collect() }
+}
+
+/// Time spent, milliseconds.
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[schemars(rename = "Timing")]
+pub struct TimingBody {
+    /// Waiting for a worker.
+    pub queue_ms: f64,
+    /// Map and road users.
+    pub encode_ms: f64,
+    /// First guess.
+    pub initial_ms: f64,
+    /// Each denoising step.
+    pub step_ms: Vec<f64>,
+    /// Joint choice of modes.
+    pub choice_ms: f64,
+    /// Scores.
+    pub score_ms: f64,
+}
+
+/// `final`: the answer.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Final")]
+pub struct FinalBody {
+    /// Planning windows that were run. A chosen future runs through all of them; its alternatives are those
+    /// of the first and end with its plan.
+    pub windows: usize,
+    /// Joint scenes.
+    pub samples: Vec<SampleDoc>,
+    /// Every condition field as it was used.
+    pub resolved: BTreeMap<String, Resolved>,
+    /// One report a sample, or null when none was asked for.
+    pub scores: Option<Vec<Score>>,
+    /// Unlikely things that were done anyway.
+    pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub timing: TimingBody,
+    /// The scene's `generated` member, all but `samples`: put `samples` in and save.
+    pub generated: GeneratedHead,
+}
+
+/// The members of `generated` that do not come from the generator.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct GeneratedHead {
+    /// Hash of the user's part that the futures answer.
+    pub input_sha256: String,
+    /// The user's part has changed since.
+    pub stale: bool,
+    /// Expert's name to the hash of its weights.
+    pub weights: BTreeMap<String, String>,
+    /// Seed that repeats the answer.
+    pub seed: u64,
+    /// The request's options as sent, without scene and conditions.
+    pub request: Value,
+    /// RFC 3339 time.
+    pub created_at: String,
+    /// Index into `samples`.
+    pub chosen_sample: usize,
+}
+
+impl GeneratedHead {
+    /// Of an answer to come.
+    pub fn new(input_sha256: String, weights: BTreeMap<String, String>, seed: u64, request: Value) -> Self {
+        let created_at = String::new();
+        Self { input_sha256, stale: false, weights, seed, request, created_at, chosen_sample: 0 }
+    }
+
+    /// The same, made now.
+    #[must_use]
+    pub fn dated(self) -> Self {
+        Self { created_at: clock::now(), ..self }
+    }
+}
+
+/// `error`: the problem object.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Error")]
+pub struct ErrorBody {
+    /// What a refusal before the stream would have been answered with.
+    problem: ProblemDoc,
+}
+
+impl ErrorBody {
+    /// Of a problem.
+    pub fn new(problem: &Problem) -> Self {
+        Self { problem: problem.doc(Some("/v1/generate"), None) }
+    }
+}
+
+/// `superseded`: a newer revision took over.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Superseded")]
+pub struct SupersededBody {
+    /// The newer one.
+    pub by_revision: u64,
+}
+
+/// A sign of life between events, in NDJSON alone: SSE has comments for it.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "HeartbeatEvent")]
+pub struct Heartbeat {
+    #[schemars(extend("const" = "heartbeat"))]
+    event: &'static str,
+}
+
+/// One event of the stream. Exactly one of final, error and superseded ends it.
+pub struct Event;
+
+impl JsonSchema for Event {
+    fn schema_name() -> Cow<'static, str> {
+        "Event".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let schemas = [
+            generator.subschema_for::<Envelope<'static, AcceptedBody>>(),
+            generator.subschema_for::<Envelope<'static, DraftBody>>(),
+            generator.subschema_for::<Envelope<'static, FinalBody>>(),
+            generator.subschema_for::<Envelope<'static, ErrorBody>>(),
+            generator.subschema_for::<Envelope<'static, SupersededBody>>(),
+            generator.subschema_for::<Heartbeat>(),
+        ];
+        json_schema!({
+            "description": "One event of the stream. Exactly one of final, error and superseded ends it.",
+            "oneOf": schemas,
+        })
+    }
+}
+
+macro_rules! names {
+    ($($body:ident $name:literal $about:literal;)*) => {$(
+        impl EventBody for $body {
+            const NAMES: &'static [&'static str] = &[$name];
+            const ABOUT: &'static str = $about;
+        }
+    )*};
+}
+
+names! {
+    AcceptedBody "accepted" "First event: what will be done.";
+    FinalBody "final" "Last event of a call that succeeded: the answer.";
+    ErrorBody "error" "Last event of a call that failed or was cancelled.";
+    SupersededBody "superseded" "Last event of a call that a newer revision of its client took over.";
+}
+
+impl EventBody for DraftBody {
+    const NAMES: &'static [&'static str] = &["initial", "step"];
+    const ABOUT: &'static str = "`initial`: the first guess. `step`: after a refinement step. The futures of a \
+        later window begin where it begins.";
+
+    fn name(&self) -> &'static str {
+        if self.step.is_some() { "step" } else { "initial" }
+    }
+}

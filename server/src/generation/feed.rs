@@ -1,0 +1,84 @@
+//! The events of one job: made by its worker or by who stops it, taken by its reader.
+
+use super::events::{Envelope, ErrorBody, EventBody, SupersededBody};
+use super::outbox::{End, Message, Outbox};
+use crate::base::problem::Problem;
+use crate::work::{Ending, Handle, Stop, Ticket};
+use serde::Serialize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+/// Numbers events, dresses them and puts them into the outbox.
+#[derive(Debug)]
+pub struct Feed {
+    /// Of the job.
+    pub ticket: Arc<Ticket>,
+    outbox: Outbox,
+    seq: AtomicU64,
+}
+
+impl Feed {
+    /// Without an event yet; keeps `most` before steps are dropped.
+    pub fn new(ticket: Arc<Ticket>, most: usize) -> Self {
+        Self { ticket, outbox: Outbox::new(most), seq: AtomicU64::new(0) }
+    }
+
+    /// Sends one event; with `end`, the last one. False when the job has ended already.
+    pub fn send<T: EventBody + Serialize>(&self, body: T, end: Option<End>) -> bool {
+        if self.outbox.is_closed() {
+            return false;
+        }
+        let event = body.name();
+        let seq = self.seq.fetch_add(1, Ordering::Relaxed);
+        let elapsed_ms = (self.ticket.elapsed().as_secs_f64() * 1e4).round() / 10.0;
+        let revision = self.ticket.client.as_ref().map(|c| c.1);
+        let envelope = Envelope { event, seq, job: &self.ticket.id, revision, elapsed_ms, body };
+        match serde_json::to_vec(&envelope) {
+            Ok(json) => self.outbox.push(Message { event, seq, json: json.into(), end }),
+            Err(error) => self.fail(Problem::internal(error)),
+        }
+    }
+
+    /// Ends the job with a problem. False when it has ended already.
+    pub fn fail(&self, problem: Problem) -> bool {
+        self.send(ErrorBody::new(&problem), Some(End::Stopped(Stop::Problem(problem))))
+    }
+}
+
+impl Ending for Feed {
+    fn stop(&self, stop: Stop) -> bool {
+        match stop {
+            Stop::Superseded(by_revision) => {
+                self.send(SupersededBody { by_revision }, Some(End::Stopped(stop)))
+            }
+            Stop::Problem(problem) => self.fail(problem),
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.outbox.is_closed()
+    }
+
+    fn stalled(&self) -> Duration {
+        self.outbox.stalled()
+    }
+}
+
+/// The one reader of a job: dropping it before the end stops the work.
+pub struct Reader {
+    feed: Arc<Feed>,
+    _hold: Handle,
+}
+
+impl Reader {
+    /// Of a job in the pool.
+    pub fn new(feed: Arc<Feed>, handle: Handle) -> Self {
+        Self { feed, _hold: handle }
+    }
+
+    /// The next event; `None` after the last.
+    pub async fn next(&self) -> Option<Message> {
+        self.feed.outbox.next().await
+    }
+}

@@ -1,0 +1,53 @@
+//! Generations: a task for the pool, its events, and the reply made of them.
+
+pub mod events;
+mod feed;
+mod outbox;
+mod run;
+pub mod scoring;
+pub mod stream;
+
+pub use feed::Reader;
+
+use crate::base::limits::Limits;
+use crate::base::problem::Problem;
+use crate::work::{Caller, Kind, Pool, Work};
+use events::GeneratedHead;
+use experts::{Generator, Request};
+use feed::Feed;
+use std::sync::Arc;
+
+/// What a generation is to do.
+#[derive(Debug)]
+pub struct Task {
+    /// For the generator.
+    pub request: Request,
+    /// All alternatives in drafts, not the chosen ones alone.
+    pub all_modes: bool,
+    /// Score each sample.
+    pub score: bool,
+    /// The rest of `generated`.
+    pub head: GeneratedHead,
+}
+
+/// Queues a generation.
+///
+/// # Errors
+/// `shutting-down`, `exists`, `stale-revision` or `busy`.
+pub fn submit(
+    pool: &Arc<Pool>,
+    generator: &Arc<Generator>,
+    limits: &Limits,
+    caller: Caller,
+    task: Task,
+) -> Result<Reader, Problem> {
+    let generator = Arc::clone(generator);
+    let most = limits.buffered_events as usize;
+    let (feed, handle) = pool.submit(Kind::Generate, caller, |ticket| {
+        let feed = Arc::new(Feed::new(Arc::clone(ticket), most));
+        let fed = Arc::clone(&feed);
+        let work: Work = Box::new(move || run::generate(&fed, &generator, task));
+        (feed, work)
+    })?;
+    Ok(Reader::new(feed, handle))
+}

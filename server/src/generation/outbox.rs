@@ -1,0 +1,135 @@
+//! Events on their way from a worker to a reader. The worker never waits: `step` events are dropped
+//! for a slow reader, all others are kept.
+
+use crate::base::metrics;
+use crate::work::Stop;
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use tokio::sync::Notify;
+
+/// How a job ended.
+#[derive(Clone, Debug)]
+pub enum End {
+    /// With an answer.
+    Final,
+    /// Without one.
+    Stopped(Stop),
+}
+
+/// One event, ready to be sent.
+#[derive(Clone, Debug)]
+pub struct Message {
+    /// Value of `event`.
+    pub event: &'static str,
+    /// Position in the stream.
+    pub seq: u64,
+    /// The whole object.
+    pub json: Bytes,
+    /// Set on the last one.
+    pub end: Option<End>,
+}
+
+#[derive(Debug)]
+struct Inside {
+    waiting: VecDeque<Message>,
+    closed: bool,
+    /// Since when the first waiting message has been waiting.
+    since: Instant,
+}
+
+/// Queue between one job and its one reader.
+#[derive(Debug)]
+pub struct Outbox {
+    inside: Mutex<Inside>,
+    changed: Notify,
+    most: usize,
+}
+
+impl Outbox {
+    /// An empty one that keeps `most` events before steps are dropped.
+    pub fn new(most: usize) -> Self {
+        let inside = Inside { waiting: VecDeque::new(), closed: false, since: Instant::now() };
+        Self { inside: Mutex::new(inside), changed: Notify::new(), most }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Inside> {
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Puts an event in, unless the last one is in already. True when it was taken.
+    pub fn push(&self, message: Message) -> bool {
+        let mut inside = self.lock();
+        if inside.closed {
+            return false;
+        }
+        if message.event == "step" && inside.waiting.len() >= self.most {
+            metrics::dropped_event();
+            return true;
+        }
+        if inside.waiting.is_empty() {
+            inside.since = Instant::now();
+        }
+        inside.closed = message.end.is_some();
+        inside.waiting.push_back(message);
+        drop(inside);
+        self.changed.notify_one();
+        true
+    }
+
+    /// True when the last event is in.
+    pub fn is_closed(&self) -> bool {
+        self.lock().closed
+    }
+
+    /// How long the reader has left an event waiting.
+    pub fn stalled(&self) -> Duration {
+        let inside = self.lock();
+        if inside.waiting.is_empty() { Duration::ZERO } else { inside.since.elapsed() }
+    }
+
+    /// The next event; waits for one. `None` after the last.
+    pub async fn next(&self) -> Option<Message> {
+        loop {
+            let changed = self.changed.notified();
+            {
+                let mut inside = self.lock();
+                if let Some(message) = inside.waiting.pop_front() {
+                    inside.since = Instant::now();
+                    return Some(message);
+                }
+                if inside.closed {
+                    return None;
+                }
+            }
+            changed.await;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{End, Message, Outbox};
+
+    fn message(event: &'static str, seq: u64) -> Message {
+        let end = (event == "final").then_some(End::Final);
+        Message { event, seq, json: bytes::Bytes::new(), end }
+    }
+
+    #[tokio::test]
+    async fn a_slow_reader_loses_steps_only() {
+        let outbox = Outbox::new(2);
+        for seq in 0..6 {
+            outbox.push(message(if seq == 0 { "accepted" } else { "step" }, seq));
+        }
+        outbox.push(message("initial", 6));
+        outbox.push(message("final", 7));
+        assert!(!outbox.push(message("step", 8)), "nothing follows the last");
+        let mut seen = Vec::new();
+        while let Some(message) = outbox.next().await {
+            seen.push(message.seq);
+        }
+        assert_eq!(seen, [0, 1, 6, 7]);
+    }
+}

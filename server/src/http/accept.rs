@@ -1,0 +1,102 @@
+//! Which representation of an answer a request likes best.
+
+use crate::base::problem::{Code, Problem};
+use axum::http::{HeaderMap, header};
+use headers_accept::Accept;
+use mediatype::names::{APPLICATION, EVENT_STREAM, JSON, TEXT};
+use mediatype::{MediaType, Name};
+use std::str::FromStr;
+
+/// How a reply is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The last event.
+    Json,
+    /// One event a line.
+    Ndjson,
+    /// Server-sent events.
+    Sse,
+}
+
+const X_NDJSON: Name<'static> = Name::new_unchecked("x-ndjson");
+
+/// In the order of what is given to those who take anything.
+const OFFERED: &[MediaType<'static>] = &[
+    MediaType::new(APPLICATION, JSON),
+    MediaType::new(APPLICATION, X_NDJSON),
+    MediaType::new(TEXT, EVENT_STREAM),
+];
+const FORMS: [Form; 3] = [Form::Json, Form::Ndjson, Form::Sse];
+
+impl Form {
+    /// Its media type.
+    pub fn media_type(self) -> &'static str {
+        match self {
+            Self::Json => "application/json",
+            Self::Ndjson => "application/x-ndjson",
+            Self::Sse => "text/event-stream",
+        }
+    }
+
+    /// The form that Accept likes best; JSON without one.
+    ///
+    /// # Errors
+    /// `not-acceptable` when it names none of the three.
+    pub fn negotiate(headers: &HeaderMap) -> Result<Self, Problem> {
+        let lines = headers.get_all(header::ACCEPT).iter().map(|v| v.to_str().unwrap_or_default());
+        let lines: Vec<&str> = lines.collect();
+        if lines.is_empty() {
+            return Ok(Self::Json);
+        }
+        let accept = Accept::from_str(&lines.join(",")).ok();
+        let best = accept.as_ref().and_then(|accept| accept.negotiate(OFFERED));
+        let form = FORMS.into_iter().zip(OFFERED).find(|(_, offered)| best == Some(*offered));
+        form.map(|(form, _)| form).ok_or_else(|| {
+            let known = FORMS.map(Self::media_type).join(", ");
+            Problem::new(Code::NotAcceptable, format!("Replies come as {known}."))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FORMS, Form, OFFERED};
+    use axum::http::{HeaderMap, header};
+
+    fn form(accept: &str) -> Option<Form> {
+        let mut headers = HeaderMap::new();
+        headers.insert(header::ACCEPT, accept.parse().unwrap());
+        Form::negotiate(&headers).ok()
+    }
+
+    #[test]
+    fn accept_is_weighed() {
+        assert_eq!(form("*/*"), Some(Form::Json));
+        assert_eq!(form("text/event-stream"), Some(Form::Sse));
+        assert_eq!(form("application/x-ndjson, application/json;q=0.5"), Some(Form::Ndjson));
+        assert_eq!(form("text/*"), Some(Form::Sse));
+        assert_eq!(form("application/json;q=0, */*"), Some(Form::Ndjson));
+        assert_eq!(form("image/png"), None);
+        assert_eq!(form("application/xml, text/html;q=0.9"), None);
+        assert_eq!(Form::negotiate(&HeaderMap::new()).ok(), Some(Form::Json));
+        assert_eq!(form("application/json;q=0.2, text/*;q=0.3"), Some(Form::Sse));
+        assert_eq!(form("APPLICATION/X-NDJSON"), Some(Form::Ndjson));
+        assert_eq!(form("text/event-stream;q=0"), None);
+        assert_eq!(form("nonsense"), None);
+    }
+
+    #[test]
+    fn lines_of_a_repeated_header_are_one_list() {
+        let mut headers = HeaderMap::new();
+        headers.append(header::ACCEPT, "application/json;q=0.1".parse().unwrap());
+        headers.append(header::ACCEPT, "text/event-stream".parse().unwrap());
+        assert_eq!(Form::negotiate(&headers).ok(), Some(Form::Sse));
+    }
+
+    #[test]
+    fn each_form_is_offered_under_its_name() {
+        for (form, offered) in FORMS.into_iter().zip(OFFERED) {
+            assert_eq!(form.media_type(), offered.to_string());
+        }
+    }
+}

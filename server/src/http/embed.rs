@@ -1,0 +1,76 @@
+//! The editor, which travels inside the program.
+
+use crate::base::problem::{Code, Problem};
+use axum::body::Body;
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
+use axum::response::{IntoResponse, Response};
+use rust_embed::RustEmbed;
+
+/// The built editor.
+#[derive(RustEmbed)]
+#[folder = "../web/dist"]
+#[allow_missing = true]
+struct Editor;
+
+/// Everything without a route of its own: the editor's files; its page for unknown addresses;
+/// a problem below `/v1`.
+pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response {
+    let path = uri.path();
+    if path == "/v1" || path.starts_with("/v1/") {
+        return Problem::new(Code::NotFound, "The API has no such address.").into_response();
+    }
+    if method != Method::GET && method != Method::HEAD {
+        let mut problem = Problem::new(Code::MethodNotAllowed, "Only GET and HEAD are known here.");
+        problem.headers.push((header::ALLOW, HeaderValue::from_static("GET, HEAD")));
+        return problem.into_response();
+    }
+    let name = path.trim_start_matches('/');
+    match Editor::get(name).map(|file| (name, file)) {
+        Some((name, file)) => asset(name, &file, &headers),
+        // A missing script must not come back as a page.
+        None if name.starts_with("assets/") => {
+            Problem::new(Code::NotFound, "The editor has no such file.").into_response()
+        }
+        None => match Editor::get("index.html") {
+            Some(page) => asset("index.html", &page, &headers),
+            None => {
+                let detail = "This build has no editor inside; the API works.";
+                Problem::new(Code::NotFound, detail).into_response()
+            }
+        },
+    }
+}
+
+fn asset(name: &str, file: &rust_embed::EmbeddedFile, headers: &HeaderMap) -> Response {
+    let hash: String = file.metadata.sha256_hash().iter().take(8).map(|b| format!("{b:02x}")).collect();
+    let etag = format!("\"{hash}\"");
+    // Names below assets/ hold a hash of the content; all else is asked for anew.
+    let keep = if name.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
+    let head = [(header::ETAG, etag.clone()), (header::CACHE_CONTROL, keep.to_owned())];
+    let known = headers.get(header::IF_NONE_MATCH).and_then(|v| v.to_str().ok());
+    if known.is_some_and(|list| list.split(',').any(|tag| tag.trim().trim_start_matches("W/") == etag)) {
+        return (StatusCode::NOT_MODIFIED, head).into_response();
+    }
+    let body = match &file.data {
+        std::borrow::Cow::Borrowed(bytes) => Body::from(*bytes),
+        std::borrow::Cow::Owned(bytes) => Body::from(bytes.clone()),
+    };
+    (head, [(header::CONTENT_TYPE, media_type(name))], body).into_response()
+}
+
+fn media_type(name: &str) -> &'static str {
+    match name.rsplit('.').next().unwrap_or_default() {
+        "html" => "text/html; charset=utf-8",
+        "js" | "mjs" => "text/javascript; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "json" | "map" => "application/json",
+        "webmanifest" => "application/manifest+json",
+        "svg" => "image/svg+xml",
+        "png" => "image/png",
+        "ico" => "image/x-icon",
+        "woff2" => "font/woff2",
+        "txt" => "text/plain; charset=utf-8",
+        "wasm" => "application/wasm",
+        _ => "application/octet-stream",
+    }
+}

@@ -1,0 +1,54 @@
+//! Parts of a request: ids in the path, query parameters, preconditions.
+
+use crate::base::id::is_id;
+use crate::base::problem::{Code, Problem};
+use axum::extract::{FromRequestParts, Path, Query};
+use axum::http::HeaderMap;
+use axum::http::header::{HeaderName, IF_MATCH, IF_NONE_MATCH};
+use axum::http::request::Parts;
+use serde::de::DeserializeOwned;
+
+/// An id in the path. One that no scene can have is simply not found.
+pub struct Id(pub String);
+
+impl<S: Send + Sync> FromRequestParts<S> for Id {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        match Path::<String>::from_request_parts(parts, state).await {
+            Ok(Path(id)) if is_id(&id) => Ok(Self(id)),
+            _ => Err(Problem::new(Code::NotFound, "Ids are 1 to 64 of A-Z a-z 0-9 _ and -.")),
+        }
+    }
+}
+
+/// Query parameters; unknown or unreadable ones are refused.
+pub struct Params<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Params<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let query = Query::<T>::from_request_parts(parts, state).await;
+        query
+            .map(|Query(params)| Self(params))
+            .map_err(|error| Problem::field("/query", Code::InvalidField, error.body_text()))
+    }
+}
+
+/// ETags of If-Match, as sent; `None` without the header.
+pub fn if_match(headers: &HeaderMap) -> Option<Vec<String>> {
+    tags(headers, &IF_MATCH)
+}
+
+/// ETags of If-None-Match; `None` without the header.
+pub fn if_none_match(headers: &HeaderMap) -> Option<Vec<String>> {
+    tags(headers, &IF_NONE_MATCH)
+}
+
+fn tags(headers: &HeaderMap, name: &HeaderName) -> Option<Vec<String>> {
+    headers.contains_key(name).then(|| {
+        let lines = headers.get_all(name).iter().filter_map(|v| v.to_str().ok());
+        lines.flat_map(|line| line.split(',')).map(|tag| tag.trim().to_owned()).collect()
+    })
+}

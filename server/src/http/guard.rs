@@ -1,0 +1,232 @@
+//! Who may talk to a server on this machine: Host, Origin, Sec-Fetch-Site, token, sizes of the head.
+//!
+//! A web page can point its own name at 127.0.0.1, so the Host decides first, on every address.
+
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
+use axum::extract::Request;
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use std::net::{IpAddr, SocketAddr};
+
+/// What the command line allowed.
+#[derive(Clone, Debug, Default)]
+pub struct Guard {
+    /// Hosts with their port, lower case.
+    hosts: Vec<String>,
+    /// This server's own origins.
+    own_origins: Vec<String>,
+    /// Origins given with `--allow-origin`.
+    foreign_origins: Vec<String>,
+    /// Bearer token, when one is needed.
+    token: Option<String>,
+}
+
+impl Guard {
+    /// Rules of a server bound to `address`.
+    ///
+    /// # Errors
+    /// A sentence when an origin is `*` or `null`.
+    pub fn new(
+        address: SocketAddr,
+        allow_hosts: &[String],
+        allow_origins: &[String],
+        token: Option<String>,
+    ) -> Result<Self, String> {
+        let port = address.port();
+        let mut names = vec!["127.0.0.1".to_owned(), "localhost".to_owned(), "[::1]".to_owned()];
+        match address.ip() {
+            ip if ip.is_unspecified() => {}
+            IpAddr::V4(ip) => names.push(ip.to_string()),
+            IpAddr::V6(ip) => names.push(format!("[{ip}]")),
+        }
+        let mut hosts: Vec<String> = names.iter().map(|name| format!("{name}:{port}")).collect();
+        if port == 80 {
+            hosts.extend(names);
+        }
+        hosts.extend(allow_hosts.iter().map(|h| h.to_ascii_lowercase()));
+        if let Some(bad) = allow_origins.iter().find(|o| *o == "*" || *o == "null" || !o.contains("://")) {
+            return Err(format!("\"{bad}\" is no origin; give one such as https://tools.example"));
+        }
+        let own_origins =
+            hosts.iter().flat_map(|h| [format!("http://{h}"), format!("https://{h}")]).collect();
+        let foreign_origins = allow_origins.iter().map(|o| o.to_ascii_lowercase()).collect();
+        Ok(Self { hosts, own_origins, foreign_origins, token })
+    }
+
+    /// The request's Origin, when it is one given with `--allow-origin`.
+    pub fn foreign_origin(&self, request: &Request) -> Option<HeaderValue> {
+        let origin = request.headers().get(header::ORIGIN)?;
+        let name = origin.to_str().ok()?.to_ascii_lowercase();
+        self.foreign_origins.contains(&name).then(|| origin.clone())
+    }
+
+    fn origin_allowed(&self, origin: &str) -> bool {
+        let origin = origin.to_ascii_lowercase();
+        self.own_origins.contains(&origin) || self.foreign_origins.contains(&origin)
+    }
+}
+
+/// Tells a browser that pages of this origin may read the reply; never with credentials.
+pub fn allow_cross_origin(headers: &mut HeaderMap, origin: HeaderValue) {
+    headers.insert(header::ACCESS_CONTROL_ALLOW_ORIGIN, origin);
+    headers.append(header::VARY, HeaderValue::from_static("Origin"));
+    let exposed = "ETag, Location, Retry-After, X-Request-Id, Dragtraffic-Loss";
+    headers.insert(header::ACCESS_CONTROL_EXPOSE_HEADERS, HeaderValue::from_static(exposed));
+}
+
+/// Answer to a browser that asks before a cross-origin call.
+pub fn preflight() -> Response {
+    let head = [
+        (header::ACCESS_CONTROL_ALLOW_METHODS, "GET, HEAD, POST, PUT, PATCH, DELETE"),
+        (
+            header::ACCESS_CONTROL_ALLOW_HEADERS,
+            "Content-Type, Content-Encoding, Accept, Authorization, If-Match, If-None-Match, X-Request-Id",
+        ),
+        (header::ACCESS_CONTROL_MAX_AGE, "600"),
+    ];
+    (StatusCode::NO_CONTENT, head).into_response()
+}
+
+/// Refuses what must not reach a handler.
+///
+/// # Errors
+/// The problem to answer with.
+pub fn check(guard: &Guard, limits: &Limits, request: &Request) -> Result<(), Problem> {
+    check_size(limits, request)?;
+    check_host(guard, request)?;
+    check_origin(guard, request)?;
+    check_token(guard, request)
+}
+
+fn check_size(limits: &Limits, request: &Request) -> Result<(), Problem> {
+    let uri = request.uri().path_and_query().map_or(0, |p| p.as_str().len()) as u64;
+    if uri > limits.uri_bytes {
+        let detail = format!("The address has {uri} bytes; at most {}.", limits.uri_bytes);
+        return Err(Problem::new(Code::UriTooLong, detail).limit(limits.uri_bytes));
+    }
+    let headers = request.headers();
+    let bytes: usize = headers.iter().map(|(name, value)| name.as_str().len() + value.len() + 4).sum();
+    if headers.len() as u64 > limits.header_fields {
+        let detail = format!("{} header fields; at most {}.", headers.len(), limits.header_fields);
+        return Err(Problem::new(Code::HeadersTooLarge, detail).limit(limits.header_fields));
+    }
+    if bytes as u64 > limits.header_bytes {
+        let detail = format!("{bytes} bytes of header fields; at most {}.", limits.header_bytes);
+        return Err(Problem::new(Code::HeadersTooLarge, detail).limit(limits.header_bytes));
+    }
+    Ok(())
+}
+
+fn check_host(guard: &Guard, request: &Request) -> Result<(), Problem> {
+    let mut given = request.headers().get_all(header::HOST).iter();
+    let (Some(host), None) = (given.next(), given.next()) else {
+        return Err(Problem::new(Code::BadHost, "Exactly one Host header is needed."));
+    };
+    let allowed = |host: &str| guard.hosts.contains(&host.to_ascii_lowercase());
+    let host = host.to_str().unwrap_or_default();
+    let authority_fits = request.uri().authority().is_none_or(|a| allowed(a.as_str()));
+    if allowed(host) && authority_fits {
+        return Ok(());
+    }
+    Err(Problem::new(Code::HostNotAllowed, "This server does not answer for that Host."))
+}
+
+fn check_origin(guard: &Guard, request: &Request) -> Result<(), Problem> {
+    let headers = request.headers();
+    let reads = matches!(*request.method(), Method::GET | Method::HEAD | Method::OPTIONS);
+    let origins: Vec<&str> =
+        headers.get_all(header::ORIGIN).iter().map(|o| o.to_str().unwrap_or_default()).collect();
+    let origin_ok = origins.iter().all(|o| guard.origin_allowed(o));
+    if !reads && (!origin_ok || origins.len() > 1) {
+        return Err(Problem::new(Code::BadOrigin, "Requests of that Origin are refused."));
+    }
+    let from_allowed = !origins.is_empty() && origin_ok;
+    let site = headers.get("sec-fetch-site").map(|v| v.to_str().unwrap_or("cross-site"));
+    let foreign = site.is_some_and(|s| s != "same-origin" && s != "none");
+    let guarded = !reads || request.uri().path().starts_with("/v1/");
+    if foreign && guarded && !from_allowed {
+        return Err(Problem::new(Code::CrossSite, "Requests on behalf of another site are refused."));
+    }
+    Ok(())
+}
+
+fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
+    let Some(token) = &guard.token else { return Ok(()) };
+    let path = request.uri().path();
+    let open = !path.starts_with("/v1") && !["/metrics", "/readyz", "/openapi.json"].contains(&path);
+    if open || request.method() == Method::OPTIONS {
+        return Ok(());
+    }
+    let given = request.headers().get(header::AUTHORIZATION).and_then(|v| v.to_str().ok());
+    let given = given.and_then(|v| v.strip_prefix("Bearer ")).unwrap_or_default();
+    if same_bytes(given.as_bytes(), token.as_bytes()) {
+        return Ok(());
+    }
+    let mut problem = Problem::new(Code::Unauthorized, "A bearer token is needed.");
+    problem.headers.push((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer")));
+    Err(problem)
+}
+
+/// Compares in a time that depends on the lengths alone.
+fn same_bytes(a: &[u8], b: &[u8]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).fold(0, |differ, (x, y)| differ | (x ^ y)) == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Guard, check};
+    use crate::base::limits::Limits;
+    use axum::body::Body;
+    use axum::extract::Request;
+
+    fn verdict(method: &str, headers: &[(&str, &str)]) -> Option<&'static str> {
+        let origins = ["https://tools.example".to_owned()];
+        let guard = Guard::new("127.0.0.1:8080".parse().unwrap(), &[], &origins, None).unwrap();
+        let mut request = Request::builder().method(method).uri("/v1/scenes");
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        let request = request.body(Body::empty()).unwrap();
+        check(&guard, &Limits::default(), &request).err().map(|p| p.code.name())
+    }
+
+    #[test]
+    fn host_matrix() {
+        for host in ["127.0.0.1:8080", "localhost:8080", "LocalHost:8080", "[::1]:8080"] {
+            assert_eq!(verdict("GET", &[("host", host)]), None, "{host}");
+        }
+        for host in
+            ["evil.example:8080", "localhost", "127.0.0.1:9", "localhost.:8080", "127.0.0.1.nip.io:8080"]
+        {
+            assert_eq!(verdict("GET", &[("host", host)]), Some("host-not-allowed"), "{host}");
+        }
+        assert_eq!(verdict("GET", &[]), Some("bad-host"));
+        let twice = [("host", "localhost:8080"), ("host", "localhost:8080")];
+        assert_eq!(verdict("GET", &twice), Some("bad-host"));
+    }
+
+    #[test]
+    fn origin_matrix() {
+        let host = ("host", "localhost:8080");
+        for origin in ["http://localhost:8080", "http://127.0.0.1:8080", "https://tools.example"] {
+            assert_eq!(verdict("POST", &[host, ("origin", origin)]), None, "{origin}");
+        }
+        for origin in ["null", "*", "http://evil.example", "http://localhost:9", "https://tools.example.evil"]
+        {
+            assert_eq!(verdict("POST", &[host, ("origin", origin)]), Some("bad-origin"), "{origin}");
+        }
+        assert_eq!(verdict("POST", &[host]), None);
+        let cross = ("sec-fetch-site", "cross-site");
+        assert_eq!(verdict("GET", &[host, cross]), Some("cross-site"));
+        assert_eq!(verdict("POST", &[host, cross]), Some("cross-site"));
+        assert_eq!(verdict("POST", &[host, ("sec-fetch-site", "same-origin")]), None);
+    }
+
+    #[test]
+    fn star_is_no_origin() {
+        let address = "127.0.0.1:1".parse().unwrap();
+        assert!(Guard::new(address, &[], &["*".into()], None).is_err());
+        assert!(Guard::new(address, &[], &["null".into()], None).is_err());
+    }
+}

@@ -1,0 +1,9 @@
+//! HTTP itself, whatever is asked: connections, who may ask, bodies, headers, the way replies look.
+
+pub mod accept;
+pub mod body;
+pub mod embed;
+pub mod extract;
+pub mod guard;
+pub mod net;
+pub mod observe;

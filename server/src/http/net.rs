@@ -1,0 +1,212 @@
+//! The accept loop: bounded connections, time limits on request heads, orderly end.
+//!
+//! `axum::serve` sets no timer, so a client that dribbles its head would hold a connection for ever.
+//! Here hyper's HTTP/1 builder runs with a timer, and when all places are taken the connection that
+//! has waited longest without a request makes room.
+
+use crate::base::limits::Limits;
+use axum::Router;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use std::future::Future;
+use std::pin::pin;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{Notify, watch};
+
+/// Heads up to this size reach our own check, which answers with a problem document.
+const HEAD_BUFFER: usize = 128 << 10;
+/// Header fields up to this number reach our own check.
+const HEAD_FIELDS: usize = 512;
+
+/// One open connection, as the table sees it.
+struct Place {
+    number: u64,
+    requests: AtomicUsize,
+    idle_since: Mutex<Instant>,
+    /// When the reply under way was last asked for more; `None` without one.
+    asked: Mutex<Option<Instant>>,
+    close: Notify,
+}
+
+/// All open connections.
+#[derive(Default)]
+struct Table {
+    places: Mutex<Vec<Arc<Place>>>,
+    next: AtomicU64,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Table {
+    /// A place for a new connection; `None` when all are taken by requests under way.
+    fn enter(&self, most: usize) -> Option<Arc<Place>> {
+        let mut places = lock(&self.places);
+        if places.len() >= most {
+            let idle = |p: &&Arc<Place>| p.requests.load(Ordering::Relaxed) == 0;
+            let oldest = places.iter().filter(idle).min_by_key(|p| *lock(&p.idle_since)).cloned()?;
+            oldest.close.notify_one();
+            places.retain(|p| p.number != oldest.number);
+        }
+        let place = Arc::new(Place {
+            number: self.next.fetch_add(1, Ordering::Relaxed),
+            requests: AtomicUsize::new(0),
+            idle_since: Mutex::new(Instant::now()),
+            asked: Mutex::new(None),
+            close: Notify::new(),
+        });
+        places.push(Arc::clone(&place));
+        Some(place)
+    }
+
+    /// Closes connections whose reader has taken nothing of a reply for so long.
+    fn close_stalled(&self, limit: Duration) {
+        let stalled = |p: &&Arc<Place>| lock(&p.asked).is_some_and(|asked| asked.elapsed() > limit);
+        lock(&self.places).iter().filter(stalled).for_each(|p| p.close.notify_one());
+    }
+
+    fn leave(&self, number: u64) {
+        lock(&self.places).retain(|p| p.number != number);
+    }
+}
+
+/// Counts a request of a connection while it runs.
+struct Busy(Arc<Place>);
+
+impl Busy {
+    fn new(place: &Arc<Place>) -> Self {
+        place.requests.fetch_add(1, Ordering::Relaxed);
+        Self(Arc::clone(place))
+    }
+}
+
+impl Drop for Busy {
+    fn drop(&mut self) {
+        *lock(&self.0.idle_since) = Instant::now();
+        *lock(&self.0.asked) = None;
+        self.0.requests.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Serves until `stop` completes, then lets running requests end for `limits.shutdown_s`.
+///
+/// `on_stop` is called when the grace is over and cancels what still runs.
+pub async fn serve(
+    listener: TcpListener,
+    router: Router,
+    limits: &Limits,
+    stop: impl Future<Output = ()>,
+    on_stop: impl FnOnce(),
+) {
+    let table = Arc::new(Table::default());
+    let (closing, closed) = watch::channel(false);
+    // A stream asks again at each heartbeat, so a longer silence is the reader's.
+    let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
+    let mut look = tokio::time::interval(Duration::from_secs(1));
+    let header_time = Duration::from_secs(limits.header_read_s.max(1));
+    let mut stop = pin!(stop);
+    loop {
+        let accepted = tokio::select! {
+            () = &mut stop => break,
+            _ = look.tick() => {
+                table.close_stalled(stalled);
+                continue;
+            }
+            accepted = listener.accept() => accepted,
+        };
+        let stream = match accepted {
+            Ok((stream, _)) => stream,
+            Err(error) => {
+                // Out of file descriptors, or a peer that left: the next one may be fine.
+                tracing::warn!(%error, "accept failed");
+                tokio::time::sleep(Duration::from_millis(50)).await;
+                continue;
+            }
+        };
+        let Some(place) = table.enter(limits.connections as usize) else { continue };
+        let (table, router, closed) = (Arc::clone(&table), router.clone(), closed.clone());
+        tokio::spawn(async move {
+            connection(stream, router, &place, closed, header_time).await;
+            table.leave(place.number);
+        });
+    }
+    drop(listener);
+    drop(closed);
+    let _ = closing.send(true);
+    let grace = Duration::from_secs(limits.shutdown_s);
+    if tokio::time::timeout(grace, closing.closed()).await.is_err() {
+        on_stop();
+        let _ = tokio::time::timeout(Duration::from_secs(2), closing.closed()).await;
+    }
+}
+
+async fn connection(
+    stream: TcpStream,
+    router: Router,
+    place: &Arc<Place>,
+    mut closed: watch::Receiver<bool>,
+    header_time: Duration,
+) {
+    // Events are small and must leave at once.
+    let _ = stream.set_nodelay(true);
+    let counted = Arc::clone(place);
+    let service = tower::service_fn(move |request: hyper::Request<hyper::body::Incoming>| {
+        let busy = Busy::new(&counted);
+        let reply = tower::ServiceExt::oneshot(router.clone(), request.map(axum::body::Body::new));
+        async move { reply.await.map(|reply| reply.map(|body| Counted { body, busy })) }
+    });
+    let mut http = hyper::server::conn::http1::Builder::new();
+    http.timer(TokioTimer::new())
+        .header_read_timeout(header_time)
+        .max_headers(HEAD_FIELDS)
+        .max_buf_size(HEAD_BUFFER);
+    let served = http.serve_connection(TokioIo::new(stream), TowerToHyperService::new(service));
+    let mut served = pin!(served);
+    let mut draining = false;
+    loop {
+        tokio::select! {
+            result = served.as_mut() => {
+                if let Err(error) = result {
+                    tracing::debug!(%error, "connection ended");
+                }
+                return;
+            }
+            () = place.close.notified() => return,
+            _ = closed.changed(), if !draining => {
+                draining = true;
+                served.as_mut().graceful_shutdown();
+            }
+        }
+    }
+}
+
+/// A reply's body that keeps its connection marked as busy until it is sent.
+struct Counted {
+    body: axum::body::Body,
+    busy: Busy,
+}
+
+impl hyper::body::Body for Counted {
+    type Data = bytes::Bytes;
+    type Error = axum::Error;
+
+    fn poll_frame(
+        mut self: std::pin::Pin<&mut Self>,
+        context: &mut std::task::Context<'_>,
+    ) -> std::task::Poll<Option<Result<hyper::body::Frame<bytes::Bytes>, axum::Error>>> {
+        *lock(&self.busy.0.asked) = Some(Instant::now());
+        std::pin::Pin::new(&mut self.body).poll_frame(context)
+    }
+
+    fn is_end_stream(&self) -> bool {
+        self.body.is_end_stream()
+    }
+
+    fn size_hint(&self) -> hyper::body::SizeHint {
+        self.body.size_hint()
+    }
+}

@@ -1,0 +1,110 @@
+//! The outermost layer: request id, access line, metrics, security headers, and the one place where
+//! problems are written.
+
+use super::guard::{self, Guard};
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
+use crate::base::{id, metrics};
+use axum::body::Body;
+use axum::extract::{MatchedPath, Request, State};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Header that names a request in logs and problems.
+pub const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
+/// What pages may load: this server's own files and nothing else.
+const PAGE_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
+    font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; \
+    frame-ancestors 'none'";
+
+/// What is looked at before a handler is.
+#[derive(Clone)]
+pub struct Gate {
+    /// Who may talk to the server.
+    pub guard: Arc<Guard>,
+    /// Bounds of a request's head.
+    pub limits: Arc<Limits>,
+}
+
+/// Wraps every request.
+pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> Response {
+    let began = Instant::now();
+    let id = request_id(request.headers());
+    let method = request.method().clone();
+    let path = request.uri().path().to_owned();
+    let route =
+        request.extensions().get::<MatchedPath>().map_or("(none)".to_owned(), |p| p.as_str().to_owned());
+    let foreign = gate.guard.foreign_origin(&request);
+    let response = match guard::check(&gate.guard, &gate.limits, &request) {
+        Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
+        Ok(()) => next.run(request).await,
+        Err(refusal) => refusal.into_response(),
+    };
+    let mut response = written(response, &method, &path, &id);
+    dress(response.headers_mut(), &path, &id);
+    if let Some(origin) = foreign {
+        guard::allow_cross_origin(response.headers_mut(), origin);
+    }
+    let status = response.status();
+    let seconds = began.elapsed().as_secs_f64();
+    metrics::request(&route, &method, status, seconds);
+    tracing::info!(target: "access", %method, route, status = status.as_u16(), ms = seconds * 1e3, request_id = id);
+    response
+}
+
+fn request_id(headers: &HeaderMap) -> String {
+    match headers.get(REQUEST_ID).and_then(|v| v.to_str().ok()).filter(|given| id::is_id(given)) {
+        Some(given) => given.to_owned(),
+        None => uuid::Uuid::now_v7().simple().to_string(),
+    }
+}
+
+/// Turns a refusal into its problem document; other replies pass.
+fn written(mut response: Response, method: &Method, path: &str, id: &str) -> Response {
+    let status = response.status();
+    let problem = match response.extensions_mut().remove::<Problem>() {
+        Some(problem) => problem,
+        None if status.is_client_error() || status.is_server_error() => bare(status),
+        None => return response,
+    };
+    if problem.code.status() == 500 {
+        tracing::error!(code = problem.code.name(), detail = problem.detail, request_id = id, "refused");
+    }
+    let body = problem.doc(Some(path), Some(id)).text();
+    let headers = response.headers_mut();
+    headers.remove(header::CONTENT_LENGTH);
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));
+    *response.body_mut() = if method == Method::HEAD { Body::empty() } else { Body::from(body) };
+    response
+}
+
+/// The problem that stands for a refusal of the HTTP layers below.
+fn bare(status: StatusCode) -> Problem {
+    let code = Code::from_status(status);
+    Problem::new(code, format!("{}.", code.title()))
+}
+
+fn dress(headers: &mut HeaderMap, path: &str, id: &str) {
+    let fixed = [
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
+        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+    ];
+    for (name, value) in fixed {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    if let Ok(value) = HeaderValue::from_str(id) {
+        headers.insert(REQUEST_ID, value);
+    }
+    if path.starts_with("/v1/") && !headers.contains_key(header::CACHE_CONTROL) {
+        headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    }
+    let is_page = headers.get(header::CONTENT_TYPE).is_some_and(|t| t.as_bytes().starts_with(b"text/html"));
+    if is_page {
+        headers.insert(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(PAGE_POLICY));
+    }
+}

@@ -1,0 +1,179 @@
+//! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the
+//! table of codes.
+
+use super::{generate, health, import, info, maps, place, scenes, score};
+use crate::base::problem::ProblemDoc;
+use crate::generation::events;
+use formats::native::{MapDoc, SceneDoc};
+use scene::score::Score;
+use schemars::SchemaGenerator;
+use schemars::generate::SchemaSettings;
+use serde_json::{Map, Value, json};
+use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
+
+/// The document before its paths.
+pub fn head() -> OpenApi {
+    let licence =
+        LicenseBuilder::new().name("MIT OR Apache-2.0").identifier(Some("MIT OR Apache-2.0")).build();
+    let info = InfoBuilder::new()
+        .title("DragTraffic")
+        .version(env!("CARGO_PKG_VERSION"))
+        .description(Some(
+            "Traffic scenes from conditions: fix where road users start and where they should be, and get \
+             coherent futures. Metres, seconds, radians; x east, y north; step 0.1 s. What the editor does, \
+             a script can do: it uses these operations and no others.",
+        ))
+        .license(Some(licence))
+        .build();
+    OpenApiBuilder::new().info(info).build()
+}
+
+/// The whole document; equal builds give equal text.
+pub fn document() -> Value {
+    let (_, paths) = super::documented().split_for_parts();
+    let mut document = serde_json::to_value(paths).unwrap_or(Value::Null);
+    document["servers"] = json!([{"url": "/", "description": "the server that gave this document"}]);
+    let token = json!({"type": "http", "scheme": "bearer", "description": "with --token-file only"});
+    document["security"] = json!([{}, {"token": []}]);
+    document["components"] = json!({"schemas": schemas(), "securitySchemes": {"token": token}});
+    document
+}
+
+/// Pretty text with a last newline, as it is committed.
+pub fn text() -> String {
+    let mut text = serde_json::to_string_pretty(&document()).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// What replies are made of: members that are always there are required.
+fn replies(generator: &mut SchemaGenerator) {
+    generator.subschema_for::<ProblemDoc>();
+    generator.subschema_for::<events::Event>();
+    generator.subschema_for::<Score>();
+    generator.subschema_for::<place::PlaceReply>();
+    generator.subschema_for::<import::ImportReply>();
+    generator.subschema_for::<info::Info>();
+    generator.subschema_for::<health::Health>();
+    generator.subschema_for::<scenes::SceneList>();
+    generator.subschema_for::<scenes::Saved>();
+    generator.subschema_for::<maps::MapList>();
+}
+
+/// What requests are made of, and the documents that travel both ways: members with a default may be left
+/// out.
+fn requests(generator: &mut SchemaGenerator) {
+    generator.subschema_for::<SceneDoc>();
+    generator.subschema_for::<MapDoc>();
+    generator.subschema_for::<generate::GenerateRequest>();
+    generator.subschema_for::<score::ScoreRequest>();
+    generator.subschema_for::<place::PlaceBody>();
+    generator.subschema_for::<scenes::ScenePatch>();
+    generator.subschema_for::<scenes::DuplicateRequest>();
+}
+
+fn settings() -> SchemaSettings {
+    SchemaSettings::draft2020_12().with(|s| s.definitions_path = "/components/schemas".into())
+}
+
+/// All components by name.
+fn schemas() -> Map<String, Value> {
+    let mut told = settings().for_serialize().into_generator();
+    let mut asked = settings().for_deserialize().into_generator();
+    replies(&mut told);
+    requests(&mut asked);
+    let mut all = told.take_definitions(true);
+    // A type that is in both is a document: what is sent can be sent back.
+    all.extend(asked.take_definitions(true));
+    all.insert("Scene".into(), json!({"$ref": "#/components/schemas/SceneDoc"}));
+    all.insert("Map".into(), json!({"$ref": "#/components/schemas/MapDoc"}));
+    let mut all: Vec<(String, Value)> = all.into_iter().collect();
+    all.sort_by(|a, b| a.0.cmp(&b.0));
+    all.into_iter().map(|(name, schema)| (name.clone(), titled(name, schema))).collect()
+}
+
+/// A schema with its name as title, which readers of the document show.
+fn titled(name: String, mut schema: Value) -> Value {
+    if let Some(object) = schema.as_object_mut()
+        && !object.contains_key("$ref")
+    {
+        object.entry("title").or_insert_with(|| name.into());
+    }
+    schema
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn the_committed_document_is_current() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/openapi.json");
+        let committed = std::fs::read_to_string(path).unwrap_or_default();
+        let now = super::text();
+        assert!(committed == now, "run: cargo run -p dragtraffic -- openapi > assets/openapi.json");
+    }
+
+    #[test]
+    fn every_reference_leads_somewhere_and_every_operation_has_an_id() {
+        let document = super::document();
+        let mut references = BTreeSet::new();
+        collect(&document, &mut references);
+        for reference in &references {
+            let pointer = reference.trim_start_matches('#');
+            assert!(document.pointer(pointer).is_some(), "{reference}");
+        }
+        let mut ids = BTreeSet::new();
+        for (path, item) in document["paths"].as_object().unwrap() {
+            for (method, operation) in item.as_object().unwrap() {
+                let id = operation["operationId"].as_str().unwrap_or_else(|| panic!("{method} {path}"));
+                assert!(ids.insert(id.to_owned()), "{id} twice");
+                let replies = operation["responses"].as_object().unwrap();
+                // 421 is in every list of refusals: an operation without it has declared none.
+                assert!(replies.contains_key("421"), "{id} declares no refusals");
+                for (status, reply) in replies {
+                    let words = reply["description"].as_str().unwrap_or_default();
+                    assert!(!words.is_empty(), "{id} {status} has no description");
+                }
+            }
+        }
+        assert_eq!(document["openapi"], "3.1.0");
+    }
+
+    #[test]
+    fn every_component_has_a_title_or_is_another_name() {
+        let document = super::document();
+        for (name, schema) in document["components"]["schemas"].as_object().unwrap() {
+            assert!(schema["title"].is_string() || schema["$ref"].is_string(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_means_one_type_in_requests_and_replies() {
+        let mut told = super::settings().for_serialize().into_generator();
+        let mut asked = super::settings().for_deserialize().into_generator();
+        super::replies(&mut told);
+        super::requests(&mut asked);
+        let (told, asked) = (told.take_definitions(true), asked.take_definitions(true));
+        let members = |schema: &Value| -> BTreeSet<String> {
+            schema["properties"].as_object().into_iter().flatten().map(|(name, _)| name.clone()).collect()
+        };
+        for (name, schema) in told.iter().filter(|(name, _)| asked.contains_key(*name)) {
+            assert_eq!(members(schema), members(&asked[name]), "{name}");
+        }
+    }
+
+    fn collect(value: &Value, into: &mut BTreeSet<String>) {
+        match value {
+            Value::Object(members) => {
+                if let Some(Value::String(reference)) = members.get("$ref") {
+                    into.insert(reference.clone());
+                }
+                members.values().for_each(|member| collect(member, into));
+            }
+            Value::Array(items) => items.iter().for_each(|item| collect(item, into)),
+            _ => {}
+        }
+    }
+}

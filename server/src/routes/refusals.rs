@@ -1,0 +1,92 @@
+//! What an operation can be refused with, declared beside its handler and put into the document from
+//! there. The end-to-end tests hold every refusal they meet against these lists.
+
+use crate::base::problem::Code;
+use std::collections::BTreeMap;
+use utoipa::openapi::content::ContentBuilder;
+use utoipa::openapi::schema::{AllOfBuilder, ObjectBuilder, Schema, SchemaType};
+use utoipa::openapi::{Ref, RefOr, Response, ResponseBuilder};
+
+/// Any operation: what is looked at before a handler is.
+pub const ANYWHERE: &[Code] = &[
+    Code::BadHost,
+    Code::HostNotAllowed,
+    Code::Unauthorized,
+    Code::CrossSite,
+    Code::UriTooLong,
+    Code::HeadersTooLarge,
+    Code::Internal,
+];
+/// Operations that are no mere reading.
+pub const CHANGES: &[Code] = &[Code::BadOrigin];
+/// Operations that take a body.
+pub const BODY: &[Code] = &[
+    Code::MalformedJson,
+    Code::MalformedFile,
+    Code::BadHeader,
+    Code::BodyTimeout,
+    Code::BodyTooLarge,
+    Code::DecodedTooLarge,
+    Code::ExpansionTooHigh,
+    Code::UnsupportedMediaType,
+    Code::InvalidField,
+    Code::OutOfRange,
+];
+/// Operations that take a scene.
+pub const SCENE: &[Code] = &[
+    Code::HalfPosition,
+    Code::StartMissing,
+    Code::UnknownMap,
+    Code::UnknownAgent,
+    Code::TooManyAgents,
+    Code::MapTooLarge,
+    Code::UnsupportedVersion,
+];
+/// Operations that take a scene or the id of one.
+pub const SCENE_REF: &[Code] = &[Code::NotFound, Code::StaleEtag];
+/// Operations that read query parameters.
+pub const QUERY: &[Code] = &[Code::InvalidField, Code::OutOfRange];
+/// Operations whose work may wait for a worker.
+pub const WORK: &[Code] = &[Code::Busy, Code::ShuttingDown, Code::Cancelled, Code::GenerateTimeout];
+
+/// Replies of these codes, one a status.
+pub fn responses(sets: &[&[Code]]) -> BTreeMap<String, RefOr<Response>> {
+    let mut by_status: BTreeMap<u16, Vec<&'static str>> = BTreeMap::new();
+    for code in [ANYWHERE].iter().chain(sets).copied().flatten() {
+        let names = by_status.entry(code.status()).or_default();
+        if !names.contains(&code.name()) {
+            names.push(code.name());
+        }
+    }
+    by_status.into_iter().map(|(status, names)| (status.to_string(), RefOr::T(response(&names)))).collect()
+}
+
+fn response(names: &[&'static str]) -> Response {
+    let untyped = |object: ObjectBuilder| object.schema_type(SchemaType::AnyValue);
+    let code = untyped(ObjectBuilder::new()).enum_values(Some(names.iter().copied()));
+    let narrowed = untyped(ObjectBuilder::new()).property("code", code);
+    let schema = AllOfBuilder::new().item(Ref::from_schema_name("Problem")).item(narrowed);
+    let content = ContentBuilder::new().schema(Some(Schema::from(schema))).build();
+    ResponseBuilder::new().description(names.join(", ")).content("application/problem+json", content).build()
+}
+
+/// Declares the refusals of one operation: a name for `responses(..)`, the sets that apply, and what it
+/// alone gives.
+macro_rules! refusals {
+    ($name:ident: $($set:ident)* $(, $code:ident)*) => {
+        /// What the operation can be refused with.
+        struct $name;
+
+        impl utoipa::IntoResponses for $name {
+            fn responses() -> std::collections::BTreeMap<
+                String,
+                utoipa::openapi::RefOr<utoipa::openapi::Response>,
+            > {
+                $crate::routes::refusals::responses(&[
+                    $($crate::routes::refusals::$set,)*
+                    &[$($crate::base::problem::Code::$code,)*],
+                ])
+            }
+        }
+    };
+}

@@ -1,0 +1,68 @@
+//! "A scene, or the id of one": the one way calls name what they are about.
+
+use crate::app::App;
+use crate::base::problem::{Code, Problem};
+use crate::http::body::Json;
+use axum::extract::{FromRequest, Request};
+use formats::native::SceneDoc;
+use scene::Scene;
+use serde::de::DeserializeOwned;
+use std::sync::Arc;
+
+/// What a body says about its scene. Exactly one of `scene` and `scene_id` is given.
+#[derive(Debug, Default)]
+pub struct SceneRef {
+    /// The scene itself.
+    pub scene: Option<SceneDoc>,
+    /// A scene of this server.
+    pub scene_id: Option<String>,
+    /// With `scene_id`: the version that is meant.
+    pub etag: Option<String>,
+}
+
+impl SceneRef {
+    /// The scene that is named.
+    ///
+    /// # Errors
+    /// `invalid-field` unless exactly one is given, `not-found`, `stale-etag`, or every fault of the
+    /// scene, its pointers below `/scene`.
+    pub async fn open(self, app: &App) -> Result<Arc<Scene>, Problem> {
+        match (self.scene, self.scene_id) {
+            (Some(doc), None) => {
+                let scene = app.catalog.scene_of(doc).await;
+                Ok(Arc::new(scene.map_err(|problem| problem.under("/scene"))?))
+            }
+            (None, Some(id)) => {
+                let opened = app.catalog.open(&id).await?;
+                if self.etag.is_some_and(|etag| etag != opened.etag) {
+                    let detail = "The stored scene is another than the one you read.";
+                    return Err(Problem::new(Code::StaleEtag, detail).with(|m| m.etag = Some(opened.etag)));
+                }
+                Ok(opened.scene)
+            }
+            _ => {
+                let detail = "exactly one of scene and scene_id is needed";
+                Err(Problem::field("/scene", Code::InvalidField, detail))
+            }
+        }
+    }
+}
+
+/// A body that is about a scene.
+pub trait AboutScene {
+    /// Takes out what it says about it.
+    fn take_scene(&mut self) -> SceneRef;
+}
+
+/// A JSON body with the scene it is about.
+pub struct WithScene<T>(pub T, pub Arc<Scene>);
+
+impl<T: AboutScene + DeserializeOwned + Send + 'static> FromRequest<App> for WithScene<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, app: &App) -> Result<Self, Problem> {
+        let Json(mut body) = Json::<T>::from_request(request, app).await?;
+        let scene = body.take_scene().open(app).await?;
+        Ok(Self(body, scene))
+    }
+}

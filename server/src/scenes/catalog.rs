@@ -1,0 +1,180 @@
+//! Scenes wherever they are: saved by the user, shipped as demos, or in the data folder; and maps by
+//! content hash.
+
+use super::library::Library;
+use super::record::{self, size};
+use super::store::{Expect, SceneRecord, Store, Written};
+use crate::base::cache::Cache;
+use crate::base::problem::{Code, Problem};
+use crate::work::Pool;
+use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
+use scene::{ContentHash, LaneMap, Scene};
+use std::sync::Arc;
+
+/// Bytes that one step of one road user takes in JSON, about.
+const STEP_BYTES: usize = 40;
+/// Bytes that one point of a map takes in JSON, about.
+const POINT_BYTES: usize = 20;
+/// Bytes that one line of a map takes in JSON, about.
+const LINE_BYTES: usize = 32 * POINT_BYTES;
+
+/// A scene that is open, with its ETag.
+#[derive(Clone)]
+pub struct Opened {
+    /// The scene, with its id.
+    pub scene: Arc<Scene>,
+    /// With quotes.
+    pub etag: String,
+}
+
+/// All scenes and maps that the server knows. Cheap to clone.
+#[derive(Clone)]
+pub struct Catalog {
+    /// Saved scenes.
+    pub store: Store,
+    /// Read-only scenes.
+    pub library: Library,
+    maps: Arc<Cache<ContentHash, Arc<LaneMap>>>,
+    pool: Arc<Pool>,
+}
+
+impl Catalog {
+    /// Over a store and a library, with so many maps in memory.
+    pub fn new(store: Store, library: Library, pool: Arc<Pool>, cached_maps: usize) -> Self {
+        Self { store, library, maps: Arc::new(Cache::new(cached_maps)), pool }
+    }
+
+    /// The map of a hash, wherever it is.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub async fn map(&self, hash: ContentHash) -> Result<Option<Arc<LaneMap>>, Problem> {
+        if let Some(map) = self.maps.get(&hash) {
+            return Ok(Some(map));
+        }
+        let map = match self.store.map(&hash.hex()).await? {
+            Some(json) => Some(self.pool.document(json.len(), move || parse_map(&json)).await?),
+            None => self.library.map(&hash).await?,
+        };
+        if let Some(map) = &map {
+            self.maps.put(hash, Arc::clone(map));
+        }
+        Ok(map)
+    }
+
+    /// A document's scene, its map looked up when given by hash and remembered when given inline.
+    ///
+    /// # Errors
+    /// `unknown-map`, or every fault of the scene.
+    pub async fn scene_of(&self, doc: SceneDoc) -> Result<Scene, Problem> {
+        let wanted = match &doc.map {
+            MapField::Ref(reference) => {
+                reference.hash.strip_prefix("sha256:").and_then(ContentHash::from_hex)
+            }
+            MapField::Inline(_) => None,
+        };
+        let known = match wanted {
+            Some(hash) => self.map(hash).await?,
+            None => None,
+        };
+        let (bytes, maps) = (doc_bytes(&doc), Arc::clone(&self.maps));
+        let read = move || {
+            let inline = matches!(doc.map, MapField::Inline(_));
+            let scene = doc.into_scene(|_| known)?;
+            if inline {
+                maps.put(scene.map.hash(), Arc::clone(&scene.map));
+            }
+            Ok(scene)
+        };
+        self.pool.document(bytes, read).await
+    }
+
+    /// Opens a scene by id.
+    ///
+    /// # Errors
+    /// `not-found`.
+    pub async fn open(&self, id: &str) -> Result<Opened, Problem> {
+        if let Some(opened) = self.library.open(id).await? {
+            return Ok(opened);
+        }
+        let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
+        let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
+        let scene = Arc::new(self.scene_of(doc).await?);
+        Ok(Opened { scene, etag: summary.etag })
+    }
+
+    /// JSON of an open scene.
+    ///
+    /// # Errors
+    /// A full queue, or a defect.
+    pub async fn written(&self, scene: Arc<Scene>, form: MapForm) -> Result<Vec<u8>, Problem> {
+        let bytes = bytes_of(&scene);
+        self.pool.document(bytes, move || Ok(native::write_doc(&SceneDoc::from_scene(&scene, form)))).await
+    }
+
+    /// JSON of a saved scene with its map put in place of the reference.
+    ///
+    /// # Errors
+    /// When the map is missing or the stored text is broken.
+    pub async fn with_map(&self, json: Vec<u8>, map_sha: &str) -> Result<Vec<u8>, Problem> {
+        let map = self.store.map(map_sha).await?;
+        let map = map.ok_or_else(|| Problem::internal("a stored scene's map is missing"))?;
+        let bytes = json.len() + map.len();
+        self.pool.document(bytes, move || record::with_map(&json, &map)).await
+    }
+
+    /// Keeps a scene under an id.
+    ///
+    /// # Errors
+    /// When the store is full or the precondition does not hold.
+    pub async fn save(&self, id: &str, expect: Expect, scene: Scene) -> Result<Written, Problem> {
+        let (key, bytes) = (id.to_owned(), bytes_of(&scene));
+        let packed = self.pool.document(bytes, move || record::of_scene(scene, &key)?.packed()).await?;
+        Ok(self.store.put(id, expect, packed).await?)
+    }
+
+    /// Keeps a row that is made already.
+    ///
+    /// # Errors
+    /// As [`Self::save`].
+    pub async fn save_record(
+        &self,
+        id: &str,
+        expect: Expect,
+        record: SceneRecord,
+    ) -> Result<Written, Problem> {
+        let bytes = record.json.len();
+        let packed = self.pool.document(bytes, move || record.packed()).await?;
+        Ok(self.store.put(id, expect, packed).await?)
+    }
+}
+
+/// Nothing has this id.
+pub fn not_found() -> Problem {
+    Problem::new(Code::NotFound, "No scene has this id.")
+}
+
+fn parse_map(json: &[u8]) -> Result<Arc<LaneMap>, Problem> {
+    let doc: MapDoc = native::from_json(json)?;
+    Ok(Arc::new(doc.into_map()?))
+}
+
+/// About how many bytes a scene has as JSON: what work on it costs grows with them.
+pub fn bytes_of(scene: &Scene) -> usize {
+    let steps: usize = scene.agents.iter().map(|agent| agent.track.states.len()).sum();
+    steps * STEP_BYTES + map_bytes(&scene.map)
+}
+
+/// About how many bytes a map has as JSON.
+pub fn map_bytes(map: &LaneMap) -> usize {
+    size(map).1 * POINT_BYTES
+}
+
+fn doc_bytes(doc: &SceneDoc) -> usize {
+    let steps: usize = doc.agents.iter().map(|agent| agent.track.x_m.len()).sum();
+    let lines = match &doc.map {
+        MapField::Inline(map) => map.lanes.len() + map.road_lines.len() + map.road_edges.len(),
+        MapField::Ref(_) => 0,
+    };
+    steps * STEP_BYTES + lines * LINE_BYTES
+}

@@ -1,0 +1,95 @@
+//! What is known about a scene without its content.
+
+use super::store::SceneSummary;
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A scene as lists show it.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "SceneItem")]
+pub struct Item {
+    /// Id of the scene.
+    pub id: String,
+    /// For people.
+    pub name: String,
+    /// With quotes, as in the ETag header.
+    pub etag: String,
+    /// RFC 3339.
+    pub created_at: String,
+    /// RFC 3339.
+    pub updated_at: String,
+    /// Road users by type, and steps.
+    #[serde(flatten)]
+    pub facts: Facts,
+    /// Content hash of the map, 64 hex digits.
+    pub map_sha256: String,
+    /// Words to find it by.
+    pub tags: Vec<String>,
+    /// Scene it is a variant of.
+    pub parent_id: Option<String>,
+    /// Size as stored.
+    pub bytes: u64,
+    /// Demo scenes and those of the data folder; duplicate one to change it.
+    pub readonly: bool,
+}
+
+/// Road users by type.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Counts {
+    pub vehicle: usize,
+    pub pedestrian: usize,
+    pub cyclist: usize,
+    pub other: usize,
+}
+
+/// What lists say about a scene's content.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+pub struct Facts {
+    /// Road users by type.
+    pub counts: Counts,
+    /// Steps of 0.1 s.
+    pub steps: usize,
+    /// Format or tool it came from.
+    pub source: String,
+    /// Id in the source.
+    pub source_id: Option<String>,
+    /// Licence of the content.
+    pub licence: Option<String>,
+    /// Has generated futures.
+    pub generated: bool,
+}
+
+impl Facts {
+    /// Of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let [vehicle, pedestrian, cyclist, other] = scene.counts();
+        Self {
+            counts: Counts { vehicle, pedestrian, cyclist, other },
+            steps: scene.time.steps,
+            source: scene.meta.source.clone(),
+            source_id: scene.meta.source_id.clone(),
+            licence: scene.meta.licence.clone(),
+            generated: scene.generated.is_some(),
+        }
+    }
+}
+
+impl From<SceneSummary> for Item {
+    fn from(row: SceneSummary) -> Self {
+        Self {
+            facts: serde_json::from_str(&row.meta).unwrap_or_default(),
+            tags: serde_json::from_str(&row.tags).unwrap_or_default(),
+            id: row.id,
+            name: row.name,
+            etag: row.etag,
+            created_at: row.created_at,
+            updated_at: row.updated_at,
+            map_sha256: row.map_sha,
+            parent_id: row.parent_id,
+            bytes: row.bytes,
+            readonly: false,
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! Read-only scenes: demos inside the program, and files of the folder given with `--data`.
+//!
+//! Files are read once in the background for the list; a scene is parsed again when it is opened,
+//! and a few stay in memory.
+
+use super::catalog::Opened;
+use super::item::{Facts, Item};
+use super::transfer;
+use crate::base::cache::Cache;
+use crate::base::clock;
+use crate::base::id;
+use crate::base::problem::Problem;
+use crate::work::Pool;
+use formats::native;
+use rust_embed::RustEmbed;
+use scene::{ContentHash, LaneMap, Scene};
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError, RwLock};
+use std::time::SystemTime;
+
+/// Demo scenes in native JSON.
+#[derive(RustEmbed)]
+#[folder = "../assets/scenes"]
+#[allow_missing = true]
+struct DemoScenes;
+
+/// Most files taken from the data folder.
+const MOST_FILES: usize = 5_000;
+
+#[derive(Clone, Debug)]
+enum Place {
+    /// Name of an embedded file.
+    Demo(String),
+    /// File and the position of the scene in it.
+    File(PathBuf, usize),
+}
+
+#[derive(Clone, Debug)]
+struct Entry {
+    item: Item,
+    place: Place,
+}
+
+struct Inside {
+    entries: RwLock<BTreeMap<String, Entry>>,
+    open: Cache<String, Opened>,
+    pool: Arc<Pool>,
+}
+
+/// All read-only scenes. Cheap to clone.
+#[derive(Clone)]
+pub struct Library(Arc<Inside>);
+
+impl Library {
+    /// The demos at once; the folder's files as they are read. Keeps so many opened scenes in memory.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached: usize) -> io::Result<Self> {
+        let inside = Inside { entries: RwLock::default(), open: Cache::new(cached), pool };
+        let library = Self(Arc::new(inside));
+        let folder = folder.map(Path::to_owned);
+        let filled = library.clone();
+        let fill = move || {
+            filled.add_demos();
+            if let Some(folder) = folder {
+                filled.add_folder(&folder);
+            }
+        };
+        std::thread::Builder::new().name("library".into()).spawn(fill)?;
+        Ok(library)
+    }
+
+    fn with<T>(&self, look: impl FnOnce(&BTreeMap<String, Entry>) -> T) -> T {
+        look(&self.0.entries.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// For lists, by id.
+    pub fn items(&self) -> Vec<Item> {
+        self.with(|entries| entries.values().map(|e| e.item.clone()).collect())
+    }
+
+    /// True when this id is one of the library's.
+    pub fn has(&self, id: &str) -> bool {
+        self.with(|entries| entries.contains_key(id))
+    }
+
+    /// Opens a scene; `None` when the id is not one of the library's.
+    ///
+    /// # Errors
+    /// When its file cannot be read any more.
+    pub async fn open(&self, id: &str) -> Result<Option<Opened>, Problem> {
+        let key = id.to_owned();
+        if let Some(known) = self.0.open.get(&key) {
+            return Ok(Some(known));
+        }
+        let Some(entry) = self.with(|entries| entries.get(id).cloned()) else { return Ok(None) };
+        let bytes = usize::try_from(entry.item.bytes).unwrap_or(usize::MAX);
+        let open = move || {
+            let mut scene = read(&entry.place)?;
+            scene.id = Some(entry.item.id.clone());
+            scene.name.clone_from(&entry.item.name);
+            Ok(Opened { scene: Arc::new(scene), etag: entry.item.etag })
+        };
+        let opened = self.0.pool.document(bytes, open).await?;
+        self.0.open.put(key, opened.clone());
+        Ok(Some(opened))
+    }
+
+    /// A map that one of the scenes has.
+    ///
+    /// # Errors
+    /// When its file cannot be read any more.
+    pub async fn map(&self, hash: &ContentHash) -> Result<Option<Arc<LaneMap>>, Problem> {
+        let hex = hash.hex();
+        let holder = self
+            .with(|entries| entries.values().find(|e| e.item.map_sha256 == hex).map(|e| e.item.id.clone()));
+        match holder {
+            Some(id) => Ok(self.open(&id).await?.map(|opened| Arc::clone(&opened.scene.map))),
+            None => Ok(None),
+        }
+    }
+
+    fn add(&self, id: String, scene: &Scene, place: Place, bytes: &[u8], modified: SystemTime) {
+        let hash = ContentHash::of_bytes(bytes).hex();
+        let time = clock::text(modified);
+        let item = Item {
+            name: if scene.name.is_empty() { id.clone() } else { scene.name.clone() },
+            etag: format!("\"ro-{}\"", hash.get(..16).unwrap_or_default()),
+            created_at: time.clone(),
+            updated_at: time,
+            facts: Facts::of(scene),
+            map_sha256: scene.map.hash().hex(),
+            tags: scene.meta.tags.clone(),
+            parent_id: None,
+            bytes: bytes.len() as u64,
+            readonly: true,
+            id: id.clone(),
+        };
+        let mut entries = self.0.entries.write().unwrap_or_else(PoisonError::into_inner);
+        entries.insert(id, Entry { item, place });
+    }
+
+    fn add_demos(&self) {
+        for name in DemoScenes::iter() {
+            let Some(file) = DemoScenes::get(&name) else { continue };
+            let Some(id) = name.strip_suffix(".json").filter(|id| id::is_id(id)) else { continue };
+            match native::read(&file.data) {
+                Ok(scene) => {
+                    let place = Place::Demo(name.to_string());
+                    self.add(id.to_owned(), &scene, place, &file.data, SystemTime::UNIX_EPOCH);
+                }
+                Err(error) => tracing::error!(%name, %error, "demo scene is broken"),
+            }
+        }
+    }
+
+    fn add_folder(&self, folder: &Path) {
+        let listed = match std::fs::read_dir(folder) {
+            Ok(listed) => listed,
+            Err(error) => {
+                tracing::error!(folder = %folder.display(), %error, "data folder cannot be read");
+                return;
+            }
+        };
+        let mut files: Vec<PathBuf> = listed.flatten().map(|f| f.path()).filter(|p| p.is_file()).collect();
+        files.sort();
+        files.truncate(MOST_FILES);
+        for path in files {
+            match read_file(&path) {
+                Ok((bytes, scenes)) => {
+                    let modified =
+                        path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
+                    for (index, scene) in scenes.iter().enumerate() {
+                        let id = file_id(&path, scene, index);
+                        self.add(id, scene, Place::File(path.clone(), index), &bytes, modified);
+                    }
+                }
+                Err(error) => tracing::info!(file = %path.display(), %error, "no scene"),
+            }
+        }
+    }
+}
+
+fn read(place: &Place) -> Result<Scene, Problem> {
+    match place {
+        Place::Demo(name) => {
+            let file = DemoScenes::get(name).ok_or_else(|| Problem::internal("demo scene is gone"))?;
+            Ok(native::read(&file.data)?)
+        }
+        Place::File(path, index) => {
+            let (_, mut scenes) = read_file(path).map_err(Problem::internal)?;
+            if *index < scenes.len() {
+                Ok(scenes.swap_remove(*index))
+            } else {
+                Err(Problem::internal("a file of the data folder has changed"))
+            }
+        }
+    }
+}
+
+fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let read = transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
+    let read = read.map_err(|problem| problem.detail)?;
+    Ok((bytes, read.scenes.into_iter().map(|s| s.scene).collect()))
+}
+
+/// `womd-<scenario id>` where the source has an id, else a name made from the file's.
+fn file_id(path: &Path, scene: &Scene, index: usize) -> String {
+    let source = if scene.meta.source.is_empty() { "file" } else { &scene.meta.source };
+    let stem = path.file_name().unwrap_or_default().to_string_lossy();
+    let stem = stem.split('.').next().unwrap_or_default();
+    let own = scene.meta.source_id.clone().unwrap_or_else(|| format!("{stem}-{index}"));
+    id::cleaned(&format!("{source}-{own}"))
+}

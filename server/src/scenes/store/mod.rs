@@ -1,0 +1,187 @@
+//! Saved scenes and maps in one SQLite file.
+//!
+//! Write-ahead log, `synchronous=FULL`, one writer thread, a few reading ones, each with a connection of
+//! its own: nothing else runs on them. A write is answered after its commit, so a reply of success
+//! survives a power cut.
+
+mod migrations;
+mod records;
+
+pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
+
+use crate::base::limits::Limits;
+use crate::base::problem::{Code, Problem};
+use rusqlite::{Connection, OpenFlags};
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::time::Duration;
+use tokio::sync::oneshot;
+
+const READERS: usize = 4;
+
+/// Why the store refused or failed.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The database library reports this.
+    #[error("{0}")]
+    Sqlite(#[from] rusqlite::Error),
+    /// A stored body cannot be read.
+    #[error("stored body: {0}")]
+    Body(#[from] std::io::Error),
+    /// The system gives no thread.
+    #[error("no thread for the store: {0}")]
+    Thread(std::io::Error),
+    /// Written by a later version of the program.
+    #[error("the file has schema {0}, this program knows up to {known}", known = migrations::LATEST)]
+    Newer(i64),
+    /// The precondition names another version.
+    #[error("the scene has changed in the meantime")]
+    Stale {
+        /// ETag of the stored scene.
+        etag: String,
+        /// RFC 3339.
+        updated_at: String,
+    },
+    /// Nothing has this id.
+    #[error("no such scene")]
+    Missing,
+    /// A limit is reached.
+    #[error("the store is full: {0}")]
+    Full(String),
+    /// The writer thread has ended.
+    #[error("the store is closed")]
+    Closed,
+}
+
+impl From<StoreError> for Problem {
+    fn from(error: StoreError) -> Self {
+        let text = error.to_string();
+        match error {
+            StoreError::Stale { etag, updated_at } => {
+                let detail = "The stored scene is another than the one you read.";
+                Self::new(Code::StaleEtag, detail)
+                    .with(|m| (m.etag, m.updated_at) = (Some(etag), Some(updated_at)))
+            }
+            StoreError::Missing => Self::new(Code::NotFound, "No scene has this id."),
+            StoreError::Full(what) => Self::new(Code::StoreFull, what),
+            StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _))
+                if e.code == rusqlite::ErrorCode::DiskFull =>
+            {
+                Self::new(Code::StoreFull, "The disk is full.")
+            }
+            _ => Self::internal(text),
+        }
+    }
+}
+
+type Work = Box<dyn FnOnce(&mut Connection) + Send>;
+
+type Query = Box<dyn FnOnce(&Connection) + Send>;
+
+/// The store. Cheap to clone.
+#[derive(Clone)]
+pub struct Store {
+    writer: mpsc::Sender<Work>,
+    readers: mpsc::Sender<Query>,
+    limits: Arc<Limits>,
+}
+
+impl Store {
+    /// Opens or makes the file and brings its schema up to date.
+    ///
+    /// # Errors
+    /// When the file cannot be opened, is no database, or is of a later version.
+    pub fn open(path: &Path, limits: &Arc<Limits>) -> Result<Self, StoreError> {
+        let mut connection = Connection::open(path)?;
+        prepare(&connection)?;
+        migrations::run(&mut connection, path)?;
+        let (writer, work) = mpsc::channel::<Work>();
+        spawn("store-writer".into(), move || work.into_iter().for_each(|task| task(&mut connection)))?;
+        let (readers, queries) = mpsc::channel::<Query>();
+        let queries = Arc::new(Mutex::new(queries));
+        for number in 0..READERS {
+            let (connection, queries) = (open_reader(path)?, Arc::clone(&queries));
+            spawn(format!("store-reader-{number}"), move || {
+                while let Some(query) = next(&queries) {
+                    query(&connection);
+                }
+            })?;
+        }
+        Ok(Self { writer, readers, limits: Arc::clone(limits) })
+    }
+
+    /// Runs a read on one of the reading connections.
+    async fn read<T: Send + 'static>(
+        &self,
+        task: impl FnOnce(&Connection) -> Result<T, StoreError> + Send + 'static,
+    ) -> Result<T, StoreError> {
+        let (reply, done) = oneshot::channel();
+        let query: Query = Box::new(move |connection| {
+            // A caller that left does not want the answer any more.
+            if !reply.is_closed() {
+                let _ = reply.send(task(connection));
+            }
+        });
+        self.readers.send(query).map_err(|_| StoreError::Closed)?;
+        done.await.unwrap_or(Err(StoreError::Closed))
+    }
+
+    /// Runs a change in one transaction on the writer; returns after the commit.
+    async fn write<T: Send + 'static>(
+        &self,
+        task: impl FnOnce(&rusqlite::Transaction<'_>) -> Result<T, StoreError> + Send + 'static,
+    ) -> Result<T, StoreError> {
+        let (reply, done) = oneshot::channel();
+        let work: Work = Box::new(move |connection| {
+            // A caller that left does not want its change any more unless it began already.
+            if reply.is_closed() {
+                return;
+            }
+            let result = (|| {
+                let transaction =
+                    connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
+                let value = task(&transaction)?;
+                transaction.commit()?;
+                Ok(value)
+            })();
+            let _ = reply.send(result);
+        });
+        self.writer.send(work).map_err(|_| StoreError::Closed)?;
+        done.await.unwrap_or(Err(StoreError::Closed))
+    }
+
+    /// True when a change can be begun.
+    pub async fn is_writable(&self) -> bool {
+        let probe = self.write(|tx| Ok(tx.query_row("SELECT 1", [], |row| row.get::<_, i64>(0))?));
+        matches!(tokio::time::timeout(Duration::from_secs(2), probe).await, Ok(Ok(1)))
+    }
+}
+
+/// The next query, for whichever thread comes first; `None` when the store is gone.
+fn next(queries: &Mutex<mpsc::Receiver<Query>>) -> Option<Query> {
+    queries.lock().unwrap_or_else(PoisonError::into_inner).recv().ok()
+}
+
+fn spawn(name: String, run: impl FnOnce() + Send + 'static) -> Result<(), StoreError> {
+    std::thread::Builder::new().name(name).spawn(run).map(drop).map_err(StoreError::Thread)
+}
+
+fn prepare(connection: &Connection) -> Result<(), StoreError> {
+    connection.busy_timeout(Duration::from_secs(5))?;
+    connection.pragma_update(None, "journal_mode", "WAL")?;
+    connection.pragma_update(None, "synchronous", "FULL")?;
+    connection.pragma_update(None, "foreign_keys", true)?;
+    connection.pragma_update(None, "trusted_schema", false)?;
+    Ok(())
+}
+
+fn open_reader(path: &Path) -> Result<Connection, StoreError> {
+    let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let connection = Connection::open_with_flags(path, flags)?;
+    connection.busy_timeout(Duration::from_secs(5))?;
+    connection.pragma_update(None, "trusted_schema", false)?;
+    Ok(connection)
+}
+
+#[cfg(test)]
+mod tests;

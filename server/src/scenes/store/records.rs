@@ -1,0 +1,340 @@
+//! Rows of the store, and the questions asked of it.
+
+use super::{Store, StoreError};
+use crate::base::problem::Problem;
+use crate::base::{clock, metrics};
+use rusqlite::{OptionalExtension, Row, Transaction, named_params};
+use scene::ContentHash;
+use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Compression of bodies: beyond this level size hardly falls.
+const LEVEL: i32 = 3;
+
+/// A map on its way in.
+#[derive(Clone, Debug)]
+pub struct MapRecord {
+    /// Content hash.
+    pub sha: String,
+    /// Lines and areas.
+    pub polylines: usize,
+    /// Points of them all.
+    pub points: usize,
+    /// Native JSON; `None` for a map that is stored already.
+    pub json: Option<Vec<u8>>,
+}
+
+/// A scene on its way in.
+#[derive(Clone, Debug)]
+pub struct SceneRecord {
+    /// For people.
+    pub name: String,
+    /// Words to find it by.
+    pub tags: Vec<String>,
+    /// Scene it is a variant of.
+    pub parent_id: Option<String>,
+    /// Facts for lists, as JSON.
+    pub meta: String,
+    /// Native JSON with the map by reference, without id.
+    pub json: Vec<u8>,
+    /// Its map.
+    pub map: MapRecord,
+}
+
+impl SceneRecord {
+    /// The row as it is stored, bodies compressed.
+    ///
+    /// # Errors
+    /// When the compressor fails.
+    pub fn packed(self) -> Result<PackedScene, Problem> {
+        let pack = |json: &Vec<u8>| zstd::encode_all(json.as_slice(), LEVEL).map_err(Problem::internal);
+        let (body, map_body) = (pack(&self.json)?, self.map.json.as_ref().map(pack).transpose()?);
+        let tags = serde_json::to_string(&self.tags).map_err(Problem::internal)?;
+        Ok(PackedScene { record: self, tags, body, map_body })
+    }
+}
+
+/// A scene ready to be written.
+#[derive(Clone, Debug)]
+pub struct PackedScene {
+    record: SceneRecord,
+    /// JSON array.
+    tags: String,
+    body: Vec<u8>,
+    map_body: Option<Vec<u8>>,
+}
+
+/// A map of the store, without its content.
+#[derive(Clone, Debug)]
+pub struct StoredMap {
+    /// Content hash, 64 hex digits.
+    pub sha256: String,
+    /// Size of its JSON.
+    pub bytes: u64,
+    /// Lines and areas.
+    pub polylines: u64,
+    /// Points of them all.
+    pub points: u64,
+}
+
+/// What a write gave.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// New ETag, with quotes.
+    pub etag: String,
+    /// Made, not replaced.
+    pub created: bool,
+}
+
+/// A scene as lists show it.
+#[derive(Clone, Debug)]
+pub struct SceneSummary {
+    /// Id.
+    pub id: String,
+    /// For people.
+    pub name: String,
+    /// With quotes.
+    pub etag: String,
+    /// JSON array.
+    pub tags: String,
+    /// Scene it is a variant of.
+    pub parent_id: Option<String>,
+    /// Content hash.
+    pub map_sha: String,
+    /// Facts for lists, as JSON.
+    pub meta: String,
+    /// Size of body as stored.
+    pub bytes: u64,
+    /// RFC 3339.
+    pub created_at: String,
+    /// RFC 3339.
+    pub updated_at: String,
+}
+
+/// What must hold before a scene is written.
+#[derive(Clone, Debug)]
+pub enum Expect {
+    /// Nothing has the id yet.
+    Absent,
+    /// One of these is the stored scene's ETag; `*` matches any.
+    Etags(Vec<String>),
+}
+
+const SUMMARY: &str = "id, name, etag, tags, parent_id, map_sha, meta, length(body), created_at, updated_at";
+
+fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
+    Ok(SceneSummary {
+        id: row.get(0)?,
+        name: row.get(1)?,
+        etag: row.get(2)?,
+        tags: row.get(3)?,
+        parent_id: row.get(4)?,
+        map_sha: row.get(5)?,
+        meta: row.get(6)?,
+        bytes: row.get::<_, i64>(7)?.unsigned_abs(),
+        created_at: row.get(8)?,
+        updated_at: row.get(9)?,
+    })
+}
+
+impl Store {
+    /// All scenes without their bodies.
+    pub async fn list(&self) -> Result<Vec<SceneSummary>, StoreError> {
+        self.read(|connection| {
+            let mut query = connection.prepare_cached(&format!("SELECT {SUMMARY} FROM scenes"))?;
+            let rows = query.query_map([], summary)?;
+            Ok(rows.collect::<Result<_, _>>()?)
+        })
+        .await
+    }
+
+    /// A scene's facts and its JSON (map by reference).
+    pub async fn get(&self, id: &str) -> Result<Option<(SceneSummary, Vec<u8>)>, StoreError> {
+        let id = id.to_owned();
+        self.read(move |connection| {
+            let sql = format!("SELECT {SUMMARY}, body FROM scenes WHERE id = ?1");
+            let mut query = connection.prepare_cached(&sql)?;
+            let row =
+                query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(10)?))).optional()?;
+            let Some((summary, packed)) = row else { return Ok(None) };
+            Ok(Some((summary, zstd::decode_all(packed.as_slice())?)))
+        })
+        .await
+    }
+
+    /// Writes a scene under an id; checks the precondition in the same transaction.
+    pub async fn put(&self, id: &str, expect: Expect, scene: PackedScene) -> Result<Written, StoreError> {
+        let (id, limits) = (id.to_owned(), Arc::clone(&self.limits));
+        let PackedScene { record, tags, body, map_body } = scene;
+        let written = self
+            .write(move |tx| {
+                let stored = current(tx, &id)?;
+                check(&expect, stored.as_ref())?;
+                if stored.is_none() {
+                    let count: i64 = tx.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
+                    if count.unsigned_abs() >= limits.stored_scenes {
+                        return Err(StoreError::Full(format!("{count} scenes are stored.")));
+                    }
+                }
+                if file_bytes(tx)? >= limits.store_bytes {
+                    return Err(StoreError::Full("The file has reached its size.".into()));
+                }
+                keep_map(tx, &record.map, map_body.as_deref())?;
+                let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
+                let etag = etag(rev, &record.json);
+                save(tx, (&id, rev, &etag), &record, &tags, &body)?;
+                Ok(Written { etag, created: stored.is_none() })
+            })
+            .await?;
+        self.measure().await?;
+        Ok(written)
+    }
+
+    /// Deletes a scene.
+    pub async fn delete(&self, id: &str, expect: Expect) -> Result<(), StoreError> {
+        let id = id.to_owned();
+        self.write(move |tx| {
+            let stored = current(tx, &id)?.ok_or(StoreError::Missing)?;
+            check(&expect, Some(&stored))?;
+            tx.execute("DELETE FROM scenes WHERE id = ?1", [&id])?;
+            Ok(())
+        })
+        .await?;
+        self.measure().await
+    }
+
+    /// JSON of a map.
+    pub async fn map(&self, sha: &str) -> Result<Option<Vec<u8>>, StoreError> {
+        let sha = sha.to_owned();
+        self.read(move |connection| {
+            let mut query = connection.prepare_cached("SELECT body FROM maps WHERE sha = ?1")?;
+            let packed: Option<Vec<u8>> = query.query_row([sha], |row| row.get(0)).optional()?;
+            Ok(packed.map(|packed| zstd::decode_all(packed.as_slice())).transpose()?)
+        })
+        .await
+    }
+
+    /// All maps without their content.
+    pub async fn maps(&self) -> Result<Vec<StoredMap>, StoreError> {
+        self.read(|connection| {
+            let mut query =
+                connection.prepare_cached("SELECT sha, bytes, polylines, points FROM maps ORDER BY sha")?;
+            let number = |row: &Row<'_>, i| row.get::<_, i64>(i).map(i64::unsigned_abs);
+            let rows = query.query_map([], |row| {
+                let (bytes, polylines, points) = (number(row, 1)?, number(row, 2)?, number(row, 3)?);
+                Ok(StoredMap { sha256: row.get(0)?, bytes, polylines, points })
+            })?;
+            Ok(rows.collect::<Result<_, _>>()?)
+        })
+        .await
+    }
+
+    /// Drops maps that no scene has used for a while.
+    pub async fn drop_unused_maps(&self) -> Result<usize, StoreError> {
+        let before = seconds_now().saturating_sub_unsigned(self.limits.map_keep_s);
+        self.write(move |tx| {
+            let sql = "DELETE FROM maps WHERE used_at < ?1 AND sha NOT IN (SELECT map_sha FROM scenes)";
+            Ok(tx.execute(sql, [before])?)
+        })
+        .await
+    }
+
+    /// Puts the store's size into the metrics.
+    pub async fn measure(&self) -> Result<(), StoreError> {
+        self.read(|connection| {
+            let scenes: i64 = connection.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
+            metrics::store(scenes.unsigned_abs(), file_bytes(connection)?);
+            Ok(())
+        })
+        .await
+    }
+}
+
+struct Stored {
+    rev: i64,
+    etag: String,
+    updated_at: String,
+}
+
+fn current(tx: &Transaction<'_>, id: &str) -> Result<Option<Stored>, StoreError> {
+    let mut query = tx.prepare_cached("SELECT rev, etag, updated_at FROM scenes WHERE id = ?1")?;
+    let stored = query
+        .query_row([id], |row| Ok(Stored { rev: row.get(0)?, etag: row.get(1)?, updated_at: row.get(2)? }));
+    Ok(stored.optional()?)
+}
+
+fn check(expect: &Expect, stored: Option<&Stored>) -> Result<(), StoreError> {
+    let fits = match (expect, stored) {
+        (Expect::Absent, None) => true,
+        (Expect::Absent, Some(_)) => false,
+        (Expect::Etags(_), None) => return Err(StoreError::Missing),
+        (Expect::Etags(tags), Some(stored)) => tags.iter().any(|t| t == "*" || *t == stored.etag),
+    };
+    match stored {
+        Some(stored) if !fits => {
+            Err(StoreError::Stale { etag: stored.etag.clone(), updated_at: stored.updated_at.clone() })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn keep_map(tx: &Transaction<'_>, map: &MapRecord, packed: Option<&[u8]>) -> Result<(), StoreError> {
+    let (Some(json), Some(packed)) = (&map.json, packed) else {
+        let sql = "UPDATE maps SET used_at = ?2 WHERE sha = ?1";
+        let found = tx.execute(sql, rusqlite::params![map.sha, seconds_now()])?;
+        return if found == 1 { Ok(()) } else { Err(StoreError::Missing) };
+    };
+    let sql = "INSERT INTO maps (sha, bytes, polylines, points, body, used_at)
+        VALUES (:sha, :bytes, :polylines, :points, :body, :now) ON CONFLICT (sha) DO UPDATE SET used_at = :now";
+    tx.execute(
+        sql,
+        named_params! {
+            ":sha": map.sha, ":bytes": as_i64(json.len()), ":polylines": as_i64(map.polylines),
+            ":points": as_i64(map.points), ":body": packed, ":now": seconds_now(),
+        },
+    )?;
+    Ok(())
+}
+
+fn save(
+    tx: &Transaction<'_>,
+    (id, rev, etag): (&str, i64, &str),
+    record: &SceneRecord,
+    tags: &str,
+    body: &[u8],
+) -> Result<(), StoreError> {
+    let sql = "INSERT INTO scenes (id, rev, etag, name, tags, parent_id, map_sha, meta, body, created_at, updated_at)
+        VALUES (:id, :rev, :etag, :name, :tags, :parent, :map, :meta, :body, :now, :now)
+        ON CONFLICT (id) DO UPDATE SET rev = :rev, etag = :etag, name = :name, tags = :tags,
+            parent_id = :parent, map_sha = :map, meta = :meta, body = :body, updated_at = :now";
+    tx.execute(
+        sql,
+        named_params! {
+            ":id": id, ":rev": rev, ":etag": etag, ":name": record.name, ":tags": tags,
+            ":parent": record.parent_id, ":map": record.map.sha, ":meta": record.meta, ":body": body,
+            ":now": clock::now(),
+        },
+    )?;
+    Ok(())
+}
+
+/// Strong ETag of a revision of a scene.
+pub fn etag(rev: i64, json: &[u8]) -> String {
+    let hash = ContentHash::of_bytes(json).hex();
+    format!("\"{rev}-{}\"", hash.get(..16).unwrap_or_default())
+}
+
+fn file_bytes(connection: &rusqlite::Connection) -> Result<u64, StoreError> {
+    let pages: i64 = connection.pragma_query_value(None, "page_count", |row| row.get(0))?;
+    let size: i64 = connection.pragma_query_value(None, "page_size", |row| row.get(0))?;
+    Ok((pages * size).unsigned_abs())
+}
+
+fn seconds_now() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    i64::try_from(since.as_secs()).unwrap_or(i64::MAX)
+}
+
+fn as_i64(count: usize) -> i64 {
+    i64::try_from(count).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,140 @@
+//! Files in and out: the formats of the `formats` crate behind the words that routes and the command
+//! line use.
+
+use crate::base::problem::{Code, Problem};
+use formats::registry::{self, FORMATS};
+use formats::{ExportOptions, ExportedMotion, ImportOptions, NET_POINTER};
+use scene::Scene;
+use serde::Deserialize;
+
+/// One scene of a file.
+pub struct Imported {
+    /// The scene.
+    pub scene: Scene,
+    /// What the reader changed or left out.
+    pub warnings: Vec<formats::Warning>,
+}
+
+/// What a file gave.
+pub struct Read {
+    /// Id of the format.
+    pub format: &'static str,
+    /// Scenes in order.
+    pub scenes: Vec<Imported>,
+    /// Records that are no scenes: position and reason.
+    pub skipped: Vec<(usize, Problem)>,
+}
+
+/// A file on its way out.
+pub struct Written {
+    /// Content.
+    pub bytes: Vec<u8>,
+    /// Media type.
+    pub media_type: &'static str,
+    /// With the dot.
+    pub extension: String,
+    /// Codes of what the format cannot hold.
+    pub losses: Vec<formats::Loss>,
+}
+
+/// Which motion an export takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Motion {
+    /// Chosen futures where there are any, the log before and beside them.
+    #[default]
+    Chosen,
+    /// The recording.
+    Log,
+}
+
+/// Ids of all formats.
+pub fn names() -> Vec<&'static str> {
+    FORMATS.iter().map(|format| format.info().id).collect()
+}
+
+/// The formats for `/v1/info`.
+pub fn table() -> Vec<formats::format::Info> {
+    FORMATS.iter().map(|format| format.info()).collect()
+}
+
+/// `scene` is another word for the native format.
+fn known(name: &str) -> &str {
+    if name == "scene" { "dragtraffic" } else { name }
+}
+
+/// Reads a file; the format is recognised from its content when `format` is `None`. `skip` scenes
+/// are passed over and at most `most` given. `net` is the network that a recording belongs to.
+///
+/// # Errors
+/// `format-unknown`, `invalid-field` for a network beside a file that takes none, or why not one scene
+/// of the file can be read.
+pub fn read(
+    bytes: &[u8],
+    format: Option<&str>,
+    name: &str,
+    skip: usize,
+    most: usize,
+    net: Option<Vec<u8>>,
+) -> Result<Read, Problem> {
+    let id = match format {
+        Some(format) => known(format),
+        None => registry::sniff(bytes, name).map_or("auto", |format| format.info().id),
+    };
+    let format = names().into_iter().find(|known| *known == id).unwrap_or("auto");
+    if net.is_some() && registry::by_id(id).is_some_and(|format| !format.info().takes_net) {
+        let detail = format!("a file of format {id} comes without a network");
+        return Err(Problem::field(NET_POINTER, Code::InvalidField, detail));
+    }
+    let options = ImportOptions { skip, max_scenes: most, net, ..ImportOptions::default() };
+    let mut scenes = Vec::new();
+    let mut skipped = Vec::new();
+    for (index, result) in registry::import(bytes, name, id, &options)?.into_iter().enumerate() {
+        match result {
+            Ok((scene, warnings)) => scenes.push(Imported { scene, warnings }),
+            Err(error) => skipped.push((skip + index, Problem::from(error))),
+        }
+    }
+    if scenes.is_empty() && !skipped.is_empty() {
+        return Err(skipped.swap_remove(0).1);
+    }
+    Ok(Read { format, scenes, skipped })
+}
+
+/// Writes a scene as a file.
+///
+/// # Errors
+/// `format-unknown`, `cannot-represent`, or `out-of-range` for a sample that is not there.
+pub fn write(scene: &Scene, format: &str, sample: Option<usize>, motion: Motion) -> Result<Written, Problem> {
+    let found = registry::by_id(known(format)).ok_or_else(|| {
+        let shown: String = format.chars().take(40).collect();
+        let detail = format!("No format is named \"{shown}\"; there are {}.", names().join(", "));
+        Problem::field("/query/format", Code::FormatUnknown, detail)
+    })?;
+    let mut copy = None;
+    if let Some(sample) = sample {
+        let count = scene.generated.as_ref().map_or(0, |g| g.samples.len());
+        if sample >= count.max(1) {
+            return Err(Problem::range("/query/sample", 0.0, count.max(1) as f64 - 1.0, sample as f64));
+        }
+        let mut scene = scene.clone();
+        if let Some(generated) = &mut scene.generated {
+            generated.chosen_sample = sample;
+        }
+        copy = Some(scene);
+    }
+    let motion = match motion {
+        Motion::Chosen => ExportedMotion::Chosen,
+        Motion::Log => ExportedMotion::Log,
+    };
+    let exported = found
+        .export(&[copy.as_ref().unwrap_or(scene)], &ExportOptions { motion, gzip: false })
+        .map_err(|error| Problem::new(Code::CannotRepresent, error.to_string()))?;
+    let info = found.info();
+    Ok(Written {
+        bytes: exported.bytes,
+        media_type: info.media_type,
+        extension: info.extensions.first().map(|e| format!(".{e}")).unwrap_or_default(),
+        losses: exported.losses,
+    })
+}

@@ -1,0 +1,158 @@
+//! Calls with one answer: a closure in, its result out.
+
+use super::job::{Caller, Ending, Stop};
+use super::kind::Kind;
+use super::{Pool, lock};
+use crate::base::metrics;
+use crate::base::problem::{Code, Problem};
+use experts::Cancel;
+use std::sync::{Arc, Mutex};
+use tokio::sync::oneshot;
+
+/// Documents up to this many bytes are worked on at once: a queue would cost more than it saves.
+const SMALL_BYTES: usize = 32 << 10;
+
+/// The place of a call's one answer.
+struct Answer<T>(Mutex<Option<oneshot::Sender<Result<T, Problem>>>>);
+
+impl<T> Answer<T> {
+    /// Gives the answer. False when there is one already.
+    fn give(&self, result: Result<T, Problem>) -> bool {
+        // Nobody may wait for it any more; it is the answer all the same.
+        lock(&self.0).take().map(|sender| drop(sender.send(result))).is_some()
+    }
+}
+
+impl<T: Send> Ending for Answer<T> {
+    fn stop(&self, stop: Stop) -> bool {
+        self.give(Err(match stop {
+            Stop::Problem(problem) => problem,
+            Stop::Superseded(by) => superseded(by),
+        }))
+    }
+
+    fn is_over(&self) -> bool {
+        lock(&self.0).is_none()
+    }
+}
+
+/// The refusal of a call that a newer revision has overtaken.
+pub fn superseded(by: u64) -> Problem {
+    let detail = format!("Revision {by} of the same client took over.");
+    Problem::new(Code::Superseded, detail).with(|m| m.by_revision = Some(by))
+}
+
+impl Pool {
+    /// Waits for a worker and gives what the work gives. Leaving the wait cancels the work.
+    ///
+    /// # Errors
+    /// The work's own problem, a full queue, a time limit, or shutdown.
+    pub async fn run<T: Send + 'static>(
+        self: &Arc<Self>,
+        kind: Kind,
+        work: impl FnOnce(&Cancel) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let (sender, receiver) = oneshot::channel();
+        let answer = Arc::new(Answer(Mutex::new(Some(sender))));
+        let (_, _hold) = self.submit(kind, Caller::default(), |ticket| {
+            let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
+            let work = move || {
+                let result = work(&ticket.cancel);
+                let outcome = if result.is_ok() { "final" } else { "error" };
+                if given.give(result) {
+                    metrics::ended(kind.name(), outcome);
+                }
+            };
+            (answer, Box::new(work))
+        })?;
+        receiver.await.unwrap_or_else(|_| Err(Problem::internal("a call ended without its answer")))
+    }
+
+    /// Work on a document of about so many bytes: at once when that is little, else like all other work.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub async fn document<T: Send + 'static>(
+        self: &Arc<Self>,
+        bytes: usize,
+        work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        if bytes <= SMALL_BYTES {
+            return work();
+        }
+        self.run(Kind::Document, move |_| work()).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Kind, Pool};
+    use crate::base::limits::Limits;
+    use crate::base::problem::{Code, Problem};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::Duration;
+
+    fn pool(limits: Limits) -> Arc<Pool> {
+        Pool::start(&Arc::new(limits)).unwrap()
+    }
+
+    #[tokio::test]
+    async fn a_call_gives_its_answer_its_problem_or_its_panic() {
+        let pool = pool(Limits::default());
+        assert_eq!(pool.run(Kind::Score, |_| Ok(7)).await.unwrap(), 7);
+        let refused = pool.run::<()>(Kind::Score, |_| Err(Problem::new(Code::NotFound, "no"))).await;
+        assert_eq!(refused.unwrap_err().code, Code::NotFound);
+        #[allow(clippy::panic, reason = "the worker must survive it")]
+        let broken = pool.run::<()>(Kind::Score, |_| panic!("on purpose")).await;
+        assert_eq!(broken.unwrap_err().code, Code::Internal);
+        assert_eq!(pool.run(Kind::Score, |_| Ok(8)).await.unwrap(), 8, "the worker goes on");
+        pool.stop();
+    }
+
+    #[tokio::test]
+    async fn documents_are_read_while_all_workers_are_busy() {
+        let pool = pool(Limits { running: 1, queue: 1, ..Limits::default() });
+        let release = Arc::new(AtomicBool::new(false));
+        let hold = |release: &Arc<AtomicBool>| {
+            let (pool, release) = (Arc::clone(&pool), Arc::clone(release));
+            let work = move |_: &experts::Cancel| {
+                while !release.load(Ordering::Relaxed) {
+                    std::thread::sleep(Duration::from_millis(2));
+                }
+                Ok(())
+            };
+            tokio::spawn(async move { pool.run(Kind::Place, work).await })
+        };
+        let running = hold(&release);
+        tokio::time::sleep(Duration::from_millis(100)).await;
+        let waiting = hold(&release);
+        tokio::time::sleep(Duration::from_millis(100)).await;
+        let refused = pool.run(Kind::Place, |_| Ok(())).await.unwrap_err();
+        assert_eq!(refused.code, Code::Busy);
+        assert!(refused.members.retry_after_s.is_some());
+        assert_eq!(pool.document(1 << 20, || Ok(3)).await.unwrap(), 3);
+        release.store(true, Ordering::Relaxed);
+        assert!(running.await.unwrap().is_ok() && waiting.await.unwrap().is_ok());
+        pool.stop();
+    }
+
+    #[tokio::test]
+    async fn leaving_the_wait_cancels_and_a_limit_ends_it() {
+        let pool = pool(Limits { running: 1, generate_s: 0, ..Limits::default() });
+        let seen = Arc::new(AtomicBool::new(false));
+        let told = Arc::clone(&seen);
+        let work = move |cancel: &experts::Cancel| {
+            while !cancel.is_cancelled() {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            told.store(true, Ordering::Relaxed);
+            Ok(())
+        };
+        let late = pool.run(Kind::Export, work).await.unwrap_err();
+        assert_eq!((late.code, late.members.limit), (Code::GenerateTimeout, Some(0)));
+        tokio::time::sleep(Duration::from_millis(100)).await;
+        assert!(seen.load(Ordering::Relaxed), "the work was told to stop");
+        pool.stop();
+    }
+}

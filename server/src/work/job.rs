@@ -1,0 +1,128 @@
+//! One job: who asked, what is to be done, and its one end.
+
+use super::kind::Kind;
+use super::lock;
+use crate::base::metrics;
+use crate::base::problem::{Code, Problem};
+use experts::Cancel;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// What a worker does. It ends the job itself unless it is stopped.
+pub type Work = Box<dyn FnOnce() + Send>;
+
+/// Who asks.
+#[derive(Clone, Debug, Default)]
+pub struct Caller {
+    /// The caller's own id for the job.
+    pub job: Option<String>,
+    /// Client whose newer revisions take over, and this revision.
+    pub client: Option<(String, u64)>,
+}
+
+/// Why a job ends without its result.
+#[derive(Clone, Debug)]
+pub enum Stop {
+    /// A newer revision of the same client took over.
+    Superseded(u64),
+    /// A refusal, a failure or a cancellation.
+    Problem(Problem),
+}
+
+impl Stop {
+    fn outcome(&self) -> &'static str {
+        match self {
+            Self::Superseded(_) => "superseded",
+            Self::Problem(problem) if problem.code == Code::Cancelled => "cancelled",
+            Self::Problem(_) => "error",
+        }
+    }
+}
+
+/// Where the end of a job goes. The first one counts.
+pub trait Ending: Send + Sync {
+    /// Ends the job without a result. False when it had ended already.
+    fn stop(&self, stop: Stop) -> bool;
+
+    /// True when it has ended.
+    fn is_over(&self) -> bool;
+
+    /// How long a reader has left something waiting.
+    fn stalled(&self) -> Duration {
+        Duration::ZERO
+    }
+}
+
+/// What work knows about its job.
+#[derive(Debug)]
+pub struct Ticket {
+    /// Id, unique among jobs under way.
+    pub id: String,
+    /// Client whose newer revisions take over, and this revision.
+    pub client: Option<(String, u64)>,
+    /// Set when the job is stopped.
+    pub cancel: Cancel,
+    /// Jobs before this one when it was queued.
+    pub queue_position: usize,
+    asked: Instant,
+}
+
+impl Ticket {
+    pub(super) fn new(id: String, client: Option<(String, u64)>, queue_position: usize) -> Self {
+        Self { id, client, cancel: Cancel::default(), queue_position, asked: Instant::now() }
+    }
+
+    /// Time since it was queued.
+    pub fn elapsed(&self) -> Duration {
+        self.asked.elapsed()
+    }
+}
+
+/// A job that waits or is worked on.
+pub struct Job {
+    pub(super) kind: Kind,
+    pub(super) ticket: Arc<Ticket>,
+    ending: Arc<dyn Ending>,
+    work: Mutex<Option<Work>>,
+    /// When a worker took it.
+    began: Mutex<Option<Instant>>,
+}
+
+impl Job {
+    pub(super) fn new(kind: Kind, ticket: Arc<Ticket>, ending: Arc<dyn Ending>, work: Work) -> Self {
+        Self { kind, ticket, ending, work: Mutex::new(Some(work)), began: Mutex::new(None) }
+    }
+
+    /// A worker takes it.
+    pub(super) fn begin(&self) -> Option<Work> {
+        *lock(&self.began) = Some(Instant::now());
+        lock(&self.work).take()
+    }
+
+    /// How long a worker has been at it.
+    pub(super) fn worked(&self) -> Duration {
+        lock(&self.began).map_or(Duration::ZERO, |began| began.elapsed())
+    }
+
+    pub(super) fn is_over(&self) -> bool {
+        self.ending.is_over()
+    }
+
+    pub(super) fn stalled(&self) -> Duration {
+        self.ending.stalled()
+    }
+
+    /// Ends it and stops its work, unless it has ended already.
+    pub(super) fn stop(&self, stop: Stop) {
+        let outcome = stop.outcome();
+        let first = self.ending.stop(stop);
+        self.ticket.cancel.cancel();
+        if first {
+            metrics::ended(self.kind.name(), outcome);
+        }
+    }
+
+    pub(super) fn fail(&self, problem: Problem) {
+        self.stop(Stop::Problem(problem));
+    }
+}
