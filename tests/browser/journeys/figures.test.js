@@ -53,6 +53,7 @@ journeys('figures', (stage) => {
       moveToFutures: spread(shown.map((m) => m.shown - m.at)),
       frame: spread(frames.slice(1).map((t, i) => t - frames[i])),
       cpuPerFrame: Number((drag.cpuMs / Math.max(1, drag.drawn.length)).toFixed(1)),
+      pageThreadPerFrame: Number((drag.pageMs / Math.max(1, drag.drawn.length)).toFixed(2)),
       requests: asked.length, answered: asked.filter((a) => a.draft).length,
       releaseToAnswer: spread(releases.map((r) => r.answered)),
       releaseToOthers: spread(releases.map((r) => r.shown)),
@@ -60,7 +61,7 @@ journeys('figures', (stage) => {
     writeFileSync(`${out}/figures.json`, `${JSON.stringify({ ...figures, moves: moves.map((m) => ({ draft: m.draft && m.draft - m.at, shown: m.shown && m.shown - m.at })) }, null, 2)}\n`);
     console.log(`Figures in ms, ${figures.cores} cores, load ${load.toFixed(1)}`);
     for (const [name, value] of Object.entries(figures)) if (typeof value === 'object') console.log(`  ${name.padEnd(16)} p50 ${value.p50}  p95 ${value.p95}  n ${value.n}`);
-    console.log(`  CPU per frame ${figures.cpuPerFrame}; ${asked.length} requests for ${moves.length} moves, ${figures.answered} drawn; opened in ${figures.opened}`);
+    console.log(`  CPU per frame ${figures.cpuPerFrame}, of the page's thread ${figures.pageThreadPerFrame}; ${asked.length} requests for ${moves.length} moves, ${figures.answered} drawn; opened in ${figures.opened}`);
     assert.equal(moves.length, MOVES);
     assert.ok(shown.length > 0, 'futures were drawn during the drag');
   });

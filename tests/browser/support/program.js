@@ -3,7 +3,7 @@ import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { program } from './where.js';
+import { program, running } from './where.js';
 
 const STARTS_WITHIN_MS = 20_000;
 const ENDS_WITHIN_MS = 5_000;
@@ -15,7 +15,8 @@ export class Program {
 
   static async start() {
     const p = new Program();
-    await p.run();
+    if (running) p.url = running;
+    else await p.run();
     return p;
   }
 

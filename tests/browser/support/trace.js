@@ -8,14 +8,23 @@ export async function traced(browser, page, work) {
   const events = [];
   cdp.on('Tracing.dataCollected', (e) => { for (const v of e.value) events.push(v); });
   await cdp.send('Tracing.start', { transferMode: 'ReportEvents', traceConfig: { includedCategories: CATEGORIES } });
-  const before = await cpu(cdp);
+  const thread = await page.context().newCDPSession(page);
+  await thread.send('Performance.enable', { timeDomain: 'threadTicks' });
+  const before = { cpu: await cpu(cdp), page: await busy(thread) };
   await work();
-  const after = await cpu(cdp);
+  const after = { cpu: await cpu(cdp), page: await busy(thread) };
+  await thread.detach();
   const complete = new Promise((resolve) => cdp.once('Tracing.tracingComplete', resolve));
   await cdp.send('Tracing.end');
   await complete;
   await cdp.detach();
-  return new Trace(events, after - before);
+  return new Trace(events, after.cpu - before.cpu, after.page - before.page);
+}
+
+/** Time, in ms, that the page's main thread has worked: script, style, layout and painting commands. */
+async function busy(thread) {
+  const { metrics } = await thread.send('Performance.getMetrics');
+  return metrics.find((m) => m.name === 'TaskDuration').value * 1000;
 }
 
 /** CPU time, in ms, that the page's and the drawing processes have used. */
@@ -25,8 +34,9 @@ async function cpu(cdp) {
 }
 
 class Trace {
-  constructor(events, cpuMs) {
+  constructor(events, cpuMs, pageMs) {
     this.cpuMs = cpuMs;
+    this.pageMs = pageMs;
     const times = (name, keep = () => true) => events.filter((v) => v.name === name && keep(v)).map((v) => v.ts / 1000).sort((a, b) => a - b);
     const dispatched = (type) => times('EventDispatch', (v) => v.args.data?.type === type);
     this.moves = dispatched('pointermove');

@@ -35,4 +35,7 @@ export function recordedFile() {
 export const out = here('../out');
 mkdirSync(out, { recursive: true });
 
-export { chromium, program };
+/** Address of a page that is served already, for instance by `vite preview`; then no program is started. */
+const running = process.env.DRAGTRAFFIC_PAGE || null;
+
+export { chromium, program, running };
