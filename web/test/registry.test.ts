@@ -5,7 +5,10 @@ import { ACTIONS, actionForKey } from '../src/actions/registry';
 import { caps, keyOf } from '../src/actions/keys';
 
 const src = new URL('../src/', import.meta.url);
-const files = (dir: string) => readdirSync(new URL(`${dir}/`, src)).filter((f) => f.endsWith('.ts')).map((f) => ({ name: `${dir}/${f}`, text: readFileSync(new URL(`${dir}/${f}`, src), 'utf8') }));
+const files = (dir: string) =>
+  readdirSync(new URL(`${dir}/`, src))
+    .filter((f) => f.endsWith('.ts'))
+    .map((f) => ({ name: `${dir}/${f}`, text: readFileSync(new URL(`${dir}/${f}`, src), 'utf8') }));
 const app = files('app');
 
 describe('action registry', () => {
@@ -27,7 +30,10 @@ describe('action registry', () => {
   it('knows every action that a button names', () => {
     const ids = new Set(ACTIONS.map((a) => a.id));
     for (const f of app)
-      for (const m of f.text.matchAll(/(?:actionButton|iconButton|perform|actionOf)\(c?,? ?'([\w-]+)'|'data-action': '([\w-]+)'/g)) expect(ids, `${f.name}: ${m[0]}`).toContain(m[1] ?? m[2]);
+      for (const m of f.text.matchAll(
+        /(?:actionButton|iconButton|perform|actionOf)\(c?,? ?'([\w-]+)'|'data-action': '([\w-]+)'/g,
+      ))
+        expect(ids, `${f.name}: ${m[0]}`).toContain(m[1] ?? m[2]);
     expect(app.some((f) => f.text.includes("iconButton(c, 'undo')"))).toBe(true);
   });
 
@@ -48,7 +54,11 @@ describe('action registry', () => {
 });
 
 describe('keys', () => {
-  const press = (key: string, mods: Partial<Record<'ctrlKey' | 'metaKey' | 'altKey' | 'shiftKey', boolean>> = {}, code = '') => keyOf({ key, code, ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...mods });
+  const press = (
+    key: string,
+    mods: Partial<Record<'ctrlKey' | 'metaKey' | 'altKey' | 'shiftKey', boolean>> = {},
+    code = '',
+  ) => keyOf({ key, code, ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...mods });
   it('have one spelling', () => {
     expect(press('z', { ctrlKey: true })).toBe('Ctrl+Z');
     expect(press('Z', { metaKey: true, shiftKey: true })).toBe('Ctrl+Shift+Z');

@@ -23,13 +23,19 @@ export class Program {
   /** Starts, or starts again on the same port and database. */
   async run() {
     const port = this.url ? new URL(this.url).port : '0';
-    const child = spawn(program, ['serve', '--port', port, '--db', join(this.#folder, 'scenes.sqlite'), '--log-level', 'warn'], {
-      stdio: ['ignore', 'pipe', 'pipe'],
-      env: Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('DRAGTRAFFIC_'))),
-    });
+    const child = spawn(
+      program,
+      ['serve', '--port', port, '--db', join(this.#folder, 'scenes.sqlite'), '--log-level', 'warn'],
+      {
+        stdio: ['ignore', 'pipe', 'pipe'],
+        env: Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('DRAGTRAFFIC_'))),
+      },
+    );
     this.#child = child;
     let said = '';
-    child.stderr.on('data', (text) => { said += text; });
+    child.stderr.on('data', (text) => {
+      said += text;
+    });
     this.url = await new Promise((resolve, reject) => {
       const late = setTimeout(() => reject(new Error(`the program did not start in time: ${said}`)), STARTS_WITHIN_MS);
       child.once('exit', (code) => reject(new Error(`the program ended with ${code}: ${said}`)));
@@ -43,7 +49,9 @@ export class Program {
   }
 
   /** Ends at once, as a crash or a power cut would. */
-  async kill() { await this.#end('SIGKILL'); }
+  async kill() {
+    await this.#end('SIGKILL');
+  }
 
   async stop() {
     await this.#end('SIGTERM');

@@ -20,7 +20,10 @@ export class Ui {
   readonly deleting = signal<string | null>(null);
   readonly eventsPanel = signal(false);
   readonly coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
-  readonly theme = signal<Theme>(recall<Theme>('theme') ?? (typeof matchMedia !== 'undefined' && matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+  readonly theme = signal<Theme>(
+    recall<Theme>('theme') ??
+      (typeof matchMedia !== 'undefined' && matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'),
+  );
 
   setTheme(t: Theme): void {
     this.theme.value = t;
@@ -34,7 +37,14 @@ export class Ui {
 }
 
 export interface Context {
-  editor: Editor; library: Library; asking: Asking; playback: Playback; gestures: Gestures; stage: Stage; client: Client; ui: Ui;
+  editor: Editor;
+  library: Library;
+  asking: Asking;
+  playback: Playback;
+  gestures: Gestures;
+  stage: Stage;
+  client: Client;
+  ui: Ui;
   chooseFiles(): void;
   focusField(part: 'start' | 'goal', field: string): void;
   focusGroup(step: 1 | -1): void;

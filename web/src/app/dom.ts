@@ -1,9 +1,20 @@
 // A small helper for building panels: functions as values follow signals and write single attributes or texts.
 import { effect, untracked } from '@preact/signals-core';
 
-export type Child = Node | string | number | null | undefined | false | (() => string | number | Node | null | undefined | false) | Child[];
+export type Child =
+  | Node
+  | string
+  | number
+  | null
+  | undefined
+  | false
+  | (() => string | number | Node | null | undefined | false)
+  | Child[];
 type Value = string | number | boolean | null | undefined;
-export type Props = Record<string, unknown> & { css?: Record<string, string | (() => string)>; class?: string | (() => string) };
+export type Props = Record<string, unknown> & {
+  css?: Record<string, string | (() => string)>;
+  class?: string | (() => string);
+};
 
 let scope: (() => void)[] | null = null;
 
@@ -12,7 +23,13 @@ export function scoped<T>(build: () => T): { value: T; dispose: () => void } {
   const outer = scope;
   const mine: (() => void)[] = (scope = []);
   try {
-    return { value: build(), dispose: () => { for (const end of mine) end(); mine.length = 0; } };
+    return {
+      value: build(),
+      dispose: () => {
+        for (const end of mine) end();
+        mine.length = 0;
+      },
+    };
   } finally {
     scope = outer;
   }
@@ -23,11 +40,17 @@ export function watch(run: () => void): void {
   scope?.push(end);
 }
 
-export function onEnd(run: () => void): void { scope?.push(run); }
+export function onEnd(run: () => void): void {
+  scope?.push(run);
+}
 
 const SVG = 'http://www.w3.org/2000/svg';
 
-export function h<K extends keyof HTMLElementTagNameMap>(tag: K, props?: Props | null, ...children: Child[]): HTMLElementTagNameMap[K] {
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  props?: Props | null,
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
   const el = document.createElement(tag);
   apply(el, props);
   append(el, children);
@@ -45,7 +68,8 @@ function apply(el: HTMLElement | SVGElement, props?: Props | null): void {
   if (!props) return;
   for (const [name, value] of Object.entries(props)) {
     if (name === 'css') applyStyle(el, value as Record<string, string | (() => string)>);
-    else if (name.startsWith('on') && typeof value === 'function') el.addEventListener(name.slice(2), value as EventListener);
+    else if (name.startsWith('on') && typeof value === 'function')
+      el.addEventListener(name.slice(2), value as EventListener);
     else if (typeof value === 'function') watch(() => set(el, name, (value as () => Value)()));
     else set(el, name, value as Value);
   }
@@ -60,7 +84,10 @@ function applyStyle(el: HTMLElement | SVGElement, css: Record<string, string | (
 }
 
 function set(el: HTMLElement | SVGElement, name: string, value: Value): void {
-  if (name === 'value' && el instanceof HTMLInputElement) { if (el.value !== String(value ?? '')) el.value = String(value ?? ''); return; }
+  if (name === 'value' && el instanceof HTMLInputElement) {
+    if (el.value !== String(value ?? '')) el.value = String(value ?? '');
+    return;
+  }
   if (value === false || value === null || value === undefined) el.removeAttribute(name);
   else el.setAttribute(name, value === true ? '' : String(value));
 }
@@ -80,12 +107,16 @@ function appendLive(el: Node, make: () => string | number | Node | null | undefi
   watch(() => {
     const v = make();
     if (v instanceof Node) {
-      if (v !== now) { now.parentNode?.replaceChild(v, now); now = v; }
+      if (v !== now) {
+        now.parentNode?.replaceChild(v, now);
+        now = v;
+      }
       return;
     }
     const text = v === null || v === undefined || v === false ? '' : String(v);
-    if (now.nodeType === Node.TEXT_NODE) { if (now.nodeValue !== text) now.nodeValue = text; }
-    else {
+    if (now.nodeType === Node.TEXT_NODE) {
+      if (now.nodeValue !== text) now.nodeValue = text;
+    } else {
       const t = document.createTextNode(text);
       now.parentNode?.replaceChild(t, now);
       now = t;

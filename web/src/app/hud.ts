@@ -13,15 +13,56 @@ import { icon } from './icons';
 export function hud(c: Context, picture: Picture): HTMLElement {
   const { editor, ui } = c;
   const shift = () => (ui.drawer.value ? 'shift' : '');
-  return h('div', { class: 'hud' },
-    h('nav', { class: 'rail', 'aria-label': 'Tools' }, ['select', 'pan', 'measure'].map((t) => actionButton(c, `tool-${t}`, { size: 20, label: h('em', null, actionOf(`tool-${t}`).keys![0]) }))),
-    h('div', { class: 'tr' }, h('div', { class: 'card chipbar', role: 'group', 'aria-label': 'Layers' }, ['futures', 'log', 'lanes', 'labels'].map((l) => actionButton(c, `layer-${l}`, { icon: 'check', size: 14 })))),
-    h('div', { class: () => `bl ${shift()}` }, h('div', { class: 'card status' }, swap(() => statusKey(c), () => status(c))), scaleBar(c)),
-    swap(() => editor.dragging.value, () => (editor.drag.peek() ? dragHelp(c) : zoomBar(c))),
-    swap(() => coachShown(c), () => (coachShown(c) ? coach(c) : null)),
-    swap(() => editor.toast.value, () => toast(c)),
-    swap(() => bannerKey(c), () => banner(c)),
-    hoverCard(c, picture));
+  return h(
+    'div',
+    { class: 'hud' },
+    h(
+      'nav',
+      { class: 'rail', 'aria-label': 'Tools' },
+      ['select', 'pan', 'measure'].map((t) =>
+        actionButton(c, `tool-${t}`, { size: 20, label: h('em', null, actionOf(`tool-${t}`).keys![0]) }),
+      ),
+    ),
+    h(
+      'div',
+      { class: 'tr' },
+      h(
+        'div',
+        { class: 'card chipbar', role: 'group', 'aria-label': 'Layers' },
+        ['futures', 'log', 'lanes', 'labels'].map((l) => actionButton(c, `layer-${l}`, { icon: 'check', size: 14 })),
+      ),
+    ),
+    h(
+      'div',
+      { class: () => `bl ${shift()}` },
+      h(
+        'div',
+        { class: 'card status' },
+        swap(
+          () => statusKey(c),
+          () => status(c),
+        ),
+      ),
+      scaleBar(c),
+    ),
+    swap(
+      () => editor.dragging.value,
+      () => (editor.drag.peek() ? dragHelp(c) : zoomBar(c)),
+    ),
+    swap(
+      () => coachShown(c),
+      () => (coachShown(c) ? coach(c) : null),
+    ),
+    swap(
+      () => editor.toast.value,
+      () => toast(c),
+    ),
+    swap(
+      () => bannerKey(c),
+      () => banner(c),
+    ),
+    hoverCard(c, picture),
+  );
 }
 
 // ---------------------------------------------------------------- status
@@ -29,14 +70,24 @@ export function hud(c: Context, picture: Picture): HTMLElement {
 const statusKey = (c: Context): string => {
   const { editor } = c;
   const s = editor.status.value;
-  return JSON.stringify([s, editor.away.value?.waiting, editor.events.value.length, editor.selectedEvent.value?.time, editor.selection.value, editor.draft.value !== null, unreachable(c), editor.layers.value.log && editor.touchedIds(editor.scene.value).length]);
+  return JSON.stringify([
+    s,
+    editor.away.value?.waiting,
+    editor.events.value.length,
+    editor.selectedEvent.value?.time,
+    editor.selection.value,
+    editor.draft.value !== null,
+    unreachable(c),
+    editor.layers.value.log && editor.touchedIds(editor.scene.value).length,
+  ]);
 };
 
 const unreachable = (c: Context): boolean => {
   const { editor: e } = c;
   const a = e.agent.value;
   if (!a?.goal.pos) return false;
-  const live = e.liveReach.value?.id === a.id ? e.liveReach.value.reach : e.drag.value ? null : e.motion.value.reach.get(a.id);
+  const live =
+    e.liveReach.value?.id === a.id ? e.liveReach.value.reach : e.drag.value ? null : e.motion.value.reach.get(a.id);
   return live ? live.status === 'unreachable' : !!e.localReach.value && e.localReach.value.kind !== 'ok';
 };
 
@@ -47,19 +98,46 @@ function status(c: Context): HTMLElement {
   // At an event the chip says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.peek() && (s.kind === 'settled' || s.kind === 'ready')) return readyLine(c, line);
   switch (s.kind) {
-    case 'loading': return line('busy', 'Loading the scene …');
-    case 'refining': return h('div', { class: 'row' }, h('span', { class: 'steps' }, [...Array(s.steps).keys()].map((i) => h('i', { class: i < s.step ? 'd' : '' }))), s.part ? `Refining ${s.part} · ${s.ms.toFixed(0)} ms` : s.step ? `Refining, step ${s.step} of ${s.steps} · ${s.ms.toFixed(0)} ms` : s.ms ? `First guess · ${s.ms.toFixed(0)} ms` : 'Working out futures …');
-    case 'slow': return line('busy', `This takes longer than usual (${(s.ms / 1000).toFixed(1)} s).${editor.dragging.peek() ? ' You can keep dragging.' : ''}`);
-    case 'refused': return line('collision', s.words);
-    case 'away': { const n = editor.away.peek()?.waiting ?? 0; return line('near', `Generator away${n ? ` · ${n} change${n > 1 ? 's' : ''} waiting` : ''}`); }
+    case 'loading':
+      return line('busy', 'Loading the scene …');
+    case 'refining':
+      return h(
+        'div',
+        { class: 'row' },
+        h(
+          'span',
+          { class: 'steps' },
+          [...Array(s.steps).keys()].map((i) => h('i', { class: i < s.step ? 'd' : '' })),
+        ),
+        s.part
+          ? `Refining ${s.part} · ${s.ms.toFixed(0)} ms`
+          : s.step
+            ? `Refining, step ${s.step} of ${s.steps} · ${s.ms.toFixed(0)} ms`
+            : s.ms
+              ? `First guess · ${s.ms.toFixed(0)} ms`
+              : 'Working out futures …',
+      );
+    case 'slow':
+      return line(
+        'busy',
+        `This takes longer than usual (${(s.ms / 1000).toFixed(1)} s).${editor.dragging.peek() ? ' You can keep dragging.' : ''}`,
+      );
+    case 'refused':
+      return line('collision', s.words);
+    case 'away': {
+      const n = editor.away.peek()?.waiting ?? 0;
+      return line('near', `Generator away${n ? ` · ${n} change${n > 1 ? 's' : ''} waiting` : ''}`);
+    }
     case 'settled': {
       if (unreachable(c)) return line('near', 'Showing futures to the nearest reachable point');
       const n = editor.futures.peek()?.modes.length ?? 6;
       const ms = s.ms ? ` · ${s.ms.toFixed(0)} ms` : '';
-      const adapted = s.adapted === null ? '' : s.adapted === 0 ? '' : ` · ${s.adapted} other${s.adapted > 1 ? 's' : ''} adapted`;
+      const adapted =
+        s.adapted === null ? '' : s.adapted === 0 ? '' : ` · ${s.adapted} other${s.adapted > 1 ? 's' : ''} adapted`;
       return editor.selection.peek() ? line('', `${n === 6 ? 'Six' : n} futures${ms}${adapted}`) : readyLine(c, line);
     }
-    case 'ready': return readyLine(c, line);
+    case 'ready':
+      return readyLine(c, line);
   }
 }
 
@@ -104,65 +182,186 @@ function scaleBar(c: Context): HTMLElement {
     const step = 10 ** Math.floor(Math.log10(target));
     return [5, 2, 1].map((k) => k * step).find((v) => v <= target) ?? step;
   };
-  return h('div', { class: 'card scale', 'aria-hidden': 'true' }, h('i', { css: { width: () => `${length() * c.stage.view.z}px` } }), h('span', null, () => `${length()} m`));
+  return h(
+    'div',
+    { class: 'card scale', 'aria-hidden': 'true' },
+    h('i', { css: { width: () => `${length() * c.stage.view.z}px` } }),
+    h('span', null, () => `${length()} m`),
+  );
 }
 
 function zoomBar(c: Context): HTMLElement {
-  return h('div', { class: 'br' }, h('div', { class: 'card chipbar zoom', role: 'group', 'aria-label': 'Zoom' }, iconButton(c, 'zoom-out', { size: 16 }), h('span', { class: 'zoomnum' }, () => (void viewTick.value, `${Math.round((c.stage.view.z / HOME_ZOOM) * 100)}%`)), iconButton(c, 'zoom-in', { size: 16 }), iconButton(c, 'fit', { size: 16 })));
+  return h(
+    'div',
+    { class: 'br' },
+    h(
+      'div',
+      { class: 'card chipbar zoom', role: 'group', 'aria-label': 'Zoom' },
+      iconButton(c, 'zoom-out', { size: 16 }),
+      h(
+        'span',
+        { class: 'zoomnum' },
+        () => (void viewTick.value, `${Math.round((c.stage.view.z / HOME_ZOOM) * 100)}%`),
+      ),
+      iconButton(c, 'zoom-in', { size: 16 }),
+      iconButton(c, 'fit', { size: 16 }),
+    ),
+  );
 }
 
 function dragHelp(c: Context): HTMLElement {
   const grip = c.editor.drag.peek()!.grip;
   const tip = (key: string, text: string): Child => h('span', null, keyCaps(key), text);
   const others = c.editor.scene.peek()?.others === 'react' ? 'Others react when you let go' : 'Let go to work it out';
-  const tips = { body: [tip('Alt', 'no snapping'), tip('Shift', 'along the lane')], heading: [tip('Shift', '15° steps'), tip('Alt', 'fine')], speed: [tip('Shift', '10 km/h steps'), tip('Alt', 'fine')], time: [tip('Shift', 'whole seconds')] }[grip.handle];
-  return h('div', { class: 'card helpbar' }, h('span', { class: 'mut' }, others), h('div', { class: 'sep' }), tips, tip('Esc', 'put back'));
+  const tips = {
+    body: [tip('Alt', 'no snapping'), tip('Shift', 'along the lane')],
+    heading: [tip('Shift', '15° steps'), tip('Alt', 'fine')],
+    speed: [tip('Shift', '10 km/h steps'), tip('Alt', 'fine')],
+    time: [tip('Shift', 'whole seconds')],
+  }[grip.handle];
+  return h(
+    'div',
+    { class: 'card helpbar' },
+    h('span', { class: 'mut' }, others),
+    h('div', { class: 'sep' }),
+    tips,
+    tip('Esc', 'put back'),
+  );
 }
 
 // ---------------------------------------------------------------- messages
 
-const coachShown = (c: Context): boolean => c.ui.coach.value > 0 && !c.editor.dragging.value && !c.editor.toast.value && c.editor.scene.value !== null;
+const coachShown = (c: Context): boolean =>
+  c.ui.coach.value > 0 && !c.editor.dragging.value && !c.editor.toast.value && c.editor.scene.value !== null;
 
 function coach(c: Context): HTMLElement {
-  const step = (n: number, text: string) => h('div', { class: () => `st ${c.ui.coach.value === n ? 'now' : ''}` }, h('span', { class: 'n' }, String(n)), text);
-  return h('div', { class: () => `card coach ${c.ui.drawer.value ? 'shift' : ''}` }, step(1, 'Click a car'), step(2, 'Drag its flag to where it should be in 9 s'), step(3, 'Let go: the others react'),
-    h('button', { type: 'button', class: 'btn i', 'aria-label': 'Close the hint', onclick: () => c.ui.endCoach() }, icon('x', 16)));
+  const step = (n: number, text: string) =>
+    h('div', { class: () => `st ${c.ui.coach.value === n ? 'now' : ''}` }, h('span', { class: 'n' }, String(n)), text);
+  return h(
+    'div',
+    { class: () => `card coach ${c.ui.drawer.value ? 'shift' : ''}` },
+    step(1, 'Click a car'),
+    step(2, 'Drag its flag to where it should be in 9 s'),
+    step(3, 'Let go: the others react'),
+    h(
+      'button',
+      { type: 'button', class: 'btn i', 'aria-label': 'Close the hint', onclick: () => c.ui.endCoach() },
+      icon('x', 16),
+    ),
+  );
 }
 
 function toast(c: Context): HTMLElement | null {
   const t = c.editor.toast.peek();
   if (!t) return null;
-  const button = t.undo ? h('button', { type: 'button', class: 'btn', 'data-action': 'undo', onclick: () => { c.editor.undo(); } }, 'Undo', keyCaps('Ctrl+Z'))
-    : t.action ? h('button', { type: 'button', class: 'btn', onclick: () => { c.editor.notify(null); t.action!.run(); } }, t.action.label) : null;
-  return h('div', { class: () => `toast ${button ? '' : 'plain'} ${c.ui.drawer.value ? 'shift' : ''}` }, h('span', null, t.text), button);
+  const button = t.undo
+    ? h(
+        'button',
+        {
+          type: 'button',
+          class: 'btn',
+          'data-action': 'undo',
+          onclick: () => {
+            c.editor.undo();
+          },
+        },
+        'Undo',
+        keyCaps('Ctrl+Z'),
+      )
+    : t.action
+      ? h(
+          'button',
+          {
+            type: 'button',
+            class: 'btn',
+            onclick: () => {
+              c.editor.notify(null);
+              t.action!.run();
+            },
+          },
+          t.action.label,
+        )
+      : null;
+  return h(
+    'div',
+    { class: () => `toast ${button ? '' : 'plain'} ${c.ui.drawer.value ? 'shift' : ''}` },
+    h('span', null, t.text),
+    button,
+  );
 }
 
 const bannerKey = (c: Context): string => {
   const { editor, library } = c;
-  return editor.crash.value ? 'crash' : editor.away.value ? `away${editor.away.value.waiting}` : library.conflict.value ? 'conflict' : library.openError.value ?? '';
+  return editor.crash.value
+    ? 'crash'
+    : editor.away.value
+      ? `away${editor.away.value.waiting}`
+      : library.conflict.value
+        ? 'conflict'
+        : (library.openError.value ?? '');
 };
 
 function banner(c: Context): HTMLElement | null {
   const { editor, library } = c;
-  const box = (ic: string, title: string, words: Child, buttons: Child): HTMLElement => h('div', { class: 'banner', role: 'alert' }, icon(ic, 20), h('div', null, h('b', null, title), h('span', { class: 'sub' }, words)), buttons);
+  const box = (ic: string, title: string, words: Child, buttons: Child): HTMLElement =>
+    h(
+      'div',
+      { class: 'banner', role: 'alert' },
+      icon(ic, 20),
+      h('div', null, h('b', null, title), h('span', { class: 'sub' }, words)),
+      buttons,
+    );
   if (editor.crash.peek())
-    return box('warn', 'Something broke in the editor. The scene is safe.', 'Reload the page to go on.', [h('button', { type: 'button', class: 'btn', onclick: () => location.reload() }, 'Reload'), h('button', { type: 'button', class: 'btn', onclick: () => void navigator.clipboard?.writeText(editor.crash.peek()!) }, 'Copy details')]);
+    return box('warn', 'Something broke in the editor. The scene is safe.', 'Reload the page to go on.', [
+      h('button', { type: 'button', class: 'btn', onclick: () => location.reload() }, 'Reload'),
+      h(
+        'button',
+        { type: 'button', class: 'btn', onclick: () => void navigator.clipboard?.writeText(editor.crash.peek()!) },
+        'Copy details',
+      ),
+    ]);
   if (editor.away.peek()) {
     const n = editor.away.peek()!.waiting;
-    const words = n ? `Keep editing: ${n} change${n > 1 ? 's are' : ' is'} waiting and saved on this computer.` : 'Keep editing: changes will wait and are saved on this computer.';
-    return box('cloud', 'The generator is not answering. Nothing is lost.', [words, ' Trying again in ', () => editor.away.value?.retryIn ?? 0, ' s.'], h('button', { type: 'button', class: 'btn', onclick: () => void c.asking.tryNow() }, 'Try now'));
+    const words = n
+      ? `Keep editing: ${n} change${n > 1 ? 's are' : ' is'} waiting and saved on this computer.`
+      : 'Keep editing: changes will wait and are saved on this computer.';
+    return box(
+      'cloud',
+      'The generator is not answering. Nothing is lost.',
+      [words, ' Trying again in ', () => editor.away.value?.retryIn ?? 0, ' s.'],
+      h('button', { type: 'button', class: 'btn', onclick: () => void c.asking.tryNow() }, 'Try now'),
+    );
   }
   if (library.conflict.peek())
-    return box('warn', 'This scene was changed elsewhere.', 'Nothing is overwritten until you choose.', [h('button', { type: 'button', class: 'btn', onclick: () => void library.keepMine() }, 'Keep this version'), h('button', { type: 'button', class: 'btn', onclick: () => void library.takeTheirs() }, 'Open the other one')]);
+    return box('warn', 'This scene was changed elsewhere.', 'Nothing is overwritten until you choose.', [
+      h('button', { type: 'button', class: 'btn', onclick: () => void library.keepMine() }, 'Keep this version'),
+      h('button', { type: 'button', class: 'btn', onclick: () => void library.takeTheirs() }, 'Open the other one'),
+    ]);
   if (library.openError.peek())
-    return box('warn', 'The scene could not be opened.', library.openError.peek(), h('button', { type: 'button', class: 'btn', onclick: () => { library.openError.value = null; } }, 'Close'));
+    return box(
+      'warn',
+      'The scene could not be opened.',
+      library.openError.peek(),
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'btn',
+          onclick: () => {
+            library.openError.value = null;
+          },
+        },
+        'Close',
+      ),
+    );
   return null;
 }
 
 // ---------------------------------------------------------------- hover card
 
 function hoverCard(c: Context, picture: Picture): HTMLElement {
-  const title = h('b'), line = h('span', { class: 'mut' });
+  const title = h('b'),
+    line = h('span', { class: 'mut' });
   const el = h('div', { class: 'card tip', 'aria-hidden': 'true' }, title, line);
   el.hidden = true;
   watch(() => {

@@ -36,7 +36,9 @@ const OPENING_M = 88;
 
 function build(): Context {
   const ui = new Ui();
-  effect(() => { document.documentElement.dataset.theme = ui.theme.value; });
+  effect(() => {
+    document.documentElement.dataset.theme = ui.theme.value;
+  });
   const client = new Client();
   const editor = new Editor();
   const library = new Library(editor, client);
@@ -48,23 +50,79 @@ function build(): Context {
   const picture = new Picture(stage, editor);
   const gestures = new Gestures(stage, editor, asking, picture);
   const playback = new Playback(editor, stage);
-  const files = h('input', { type: 'file', multiple: true, class: 'sr', tabindex: '-1', 'aria-hidden': 'true', onchange: () => { void library.importFiles([...(files.files ?? [])]); files.value = ''; } });
+  const files = h('input', {
+    type: 'file',
+    multiple: true,
+    class: 'sr',
+    tabindex: '-1',
+    'aria-hidden': 'true',
+    onchange: () => {
+      void library.importFiles([...(files.files ?? [])]);
+      files.value = '';
+    },
+  });
   const c: Context = {
-    ui, client, editor, library, asking, stage, gestures, playback,
-    chooseFiles: () => files.click(), focusField, focusGroup, focusAgent: (id) => document.querySelector<HTMLElement>(`[data-agent="${CSS.escape(id)}"]`)?.focus(), fit: () => fit(c),
+    ui,
+    client,
+    editor,
+    library,
+    asking,
+    stage,
+    gestures,
+    playback,
+    chooseFiles: () => files.click(),
+    focusField,
+    focusGroup,
+    focusAgent: (id) => document.querySelector<HTMLElement>(`[data-agent="${CSS.escape(id)}"]`)?.focus(),
+    fit: () => fit(c),
   };
   ui.drawer.value = innerWidth >= WIDE;
   watchView(c);
-  const insp = h('aside', { class: 'insp', 'aria-label': 'Inspector', 'data-group': 'inspector' }, swap(
-    () => (ui.eventsPanel.value && editor.events.value.length ? 'events' : editor.selection.value ? `agent:${editor.selection.value}` : `scene:${editor.scene.value?.id}`),
-    () => (ui.eventsPanel.peek() && editor.events.peek().length ? eventsPanel(c) : editor.selection.peek() ? agentPanel(c, editor.selection.peek()!) : scenePanel(c))));
-  main.append(emptyState(c), roadUserList(c), handleSliders(c), hud(c, picture), swap(() => ui.drawer.value && editor.scene.value !== null, () => (ui.drawer.peek() && editor.scene.peek() ? drawer(c) : null)) as HTMLElement);
+  const insp = h(
+    'aside',
+    { class: 'insp', 'aria-label': 'Inspector', 'data-group': 'inspector' },
+    swap(
+      () =>
+        ui.eventsPanel.value && editor.events.value.length
+          ? 'events'
+          : editor.selection.value
+            ? `agent:${editor.selection.value}`
+            : `scene:${editor.scene.value?.id}`,
+      () =>
+        ui.eventsPanel.peek() && editor.events.peek().length
+          ? eventsPanel(c)
+          : editor.selection.peek()
+            ? agentPanel(c, editor.selection.peek()!)
+            : scenePanel(c),
+    ),
+  );
+  main.append(
+    emptyState(c),
+    roadUserList(c),
+    handleSliders(c),
+    hud(c, picture),
+    swap(
+      () => ui.drawer.value && editor.scene.value !== null,
+      () => (ui.drawer.peek() && editor.scene.peek() ? drawer(c) : null),
+    ) as HTMLElement,
+  );
   root.prepend(topBar(c));
   root.append(insp, timeline(c), h('div', { class: 'swap' }, dialogs(c), liveRegion(c), files));
-  stage.onFrame = (now) => { gestures.frame(now); playback.frame(now); if (editor.follow.peek() && editor.playing.peek()) follow(c); };
-  effect(() => { main.classList.toggle('bare', editor.scene.value === null); });
-  effect(() => { void ui.theme.value; stage.themeChanged(); });
-  effect(() => { stage.view.inset = { left: ui.drawer.value ? 324 : 68, right: 12, top: 12, bottom: 56 }; });
+  stage.onFrame = (now) => {
+    gestures.frame(now);
+    playback.frame(now);
+    if (editor.follow.peek() && editor.playing.peek()) follow(c);
+  };
+  effect(() => {
+    main.classList.toggle('bare', editor.scene.value === null);
+  });
+  effect(() => {
+    void ui.theme.value;
+    stage.themeChanged();
+  });
+  effect(() => {
+    stage.view.inset = { left: ui.drawer.value ? 324 : 68, right: 12, top: 12, bottom: 56 };
+  });
   library.onOpen = () => {
     fit(c, true);
     ui.eventsPanel.value = false;
@@ -111,7 +169,11 @@ function focusGroup(step: 1 | -1): void {
   groups.sort((a, b) => order.indexOf(a.dataset.group!) - order.indexOf(b.dataset.group!));
   const at = groups.findIndex((g) => g.contains(document.activeElement));
   const next = groups[(at + step + groups.length) % groups.length];
-  next?.querySelector<HTMLElement>('[aria-pressed="true"][data-agent], button:not([tabindex="-1"]), input, [tabindex="0"]')?.focus();
+  next
+    ?.querySelector<HTMLElement>(
+      '[aria-pressed="true"][data-agent], button:not([tabindex="-1"]), input, [tabindex="0"]',
+    )
+    ?.focus();
 }
 
 function keys(c: Context): void {
@@ -121,13 +183,21 @@ function keys(c: Context): void {
     const a = actionForKey(keyOf(e));
     if (!a || e.defaultPrevented) return;
     // In a number field undo is the browser's only while something is typed that has not been taken over.
-    const undoing = (a.id === 'undo' || a.id === 'redo') && typing && !!target.dataset.field && !('typed' in target.dataset);
+    const undoing =
+      (a.id === 'undo' || a.id === 'redo') && typing && !!target.dataset.field && !('typed' in target.dataset);
     if (typing && a.context !== 'always' && !undoing) return;
     if (c.ui.dialog.peek() && a.context !== 'always') return;
     // Tab walks through road users only from the picture; elsewhere it is the browser's.
-    if (/^(Shift\+)?Tab$/.test(a.keys![0]) && !(target === document.body || target.closest('[data-group="users"]'))) return;
+    if (/^(Shift\+)?Tab$/.test(a.keys![0]) && !(target === document.body || target.closest('[data-group="users"]')))
+      return;
     // A button's own keys; in the list of road users they select first, and after that Enter goes on to the inspector.
-    if (target instanceof HTMLButtonElement && (e.key === ' ' || e.key === 'Enter') && !e.ctrlKey && (!target.dataset.agent || target.dataset.agent !== c.editor.selection.peek())) return;
+    if (
+      target instanceof HTMLButtonElement &&
+      (e.key === ' ' || e.key === 'Enter') &&
+      !e.ctrlKey &&
+      (!target.dataset.agent || target.dataset.agent !== c.editor.selection.peek())
+    )
+      return;
     if (target instanceof HTMLInputElement && target.type === 'range' && e.key.startsWith('Arrow')) return;
     if (c.editor.drag.peek() && a.id !== 'deselect') return;
     e.preventDefault();
@@ -149,9 +219,22 @@ function clicks(): void {
 function drops(c: Context): void {
   let depth = 0;
   const veil = h('div', { class: 'dropping' }, 'Drop to import');
-  const over = (on: boolean) => { if (on) c.stage.element.append(veil); else { veil.remove(); depth = 0; } };
-  addEventListener('dragenter', (e) => { if (e.dataTransfer?.types.includes('Files')) { depth++; over(true); } });
-  addEventListener('dragleave', () => { if (--depth <= 0) over(false); });
+  const over = (on: boolean) => {
+    if (on) c.stage.element.append(veil);
+    else {
+      veil.remove();
+      depth = 0;
+    }
+  };
+  addEventListener('dragenter', (e) => {
+    if (e.dataTransfer?.types.includes('Files')) {
+      depth++;
+      over(true);
+    }
+  });
+  addEventListener('dragleave', () => {
+    if (--depth <= 0) over(false);
+  });
   addEventListener('dragover', (e) => e.preventDefault());
   addEventListener('drop', (e) => {
     e.preventDefault();
@@ -167,7 +250,10 @@ function coaching(c: Context): void {
   let opened = ui.drawer.peek();
   effect(() => {
     const a = editor.agent.value;
-    if (a && opened) { opened = false; ui.drawer.value = false; }
+    if (a && opened) {
+      opened = false;
+      ui.drawer.value = false;
+    }
     if (!ui.coach.peek()) return;
     if (ui.coach.peek() === 1 && a) ui.coach.value = 2;
     if (editor.drag.value && ui.coach.peek() === 2) ui.coach.value = 3;
@@ -177,9 +263,15 @@ function coaching(c: Context): void {
 
 /** An error nobody caught is said once; what was changed is saved already. */
 function crashes(c: Context): void {
-  const say = (e: unknown): void => { c.editor.crash.value = e instanceof Error ? `${e.message}\n${e.stack ?? ''}` : String(e); };
-  addEventListener('error', (e) => { if (e.error) say(e.error); });
-  addEventListener('unhandledrejection', (e) => { if ((e.reason as Error | null)?.name !== 'AbortError') say(e.reason); });
+  const say = (e: unknown): void => {
+    c.editor.crash.value = e instanceof Error ? `${e.message}\n${e.stack ?? ''}` : String(e);
+  };
+  addEventListener('error', (e) => {
+    if (e.error) say(e.error);
+  });
+  addEventListener('unhandledrejection', (e) => {
+    if ((e.reason as Error | null)?.name !== 'AbortError') say(e.reason);
+  });
 }
 
 async function start(): Promise<void> {
@@ -216,7 +308,10 @@ function waitForServer(c: Context): void {
       c.editor.away.value = { retryIn: Math.max(0, left), waiting: 0 };
       if (left > 0) return;
       clearInterval(timer);
-      void c.client.answers().then((ok) => { if (ok) location.reload(); else again(); });
+      void c.client.answers().then((ok) => {
+        if (ok) location.reload();
+        else again();
+      });
     }, 1000);
   };
   again();

@@ -10,22 +10,34 @@ export async function download(c: { editor: Editor; library: Library; client: Cl
   if (!json) return;
   try {
     const { blob, name, loss } = await c.client.exportScene(json, format);
-    const ending = name.includes('.') ? name.slice(name.indexOf('.') + 1) : ENDING[format] ?? format;
+    const ending = name.includes('.') ? name.slice(name.indexOf('.') + 1) : (ENDING[format] ?? format);
     const file = `${slug(json.name ?? 'scene')}.${ending}`;
     offer(blob, file);
-    c.editor.notify({ text: loss ? `${file} saved. This format has no place for: ${lossWords(loss)}.` : `${file} saved.` }, 9000);
+    c.editor.notify(
+      { text: loss ? `${file} saved. This format has no place for: ${lossWords(loss)}.` : `${file} saved.` },
+      9000,
+    );
   } catch (e) {
-    c.editor.notify({ text: e instanceof Refused ? `Not exported: ${e.message}` : 'Not exported: the server is not answering.' });
+    c.editor.notify({
+      text: e instanceof Refused ? `Not exported: ${e.message}` : 'Not exported: the server is not answering.',
+    });
   }
 }
 
 /** `no-lane-type, no-modes` as people say it; the first few are enough. */
 function lossWords(loss: string): string {
-  const all = loss.split(',').map((s) => s.trim().replace(/^no-/, '').replaceAll('-', ' ')).filter(Boolean);
+  const all = loss
+    .split(',')
+    .map((s) => s.trim().replace(/^no-/, '').replaceAll('-', ' '))
+    .filter(Boolean);
   return all.length > 4 ? `${all.slice(0, 3).join(', ')} and ${all.length - 3} more` : all.join(', ');
 }
 
-const slug = (s: string): string => s.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '') || 'scene';
+const slug = (s: string): string =>
+  s
+    .toLowerCase()
+    .replace(/[^a-z0-9]+/g, '-')
+    .replace(/^-|-$/g, '') || 'scene';
 
 function offer(blob: Blob, name: string): void {
   const url = URL.createObjectURL(blob);

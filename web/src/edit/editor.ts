@@ -15,20 +15,51 @@ import { keep, recall } from '../net/storage';
 
 export type Part = 'start' | 'goal';
 export type HandleName = 'body' | 'heading' | 'speed' | 'time';
-export interface Grip { readonly part: Part; readonly handle: HandleName }
-export interface Layers { readonly futures: boolean; readonly log: boolean; readonly lanes: boolean; readonly labels: boolean }
+export interface Grip {
+  readonly part: Part;
+  readonly handle: HandleName;
+}
+export interface Layers {
+  readonly futures: boolean;
+  readonly log: boolean;
+  readonly lanes: boolean;
+  readonly labels: boolean;
+}
 export type Tool = 'select' | 'pan' | 'measure';
-export interface Toast { readonly text: string; readonly undo?: boolean; readonly action?: { label: string; run: () => void } }
+export interface Toast {
+  readonly text: string;
+  readonly undo?: boolean;
+  readonly action?: { label: string; run: () => void };
+}
 
 export type Status =
-  | { kind: 'loading' } | { kind: 'ready' } | { kind: 'refining'; step: number; steps: number; ms: number; /** Seconds that a later window is about. */ part?: string }
+  | { kind: 'loading' }
+  | { kind: 'ready' }
+  | {
+      kind: 'refining';
+      step: number;
+      steps: number;
+      ms: number;
+      /** Seconds that a later window is about. */ part?: string;
+    }
   | { kind: 'slow'; ms: number }
-  | { kind: 'settled'; ms: number; adapted: number | null } | { kind: 'away' } | { kind: 'refused'; words: string };
+  | { kind: 'settled'; ms: number; adapted: number | null }
+  | { kind: 'away' }
+  | { kind: 'refused'; words: string };
 
 /** Futures on their way: the latest draft and the ones before it, which stay behind as trails. */
-export interface Draft { readonly id: string; readonly futures: Futures; readonly earlier: readonly Futures[] }
+export interface Draft {
+  readonly id: string;
+  readonly futures: Futures;
+  readonly earlier: readonly Futures[];
+}
 
-export interface DragInfo { readonly grip: Grip; readonly laneName: string | null; readonly laneId: string | null; readonly stop: OnLine | null }
+export interface DragInfo {
+  readonly grip: Grip;
+  readonly laneName: string | null;
+  readonly laneId: string | null;
+  readonly stop: OnLine | null;
+}
 
 export class Editor {
   readonly scene: Signal<Scene | null> = signal(null);
@@ -84,18 +115,20 @@ export class Editor {
     const id = this.selection.value;
     if (!id) return null;
     const d = this.draft.value;
-    return d && d.id === id ? d.futures : this.motion.value.futures.get(id) ?? null;
+    return d && d.id === id ? d.futures : (this.motion.value.futures.get(id) ?? null);
   });
   /** The quick verdict on the goal of the selected road user, worked out here without asking anybody. */
   readonly localReach = computed<LocalReach | null>(() => {
-    const a = this.agent.value, s = this.scene.value;
+    const a = this.agent.value,
+      s = this.scene.value;
     const start = a && startPose(a);
     if (!a || !s || !start || !a.goal.pos) return null;
     return localReach(s.map, a, start, a.goal, this.unitOf(a), s.length);
   });
   /** Index of the future in force for the selected road user. */
   readonly chosen = computed<number>(() => {
-    const f = this.futures.value, a = this.agent.value;
+    const f = this.futures.value,
+      a = this.agent.value;
     if (!f || !a) return 0;
     return Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
   });
@@ -104,13 +137,17 @@ export class Editor {
     return s && !this.drag.value ? readEvents(s, this.motion.value) : [];
   });
   /** Are the futures of the selected road user from before the last change? */
-  readonly outdated = computed(() => this.motion.value.stale && !this.draft.value && this.motion.value.fresh !== this.selection.value);
+  readonly outdated = computed(
+    () => this.motion.value.stale && !this.draft.value && this.motion.value.fresh !== this.selection.value,
+  );
   /** Changes only when a drag begins or ends. */
   readonly dragging = computed(() => this.drag.value !== null);
   readonly undoName = computed(() => (this.historyTick.value, this.history?.undoName ?? null));
   readonly redoName = computed(() => (this.historyTick.value, this.history?.redoName ?? null));
 
-  unitOf(a: Agent): SpeedUnit { return a.type === 'pedestrian' ? 'm/s' : this.speedUnit.value; }
+  unitOf(a: Agent): SpeedUnit {
+    return a.type === 'pedestrian' ? 'm/s' : this.speedUnit.value;
+  }
 
   setUnit(unit: SpeedUnit): void {
     this.speedUnit.value = unit;
@@ -177,8 +214,12 @@ export class Editor {
     if (this.history) this.scene.value = this.history.cancel();
   }
 
-  undo(): void { this.step(() => this.history?.undo(), 'Undone'); }
-  redo(): void { this.step(() => this.history?.redo(), 'Done again'); }
+  undo(): void {
+    this.step(() => this.history?.undo(), 'Undone');
+  }
+  redo(): void {
+    this.step(() => this.history?.redo(), 'Done again');
+  }
 
   private step(move: () => { name: string } | null | undefined, word: string): void {
     const before = this.history?.scene;
@@ -213,7 +254,13 @@ export class Editor {
     } else {
       const m = this.motion.value;
       const keeps = fresh && m.futures.has(fresh) ? fresh : null;
-      this.motion.value = { ...m, key, stale: true, fresh: keeps, driving: keeps ? new Set([...m.driving, keeps]) : m.driving };
+      this.motion.value = {
+        ...m,
+        key,
+        stale: true,
+        fresh: keeps,
+        driving: keeps ? new Set([...m.driving, keeps]) : m.driving,
+      };
     }
   }
 
@@ -231,7 +278,9 @@ export class Editor {
   }
 
   /** The pose of a road user at the playhead, following what it does now. */
-  motionFor(a: Agent): ReturnType<typeof motionOf> { return motionOf(this.scene.value!, this.motion.value, a); }
+  motionFor(a: Agent): ReturnType<typeof motionOf> {
+    return motionOf(this.scene.value!, this.motion.value, a);
+  }
 
   /** Where the goal of a road user stands on screen: fixed fields as set, free ones as the generator chose. */
   goalPose(a: Agent): (Pose & { set: boolean }) | null {
@@ -240,21 +289,32 @@ export class Editor {
     const f = d?.id === a.id ? d.futures : this.motion.value.futures.get(a.id);
     const index = f ? Math.min(f.modes.length - 1, a.chosen ?? f.chosen) : -1;
     const m = f && index >= 0 ? f.modes[index].motion : null;
-    const end = m ? poseAtStep(m, Math.round(g.time * 10)) ?? endPose(m) : null;
+    const end = m ? (poseAtStep(m, Math.round(g.time * 10)) ?? endPose(m)) : null;
     if (!g.pos && !end) return null;
     const [x, y] = g.pos ?? [end!.x, end!.y];
     const start = startPose(a);
     const travel = start ? Math.atan2(y - start.y, x - start.x) : 0;
-    return { x, y, heading: wrapAngle(g.heading ?? end?.heading ?? travel), speed: g.speed ?? Math.abs(end?.speed ?? start?.speed ?? 0), set: g.pos !== null };
+    return {
+      x,
+      y,
+      heading: wrapAngle(g.heading ?? end?.heading ?? travel),
+      speed: g.speed ?? Math.abs(end?.speed ?? start?.speed ?? 0),
+      set: g.pos !== null,
+    };
   }
 
   notify(toast: Toast | null, ms = 6000): void {
     clearTimeout(this.toastTimer);
     this.toast.value = toast;
-    if (toast) this.toastTimer = setTimeout(() => { this.toast.value = null; }, ms) as unknown as number;
+    if (toast)
+      this.toastTimer = setTimeout(() => {
+        this.toast.value = null;
+      }, ms) as unknown as number;
   }
 
-  say(text: string, urgent = false): void { this.spoken.value = { text, urgent }; }
+  say(text: string, urgent = false): void {
+    this.spoken.value = { text, urgent };
+  }
 
   setTime(t: number): void {
     const s = this.scene.peek();
@@ -269,9 +329,22 @@ export class Editor {
 
 /** Was nothing changed but the choice among its futures? */
 function onlyPicked(before: Scene, after: Scene, id: string): boolean {
-  const a = before.agents.get(id), b = after.agents.get(id);
-  return !!a && !!b && a.start === b.start && a.goal === b.goal && a.length === b.length && a.width === b.width && a.chosen !== b.chosen
-    && before.seed === after.seed && before.diversity === after.diversity && before.others === after.others && before.length === after.length && before.replan === after.replan;
+  const a = before.agents.get(id),
+    b = after.agents.get(id);
+  return (
+    !!a &&
+    !!b &&
+    a.start === b.start &&
+    a.goal === b.goal &&
+    a.length === b.length &&
+    a.width === b.width &&
+    a.chosen !== b.chosen &&
+    before.seed === after.seed &&
+    before.diversity === after.diversity &&
+    before.others === after.others &&
+    before.length === after.length &&
+    before.replan === after.replan
+  );
 }
 
 function changedAgent(before: Scene, after: Scene): string | null {

@@ -11,9 +11,33 @@ import { alongLane, laneWords, snapHeading, snapToLane, softStop } from './snap'
 import { SPEED_LIMIT, goalTime, pickFuture } from './moves';
 import type { Picture } from './picture';
 
-interface Mods { alt: boolean; shift: boolean; ctrl: boolean }
-interface Press { id: number; x: number; y: number; hit: Hit; moved: boolean; pan: boolean; touch: boolean; cx: number; cy: number }
-interface Drag { grip: Grip; agent: Agent; start: Pose; goal: Pose; grabX: number; grabY: number; lane: string | null; follow: boolean; command: Command | null }
+interface Mods {
+  alt: boolean;
+  shift: boolean;
+  ctrl: boolean;
+}
+interface Press {
+  id: number;
+  x: number;
+  y: number;
+  hit: Hit;
+  moved: boolean;
+  pan: boolean;
+  touch: boolean;
+  cx: number;
+  cy: number;
+}
+interface Drag {
+  grip: Grip;
+  agent: Agent;
+  start: Pose;
+  goal: Pose;
+  grabX: number;
+  grabY: number;
+  lane: string | null;
+  follow: boolean;
+  command: Command | null;
+}
 
 const START_PX = 3;
 const START_PX_TOUCH = 8;
@@ -33,20 +57,33 @@ export class Gestures {
   private pile: { ids: string[]; index: number; time: number } | null = null;
   private lastFrame = 0;
 
-  constructor(private readonly stage: Stage, private readonly editor: Editor, private readonly asking: Asking, private readonly picture: Picture) {
+  constructor(
+    private readonly stage: Stage,
+    private readonly editor: Editor,
+    private readonly asking: Asking,
+    private readonly picture: Picture,
+  ) {
     const el = stage.element;
     el.addEventListener('pointerdown', (e) => this.down(e));
     el.addEventListener('pointermove', (e) => this.move(e));
     el.addEventListener('pointerup', (e) => this.up(e));
-    el.addEventListener('pointercancel', (e) => { this.fingers.delete(e.pointerId); this.cancel(); });
-    el.addEventListener('pointerleave', () => { this.inside = false; if (!this.press) this.setHover({ kind: 'none' }); });
+    el.addEventListener('pointercancel', (e) => {
+      this.fingers.delete(e.pointerId);
+      this.cancel();
+    });
+    el.addEventListener('pointerleave', () => {
+      this.inside = false;
+      if (!this.press) this.setHover({ kind: 'none' });
+    });
     el.addEventListener('wheel', (e) => this.wheel(e), { passive: false });
     el.addEventListener('dblclick', (e) => this.doubleClick(e));
     addEventListener('keydown', (e) => this.modifier(e, true));
     addEventListener('keyup', (e) => this.modifier(e, false));
   }
 
-  get dragging(): boolean { return this.drag !== null; }
+  get dragging(): boolean {
+    return this.drag !== null;
+  }
 
   private xy(e: MouseEvent): { x: number; y: number } {
     const r = this.stage.element.getBoundingClientRect();
@@ -54,7 +91,13 @@ export class Gestures {
   }
 
   private context(touch = false): HitContext {
-    return { editor: this.editor, view: this.stage.view, chips: this.picture.overlay.chips, timeTag: this.picture.overlay.timeTag, touch };
+    return {
+      editor: this.editor,
+      view: this.stage.view,
+      chips: this.picture.overlay.chips,
+      timeTag: this.picture.overlay.timeTag,
+      touch,
+    };
   }
 
   private onCanvas = (e: Event): boolean => e.target instanceof HTMLCanvasElement || e.target === this.stage.element;
@@ -63,13 +106,21 @@ export class Gestures {
     if (!this.onCanvas(e)) return;
     const p = this.xy(e);
     this.fingers.set(e.pointerId, p);
-    if (this.fingers.size > 1) { this.cancel(); return; }
+    if (this.fingers.size > 1) {
+      this.cancel();
+      return;
+    }
     if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
-    try { this.stage.element.setPointerCapture(e.pointerId); } catch { /* the pointer may be gone already */ }
+    try {
+      this.stage.element.setPointerCapture(e.pointerId);
+    } catch {
+      /* the pointer may be gone already */
+    }
     const touch = e.pointerType === 'touch';
     const tool = this.editor.tool.peek();
     const pan = e.button === 1 || this.spaceHeld || tool === 'pan';
-    const hit: Hit = pan || e.button === 2 || tool === 'measure' ? { kind: 'none' } : hitTest(this.context(touch), p.x, p.y);
+    const hit: Hit =
+      pan || e.button === 2 || tool === 'measure' ? { kind: 'none' } : hitTest(this.context(touch), p.x, p.y);
     const v = this.stage.view;
     this.at = p;
     this.press = { id: e.pointerId, ...p, hit, moved: false, pan, touch, cx: v.cx, cy: v.cy };
@@ -79,12 +130,18 @@ export class Gestures {
     const p = this.xy(e);
     this.inside = true;
     if (this.fingers.has(e.pointerId)) {
-      if (this.fingers.size === 2) { this.pinch(e.pointerId, p); return; }
+      if (this.fingers.size === 2) {
+        this.pinch(e.pointerId, p);
+        return;
+      }
       this.fingers.set(e.pointerId, p);
     }
     this.at = p;
     this.mods = { alt: e.altKey, shift: e.shiftKey, ctrl: e.ctrlKey || e.metaKey };
-    if (!this.press && !this.onCanvas(e)) { this.setHover({ kind: 'none' }); return; }
+    if (!this.press && !this.onCanvas(e)) {
+      this.setHover({ kind: 'none' });
+      return;
+    }
     this.pending = true;
     this.stage.invalidate();
   }
@@ -94,7 +151,8 @@ export class Gestures {
     const other = [...this.fingers].find(([k]) => k !== id)![1];
     const old = this.fingers.get(id)!;
     const v = this.stage.view;
-    const before = Math.hypot(old.x - other.x, old.y - other.y), after = Math.hypot(p.x - other.x, p.y - other.y);
+    const before = Math.hypot(old.x - other.x, old.y - other.y),
+      after = Math.hypot(p.x - other.x, p.y - other.y);
     v.panBy((p.x - old.x) / 2, (p.y - old.y) / 2);
     v.zoomAt((p.x + other.x) / 2, (p.y + other.y) / 2, after / Math.max(1, before));
     this.fingers.set(id, p);
@@ -110,10 +168,15 @@ export class Gestures {
     this.pending = false;
     const press = this.press;
     if (!press) {
-      this.setHover(this.editor.tool.peek() === 'select' ? hitTest(this.context(), this.at.x, this.at.y) : { kind: 'none' });
+      this.setHover(
+        this.editor.tool.peek() === 'select' ? hitTest(this.context(), this.at.x, this.at.y) : { kind: 'none' },
+      );
       return;
     }
-    if (!press.moved && Math.hypot(this.at.x - press.x, this.at.y - press.y) >= (press.touch ? START_PX_TOUCH : START_PX)) {
+    if (
+      !press.moved &&
+      Math.hypot(this.at.x - press.x, this.at.y - press.y) >= (press.touch ? START_PX_TOUCH : START_PX)
+    ) {
       press.moved = true;
       this.begin(press);
     }
@@ -145,11 +208,17 @@ export class Gestures {
       this.stage.element.dataset.cursor = 'grabbing';
       return;
     }
-    const goal = editor.goalPose(a) ?? { ...start, x: start.x + Math.cos(start.heading) * 20, y: start.y + Math.sin(start.heading) * 20 };
+    const goal = editor.goalPose(a) ?? {
+      ...start,
+      x: start.x + Math.cos(start.heading) * 20,
+      y: start.y + Math.sin(start.heading) * 20,
+    };
     const [gx, gy] = this.stage.view.from(press.x, press.y);
     const spec = hit.grip.part === 'goal' ? a.goal : a.start;
     // A heading set by hand is never overwritten by a lane.
-    const startOnLane = hit.grip.part === 'start' && snapToLane(editor.scene.peek()!.map, a, start.x, start.y, start.heading, this.stage.view.z, null).lane !== null;
+    const startOnLane =
+      hit.grip.part === 'start' &&
+      snapToLane(editor.scene.peek()!.map, a, start.x, start.y, start.heading, this.stage.view.z, null).lane !== null;
     const follow = spec.heading === null || editor.snappedHeadings.has(`${hit.grip.part}:${a.id}`) || startOnLane;
     editor.playing.value = false;
     editor.focusPart.value = hit.grip.part;
@@ -158,7 +227,8 @@ export class Gestures {
     editor.drag.value = { grip: hit.grip, laneName: null, laneId: null, stop: null };
     editor.changes.value = [];
     editor.notify(null);
-    this.stage.element.dataset.cursor = hit.grip.handle === 'body' ? 'grabbing' : hit.grip.handle === 'heading' ? 'crosshair' : 'resize';
+    this.stage.element.dataset.cursor =
+      hit.grip.handle === 'body' ? 'grabbing' : hit.grip.handle === 'heading' ? 'crosshair' : 'resize';
     this.stage.invalidate('agents');
   }
 
@@ -179,22 +249,42 @@ export class Gestures {
     const pose = grip.part === 'goal' ? d.goal : d.start;
     const put = (patch: Partial<GoalSpec>): Command => {
       if (this.mods.ctrl && grip.handle !== 'time') return this.both(d, patch);
-      return grip.part === 'goal' ? setGoal(a, { ...a.goal, ...patch }) : { ...setStart(a, { ...a.start, ...patch } as StartSpec), name: `Start of ${a.name} moved` };
+      return grip.part === 'goal'
+        ? setGoal(a, { ...a.goal, ...patch })
+        : { ...setStart(a, { ...a.start, ...patch } as StartSpec), name: `Start of ${a.name} moved` };
     };
     switch (grip.handle) {
-      case 'body': return this.moveBody(d, pose, wx, wy, put);
+      case 'body':
+        return this.moveBody(d, pose, wx, wy, put);
       case 'heading': {
         this.editor.snappedHeadings.delete(`${grip.part}:${a.id}`);
         const raw = Math.atan2(pose.y - wy, pose.x - wx);
-        const heading = snapHeading(this.editor.scene.peek()!.map, a, pose.x, pose.y, raw, this.mods.alt ? 'fine' : this.mods.shift ? 'steps' : 'lane');
-        return { ...put({ heading, ...this.keepGoal(d) }), name: `${grip.part === 'goal' ? 'Goal heading' : 'Heading'} of ${a.name} changed` };
+        const heading = snapHeading(
+          this.editor.scene.peek()!.map,
+          a,
+          pose.x,
+          pose.y,
+          raw,
+          this.mods.alt ? 'fine' : this.mods.shift ? 'steps' : 'lane',
+        );
+        return {
+          ...put({ heading, ...this.keepGoal(d) }),
+          name: `${grip.part === 'goal' ? 'Goal heading' : 'Heading'} of ${a.name} changed`,
+        };
       }
-      case 'speed': return { ...put({ speed: this.speedAt(d, pose, wx, wy), ...this.keepGoal(d) }), name: `${grip.part === 'goal' ? 'Goal speed' : 'Speed'} of ${a.name} changed` };
+      case 'speed':
+        return {
+          ...put({ speed: this.speedAt(d, pose, wx, wy), ...this.keepGoal(d) }),
+          name: `${grip.part === 'goal' ? 'Goal speed' : 'Speed'} of ${a.name} changed`,
+        };
       case 'time': {
         const raw = a.goal.time + (this.at.x - this.press!.x) / 40;
         const grid = this.mods.alt ? 0.01 : this.mods.shift || Math.abs(raw - Math.round(raw)) < 0.15 ? 1 : 0.1;
         const time = goalTime(this.editor.scene.peek(), Math.round(raw / grid) * grid);
-        return { ...put({ time: Math.round(time * 100) / 100, ...this.keepGoal(d) }), name: `Goal time of ${a.name} changed` };
+        return {
+          ...put({ time: Math.round(time * 100) / 100, ...this.keepGoal(d) }),
+          name: `Goal time of ${a.name} changed`,
+        };
       }
     }
   }
@@ -208,13 +298,22 @@ export class Gestures {
     const { editor } = this;
     const { agent: a, grip } = d;
     const map = editor.scene.peek()!.map;
-    const x = pose.x + wx - d.grabX, y = pose.y + wy - d.grabY;
+    const x = pose.x + wx - d.grabX,
+      y = pose.y + wy - d.grabY;
     const start = startPose(a)!;
     // A start prefers lanes in its own direction; a goal may lie on any lane, best one that leads away from the start.
-    const travel = grip.part === 'goal' && Math.hypot(x - start.x, y - start.y) > 6 ? Math.atan2(y - start.y, x - start.x) : null;
+    const travel =
+      grip.part === 'goal' && Math.hypot(x - start.x, y - start.y) > 6 ? Math.atan2(y - start.y, x - start.x) : null;
     const hint = !d.follow || grip.part === 'start' ? pose.heading : d.lane ? null : travel;
-    const s = (this.mods.shift && alongLane(map, d.lane, x, y)) || (this.mods.alt ? { x, y, laneHeading: null, lane: null } : snapToLane(map, a, x, y, hint, this.stage.view.z, d.lane, travel));
-    const stop = s.lane && !this.mods.alt && a.type === 'vehicle' ? softStop(editor.scene.peek()!, s.lane, a, project(s.lane.line, s.x, s.y).s, this.stage.view.z) : null;
+    const s =
+      (this.mods.shift && alongLane(map, d.lane, x, y)) ||
+      (this.mods.alt
+        ? { x, y, laneHeading: null, lane: null }
+        : snapToLane(map, a, x, y, hint, this.stage.view.z, d.lane, travel));
+    const stop =
+      s.lane && !this.mods.alt && a.type === 'vehicle'
+        ? softStop(editor.scene.peek()!, s.lane, a, project(s.lane.line, s.x, s.y).s, this.stage.view.z)
+        : null;
     if (stop) Object.assign(s, { x: stop.x, y: stop.y, laneHeading: stop.heading });
     d.lane = s.lane?.id ?? null;
     const key = `${grip.part}:${a.id}`;
@@ -228,7 +327,8 @@ export class Gestures {
     }
     const laneName = laneWords(map, a, s.x, s.y, s.laneHeading);
     const old = editor.drag.peek();
-    if (old?.laneId !== d.lane || old?.laneName !== laneName || (old.stop === null) !== (stop === null)) editor.drag.value = { grip, laneId: d.lane, laneName, stop };
+    if (old?.laneId !== d.lane || old?.laneName !== laneName || (old.stop === null) !== (stop === null))
+      editor.drag.value = { grip, laneId: d.lane, laneName, stop };
     return put(patch);
   }
 
@@ -238,9 +338,11 @@ export class Gestures {
     const start: StartSpec = { pos: a.start.pos, heading: a.start.heading, speed: a.start.speed };
     const goal: GoalSpec = { ...a.goal };
     const from = d.grip.part === 'goal' ? d.goal : d.start;
-    const s = { ...start }, g = { ...goal };
+    const s = { ...start },
+      g = { ...goal };
     if (patch.pos) {
-      const dx = patch.pos[0] - from.x, dy = patch.pos[1] - from.y;
+      const dx = patch.pos[0] - from.x,
+        dy = patch.pos[1] - from.y;
       s.pos = Object.freeze([d.start.x + dx, d.start.y + dy] as const);
       g.pos = Object.freeze([d.goal.x + dx, d.goal.y + dy] as const);
     } else if (patch.heading != null) {
@@ -263,8 +365,10 @@ export class Gestures {
   private edgeScroll(dt: number): boolean {
     if (!this.press?.moved || matchMedia('(prefers-reduced-motion: reduce)').matches) return false;
     const v = this.stage.view;
-    const push = (at: number, size: number) => (at < EDGE_PX ? (EDGE_PX - at) / EDGE_PX : at > size - EDGE_PX ? -(at - size + EDGE_PX) / EDGE_PX : 0);
-    const px = clamp(push(this.at.x, v.w), -1, 1), py = clamp(push(this.at.y, v.h), -1, 1);
+    const push = (at: number, size: number) =>
+      at < EDGE_PX ? (EDGE_PX - at) / EDGE_PX : at > size - EDGE_PX ? -(at - size + EDGE_PX) / EDGE_PX : 0;
+    const px = clamp(push(this.at.x, v.w), -1, 1),
+      py = clamp(push(this.at.y, v.h), -1, 1);
     if (!px && !py) return false;
     v.panBy(px * EDGE_SPEED * dt, py * EDGE_SPEED * dt);
     this.stage.viewChanged();
@@ -276,7 +380,10 @@ export class Gestures {
     const press = this.press;
     if (!press || press.id !== e.pointerId) return;
     this.at = this.xy(e);
-    if (this.drag) { this.pending = true; this.frame(performance.now()); }
+    if (this.drag) {
+      this.pending = true;
+      this.frame(performance.now());
+    }
     this.press = null;
     const d = this.drag;
     this.drag = null;
@@ -295,7 +402,10 @@ export class Gestures {
 
   private click(press: Press, e: PointerEvent): void {
     const { editor } = this;
-    if (press.pan || editor.tool.peek() !== 'select') { editor.measure.value = null; return; }
+    if (press.pan || editor.tool.peek() !== 'select') {
+      editor.measure.value = null;
+      return;
+    }
     const hit = press.hit;
     const a = editor.agent.peek();
     if (hit.kind === 'agent') {
@@ -307,7 +417,8 @@ export class Gestures {
     } else if (hit.kind === 'none') editor.select(null);
     else if (hit.kind === 'grip') {
       editor.focusPart.value = hit.grip.part;
-      const below = hit.grip.part === 'start' && hit.grip.handle === 'body' ? agentsAt(this.context(), press.x, press.y) : [];
+      const below =
+        hit.grip.part === 'start' && hit.grip.handle === 'body' ? agentsAt(this.context(), press.x, press.y) : [];
       if (below.length > 1) editor.select(this.throughPile(below, e.timeStamp));
     }
   }
@@ -381,12 +492,26 @@ export class Gestures {
     editor.hoverFuture.value = hit.kind === 'future' ? hit.index : null;
     editor.hoverGrip.value = hit.kind === 'grip' ? hit.grip : null;
     const style = this.stage.element.dataset;
-    const cursor = hit.kind === 'grip' ? (hit.grip.handle === 'body' ? 'grab' : hit.grip.handle === 'heading' ? 'crosshair' : 'resize')
-      : hit.kind === 'agent' ? (editor.time.peek() < 0.05 ? 'grab' : 'pointer') : hit.kind === 'future' ? 'pointer' : { select: '', pan: 'grab', measure: 'crosshair' }[editor.tool.peek()];
+    const cursor =
+      hit.kind === 'grip'
+        ? hit.grip.handle === 'body'
+          ? 'grab'
+          : hit.grip.handle === 'heading'
+            ? 'crosshair'
+            : 'resize'
+        : hit.kind === 'agent'
+          ? editor.time.peek() < 0.05
+            ? 'grab'
+            : 'pointer'
+          : hit.kind === 'future'
+            ? 'pointer'
+            : { select: '', pan: 'grab', measure: 'crosshair' }[editor.tool.peek()];
     if (style.cursor !== cursor) style.cursor = cursor;
     this.stage.invalidate('overlay');
   }
 
   /** Pointer position for the hover card; null outside the stage. */
-  get pointer(): { x: number; y: number } | null { return this.inside ? this.at : null; }
+  get pointer(): { x: number; y: number } | null {
+    return this.inside ? this.at : null;
+  }
 }

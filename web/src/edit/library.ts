@@ -12,12 +12,29 @@ import { sceneKey, touched, withAgents, type Agent, type Scene } from '../model/
 
 export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full';
 
-interface KeptAgent { id: string; start: Agent['start']; goal: Agent['goal']; chosen: number | null; length: number; width: number }
-interface KeptEdits { agents: KeptAgent[]; seed: number; diversity: number; others: Scene['others'] }
+interface KeptAgent {
+  id: string;
+  start: Agent['start'];
+  goal: Agent['goal'];
+  chosen: number | null;
+  length: number;
+  width: number;
+}
+interface KeptEdits {
+  agents: KeptAgent[];
+  seed: number;
+  diversity: number;
+  others: Scene['others'];
+}
 
 export interface Verdict {
-  readonly file: string; readonly ok: boolean; readonly scenes: readonly { id: string; name: string; count: number | null }[];
-  readonly wrong?: string; readonly where?: string; readonly todo?: string; readonly details?: string;
+  readonly file: string;
+  readonly ok: boolean;
+  readonly scenes: readonly { id: string; name: string; count: number | null }[];
+  readonly wrong?: string;
+  readonly where?: string;
+  readonly todo?: string;
+  readonly details?: string;
 }
 
 const SAVE_DELAY_MS = 300;
@@ -46,15 +63,27 @@ export class Library {
   /** Called when another scene is on screen. */
   onOpen: ((scene: Scene) => void) | null = null;
 
-  constructor(private readonly editor: Editor, private readonly client: Client) {}
+  constructor(
+    private readonly editor: Editor,
+    private readonly client: Client,
+  ) {}
 
-  hadConditions(id: string): boolean { return this.withConditions.has(id); }
+  hadConditions(id: string): boolean {
+    return this.withConditions.has(id);
+  }
 
   async refresh(): Promise<void> {
     try {
       // Own scenes first, newest on top, then the examples, then what was recorded.
-      const rank = (s: SceneListItem): number => (s.readonly !== true && !s.id.startsWith('demo-') ? 0 : s.id.startsWith('demo-') ? 1 : 2);
-      this.list.value = (await this.client.scenes()).scenes.map((s, i) => ({ s, i })).sort((a, b) => rank(a.s) - rank(b.s) || (rank(a.s) === 1 ? FIRST.indexOf(b.s.id) - FIRST.indexOf(a.s.id) : 0) || a.i - b.i).map((p) => p.s);
+      const rank = (s: SceneListItem): number =>
+        s.readonly !== true && !s.id.startsWith('demo-') ? 0 : s.id.startsWith('demo-') ? 1 : 2;
+      this.list.value = (await this.client.scenes()).scenes
+        .map((s, i) => ({ s, i }))
+        .sort(
+          (a, b) =>
+            rank(a.s) - rank(b.s) || (rank(a.s) === 1 ? FIRST.indexOf(b.s.id) - FIRST.indexOf(a.s.id) : 0) || a.i - b.i,
+        )
+        .map((p) => p.s);
     } finally {
       this.listed.value = true;
     }
@@ -72,10 +101,19 @@ export class Library {
       const map = isMapRef(json.map) ? await this.client.map(json.map.ref) : json.map;
       this.adopt({ ...json, id: json.id ?? id }, map, etag, true);
       const sha = this.list.peek().find((s) => s.id === id)?.map_sha256;
-      this.mapRef = isMapRef(json.map) ? json.map.ref : sha ? (sha.startsWith('sha256:') ? sha : `sha256:${sha}`) : null;
+      this.mapRef = isMapRef(json.map)
+        ? json.map.ref
+        : sha
+          ? sha.startsWith('sha256:')
+            ? sha
+            : `sha256:${sha}`
+          : null;
       if (!this.mapRef) this.mapRef = await this.client.mapRef(id).catch(() => null);
     } catch (e) {
-      this.openError.value = e instanceof SceneError || e instanceof Refused ? e.message : 'The scene could not be loaded. The server is not answering.';
+      this.openError.value =
+        e instanceof SceneError || e instanceof Refused
+          ? e.message
+          : 'The scene could not be loaded. The server is not answering.';
       if (!(e instanceof SceneError || e instanceof Refused || e instanceof Away)) throw e;
     }
   }
@@ -87,7 +125,9 @@ export class Library {
     this.stored = stored;
     this.etag = etag;
     this.mapRef = null;
-    this.withConditions = new Set(json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length).map((a) => a.id));
+    this.withConditions = new Set(
+      json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length).map((a) => a.id),
+    );
     this.conflict.value = null;
     const kept = recall<KeptEdits>(`edits:${scene.id}`);
     if (kept) scene = restore(scene, kept);
@@ -101,7 +141,13 @@ export class Library {
     this.onOpen?.(scene);
     if (unanswered) this.editor.onCommit?.(scene, { name: 'Scene opened', agent: null, undo: true });
     if (kept) {
-      this.editor.notify({ text: 'Your changes from last time are back.', action: { label: 'Start fresh', run: () => void this.startFresh(scene.id) } }, 9000);
+      this.editor.notify(
+        {
+          text: 'Your changes from last time are back.',
+          action: { label: 'Start fresh', run: () => void this.startFresh(scene.id) },
+        },
+        9000,
+      );
     }
   }
 
@@ -134,7 +180,12 @@ export class Library {
     if (!scene || !this.raw) return null;
     const m = this.editor.motion.peek();
     const driving = [...m.futures].filter(([id]) => m.driving.has(id));
-    return writeScene(this.raw, scene, m.stale ? null : generatedJson(scene, driving, m.head), this.mapRef ? { ref: this.mapRef } : this.mapJson ?? undefined);
+    return writeScene(
+      this.raw,
+      scene,
+      m.stale ? null : generatedJson(scene, driving, m.head),
+      this.mapRef ? { ref: this.mapRef } : (this.mapJson ?? undefined),
+    );
   }
 
   /** The same with the map inside: for files and for servers that do not know the map. */
@@ -144,7 +195,10 @@ export class Library {
   }
 
   private async save(force = false): Promise<void> {
-    if (this.saving) { this.again = true; return; }
+    if (this.saving) {
+      this.again = true;
+      return;
+    }
     const scene = this.editor.scene.peek();
     const body = this.current();
     if (!scene || !body) return;
@@ -153,7 +207,9 @@ export class Library {
     const key = sceneKey(scene) + scene.name;
     try {
       this.etag = await this.put(scene.id, body, force);
-      this.withConditions = new Set(body.agents.filter((a) => a.conditions && Object.keys(a.conditions).length).map((a) => a.id));
+      this.withConditions = new Set(
+        body.agents.filter((a) => a.conditions && Object.keys(a.conditions).length).map((a) => a.id),
+      );
       const now = this.editor.scene.peek();
       if (now && sceneKey(now) + now.name === key) {
         forget(`edits:${scene.id}`);
@@ -209,7 +265,12 @@ export class Library {
       await this.open(id);
       this.editor.notify({ text: `Saved as “${name}”.` });
     } catch (e) {
-      this.editor.notify({ text: e instanceof Refused ? `Not saved: ${e.message}` : 'Not saved: the server is not answering. Your changes are kept on this computer.' });
+      this.editor.notify({
+        text:
+          e instanceof Refused
+            ? `Not saved: ${e.message}`
+            : 'Not saved: the server is not answering. Your changes are kept on this computer.',
+      });
     }
   }
 
@@ -229,10 +290,16 @@ export class Library {
 
   async importFiles(files: readonly File[]): Promise<void> {
     const verdicts: Verdict[] = [];
-    this.editor.notify({ text: files.length === 1 ? `Reading ${files[0].name} …` : `Reading ${files.length} files …` }, 120_000);
+    this.editor.notify(
+      { text: files.length === 1 ? `Reading ${files[0].name} …` : `Reading ${files.length} files …` },
+      120_000,
+    );
     for (const f of files) verdicts.push(await this.importOne(f));
     await this.refresh().catch(() => undefined);
-    const named = verdicts.map((v) => ({ ...v, scenes: v.scenes.map((s) => ({ ...s, count: s.count ?? countOf(this.list.peek().find((i) => i.id === s.id)) })) }));
+    const named = verdicts.map((v) => ({
+      ...v,
+      scenes: v.scenes.map((s) => ({ ...s, count: s.count ?? countOf(this.list.peek().find((i) => i.id === s.id)) })),
+    }));
     const good = named.flatMap((v) => v.scenes);
     const bad = named.filter((v) => !v.ok);
     this.editor.notify(null);
@@ -244,33 +311,61 @@ export class Library {
   private async importOne(file: File): Promise<Verdict> {
     try {
       const reply = await this.client.importFile(file.name, file);
-      const scenes = reply.scenes.map((s) => ({ id: s.id, name: s.name, count: s.counts ? Object.values(s.counts).reduce((a, b) => a + (b ?? 0), 0) : null }));
+      const scenes = reply.scenes.map((s) => ({
+        id: s.id,
+        name: s.name,
+        count: s.counts ? Object.values(s.counts).reduce((a, b) => a + (b ?? 0), 0) : null,
+      }));
       const skipped = reply.skipped ?? [];
       if (!scenes.length) return { file: file.name, ok: false, scenes, ...explain(file.name, skipped[0]?.problem) };
-      return skipped.length ? { file: file.name, ok: true, scenes, wrong: `${skipped.length} of ${scenes.length + skipped.length} scenes in this file could not be read: ${skipped[0].problem.detail ?? skipped[0].problem.title}` } : { file: file.name, ok: true, scenes };
+      return skipped.length
+        ? {
+            file: file.name,
+            ok: true,
+            scenes,
+            wrong: `${skipped.length} of ${scenes.length + skipped.length} scenes in this file could not be read: ${skipped[0].problem.detail ?? skipped[0].problem.title}`,
+          }
+        : { file: file.name, ok: true, scenes };
     } catch (e) {
       if (e instanceof Refused) return { file: file.name, ok: false, scenes: [], ...explain(file.name, e.problem) };
-      return { file: file.name, ok: false, scenes: [], wrong: 'The server is not answering.', todo: 'Try again when the generator is back. The file was not changed.' };
+      return {
+        file: file.name,
+        ok: false,
+        scenes: [],
+        wrong: 'The server is not answering.',
+        todo: 'Try again when the generator is back. The file was not changed.',
+      };
     }
   }
 }
 
-const countOf = (i: SceneListItem | undefined): number | null => (i?.counts ? Object.values(i.counts).reduce((a, b) => a + (b ?? 0), 0) : null);
+const countOf = (i: SceneListItem | undefined): number | null =>
+  i?.counts ? Object.values(i.counts).reduce((a, b) => a + (b ?? 0), 0) : null;
 
-function explain(file: string, p: Refused['problem'] | undefined): Pick<Verdict, 'wrong' | 'where' | 'todo' | 'details'> {
+function explain(
+  file: string,
+  p: Refused['problem'] | undefined,
+): Pick<Verdict, 'wrong' | 'where' | 'todo' | 'details'> {
   if (!p) return { wrong: 'There is no scene in this file.' };
   const first = p.errors?.[0];
   const where = [file, first?.pointer, p.offset !== undefined ? `byte ${p.offset}` : ''].filter(Boolean).join(', ');
-  const todo = p.code === 'format-unknown' ? 'Scenario records, lane maps and saved scenes can be read. Choose another file.'
-    : p.code.includes('too-large') || p.code === 'body-too-large' ? 'The file is larger than the server takes. Split it, or use the command line.'
-    : p.code === 'unsupported-version' ? 'Update this program, or save the scene again with the version you have.'
-    : 'Mend the file and drop it again, or choose another one.';
-  const wrong = p.code === 'format-unknown' ? `“${file}” is not a scene.` : first?.detail ?? p.reason ?? p.detail ?? p.title;
+  const todo =
+    p.code === 'format-unknown'
+      ? 'Scenario records, lane maps and saved scenes can be read. Choose another file.'
+      : p.code.includes('too-large') || p.code === 'body-too-large'
+        ? 'The file is larger than the server takes. Split it, or use the command line.'
+        : p.code === 'unsupported-version'
+          ? 'Update this program, or save the scene again with the version you have.'
+          : 'Mend the file and drop it again, or choose another one.';
+  const wrong =
+    p.code === 'format-unknown' ? `“${file}” is not a scene.` : (first?.detail ?? p.reason ?? p.detail ?? p.title);
   return { wrong, where, todo, details: JSON.stringify(p, null, 2) };
 }
 
 function keptEdits(scene: Scene): KeptEdits | null {
-  const agents = [...scene.agents.values()].filter(touched).map((a) => ({ id: a.id, start: a.start, goal: a.goal, chosen: a.chosen, length: a.length, width: a.width }));
+  const agents = [...scene.agents.values()]
+    .filter(touched)
+    .map((a) => ({ id: a.id, start: a.start, goal: a.goal, chosen: a.chosen, length: a.length, width: a.width }));
   return agents.length ? { agents, seed: scene.seed, diversity: scene.diversity, others: scene.others } : null;
 }
 
@@ -278,7 +373,20 @@ function restore(scene: Scene, kept: KeptEdits): Scene {
   const changed: Agent[] = [];
   for (const k of kept.agents) {
     const a = scene.agents.get(k.id);
-    if (a) changed.push({ ...a, start: Object.freeze(k.start), goal: Object.freeze(k.goal), chosen: k.chosen, length: k.length, width: k.width });
+    if (a)
+      changed.push({
+        ...a,
+        start: Object.freeze(k.start),
+        goal: Object.freeze(k.goal),
+        chosen: k.chosen,
+        length: k.length,
+        width: k.width,
+      });
   }
-  return Object.freeze({ ...withAgents(scene, changed), seed: kept.seed, diversity: kept.diversity, others: kept.others });
+  return Object.freeze({
+    ...withAgents(scene, changed),
+    seed: kept.seed,
+    diversity: kept.diversity,
+    others: kept.others,
+  });
 }

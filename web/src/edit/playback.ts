@@ -9,7 +9,10 @@ export class Playback {
   private last = 0;
   private until: number | null = null;
 
-  constructor(private readonly editor: Editor, private readonly stage: Stage) {
+  constructor(
+    private readonly editor: Editor,
+    private readonly stage: Stage,
+  ) {
     effect(() => {
       if (editor.playing.value) {
         this.last = 0;

@@ -9,10 +9,25 @@ import { GOAL_TIME, startPose, type Agent, type Scene } from '../model/scene';
 export function sketchFutures(scene: Scene, a: Agent): Futures | null {
   const start = startPose(a);
   if (!start) return null;
-  const goal = a.goal.pos ? { x: a.goal.pos[0], y: a.goal.pos[1], heading: a.goal.heading ?? Math.atan2(a.goal.pos[1] - start.y, a.goal.pos[0] - start.x) }
-    : { x: start.x + Math.cos(start.heading) * Math.max(1, start.speed * GOAL_TIME), y: start.y + Math.sin(start.heading) * Math.max(1, start.speed * GOAL_TIME), heading: start.heading };
+  const goal = a.goal.pos
+    ? {
+        x: a.goal.pos[0],
+        y: a.goal.pos[1],
+        heading: a.goal.heading ?? Math.atan2(a.goal.pos[1] - start.y, a.goal.pos[0] - start.x),
+      }
+    : {
+        x: start.x + Math.cos(start.heading) * Math.max(1, start.speed * GOAL_TIME),
+        y: start.y + Math.sin(start.heading) * Math.max(1, start.speed * GOAL_TIME),
+        heading: start.heading,
+      };
   const { line } = pathTo(scene.map, a, start, goal);
-  return { modes: [{ probability: 1, motion: along(a, line, start, a.goal.time), name: 'Sketch, not worked out yet' }], chosen: 0, step: 0, steps: 0, sketch: true };
+  return {
+    modes: [{ probability: 1, motion: along(a, line, start, a.goal.time), name: 'Sketch, not worked out yet' }],
+    chosen: 0,
+    step: 0,
+    steps: 0,
+    sketch: true,
+  };
 }
 
 function along(a: Agent, line: ReturnType<typeof pathTo>['line'], start: Pose, time: number): Motion {
@@ -20,11 +35,20 @@ function along(a: Agent, line: ReturnType<typeof pathTo>['line'], start: Pose, t
   const l = limitsOf(a);
   // Distance = v t + b t^2 / 2, with b held inside what the road user can do.
   const b = Math.max(-l.brake, Math.min(l.accel, (2 * (line.length - start.speed * time)) / (time * time)));
-  const m = { x: new Float64Array(n), y: new Float64Array(n), heading: new Float64Array(n), speed: new Float64Array(n) };
-  let s = 0, v = start.speed;
+  const m = {
+    x: new Float64Array(n),
+    y: new Float64Array(n),
+    heading: new Float64Array(n),
+    speed: new Float64Array(n),
+  };
+  let s = 0,
+    v = start.speed;
   for (let i = 0; i < n; i++) {
     const p = pointAt(line, Math.min(s, line.length));
-    m.x[i] = p.x; m.y[i] = p.y; m.heading[i] = p.heading; m.speed[i] = v;
+    m.x[i] = p.x;
+    m.y[i] = p.y;
+    m.heading[i] = p.heading;
+    m.speed[i] = v;
     s += Math.max(0, v * 0.1 + b * 0.005);
     v = Math.max(0, Math.min(l.top, v + b * 0.1));
   }

@@ -45,7 +45,11 @@ function speedTo(mps: number, as: Quantity): number | null {
  * shows; null when it cannot be understood.
  */
 export function parseTyped(text: string, as: Quantity): number | null {
-  const clean = text.trim().replace(/\u2212/g, '-').replace(/,/g, '.').replace(/^≈\s*/, '');
+  const clean = text
+    .trim()
+    .replace(/\u2212/g, '-')
+    .replace(/,/g, '.')
+    .replace(/^≈\s*/, '');
   const m = /^([-+*/().\d\s]+?)\s*([a-z°/]*)$/i.exec(clean);
   if (!m) return null;
   const value = evaluate(m[1]);
@@ -63,7 +67,11 @@ function evaluate(source: string): number | null {
     const t = tokens[at++];
     if (t === '-') return -factor();
     if (t === '+') return factor();
-    if (t === '(') { const v = sum(); at++; return v; }
+    if (t === '(') {
+      const v = sum();
+      at++;
+      return v;
+    }
     return t === undefined ? NaN : Number(t);
   };
   const product = (): number => {

@@ -26,13 +26,23 @@ export interface Handlers {
   dropped?(): void;
 }
 
-interface Running { ask: Ask; revision: number; abort: AbortController; drawn: boolean;
+interface Running {
+  ask: Ask;
+  revision: number;
+  abort: AbortController;
+  drawn: boolean;
   /** How long since something new came, signs of life apart. */
   idle: number;
 }
 
 /** When a silence is called slow, when it is looked into, and when it is taken for an absence in any case. */
-export interface Patience { slow: number; look: number; lost: number; tick: number; alive?: () => Promise<boolean> }
+export interface Patience {
+  slow: number;
+  look: number;
+  lost: number;
+  tick: number;
+  alive?: () => Promise<boolean>;
+}
 
 /** `lost` is longer than the time between two signs of life in a stream. */
 const PATIENCE: Patience = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
@@ -48,12 +58,19 @@ export class Generator {
   /** How long nobody has said anything, over questions that replaced each other. */
   private silent = 0;
 
-  constructor(private readonly base = '', private readonly fetcher: typeof fetch = (...a) => fetch(...a), patience: Partial<Patience> = {}, private readonly now = () => performance.now()) {
+  constructor(
+    private readonly base = '',
+    private readonly fetcher: typeof fetch = (...a) => fetch(...a),
+    patience: Partial<Patience> = {},
+    private readonly now = () => performance.now(),
+  ) {
     this.patience = { ...PATIENCE, ...patience };
     this.client = `editor-${Math.random().toString(36).slice(2, 10)}`;
   }
 
-  get busy(): boolean { return this.running !== null; }
+  get busy(): boolean {
+    return this.running !== null;
+  }
 
   ask(ask: Ask): void {
     // While a preview has shown nothing yet it is left to finish its first guess: aborting it on every
@@ -85,7 +102,13 @@ export class Generator {
   }
 
   private async run(ask: Ask): Promise<void> {
-    const me: Running = { ask, revision: ++this.revision, abort: new AbortController(), drawn: false, idle: this.silent };
+    const me: Running = {
+      ask,
+      revision: ++this.revision,
+      abort: new AbortController(),
+      drawn: false,
+      idle: this.silent,
+    };
     this.running = me;
     const unwatch = this.watch(me);
     const mine = () => this.running === me;
@@ -95,7 +118,10 @@ export class Generator {
       if (reply.status === 422 || reply.status === 412 || reply.status === 404) {
         const p = await problemOf(reply);
         const badMap = RETRY_IN_PLACE.has(p.code) || p.errors?.some((e) => e.code === 'unknown-map');
-        if (!badMap) { if (mine()) ask.on.refused(p); return; }
+        if (!badMap) {
+          if (mine()) ask.on.refused(p);
+          return;
+        }
         me.revision = ++this.revision;
         reply = await this.post(await ask.fullPart(), me);
       }
@@ -111,7 +137,8 @@ export class Generator {
       await this.read(reply, me, began);
     } catch (e) {
       if (!mine()) return;
-      if ((e as Error).name === 'AbortError') ask.on.dropped?.(); else ask.on.away();
+      if ((e as Error).name === 'AbortError') ask.on.dropped?.();
+      else ask.on.away();
     } finally {
       unwatch();
       if (mine()) {
@@ -140,7 +167,9 @@ export class Generator {
       if (this.silent < look) looked = false;
       else if (!looked && alive) {
         looked = true;
-        void alive().then((yes) => { if (!yes && this.running === me && this.silent >= look) this.lose(me); });
+        void alive().then((yes) => {
+          if (!yes && this.running === me && this.silent >= look) this.lose(me);
+        });
       }
     }, tick);
     return () => clearInterval(timer);
@@ -157,7 +186,10 @@ export class Generator {
 
   /** The queue is full for a moment: a preview is let go, a change waits and is asked again. */
   private async later(ask: Ask, me: Running, seconds: number): Promise<void> {
-    if (ask.preview) { ask.on.dropped?.(); return; }
+    if (ask.preview) {
+      ask.on.dropped?.();
+      return;
+    }
     this.silent = 0;
     await new Promise((r) => setTimeout(r, Math.min(5, seconds) * 1000));
     if (this.running === me) await this.run(ask);
@@ -166,14 +198,17 @@ export class Generator {
   private post(part: string, me: Running): Promise<Response> {
     const rest = JSON.stringify({ client: this.client, revision: me.revision, ...me.ask.options });
     return this.fetcher(`${this.base}/v1/generate`, {
-      method: 'POST', body: `{${part},${rest.slice(1)}`, signal: me.abort.signal,
+      method: 'POST',
+      body: `{${part},${rest.slice(1)}`,
+      signal: me.abort.signal,
       headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
     });
   }
 
   private async read(reply: Response, me: Running, began: number): Promise<void> {
     const { on, options } = me.ask;
-    let shown = -1, window = 0;
+    let shown = -1,
+      window = 0;
     let ended = false;
     for await (const e of readEvents(reply.body!)) {
       if (this.running !== me) return;
@@ -184,7 +219,7 @@ export class Generator {
       if (e.event !== 'heartbeat') me.idle = 0;
       if (e.event === 'accepted') on.accepted?.(e);
       else if (e.event === 'initial' || e.event === 'step') {
-        const step = e.event === 'initial' ? 0 : e.step ?? shown + 1;
+        const step = e.event === 'initial' ? 0 : (e.step ?? shown + 1);
         const at = e.window ?? 0;
         // A later window begins with a first guess of its own.
         if (at < window || (at === window && step <= shown)) continue;
@@ -197,9 +232,16 @@ export class Generator {
           this.next();
           return;
         }
-      } else if (e.event === 'final') { ended = true; on.final(e, ms); }
-      else if (e.event === 'error') { ended = true; on.refused(e.problem); }
-      else if (e.event === 'superseded') { ended = true; on.dropped?.(); }
+      } else if (e.event === 'final') {
+        ended = true;
+        on.final(e, ms);
+      } else if (e.event === 'error') {
+        ended = true;
+        on.refused(e.problem);
+      } else if (e.event === 'superseded') {
+        ended = true;
+        on.dropped?.();
+      }
     }
     if (!ended && this.running === me) on.away();
   }

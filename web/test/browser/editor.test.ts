@@ -7,9 +7,15 @@ let browser: Browser;
 let d: Driver;
 
 describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
-  beforeAll(async () => { await buildPage(); browser = await launch(); }, 60_000);
+  beforeAll(async () => {
+    await buildPage();
+    browser = await launch();
+  }, 60_000);
   afterAll(() => browser?.close());
-  afterEach(async () => { expect(d.errors).toEqual([]); await d.close(); });
+  afterEach(async () => {
+    expect(d.errors).toEqual([]);
+    await d.close();
+  });
 
   it('opens the example, ready to drag, under the security policy', async () => {
     d = await (await Driver.open(browser)).ready();
@@ -65,8 +71,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.evaluate(() => {
       const w = window as unknown as { cleared: Record<string, number> };
       w.cleared = {};
-      const proto = CanvasRenderingContext2D.prototype, real = proto.clearRect;
-      proto.clearRect = function (...a) { w.cleared[this.canvas.className] = (w.cleared[this.canvas.className] ?? 0) + 1; real.apply(this, a); };
+      const proto = CanvasRenderingContext2D.prototype,
+        real = proto.clearRect;
+      proto.clearRect = function (...a) {
+        w.cleared[this.canvas.className] = (w.cleared[this.canvas.className] ?? 0) + 1;
+        real.apply(this, a);
+      };
     });
     await d.drag([x + 8, y - 26], [x + 30, y - 140], 30);
     const cleared = await d.page.evaluate(() => (window as unknown as { cleared: Record<string, number> }).cleared);
@@ -139,7 +149,11 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
   it('says that a goal is too far, why, and offers three ways out', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
-    for (const [field, n, v] of [['goal-pos', 0, '1.75'], ['goal-pos', 1, '80'], ['goal-time', 0, '4']] as const) {
+    for (const [field, n, v] of [
+      ['goal-pos', 0, '1.75'],
+      ['goal-pos', 1, '80'],
+      ['goal-time', 0, '4'],
+    ] as const) {
       const el = d.page.locator(`[data-field="${field}"]`).nth(n);
       await el.fill(v);
       await el.press('Enter');
@@ -179,7 +193,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 8, y - 60]);
     d.server.options.hang = true;
     await d.drag([x + 8, y - 60], [x + 8, y - 120]);
-    await d.page.waitForFunction(() => /longer than usual \(\d\.\d s\)\. You can keep dragging/.test(document.querySelector('.status')!.textContent!), null, { timeout: 5000 });
+    await d.page.waitForFunction(
+      () =>
+        /longer than usual \(\d\.\d s\)\. You can keep dragging/.test(document.querySelector('.status')!.textContent!),
+      null,
+      { timeout: 5000 },
+    );
     await d.page.waitForSelector('.banner', { timeout: 9000 });
     expect(await d.text('.status')).toContain('Generator away');
     expect(await d.page.locator('.fu').count()).toBe(0);
@@ -193,7 +212,13 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
 
   it('leaves keys and focus where they are expected', async () => {
     d = await (await Driver.open(browser)).ready();
-    const focus = () => d.page.evaluate(() => (document.activeElement as HTMLElement).dataset.agent ?? (document.activeElement as HTMLElement).dataset.field ?? document.activeElement!.tagName);
+    const focus = () =>
+      d.page.evaluate(
+        () =>
+          (document.activeElement as HTMLElement).dataset.agent ??
+          (document.activeElement as HTMLElement).dataset.field ??
+          document.activeElement!.tagName,
+      );
     // Enter selects in the list, and then goes on to the inspector.
     await d.page.locator('[data-agent="1"]').focus();
     await d.key('Enter');
@@ -231,8 +256,15 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
 
   it('imports files with a verdict for each', async () => {
     d = await (await Driver.open(browser)).ready();
-    const good = { name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(buildCrossing('x', 'Mine').scene)) };
-    await d.page.setInputFiles('input[type="file"]', [good, { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') }]);
+    const good = {
+      name: 'mine.json',
+      mimeType: 'application/json',
+      buffer: Buffer.from(JSON.stringify(buildCrossing('x', 'Mine').scene)),
+    };
+    await d.page.setInputFiles('input[type="file"]', [
+      good,
+      { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') },
+    ]);
     await d.page.waitForSelector('.dlg.import');
     expect(await d.text('.dlg.import')).toMatch(/1 of 2 files are in, 1 could not be read/);
     expect(await d.text('.dlg.import')).toContain('“notes.pdf” is not a scene.');
@@ -304,7 +336,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.keyboard.type('loop');
     await d.key('Enter');
     expect(await d.page.locator('[data-action="loop"]').getAttribute('aria-pressed')).toBe('false');
-    expect(await d.page.locator('[role="slider"][aria-label="Goal time"]').getAttribute('aria-valuetext')).toBe('9.0 seconds');
+    expect(await d.page.locator('[role="slider"][aria-label="Goal time"]').getAttribute('aria-valuetext')).toBe(
+      '9.0 seconds',
+    );
   });
 
   it('shows collisions on the timeline and in the list', async () => {
@@ -362,7 +396,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
   });
 
   it('starts empty when there is no scene, and waits when there is no server', async () => {
-    d = await Driver.open(browser, { away: false }, '/', async (p) => { await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } })); });
+    d = await Driver.open(browser, { away: false }, '/', async (p) => {
+      await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } }));
+    });
     await d.page.waitForSelector('.empty');
     expect(await d.text('.empty')).toContain('Bring a scene');
   });
