@@ -7,6 +7,6 @@ const SERVER = process.env.DRAGTRAFFIC_URL ?? 'http://127.0.0.1:8080';
 export default defineConfig({
   base: '/',
   build: { outDir: 'dist', assetsInlineLimit: 0, target: 'es2022', modulePreload: { polyfill: false } },
-  server: { proxy: { '/v1': SERVER, '/healthz': SERVER } },
+  server: { fs: { allow: ['..'] }, proxy: { '/v1': SERVER, '/healthz': SERVER } },
   test: { include: ['test/**/*.test.ts'], environment: 'node' },
 });

@@ -2,7 +2,8 @@ import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/geometry';
 import { findRoute, nearestLanes } from '../src/model/lanemap';
-import { furthestReach, leastReach, limitsOf, localReach } from '../src/model/reach';
+import { limitsOf, rangesOf, topSpeed } from '../src/model/domain';
+import { furthestReach, leastReach, localReach } from '../src/model/reach';
 import { parseTyped, num, speedLabel } from '../src/model/units';
 import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/motion';
 import { readGenerated, readScene, SceneError } from '../src/model/read';
@@ -313,13 +314,56 @@ describe('lanes and reach', () => {
   });
 
   it('bounds what can be reached', () => {
-    const l = limitsOf({ kind: 'car', type: 'vehicle' });
+    const l = limitsOf({ type: 'vehicle', subtype: 'car' });
     fc.assert(
       fc.property(fc.double({ min: 0, max: 38, noNaN: true }), fc.double({ min: 0.5, max: 9, noNaN: true }), (v, t) => {
         expect(leastReach(l, v, t)).toBeLessThanOrEqual(v * t + 1e-9);
         expect(furthestReach(l, v, t)).toBeGreaterThanOrEqual(v * t - 1e-9);
       }),
     );
+  });
+
+  it('never calls a goal too far that the hard limits allow', () => {
+    const a = car(s);
+    const kinds = fc.constantFrom(
+      ...(['car', 'truck', 'bus', 'trailer', 'motorcycle', null] as const).map((subtype) => ({
+        type: 'vehicle' as const,
+        subtype,
+      })),
+      { type: 'cyclist' as const, subtype: null },
+      { type: 'pedestrian' as const, subtype: null },
+    );
+    fc.assert(
+      fc.property(
+        kinds,
+        fc.double({ min: 0, max: 45, noNaN: true }),
+        fc.double({ min: 1, max: 20, noNaN: true }),
+        fc.double({ min: -Math.PI, max: Math.PI, noNaN: true }),
+        fc.double({ min: 0, max: 1, noNaN: true }),
+        (who, speed, time, bearing, share) => {
+          const start = { ...startPose(a)!, speed };
+          const { accel_mps2: accel, speed_mps: top } = limitsOf(who);
+          // The furthest anybody gets: full acceleration up to top speed, and on at that.
+          const rise = Math.min(time, Math.max(0, top - speed) / accel);
+          const furthest = speed * time + (accel * rise * rise) / 2 + accel * rise * (time - rise);
+          const d = share * furthest;
+          const pos = [start.x + d * Math.cos(bearing), start.y + d * Math.sin(bearing)] as const;
+          const goal = { pos, heading: null, speed: null, time };
+          const verdict = localReach(s.map, { ...a, ...who, goal }, start, goal, 'km/h', 20);
+          expect(verdict!.kind).not.toBe('far');
+        },
+      ),
+      { numRuns: 400 },
+    );
+  });
+
+  it('takes its limits from the table that the server is built with', () => {
+    expect(limitsOf({ type: 'vehicle', subtype: null }).accel_mps2).toBe(4);
+    expect(limitsOf({ type: 'vehicle', subtype: 'bus' }).speed_mps).toBe(32);
+    expect(limitsOf({ type: 'pedestrian', subtype: 'bus' }).curvature_per_m).toBeNull();
+    expect(rangesOf({ type: 'other' })).toEqual(rangesOf({ type: 'vehicle' }));
+    expect(topSpeed({ type: 'pedestrian', subtype: null })).toBe(6);
+    expect(topSpeed({ type: 'vehicle', subtype: 'car' })).toBe(40);
   });
 
   it('says why not and what would do', () => {

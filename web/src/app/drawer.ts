@@ -1,7 +1,7 @@
 // List of scenes with search and pictures; the place to drop files.
 import { signal } from '@preact/signals-core';
 import type { Context } from '../actions/context';
-import type { SceneListItem } from '../net/api';
+import type { SceneListItem } from '../net/types';
 import { isRecorded } from '../model/scene';
 import { iconButton } from './buttons';
 import { h, swap } from './dom';

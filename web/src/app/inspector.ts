@@ -4,6 +4,7 @@ import { canChange, hasGoal, touched, startPose, type Agent } from '../model/sce
 import { deg, rad, wrapAngle, type Vec } from '../model/geometry';
 import { LETTERS, isSettled, reachWords } from '../model/futures';
 import { endPose, endsBefore, poseAt } from '../model/motion';
+import { topSpeed } from '../model/domain';
 import { nearestLanes } from '../model/lanemap';
 import { comparedWithLog } from '../model/changes';
 import { fromUnit, metres, num, seconds, speedText, toUnit } from '../model/units';
@@ -15,7 +16,6 @@ import {
   snapToNearest,
   toggleField,
   withField,
-  SPEED_LIMIT,
   goalTime,
   type Field,
 } from '../edit/moves';
@@ -394,7 +394,7 @@ function fieldsFor(c: Context, agent: () => Agent, part: Part): Child[] {
             const p = shown();
             return shownText(spec().speed === null, p && p.speed, (v) => speedText(v, unit()));
           },
-          set: (v) => run({ speed: Math.min(SPEED_LIMIT[agent().type], Math.max(0, fromUnit(v, unit()))) }),
+          set: (v) => run({ speed: Math.min(topSpeed(agent()), Math.max(0, fromUnit(v, unit()))) }),
           onUnit:
             agent().type === 'pedestrian'
               ? undefined

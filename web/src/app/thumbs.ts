@@ -1,7 +1,7 @@
 // Small pictures of scenes, painted with the same code as the big one. Scenes are fetched one after the other and
 // only when their place in the list can be seen.
 import type { Context } from '../actions/context';
-import type { SceneListItem } from '../net/api';
+import type { SceneListItem } from '../net/types';
 import { boxOf, type Box, type Vec } from '../model/geometry';
 import { isMapRef } from '../model/json';
 import { readScene } from '../model/read';

@@ -1,6 +1,7 @@
 // Top bar: scene name and saving, undo, seed, diversity, generate, export, help.
 import type { Context } from '../actions/context';
 import { rename, setDiversity, setSeed } from '../model/commands';
+import { DEFAULTS } from '../model/domain';
 import { isRecorded } from '../model/scene';
 import { actionButton, iconButton } from './buttons';
 import { h, svg, swap } from './dom';
@@ -111,7 +112,7 @@ function nameField(c: Context): HTMLElement {
 
 function controls(c: Context): HTMLElement {
   const { editor } = c;
-  const percent = () => Math.round((editor.scene.value?.diversity ?? 0.5) * 100);
+  const percent = () => Math.round((editor.scene.value?.diversity ?? DEFAULTS.diversity) * 100);
   const seed = h('input', {
     type: 'text',
     inputmode: 'numeric',

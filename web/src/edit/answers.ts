@@ -1,5 +1,5 @@
 // Verdicts, scores and warnings of an answer, in the editor's own terms. Absent members read as "not known".
-import type { FinalEvent, ResolvedJson, ScoreJson } from '../net/api';
+import type { FinalEvent, ResolvedJson, ScoreJson } from '../net/types';
 import type { Reach, Score } from '../model/futures';
 
 export function readReach(r: ResolvedJson | undefined): Reach | null {
@@ -8,7 +8,10 @@ export function readReach(r: ResolvedJson | undefined): Reach | null {
   const n = j.nearest;
   return {
     status: j.status === 'unreachable' ? 'unreachable' : 'reached',
-    nearest: n ? { x: n.x_m, y: n.y_m, heading: n.heading_rad ?? 0, speed: n.speed_mps ?? 0 } : null,
+    nearest:
+      n?.x_m != null && n.y_m != null
+        ? { x: n.x_m, y: n.y_m, heading: n.heading_rad ?? 0, speed: n.speed_mps ?? 0 }
+        : null,
     limiting: j.limiting ?? null,
     needs: j.needs ?? null,
     words: j.words ?? null,

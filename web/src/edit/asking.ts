@@ -3,12 +3,13 @@ import { batch } from '@preact/signals-core';
 import type { Editor } from './editor';
 import type { Library } from './library';
 import { Generator, type Handlers } from '../net/generator';
-import type { DraftEvent, FinalEvent, Problem } from '../net/api';
+import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import { Away, type Client } from '../net/client';
 import type { ConditionJson, SceneJson } from '../model/json';
 import { conditionOf, generatedJson, isEmptyCondition, stillAgents, trackJson } from '../model/write';
 import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
 import { canChange, GOAL_TIME, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { DEFAULTS } from '../model/domain';
 import { motionOf } from '../model/changes';
 import { summary, readEvents } from '../model/events';
 import { motionFrom } from '../model/motion';
@@ -25,7 +26,7 @@ const partOf = (s: Scene, window: number): string =>
   `${window * s.replan} to ${Math.min(s.length, (window + 1) * s.replan)} s`;
 
 const RETRY_S = [1, 2, 4, 6];
-const STEPS = 5;
+const STEPS = DEFAULTS.steps;
 /** A key held down sends one request when it rests. */
 const REST_MS = 80;
 /** A server that is only busy says so within this time. */

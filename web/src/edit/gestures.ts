@@ -2,13 +2,14 @@
 import { clamp, project, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { setBoth, setGoal, setStart, type Command } from '../model/commands';
 import { canChange, startPose, type Agent, type GoalSpec, type StartSpec } from '../model/scene';
+import { topSpeed } from '../model/domain';
 import { speedForTip } from '../draw/handles';
 import type { Stage } from '../draw/stage';
 import type { Editor, Grip } from './editor';
 import type { Asking } from './asking';
 import { agentsAt, hitTest, type Hit, type HitContext } from './hit';
 import { alongLane, laneWords, snapHeading, snapToLane, softStop } from './snap';
-import { SPEED_LIMIT, goalTime, pickFuture } from './moves';
+import { goalTime, pickFuture } from './moves';
 import type { Picture } from './picture';
 
 interface Mods {
@@ -359,7 +360,7 @@ export class Gestures {
     const unit = a.type === 'pedestrian' ? 0.1 : 1 / 3.6;
     const step = this.mods.shift ? unit * 10 : unit;
     const v = this.mods.alt ? raw : Math.round(raw / step) * step;
-    return clamp(v, 0, SPEED_LIMIT[a.type]);
+    return clamp(v, 0, topSpeed(a));
   }
 
   private edgeScroll(dt: number): boolean {

@@ -3,7 +3,7 @@
 import { signal } from '@preact/signals-core';
 import type { Editor } from './editor';
 import { Away, Refused, type Client } from '../net/client';
-import type { SceneListItem } from '../net/api';
+import type { SceneListItem } from '../net/types';
 import { forget, keep, recall } from '../net/storage';
 import { isMapRef, type MapJson, type SceneJson } from '../model/json';
 import { readGenerated, readScene, SceneError } from '../model/read';
@@ -312,7 +312,7 @@ export class Library {
     try {
       const reply = await this.client.importFile(file.name, file);
       const scenes = reply.scenes.map((s) => ({
-        id: s.id,
+        id: s.id ?? '',
         name: s.name,
         count: s.counts ? Object.values(s.counts).reduce((a, b) => a + (b ?? 0), 0) : null,
       }));

@@ -3,7 +3,8 @@ import { deg, rad, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { nearestLanes } from '../model/lanemap';
 import { choose, clearGoal, setBoth, setGoal, setSize, setStart, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
-import { limitsOf, localReach, shortfall } from '../model/reach';
+import { limitsOf, topSpeed } from '../model/domain';
+import { localReach, shortfall } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
 import { metres, toUnit } from '../model/units';
 import type { Editor, Part } from './editor';
@@ -11,7 +12,6 @@ import { lanesFor } from './snap';
 
 export type Field = 'pos' | 'heading' | 'speed';
 
-export const SPEED_LIMIT = { vehicle: 45, cyclist: 15, pedestrian: 5, other: 45 } as const;
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
 export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
 export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
@@ -128,7 +128,7 @@ export function faster(e: Editor, a: Agent, part: Part, steps: number): Command 
   const p = shownPose(e, a, part);
   if (!p) return null;
   const step = a.type === 'pedestrian' ? 0.1 : 1 / 3.6;
-  const v = Math.min(SPEED_LIMIT[a.type], Math.max(0, (Math.round(p.speed / step) + steps) * step));
+  const v = Math.min(topSpeed(a), Math.max(0, (Math.round(p.speed / step) + steps) * step));
   return withField(a, part, { speed: v }, true);
 }
 
@@ -198,7 +198,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
     });
   if (local?.speed != null && (local.kind === 'far' ? local.speed > start.speed : local.speed < start.speed)) {
     const faster = local.kind === 'far';
-    const v = Math.min(limitsOf(a).top, local.speed);
+    const v = Math.min(limitsOf(a).speed_mps, local.speed);
     const note = unit === 'm/s' ? `${v.toFixed(1)} m/s` : `${Math.ceil(toUnit(v, unit))} ${unit}`;
     out.push({
       label: faster ? 'Start faster' : 'Start slower',

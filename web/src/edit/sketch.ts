@@ -1,7 +1,8 @@
 // A plain curve for the time the generator is away: along the lanes where they lead there, at an even change of
 // speed. It is marked as a sketch everywhere and never becomes part of the scene's motion.
 import { pointAt, type Pose } from '../model/geometry';
-import { limitsOf, pathTo } from '../model/reach';
+import { limitsOf } from '../model/domain';
+import { pathTo } from '../model/reach';
 import type { Futures } from '../model/futures';
 import type { Motion } from '../model/motion';
 import { GOAL_TIME, startPose, type Agent, type Scene } from '../model/scene';
@@ -34,7 +35,7 @@ function along(a: Agent, line: ReturnType<typeof pathTo>['line'], start: Pose, t
   const n = Math.round(time * 10) + 1;
   const l = limitsOf(a);
   // Distance = v t + b t^2 / 2, with b held inside what the road user can do.
-  const b = Math.max(-l.brake, Math.min(l.accel, (2 * (line.length - start.speed * time)) / (time * time)));
+  const b = Math.max(-l.brake_mps2, Math.min(l.accel_mps2, (2 * (line.length - start.speed * time)) / (time * time)));
   const m = {
     x: new Float64Array(n),
     y: new Float64Array(n),
@@ -50,7 +51,7 @@ function along(a: Agent, line: ReturnType<typeof pathTo>['line'], start: Pose, t
     m.heading[i] = p.heading;
     m.speed[i] = v;
     s += Math.max(0, v * 0.1 + b * 0.005);
-    v = Math.max(0, Math.min(l.top, v + b * 0.1));
+    v = Math.max(0, Math.min(l.speed_mps, v + b * 0.1));
   }
   return { first: 0, ...m, valid: [[0, n]] };
 }

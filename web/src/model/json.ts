@@ -60,7 +60,7 @@ export interface GoalJson extends StartJson {
   time_s?: number | null;
 }
 export interface ConditionJson {
-  type?: string;
+  type?: 'vehicle' | 'pedestrian' | 'cyclist' | null;
   length_m?: number;
   width_m?: number;
   start?: StartJson;

@@ -3,33 +3,22 @@
 import { curveBetween, makeLine, pointAt, type Line, type Pose } from './geometry';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from './lanemap';
 import { metres, seconds, speedLabel, type SpeedUnit } from './units';
+import { limitsOf, type Limits } from './domain';
 import { GOAL_TIME, type Agent, type GoalSpec } from './scene';
 
-export interface Limits {
-  readonly accel: number;
-  readonly top: number;
-  readonly brake: number;
-  readonly lateral: number;
-}
-
-export function limitsOf(a: Pick<Agent, 'kind' | 'type'>): Limits {
-  if (a.type === 'pedestrian') return { accel: 1, top: 3.5, brake: 3, lateral: 6 };
-  if (a.type === 'cyclist') return { accel: 1, top: 12, brake: 4, lateral: 6 };
-  if (a.kind === 'truck' || a.kind === 'bus') return { accel: 1.2, top: 28, brake: 6, lateral: 6 };
-  return { accel: 2.5, top: 38, brake: 8, lateral: 6 };
-}
-
-/** Furthest distance in `t` seconds from speed `v`. */
+/** Furthest distance in `t` seconds from speed `v`: speeding up as hard as it goes, then on at top speed. */
 export function furthestReach(l: Limits, v: number, t: number): number {
-  if (v >= l.top) return v * t;
-  const t1 = (l.top - v) / l.accel;
-  return t <= t1 ? v * t + (l.accel * t * t) / 2 : v * t1 + (l.accel * t1 * t1) / 2 + l.top * (t - t1);
+  const { accel_mps2: accel, speed_mps: top } = l;
+  if (v >= top) return v * t;
+  const t1 = (top - v) / accel;
+  return t <= t1 ? v * t + (accel * t * t) / 2 : v * t1 + (accel * t1 * t1) / 2 + top * (t - t1);
 }
 
 /** Shortest distance in `t` seconds: braking as hard as it goes. */
 export function leastReach(l: Limits, v: number, t: number): number {
-  const ts = v / l.brake;
-  return t <= ts ? v * t - (l.brake * t * t) / 2 : (v * v) / (2 * l.brake);
+  const { brake_mps2: brake } = l;
+  const ts = v / brake;
+  return t <= ts ? v * t - (brake * t * t) / 2 : (v * v) / (2 * brake);
 }
 
 export type ReachKind = 'ok' | 'far' | 'near' | 'sharp';
@@ -112,15 +101,19 @@ export function localReach(
   }[a.kind];
   const base = { path: line, onLanes, along, max, min, time: null, speed: null, nearest: null };
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
-  if (along > max + 0.5) {
+  // No way is shorter than the straight one, whatever the lanes do: only past that it is certain that it is too far.
+  const straight = Math.hypot(goal.pos[0] - start.x, goal.pos[1] - start.y);
+  if (straight > max + 0.5) {
     return {
       ...base,
       kind: 'far',
-      nearest: at(max, Math.min(l.top, v + l.accel * t)),
+      nearest: at(max, Math.min(l.speed_mps, v + l.accel_mps2 * t)),
       time: timeFor(l, v, along, latest),
       speed: speedFor(l, t, along),
       title: `Too far for ${seconds(t)}`,
-      words: `The goal is ${metres(along, 0)} away${onLanes ? ' along the lane' : ''}. In ${seconds(t)} from ${speedLabel(v, unit)} ${who} gets ${metres(max, 0)} at most.`,
+      words:
+        `The goal is ${metres(along, 0)} away${onLanes ? ' along the lane' : ''}. ` +
+        `In ${seconds(t)} from ${speedLabel(v, unit)} ${who} gets ${metres(max, 0)} at most.`,
     };
   }
   if (along < min - 1 && along > 0.5) {
@@ -133,15 +126,15 @@ export function localReach(
         heading: start.heading,
         speed: 0,
       },
-      speed: Math.sqrt(Math.max(0, 2 * l.brake * along)),
+      speed: Math.sqrt(Math.max(0, 2 * l.brake_mps2 * along)),
       title: 'Cannot stop that soon',
       words: `From ${speedLabel(v, unit)} it needs ${metres(min, 0)}, the goal is ${metres(along, 0)} away.`,
     };
   }
   const radius = a.type === 'pedestrian' ? Infinity : tightestRadius(line);
   const needed = Math.max(0, (along / t) * 0.6);
-  if (radius < Infinity && needed * needed > l.lateral * radius) {
-    const ok = Math.sqrt(l.lateral * radius);
+  if (radius < Infinity && needed * needed > l.lateral_mps2 * radius) {
+    const ok = Math.sqrt(l.lateral_mps2 * radius);
     return {
       ...base,
       kind: 'sharp',
@@ -188,6 +181,6 @@ function timeFor(l: Limits, v: number, d: number, latest: number): number | null
 }
 
 function speedFor(l: Limits, t: number, d: number): number | null {
-  for (let v = 0; v <= l.top; v += 0.1) if (furthestReach(l, v, t) >= d) return v;
+  for (let v = 0; v <= l.speed_mps; v += 0.1) if (furthestReach(l, v, t) >= d) return v;
   return null;
 }

@@ -8,6 +8,7 @@ import {
   type MapJson,
   type SceneJson,
 } from './json';
+import { DEFAULTS } from './domain';
 import { isStill, motionFrom, poseAtStep } from './motion';
 import { emptyMotion, readFutures, type Futures, type MotionSet } from './futures';
 import {
@@ -62,8 +63,8 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
       states: s.states,
     })),
     agents,
-    seed: ed.seed ?? 0,
-    diversity: ed.diversity ?? 0.5,
+    seed: ed.seed ?? DEFAULTS.seed,
+    diversity: ed.diversity ?? DEFAULTS.diversity,
     others: readOthers(ed.others),
   });
 }
@@ -81,6 +82,7 @@ function readAgent(json: AgentJson, map: LaneMap, name: string, scene: SceneJson
     id: json.id,
     type,
     kind,
+    subtype: json.subtype ?? null,
     name,
     length: c.length_m ?? json.length_m,
     width: c.width_m ?? json.width_m,

@@ -1,6 +1,7 @@
 // The document: what the user made. Frozen and structurally shared; motion that the generator worked out
 // is not part of it, it is looked up by the document's key (see futures.ts).
 import type { LaneMap } from './lanemap';
+import { DEFAULTS } from './domain';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 import { STEP_S, type Motion } from './motion';
 
@@ -22,6 +23,8 @@ export interface Agent {
   readonly id: string;
   readonly type: AgentType;
   readonly kind: Kind;
+  /** What the scene's author calls it; the kind is a guess from the size where nothing is said. */
+  readonly subtype: string | null;
   readonly name: string;
   readonly length: number;
   readonly width: number;
@@ -63,7 +66,8 @@ export interface Scene {
   readonly others: Others;
 }
 
-export const GOAL_TIME = 9;
+/** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
+export const GOAL_TIME = DEFAULTS.horizon_s;
 export const LENGTHS = [9, 12, 15, 20] as const;
 export const REPLANS = [3, 6, 9] as const;
 export type Length = (typeof LENGTHS)[number];

@@ -11,6 +11,7 @@ import type {
   StartJson,
   TrackJson,
 } from './json';
+import { DEFAULTS } from './domain';
 import type { Motion } from './motion';
 import {
   GOAL_TIME,
@@ -99,7 +100,7 @@ export function generatedJson(
     stale: false,
     weights: {},
     seed: scene.seed,
-    request: { steps: 5, diversity: scene.diversity },
+    request: { steps: DEFAULTS.steps, diversity: scene.diversity },
     created_at: '1970-01-01T00:00:00Z',
     ...head,
     chosen_sample: 0,

@@ -1,6 +1,6 @@
 // Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
 // answer at all (`Away`).
-import type { ImportReply, Problem, SceneJson, SceneList, ScoreReply } from './api';
+import type { ImportReply, Problem, SceneJson, SceneList, ScoreReply } from './types';
 import type { MapJson } from '../model/json';
 
 export class Away extends Error {}

@@ -1,5 +1,5 @@
 // One conversation with the generator: one request on the way, one waiting, the newest wins.
-import type { AcceptedEvent, DraftEvent, FinalEvent, GenerateOptions, Problem } from './api';
+import type { AcceptedEvent, DraftEvent, FinalEvent, GenerateOptions, Problem } from './types';
 import { problemOf } from './client';
 import { readEvents } from './stream';
 
