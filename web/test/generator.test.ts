@@ -1,6 +1,10 @@
 // The conversation with the generator: latest wins, late answers are dropped, losses are survived.
 import { afterEach, describe, expect, it } from 'vitest';
-import { Generator, type Ask, type Handlers } from '../src/net/generator';
+import type { SceneJson } from '../src/model/json';
+import { Client } from '../src/net/client';
+import type { Handlers, Question } from '../src/net/generator';
+import { HttpGenerator, type Patience } from '../src/net/http-generator';
+import { crossingJson } from './helpers';
 import { readEvents } from '../src/net/stream';
 import { startStandIn, type StandIn } from './standin/server.mjs';
 
@@ -10,6 +14,8 @@ afterEach(async () => {
   server = null;
 });
 
+const generator = (url: string, patience?: Partial<Patience>) => new HttpGenerator(new Client(url), patience);
+
 interface Seen {
   drafts: number[];
   final: number;
@@ -18,7 +24,7 @@ interface Seen {
   dropped: number;
 }
 
-function ask(preview: boolean, goal: number): { ask: Ask; seen: Seen; done: Promise<void> } {
+function ask(preview: boolean, goal: number): { ask: Question; seen: Seen; done: Promise<void> } {
   const seen: Seen = { drafts: [], final: 0, away: 0, refused: [], dropped: 0 };
   let end!: () => void;
   const done = new Promise<void>((r) => {
@@ -49,8 +55,8 @@ function ask(preview: boolean, goal: number): { ask: Ask; seen: Seen; done: Prom
     ask: {
       preview,
       on,
-      scenePart: () => '"scene_id":"demo-crossing"',
-      fullPart: async () => '"scene_id":"demo-crossing"',
+      scene: () => ({ id: 'demo-crossing' }),
+      whole: () => crossingJson(),
       options: {
         agents: ['1'],
         react: !preview,
@@ -68,7 +74,7 @@ function ask(preview: boolean, goal: number): { ask: Ask; seen: Seen; done: Prom
 describe('generator', () => {
   it('shows six steps and a final answer', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
-    const g = new Generator(server.url),
+    const g = generator(server.url),
       a = ask(true, 10);
     g.ask(a.ask);
     await a.done;
@@ -77,7 +83,7 @@ describe('generator', () => {
 
   it('shows each window from its first guess on', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
-    const g = new Generator(server.url),
+    const g = generator(server.url),
       a = ask(false, 10),
       windows: number[] = [];
     const on: Handlers = {
@@ -96,7 +102,7 @@ describe('generator', () => {
 
   it('keeps one on the way and one waiting while a drag goes on', async () => {
     server = await startStandIn({ port: 0, delay: 15 });
-    const g = new Generator(server.url);
+    const g = generator(server.url);
     const all = [];
     for (let i = 0; i < 30; i++) {
       const a = ask(true, i);
@@ -116,7 +122,7 @@ describe('generator', () => {
 
   it('lets a release overtake the previews at once', async () => {
     server = await startStandIn({ port: 0, delay: 20 });
-    const g = new Generator(server.url),
+    const g = generator(server.url),
       p = ask(true, 1),
       c = ask(false, 2);
     g.ask(p.ask);
@@ -130,7 +136,7 @@ describe('generator', () => {
 
   it('never goes back a step when events arrive out of order or are lost', async () => {
     server = await startStandIn({ port: 0, delay: 1, shuffle: true, loss: 0.3 });
-    const g = new Generator(server.url);
+    const g = generator(server.url);
     for (let i = 0; i < 8; i++) {
       const a = ask(true, i);
       g.ask(a.ask);
@@ -142,21 +148,22 @@ describe('generator', () => {
 
   it('says when nobody answers, and when the answer is no', async () => {
     server = await startStandIn({ port: 0, away: true });
-    const g = new Generator(server.url),
+    const g = generator(server.url),
       a = ask(false, 1);
     g.ask(a.ask);
     await a.done;
     expect(a.seen.away).toBe(1);
     server.options.away = false;
     const b = ask(false, 1);
-    g.ask({ ...b.ask, scenePart: () => '"scene_id":"nowhere"', fullPart: async () => '"scene_id":"nowhere"' });
+    const unknown = { ...crossingJson(), map: { ref: 'sha256:unknown' } };
+    g.ask({ ...b.ask, scene: () => ({ id: 'nowhere' }), whole: () => unknown });
     await b.done;
-    expect(b.seen.refused).toEqual(['not-found']);
+    expect(b.seen.refused).toEqual(['unknown-map']);
   });
 
   it('waits for its turn when the queue is full, without calling the generator away', async () => {
     server = await startStandIn({ port: 0, delay: 1, busy: 3 });
-    const g = new Generator(server.url),
+    const g = generator(server.url),
       p = ask(true, 1),
       c = ask(false, 1);
     g.ask(p.ask);
@@ -170,7 +177,7 @@ describe('generator', () => {
   it('notices a generator that hangs: slow at first, then away', async () => {
     server = await startStandIn({ port: 0, delay: 1, hang: true });
     let asked = 0;
-    const g = new Generator(server.url, undefined, {
+    const g = generator(server.url, {
       slow: 60,
       look: 200,
       lost: 2000,
@@ -201,7 +208,7 @@ describe('generator', () => {
 
   it('waits on for a server that is only busy, up to a limit', async () => {
     server = await startStandIn({ port: 0, delay: 1, hang: true });
-    const g = new Generator(server.url, undefined, {
+    const g = generator(server.url, {
         slow: 40,
         look: 80,
         lost: 300,
@@ -218,13 +225,13 @@ describe('generator', () => {
 
   it('sends the map again when the server does not know it', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
-    const scene = [...server.scenes.values()][0].scene;
-    const g = new Generator(server.url),
+    const scene = [...server.scenes.values()][0].scene as unknown as SceneJson;
+    const g = generator(server.url),
       a = ask(false, 1);
     g.ask({
       ...a.ask,
-      scenePart: () => `"scene":${JSON.stringify({ ...scene, map: { ref: 'sha256:unknown' } })}`,
-      fullPart: async () => `"scene":${JSON.stringify(scene)}`,
+      scene: () => ({ scene: { ...scene, map: { ref: 'sha256:unknown' } } }),
+      whole: () => scene,
     });
     await a.done;
     expect(a.seen.final).toBe(1);

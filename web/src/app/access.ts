@@ -108,7 +108,7 @@ export function handleSliders(c: Context): HTMLElement {
             'aria-valuemin': '-10000',
             'aria-valuemax': '10000',
             onfocus: () => {
-              editor.focusPart.value = part;
+              editor.activate(part);
             },
             onkeydown: (e: KeyboardEvent) => {
               if (!e.key.startsWith('Arrow') || e.ctrlKey || e.altKey) return;
@@ -184,7 +184,7 @@ export function liveRegion(c: Context): HTMLElement {
   let last = 0,
     timer = 0;
   watch(() => {
-    const m = c.editor.spoken.value;
+    const m = c.editor.notices.spoken.value;
     if (!m.text) return;
     if (m.urgent) {
       urgent.textContent = m.text;

@@ -1,8 +1,9 @@
 // Palette, shortcut sheet, import report.
 import { signal } from '@preact/signals-core';
 import type { Context } from '../actions/context';
-import { ACTIONS, perform, possible, type Action, type Group } from '../actions/registry';
-import type { Verdict } from '../edit/library';
+import { ACTIONS, perform, possible } from '../actions/registry';
+import type { Action, Group } from '../actions/action';
+import type { FileVerdict as Verdict } from '../edit/importing';
 import { keyCaps } from './buttons';
 import { h, swap, type Child } from './dom';
 import { icon } from './icons';
@@ -20,8 +21,8 @@ export function dialogs(c: Context): Node {
       () => (c.ui.deleting.peek() ? confirmDelete(c, c.ui.deleting.peek()!) : null),
     ),
     swap(
-      () => c.library.imports.value,
-      () => (c.library.imports.peek() ? importReport(c, c.library.imports.peek()!) : null),
+      () => c.importing.verdicts.value,
+      () => (c.importing.verdicts.peek() ? importReport(c, c.importing.verdicts.peek()!) : null),
     ),
   );
 }
@@ -79,7 +80,7 @@ function palette(c: Context): HTMLElement {
   const query = signal(''),
     at = signal(0);
   const close = () => {
-    c.ui.dialog.value = null;
+    c.ui.closeDialog();
   };
   const entries = (): Entry[] => find(c, query.value);
   const go = (e: Entry | undefined) => {
@@ -225,7 +226,7 @@ const roadUsers = (c: Context, q: string): Entry[] =>
       },
     }));
 const scenes = (c: Context, q: string): Entry[] =>
-  c.library.list
+  c.scenes.list
     .peek()
     .filter((s) => s.name.toLowerCase().includes(q))
     .slice(0, 6)
@@ -249,7 +250,7 @@ const jump = (c: Context, q: string): Entry[] =>
           keys: [],
           off: false,
           run: () => {
-            c.editor.playing.value = false;
+            c.editor.playhead.pause();
             c.editor.setTime(Number(q));
           },
         },
@@ -269,7 +270,7 @@ const POINTER_LINES: readonly (readonly [Group, string, readonly string[], strin
 function shortcuts(c: Context): HTMLElement {
   const query = signal('');
   const close = () => {
-    c.ui.dialog.value = null;
+    c.ui.closeDialog();
   };
   const input = h('input', {
     type: 'search',
@@ -359,7 +360,7 @@ function merged(actions: readonly Action[]): [string, string[]][] {
 
 function importReport(c: Context, verdicts: readonly Verdict[]): HTMLElement {
   const close = () => {
-    c.library.imports.value = null;
+    c.importing.close();
   };
   const bad = verdicts.filter((v) => !v.ok),
     good = verdicts.length - bad.length;
@@ -476,9 +477,9 @@ function explanation(v: Verdict): HTMLElement {
 
 function confirmDelete(c: Context, id: string): HTMLElement {
   const close = () => {
-    c.ui.deleting.value = null;
+    c.ui.askToDelete(null);
   };
-  const name = c.library.list.peek().find((s) => s.id === id)?.name ?? c.editor.scene.peek()?.name ?? id;
+  const name = c.scenes.list.peek().find((s) => s.id === id)?.name ?? c.editor.scene.peek()?.name ?? id;
   return modal(
     'Delete the scene',
     'import',

@@ -9,7 +9,7 @@ import { icon } from './icons';
 import { thumbnail } from './thumbs';
 
 export function drawer(c: Context): HTMLElement {
-  const { library } = c;
+  const { scenes } = c;
   const query = signal('');
   const search = h('input', {
     type: 'search',
@@ -26,7 +26,7 @@ export function drawer(c: Context): HTMLElement {
   });
   const shown = () => {
     const q = query.value.trim().toLowerCase();
-    return library.list.value.filter((s) => !q || `${s.name} ${s.source ?? ''} ${s.id}`.toLowerCase().includes(q));
+    return scenes.list.value.filter((s) => !q || `${s.name} ${s.source ?? ''} ${s.id}`.toLowerCase().includes(q));
   };
   return h(
     'section',
@@ -49,7 +49,7 @@ const shownKey = (shown: () => SceneListItem[]) => (): string =>
 
 function list(c: Context, items: SceneListItem[]): HTMLElement {
   if (!items.length)
-    return h('p', { class: 'mut drop' }, () => (c.library.listed.value ? 'No scene of that name.' : 'Loading …'));
+    return h('p', { class: 'mut drop' }, () => (c.scenes.listed.value ? 'No scene of that name.' : 'Loading …'));
   return h(
     'div',
     null,

@@ -5,12 +5,12 @@ import { h, swap } from './dom';
 import { thumbnail } from './thumbs';
 
 export function emptyState(c: Context): Node {
-  const { editor, library } = c;
+  const { editor, library, scenes } = c;
   return swap(
-    () => (editor.scene.value === null && library.listed.value ? library.list.value : null),
+    () => (editor.scene.value === null && scenes.listed.value ? scenes.list.value : null),
     () => {
-      if (editor.scene.peek() || !library.listed.peek()) return null;
-      const cards = library.list.peek().slice(0, 3);
+      if (editor.scene.peek() || !scenes.listed.peek()) return null;
+      const cards = scenes.list.peek().slice(0, 3);
       return h(
         'div',
         { class: 'empty' },

@@ -54,7 +54,7 @@ export function hud(c: Context, picture: Picture): HTMLElement {
       () => (coachShown(c) ? coach(c) : null),
     ),
     swap(
-      () => editor.toast.value,
+      () => editor.notices.toast.value,
       () => toast(c),
     ),
     swap(
@@ -232,7 +232,7 @@ function dragHelp(c: Context): HTMLElement {
 // ---------------------------------------------------------------- messages
 
 const coachShown = (c: Context): boolean =>
-  c.ui.coach.value > 0 && !c.editor.dragging.value && !c.editor.toast.value && c.editor.scene.value !== null;
+  c.ui.coach.value > 0 && !c.editor.dragging.value && !c.editor.notices.toast.value && c.editor.scene.value !== null;
 
 function coach(c: Context): HTMLElement {
   const step = (n: number, text: string) =>
@@ -252,7 +252,7 @@ function coach(c: Context): HTMLElement {
 }
 
 function toast(c: Context): HTMLElement | null {
-  const t = c.editor.toast.peek();
+  const t = c.editor.notices.toast.peek();
   if (!t) return null;
   const button = t.undo
     ? h(
@@ -275,7 +275,7 @@ function toast(c: Context): HTMLElement | null {
             type: 'button',
             class: 'btn',
             onclick: () => {
-              c.editor.notify(null);
+              c.editor.notices.hide();
               t.action!.run();
             },
           },
@@ -291,18 +291,18 @@ function toast(c: Context): HTMLElement | null {
 }
 
 const bannerKey = (c: Context): string => {
-  const { editor, library } = c;
-  return editor.crash.value
+  const { editor, library, saving } = c;
+  return editor.notices.crash.value
     ? 'crash'
     : editor.away.value
       ? `away${editor.away.value.waiting}`
-      : library.conflict.value
+      : saving.conflict.value
         ? 'conflict'
         : (library.openError.value ?? '');
 };
 
 function banner(c: Context): HTMLElement | null {
-  const { editor, library } = c;
+  const { editor, library, saving } = c;
   const box = (ic: string, title: string, words: Child, buttons: Child): HTMLElement =>
     h(
       'div',
@@ -311,12 +311,16 @@ function banner(c: Context): HTMLElement | null {
       h('div', null, h('b', null, title), h('span', { class: 'sub' }, words)),
       buttons,
     );
-  if (editor.crash.peek())
+  if (editor.notices.crash.peek())
     return box('warn', 'Something broke in the editor. The scene is safe.', 'Reload the page to go on.', [
       h('button', { type: 'button', class: 'btn', onclick: () => location.reload() }, 'Reload'),
       h(
         'button',
-        { type: 'button', class: 'btn', onclick: () => void navigator.clipboard?.writeText(editor.crash.peek()!) },
+        {
+          type: 'button',
+          class: 'btn',
+          onclick: () => void navigator.clipboard?.writeText(editor.notices.crash.peek()!),
+        },
         'Copy details',
       ),
     ]);
@@ -329,12 +333,12 @@ function banner(c: Context): HTMLElement | null {
       'cloud',
       'The generator is not answering. Nothing is lost.',
       [words, ' Trying again in ', () => editor.away.value?.retryIn ?? 0, ' s.'],
-      h('button', { type: 'button', class: 'btn', onclick: () => void c.asking.tryNow() }, 'Try now'),
+      h('button', { type: 'button', class: 'btn', onclick: () => void c.generation.tryNow() }, 'Try now'),
     );
   }
-  if (library.conflict.peek())
+  if (saving.conflict.peek())
     return box('warn', 'This scene was changed elsewhere.', 'Nothing is overwritten until you choose.', [
-      h('button', { type: 'button', class: 'btn', onclick: () => void library.keepMine() }, 'Keep this version'),
+      h('button', { type: 'button', class: 'btn', onclick: () => void saving.keepMine() }, 'Keep this version'),
       h('button', { type: 'button', class: 'btn', onclick: () => void library.takeTheirs() }, 'Open the other one'),
     ]);
   if (library.openError.peek())
@@ -348,7 +352,7 @@ function banner(c: Context): HTMLElement | null {
           type: 'button',
           class: 'btn',
           onclick: () => {
-            library.openError.value = null;
+            library.dismissError();
           },
         },
         'Close',

@@ -17,10 +17,9 @@ import {
   toggleField,
   withField,
   goalTime,
-  type Field,
 } from '../edit/moves';
 import { laneWords } from '../edit/snap';
-import type { Part } from '../edit/editor';
+import type { Field, Part } from '../edit/editor';
 import { actionButton, iconButton } from './buttons';
 import { h, swap, type Child } from './dom';
 import { icon } from './icons';
@@ -311,8 +310,8 @@ function fieldsFor(c: Context, agent: () => Agent, part: Part): Child[] {
     return d?.grip.part === part && d.grip.handle === handle;
   };
   const focus = (field: Field) => () => {
-    editor.focusPart.value = part;
-    editor.lastField.value = { part, field };
+    editor.activate(part);
+    editor.touchField(part, field);
   };
   const shownText = (free: boolean, v: number | null, text: (v: number) => string) =>
     v === null ? '' : (free ? '≈ ' : '') + text(v);
@@ -366,7 +365,7 @@ function fieldsFor(c: Context, agent: () => Agent, part: Part): Child[] {
             return shownText(spec().heading === null, p && p.heading, (v) => num(Math.round(deg(v)), 0));
           },
           set: (v) => {
-            editor.snappedHeadings.delete(`${part}:${agent().id}`);
+            editor.setHeadingFollows(part, agent(), false);
             run({ heading: wrapAngle(rad(v)) });
           },
         }),
@@ -538,16 +537,16 @@ function futureRow(c: Context, agent: () => Agent, i: number): HTMLElement {
         if (cmd) editor.run(cmd);
       },
       onpointerenter: () => {
-        editor.hoverFuture.value = i;
+        editor.pointAt({ future: i });
       },
       onpointerleave: () => {
-        editor.hoverFuture.value = null;
+        editor.pointAt({ future: null });
       },
       onfocus: () => {
-        editor.hoverFuture.value = i;
+        editor.pointAt({ future: i });
       },
       onblur: () => {
-        editor.hoverFuture.value = null;
+        editor.pointAt({ future: null });
       },
     },
     h('span', { class: `l m${i}` }, LETTERS[i]),
@@ -580,7 +579,7 @@ function changesSection(c: Context): Node {
               type: 'button',
               'aria-pressed': () => String(editor.showBefore.value),
               onclick: () => {
-                editor.showBefore.value = !editor.showBefore.value;
+                editor.toggleBefore();
               },
             },
             'show before / after',
@@ -596,10 +595,10 @@ function changesSection(c: Context): Node {
               title: `${ch.name} ${ch.words}`,
               onclick: () => editor.setTime(ch.at),
               onpointerenter: () => {
-                editor.hover.value = ch.id;
+                editor.pointAt({ agent: ch.id });
               },
               onpointerleave: () => {
-                editor.hover.value = null;
+                editor.pointAt({ agent: null });
               },
             },
             h('i', { class: `b-${a.type}` }),

@@ -3,14 +3,20 @@ import '../styles/tokens.css';
 import '../styles/base.css';
 import '../styles/panels.css';
 import { effect } from '@preact/signals-core';
-import { Ui, type Context } from '../actions/context';
+import type { Context } from '../actions/context';
+import { Ui } from '../actions/ui';
 import { actionForKey, perform } from '../actions/registry';
 import { keyOf } from '../actions/keys';
 import { Editor } from '../edit/editor';
 import { Library } from '../edit/library';
-import { Asking } from '../edit/asking';
+import { Generation } from '../edit/generation';
+import { Importing } from '../edit/importing';
+import { Saving } from '../edit/saving';
+import { SceneFile } from '../edit/scene-file';
+import { SceneList } from '../edit/scene-list';
+import { HttpGenerator } from '../net/http-generator';
 import { Picture } from '../edit/picture';
-import { Gestures } from '../edit/gestures';
+import { Gestures } from '../edit/gestures/pointer';
 import { Playback } from '../edit/playback';
 import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
@@ -41,14 +47,18 @@ function build(): Context {
   });
   const client = new Client();
   const editor = new Editor();
-  const library = new Library(editor, client);
-  const asking = new Asking(editor, library, client);
+  const scenes = new SceneList(client);
+  const file = new SceneFile(editor);
+  const saving = new Saving(editor, file, scenes, client);
+  const library = new Library(editor, file, saving, scenes, client);
+  const importing = new Importing(editor, library, scenes, client);
+  const generation = new Generation(editor, file, saving, new HttpGenerator(client));
   const main = h('main', { class: 'stage', 'aria-label': 'Traffic scene' });
   const root = document.getElementById('app')!;
   root.append(main);
   const stage = new Stage(main);
   const picture = new Picture(stage, editor);
-  const gestures = new Gestures(stage, editor, asking, picture);
+  const gestures = new Gestures(stage, editor, picture, generation);
   const playback = new Playback(editor, stage);
   const files = h('input', {
     type: 'file',
@@ -57,26 +67,31 @@ function build(): Context {
     tabindex: '-1',
     'aria-hidden': 'true',
     onchange: () => {
-      void library.importFiles([...(files.files ?? [])]);
+      void importing.files([...(files.files ?? [])]);
       files.value = '';
     },
   });
   const c: Context = {
-    ui,
-    client,
     editor,
+    generation,
+    scenes,
     library,
-    asking,
-    stage,
-    gestures,
+    file,
+    saving,
+    importing,
     playback,
+    gestures,
+    picture,
+    stage,
+    client,
+    ui,
     chooseFiles: () => files.click(),
     focusField,
     focusGroup,
     focusAgent: (id) => document.querySelector<HTMLElement>(`[data-agent="${CSS.escape(id)}"]`)?.focus(),
     fit: () => fit(c),
   };
-  ui.drawer.value = innerWidth >= WIDE;
+  ui.showDrawer(innerWidth >= WIDE);
   watchView(c);
   const insp = h(
     'aside',
@@ -111,7 +126,7 @@ function build(): Context {
   stage.onFrame = (now) => {
     gestures.frame(now);
     playback.frame(now);
-    if (editor.follow.peek() && editor.playing.peek()) follow(c);
+    if (editor.playhead.follow.peek() && editor.playing.peek()) follow(c);
   };
   effect(() => {
     main.classList.toggle('bare', editor.scene.value === null);
@@ -125,9 +140,9 @@ function build(): Context {
   });
   library.onOpen = () => {
     fit(c, true);
-    ui.eventsPanel.value = false;
+    ui.showEvents(false);
     // Events of the log; with changes from last time the answer to them brings its own.
-    if (!editor.motion.peek().stale) void asking.rescore();
+    if (!editor.motion.peek().stale) void generation.score();
   };
   void document.fonts?.ready.then(() => stage.invalidate('agents', 'overlay'));
   return c;
@@ -240,7 +255,7 @@ function drops(c: Context): void {
     e.preventDefault();
     over(false);
     const list = [...(e.dataTransfer?.files ?? [])];
-    if (list.length) void c.library.importFiles(list);
+    if (list.length) void c.importing.files(list);
   });
 }
 
@@ -252,11 +267,11 @@ function coaching(c: Context): void {
     const a = editor.agent.value;
     if (a && opened) {
       opened = false;
-      ui.drawer.value = false;
+      ui.showDrawer(false);
     }
     if (!ui.coach.peek()) return;
-    if (ui.coach.peek() === 1 && a) ui.coach.value = 2;
-    if (editor.drag.value && ui.coach.peek() === 2) ui.coach.value = 3;
+    if (ui.coach.peek() === 1 && a) ui.coachTo(2);
+    if (editor.drag.value && ui.coach.peek() === 2) ui.coachTo(3);
     if (a && hasGoal(a.goal) && !editor.drag.value && ui.coach.peek() === 3) ui.endCoach();
   });
 }
@@ -264,7 +279,7 @@ function coaching(c: Context): void {
 /** An error nobody caught is said once; what was changed is saved already. */
 function crashes(c: Context): void {
   const say = (e: unknown): void => {
-    c.editor.crash.value = e instanceof Error ? `${e.message}\n${e.stack ?? ''}` : String(e);
+    c.editor.notices.crashed(e);
   };
   addEventListener('error', (e) => {
     if (e.error) say(e.error);
@@ -283,13 +298,13 @@ async function start(): Promise<void> {
   coaching(c);
   const wanted = new URLSearchParams(location.search).get('scene') ?? recall<string>('last-scene');
   try {
-    await c.library.refresh();
-    const ids = c.library.list.peek().map((s) => s.id);
+    await c.scenes.refresh();
+    const ids = c.scenes.list.peek().map((s) => s.id);
     const id = [wanted, FIRST_SCENE, ids[0]].find((i) => i && ids.includes(i));
     if (id) {
       await c.library.open(id);
       if (c.ui.coach.peek() && c.editor.scene.peek()) c.playback.introduce(3);
-    } else c.editor.status.value = { kind: 'ready' };
+    } else c.editor.answers.report({ kind: 'ready' });
   } catch {
     waitForServer(c);
   }
@@ -301,11 +316,11 @@ function waitForServer(c: Context): void {
   const again = (): void => {
     const wait = [1, 2, 4, 6][Math.min(3, tries++)];
     let left = wait;
-    c.editor.status.value = { kind: 'away' };
-    c.editor.away.value = { retryIn: left, waiting: 0 };
+    c.editor.answers.report({ kind: 'away' });
+    c.editor.answers.missing({ retryIn: left, waiting: 0 });
     const timer = setInterval(() => {
       left--;
-      c.editor.away.value = { retryIn: Math.max(0, left), waiting: 0 };
+      c.editor.answers.missing({ retryIn: Math.max(0, left), waiting: 0 });
       if (left > 0) return;
       clearInterval(timer);
       void c.client.answers().then((ok) => {

@@ -125,7 +125,7 @@ function seekable(c: Context, box: HTMLElement, axes: () => Axes): void {
     if ((e.target as Element).closest('.badge')) return;
     on = true;
     box.setPointerCapture(e.pointerId);
-    c.editor.playing.value = false;
+    c.editor.playhead.pause();
     seek(e);
   });
   box.addEventListener('pointermove', (e) => {
@@ -138,7 +138,7 @@ function seekable(c: Context, box: HTMLElement, axes: () => Axes): void {
     if (e.key !== 'ArrowLeft' && e.key !== 'ArrowRight') return;
     e.preventDefault();
     e.stopPropagation();
-    c.editor.playing.value = false;
+    c.editor.playhead.pause();
     c.editor.setTime(
       Math.round((c.editor.time.peek() + (e.key === 'ArrowLeft' ? -1 : 1) * (e.shiftKey ? 1 : 0.1)) * 10) / 10,
     );

@@ -159,10 +159,10 @@ export function eventList(c: Context, events: readonly TrafficEvent[]): HTMLElem
 
 export function goTo(c: Context, ev: TrafficEvent): void {
   const { editor, stage } = c;
-  editor.playing.value = false;
+  editor.playhead.pause();
   editor.setTime(ev.time);
-  editor.selectedEvent.value = ev;
-  c.ui.eventsPanel.value = true;
+  editor.pickEvent(ev);
+  c.ui.showEvents(true);
   const v = stage.view;
   const [x, y] = v.to(ev.at[0], ev.at[1]);
   if (x < v.inset.left + 60 || x > v.w - 60 || y < 60 || y > v.h - 60) {
@@ -236,7 +236,7 @@ export function eventsPanel(c: Context): HTMLElement {
                       class: 'opt',
                       onclick: () => {
                         editor.setTime(0);
-                        c.ui.eventsPanel.value = false;
+                        c.ui.showEvents(false);
                         editor.select(a.id);
                       },
                     },

@@ -1,6 +1,5 @@
 // Transport controls, what the others do, and the speed plot.
 import type { Context } from '../actions/context';
-import { RATES } from '../edit/playback';
 import { num } from '../model/units';
 import { iconButton, segments } from './buttons';
 import { h } from './dom';
@@ -32,10 +31,10 @@ export function timeline(c: Context): HTMLElement {
           type: 'button',
           class: 'btn rate',
           title: 'Playback speed (Shift < >)',
-          'aria-label': () => `Playback speed ${editor.rate.value} times`,
+          'aria-label': () => `Playback speed ${editor.playhead.rate.value} times`,
           onclick: (e: MouseEvent) => cycle(c, e.shiftKey ? -1 : 1),
         },
-        () => `${editor.rate.value}×`,
+        () => `${editor.playhead.rate.value}×`,
       ),
       iconButton(c, 'loop'),
       iconButton(c, 'next-event'),
@@ -62,7 +61,6 @@ function playButton(c: Context): HTMLElement {
   return button;
 }
 
-function cycle(c: Context, d: number): void {
-  const i = RATES.indexOf(c.editor.rate.peek() as (typeof RATES)[number]);
-  c.editor.rate.value = RATES[(i + d + RATES.length) % RATES.length];
+function cycle(c: Context, d: 1 | -1): void {
+  c.editor.playhead.changeRate(d, true);
 }

@@ -6,7 +6,7 @@ import { isRecorded } from '../model/scene';
 import { actionButton, iconButton } from './buttons';
 import { h, svg, swap } from './dom';
 import { icon } from './icons';
-import type { SaveState } from '../edit/library';
+import type { SaveState } from '../edit/saving';
 
 const SAVED: Record<SaveState, string> = {
   example: 'Example',
@@ -18,7 +18,7 @@ const SAVED: Record<SaveState, string> = {
 };
 
 export function topBar(c: Context): HTMLElement {
-  const { editor, library, ui } = c;
+  const { editor, saving, ui } = c;
   return h(
     'header',
     { class: 'top', 'data-group': 'top' },
@@ -45,9 +45,9 @@ export function topBar(c: Context): HTMLElement {
         editor.drag.value
           ? 'Dragging'
           : editor.scene.value
-            ? isRecorded(editor.scene.value.source) && library.saveState.value === 'example'
+            ? isRecorded(editor.scene.value.source) && saving.state.value === 'example'
               ? 'Recorded scene'
-              : SAVED[library.saveState.value]
+              : SAVED[saving.state.value]
             : '',
       ),
     ),
@@ -177,7 +177,8 @@ function menuButton(c: Context, name: string, ic: string, label: string): HTMLEl
       'aria-haspopup': 'menu',
       'aria-expanded': () => String(c.ui.menu.value === name),
       onclick: () => {
-        c.ui.menu.value = c.ui.menu.peek() === name ? null : name;
+        if (c.ui.menu.peek() === name) c.ui.closeMenu();
+        else c.ui.openMenu(name);
       },
     },
     icon(ic),
@@ -194,7 +195,8 @@ function exportButton(c: Context): HTMLElement {
       'aria-haspopup': 'menu',
       'aria-expanded': () => String(c.ui.menu.value === 'export'),
       onclick: () => {
-        c.ui.menu.value = c.ui.menu.peek() === 'export' ? null : 'export';
+        if (c.ui.menu.peek() === 'export') c.ui.closeMenu();
+        else c.ui.openMenu('export');
       },
     },
     icon('export'),
@@ -243,7 +245,7 @@ function menu(c: Context, name: string): HTMLElement {
     MENUS[name].map((id) => (id === null ? h('hr') : actionButton(c, id, { key: true }))),
   );
   el.addEventListener('click', () => {
-    ui.menu.value = null;
+    ui.closeMenu();
   });
   el.addEventListener('keydown', (e) => {
     const items = [...el.querySelectorAll<HTMLElement>('button')];
@@ -254,7 +256,7 @@ function menu(c: Context, name: string): HTMLElement {
     }
   });
   const away = (e: Event) => {
-    if (!el.contains(e.target as Node) && !(e.target as Element).closest?.('[data-menu]')) ui.menu.value = null;
+    if (!el.contains(e.target as Node) && !(e.target as Element).closest?.('[data-menu]')) ui.closeMenu();
     if (ui.menu.peek() !== name) removeEventListener('pointerdown', away, true);
   };
   addEventListener('pointerdown', away, true);

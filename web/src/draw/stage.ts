@@ -78,6 +78,14 @@ export class Stage {
     this.onView?.();
   }
 
+  /** The shape of the pointer over the picture; empty for the plain one. */
+  setCursor(name: string): void {
+    const { dataset } = this.element;
+    if ((dataset.cursor ?? '') === name) return;
+    if (name) dataset.cursor = name;
+    else delete dataset.cursor;
+  }
+
   themeChanged(): void {
     readPalette();
     this.invalidate('map', 'agents', 'overlay');

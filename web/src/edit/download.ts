@@ -1,24 +1,24 @@
 // Saves an export of what is on screen to a file.
 import { Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
-import type { Library } from './library';
+import type { SceneFile } from './scene-file';
 
 const ENDING: Record<string, string> = { dragtraffic: 'json', womd: 'tfrecord' };
 
-export async function download(c: { editor: Editor; library: Library; client: Client }, format: string): Promise<void> {
-  const json = c.library.complete();
+export async function download(c: { editor: Editor; file: SceneFile; client: Client }, format: string): Promise<void> {
+  const json = c.file.complete();
   if (!json) return;
   try {
     const { blob, name, loss } = await c.client.exportScene(json, format);
     const ending = name.includes('.') ? name.slice(name.indexOf('.') + 1) : (ENDING[format] ?? format);
     const file = `${slug(json.name ?? 'scene')}.${ending}`;
     offer(blob, file);
-    c.editor.notify(
+    c.editor.notices.show(
       { text: loss ? `${file} saved. This format has no place for: ${lossWords(loss)}.` : `${file} saved.` },
       9000,
     );
   } catch (e) {
-    c.editor.notify({
+    c.editor.notices.show({
       text: e instanceof Refused ? `Not exported: ${e.message}` : 'Not exported: the server is not answering.',
     });
   }

@@ -14,6 +14,8 @@ export type Hit =
   | { kind: 'agent'; id: string; pile: string[] }
   | { kind: 'none' };
 
+export const NOTHING: Hit = { kind: 'none' };
+
 const near = (p: readonly [number, number], x: number, y: number, r: number): boolean =>
   Math.hypot(p[0] - x, p[1] - y) <= r;
 
@@ -40,7 +42,7 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   const f = c.editor.futures.value;
   if (a && f && c.editor.layers.value.futures)
     for (let i = 0; i < f.modes.length; i++) if (futureAt(c, i, x, y)) return { kind: 'future', index: i };
-  return { kind: 'none' };
+  return NOTHING;
 }
 
 function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {

@@ -1,21 +1,19 @@
 // Changes of start and goal, said once and used by handles, keys and typed values alike.
 import { deg, rad, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { nearestLanes } from '../model/lanemap';
-import { choose, clearGoal, setBoth, setGoal, setSize, setStart, type Command } from '../model/commands';
+import { choose, setGoal, setSize, setStart, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
 import { limitsOf, topSpeed } from '../model/domain';
 import { localReach, shortfall } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
 import { metres, toUnit } from '../model/units';
-import type { Editor, Part } from './editor';
+import type { Editor, Field, Part } from './editor';
 import { lanesFor } from './snap';
 
-export type Field = 'pos' | 'heading' | 'speed';
-
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
-export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
+const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
 export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
-const FIELD_WORDS = { pos: 'Position', heading: 'Heading', speed: 'Speed' } as const;
+const FIELD_WORDS = { pos: 'position', heading: 'heading', speed: 'speed' } as const;
 
 const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
 
@@ -47,22 +45,14 @@ export function withField(a: Agent, part: Part, patch: Partial<GoalSpec>, fold =
 export function toggleField(e: Editor, a: Agent, part: Part, field: Field): Command | null {
   const spec = part === 'goal' ? a.goal : a.start;
   const shown = shownPose(e, a, part);
-  e.lastField.value = { part, field };
+  e.touchField(part, field);
   const free = spec[field] !== null;
-  const value = free
-    ? null
-    : !shown
-      ? null
-      : field === 'pos'
-        ? freeze([shown.x, shown.y])
-        : field === 'heading'
-          ? shown.heading
-          : shown.speed;
+  const value = free || !shown ? null : field === 'pos' ? freeze([shown.x, shown.y]) : shown[field];
   if (!free && value === null) return null;
   const c = withField(a, part, { [field]: value } as Partial<GoalSpec>);
   return {
     ...c,
-    name: `${part === 'goal' ? 'Goal ' : 'Start '}${FIELD_WORDS[field].toLowerCase()} of ${a.name} ${free ? 'free' : 'fixed'}`,
+    name: `${part === 'goal' ? 'Goal' : 'Start'} ${FIELD_WORDS[field]} of ${a.name} ${free ? 'free' : 'fixed'}`,
   };
 }
 
@@ -210,5 +200,3 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
   }
   return out;
 }
-
-export { clearGoal, setBoth };

@@ -2,6 +2,12 @@
 
 export type Vec = readonly [number, number];
 
+/** A place, in metres or in pixels. */
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
 export interface Pose {
   readonly x: number;
   readonly y: number;

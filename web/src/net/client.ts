@@ -37,10 +37,15 @@ export class Client {
     private readonly fetcher: typeof fetch = (...a) => fetch(...a),
   ) {}
 
+  /** The bare answer, whatever it says; `request` sorts out those that say no. */
+  send(path: string, init?: RequestInit): Promise<Response> {
+    return this.fetcher(this.base + path, init);
+  }
+
   async request(path: string, init?: RequestInit): Promise<Response> {
     let reply: Response;
     try {
-      reply = await this.fetcher(this.base + path, init);
+      reply = await this.send(path, init);
     } catch (e) {
       if ((e as Error).name === 'AbortError') throw e;
       throw new Away('The server did not answer.');
