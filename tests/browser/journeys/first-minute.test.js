@@ -83,7 +83,6 @@ journeys('the first minute', (stage) => {
     const mark = e.wire.asked.length;
     await e.drag(grip, [target[0] + 9, target[1] - 26], {
       moves: 24,
-      every: 30,
       then: (i) => (i === 16 ? e.picture('mid-drag') : null),
     });
     assert.match(await e.text('.helpbar'), /Others react when you let go/);
@@ -125,7 +124,7 @@ journeys('the first minute', (stage) => {
     assert.ok(Math.hypot(shown.x - asked.x_m, shown.y - asked.y_m) <= 0.08, 'the inspector shows the flag');
     assert.ok(distance(shown, car.end) > 3, 'the flag has moved');
     assert.match(await e.text('.hint'), /Goal reached in/);
-    await e.page.waitForTimeout(400);
+    await e.settled();
     await e.picture('after-release');
   });
 });

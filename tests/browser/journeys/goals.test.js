@@ -77,7 +77,7 @@ journeys('goals and values', (stage) => {
 
     await e.choose(rider.id);
     await e.key('z');
-    await e.page.waitForTimeout(200);
+    await e.settled();
     await tiller(e, 20);
     const turned = (await e.pose('Start')).heading;
     assert.ok(turn(turned, rider.start.heading) > 0.1, `turned by ${turn(turned, rider.start.heading).toFixed(2)} rad`);

@@ -14,8 +14,6 @@ const FLAGS = [
   '--disable-sync',
 ];
 const PATIENCE_MS = 15_000;
-/** Longer than the editor gathers keys before it asks. */
-const REST_MS = 160;
 
 export const launch = () => engine.launch({ executablePath, args: FLAGS });
 
@@ -176,36 +174,31 @@ export class Editor {
     await this.until(() => !document.querySelector('.fu'));
   }
 
-  /** Nothing is on the way any more. The page's own timer is waited for, however busy the machine is. */
+  /** Nothing is on the way any more, and what came of it is on the page. */
   async settled() {
     const end = Date.now() + PATIENCE_MS;
     for (;;) {
       const mark = this.wire.asked.length;
-      const busy = await this.page.evaluate(
-        (ms) =>
-          new Promise((resolve) => {
-            setTimeout(
-              () =>
-                requestAnimationFrame(() =>
-                  resolve(/Working|Refining|Loading/.test(document.querySelector('.status')?.textContent ?? '')),
-                ),
-              ms,
-            );
-          }),
-        REST_MS,
-      );
-      if (!busy && mark === this.wire.asked.length && this.wire.quiet()) return;
+      await this.frames(2);
+      await this.page.waitForSelector('main.stage[aria-busy="false"]');
+      await this.frames(2);
+      if (mark === this.wire.asked.length && this.wire.quiet()) return;
       if (Date.now() > end) throw new Error(`still busy: ${await this.text('.status')}`);
     }
   }
 
-  async drag(from, to, { moves = 10, every = 16, then } = {}) {
+  /** The page has drawn so many frames. */
+  async frames(n) {
+    for (let i = 0; i < n; i++) await this.page.evaluate(() => new Promise(requestAnimationFrame));
+  }
+
+  async drag(from, to, { moves = 10, then } = {}) {
     const { mouse } = this.page;
     await mouse.move(...from);
     await mouse.down();
     for (let i = 1; i <= moves; i++) {
       await mouse.move(from[0] + ((to[0] - from[0]) * i) / moves, from[1] + ((to[1] - from[1]) * i) / moves);
-      await this.page.waitForTimeout(every);
+      await this.frames(1);
       await then?.(i);
     }
   }

@@ -84,6 +84,11 @@ function connect(c: Context): void {
   effect(() => {
     stage.element.classList.toggle('bare', editor.scene.value === null);
   });
+  // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
+  effect(() => {
+    const busy = generation.busy.value || editor.status.value.kind === 'loading';
+    stage.element.setAttribute('aria-busy', String(busy));
+  });
   effect(() => {
     document.documentElement.dataset.theme = ui.theme.value;
     stage.themeChanged();

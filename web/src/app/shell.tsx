@@ -28,8 +28,7 @@ export function drawPage(c: Context, root: HTMLElement): void {
   root.append(c.stage.element);
   const over = mount(c.stage.element);
   const below = mount(root);
-  const draw = (what: ComponentChild, into: HTMLElement) =>
-    render(<AppProvider value={c}>{what}</AppProvider>, into);
+  const draw = (what: ComponentChild, into: HTMLElement) => render(<AppProvider value={c}>{what}</AppProvider>, into);
   draw(<TopBar />, top);
   draw(<OverPicture />, over);
   draw(<Around />, below);

@@ -1,12 +1,13 @@
 // What is asked of the generator, and when: six futures of whom one selects, live ones during a drag, everybody's
 // answer after a change. What becomes of the answers is in `reception.ts`.
+import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
 import type { MotionSet } from '../model/futures';
 import { canChange, GOAL_TIME, sceneKey, touched, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { trackJson } from '../model/write';
 import { Away } from '../net/client';
-import type { Generator, SceneRef } from '../net/generator';
+import type { Generator, Handlers, SceneRef } from '../net/generator';
 import { Absence } from './absence';
 import type { Editor, Step } from './editor';
 import type { Previews } from './gestures/chart';
@@ -24,8 +25,15 @@ export class Generation implements Previews {
   readonly #questions: Questions;
   readonly #reception: Reception;
   readonly #absence: Absence;
+  readonly #busy = signal(false);
+  /** What is asked and not answered yet, and a change that rests before it is asked about. */
+  readonly #open = new Set<object>();
   #rest: ReturnType<typeof setTimeout> | undefined;
+  #rested: () => void = () => undefined;
   #scoring: AbortController | null = null;
+
+  /** Is anything asked, or about to be? */
+  readonly busy: ReadonlySignal<boolean> = this.#busy;
 
   constructor(
     private readonly editor: Editor,
@@ -92,6 +100,7 @@ export class Generation implements Previews {
     const { editor } = this;
     this.saving.changed(scene);
     clearTimeout(this.#rest);
+    this.#rested();
     if (!editor.motion.peek().stale) {
       this.generator.cancel();
       editor.answers.report({ kind: 'ready' });
@@ -99,7 +108,13 @@ export class Generation implements Previews {
     } else if (this.#absence.now) {
       this.#absence.wait();
       if (step.agent) this.#sketch(step.agent, true);
-    } else this.#rest = setTimeout(() => this.#workOut(step), REST_MS);
+    } else {
+      const rested = (this.#rested = this.#begin());
+      this.#rest = setTimeout(() => {
+        this.#workOut(step);
+        rested();
+      }, REST_MS);
+    }
   }
 
   /** The Generate button: everybody anew. */
@@ -166,8 +181,38 @@ export class Generation implements Previews {
     const { editor } = this;
     const scene = editor.scene.peek();
     if (!scene || this.#absence.now) return;
-    this.generator.ask(this.#questions.make(scene, w, preview, this.#reception.of(scene, w)));
+    const handlers = this.#untilAnswered(this.#reception.of(scene, w));
+    this.generator.ask(this.#questions.make(scene, w, preview, handlers));
     if (!preview) editor.answers.report({ kind: 'refining', step: 0, steps: DEFAULTS.steps, ms: 0 });
+  }
+
+  /** Something is open from now on; what it gives back ends it. */
+  #begin(): () => void {
+    const token = {};
+    this.#open.add(token);
+    this.#busy.value = true;
+    return () => {
+      this.#open.delete(token);
+      this.#busy.value = this.#open.size > 0;
+    };
+  }
+
+  /** The same handlers, with the question open until one of its endings. */
+  #untilAnswered(on: Handlers): Handlers {
+    const end = this.#begin();
+    const ending =
+      <A extends unknown[]>(handle?: (...a: A) => void) =>
+      (...a: A): void => {
+        handle?.(...a);
+        end();
+      };
+    return {
+      ...on,
+      final: ending(on.final),
+      refused: ending(on.refused),
+      away: ending(on.away),
+      dropped: ending(on.dropped),
+    };
   }
 
   // -------------------------------------------------------------- scores
@@ -179,6 +224,7 @@ export class Generation implements Previews {
     if (!scene || !this.file.raw) return;
     this.#scoring?.abort();
     const abort = (this.#scoring = new AbortController());
+    const end = this.#begin();
     const shown = this.#shown(scene);
     if (editor.motion.peek().stale) editor.answers.settle(scene, shown, null);
     const scored = [...scene.agents.values()].filter(
@@ -193,6 +239,8 @@ export class Generation implements Previews {
     } catch (e) {
       // Without a score there are no events to show; the motions stand.
       if (e instanceof Away && step) this.#away({ agents: [], react: false, step });
+    } finally {
+      end();
     }
     if (step && !quiet && editor.status.peek().kind === 'refining') editor.answers.report({ kind: 'ready' });
   }

@@ -81,12 +81,16 @@ export class Driver {
     await this.settled();
   }
 
+  /** Everything is asked and answered, and what came of it is on the page. */
   async settled(): Promise<void> {
-    await this.page.waitForFunction(
-      () =>
-        !/Working|First guess|Refining|longer than usual/.test(document.querySelector('.status')?.textContent ?? ''),
-    );
-    await this.page.waitForTimeout(60);
+    await this.frames(2);
+    await this.page.waitForSelector('main.stage[aria-busy="false"]');
+    await this.frames(2);
+  }
+
+  /** The page has drawn so many frames. */
+  async frames(n: number): Promise<void> {
+    for (let i = 0; i < n; i++) await this.page.evaluate(() => new Promise(requestAnimationFrame));
   }
 
   async value(field: string, n = 0): Promise<number> {
@@ -105,13 +109,12 @@ export class Driver {
     await mouse.down();
     for (let i = 1; i <= steps; i++) {
       await mouse.move(from[0] + ((to[0] - from[0]) * i) / steps, from[1] + ((to[1] - from[1]) * i) / steps);
-      await this.page.waitForTimeout(16);
+      await this.frames(1);
     }
   }
 
   async release(): Promise<void> {
     await this.page.mouse.up();
-    await this.page.waitForTimeout(120);
     await this.settled();
   }
 

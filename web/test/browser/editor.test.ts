@@ -31,9 +31,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const before = await d.goal();
     const [x, y] = await d.at(...before);
     await d.drag([x + 8, y - 26], [x + 8, y - 120]);
-    await d.page.waitForTimeout(150);
-    const previews = d.server.log.filter((l) => l.react === false && l.conditions['1']?.goal);
-    expect(previews.length).toBeGreaterThan(2);
+    const previews = () => d.server.log.filter((l) => l.react === false && l.conditions['1']?.goal);
+    await expect.poll(() => previews().length).toBeGreaterThan(2);
     expect(await d.text('.helpbar')).toContain('Others react when you let go');
     await d.release();
     expect(d.last().react).toBe(true);
@@ -46,7 +45,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Control+z');
     expect(await d.text('.goalsec h3')).toContain('free');
     await d.key('Control+Shift+z');
-    await d.page.waitForTimeout(200);
+    await d.settled();
     expect(await d.goal()).toEqual(moved);
     // Undo and redo show what was worked out before; nobody is asked again.
     expect(d.server.log.slice(asked).filter((l) => l.react)).toEqual([]);
@@ -59,7 +58,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 60, y - 90]);
     await d.key('Escape');
     await d.page.mouse.up();
-    await d.page.waitForTimeout(100);
+    await d.settled();
     expect(await d.text('.goalsec h3')).toContain('free');
     expect(await d.page.locator('[data-action="undo"]').first().getAttribute('aria-disabled')).toBe('true');
   });
@@ -89,7 +88,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('14');
     await d.key('z');
-    await d.page.waitForTimeout(300);
+    await d.settled();
     const z = await d.zoom();
     const p: [number, number] = [await d.value('start-pos', 0), await d.value('start-pos', 1)];
     const [x, y] = await d.at(...p);
@@ -116,14 +115,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const f = d.page.locator('[data-field="goal-speed"]');
     await f.fill('1.2+0.4');
     await f.press('Enter');
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(d.last().conditions['17'].goal).toEqual({ time_s: 9, speed_mps: 1.6 });
     await d.page.locator('[aria-label="Goal speed fixed"]').click();
-    await d.page.waitForTimeout(200);
+    await d.settled();
     expect(await d.page.locator('[aria-label="Goal speed fixed"]').getAttribute('aria-checked')).toBe('false');
     await d.page.locator('[aria-label="Goal position fixed"]').click();
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(Object.keys(d.last().conditions['17'].goal!).sort()).toEqual(['time_s', 'x_m', 'y_m']);
     await f.fill('nonsense');
@@ -136,13 +133,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     await d.key('Alt+2');
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(await d.page.locator('.fu[aria-checked="true"]').getAttribute('data-future')).toBe('B');
     expect(d.last().agents).not.toContain('1');
     expect(d.last().scene).toBe('inline');
     await d.key('Control+z');
-    await d.page.waitForTimeout(100);
+    await d.settled();
     expect(await d.page.locator('.fu[aria-checked="true"]').getAttribute('data-future')).toBe('A');
   });
 
@@ -157,13 +153,11 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       const el = d.page.locator(`[data-field="${field}"]`).nth(n);
       await el.fill(v);
       await el.press('Enter');
-      await d.page.waitForTimeout(150);
       await d.settled();
     }
     expect(await d.text('.hint')).toContain('Too far for 4.0 s');
     expect(await d.page.locator('.opt').allInnerTexts()).toHaveLength(3);
     await d.page.locator('.opt').first().click();
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(await d.text('.toast')).toContain('nearest reachable');
   });
@@ -180,7 +174,6 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.insp')).toContain('Futures are out of date');
     d.server.options.away = false;
     await d.page.waitForSelector('.banner', { state: 'detached', timeout: 15_000 });
-    await d.page.waitForTimeout(300);
     await d.settled();
     expect(d.last().react).toBe(true);
     expect(d.last().conditions['1'].goal).toBeDefined();
@@ -279,8 +272,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const own = [...d.server.scenes.values()].find((s) => !s.readonly)!;
     await d.select('1');
     await d.key('g');
+    await d.settled();
     await d.page.waitForFunction(() => document.querySelector('.title small')?.textContent === 'Saved');
-    await d.page.waitForTimeout(500);
     const id = own.scene as unknown as { id: string };
     const stored = d.server.scenes.get(id.id)!;
     expect(stored.rev).toBeGreaterThan(1);
@@ -289,7 +282,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const asked = d.server.log.length;
     await d.page.reload();
     await d.ready();
-    await d.page.waitForTimeout(400);
+    await d.settled();
     expect(d.server.log.length).toBe(asked);
     await d.select('1');
     expect(await d.text('.goalsec h3')).not.toContain('free');
@@ -305,7 +298,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     await d.key('g');
-    await d.page.waitForTimeout(200);
+    await d.settled();
     await d.page.reload();
     await d.ready();
     expect(await d.text('.toast')).toContain('back');
@@ -320,11 +313,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const name = await d.text('.ih h2');
     await d.key('g');
     for (let i = 0; i < 5; i++) await d.key('Shift+ArrowUp');
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(await d.text('.toast')).toContain(`Goal of ${name} moved`);
     await d.key('Shift+f');
-    await d.page.waitForTimeout(150);
     await d.settled();
     const id = (d.last().agents as string[])[0];
     expect(d.last().conditions[id].goal).toHaveProperty('speed_mps');
@@ -358,22 +349,19 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     expect(await d.text('.tm')).toContain('/ 9.0 s');
     await d.page.locator('[data-action="length-20"]').click();
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(await d.text('.tm')).toContain('/ 20.0 s');
     expect(d.last()).toMatchObject({ agents: 'all', horizon_s: 20, replan_interval_s: 9 });
     await d.page.locator('[data-action="replan-3"]').click();
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(d.last()).toMatchObject({ horizon_s: 20, replan_interval_s: 3 });
     await d.select('1');
     expect(await d.page.locator('.plot text').allTextContents()).toContain('20 s');
     const time = d.page.locator('[data-field="goal-time"]');
     await d.key('g');
-    await d.page.waitForTimeout(150);
+    await d.settled();
     await time.fill('25');
     await time.press('Enter');
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(await d.value('goal-time')).toBe(20);
     expect(d.last().conditions['1'].goal!.time_s).toBe(20);
@@ -385,12 +373,11 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Space');
     await d.page.waitForFunction(() => document.querySelector('.tm')?.textContent?.startsWith('20.0 s'));
     await d.page.locator('[data-action="length-12"]').click();
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(await d.value('goal-time')).toBe(12);
     expect(await d.text('.tm')).toMatch(/12\.0 s\s+\/ 12\.0 s/);
     await d.key('Control+z');
-    await d.page.waitForTimeout(100);
+    await d.settled();
     expect(await d.value('goal-time')).toBe(20);
     expect(await d.text('.tm')).toContain('/ 20.0 s');
   });
