@@ -8,8 +8,8 @@ import type { Labels } from './labels';
 import type { View } from './view';
 
 /** Seconds of travel the speed arrow shows, in map metres. */
-export const arrowSeconds = (type: AgentType): number => (type === 'pedestrian' ? 5 : type === 'cyclist' ? 2 : 1);
-export const STALK = 24;
+const arrowSeconds = (type: AgentType): number => (type === 'pedestrian' ? 5 : type === 'cyclist' ? 2 : 1);
+const STALK = 24;
 const GAP = 5;
 const SHORTEST_ARROW = 10;
 

@@ -239,7 +239,7 @@ function lineStyle(type: string): string {
 }
 
 /** A crosswalk as one broad dashed stroke along its longest side. */
-export function stripeOf(poly: readonly Vec[]): Stripe {
+function stripeOf(poly: readonly Vec[]): Stripe {
   let best = 0,
     heading = 0;
   for (let i = 0; i < poly.length; i++) {

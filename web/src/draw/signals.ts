@@ -7,7 +7,7 @@ import type { View } from './view';
 
 type Light = 'stop' | 'caution' | 'go' | 'unknown';
 
-export function stateAt(s: Signal, t: number): Light {
+function stateAt(s: Signal, t: number): Light {
   const step = Math.floor(t / STEP_S + 1e-6);
   let state = 'unknown';
   for (const [first, name] of s.states) if (first <= step) state = name;

@@ -26,7 +26,7 @@ export function sizeOnScreen(a: Sized, z: number): [number, number] {
 const cache = new Map<string, HTMLCanvasElement>();
 const PAD = 3;
 
-export function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLCanvasElement {
+function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLCanvasElement {
   const [l, w] = sizeOnScreen(a, z);
   const L = Math.round(l * 2) / 2,
     W = Math.round(w * 2) / 2;

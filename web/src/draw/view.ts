@@ -1,8 +1,8 @@
 // World to screen: one scale and one offset. y points up in the world and down on the screen.
 import { clamp, type Box, type Vec } from '../model/geometry';
 
-export const MIN_ZOOM = 0.5;
-export const MAX_ZOOM = 40;
+const MIN_ZOOM = 0.5;
+const MAX_ZOOM = 40;
 /** 100 % in the zoom control. */
 export const HOME_ZOOM = 8;
 

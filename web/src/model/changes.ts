@@ -58,7 +58,7 @@ export function findChanges(scene: Scene, before: MotionSet, after: MotionSet, e
   return out.sort((x, y) => y.size - x.size);
 }
 
-export function furthest(a: Motion, b: Motion, duration: number): { d: number; t: number } {
+function furthest(a: Motion, b: Motion, duration: number): { d: number; t: number } {
   let d = 0,
     at = 0;
   for (let t = 0; t <= duration + 1e-6; t += STEP_S * 2) {

@@ -25,7 +25,7 @@ export interface Command {
 type AgentPatch = Partial<Pick<Agent, 'start' | 'goal' | 'chosen' | 'length' | 'width'>>;
 const PATCHABLE = ['start', 'goal', 'chosen', 'length', 'width'] as const;
 
-export function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatch>, fold?: string): Command {
+function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatch>, fold?: string): Command {
   return {
     name,
     fold,
@@ -96,7 +96,7 @@ export function resetAll(scene: Scene): Command {
 
 type ScenePatch = Partial<Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration'>>;
 
-export function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
+function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
   return {
     name,
     fold,

@@ -1,6 +1,6 @@
 // Events as the timeline and the list show them: facts from the score, plus speeds read off the motions.
 import { motionOf } from './changes';
-import type { MotionSet, Score } from './futures';
+import type { MotionSet } from './futures';
 import { poseAt } from './motion';
 import type { Agent, Scene } from './scene';
 import { num, speedLabel } from './units';
@@ -112,5 +112,3 @@ export function summary(events: readonly TrafficEvent[]): string {
   );
   return parts.length ? parts.join(' · ') : 'No collisions, no near misses';
 }
-
-export const noScore: Score = { collisions: [], nearMisses: [], minTtc: null, offroadShare: null };

@@ -94,7 +94,7 @@ export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor
 }
 
 /** A short plain name from the shape of the motion, for generators that send none. */
-export function describe(m: Motion, isPedestrian: boolean): string {
+function describe(m: Motion, isPedestrian: boolean): string {
   const n = m.x.length - 1;
   const a = poseAtStep(m, m.first),
     b = endPose(m);

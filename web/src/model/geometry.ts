@@ -22,12 +22,12 @@ export interface Box {
   y1: number;
 }
 
-export const TAU = Math.PI * 2;
+const TAU = Math.PI * 2;
 export const rad = (degrees: number): number => (degrees * Math.PI) / 180;
 export const deg = (radians: number): number => (radians * 180) / Math.PI;
 export const clamp = (v: number, lo: number, hi: number): number => Math.min(hi, Math.max(lo, v));
 export const lerp = (a: number, b: number, t: number): number => a + (b - a) * t;
-export const dist = (a: Vec, b: Vec): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
+const dist = (a: Vec, b: Vec): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
 /** The one place where angles are wrapped: to [-pi, pi). */
 export function wrapAngle(a: number): number {
@@ -134,23 +134,8 @@ export function curveBetween(a: OnLine, b: OnLine, n = 30, pull = 0.42): Vec[] {
   return out;
 }
 
-export function corners(p: OnLine, length: number, width: number): Vec[] {
-  const c = Math.cos(p.heading),
-    s = Math.sin(p.heading),
-    l = length / 2,
-    w = width / 2;
-  return (
-    [
-      [l, w],
-      [l, -w],
-      [-l, -w],
-      [-l, w],
-    ] as const
-  ).map(([u, v]): Vec => [p.x + u * c - v * s, p.y + u * s + v * c]);
-}
-
 /** Offset of a point in a pose's own frame: metres ahead and to the left. */
-export function toLocal(p: OnLine, x: number, y: number): Vec {
+function toLocal(p: OnLine, x: number, y: number): Vec {
   const c = Math.cos(p.heading),
     s = Math.sin(p.heading),
     dx = x - p.x,

@@ -31,9 +31,6 @@ export class History {
   get depth(): number {
     return this.done.length;
   }
-  get inTransaction(): boolean {
-    return this.base !== null;
-  }
 
   /** Does a command; key repeats on the same field within 600 ms fold into one step. */
   run(command: Command): Scene {

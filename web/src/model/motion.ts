@@ -65,7 +65,6 @@ export const nowhere: Motion = {
 };
 
 export const isValidAt = (m: Motion, step: number): boolean => m.valid.some(([a, b]) => step >= a && step < b);
-export const firstValid = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
 export const lastStep = (m: Motion): number => (m.valid.length ? m.valid[m.valid.length - 1][1] - 1 : m.first - 1);
 
 export function poseAtStep(m: Motion, step: number): Pose | null {

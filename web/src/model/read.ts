@@ -147,7 +147,7 @@ function offLanes(map: LaneMap, p: Pose | null): boolean {
   return !p || nearestLanes(map, p.x, p.y, null, 1.6, (l) => l.kind === 'road').length === 0;
 }
 
-export function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
+function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
   if (a.type === 'pedestrian' || a.type === 'cyclist') return a.type;
   if (a.type !== 'vehicle') return 'other';
   switch (a.subtype) {
@@ -169,7 +169,7 @@ export function kindOf(a: { type: string; subtype?: string; length_m: number; wi
   return a.length_m > 11 ? 'bus' : a.length_m > 6.6 ? 'truck' : 'car';
 }
 
-export const KIND_NAMES: Record<Kind, string> = {
+const KIND_NAMES: Record<Kind, string> = {
   car: 'Car',
   truck: 'Truck',
   bus: 'Bus',

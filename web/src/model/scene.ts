@@ -102,9 +102,8 @@ export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !==
 const samePos = (a: Vec | null, b: Vec | null): boolean => a === b || (!!a && !!b && a[0] === b[0] && a[1] === b[1]);
 export const sameSpec = (a: StartSpec, b: StartSpec): boolean =>
   samePos(a.pos, b.pos) && a.heading === b.heading && a.speed === b.speed;
-export const sameGoal = (a: GoalSpec, b: GoalSpec): boolean => sameSpec(a, b) && a.time === b.time;
 
-export const startChanged = (a: Agent): boolean => !sameSpec(a.start, logStartSpec(a.logStart));
+const startChanged = (a: Agent): boolean => !sameSpec(a.start, logStartSpec(a.logStart));
 export const sizeChanged = (a: Agent): boolean => a.length !== a.logSize[0] || a.width !== a.logSize[1];
 
 /** Has the user asked anything of this road user? */

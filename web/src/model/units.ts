@@ -16,7 +16,6 @@ export function num(value: number, decimals = 1): string {
 
 export const metres = (v: number, decimals = v < 10 ? 1 : 0): string => `${num(v, decimals)} m`;
 export const seconds = (v: number): string => `${num(v, 1)} s`;
-export const degrees = (radians: number): string => num(Math.round(deg(radians)), 0);
 export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), unit === 'm/s' ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;
 

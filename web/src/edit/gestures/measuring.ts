@@ -2,7 +2,7 @@
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 
-export class Measuring implements State {
+class Measuring implements State {
   readonly name = 'measuring';
   constructor(
     private readonly chart: Chart,
