@@ -177,3 +177,14 @@ export function paintIcon(
   g.fillStyle = colour;
   g.fill();
 }
+
+/** A pill at a place given as a pair. */
+export function tag(
+  g: CanvasRenderingContext2D,
+  labels: Labels,
+  [x, y]: readonly [number, number],
+  text: string,
+  s: PillStyle,
+): void {
+  pill(g, labels, x, y, text, s);
+}

@@ -3,6 +3,7 @@ import { summary } from '../../model/events';
 import { touched } from '../../model/scene';
 import type { Context } from '../../actions/context';
 import type { Status as GeneratorStatus } from '../../edit/answers';
+import { outOfReach } from '../../edit/goal-verdict';
 import { useApp } from '../parts/app-context';
 
 interface Line {
@@ -77,7 +78,9 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
 
 function settledLine(c: Context, ms: number, adapted: number | null): Line {
   const { editor } = c;
-  if (unreachable(c)) return { dot: 'near', text: 'Showing futures to the nearest reachable point' };
+  const a = editor.agent.value;
+  if (a?.goal.pos && outOfReach(editor, a))
+    return { dot: 'near', text: 'Showing futures to the nearest reachable point' };
   if (!editor.selection.value) return sceneLine(c);
   const n = editor.futures.value?.modes.length ?? 6;
   const parts = [
@@ -86,15 +89,6 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
     adapted ? `${adapted} other${adapted > 1 ? 's' : ''} adapted` : '',
   ];
   return { dot: '', text: parts.filter(Boolean).join(' · ') };
-}
-
-function unreachable({ editor: e }: Context): boolean {
-  const a = e.agent.value;
-  if (!a?.goal.pos) return false;
-  const live = e.liveReach.value;
-  const verdict = live?.id === a.id ? live.reach : e.dragging.value ? null : e.motion.value.reach.get(a.id);
-  if (verdict) return verdict.status === 'unreachable';
-  return e.localReach.value !== null && e.localReach.value.kind !== 'ok';
 }
 
 /** What happens in the scene. */

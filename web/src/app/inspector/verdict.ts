@@ -1,11 +1,12 @@
 // What is to be said of the goal of a road user, in words: whether it can be reached, whether it was.
 import type { Context } from '../../actions/context';
 import { comparedWithLog } from '../../model/changes';
-import { isSettled, LETTERS, reachWords, type Futures } from '../../model/futures';
+import { isSettled, LETTERS, type Futures } from '../../model/futures';
 import { nearestLanes } from '../../model/lanemap';
 import { endPose, endsBefore, poseAt } from '../../model/motion';
 import type { Agent } from '../../model/scene';
 import { metres, seconds } from '../../model/units';
+import { outOfReach } from '../../edit/goal-verdict';
 
 export interface Verdict {
   readonly kind: 'ok' | 'near' | 'plain';
@@ -48,18 +49,13 @@ const NO_LANE: Verdict = {
   snap: true,
 };
 
-/** Can the goal be reached? The generator's verdict where it is known, the quick one during the drag. */
+/** Can the goal be reached? During a drag the quick answer stands even when it is yes. */
 function onReach({ editor: e }: Context, a: Agent): Verdict | null {
   if (!a.goal.pos) return null;
-  const m = e.motion.value;
-  const dragging = e.dragging.value;
-  const live = e.liveReach.value;
-  const known = live?.id === a.id ? live.reach : !dragging && !m.stale ? (m.reach.get(a.id) ?? null) : null;
-  const local = e.localReach.value;
-  const bad = { kind: 'near', icon: 'warn', remedies: true } as const;
-  if (known?.status === 'unreachable') return { ...bad, ...reachWords(known, a.goal.time) };
-  if (!known && local && local.kind !== 'ok') return { ...bad, title: local.title, words: local.words };
-  return dragging && local ? { kind: 'ok', icon: 'check', title: local.title, words: local.words } : null;
+  const bad = outOfReach(e, a);
+  if (bad) return { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
+  const local = e.dragging.value ? e.localReach.value : null;
+  return local && { kind: 'ok', icon: 'check', title: local.title, words: local.words };
 }
 
 function offLanes({ editor }: Context, a: Agent): boolean {
