@@ -63,6 +63,7 @@ journeys('figures', (stage) => {
       frame: spread(frames.slice(1).map((t, i) => t - frames[i])),
       cpuPerFrame: Number((drag.cpuMs / Math.max(1, drag.drawn.length)).toFixed(1)),
       pageThreadPerFrame: Number((drag.pageMs / Math.max(1, drag.drawn.length)).toFixed(2)),
+      pageThreadPerMove: Number((drag.pageMs / MOVES).toFixed(2)),
       requests: asked.length,
       answered: asked.filter((a) => a.draft).length,
       releaseToAnswer: spread(releases.map((r) => r.answered)),
@@ -75,7 +76,7 @@ journeys('figures', (stage) => {
     for (const [name, value] of Object.entries(figures))
       if (typeof value === 'object')
         console.log(`  ${name.padEnd(16)} p50 ${value.p50}  p95 ${value.p95}  n ${value.n}`);
-    const { cpuPerFrame, pageThreadPerFrame, answered } = figures;
+    const { cpuPerFrame, pageThreadPerFrame, pageThreadPerMove, answered } = figures;
     console.log(
       `  CPU per frame ${cpuPerFrame}, of the page's thread ${pageThreadPerFrame}; opened in ${figures.opened}`,
     );
