@@ -1,4 +1,4 @@
-// The grid of the plot with its figures, the lane of events, and the times at which something happens.
+// The grid of the plot with its figures, and the lane of events.
 import { Fragment } from 'preact';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
@@ -16,7 +16,6 @@ export function Grid({ axes: a }: { axes: Axes }) {
       </text>
       <SpeedLines axes={a} />
       <SecondLines axes={a} />
-      <EventTimes axes={a} />
     </>
   );
 }
@@ -59,7 +58,8 @@ function SecondLines({ axes: a }: { axes: Axes }) {
   );
 }
 
-function EventTimes({ axes: a }: { axes: Axes }) {
+/** The times at which something happens, marked behind the curves. */
+export function EventTimes({ axes: a }: { axes: Axes }) {
   const { editor } = useApp();
   return (
     <>

@@ -1,6 +1,6 @@
 // Speed over time of the selected road user, with a lane of events above. Curves are drawn again when they change,
 // once a frame at most; the playhead only moves.
-import { useLayoutEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { useApp } from '../parts/app-context';
@@ -8,7 +8,7 @@ import { useFrameTick } from '../parts/hooks';
 import { axesOf, X0, type Axes, type Size } from './axes';
 import { Curves } from './curves';
 import { EventBadges } from './event-badges';
-import { Grid } from './grid';
+import { EventTimes, Grid } from './grid';
 
 /** Everything that the curves, the grid and the badges show. */
 const shown = ({ editor }: Context): unknown => [
@@ -69,11 +69,15 @@ interface DrawingProps {
 
 function Drawing({ tick, size }: DrawingProps) {
   void tick.value;
-  const axes = axesOf(useApp(), size.peek());
+  const now = axesOf(useApp(), size.peek());
+  // While a goal is dragged the curves change and the axes hardly ever do: the grid is left as it is.
+  const axes = useMemo(() => now, [now.x1, now.height, now.top, now.unit, now.duration]);
+  const grid = useMemo(() => <Grid axes={axes} />, [axes]);
   return (
     <>
       <g>
-        <Grid axes={axes} />
+        {grid}
+        <EventTimes axes={axes} />
         <Curves axes={axes} />
       </g>
       <g>
