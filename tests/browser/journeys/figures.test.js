@@ -77,9 +77,8 @@ journeys('figures', (stage) => {
       if (typeof value === 'object')
         console.log(`  ${name.padEnd(16)} p50 ${value.p50}  p95 ${value.p95}  n ${value.n}`);
     const { cpuPerFrame, pageThreadPerFrame, pageThreadPerMove, answered } = figures;
-    console.log(
-      `  CPU per frame ${cpuPerFrame}, of the page's thread ${pageThreadPerFrame}; opened in ${figures.opened}`,
-    );
+    console.log(`  CPU per frame ${cpuPerFrame}; opened in ${figures.opened}`);
+    console.log(`  the page's thread: ${pageThreadPerFrame} a frame, ${pageThreadPerMove} a move`);
     console.log(`  ${asked.length} requests for ${moves.length} moves, ${answered} drawn`);
     assert.equal(moves.length, MOVES);
     assert.ok(shown.length > 0, 'futures were drawn during the drag');

@@ -21,6 +21,8 @@ export const chromiumPath = PLACES.find((p) => p && existsSync(p)) ?? null;
 if (!chromiumPath) console.log('Browser tests are skipped: no Chromium found (set CHROMIUM to its path).');
 
 export async function buildPage(): Promise<void> {
+  // What is tested is what is shipped; under the runner's own NODE_ENV it would be a development build.
+  process.env.NODE_ENV = 'production';
   await build({ root: fileURLToPath(new URL('../..', import.meta.url)), logLevel: 'error' });
 }
 
