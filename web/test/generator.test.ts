@@ -1,28 +1,81 @@
 // The conversation with the generator: latest wins, late answers are dropped, losses are survived.
 import { afterEach, describe, expect, it } from 'vitest';
-import { Generator, type Ask, type Handlers } from '../src/net/generator';
+import type { SceneJson } from '../src/model/json';
+import { Client } from '../src/net/client';
+import type { Handlers, Question } from '../src/net/generator';
+import { HttpGenerator, type Patience } from '../src/net/http-generator';
+import { crossingJson } from './helpers';
 import { readEvents } from '../src/net/stream';
 import { startStandIn, type StandIn } from './standin/server.mjs';
 
 let server: StandIn | null = null;
-afterEach(async () => { await server?.close(); server = null; });
+afterEach(async () => {
+  await server?.close();
+  server = null;
+});
 
-interface Seen { drafts: number[]; final: number; away: number; refused: string[]; dropped: number }
+const generator = (url: string, patience?: Partial<Patience>) => new HttpGenerator(new Client(url), patience);
 
-function ask(preview: boolean, goal: number): { ask: Ask; seen: Seen; done: Promise<void> } {
+interface Seen {
+  drafts: number[];
+  final: number;
+  away: number;
+  refused: string[];
+  dropped: number;
+}
+
+function ask(preview: boolean, goal: number): { ask: Question; seen: Seen; done: Promise<void> } {
   const seen: Seen = { drafts: [], final: 0, away: 0, refused: [], dropped: 0 };
   let end!: () => void;
-  const done = new Promise<void>((r) => { end = r; });
+  const done = new Promise<void>((r) => {
+    end = r;
+  });
   const on: Handlers = {
-    draft: (_, step) => seen.drafts.push(step), final: () => { seen.final++; end(); }, refused: (p) => { seen.refused.push(p.code); end(); }, away: () => { seen.away++; end(); }, dropped: () => { seen.dropped++; end(); },
+    draft: (_, step) => seen.drafts.push(step),
+    final: () => {
+      seen.final++;
+      end();
+    },
+    refused: (p) => {
+      seen.refused.push(p.code);
+      end();
+    },
+    away: () => {
+      seen.away++;
+      end();
+    },
+    dropped: () => {
+      seen.dropped++;
+      end();
+    },
   };
-  return { seen, done, ask: { preview, on, scenePart: () => '"scene_id":"demo-crossing"', fullPart: async () => '"scene_id":"demo-crossing"', options: { agents: ['1'], react: !preview, conditions: { 1: { goal: { x_m: goal, y_m: 0 } } }, seed: 0, diversity: 1, steps: 5, stream_modes: 'all', score: !preview } } };
+  return {
+    seen,
+    done,
+    ask: {
+      preview,
+      on,
+      scene: () => ({ id: 'demo-crossing' }),
+      whole: () => crossingJson(),
+      options: {
+        agents: ['1'],
+        react: !preview,
+        conditions: { 1: { goal: { x_m: goal, y_m: 0 } } },
+        seed: 0,
+        diversity: 1,
+        steps: 5,
+        stream_modes: 'all',
+        score: !preview,
+      },
+    },
+  };
 }
 
 describe('generator', () => {
   it('shows six steps and a final answer', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
-    const g = new Generator(server.url), a = ask(true, 10);
+    const g = generator(server.url),
+      a = ask(true, 10);
     g.ask(a.ask);
     await a.done;
     expect(a.seen).toEqual({ drafts: [0, 1, 2, 3, 4, 5], final: 1, away: 0, refused: [], dropped: 0 });
@@ -30,8 +83,16 @@ describe('generator', () => {
 
   it('shows each window from its first guess on', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
-    const g = new Generator(server.url), a = ask(false, 10), windows: number[] = [];
-    const on: Handlers = { ...a.ask.on, draft: (e, step, steps, ms) => { windows.push(e.window ?? 0); a.ask.on.draft(e, step, steps, ms); } };
+    const g = generator(server.url),
+      a = ask(false, 10),
+      windows: number[] = [];
+    const on: Handlers = {
+      ...a.ask.on,
+      draft: (e, step, steps, ms) => {
+        windows.push(e.window ?? 0);
+        a.ask.on.draft(e, step, steps, ms);
+      },
+    };
     g.ask({ ...a.ask, on, options: { ...a.ask.options, horizon_s: 20, replan_interval_s: 9 } });
     await a.done;
     expect(a.seen.drafts).toEqual([0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5]);
@@ -41,9 +102,14 @@ describe('generator', () => {
 
   it('keeps one on the way and one waiting while a drag goes on', async () => {
     server = await startStandIn({ port: 0, delay: 15 });
-    const g = new Generator(server.url);
+    const g = generator(server.url);
     const all = [];
-    for (let i = 0; i < 30; i++) { const a = ask(true, i); all.push(a); g.ask(a.ask); await new Promise((r) => setTimeout(r, 8)); }
+    for (let i = 0; i < 30; i++) {
+      const a = ask(true, i);
+      all.push(a);
+      g.ask(a.ask);
+      await new Promise((r) => setTimeout(r, 8));
+    }
     await all[all.length - 1].done;
     const last = all[all.length - 1].seen;
     expect(last.final).toBe(1);
@@ -56,7 +122,9 @@ describe('generator', () => {
 
   it('lets a release overtake the previews at once', async () => {
     server = await startStandIn({ port: 0, delay: 20 });
-    const g = new Generator(server.url), p = ask(true, 1), c = ask(false, 2);
+    const g = generator(server.url),
+      p = ask(true, 1),
+      c = ask(false, 2);
     g.ask(p.ask);
     g.ask(c.ask);
     await c.done;
@@ -68,7 +136,7 @@ describe('generator', () => {
 
   it('never goes back a step when events arrive out of order or are lost', async () => {
     server = await startStandIn({ port: 0, delay: 1, shuffle: true, loss: 0.3 });
-    const g = new Generator(server.url);
+    const g = generator(server.url);
     for (let i = 0; i < 8; i++) {
       const a = ask(true, i);
       g.ask(a.ask);
@@ -80,20 +148,24 @@ describe('generator', () => {
 
   it('says when nobody answers, and when the answer is no', async () => {
     server = await startStandIn({ port: 0, away: true });
-    const g = new Generator(server.url), a = ask(false, 1);
+    const g = generator(server.url),
+      a = ask(false, 1);
     g.ask(a.ask);
     await a.done;
     expect(a.seen.away).toBe(1);
     server.options.away = false;
     const b = ask(false, 1);
-    g.ask({ ...b.ask, scenePart: () => '"scene_id":"nowhere"', fullPart: async () => '"scene_id":"nowhere"' });
+    const unknown = { ...crossingJson(), map: { ref: 'sha256:unknown' } };
+    g.ask({ ...b.ask, scene: () => ({ id: 'nowhere' }), whole: () => unknown });
     await b.done;
-    expect(b.seen.refused).toEqual(['not-found']);
+    expect(b.seen.refused).toEqual(['unknown-map']);
   });
 
   it('waits for its turn when the queue is full, without calling the generator away', async () => {
     server = await startStandIn({ port: 0, delay: 1, busy: 3 });
-    const g = new Generator(server.url), p = ask(true, 1), c = ask(false, 1);
+    const g = generator(server.url),
+      p = ask(true, 1),
+      c = ask(false, 1);
     g.ask(p.ask);
     await p.done;
     expect(p.seen).toMatchObject({ dropped: 1, away: 0, final: 0 });
@@ -105,8 +177,19 @@ describe('generator', () => {
   it('notices a generator that hangs: slow at first, then away', async () => {
     server = await startStandIn({ port: 0, delay: 1, hang: true });
     let asked = 0;
-    const g = new Generator(server.url, undefined, { slow: 60, look: 200, lost: 2000, tick: 20, alive: async () => { asked++; return false; } });
-    const a = ask(true, 1), waiting = ask(true, 2), slow: number[] = [];
+    const g = generator(server.url, {
+      slow: 60,
+      look: 200,
+      lost: 2000,
+      tick: 20,
+      alive: async () => {
+        asked++;
+        return false;
+      },
+    });
+    const a = ask(true, 1),
+      waiting = ask(true, 2),
+      slow: number[] = [];
     g.ask({ ...a.ask, on: { ...a.ask.on, slow: (ms) => slow.push(ms) } });
     g.ask(waiting.ask);
     await a.done;
@@ -125,7 +208,14 @@ describe('generator', () => {
 
   it('waits on for a server that is only busy, up to a limit', async () => {
     server = await startStandIn({ port: 0, delay: 1, hang: true });
-    const g = new Generator(server.url, undefined, { slow: 40, look: 80, lost: 300, tick: 20, alive: async () => true }), a = ask(true, 1);
+    const g = generator(server.url, {
+        slow: 40,
+        look: 80,
+        lost: 300,
+        tick: 20,
+        alive: async () => true,
+      }),
+      a = ask(true, 1);
     const began = performance.now();
     g.ask(a.ask);
     await a.done;
@@ -135,9 +225,14 @@ describe('generator', () => {
 
   it('sends the map again when the server does not know it', async () => {
     server = await startStandIn({ port: 0, delay: 1 });
-    const scene = [...server.scenes.values()][0].scene;
-    const g = new Generator(server.url), a = ask(false, 1);
-    g.ask({ ...a.ask, scenePart: () => `"scene":${JSON.stringify({ ...scene, map: { ref: 'sha256:unknown' } })}`, fullPart: async () => `"scene":${JSON.stringify(scene)}` });
+    const scene = [...server.scenes.values()][0].scene as unknown as SceneJson;
+    const g = generator(server.url),
+      a = ask(false, 1);
+    g.ask({
+      ...a.ask,
+      scene: () => ({ scene: { ...scene, map: { ref: 'sha256:unknown' } } }),
+      whole: () => scene,
+    });
     await a.done;
     expect(a.seen.final).toBe(1);
   });
@@ -148,7 +243,12 @@ describe('stream', () => {
     const text = '{"event":"heartbeat"}\n\n{"event":"step","step":1,"agents":{}}\n{"event":"superseded"}';
     const bytes = new TextEncoder().encode(text);
     for (const size of [1, 3, 7, 1000]) {
-      const body = new ReadableStream<Uint8Array>({ start(c) { for (let i = 0; i < bytes.length; i += size) c.enqueue(bytes.slice(i, i + size)); c.close(); } });
+      const body = new ReadableStream<Uint8Array>({
+        start(c) {
+          for (let i = 0; i < bytes.length; i += size) c.enqueue(bytes.slice(i, i + size));
+          c.close();
+        },
+      });
       const out = [];
       for await (const e of readEvents(body)) out.push(e.event);
       expect(out).toEqual(['heartbeat', 'step', 'superseded']);

@@ -2,7 +2,8 @@ import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { makeLine, pointAt, project, wrapAngle, lerpAngle } from '../src/model/geometry';
 import { findRoute, nearestLanes } from '../src/model/lanemap';
-import { furthestReach, leastReach, limitsOf, localReach } from '../src/model/reach';
+import { limitsOf, rangesOf, topSpeed } from '../src/model/domain';
+import { furthestReach, leastReach, localReach } from '../src/model/reach';
 import { parseTyped, num, speedLabel } from '../src/model/units';
 import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/motion';
 import { readGenerated, readScene, SceneError } from '../src/model/read';
@@ -17,21 +18,29 @@ import { car, crossing, crossingJson, walker } from './helpers';
 
 describe('geometry', () => {
   it('wraps angles into half-open pi', () => {
-    fc.assert(fc.property(fc.double({ min: -1000, max: 1000, noNaN: true }), (a) => {
-      const w = wrapAngle(a);
-      expect(w).toBeGreaterThanOrEqual(-Math.PI);
-      expect(w).toBeLessThan(Math.PI + 1e-12);
-      expect(Math.abs(Math.sin(w) - Math.sin(a))).toBeLessThan(1e-6);
-    }));
+    fc.assert(
+      fc.property(fc.double({ min: -1000, max: 1000, noNaN: true }), (a) => {
+        const w = wrapAngle(a);
+        expect(w).toBeGreaterThanOrEqual(-Math.PI);
+        expect(w).toBeLessThan(Math.PI + 1e-12);
+        expect(Math.abs(Math.sin(w) - Math.sin(a))).toBeLessThan(1e-6);
+      }),
+    );
     expect(lerpAngle(3, -3, 0.5)).toBeCloseTo(-Math.PI, 5);
   });
 
   it('finds points by distance and distances by point', () => {
-    const l = makeLine([[0, 0], [10, 0], [10, 10]]);
-    fc.assert(fc.property(fc.double({ min: 0, max: 20, noNaN: true }), (s) => {
-      const p = pointAt(l, s);
-      expect(project(l, p.x, p.y).s).toBeCloseTo(s, 6);
-    }));
+    const l = makeLine([
+      [0, 0],
+      [10, 0],
+      [10, 10],
+    ]);
+    fc.assert(
+      fc.property(fc.double({ min: 0, max: 20, noNaN: true }), (s) => {
+        const p = pointAt(l, s);
+        expect(project(l, p.x, p.y).s).toBeCloseTo(s, 6);
+      }),
+    );
   });
 });
 
@@ -47,7 +56,12 @@ describe('numbers', () => {
   });
 
   it('never throws and never gives what is not a number', () => {
-    fc.assert(fc.property(fc.string(), (s) => { const v = parseTyped(s, 'length'); expect(v === null || Number.isFinite(v)).toBe(true); }));
+    fc.assert(
+      fc.property(fc.string(), (s) => {
+        const v = parseTyped(s, 'length');
+        expect(v === null || Number.isFinite(v)).toBe(true);
+      }),
+    );
   });
 
   it('writes a true minus and no negative zero', () => {
@@ -59,7 +73,13 @@ describe('numbers', () => {
 
 describe('longer scenes', () => {
   it('go straight on where nobody says more, and stand where somebody stood', () => {
-    const m = motionFrom({ x_m: [0, 1, 2], y_m: [0, 0, 0], heading_rad: [0, 0, 0], vx_mps: [10, 10, 10], vy_mps: [0, 0, 0] });
+    const m = motionFrom({
+      x_m: [0, 1, 2],
+      y_m: [0, 0, 0],
+      heading_rad: [0, 0, 0],
+      vx_mps: [10, 10, 10],
+      vy_mps: [0, 0, 0],
+    });
     const on = straightOn(m, 200);
     expect(lastStep(on)).toBe(200);
     expect(endPose(on)).toEqual({ x: 200, y: 0, heading: 0, speed: 10 });
@@ -73,13 +93,22 @@ describe('longer scenes', () => {
   it('play everybody to the end: who was worked out as told, the rest straight on', () => {
     const scene = setLength(crossing(), 20).apply(crossing());
     const a = car(scene);
-    const json = { chosen: 0, modes: sixFutures(crossingJson().agents.find((j) => j.id === '1')!, undefined, 5, 5) };
+    const json = {
+      chosen: 0,
+      modes: sixFutures(
+        crossingJson().agents.find((j) => j.id === '1')!,
+        undefined,
+        5,
+        5,
+      ),
+    };
     goOn(json.modes[0], 200);
     const futures = readFutures(json, startPose(a)!, 5, 5, false);
     expect(futures.modes.map((m) => m.motion.x.length)).toEqual([201, 91, 91, 91, 91, 91]);
     const set: MotionSet = { ...emptyMotion(''), futures: new Map([['1', futures]]), driving: new Set(['1']) };
     expect(motionOf(scene, set, a)).toBe(futures.modes[0].motion);
-    for (const other of scene.agents.values()) if (lastStep(other.log) > 80) expect(poseAt(motionOf(scene, set, other), 20), other.id).not.toBeNull();
+    for (const other of scene.agents.values())
+      if (lastStep(other.log) > 80) expect(poseAt(motionOf(scene, set, other), 20), other.id).not.toBeNull();
     const nine = crossing();
     expect(motionOf(nine, set, nine.agents.get('2')!)).toBe(nine.agents.get('2')!.log);
   });
@@ -95,8 +124,13 @@ describe('longer scenes', () => {
 
   it('leave a goal more time', () => {
     const scene = setLength(crossing(), 20).apply(crossing());
-    const a = car(scene), p = startPose(a)!;
-    const goal = { ...freeGoal(), pos: [p.x + 22 * 15 * Math.cos(p.heading), p.y + 22 * 15 * Math.sin(p.heading)] as const, time: 4 };
+    const a = car(scene),
+      p = startPose(a)!;
+    const goal = {
+      ...freeGoal(),
+      pos: [p.x + 22 * 15 * Math.cos(p.heading), p.y + 22 * 15 * Math.sin(p.heading)] as const,
+      time: 4,
+    };
     expect(localReach(scene.map, a, p, goal, 'km/h', 20)?.time).toBeGreaterThan(9);
     expect(localReach(scene.map, a, p, goal, 'km/h')?.time).toBeNull();
   });
@@ -113,24 +147,43 @@ describe('scene', () => {
   });
 
   it('writes only what was changed, and reads it back', () => {
-    const json = crossingJson(), s = readScene(json), a = car(s);
+    const json = crossingJson(),
+      s = readScene(json),
+      a = car(s);
     let next = setGoal(a, { pos: [4, 30], heading: null, speed: 7, time: 8 }).apply(s);
     next = setStart(next.agents.get('1')!, { ...next.agents.get('1')!.start, speed: null }).apply(next);
-    expect(conditionOf(next.agents.get('1')!)).toEqual({ goal: { x_m: 4, y_m: 30, speed_mps: 7, time_s: 8 }, start: { x_m: -60, y_m: expect.any(Number), heading_rad: expect.any(Number), speed_mps: null } });
+    expect(conditionOf(next.agents.get('1')!)).toEqual({
+      goal: { x_m: 4, y_m: 30, speed_mps: 7, time_s: 8 },
+      start: { x_m: -60, y_m: expect.any(Number), heading_rad: expect.any(Number), speed_mps: null },
+    });
     const written = JSON.parse(JSON.stringify(writeScene(json, next, null)));
     const again = readScene(written);
     expect(sceneKey(again)).toBe(sceneKey(next));
-    expect(written.agents.slice(1).every((x: { conditions: object }) => Object.keys(x.conditions).length === 0)).toBe(true);
+    expect(written.agents.slice(1).every((x: { conditions: object }) => Object.keys(x.conditions).length === 0)).toBe(
+      true,
+    );
     expect(written.map).toEqual(json.map);
     expect(touched(again.agents.get('2')!)).toBe(false);
   });
 
   it('keeps futures and picks beside the scene, and drops those that are out of date', () => {
-    const json = crossingJson(), s = readScene(json);
-    const picked = choose(car(s), 2, 'C').apply(setGoal(car(s), { pos: [4, 30], heading: null, speed: null, time: 9 }).apply(s));
-    const f = readFutures({ chosen: 1, modes: sixFutures(json.agents[0], { goal: { x_m: 4, y_m: 30 } }, 5, 5) }, startPose(car(s))!, 5, 5, false);
-    const written = JSON.parse(JSON.stringify(writeScene(json, picked, generatedJson(picked, [['1', f]], { input_sha256: 'abc' }))));
-    const again = readScene(written), set = readGenerated(written, again)!;
+    const json = crossingJson(),
+      s = readScene(json);
+    const picked = choose(car(s), 2, 'C').apply(
+      setGoal(car(s), { pos: [4, 30], heading: null, speed: null, time: 9 }).apply(s),
+    );
+    const f = readFutures(
+      { chosen: 1, modes: sixFutures(json.agents[0], { goal: { x_m: 4, y_m: 30 } }, 5, 5) },
+      startPose(car(s))!,
+      5,
+      5,
+      false,
+    );
+    const written = JSON.parse(
+      JSON.stringify(writeScene(json, picked, generatedJson(picked, [['1', f]], { input_sha256: 'abc' }))),
+    );
+    const again = readScene(written),
+      set = readGenerated(written, again)!;
     expect(car(again).chosen).toBe(2);
     expect(written.generated.input_sha256).toBe('abc');
     expect(written.generated.samples[0].agents['1'].chosen).toBe(2);
@@ -146,7 +199,18 @@ describe('scene', () => {
   });
 
   it('interpolates tracks and knows their gaps', () => {
-    const m = motionFrom({ first_step: 2, valid: [[2, 4], [5, 6]], x_m: [0, 1, 0, 9], y_m: [0, 0, 0, 0], heading_rad: [0, 0, 0, 0], vx_mps: [10, 10, 0, 10], vy_mps: [0, 0, 0, 0] });
+    const m = motionFrom({
+      first_step: 2,
+      valid: [
+        [2, 4],
+        [5, 6],
+      ],
+      x_m: [0, 1, 0, 9],
+      y_m: [0, 0, 0, 0],
+      heading_rad: [0, 0, 0, 0],
+      vx_mps: [10, 10, 0, 10],
+      vy_mps: [0, 0, 0, 0],
+    });
     expect(poseAt(m, 0.25)!.x).toBeCloseTo(0.5);
     expect(poseAt(m, 0.1)).toBeNull();
     expect(poseAt(m, 0.4)).toBeNull();
@@ -156,22 +220,40 @@ describe('scene', () => {
 
 describe('letters of futures', () => {
   const of = (...anchors: (number | null)[]) => anchors.map((anchor) => ({ anchor }));
-  const read = (anchors: (number | null)[], chosen: number, keep?: Parameters<typeof readFutures>[5]) => readFutures({
-    chosen, modes: anchors.map((anchor, i) => ({ probability: 0.5 - i * 0.05, x_m: [1 + (anchor ?? 9)], y_m: [0], heading_rad: [0], ...(anchor === null ? {} : { anchor }) })),
-  }, { x: 0, y: 0, heading: 0, speed: 1 }, 1, 5, false, keep);
+  const read = (anchors: (number | null)[], chosen: number, keep?: Parameters<typeof readFutures>[5]) =>
+    readFutures(
+      {
+        chosen,
+        modes: anchors.map((anchor, i) => ({
+          probability: 0.5 - i * 0.05,
+          x_m: [1 + (anchor ?? 9)],
+          y_m: [0],
+          heading_rad: [0],
+          ...(anchor === null ? {} : { anchor }),
+        })),
+      },
+      { x: 0, y: 0, heading: 0, speed: 1 },
+      1,
+      5,
+      false,
+      keep,
+    );
 
   it('stay with their idea while probabilities change places', () => {
     const before = read([3, 0, null, 5, 1, 2], 0);
     const after = read([0, 3, 5, 2, null, 1], 0, { like: before, always: false });
     expect(after.modes.map((m) => m.anchor)).toEqual([3, 0, null, 5, 1, 2]);
     // Each keeps its own probability and motion, and the choice is still the idea the generator chose.
-    expect(after.modes.map((m) => m.probability)).toEqual([0.45, 0.5, 0.3, 0.4, 0.25, 0.35].map((v) => expect.closeTo(v, 9)));
+    expect(after.modes.map((m) => m.probability)).toEqual(
+      [0.45, 0.5, 0.3, 0.4, 0.25, 0.35].map((v) => expect.closeTo(v, 9)),
+    );
     expect(after.modes.map((m) => m.motion.x[1])).toEqual([4, 1, 10, 6, 2, 3]);
     expect(after.modes[after.chosen].anchor).toBe(0);
   });
 
   it('follow the probabilities again when other ideas come, but not within a drag', () => {
-    const before = of(3, 0, 4, 5, 1, 2), sent = of(0, null, 3, 5, 2, 1);
+    const before = of(3, 0, 4, 5, 1, 2),
+      sent = of(0, null, 3, 5, 2, 1);
     expect(placesLike(before, sent, false)).toEqual([0, 1, 2, 3, 4, 5]);
     expect(placesLike(before, sent, true).map((i) => sent[i].anchor)).toEqual([3, 0, null, 5, 1, 2]);
   });
@@ -179,9 +261,11 @@ describe('letters of futures', () => {
   it('are those of the list where nobody names ideas, and lose none', () => {
     expect(placesLike([{}, {}, {}], [{}, {}, {}], true)).toEqual([0, 1, 2]);
     const list = fc.array(fc.option(fc.integer({ min: 0, max: 5 })), { maxLength: 6 });
-    fc.assert(fc.property(list, list, fc.boolean(), (a, b, always) => {
-      expect([...placesLike(of(...a), of(...b), always)].sort()).toEqual(b.map((_, i) => i));
-    }));
+    fc.assert(
+      fc.property(list, list, fc.boolean(), (a, b, always) => {
+        expect([...placesLike(of(...a), of(...b), always)].sort()).toEqual(b.map((_, i) => i));
+      }),
+    );
   });
 
   it('are written with the scene', () => {
@@ -195,13 +279,24 @@ describe('letters of futures', () => {
 describe('others held still', () => {
   it('are joined by nobody from outside', () => {
     const json = crossingJson();
-    const late = { ...json.agents[1], id: 'late', track: { ...json.agents[1].track, valid: [[20, 91]] as [number, number][] } };
+    const late = {
+      ...json.agents[1],
+      id: 'late',
+      track: { ...json.agents[1].track, valid: [[20, 91]] as [number, number][] },
+    };
     const s = readScene({ ...json, agents: [...json.agents, late], x_editor: { others: 'still' } });
     const a = s.agents.get('late')!;
     expect(a.logStart).toBeNull();
     expect(poseAt(motionOf(s, emptyMotion(''), a), 5)).toBeNull();
-    expect(stillAgents({ ...json, agents: [...json.agents, late] }, s, new Set(['1'])).map((x) => x.id)).not.toContain('late');
-    expect(readEvents(s, { ...emptyMotion(''), score: { collisions: [{ a: '1', b: 'late', time: 5 }], nearMisses: [], minTtc: null, offroadShare: null } })).toEqual([]);
+    expect(stillAgents({ ...json, agents: [...json.agents, late] }, s, new Set(['1'])).map((x) => x.id)).not.toContain(
+      'late',
+    );
+    expect(
+      readEvents(s, {
+        ...emptyMotion(''),
+        score: { collisions: [{ a: '1', b: 'late', time: 5 }], nearMisses: [], minTtc: null, offroadShare: null },
+      }),
+    ).toEqual([]);
   });
 });
 
@@ -210,7 +305,8 @@ describe('lanes and reach', () => {
   const road = (l: { kind: string }) => l.kind === 'road';
 
   it('finds the way through the crossing', () => {
-    const from = nearestLanes(s.map, -60, -1.75, 0, 2, road)[0], to = nearestLanes(s.map, 1.75, 40, Math.PI / 2, 2, road)[0];
+    const from = nearestLanes(s.map, -60, -1.75, 0, 2, road)[0],
+      to = nearestLanes(s.map, 1.75, 40, Math.PI / 2, 2, road)[0];
     const r = findRoute(s.map, from, to)!;
     expect(r.lanes.map((l) => l.id)).toEqual(['in20', 'x_in20_out10', 'out10']);
     expect(r.length).toBeGreaterThan(80);
@@ -218,11 +314,56 @@ describe('lanes and reach', () => {
   });
 
   it('bounds what can be reached', () => {
-    const l = limitsOf({ kind: 'car', type: 'vehicle' });
-    fc.assert(fc.property(fc.double({ min: 0, max: 38, noNaN: true }), fc.double({ min: 0.5, max: 9, noNaN: true }), (v, t) => {
-      expect(leastReach(l, v, t)).toBeLessThanOrEqual(v * t + 1e-9);
-      expect(furthestReach(l, v, t)).toBeGreaterThanOrEqual(v * t - 1e-9);
-    }));
+    const l = limitsOf({ type: 'vehicle', subtype: 'car' });
+    fc.assert(
+      fc.property(fc.double({ min: 0, max: 38, noNaN: true }), fc.double({ min: 0.5, max: 9, noNaN: true }), (v, t) => {
+        expect(leastReach(l, v, t)).toBeLessThanOrEqual(v * t + 1e-9);
+        expect(furthestReach(l, v, t)).toBeGreaterThanOrEqual(v * t - 1e-9);
+      }),
+    );
+  });
+
+  it('never calls a goal too far that the hard limits allow', () => {
+    const a = car(s);
+    const kinds = fc.constantFrom(
+      ...(['car', 'truck', 'bus', 'trailer', 'motorcycle', null] as const).map((subtype) => ({
+        type: 'vehicle' as const,
+        subtype,
+      })),
+      { type: 'cyclist' as const, subtype: null },
+      { type: 'pedestrian' as const, subtype: null },
+    );
+    fc.assert(
+      fc.property(
+        kinds,
+        fc.double({ min: 0, max: 45, noNaN: true }),
+        fc.double({ min: 1, max: 20, noNaN: true }),
+        fc.double({ min: -Math.PI, max: Math.PI, noNaN: true }),
+        fc.double({ min: 0, max: 1, noNaN: true }),
+        (who, speed, time, bearing, share) => {
+          const start = { ...startPose(a)!, speed };
+          const { accel_mps2: accel, speed_mps: top } = limitsOf(who);
+          // The furthest anybody gets: full acceleration up to top speed, and on at that.
+          const rise = Math.min(time, Math.max(0, top - speed) / accel);
+          const furthest = speed * time + (accel * rise * rise) / 2 + accel * rise * (time - rise);
+          const d = share * furthest;
+          const pos = [start.x + d * Math.cos(bearing), start.y + d * Math.sin(bearing)] as const;
+          const goal = { pos, heading: null, speed: null, time };
+          const verdict = localReach(s.map, { ...a, ...who, goal }, start, goal, 'km/h', 20);
+          expect(verdict!.kind).not.toBe('far');
+        },
+      ),
+      { numRuns: 400 },
+    );
+  });
+
+  it('takes its limits from the table that the server is built with', () => {
+    expect(limitsOf({ type: 'vehicle', subtype: null }).accel_mps2).toBe(4);
+    expect(limitsOf({ type: 'vehicle', subtype: 'bus' }).speed_mps).toBe(32);
+    expect(limitsOf({ type: 'pedestrian', subtype: 'bus' }).curvature_per_m).toBeNull();
+    expect(rangesOf({ type: 'other' })).toEqual(rangesOf({ type: 'vehicle' }));
+    expect(topSpeed({ type: 'pedestrian', subtype: null })).toBe(6);
+    expect(topSpeed({ type: 'vehicle', subtype: 'car' })).toBe(40);
   });
 
   it('says why not and what would do', () => {
@@ -232,15 +373,37 @@ describe('lanes and reach', () => {
     expect(r.words).toMatch(/along the lane\. In 4\.0 s from 32 km\/h this car gets \d+ m at most\./);
     expect(r.time).toBeGreaterThan(4);
     expect(r.nearest).not.toBeNull();
-    const near = localReach(s.map, { ...a, goal: { ...a.goal, pos: [1.75, 20], time: 9 } }, startPose(a)!, { ...a.goal, pos: [1.75, 20], time: 9 }, 'km/h')!;
+    const near = localReach(
+      s.map,
+      { ...a, goal: { ...a.goal, pos: [1.75, 20], time: 9 } },
+      startPose(a)!,
+      { ...a.goal, pos: [1.75, 20], time: 9 },
+      'km/h',
+    )!;
     expect(near.kind).toBe('ok');
     expect(localReach(s.map, a, startPose(a)!, freeGoal(), 'km/h')).toBeNull();
   });
 });
 
 describe('futures', () => {
-  const json = crossingJson(), s = readScene(json);
-  const futures = (id: string, goal?: object) => readFutures({ chosen: 0, modes: sixFutures(json.agents.find((a) => a.id === id)!, goal && { goal }, 5, 5) }, startPose(s.agents.get(id)!)!, 5, 5, false);
+  const json = crossingJson(),
+    s = readScene(json);
+  const futures = (id: string, goal?: object) =>
+    readFutures(
+      {
+        chosen: 0,
+        modes: sixFutures(
+          json.agents.find((a) => a.id === id)!,
+          goal && { goal },
+          5,
+          5,
+        ),
+      },
+      startPose(s.agents.get(id)!)!,
+      5,
+      5,
+      false,
+    );
 
   it('start at the start and have names of their own', () => {
     const f = futures('1');
@@ -253,15 +416,44 @@ describe('futures', () => {
 
   it('tell who changed, in a sentence', () => {
     const before = emptyMotion('a');
-    const late = readFutures({ chosen: 0, modes: [giveWay(json.agents[1], 2.2)] }, startPose(s.agents.get('2')!)!, 5, 5, false);
-    const after: MotionSet = { ...before, key: 'b', futures: new Map([['1', futures('1')], ['2', late]]), driving: new Set(['1', '2']) };
+    const late = readFutures(
+      { chosen: 0, modes: [giveWay(json.agents[1], 2.2)] },
+      startPose(s.agents.get('2')!)!,
+      5,
+      5,
+      false,
+    );
+    const after: MotionSet = {
+      ...before,
+      key: 'b',
+      futures: new Map([
+        ['1', futures('1')],
+        ['2', late],
+      ]),
+      driving: new Set(['1', '2']),
+    };
     const changes = findChanges(s, before, after, new Set(['1']));
     expect(changes.map((c) => c.id)).toEqual(['2']);
     expect(changes[0].words).toMatch(/later|waits|slows|stops/);
   });
 
   it('become events with facts', () => {
-    const set: MotionSet = { ...emptyMotion('a'), score: { collisions: [{ a: '1', b: '2', time: 5.4 }, { a: '2', b: '1', time: 5.5 }], nearMisses: [{ a: '1', b: '2', time: 5, distance: 0.1, ttc: 0.2 }, { a: '11', b: walker(s).id, time: 3.2, distance: 0.6, ttc: null }, { a: '99', b: '1', time: 1, distance: 1, ttc: 1 }], minTtc: null, offroadShare: null } };
+    const set: MotionSet = {
+      ...emptyMotion('a'),
+      score: {
+        collisions: [
+          { a: '1', b: '2', time: 5.4 },
+          { a: '2', b: '1', time: 5.5 },
+        ],
+        nearMisses: [
+          { a: '1', b: '2', time: 5, distance: 0.1, ttc: 0.2 },
+          { a: '11', b: walker(s).id, time: 3.2, distance: 0.6, ttc: null },
+          { a: '99', b: '1', time: 1, distance: 1, ttc: 1 },
+        ],
+        minTtc: null,
+        offroadShare: null,
+      },
+    };
     const ev = readEvents(s, set);
     expect(ev.map((e) => e.kind)).toEqual(['near', 'collision']);
     expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed']);

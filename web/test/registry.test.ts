@@ -5,7 +5,10 @@ import { ACTIONS, actionForKey } from '../src/actions/registry';
 import { caps, keyOf } from '../src/actions/keys';
 
 const src = new URL('../src/', import.meta.url);
-const files = (dir: string) => readdirSync(new URL(`${dir}/`, src)).filter((f) => f.endsWith('.ts')).map((f) => ({ name: `${dir}/${f}`, text: readFileSync(new URL(`${dir}/${f}`, src), 'utf8') }));
+const files = (dir: string) =>
+  readdirSync(new URL(`${dir}/`, src), { recursive: true, encoding: 'utf8' })
+    .filter((f) => /\.tsx?$/.test(f))
+    .map((f) => ({ name: `${dir}/${f}`, text: readFileSync(new URL(`${dir}/${f}`, src), 'utf8') }));
 const app = files('app');
 
 describe('action registry', () => {
@@ -26,29 +29,36 @@ describe('action registry', () => {
 
   it('knows every action that a button names', () => {
     const ids = new Set(ACTIONS.map((a) => a.id));
-    for (const f of app)
-      for (const m of f.text.matchAll(/(?:actionButton|iconButton|perform|actionOf)\(c?,? ?'([\w-]+)'|'data-action': '([\w-]+)'/g)) expect(ids, `${f.name}: ${m[0]}`).toContain(m[1] ?? m[2]);
-    expect(app.some((f) => f.text.includes("iconButton(c, 'undo')"))).toBe(true);
+    const named =
+      /<(?:Action|Icon)Button[^>]*?\bid="([\w-]+)"|(?:perform|actionOf)\(c?,? ?'([\w-]+)'|data-action="([\w-]+)"/g;
+    const all = app.flatMap((f) => [...f.text.matchAll(named)].map((m) => m[1] ?? m[2] ?? m[3]));
+    expect(all).toEqual(expect.arrayContaining(['undo', 'generate', 'choose-files', 'play']));
+    for (const id of all) expect(ids).toContain(id);
   });
 
   it('has an icon for every name used', () => {
-    const paths = readFileSync(new URL('app/icons.ts', src), 'utf8');
+    const paths = readFileSync(new URL('app/parts/icons.tsx', src), 'utf8');
     const known = new Set([...paths.matchAll(/(?:^|[\s,{])(\w+): '[Mm]/g)].map((m) => m[1]));
     for (const a of ACTIONS) if (a.icon) expect(known, a.id).toContain(a.icon);
-    for (const f of app) for (const m of f.text.matchAll(/\bicon\('(\w+)'/g)) expect(known, f.name).toContain(m[1]);
+    const named = /<Icon name="(\w+)"|\bicon(?:="|: ')(\w+)/g;
+    for (const f of app) for (const m of f.text.matchAll(named)) expect(known, f.name).toContain(m[1] ?? m[2]);
   });
 
   it('draws no text as markup and no style as an attribute', () => {
     for (const f of ['app', 'actions', 'edit', 'draw'].flatMap(files)) {
-      expect(f.text, f.name).not.toMatch(/innerHTML|outerHTML|insertAdjacentHTML|document\.write/);
-      expect(f.text, f.name).not.toMatch(/\bstyle: ['"`]|setAttribute\('style'/);
+      expect(f.text, f.name).not.toMatch(/innerHTML|InnerHTML|outerHTML|insertAdjacentHTML|document\.write/);
+      expect(f.text, f.name).not.toMatch(/\bstyle="|setAttribute\('style'/);
     }
     expect(readFileSync(new URL('../index.html', src), 'utf8')).not.toMatch(/style=|<style|<script(?![^>]*src)/);
   });
 });
 
 describe('keys', () => {
-  const press = (key: string, mods: Partial<Record<'ctrlKey' | 'metaKey' | 'altKey' | 'shiftKey', boolean>> = {}, code = '') => keyOf({ key, code, ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...mods });
+  const press = (
+    key: string,
+    mods: Partial<Record<'ctrlKey' | 'metaKey' | 'altKey' | 'shiftKey', boolean>> = {},
+    code = '',
+  ) => keyOf({ key, code, ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...mods });
   it('have one spelling', () => {
     expect(press('z', { ctrlKey: true })).toBe('Ctrl+Z');
     expect(press('Z', { metaKey: true, shiftKey: true })).toBe('Ctrl+Shift+Z');

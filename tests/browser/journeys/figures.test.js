@@ -29,7 +29,9 @@ journeys('figures', (stage) => {
       await e.drag(flag(0), flag(0.4), { moves: MOVES });
     });
     await e.settled();
-    const asked = e.wire.since(mark).map((a) => ({ sent: a.sent * 1000, draft: a.event('initial')?.at * 1000 || null }));
+    const asked = e.wire
+      .since(mark)
+      .map((a) => ({ sent: a.sent * 1000, draft: a.event('initial')?.at * 1000 || null }));
     const moves = drag.moves.slice(-MOVES).map((at) => {
       const draft = asked.find((a) => a.sent >= at && a.draft)?.draft ?? null;
       return { at, draft, shown: draft && drag.shownAfter(draft) };
@@ -42,25 +44,42 @@ journeys('figures', (stage) => {
       if (i) await e.drag(flag(0.4 - 0.05 * (i - 1)), flag(0.4 - 0.05 * i), { moves: 4 });
       mark = e.wire.asked.length;
       const trace = await traced(stage.browser, e.page, () => e.release());
-      const answer = e.wire.since(mark).find((a) => a.body.react === true)?.event('final')?.at * 1000;
+      const answer =
+        e.wire
+          .since(mark)
+          .find((a) => a.body.react === true)
+          ?.event('final')?.at * 1000;
       releases.push({ answered: answer - trace.releases[0], shown: trace.shownAfter(answer) - trace.releases[0] });
     }
 
     const figures = {
-      unit: 'ms', cores: availableParallelism(), load, opened: Math.round(opened),
+      unit: 'ms',
+      cores: availableParallelism(),
+      load,
+      opened: Math.round(opened),
       moveToDraft: spread(shown.map((m) => m.draft - m.at)),
       draftToFrame: spread(shown.map((m) => m.shown - m.draft)),
       moveToFutures: spread(shown.map((m) => m.shown - m.at)),
       frame: spread(frames.slice(1).map((t, i) => t - frames[i])),
       cpuPerFrame: Number((drag.cpuMs / Math.max(1, drag.drawn.length)).toFixed(1)),
-      requests: asked.length, answered: asked.filter((a) => a.draft).length,
+      pageThreadPerFrame: Number((drag.pageMs / Math.max(1, drag.drawn.length)).toFixed(2)),
+      pageThreadPerMove: Number((drag.pageMs / MOVES).toFixed(2)),
+      requests: asked.length,
+      answered: asked.filter((a) => a.draft).length,
       releaseToAnswer: spread(releases.map((r) => r.answered)),
       releaseToOthers: spread(releases.map((r) => r.shown)),
     };
-    writeFileSync(`${out}/figures.json`, `${JSON.stringify({ ...figures, moves: moves.map((m) => ({ draft: m.draft && m.draft - m.at, shown: m.shown && m.shown - m.at })) }, null, 2)}\n`);
+    const since = (m, what) => m[what] && m[what] - m.at;
+    const all = moves.map((m) => ({ draft: since(m, 'draft'), shown: since(m, 'shown') }));
+    writeFileSync(`${out}/figures.json`, `${JSON.stringify({ ...figures, moves: all }, null, 2)}\n`);
     console.log(`Figures in ms, ${figures.cores} cores, load ${load.toFixed(1)}`);
-    for (const [name, value] of Object.entries(figures)) if (typeof value === 'object') console.log(`  ${name.padEnd(16)} p50 ${value.p50}  p95 ${value.p95}  n ${value.n}`);
-    console.log(`  CPU per frame ${figures.cpuPerFrame}; ${asked.length} requests for ${moves.length} moves, ${figures.answered} drawn; opened in ${figures.opened}`);
+    for (const [name, value] of Object.entries(figures))
+      if (typeof value === 'object')
+        console.log(`  ${name.padEnd(16)} p50 ${value.p50}  p95 ${value.p95}  n ${value.n}`);
+    const { cpuPerFrame, pageThreadPerFrame, pageThreadPerMove, answered } = figures;
+    console.log(`  CPU per frame ${cpuPerFrame}; opened in ${figures.opened}`);
+    console.log(`  the page's thread: ${pageThreadPerFrame} a frame, ${pageThreadPerMove} a move`);
+    console.log(`  ${asked.length} requests for ${moves.length} moves, ${answered} drawn`);
     assert.equal(moves.length, MOVES);
     assert.ok(shown.length > 0, 'futures were drawn during the drag');
   });

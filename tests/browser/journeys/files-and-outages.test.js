@@ -10,32 +10,39 @@ const file = recordedFile();
 if (!file) console.log('Skipped: no recorded scenario file beside this checkout, so dropping one is not tried.');
 
 journeys('files and outages', (stage) => {
-  it('opens a recorded scene dropped on the picture and shows the log behind a change', { timeout: 60_000, skip: !file }, async () => {
-    const e = await stage.open();
-    await e.begin();
-    await e.drop(file.name, readFileSync(file.path));
-    await e.until(() => /imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
-    assert.notEqual(await e.page.inputValue('.title input'), 'Rosa & 5th');
-    await e.settled();
-    await e.picture('womd');
-    const car = await carOnTheMove(e);
-    await e.page.mouse.click(...car.from);
-    await e.page.waitForSelector('.fu');
-    await e.settled();
-    const back = 0.35;
-    await e.drag([car.to[0] + 9, car.to[1] - 26], [car.to[0] + (car.from[0] - car.to[0]) * back + 9, car.to[1] + (car.from[1] - car.to[1]) * back - 26]);
-    await e.release();
-    assert.match(await e.text('.toast'), new RegExp(`^Goal of ${car.name} moved`));
-    await e.page.getByRole('button', { name: 'Log', exact: true }).click();
-    await e.settled();
-    assert.equal(await e.page.locator('[data-action="layer-log"]').getAttribute('aria-pressed'), 'true');
-    assert.match(await e.text('.hint'), /Compared with the log.*Furthest apart: [\d.]+ m at \d\.\d s/s);
-    const playhead = e.page.getByRole('slider', { name: 'Playhead' });
-    for (let i = 0; i < 5; i++) await playhead.press('Shift+ArrowRight');
-    assert.match(await e.text('.tm'), /^5\.0 s/);
-    await e.settled();
-    await e.picture('womd-ghost');
-  });
+  it(
+    'opens a recorded scene dropped on the picture and shows the log behind a change',
+    { timeout: 60_000, skip: !file },
+    async () => {
+      const e = await stage.open();
+      await e.begin();
+      await e.drop(file.name, readFileSync(file.path));
+      await e.until(() => /imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
+      assert.notEqual(await e.page.inputValue('.title input'), 'Rosa & 5th');
+      await e.settled();
+      await e.picture('womd');
+      const car = await carOnTheMove(e);
+      await e.page.mouse.click(...car.from);
+      await e.page.waitForSelector('.fu');
+      await e.settled();
+      const back = 0.35;
+      await e.drag(
+        [car.to[0] + 9, car.to[1] - 26],
+        [car.to[0] + (car.from[0] - car.to[0]) * back + 9, car.to[1] + (car.from[1] - car.to[1]) * back - 26],
+      );
+      await e.release();
+      assert.match(await e.text('.toast'), new RegExp(`^Goal of ${car.name} moved`));
+      await e.page.getByRole('button', { name: 'Log', exact: true }).click();
+      await e.settled();
+      assert.equal(await e.page.locator('[data-action="layer-log"]').getAttribute('aria-pressed'), 'true');
+      assert.match(await e.text('.hint'), /Compared with the log.*Furthest apart: [\d.]+ m at \d\.\d s/s);
+      const playhead = e.page.getByRole('slider', { name: 'Playhead' });
+      for (let i = 0; i < 5; i++) await playhead.press('Shift+ArrowRight');
+      assert.match(await e.text('.tm'), /^5\.0 s/);
+      await e.settled();
+      await e.picture('womd-ghost');
+    },
+  );
 
   it('keeps working while the generator is away and catches up when it is back', { timeout: 60_000 }, async () => {
     const e = await stage.open();
@@ -50,7 +57,9 @@ journeys('files and outages', (stage) => {
     await e.page.waitForSelector('.banner');
     assert.match(await e.text('.banner'), /The generator is not answering\. Nothing is lost\./);
     const during = await e.goal();
-    await e.page.mouse.move(to[0] + (car.from[0] - car.to[0]) * 0.15, to[1] + (car.from[1] - car.to[1]) * 0.15, { steps: 6 });
+    await e.page.mouse.move(to[0] + (car.from[0] - car.to[0]) * 0.15, to[1] + (car.from[1] - car.to[1]) * 0.15, {
+      steps: 6,
+    });
     await e.until(() => /sketch/.test(document.querySelector('aside.insp').textContent));
     assert.notDeepEqual(await e.goal(), during, 'the flag still follows the hand');
     await e.page.mouse.up();
@@ -58,7 +67,9 @@ journeys('files and outages', (stage) => {
     await e.picture('generator-away');
     await stage.program.run();
     await e.page.waitForSelector('.banner', { state: 'detached' });
-    await e.until(() => /The generator is back\. 1 change worked out/.test(document.querySelector('.toast')?.textContent ?? ''));
+    await e.until(() =>
+      /The generator is back\. 1 change worked out/.test(document.querySelector('.toast')?.textContent ?? ''),
+    );
     await e.settled();
     const last = e.wire.last();
     assert.equal(last.body.react, true);

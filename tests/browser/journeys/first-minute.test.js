@@ -14,7 +14,11 @@ journeys('the first minute', (stage) => {
     const users = await e.roadUsers();
     const named = await e.page.getByRole('navigation', { name: /^Road users, \d+$/ }).getAttribute('aria-label');
     assert.ok(users.length > 20 && users.length <= Number(named.match(/\d+/)[0]), named);
-    for (const kind of ['Car', 'Cyclist', 'Pedestrian']) assert.ok(users.some((u) => u.kind === kind && u.speed > 0), `a ${kind} that moves`);
+    for (const kind of ['Car', 'Cyclist', 'Pedestrian'])
+      assert.ok(
+        users.some((u) => u.kind === kind && u.speed > 0),
+        `a ${kind} that moves`,
+      );
     assert.match(await e.text('.coach'), /Click a car/);
     await e.until(() => document.querySelector('.tm').textContent.startsWith('0.0'));
     await e.settled();
@@ -38,9 +42,21 @@ journeys('the first minute', (stage) => {
     await e.page.waitForSelector('.fu');
     await e.settled();
     assert.equal(await e.text('.ih h2'), car.name);
-    const rows = await e.page.locator('.fu').evaluateAll((all) => all.map((f) => ({ letter: f.dataset.future, name: f.querySelector('.nm').textContent, share: parseInt(f.querySelector('.pc').textContent, 10) })));
-    assert.deepEqual(rows.map((r) => r.letter), ['A', 'B', 'C', 'D', 'E', 'F']);
-    assert.ok(rows.every((r) => r.name.length > 3), 'every future has a name');
+    const rows = await e.page.locator('.fu').evaluateAll((all) =>
+      all.map((f) => ({
+        letter: f.dataset.future,
+        name: f.querySelector('.nm').textContent,
+        share: parseInt(f.querySelector('.pc').textContent, 10),
+      })),
+    );
+    assert.deepEqual(
+      rows.map((r) => r.letter),
+      ['A', 'B', 'C', 'D', 'E', 'F'],
+    );
+    assert.ok(
+      rows.every((r) => r.name.length > 3),
+      'every future has a name',
+    );
     const sum = rows.reduce((s, r) => s + r.share, 0);
     assert.ok(Math.abs(sum - 100) <= 3, `shares add up to ${sum} %`);
     // What was worked out once is not asked for again.
@@ -59,27 +75,42 @@ journeys('the first minute', (stage) => {
     await e.settled();
     const flag = await e.at(car.end.x, car.end.y);
     const grip = [flag[0] + 9, flag[1] - 26];
-    const target = await e.at(car.start.x + (car.end.x - car.start.x) * 0.7, car.start.y + (car.end.y - car.start.y) * 0.7);
+    const target = await e.at(
+      car.start.x + (car.end.x - car.start.x) * 0.7,
+      car.start.y + (car.end.y - car.start.y) * 0.7,
+    );
     const said = await e.listen('.bl .status');
     const mark = e.wire.asked.length;
-    await e.drag(grip, [target[0] + 9, target[1] - 26], { moves: 24, every: 30, then: (i) => (i === 16 ? e.picture('mid-drag') : null) });
+    await e.drag(grip, [target[0] + 9, target[1] - 26], {
+      moves: 24,
+      then: (i) => (i === 16 ? e.picture('mid-drag') : null),
+    });
     assert.match(await e.text('.helpbar'), /Others react when you let go/);
     await e.until(() => /Six futures/.test(document.querySelector('.status').textContent));
     const previews = e.wire.since(mark);
     assert.ok(previews.length > 3, `${previews.length} requests while moving`);
     assert.ok(previews.every((a) => a.body.react === false && a.body.conditions[car.id]?.goal));
     const revisions = previews.map((a) => a.body.revision);
-    assert.ok(revisions.every((r, i) => i === 0 || r > revisions[i - 1]), `rising revisions: ${revisions}`);
+    assert.ok(
+      revisions.every((r, i) => i === 0 || r > revisions[i - 1]),
+      `rising revisions: ${revisions}`,
+    );
     assert.ok(Wire.crowd(previews) <= 2, 'at most one on the way beside the one it replaces');
     const steps = new Set((await said()).map((t) => /step (\d)/.exec(t)?.[1]).filter(Boolean));
     assert.ok(steps.size > 0, 'the status counts the steps of refinement');
-    const drafts = previews.flatMap((a) => a.events()).filter((v) => v.event === 'step').map((v) => v.step);
+    const drafts = previews
+      .flatMap((a) => a.events())
+      .filter((v) => v.event === 'step')
+      .map((v) => v.step);
     assert.ok(drafts.includes(1) && drafts.includes(5), `steps on the wire: ${[...new Set(drafts)]}`);
 
     const released = e.wire.asked.length;
     await e.page.mouse.up();
     await e.page.waitForSelector('.toast');
-    assert.match(await e.text('.toast'), new RegExp(`^Goal of ${car.name} moved\\. (Nobody else had to change|\\d+ others? changed)\\.`));
+    assert.match(
+      await e.text('.toast'),
+      new RegExp(`^Goal of ${car.name} moved\\. (Nobody else had to change|\\d+ others? changed)\\.`),
+    );
     await e.settled();
     const commit = e.wire.since(released).find((a) => a.body.react === true);
     assert.ok(commit, 'a request that lets the others react');
@@ -93,7 +124,7 @@ journeys('the first minute', (stage) => {
     assert.ok(Math.hypot(shown.x - asked.x_m, shown.y - asked.y_m) <= 0.08, 'the inspector shows the flag');
     assert.ok(distance(shown, car.end) > 3, 'the flag has moved');
     assert.match(await e.text('.hint'), /Goal reached in/);
-    await e.page.waitForTimeout(400);
+    await e.settled();
     await e.picture('after-release');
   });
 });

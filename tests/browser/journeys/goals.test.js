@@ -6,7 +6,8 @@ import { turn } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 
 /** Pixels from the rear of a box to the knob that turns it, and from its nose to where the speed arrow begins. */
-const STALK = 24, GAP = 5;
+const STALK = 24,
+  GAP = 5;
 const SHORTEST_RIDER_PX = 17;
 
 journeys('goals and values', (stage) => {
@@ -17,20 +18,30 @@ journeys('goals and values', (stage) => {
     await e.page.mouse.click(...car.from);
     await e.page.waitForSelector('.fu');
     await e.settled();
-    await e.drag([car.to[0] + 9, car.to[1] - 26], [car.to[0] + (car.from[0] - car.to[0]) * 0.1 + 9, car.to[1] + (car.from[1] - car.to[1]) * 0.1 - 26]);
+    await e.drag(
+      [car.to[0] + 9, car.to[1] - 26],
+      [car.to[0] + (car.from[0] - car.to[0]) * 0.1 + 9, car.to[1] + (car.from[1] - car.to[1]) * 0.1 - 26],
+    );
     await e.release();
     await e.type('goal-time', '2');
     assert.match(await e.text('.hint'), /Too far for 2\.0 s/);
     assert.match(await e.text('.hint'), /\d+ m/);
     assert.match(await e.text('.status'), /nearest reachable/);
     const ways = await e.page.locator('.opt').allInnerTexts();
-    assert.ok(ways.some((w) => w.startsWith('Use nearest reachable')), ways.join(' | '));
+    assert.ok(
+      ways.some((w) => w.startsWith('Use nearest reachable')),
+      ways.join(' | '),
+    );
     assert.ok(ways.length >= 2, ways.join(' | '));
     await e.picture('unreachable');
     for (const [i, way] of ways.entries()) {
       await e.page.locator('.opt').nth(i).click();
       await e.settled();
-      assert.equal(await e.page.locator('.hint.near').count(), 0, `${way.replace(/\s+/g, ' ')} mends it: ${await e.page.locator('.hint').allInnerTexts()}`);
+      assert.equal(
+        await e.page.locator('.hint.near').count(),
+        0,
+        `${way.replace(/\s+/g, ' ')} mends it: ${await e.page.locator('.hint').allInnerTexts()}`,
+      );
       const answer = e.wire.last().event('final');
       assert.notEqual(answer.resolved[car.id].reach.status, 'unreachable', way);
       await e.key('Control+z');
@@ -66,7 +77,7 @@ journeys('goals and values', (stage) => {
 
     await e.choose(rider.id);
     await e.key('z');
-    await e.page.waitForTimeout(200);
+    await e.settled();
     await tiller(e, 20);
     const turned = (await e.pose('Start')).heading;
     assert.ok(turn(turned, rider.start.heading) > 0.1, `turned by ${turn(turned, rider.start.heading).toFixed(2)} rad`);
@@ -106,7 +117,9 @@ async function own(e) {
 async function stored(e, id) {
   await e.until(() => document.querySelector('.title small').textContent === 'Saved');
   const scene = await (await e.page.request.get(new URL(`/v1/scenes/${id}`, e.page.url()).href)).json();
-  return Object.fromEntries(scene.agents.map((a) => [a.id, { conditions: a.conditions, length: a.length_m, width: a.width_m }]));
+  return Object.fromEntries(
+    scene.agents.map((a) => [a.id, { conditions: a.conditions, length: a.length_m, width: a.width_m }]),
+  );
 }
 
 /** Undoes or redoes until there is nothing left; the number of steps. */
@@ -125,7 +138,8 @@ async function handles(e) {
   const { zoom } = await e.view();
   const half = Math.max((await e.page.getByLabel('length in metres').inputValue()) * zoom, SHORTEST_RIDER_PX) / 2;
   const [x, y] = await e.at(p.x, p.y);
-  const c = Math.cos(p.heading), s = Math.sin(p.heading);
+  const c = Math.cos(p.heading),
+    s = Math.sin(p.heading);
   return { p, zoom, half, ahead: (d, aside = 0) => [x + c * d - s * aside, y - s * d - c * aside] };
 }
 

@@ -9,12 +9,18 @@ journeys('judging', (stage) => {
     const e = await stage.open();
     await e.begin();
     const { car, obstacle } = await carBehindAnother(e);
-    await e.page.getByRole('group', { name: 'What the others do' }).first().getByRole('button', { name: 'Hold still' }).click();
+    await e.page
+      .getByRole('group', { name: 'What the others do' })
+      .first()
+      .getByRole('button', { name: 'Hold still' })
+      .click();
     await e.settled();
     await e.choose(car.id);
     await e.type('goal-pos', String(obstacle.start.x), 0);
     await e.type('goal-pos', String(obstacle.start.y), 1);
-    const badge = e.page.getByRole('button', { name: new RegExp(`^Collision \\d\\.\\d s: .*\\b${car.name}\\b`) }).first();
+    const badge = e.page
+      .getByRole('button', { name: new RegExp(`^Collision \\d\\.\\d s: .*\\b${car.name}\\b`) })
+      .first();
     await badge.waitFor();
     const [, at] = /Collision (\d\.\d) s/.exec(await badge.getAttribute('aria-label'));
     await badge.click();

@@ -10,7 +10,10 @@ journeys('long', (stage) => {
   it('works out 20 s, plans anew each 6 s, and plays them to the end', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    await e.page.getByRole('group', { name: 'How often everybody plans anew' }).getByRole('button', { name: '6', exact: true }).click();
+    await e.page
+      .getByRole('group', { name: 'How often everybody plans anew' })
+      .getByRole('button', { name: '6', exact: true })
+      .click();
     await e.settled();
     await e.page.getByRole('group', { name: 'How much is worked out' }).getByRole('button', { name: '20 s' }).click();
     await e.settled();
@@ -36,7 +39,10 @@ journeys('long', (stage) => {
     const goal = await e.goal();
     const answer = e.wire.last().event('final');
     const future = chosenOf(answer.samples[0].agents[car.id]);
-    assert.ok(Math.hypot(future.x_m[159] - goal.x, future.y_m[159] - goal.y) < 0.2, `${future.x_m[159]}, ${future.y_m[159]} for ${JSON.stringify(goal)}`);
+    assert.ok(
+      Math.hypot(future.x_m[159] - goal.x, future.y_m[159] - goal.y) < 0.2,
+      `${future.x_m[159]}, ${future.y_m[159]} for ${JSON.stringify(goal)}`,
+    );
     assert.ok(answer.resolved[car.id].intermediate.length > 0);
     await e.page.evaluate(() => document.activeElement?.blur?.());
     await e.key('p');

@@ -2,7 +2,8 @@
 import { distance, turn } from './editor.js';
 
 async function look(e, u) {
-  const start = await e.pose('Start'), end = await e.pose('Goal');
+  const start = await e.pose('Start'),
+    end = await e.pose('Goal');
   return { ...u, start, end, from: await e.at(start.x, start.y), to: await e.at(end.x, end.y) };
 }
 
@@ -14,7 +15,8 @@ const clear = async (e, who) => (await e.open(who.from)) && (await e.open([who.t
  * the first that suits. Nobody is selected afterwards.
  */
 async function find(e, likely, suits) {
-  const tried = [], hidden = [];
+  const tried = [],
+    hidden = [];
   for (const u of likely) {
     await e.choose(u.id);
     const who = await look(e, u);
@@ -49,17 +51,27 @@ export async function carOnTheMove(e) {
 }
 
 export async function pedestrianOnTheMove(e) {
-  return find(e, (await e.roadUsers()).filter((u) => u.kind === 'Pedestrian' && u.speed > 0.7), () => true);
+  return find(
+    e,
+    (await e.roadUsers()).filter((u) => u.kind === 'Pedestrian' && u.speed > 0.7),
+    () => true,
+  );
 }
 
 export async function cyclistOnTheMove(e) {
-  return find(e, (await e.roadUsers()).filter((u) => u.kind === 'Cyclist' && u.speed > 1.5), () => true);
+  return find(
+    e,
+    (await e.roadUsers()).filter((u) => u.kind === 'Cyclist' && u.speed > 1.5),
+    () => true,
+  );
 }
 
 /** A car on the move, and a vehicle ahead of it, near enough to be run into. */
 export async function carBehindAnother(e) {
   const vehicles = [];
-  for (const u of (await e.roadUsers()).filter((u) => ['Car', 'Bus', 'Truck'].includes(u.kind) && !u.words.includes('parked'))) {
+  for (const u of (await e.roadUsers()).filter(
+    (u) => ['Car', 'Bus', 'Truck'].includes(u.kind) && !u.words.includes('parked'),
+  )) {
     await e.choose(u.id);
     vehicles.push(await look(e, u));
     await e.letGo();

@@ -3,10 +3,17 @@ import { chromium as engine } from 'playwright-core';
 import { chromium as executablePath, out } from './where.js';
 import { Wire } from './wire.js';
 
-const FLAGS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const FLAGS = [
+  '--headless',
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
 const PATIENCE_MS = 15_000;
-/** Longer than the editor gathers keys before it asks. */
-const REST_MS = 160;
 
 export const launch = () => engine.launch({ executablePath, args: FLAGS });
 
@@ -16,12 +23,19 @@ export class Editor {
   /** What the page complained about; a connection that broke is not the page's fault. */
   errors = [];
 
-  static async open(browser, url, options = {}) {
+  /** With `stopwatch: false` the page measures no time: its clock for durations stands still. */
+  static async open(browser, url, { stopwatch = true, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+    if (!stopwatch)
+      await context.addInitScript(() => {
+        performance.now = () => 0;
+      });
     const e = new Editor();
     e.page = await context.newPage();
     e.page.setDefaultTimeout(PATIENCE_MS);
-    e.page.on('console', (m) => { if (m.type() === 'error' && !/ERR_|Failed to load resource/.test(m.text())) e.errors.push(m.text()); });
+    e.page.on('console', (m) => {
+      if (m.type() === 'error' && !/ERR_|Failed to load resource/.test(m.text())) e.errors.push(m.text());
+    });
     e.page.on('pageerror', (error) => e.errors.push(String(error.stack ?? error)));
     e.cdp = await context.newCDPSession(e.page);
     e.wire = await Wire.on(e.cdp);
@@ -42,20 +56,32 @@ export class Editor {
     await this.settled();
   }
 
-  async close() { await this.page.context().close(); }
+  async close() {
+    await this.page.context().close();
+  }
 
-  until(what, argument) { return this.page.waitForFunction(what, argument); }
+  until(what, argument) {
+    return this.page.waitForFunction(what, argument);
+  }
 
-  picture(name) { return this.page.screenshot({ path: `${out}/${name}.png` }); }
+  picture(name) {
+    return this.page.screenshot({ path: `${out}/${name}.png` });
+  }
 
   // -------------------------------------------------------------- what one reads
 
-  text(selector) { return this.page.locator(selector).first().innerText(); }
-  shows(selector) { return this.page.locator(selector).first().isVisible(); }
+  text(selector) {
+    return this.page.locator(selector).first().innerText();
+  }
+  shows(selector) {
+    return this.page.locator(selector).first().isVisible();
+  }
 
   /** The list of road users: `{ id, name, kind, speed (m/s), words }`. */
   async roadUsers() {
-    const rows = await this.page.locator('[data-agent]').evaluateAll((all) => all.map((e) => [e.dataset.agent, e.textContent]));
+    const rows = await this.page
+      .locator('[data-agent]')
+      .evaluateAll((all) => all.map((e) => [e.dataset.agent, e.textContent]));
     return rows.map(([id, words]) => {
       const [, name, value, unit] = /^(.+?), ([\d.]+) (km\/h|m\/s)/.exec(words) ?? [null, words, 'NaN', ''];
       return { id, name, kind: name.replace(/ \d+$/, ''), speed: Number(value) / (unit === 'm/s' ? 1 : 3.6), words };
@@ -64,22 +90,38 @@ export class Editor {
 
   /** A pose as the handles tell it to those who cannot see them. */
   async pose(part) {
-    const said = (what) => this.page.getByRole('slider', { name: `${part} ${what}`, exact: true }).getAttribute('aria-valuetext');
-    const [x, y] = (await said('position')).replaceAll('−', '-').match(/-?[\d.]+/g).map(Number);
-    const now = (what) => this.page.getByRole('slider', { name: `${part} ${what}`, exact: true }).getAttribute('aria-valuenow').then(Number);
+    const said = (what) =>
+      this.page.getByRole('slider', { name: `${part} ${what}`, exact: true }).getAttribute('aria-valuetext');
+    const [x, y] = (await said('position'))
+      .replaceAll('−', '-')
+      .match(/-?[\d.]+/g)
+      .map(Number);
+    const now = (what) =>
+      this.page
+        .getByRole('slider', { name: `${part} ${what}`, exact: true })
+        .getAttribute('aria-valuenow')
+        .then(Number);
     return { x, y, heading: (await now('heading')) * (Math.PI / 180), speed: await now('speed') };
   }
 
-  async value(field, nth = 0) { return number(await this.page.locator(`[data-field="${field}"]`).nth(nth).inputValue()); }
-  async goal() { return { x: await this.value('goal-pos', 0), y: await this.value('goal-pos', 1) }; }
+  async value(field, nth = 0) {
+    return number(await this.page.locator(`[data-field="${field}"]`).nth(nth).inputValue());
+  }
+  async goal() {
+    return { x: await this.value('goal-pos', 0), y: await this.value('goal-pos', 1) };
+  }
 
   /** Every value the inspector shows, as text. */
   inspector() {
-    return this.page.locator('aside.insp').evaluate((el) => [
-      el.querySelector('h2')?.textContent ?? '',
-      ...[...el.querySelectorAll('input')].map((i) => `${i.getAttribute('aria-label')}: ${i.value}`),
-      ...[...el.querySelectorAll('[role="switch"], [role="radio"]')].map((s) => `${s.getAttribute('aria-label') ?? s.textContent}: ${s.getAttribute('aria-checked')}`),
-    ]);
+    return this.page
+      .locator('aside.insp')
+      .evaluate((el) => [
+        el.querySelector('h2')?.textContent ?? '',
+        ...[...el.querySelectorAll('input')].map((i) => `${i.getAttribute('aria-label')}: ${i.value}`),
+        ...[...el.querySelectorAll('[role="switch"], [role="radio"]')].map(
+          (s) => `${s.getAttribute('aria-label') ?? s.textContent}: ${s.getAttribute('aria-checked')}`,
+        ),
+      ]);
   }
 
   // -------------------------------------------------------------- where things are
@@ -97,15 +139,27 @@ export class Editor {
 
   /** Is the picture, and no panel, under a page position? */
   open([x, y], margin = 24) {
-    return this.page.evaluate(([px, py, m]) => [[0, 0], [-m, -m], [m, -m], [-m, m], [m, m]].every(([dx, dy]) => {
-      const el = document.elementFromPoint(px + dx, py + dy);
-      return el instanceof HTMLCanvasElement || el?.matches('main.stage') === true;
-    }), [x, y, margin]);
+    return this.page.evaluate(
+      ([px, py, m]) =>
+        [
+          [0, 0],
+          [-m, -m],
+          [m, -m],
+          [-m, m],
+          [m, m],
+        ].every(([dx, dy]) => {
+          const el = document.elementFromPoint(px + dx, py + dy);
+          return el instanceof HTMLCanvasElement || el?.matches('main.stage') === true;
+        }),
+      [x, y, margin],
+    );
   }
 
   // -------------------------------------------------------------- what one does
 
-  key(k) { return this.page.keyboard.press(k); }
+  key(k) {
+    return this.page.keyboard.press(k);
+  }
 
   /** As a screen reader activates an entry of the list. */
   async choose(id) {
@@ -120,26 +174,31 @@ export class Editor {
     await this.until(() => !document.querySelector('.fu'));
   }
 
-  /** Nothing is on the way any more. The page's own timer is waited for, however busy the machine is. */
+  /** Nothing is on the way any more, and what came of it is on the page. */
   async settled() {
     const end = Date.now() + PATIENCE_MS;
     for (;;) {
       const mark = this.wire.asked.length;
-      const busy = await this.page.evaluate((ms) => new Promise((resolve) => {
-        setTimeout(() => requestAnimationFrame(() => resolve(/Working|Refining|Loading/.test(document.querySelector('.status')?.textContent ?? ''))), ms);
-      }), REST_MS);
-      if (!busy && mark === this.wire.asked.length && this.wire.quiet()) return;
+      await this.frames(2);
+      await this.page.waitForSelector('main.stage[aria-busy="false"]');
+      await this.frames(2);
+      if (mark === this.wire.asked.length && this.wire.quiet()) return;
       if (Date.now() > end) throw new Error(`still busy: ${await this.text('.status')}`);
     }
   }
 
-  async drag(from, to, { moves = 10, every = 16, then } = {}) {
+  /** The page has drawn so many frames. */
+  async frames(n) {
+    for (let i = 0; i < n; i++) await this.page.evaluate(() => new Promise(requestAnimationFrame));
+  }
+
+  async drag(from, to, { moves = 10, then } = {}) {
     const { mouse } = this.page;
     await mouse.move(...from);
     await mouse.down();
     for (let i = 1; i <= moves; i++) {
       await mouse.move(from[0] + ((to[0] - from[0]) * i) / moves, from[1] + ((to[1] - from[1]) * i) / moves);
-      await this.page.waitForTimeout(every);
+      await this.frames(1);
       await then?.(i);
     }
   }
@@ -161,8 +220,15 @@ export class Editor {
   async listen(selector) {
     const log = await this.page.evaluateHandle((s) => {
       const said = [];
-      const note = () => { const t = document.querySelector(s)?.textContent ?? ''; if (t !== said.at(-1)) said.push(t); };
-      new MutationObserver(note).observe(document.querySelector(s), { subtree: true, childList: true, characterData: true });
+      const note = () => {
+        const t = document.querySelector(s)?.textContent ?? '';
+        if (t !== said.at(-1)) said.push(t);
+      };
+      new MutationObserver(note).observe(document.querySelector(s), {
+        subtree: true,
+        childList: true,
+        characterData: true,
+      });
       note();
       return said;
     }, selector);
@@ -171,13 +237,17 @@ export class Editor {
 
   /** Drops a file from outside onto the picture. */
   async drop(name, bytes) {
-    const data = await this.page.evaluateHandle(([n, base64]) => {
-      const raw = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-      const t = new DataTransfer();
-      t.items.add(new File([raw], n, { type: 'application/octet-stream' }));
-      return t;
-    }, [name, bytes.toString('base64')]);
-    for (const type of ['dragenter', 'dragover', 'drop']) await this.page.dispatchEvent('main.stage', type, { dataTransfer: data });
+    const data = await this.page.evaluateHandle(
+      ([n, base64]) => {
+        const raw = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+        const t = new DataTransfer();
+        t.items.add(new File([raw], n, { type: 'application/octet-stream' }));
+        return t;
+      },
+      [name, bytes.toString('base64')],
+    );
+    for (const type of ['dragenter', 'dragover', 'drop'])
+      await this.page.dispatchEvent('main.stage', type, { dataTransfer: data });
   }
 }
 

@@ -19,20 +19,29 @@ export function journeys(name, tell) {
         return stage.editor;
       },
     };
-    before(async () => {
-      stage.program = await Program.start();
-      stage.browser = await launch();
-    }, { timeout: 40_000 });
-    after(async () => {
-      await stage.browser?.close();
-      await stage.program?.stop();
-    }, { timeout: 20_000 });
-    afterEach(async () => {
-      const e = stage.editor;
-      stage.editor = null;
-      await e?.close();
-      assert.deepEqual(e?.errors ?? [], []);
-    }, { timeout: 10_000 });
+    before(
+      async () => {
+        stage.program = await Program.start();
+        stage.browser = await launch();
+      },
+      { timeout: 40_000 },
+    );
+    after(
+      async () => {
+        await stage.browser?.close();
+        await stage.program?.stop();
+      },
+      { timeout: 20_000 },
+    );
+    afterEach(
+      async () => {
+        const e = stage.editor;
+        stage.editor = null;
+        await e?.close();
+        assert.deepEqual(e?.errors ?? [], []);
+      },
+      { timeout: 10_000 },
+    );
     tell(stage);
   });
 }

@@ -3,7 +3,7 @@ import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { program } from './where.js';
+import { program, running } from './where.js';
 
 const STARTS_WITHIN_MS = 20_000;
 const ENDS_WITHIN_MS = 5_000;
@@ -15,20 +15,27 @@ export class Program {
 
   static async start() {
     const p = new Program();
-    await p.run();
+    if (running) p.url = running;
+    else await p.run();
     return p;
   }
 
   /** Starts, or starts again on the same port and database. */
   async run() {
     const port = this.url ? new URL(this.url).port : '0';
-    const child = spawn(program, ['serve', '--port', port, '--db', join(this.#folder, 'scenes.sqlite'), '--log-level', 'warn'], {
-      stdio: ['ignore', 'pipe', 'pipe'],
-      env: Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('DRAGTRAFFIC_'))),
-    });
+    const child = spawn(
+      program,
+      ['serve', '--port', port, '--db', join(this.#folder, 'scenes.sqlite'), '--log-level', 'warn'],
+      {
+        stdio: ['ignore', 'pipe', 'pipe'],
+        env: Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith('DRAGTRAFFIC_'))),
+      },
+    );
     this.#child = child;
     let said = '';
-    child.stderr.on('data', (text) => { said += text; });
+    child.stderr.on('data', (text) => {
+      said += text;
+    });
     this.url = await new Promise((resolve, reject) => {
       const late = setTimeout(() => reject(new Error(`the program did not start in time: ${said}`)), STARTS_WITHIN_MS);
       child.once('exit', (code) => reject(new Error(`the program ended with ${code}: ${said}`)));
@@ -42,7 +49,9 @@ export class Program {
   }
 
   /** Ends at once, as a crash or a power cut would. */
-  async kill() { await this.#end('SIGKILL'); }
+  async kill() {
+    await this.#end('SIGKILL');
+  }
 
   async stop() {
     await this.#end('SIGTERM');

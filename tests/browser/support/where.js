@@ -18,8 +18,10 @@ function runs(path) {
 
 /** Why nothing can be run here, or false. */
 export function missing() {
-  const why = !runs(chromium) ? 'no Chromium; set CHROMIUM to its path'
-    : !runs(program) ? 'no dragtraffic program; run `cargo build -p dragtraffic` or set DRAGTRAFFIC_BIN'
+  const why = !runs(chromium)
+    ? 'no Chromium; set CHROMIUM to its path'
+    : !runs(program)
+      ? 'no dragtraffic program; run `cargo build -p dragtraffic` or set DRAGTRAFFIC_BIN'
       : false;
   if (why) console.log(`Skipped: ${why}.`);
   return why;
@@ -28,11 +30,18 @@ export function missing() {
 /** A recorded scenario file from beside the checkout, or null. */
 export function recordedFile() {
   const folder = here('../../../../shared/data/womd/val');
-  const name = existsSync(folder) && readdirSync(folder).sort().find((n) => n.endsWith('.tfrecord.gz'));
+  const name =
+    existsSync(folder) &&
+    readdirSync(folder)
+      .sort()
+      .find((n) => n.endsWith('.tfrecord.gz'));
   return name ? { path: `${folder}/${name}`, name } : null;
 }
 
 export const out = here('../out');
 mkdirSync(out, { recursive: true });
 
-export { chromium, program };
+/** Address of a page that is served already, for instance by `vite preview`; then no program is started. */
+const running = process.env.DRAGTRAFFIC_PAGE || null;
+
+export { chromium, program, running };

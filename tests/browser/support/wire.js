@@ -35,7 +35,9 @@ class Asked {
     return this.ended;
   }
 
-  event(name) { return this.events().find((e) => e.event === name); }
+  event(name) {
+    return this.events().find((e) => e.event === name);
+  }
 }
 
 export class Wire {
@@ -45,14 +47,19 @@ export class Wire {
     const w = new Wire();
     const of = (e) => w.asked.find((a) => a.id === e.requestId);
     cdp.on('Network.requestWillBeSent', (e) => {
-      if (e.request.method === 'POST' && new URL(e.request.url).pathname === '/v1/generate') w.asked.push(new Asked(e.requestId, e.timestamp, JSON.parse(e.request.postData ?? '{}')));
+      if (e.request.method === 'POST' && new URL(e.request.url).pathname === '/v1/generate')
+        w.asked.push(new Asked(e.requestId, e.timestamp, JSON.parse(e.request.postData ?? '{}')));
     });
     cdp.on('Network.responseReceived', (e) => {
       const a = of(e);
       if (!a) return;
       a.status = e.response.status;
-      void cdp.send('Network.streamResourceContent', { requestId: e.requestId })
-        .then((r) => { a.head = Buffer.from(r.bufferedData, 'base64'); }, () => undefined);
+      void cdp.send('Network.streamResourceContent', { requestId: e.requestId }).then(
+        (r) => {
+          a.head = Buffer.from(r.bufferedData, 'base64');
+        },
+        () => undefined,
+      );
     });
     cdp.on('Network.dataReceived', (e) => {
       const a = of(e);
@@ -65,24 +72,50 @@ export class Wire {
       if (!a) return;
       a.ended = e.timestamp;
       // A quick answer may be over before its stream could be followed.
-      void cdp.send('Network.getResponseBody', { requestId: e.requestId })
-        .then((r) => { a.whole = Buffer.from(r.body, r.base64Encoded ? 'base64' : 'utf8'); }, () => undefined)
-        .finally(() => { a.read = true; });
+      void cdp
+        .send('Network.getResponseBody', { requestId: e.requestId })
+        .then(
+          (r) => {
+            a.whole = Buffer.from(r.body, r.base64Encoded ? 'base64' : 'utf8');
+          },
+          () => undefined,
+        )
+        .finally(() => {
+          a.read = true;
+        });
     });
-    cdp.on('Network.loadingFailed', (e) => { const a = of(e); if (a) { a.ended = e.timestamp; a.read = true; } });
+    cdp.on('Network.loadingFailed', (e) => {
+      const a = of(e);
+      if (a) {
+        a.ended = e.timestamp;
+        a.read = true;
+      }
+    });
     await cdp.send('Network.enable', { maxPostDataSize: 1 << 24 });
     return w;
   }
 
   /** Those asked since a mark taken with `asked.length`. */
-  since(mark) { return this.asked.slice(mark); }
-  last() { return this.asked.at(-1); }
-  quiet() { return this.asked.every((a) => a.read); }
+  since(mark) {
+    return this.asked.slice(mark);
+  }
+  last() {
+    return this.asked.at(-1);
+  }
+  quiet() {
+    return this.asked.every((a) => a.read);
+  }
 
   /** The most that were on the way at the same time. */
   static crowd(asked) {
-    const ends = asked.flatMap((a) => [[a.sent, 1], [a.ended ?? Infinity, -1]]).sort((p, q) => p[0] - q[0] || p[1] - q[1]);
-    let now = 0, most = 0;
+    const ends = asked
+      .flatMap((a) => [
+        [a.sent, 1],
+        [a.ended ?? Infinity, -1],
+      ])
+      .sort((p, q) => p[0] - q[0] || p[1] - q[1]);
+    let now = 0,
+      most = 0;
     for (const [, d] of ends) most = Math.max(most, (now += d));
     return most;
   }

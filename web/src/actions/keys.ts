@@ -2,22 +2,42 @@
 // shortcuts can be shown as it is typed.
 
 const SHIFTED: Record<string, string> = { '{': '[', '}': ']', ':': ';', '"': "'", '<': ',', '>': '.', _: '-' };
-const NAMES: Record<string, string> = { ' ': 'Space', Escape: 'Esc', Delete: 'Del', ArrowUp: 'Up', ArrowDown: 'Down', ArrowLeft: 'Left', ArrowRight: 'Right', '−': '-' };
+const NAMES: Record<string, string> = {
+  ' ': 'Space',
+  Escape: 'Esc',
+  Delete: 'Del',
+  ArrowUp: 'Up',
+  ArrowDown: 'Down',
+  ArrowLeft: 'Left',
+  ArrowRight: 'Right',
+  '−': '-',
+};
 
-export interface KeyLike { key: string; code?: string; ctrlKey: boolean; metaKey: boolean; altKey: boolean; shiftKey: boolean }
+export interface KeyLike {
+  key: string;
+  code?: string;
+  ctrlKey: boolean;
+  metaKey: boolean;
+  altKey: boolean;
+  shiftKey: boolean;
+}
 
 export function keyOf(e: KeyLike): string {
   let key = NAMES[e.key] ?? e.key;
   let shift = e.shiftKey;
-  if (SHIFTED[key]) { key = SHIFTED[key]; shift = true; }
-  else if (key === '=') key = '+';
+  if (SHIFTED[key]) {
+    key = SHIFTED[key];
+    shift = true;
+  } else if (key === '=') key = '+';
   else if (key === '+') shift = shift && e.code === 'Equal';
   else if (key === '?') shift = false;
   else if (/^[a-z]$/i.test(key)) key = key.toUpperCase();
   // Alt changes what a digit key types on some keyboards; its place does not change.
   const digit = e.altKey && /^Digit(\d)$/.exec(e.code ?? '');
   if (digit) key = digit[1];
-  return [e.ctrlKey || e.metaKey ? 'Ctrl' : '', e.altKey ? 'Alt' : '', shift ? 'Shift' : '', key].filter(Boolean).join('+');
+  return [e.ctrlKey || e.metaKey ? 'Ctrl' : '', e.altKey ? 'Alt' : '', shift ? 'Shift' : '', key]
+    .filter(Boolean)
+    .join('+');
 }
 
 const SHOWN: Record<string, string> = { Up: '↑', Down: '↓', Left: '←', Right: '→', Enter: '↵', '-': '−' };

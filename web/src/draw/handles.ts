@@ -8,16 +8,22 @@ import type { Labels } from './labels';
 import type { View } from './view';
 
 /** Seconds of travel the speed arrow shows, in map metres. */
-export const arrowSeconds = (type: AgentType): number => (type === 'pedestrian' ? 5 : type === 'cyclist' ? 2 : 1);
-export const STALK = 24;
+const arrowSeconds = (type: AgentType): number => (type === 'pedestrian' ? 5 : type === 'cyclist' ? 2 : 1);
+const STALK = 24;
 const GAP = 5;
 const SHORTEST_ARROW = 10;
 
-export interface HandlePoints { tip: Vec; knob: Vec; centre: Vec; nose: Vec }
+export interface HandlePoints {
+  tip: Vec;
+  knob: Vec;
+  centre: Vec;
+  nose: Vec;
+}
 
 /** Where the handles of a pose lie on screen. */
 export function handlePoints(v: View, a: Sized, p: Pose, scale = 1): HandlePoints {
-  const c = Math.cos(p.heading), s = Math.sin(p.heading);
+  const c = Math.cos(p.heading),
+    s = Math.sin(p.heading);
   const half = sizeOnScreen(a, v.z)[0] / 2;
   const [x, y] = v.to(p.x, p.y);
   const at = (d: number): Vec => [x + c * d, y - s * d];
@@ -32,12 +38,26 @@ export function speedForTip(v: View, a: Sized, p: OnLine, wx: number, wy: number
   return ahead / arrowSeconds(a.type);
 }
 
-export interface HandleStyle { colour: string; freeHeading?: boolean; freeSpeed?: boolean; scale?: number; tick: number }
+export interface HandleStyle {
+  colour: string;
+  freeHeading?: boolean;
+  freeSpeed?: boolean;
+  scale?: number;
+  tick: number;
+}
 
-export function paintHandles(g: CanvasRenderingContext2D, labels: Labels, v: View, a: Sized, p: Pose, s: HandleStyle): HandlePoints {
+export function paintHandles(
+  g: CanvasRenderingContext2D,
+  labels: Labels,
+  v: View,
+  a: Sized,
+  p: Pose,
+  s: HandleStyle,
+): HandlePoints {
   const k = s.scale ?? 1;
   const h = handlePoints(v, a, p, k);
-  const c = Math.cos(p.heading), n = Math.sin(p.heading);
+  const c = Math.cos(p.heading),
+    n = Math.sin(p.heading);
   const half = sizeOnScreen(a, v.z)[0] / 2;
   const rear: Vec = [h.centre[0] - c * (half + GAP), h.centre[1] + n * (half + GAP)];
   haloLine(g, rear, h.knob, s.colour, 2, s.freeHeading);
@@ -47,7 +67,12 @@ export function paintHandles(g: CanvasRenderingContext2D, labels: Labels, v: Vie
   arrowHead(g, h.tip, p.heading, s, k);
   labels.block(h.tip[0] - 10, h.tip[1] - 10, 20, 20);
   labels.block(h.knob[0] - 8, h.knob[1] - 8, 16, 16);
-  labels.block(Math.min(h.nose[0], h.tip[0]) - 4, Math.min(h.nose[1], h.tip[1]) - 4, Math.abs(h.nose[0] - h.tip[0]) + 8, Math.abs(h.nose[1] - h.tip[1]) + 8);
+  labels.block(
+    Math.min(h.nose[0], h.tip[0]) - 4,
+    Math.min(h.nose[1], h.tip[1]) - 4,
+    Math.abs(h.nose[0] - h.tip[0]) + 8,
+    Math.abs(h.nose[1] - h.tip[1]) + 8,
+  );
   return h;
 }
 
@@ -68,7 +93,10 @@ function haloLine(g: CanvasRenderingContext2D, a: Vec, b: Vec, colour: string, w
 
 function knob(g: CanvasRenderingContext2D, [x, y]: Vec, colour: string, free: boolean, r: number): void {
   const c = colours();
-  const ring = (radius: number) => { g.beginPath(); g.arc(x, y, radius, 0, Math.PI * 2); };
+  const ring = (radius: number) => {
+    g.beginPath();
+    g.arc(x, y, radius, 0, Math.PI * 2);
+  };
   ring(r + 1.6);
   g.fillStyle = c.halo;
   g.fill();
@@ -88,12 +116,14 @@ function knob(g: CanvasRenderingContext2D, [x, y]: Vec, colour: string, free: bo
 
 /** Marks along the arrow, so that its length can be read as a speed. */
 function ticks(g: CanvasRenderingContext2D, h: HandlePoints, p: Pose, s: HandleStyle, pxPerMps: number): void {
-  const c = Math.cos(p.heading), n = Math.sin(p.heading);
+  const c = Math.cos(p.heading),
+    n = Math.sin(p.heading);
   const length = Math.hypot(h.tip[0] - h.nose[0], h.tip[1] - h.nose[1]);
   g.strokeStyle = s.colour;
   g.lineWidth = 1.5;
   for (let d = s.tick * pxPerMps, i = 0; d < length - 6 && i < 60; d += s.tick * pxPerMps, i++) {
-    const x = h.nose[0] + c * d, y = h.nose[1] - n * d;
+    const x = h.nose[0] + c * d,
+      y = h.nose[1] - n * d;
     g.beginPath();
     g.moveTo(x + n * 3.2, y + c * 3.2);
     g.lineTo(x - n * 3.2, y - c * 3.2);
@@ -127,7 +157,14 @@ function arrowHead(g: CanvasRenderingContext2D, [x, y]: Vec, heading: number, s:
 
 export const FLAG_HEIGHT = 36;
 
-export function paintFlag(g: CanvasRenderingContext2D, labels: Labels, x: number, y: number, colour: string, free: boolean): void {
+export function paintFlag(
+  g: CanvasRenderingContext2D,
+  labels: Labels,
+  x: number,
+  y: number,
+  colour: string,
+  free: boolean,
+): void {
   const c = colours();
   g.save();
   g.lineCap = g.lineJoin = 'round';
@@ -139,7 +176,11 @@ export function paintFlag(g: CanvasRenderingContext2D, labels: Labels, x: number
   g.ellipse(x, y, 3.6, 1.8, 0, 0, Math.PI * 2);
   g.fillStyle = colour;
   g.fill();
-  const pole = () => { g.beginPath(); g.moveTo(x, y); g.lineTo(x, y - FLAG_HEIGHT); };
+  const pole = () => {
+    g.beginPath();
+    g.moveTo(x, y);
+    g.lineTo(x, y - FLAG_HEIGHT);
+  };
   pole();
   g.strokeStyle = c.halo;
   g.lineWidth = 5.4;
@@ -169,7 +210,16 @@ export function paintFlag(g: CanvasRenderingContext2D, labels: Labels, x: number
 }
 
 /** Ring around a box: selection, collision. */
-export function paintRing(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine, colour: string, width = 2, gap = 4, dash: number[] = []): void {
+export function paintRing(
+  g: CanvasRenderingContext2D,
+  v: View,
+  a: Sized,
+  p: OnLine,
+  colour: string,
+  width = 2,
+  gap = 4,
+  dash: number[] = [],
+): void {
   const [l, w] = sizeOnScreen(a, v.z);
   g.save();
   g.translate(v.x(p.x), v.y(p.y));
@@ -186,13 +236,25 @@ export function paintRing(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnL
 }
 
 /** A box in outline: goals, ghosts, "before". An arrow inside tells the front. */
-export function paintGhost(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine, colour: string, fill: string | null, dash: number[] = [], width = 1.75): void {
+export function paintGhost(
+  g: CanvasRenderingContext2D,
+  v: View,
+  a: Sized,
+  p: OnLine,
+  colour: string,
+  fill: string | null,
+  dash: number[] = [],
+  width = 1.75,
+): void {
   const [l, w] = sizeOnScreen(a, v.z);
   g.save();
   g.translate(v.x(p.x), v.y(p.y));
   g.rotate(-p.heading);
   outline(g, a.kind, l, w);
-  if (fill) { g.fillStyle = fill; g.fill(); }
+  if (fill) {
+    g.fillStyle = fill;
+    g.fill();
+  }
   g.strokeStyle = colour;
   g.lineWidth = width;
   g.setLineDash(dash);

@@ -4,12 +4,21 @@ import { clamp } from '../model/geometry';
 import { colours, font } from './theme';
 import { roundRect } from './sprites';
 
-export interface Rect { x: number; y: number; w: number; h: number }
+export interface Rect {
+  x: number;
+  y: number;
+  w: number;
+  h: number;
+}
 export type Offset = readonly [number, number];
 
 export class Labels {
   private used: Rect[] = [];
-  constructor(private w = 0, private h = 0, private inset = { left: 0, right: 0, top: 0, bottom: 0 }) {}
+  constructor(
+    private w = 0,
+    private h = 0,
+    private inset = { left: 0, right: 0, top: 0, bottom: 0 },
+  ) {}
 
   reset(w: number, h: number, inset = this.inset): void {
     this.w = w;
@@ -19,13 +28,20 @@ export class Labels {
   }
 
   /** Is a point out of the picture? What belongs to it is not labelled then. */
-  outside(x: number, y: number): boolean { return x < -8 || y < -8 || x > this.w + 8 || y > this.h + 8; }
+  outside(x: number, y: number): boolean {
+    return x < -8 || y < -8 || x > this.w + 8 || y > this.h + 8;
+  }
 
-  block(x: number, y: number, w: number, h: number): void { this.used.push({ x, y, w, h }); }
+  block(x: number, y: number, w: number, h: number): void {
+    this.used.push({ x, y, w, h });
+  }
 
   place(x: number, y: number, w: number, h: number, tries: readonly Offset[], must: boolean): Rect | null {
     const at = (o: Offset): Rect => ({
-      x: clamp(x + o[0], 6 + this.inset.left, Math.max(6, this.w - w - 6 - this.inset.right)), y: clamp(y + o[1], 6, this.h - h - 6), w, h,
+      x: clamp(x + o[0], 6 + this.inset.left, Math.max(6, this.w - w - 6 - this.inset.right)),
+      y: clamp(y + o[1], 6, this.h - h - 6),
+      w,
+      h,
     });
     for (const o of tries) {
       const r = at(o);
@@ -46,15 +62,24 @@ function around(w: number, h: number, radii: readonly number[]): Offset[] {
   const out: Offset[] = [];
   for (const r of radii)
     for (const d of [-45, 45, -135, 135, -90, 90, 0, 180]) {
-      const x = Math.cos((d * Math.PI) / 180) * r, y = Math.sin((d * Math.PI) / 180) * r;
+      const x = Math.cos((d * Math.PI) / 180) * r,
+        y = Math.sin((d * Math.PI) / 180) * r;
       out.push([x + (x > 8 ? 0 : x < -8 ? -w : -w / 2), y - h / 2]);
     }
   return out;
 }
 
 export interface PillStyle {
-  fg?: string; bg?: string; border?: string; weight?: number; height?: number; icon?: 'cross' | 'triangle'; leader?: string;
-  tries?: readonly Offset[]; radii?: readonly number[]; must?: boolean;
+  fg?: string;
+  bg?: string;
+  border?: string;
+  weight?: number;
+  height?: number;
+  icon?: 'cross' | 'triangle';
+  leader?: string;
+  tries?: readonly Offset[];
+  radii?: readonly number[];
+  must?: boolean;
 }
 
 /** What must be read takes any free place before it covers something else. */
@@ -75,11 +100,19 @@ function textWidth(g: CanvasRenderingContext2D, f: string, text: string): number
   return w;
 }
 
-export function pill(g: CanvasRenderingContext2D, labels: Labels, x: number, y: number, text: string, s: PillStyle = {}): Rect | null {
+export function pill(
+  g: CanvasRenderingContext2D,
+  labels: Labels,
+  x: number,
+  y: number,
+  text: string,
+  s: PillStyle = {},
+): Rect | null {
   if (labels.outside(x, y)) return null;
   const c = colours();
   const f = font(s.weight ?? 600, 11);
-  const h = s.height ?? 20, icon = s.icon ? 15 : 0;
+  const h = s.height ?? 20,
+    icon = s.icon ? 15 : 0;
   const w = textWidth(g, f, text) + 14 + icon;
   const r = labels.place(x, y, w, h, places(w, h, s), s.must ?? true);
   if (!r) return null;
@@ -118,11 +151,19 @@ function leaderLine(g: CanvasRenderingContext2D, x: number, y: number, r: Rect, 
   g.stroke();
 }
 
-export function paintIcon(g: CanvasRenderingContext2D, kind: 'cross' | 'triangle', x: number, y: number, colour: string): void {
+export function paintIcon(
+  g: CanvasRenderingContext2D,
+  kind: 'cross' | 'triangle',
+  x: number,
+  y: number,
+  colour: string,
+): void {
   g.beginPath();
   if (kind === 'cross') {
-    g.moveTo(x - 3.2, y - 3.2); g.lineTo(x + 3.2, y + 3.2);
-    g.moveTo(x + 3.2, y - 3.2); g.lineTo(x - 3.2, y + 3.2);
+    g.moveTo(x - 3.2, y - 3.2);
+    g.lineTo(x + 3.2, y + 3.2);
+    g.moveTo(x + 3.2, y - 3.2);
+    g.lineTo(x - 3.2, y + 3.2);
     g.strokeStyle = colour;
     g.lineWidth = 1.9;
     g.lineCap = 'round';
@@ -135,4 +176,15 @@ export function paintIcon(g: CanvasRenderingContext2D, kind: 'cross' | 'triangle
   g.closePath();
   g.fillStyle = colour;
   g.fill();
+}
+
+/** A pill at a place given as a pair. */
+export function tag(
+  g: CanvasRenderingContext2D,
+  labels: Labels,
+  [x, y]: readonly [number, number],
+  text: string,
+  s: PillStyle,
+): void {
+  pill(g, labels, x, y, text, s);
 }

@@ -5,8 +5,17 @@ import { Layer } from './tiles';
 import { colours } from './theme';
 import type { View } from './view';
 
-interface Stripe { readonly a: Vec; readonly b: Vec; readonly width: number }
-interface Arrow { readonly x: number; readonly y: number; readonly heading: number; readonly ways: string }
+interface Stripe {
+  readonly a: Vec;
+  readonly b: Vec;
+  readonly width: number;
+}
+interface Arrow {
+  readonly x: number;
+  readonly y: number;
+  readonly heading: number;
+  readonly ways: string;
+}
 
 /** Recorded maps know lanes but no road surface; wide bands close the gaps between neighbours. */
 const BAND_M = 5.2;
@@ -25,7 +34,10 @@ export class MapPicture {
   private readonly stripes: Stripe[];
   private readonly arrows: Arrow[];
 
-  constructor(private readonly map: LaneMap, private readonly recorded: boolean) {
+  constructor(
+    private readonly map: LaneMap,
+    private readonly recorded: boolean,
+  ) {
     for (const lane of map.lanes.values()) this.addLane(lane);
     for (const d of map.drivable) {
       this.drivable.add(d.outer, true);
@@ -42,8 +54,10 @@ export class MapPicture {
   private addLane(lane: Lane): void {
     const { pts } = lane.line;
     if (lane.kind === 'walk') this.walks.add(pts);
-    else if (lane.kind === 'bike' && !(lane.inside && this.crossesTraffic(lane))) { layerOf(this.bike, Math.min(2.4, lane.width)).add(pts); this.outlines.add(pts); }
-    else if (lane.kind === 'bike') layerOf(this.roads, 2.4).add(pts);
+    else if (lane.kind === 'bike' && !(lane.inside && this.crossesTraffic(lane))) {
+      layerOf(this.bike, Math.min(2.4, lane.width)).add(pts);
+      this.outlines.add(pts);
+    } else if (lane.kind === 'bike') layerOf(this.roads, 2.4).add(pts);
     else {
       // A lane that ends at the rim of the map is cut square; where lanes meet, round ends close the gap.
       const open = !lane.next.length || !lane.prev.length;
@@ -56,7 +70,12 @@ export class MapPicture {
   private crossesTraffic(lane: Lane): boolean {
     for (let s = 1; s < lane.line.length; s += 2) {
       const p = pointAt(lane.line, s);
-      if (nearestLanes(this.map, p.x, p.y, null, 2, (l) => l.kind === 'road').some((h) => Math.abs(Math.sin(h.heading - p.heading)) > 0.4)) return true;
+      if (
+        nearestLanes(this.map, p.x, p.y, null, 2, (l) => l.kind === 'road').some(
+          (h) => Math.abs(Math.sin(h.heading - p.heading)) > 0.4,
+        )
+      )
+        return true;
     }
     return false;
   }
@@ -90,7 +109,14 @@ export class MapPicture {
     for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, colour, w + extra);
   }
 
-  private strokeAll(g: CanvasRenderingContext2D, layer: Layer, box: Box, colour: string, width: number, dash: number[] = []): void {
+  private strokeAll(
+    g: CanvasRenderingContext2D,
+    layer: Layer,
+    box: Box,
+    colour: string,
+    width: number,
+    dash: number[] = [],
+  ): void {
     g.strokeStyle = colour;
     g.lineWidth = width;
     g.setLineDash(dash);
@@ -102,7 +128,10 @@ export class MapPicture {
   private paintSidewalk(g: CanvasRenderingContext2D, box: Box, px: number): void {
     const c = colours();
     const wide = 3.4;
-    for (const [extra, colour] of [[wide * 2 + 2.4 * px, c['map-grid']], [wide * 2, c['map-sidewalk']]] as const) {
+    for (const [extra, colour] of [
+      [wide * 2 + 2.4 * px, c['map-grid']],
+      [wide * 2, c['map-sidewalk']],
+    ] as const) {
       this.strokeBands(g, box, colour, extra);
       this.strokeAll(g, this.walks, box, colour, 3 + extra - wide * 2);
       if (!this.drivable.empty) this.strokeAll(g, this.drivable, box, colour, extra);
@@ -154,7 +183,14 @@ export class MapPicture {
     for (const [style, layer] of this.lines) {
       const yellow = style.includes('y');
       const one = Math.max(1 * px, 0.14);
-      this.strokeAll(g, layer, box, yellow ? c['map-yellow'] : c['map-line'], style.includes('2') ? one * 3 : one, style.includes('-') ? [3, 4.5] : []);
+      this.strokeAll(
+        g,
+        layer,
+        box,
+        yellow ? c['map-yellow'] : c['map-line'],
+        style.includes('2') ? one * 3 : one,
+        style.includes('-') ? [3, 4.5] : [],
+      );
       // A double line is a broad one with its middle painted back.
       if (style.includes('2')) this.strokeAll(g, layer, box, c['map-asphalt'], one);
     }
@@ -182,7 +218,9 @@ export class MapPicture {
   }
 
   /** True when the map itself has nothing to show. */
-  get empty(): boolean { return this.map.lanes.size === 0 && this.map.drivable.length === 0; }
+  get empty(): boolean {
+    return this.map.lanes.size === 0 && this.map.drivable.length === 0;
+  }
 }
 
 function layerOf<K>(layers: Map<K, Layer>, key: K): Layer {
@@ -193,23 +231,39 @@ function layerOf<K>(layers: Map<K, Layer>, key: K): Layer {
 
 /** "y" yellow, "w" white, "2" double, "-" broken. */
 function lineStyle(type: string): string {
-  return (type.includes('yellow') ? 'y' : 'w') + (type.includes('double') ? '2' : '') + (type.startsWith('broken') || type.startsWith('passing') ? '-' : '');
+  return (
+    (type.includes('yellow') ? 'y' : 'w') +
+    (type.includes('double') ? '2' : '') +
+    (type.startsWith('broken') || type.startsWith('passing') ? '-' : '')
+  );
 }
 
 /** A crosswalk as one broad dashed stroke along its longest side. */
-export function stripeOf(poly: readonly Vec[]): Stripe {
-  let best = 0, heading = 0;
+function stripeOf(poly: readonly Vec[]): Stripe {
+  let best = 0,
+    heading = 0;
   for (let i = 0; i < poly.length; i++) {
-    const a = poly[i], b = poly[(i + 1) % poly.length];
+    const a = poly[i],
+      b = poly[(i + 1) % poly.length];
     const d = Math.hypot(b[0] - a[0], b[1] - a[1]);
-    if (d > best) { best = d; heading = Math.atan2(b[1] - a[1], b[0] - a[0]); }
+    if (d > best) {
+      best = d;
+      heading = Math.atan2(b[1] - a[1], b[0] - a[0]);
+    }
   }
-  const c = Math.cos(heading), s = Math.sin(heading);
-  let u0 = Infinity, u1 = -Infinity, v0 = Infinity, v1 = -Infinity;
+  const c = Math.cos(heading),
+    s = Math.sin(heading);
+  let u0 = Infinity,
+    u1 = -Infinity,
+    v0 = Infinity,
+    v1 = -Infinity;
   for (const [x, y] of poly) {
-    const u = x * c + y * s, v = -x * s + y * c;
-    u0 = Math.min(u0, u); u1 = Math.max(u1, u);
-    v0 = Math.min(v0, v); v1 = Math.max(v1, v);
+    const u = x * c + y * s,
+      v = -x * s + y * c;
+    u0 = Math.min(u0, u);
+    u1 = Math.max(u1, u);
+    v0 = Math.min(v0, v);
+    v1 = Math.max(v1, v);
   }
   const m = (v0 + v1) / 2;
   const at = (u: number): Vec => [u * c - m * s, u * s + m * c];
@@ -233,11 +287,19 @@ function findArrows(map: LaneMap): Arrow[] {
     if (!junction || !ways.size || !hasNeighbour(map, lane)) continue;
     for (const back of lane.line.length > 40 ? [6, 24] : [6]) {
       const s = lane.line.length - back;
-      const p = lane.line.pts, S = lane.line.s;
+      const p = lane.line.pts,
+        S = lane.line.s;
       let i = 1;
       while (i < p.length - 1 && S[i] < s) i++;
-      const a = p[i - 1], b = p[i], k = (s - S[i - 1]) / Math.max(1e-9, S[i] - S[i - 1]);
-      out.push({ x: a[0] + (b[0] - a[0]) * k, y: a[1] + (b[1] - a[1]) * k, heading: Math.atan2(b[1] - a[1], b[0] - a[0]), ways: [...ways].sort().join('') });
+      const a = p[i - 1],
+        b = p[i],
+        k = (s - S[i - 1]) / Math.max(1e-9, S[i] - S[i - 1]);
+      out.push({
+        x: a[0] + (b[0] - a[0]) * k,
+        y: a[1] + (b[1] - a[1]) * k,
+        heading: Math.atan2(b[1] - a[1], b[0] - a[0]),
+        ways: [...ways].sort().join(''),
+      });
     }
   }
   return out;
@@ -246,7 +308,9 @@ function findArrows(map: LaneMap): Arrow[] {
 /** Arrows are painted where lanes must be told apart; a single lane carries none. */
 function hasNeighbour(map: LaneMap, lane: Lane): boolean {
   const p = pointAt(lane.line, lane.line.length - 6);
-  return nearestLanes(map, p.x, p.y, p.heading, 5, (l) => l.kind === 'road' && l !== lane).some((h) => h.d > 2 && Math.abs(wrapAngle(h.heading - p.heading)) < 0.3);
+  return nearestLanes(map, p.x, p.y, p.heading, 5, (l) => l.kind === 'road' && l !== lane).some(
+    (h) => h.d > 2 && Math.abs(wrapAngle(h.heading - p.heading)) < 0.3,
+  );
 }
 
 function paintArrow(g: CanvasRenderingContext2D, ways: string): void {
@@ -264,7 +328,10 @@ function paintArrow(g: CanvasRenderingContext2D, ways: string): void {
   g.beginPath();
   g.moveTo(-1.7, 0);
   g.lineTo(ways.includes('S') ? 0.7 : -0.4, 0);
-  for (const [way, side] of [['L', 1], ['R', -1]] as const) {
+  for (const [way, side] of [
+    ['L', 1],
+    ['R', -1],
+  ] as const) {
     if (!ways.includes(way)) continue;
     g.moveTo(-0.9, 0);
     g.quadraticCurveTo(0.2, 0, 0.3, 0.55 * side);

@@ -7,11 +7,17 @@ import type { View } from './view';
 
 type Light = 'stop' | 'caution' | 'go' | 'unknown';
 
-export function stateAt(s: Signal, t: number): Light {
+function stateAt(s: Signal, t: number): Light {
   const step = Math.floor(t / STEP_S + 1e-6);
   let state = 'unknown';
   for (const [first, name] of s.states) if (first <= step) state = name;
-  return state.includes('stop') ? 'stop' : state.includes('caution') ? 'caution' : state.includes('go') ? 'go' : 'unknown';
+  return state.includes('stop')
+    ? 'stop'
+    : state.includes('caution')
+      ? 'caution'
+      : state.includes('go')
+        ? 'go'
+        : 'unknown';
 }
 
 export function paintSignals(g: CanvasRenderingContext2D, v: View, scene: Scene, t: number): void {
@@ -36,13 +42,32 @@ export function paintSignals(g: CanvasRenderingContext2D, v: View, scene: Scene,
     }
     const nearStart = entry && Math.hypot(entry.x - at[0], entry.y - at[1]) < lane.line.length / 2;
     const heading = pointAt(lane.line, nearStart ? 0 : lane.line.length).heading;
-    bar(g, v.x(at[0]), v.y(at[1]), heading, Math.max(9, Math.min(2.5, lane.width - 0.7) * v.z), Math.max(3, 0.32 * v.z), light, paint[light]);
+    bar(
+      g,
+      v.x(at[0]),
+      v.y(at[1]),
+      heading,
+      Math.max(9, Math.min(2.5, lane.width - 0.7) * v.z),
+      Math.max(3, 0.32 * v.z),
+      light,
+      paint[light],
+    );
   }
 }
 
-function bar(g: CanvasRenderingContext2D, x: number, y: number, heading: number, length: number, thick: number, light: Light, colour: string): void {
+function bar(
+  g: CanvasRenderingContext2D,
+  x: number,
+  y: number,
+  heading: number,
+  length: number,
+  thick: number,
+  light: Light,
+  colour: string,
+): void {
   // Across the lane, in screen directions.
-  const dx = (Math.sin(heading) * length) / 2, dy = (Math.cos(heading) * length) / 2;
+  const dx = (Math.sin(heading) * length) / 2,
+    dy = (Math.cos(heading) * length) / 2;
   g.beginPath();
   g.moveTo(x - dx, y - dy);
   g.lineTo(x + dx, y + dy);
@@ -54,7 +79,10 @@ function bar(g: CanvasRenderingContext2D, x: number, y: number, heading: number,
   g.strokeStyle = colour;
   g.lineWidth = thick;
   if (light === 'go') g.setLineDash([0.01, thick * 1.75]);
-  if (light === 'unknown') { g.setLineDash([thick, thick * 1.4]); g.globalAlpha = 0.7; }
+  if (light === 'unknown') {
+    g.setLineDash([thick, thick * 1.4]);
+    g.globalAlpha = 0.7;
+  }
   g.stroke();
   g.setLineDash([]);
   g.globalAlpha = 1;

@@ -5,24 +5,31 @@ import { colours, paletteStamp, type ColourName } from './theme';
 import type { View } from './view';
 
 /** Least size on screen in pixels: what is small stays visible. */
-const LEAST: Partial<Record<Kind, readonly [number, number]>> = { pedestrian: [11, 11], cyclist: [17, 8], motorcycle: [18, 8] };
+const LEAST: Partial<Record<Kind, readonly [number, number]>> = {
+  pedestrian: [11, 11],
+  cyclist: [17, 8],
+  motorcycle: [18, 8],
+};
 
-export const colourKey = (a: Pick<Agent, 'type' | 'parked'>): 'vehicle' | 'cyclist' | 'pedestrian' | 'parked' | 'log' =>
+export const colourKey = (
+  a: Pick<Agent, 'type' | 'parked'>,
+): 'vehicle' | 'cyclist' | 'pedestrian' | 'parked' | 'log' =>
   a.type === 'other' ? 'log' : a.parked ? 'parked' : a.type;
 
 export type Sized = Pick<Agent, 'kind' | 'type' | 'length' | 'width' | 'parked'> & { readonly mini?: boolean };
 
 export function sizeOnScreen(a: Sized, z: number): [number, number] {
-  const least = a.mini ? [2, 2] : LEAST[a.kind] ?? [5, 3.5];
+  const least = a.mini ? [2, 2] : (LEAST[a.kind] ?? [5, 3.5]);
   return [Math.max(a.length * z, least[0]), Math.max(a.width * z, least[1])];
 }
 
 const cache = new Map<string, HTMLCanvasElement>();
 const PAD = 3;
 
-export function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLCanvasElement {
+function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLCanvasElement {
   const [l, w] = sizeOnScreen(a, z);
-  const L = Math.round(l * 2) / 2, W = Math.round(w * 2) / 2;
+  const L = Math.round(l * 2) / 2,
+    W = Math.round(w * 2) / 2;
   const colour = active && a.parked ? 'vehicle' : colourKey(a);
   const key = `${a.kind}|${colour}|${L}|${W}|${dpr}|${a.mini ? 'm' : ''}${paletteStamp()}`;
   let s = cache.get(key);
@@ -40,8 +47,10 @@ export function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLC
 
 export function stamp(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine, active = false): void {
   const s = sprite(a, v.z, v.dpr, active);
-  const w = s.width / v.dpr, h = s.height / v.dpr;
-  const c = Math.cos(p.heading), n = Math.sin(p.heading);
+  const w = s.width / v.dpr,
+    h = s.height / v.dpr;
+  const c = Math.cos(p.heading),
+    n = Math.sin(p.heading);
   // Screen y points down, so the rotation is the other way round.
   g.setTransform(v.dpr * c, -v.dpr * n, v.dpr * n, v.dpr * c, v.dpr * v.x(p.x), v.dpr * v.y(p.y));
   g.drawImage(s, -w / 2, -h / 2, w, h);
@@ -53,11 +62,25 @@ export function roundRect(g: CanvasRenderingContext2D, x: number, y: number, w: 
 }
 
 export function outline(g: CanvasRenderingContext2D, kind: Kind, L: number, W: number): void {
-  const soft = kind === 'pedestrian' ? W * 0.42 : kind === 'cyclist' || kind === 'motorcycle' ? W * 0.48 : kind === 'car' ? Math.min(W * 0.28, 6) : Math.min(W * 0.14, 4);
+  const soft =
+    kind === 'pedestrian'
+      ? W * 0.42
+      : kind === 'cyclist' || kind === 'motorcycle'
+        ? W * 0.48
+        : kind === 'car'
+          ? Math.min(W * 0.28, 6)
+          : Math.min(W * 0.14, 4);
   roundRect(g, -L / 2, -W / 2, L, W, soft);
 }
 
-function paintBody(g: CanvasRenderingContext2D, kind: Kind, L: number, W: number, colour: ReturnType<typeof colourKey>, halo: number): void {
+function paintBody(
+  g: CanvasRenderingContext2D,
+  kind: Kind,
+  L: number,
+  W: number,
+  colour: ReturnType<typeof colourKey>,
+  halo: number,
+): void {
   const c = colours();
   g.lineJoin = 'round';
   outline(g, kind, L, W);

@@ -36,11 +36,14 @@ export class Stage {
     this.resize();
   }
 
-  painter(layer: 'map' | 'agents' | 'overlay', p: Painter): void { this.painters[layer] = p; }
+  painter(layer: 'map' | 'agents' | 'overlay', p: Painter): void {
+    this.painters[layer] = p;
+  }
 
   resize(): void {
     const { view: v } = this;
-    const w = this.element.clientWidth, h = this.element.clientHeight;
+    const w = this.element.clientWidth,
+      h = this.element.clientHeight;
     const dpr = Math.min(2, window.devicePixelRatio || 1);
     if (!w || !h || (w === v.w && h === v.h && dpr === v.dpr && this.canvases.agents.width)) return;
     v.w = w;
@@ -52,7 +55,10 @@ export class Stage {
       c.height = Math.round((h + 2 * m) * dpr);
       c.style.width = `${w + 2 * m}px`;
       c.style.height = `${h + 2 * m}px`;
-      if (m) { c.style.left = `${-m}px`; c.style.top = `${-m}px`; }
+      if (m) {
+        c.style.left = `${-m}px`;
+        c.style.top = `${-m}px`;
+      }
     }
     this.invalidate('map', 'agents', 'overlay');
     this.onView?.();
@@ -70,6 +76,14 @@ export class Stage {
     this.rest = window.setTimeout(() => this.invalidate('map'), REST_MS);
     this.invalidate();
     this.onView?.();
+  }
+
+  /** The shape of the pointer over the picture; empty for the plain one. */
+  setCursor(name: string): void {
+    const { dataset } = this.element;
+    if ((dataset.cursor ?? '') === name) return;
+    if (name) dataset.cursor = name;
+    else delete dataset.cursor;
   }
 
   themeChanged(): void {
@@ -107,12 +121,15 @@ export class Stage {
 
   /** Moves the painted map under the present view; false when its margin does not reach. */
   private shift(): boolean {
-    const p = this.painted, v = this.view;
+    const p = this.painted,
+      v = this.view;
     if (!p || p.w !== v.w || p.h !== v.h) return false;
     const k = v.z / p.z;
-    const dx = (p.cx - v.cx) * v.z, dy = (v.cy - p.cy) * v.z;
+    const dx = (p.cx - v.cx) * v.z,
+      dy = (v.cy - p.cy) * v.z;
     if (k === 1 && dx === 0 && dy === 0) return true;
-    const reachX = ((p.w / 2 + MARGIN) * k - v.w / 2), reachY = ((p.h / 2 + MARGIN) * k - v.h / 2);
+    const reachX = (p.w / 2 + MARGIN) * k - v.w / 2,
+      reachY = (p.h / 2 + MARGIN) * k - v.h / 2;
     if (k > 3 || Math.abs(dx) > reachX || Math.abs(dy) > reachY) return false;
     this.canvases.map.style.transform = `translate(${dx}px, ${dy}px) scale(${k})`;
     return true;

@@ -8,22 +8,36 @@ import type { Labels, Offset } from './labels';
 import type { View } from './view';
 
 export interface TrailStyle {
-  colour: string; width: number; alpha?: number; halo?: boolean; dash?: number[]; dots?: boolean; from?: number; to?: number; cap?: CanvasLineCap;
+  colour: string;
+  width: number;
+  alpha?: number;
+  halo?: boolean;
+  dash?: number[];
+  dots?: boolean;
+  from?: number;
+  to?: number;
+  cap?: CanvasLineCap;
 }
 
 function tracePath(g: CanvasRenderingContext2D, v: View, m: Motion, i0: number, i1: number): void {
   g.beginPath();
   let pen = false;
   for (let i = Math.max(0, i0); i <= i1 && i < m.x.length; i++) {
-    if (!isValidAt(m, m.first + i)) { pen = false; continue; }
-    const x = v.x(m.x[i]), y = v.y(m.y[i]);
-    if (pen) g.lineTo(x, y); else g.moveTo(x, y);
+    if (!isValidAt(m, m.first + i)) {
+      pen = false;
+      continue;
+    }
+    const x = v.x(m.x[i]),
+      y = v.y(m.y[i]);
+    if (pen) g.lineTo(x, y);
+    else g.moveTo(x, y);
     pen = true;
   }
 }
 
 export function trail(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailStyle): void {
-  const i0 = Math.round((s.from ?? 0) * 10) - m.first, i1 = Math.round((s.to ?? 99) * 10) - m.first;
+  const i0 = Math.round((s.from ?? 0) * 10) - m.first,
+    i1 = Math.round((s.to ?? 99) * 10) - m.first;
   const alpha = s.alpha ?? 1;
   tracePath(g, v, m, i0, i1);
   g.lineCap = s.cap ?? 'round';
@@ -60,7 +74,16 @@ function secondDots(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailSty
   }
 }
 
-export function polyline(g: CanvasRenderingContext2D, v: View, pts: readonly Vec[], colour: string, width: number, alpha = 1, dash: number[] = [], cap: CanvasLineCap = 'butt'): void {
+export function polyline(
+  g: CanvasRenderingContext2D,
+  v: View,
+  pts: readonly Vec[],
+  colour: string,
+  width: number,
+  alpha = 1,
+  dash: number[] = [],
+  cap: CanvasLineCap = 'butt',
+): void {
   g.beginPath();
   pts.forEach((p, i) => (i ? g.lineTo(v.x(p[0]), v.y(p[1])) : g.moveTo(v.x(p[0]), v.y(p[1]))));
   g.strokeStyle = colour;
@@ -80,7 +103,13 @@ export function modeStyle(p: number, max: number): { alpha: number; width: numbe
   return { alpha: 0.35 + 0.65 * r, width: 1.5 + 2.5 * r };
 }
 
-export interface FuturesStyle { only?: number | null; chosen: number; alpha?: number; outdated?: boolean; onlyChosen?: boolean }
+export interface FuturesStyle {
+  only?: number | null;
+  chosen: number;
+  alpha?: number;
+  outdated?: boolean;
+  onlyChosen?: boolean;
+}
 
 /** Dotted, then dashed, then solid: how settled the six are. */
 function settledDash(f: Futures, outdated: boolean): number[] {
@@ -99,31 +128,65 @@ export function paintFutures(g: CanvasRenderingContext2D, v: View, f: Futures, s
     const lit = s.only == null || s.only === i;
     const isChosen = i === s.chosen;
     trail(g, v, m.motion, {
-      colour: f.sketch ? colours()['ink-3'] : modeColour(i), width: isChosen ? Math.max(width, 3.2) : width,
-      alpha: (lit ? (isChosen ? Math.max(alpha, 0.9) : alpha) : 0.14) * (s.alpha ?? 1), halo: lit, dots: lit, dash,
+      colour: f.sketch ? colours()['ink-3'] : modeColour(i),
+      width: isChosen ? Math.max(width, 3.2) : width,
+      alpha: (lit ? (isChosen ? Math.max(alpha, 0.9) : alpha) : 0.14) * (s.alpha ?? 1),
+      halo: lit,
+      dots: lit,
+      dash,
     });
   }
 }
 
 /** F first, A over it, the chosen one on top. */
-const drawOrder = (n: number, chosen: number): number[] => [...Array(n).keys()].filter((i) => i !== chosen).reverse().concat(chosen < n ? [chosen] : []);
+const drawOrder = (n: number, chosen: number): number[] =>
+  [...Array(n).keys()]
+    .filter((i) => i !== chosen)
+    .reverse()
+    .concat(chosen < n ? [chosen] : []);
 
-export interface Chip { readonly index: number; readonly x: number; readonly y: number }
+export interface Chip {
+  readonly index: number;
+  readonly x: number;
+  readonly y: number;
+}
 
-const CHIP_TRIES: readonly Offset[] = [[0, 0], [22, 0], [0, -24], [-22, 0], [0, 24], [20, -20], [-20, -20], [20, 20], [-20, 20], [0, -44], [42, 0], [-42, 0], [0, 44]];
+const CHIP_TRIES: readonly Offset[] = [
+  [0, 0],
+  [22, 0],
+  [0, -24],
+  [-22, 0],
+  [0, 24],
+  [20, -20],
+  [-20, -20],
+  [20, 20],
+  [-20, 20],
+  [0, -44],
+  [42, 0],
+  [-42, 0],
+  [0, 44],
+];
 
 /** The end of a motion, or where it leaves the part of the picture that no panel covers. */
 function lastInView(v: View, m: Motion): [number, number] | null {
   const { left, right, top, bottom } = v.inset;
   for (let i = m.x.length - 1; i >= 0; i--) {
-    const x = v.x(m.x[i]), y = v.y(m.y[i]);
+    const x = v.x(m.x[i]),
+      y = v.y(m.y[i]);
     if (x > left && x < v.w - right && y > top && y < v.h - bottom) return [x, y];
   }
   return null;
 }
 
 /** Letters at the ends of the futures; returns where they are, for clicks. */
-export function paintChips(g: CanvasRenderingContext2D, labels: Labels, v: View, f: Futures, which: readonly number[], chosen: number): Chip[] {
+export function paintChips(
+  g: CanvasRenderingContext2D,
+  labels: Labels,
+  v: View,
+  f: Futures,
+  which: readonly number[],
+  chosen: number,
+): Chip[] {
   const out: Chip[] = [];
   const R = 8.5;
   for (const i of which) {
@@ -131,8 +194,16 @@ export function paintChips(g: CanvasRenderingContext2D, labels: Labels, v: View,
     const end = lastInView(v, m);
     if (!end) continue;
     const [ex, ey] = end;
-    const r = labels.place(ex, ey, 2 * R + 2, 2 * R + 2, CHIP_TRIES.map(([a, b]): Offset => [a - R - 1, b - R - 1]), true)!;
-    const cx = r.x + R + 1, cy = r.y + R + 1;
+    const r = labels.place(
+      ex,
+      ey,
+      2 * R + 2,
+      2 * R + 2,
+      CHIP_TRIES.map(([a, b]): Offset => [a - R - 1, b - R - 1]),
+      true,
+    )!;
+    const cx = r.x + R + 1,
+      cy = r.y + R + 1;
     if (Math.hypot(cx - ex, cy - ey) > 4) {
       g.beginPath();
       g.moveTo(ex, ey);

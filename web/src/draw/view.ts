@@ -1,8 +1,8 @@
 // World to screen: one scale and one offset. y points up in the world and down on the screen.
 import { clamp, type Box, type Vec } from '../model/geometry';
 
-export const MIN_ZOOM = 0.5;
-export const MAX_ZOOM = 40;
+const MIN_ZOOM = 0.5;
+const MAX_ZOOM = 40;
 /** 100 % in the zoom control. */
 export const HOME_ZOOM = 8;
 
@@ -17,14 +17,23 @@ export class View {
   /** Part of the stage that panels cover, so that "fit" means the part one sees. */
   inset = { left: 0, right: 0, top: 0, bottom: 0 };
 
-  x(wx: number): number { return this.w / 2 + (wx - this.cx) * this.z; }
-  y(wy: number): number { return this.h / 2 - (wy - this.cy) * this.z; }
-  to(wx: number, wy: number): [number, number] { return [this.x(wx), this.y(wy)]; }
-  from(sx: number, sy: number): Vec { return [this.cx + (sx - this.w / 2) / this.z, this.cy - (sy - this.h / 2) / this.z]; }
+  x(wx: number): number {
+    return this.w / 2 + (wx - this.cx) * this.z;
+  }
+  y(wy: number): number {
+    return this.h / 2 - (wy - this.cy) * this.z;
+  }
+  to(wx: number, wy: number): [number, number] {
+    return [this.x(wx), this.y(wy)];
+  }
+  from(sx: number, sy: number): Vec {
+    return [this.cx + (sx - this.w / 2) / this.z, this.cy - (sy - this.h / 2) / this.z];
+  }
 
   /** The world rectangle on screen, grown by some pixels. */
   box(margin = 0): Box {
-    const hx = (this.w / 2 + margin) / this.z, hy = (this.h / 2 + margin) / this.z;
+    const hx = (this.w / 2 + margin) / this.z,
+      hy = (this.h / 2 + margin) / this.z;
     return { x0: this.cx - hx, x1: this.cx + hx, y0: this.cy - hy, y1: this.cy + hy };
   }
 
@@ -43,7 +52,8 @@ export class View {
 
   fit(b: Box, maxZoom = MAX_ZOOM, minZoom = MIN_ZOOM): void {
     const { left, right, top, bottom } = this.inset;
-    const w = Math.max(80, this.w - left - right), h = Math.max(80, this.h - top - bottom);
+    const w = Math.max(80, this.w - left - right),
+      h = Math.max(80, this.h - top - bottom);
     this.z = clamp(Math.min(w / Math.max(1, b.x1 - b.x0), h / Math.max(1, b.y1 - b.y0)), minZoom, maxZoom);
     this.centre((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2);
   }
@@ -55,5 +65,7 @@ export class View {
     this.cy = wy + (top - bottom) / 2 / this.z;
   }
 
-  copy(): View { return Object.assign(new View(), this, { inset: { ...this.inset } }); }
+  copy(): View {
+    return Object.assign(new View(), this, { inset: { ...this.inset } });
+  }
 }

@@ -1,33 +1,182 @@
-// Verdicts, scores and warnings of an answer, in the editor's own terms. Absent members read as "not known".
-import type { FinalEvent, ResolvedJson, ScoreJson } from '../net/api';
-import type { Reach, Score } from '../model/futures';
+// What the generator has answered, and how far it is: the motion in force, the draft on its way, who changed, the
+// status line, and whether the generator is there at all.
+import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
+import { findChanges, type Change } from '../model/changes';
+import { emptyMotion, MotionCache, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
+import { sceneKey, type Scene } from '../model/scene';
 
-export function readReach(r: ResolvedJson | undefined): Reach | null {
-  const j = r?.reach;
-  if (!j) return null;
-  const n = j.nearest;
-  return {
-    status: j.status === 'unreachable' ? 'unreachable' : 'reached',
-    nearest: n ? { x: n.x_m, y: n.y_m, heading: n.heading_rad ?? 0, speed: n.speed_mps ?? 0 } : null,
-    limiting: j.limiting ?? null, needs: j.needs ?? null, words: j.words ?? null,
-  };
+export type Status =
+  | { kind: 'loading' }
+  | { kind: 'ready' }
+  /** `part`: the seconds that a later window is about. */
+  | { kind: 'refining'; step: number; steps: number; ms: number; part?: string }
+  | { kind: 'slow'; ms: number }
+  | { kind: 'settled'; ms: number; adapted: number | null }
+  | { kind: 'away' }
+  | { kind: 'refused'; words: string };
+
+/** Futures on their way: the latest draft and the ones before it, which stay behind as trails. */
+export interface Draft {
+  readonly id: string;
+  readonly futures: Futures;
+  readonly earlier: readonly Futures[];
 }
 
-/** Sentences to show beside a road user; what the verdict on its goal says already is left out. */
-export function readWarnings(e: FinalEvent): Map<string, string[]> {
-  const out = new Map<string, string[]>();
-  for (const w of e.warnings ?? []) if (w.agent && w.detail && w.code !== 'goal-unreachable') out.set(w.agent, [...(out.get(w.agent) ?? []), w.detail]);
-  return out;
+export interface Away {
+  /** Seconds until the next try. */
+  readonly retryIn: number;
+  /** Changes that wait for the generator. */
+  readonly waiting: number;
 }
 
-/** The score of the scene, wherever the reply carries it. */
-export function readScore(json: unknown): Score | null {
-  const one = (Array.isArray(json) ? json[0] : json) as { scene?: ScoreJson; samples?: { scene?: ScoreJson }[] } | null | undefined;
-  const s = one?.scene ?? one?.samples?.[0]?.scene ?? (one && 'collisions' in one ? (one as ScoreJson) : undefined);
-  if (!s) return null;
-  return {
-    collisions: (s.collisions ?? []).map((c) => ({ a: String(c.a), b: String(c.b), time: c.time_s })),
-    nearMisses: (s.near_misses ?? []).map((c) => ({ a: String(c.a), b: String(c.b), time: c.time_s, distance: c.distance_m ?? null, ttc: c.ttc_s ?? null })),
-    minTtc: s.min_ttc_s ?? null, offroadShare: s.offroad_share ?? null,
-  };
+export interface LiveReach {
+  readonly id: string;
+  readonly reach: Reach;
+}
+
+export class Answers {
+  readonly #motion = signal<MotionSet>(emptyMotion(''));
+  readonly #draft = signal<Draft | null>(null);
+  readonly #changes = signal<readonly Change[]>([]);
+  readonly #liveReach = signal<LiveReach | null>(null);
+  readonly #status = signal<Status>({ kind: 'loading' });
+  readonly #away = signal<Away | null>(null);
+  readonly #cache = new MotionCache();
+
+  /** Everything worked out for the document, or for the one before it when `stale`. */
+  readonly motion: ReadonlySignal<MotionSet> = this.#motion;
+  readonly draft: ReadonlySignal<Draft | null> = this.#draft;
+  /** Who else does something else since the last change. */
+  readonly changes: ReadonlySignal<readonly Change[]> = this.#changes;
+  /** The generator's verdict on the goal as it is being dragged. */
+  readonly liveReach: ReadonlySignal<LiveReach | null> = this.#liveReach;
+  readonly status: ReadonlySignal<Status> = this.#status;
+  /** Null while the generator answers. */
+  readonly away: ReadonlySignal<Away | null> = this.#away;
+
+  open(scene: Scene, saved: MotionSet | null): void {
+    batch(() => {
+      this.#cache.clear();
+      this.#draft.value = null;
+      this.#changes.value = [];
+      this.#liveReach.value = null;
+      this.#motion.value = saved ?? emptyMotion(sceneKey(scene));
+      if (saved) this.#cache.put(saved);
+      this.#status.value = { kind: 'ready' };
+    });
+  }
+
+  /** Somebody else is selected: what was said about the last one is over. */
+  forgetLook(): void {
+    batch(() => {
+      this.#draft.value = null;
+      this.#liveReach.value = null;
+    });
+  }
+
+  /** A drag begins: who changed the last time is no longer of interest. */
+  dragBegan(): void {
+    this.#changes.value = [];
+  }
+
+  dragMoved(): void {
+    this.#liveReach.value = null;
+  }
+
+  dragPutBack(): void {
+    batch(() => {
+      this.forgetLook();
+      this.#status.value = { kind: 'ready' };
+    });
+  }
+
+  /** What is on screen no longer answers the document; it stays, marked. */
+  outdate(): void {
+    this.#motion.value = { ...this.#motion.peek(), stale: true };
+  }
+
+  /**
+   * The document changed. Known answers appear at once; otherwise the old ones stay, marked as out of date. `fresh`
+   * is the one road user whose futures still hold.
+   */
+  documentChanged(scene: Scene, fresh: string | null): void {
+    const key = sceneKey(scene);
+    const known = this.#cache.get(key);
+    batch(() => {
+      this.#changes.value = [];
+      if (known) {
+        this.#motion.value = known;
+        this.#draft.value = null;
+        return;
+      }
+      const m = this.#motion.peek();
+      const keeps = fresh && m.futures.has(fresh) ? fresh : null;
+      const driving = keeps ? new Set([...m.driving, keeps]) : m.driving;
+      this.#motion.value = { ...m, key, stale: true, fresh: keeps, driving };
+    });
+  }
+
+  /** Takes over what was worked out for the document as it is now; says who changed, but for those in `except`. */
+  settle(scene: Scene, set: MotionSet, except: ReadonlySet<string> | null): void {
+    const before = this.#motion.peek();
+    batch(() => {
+      this.#cache.put(set);
+      this.#motion.value = set;
+      this.#draft.value = null;
+      if (except) this.#changes.value = findChanges(scene, before, set, except);
+    });
+  }
+
+  showDraft(id: string, futures: Futures, earlier: readonly Futures[] = []): void {
+    this.#draft.value = { id, futures, earlier };
+  }
+
+  dropDraft(): void {
+    this.#draft.value = null;
+  }
+
+  /** A look at the six futures of one: kept beside the others', nobody follows them yet. */
+  look(id: string, futures: Futures, reach: Reach | null): void {
+    const m = this.#motion.peek();
+    const next: MotionSet = {
+      ...m,
+      futures: new Map(m.futures).set(id, futures),
+      reach: reach ? new Map(m.reach).set(id, reach) : m.reach,
+    };
+    batch(() => {
+      this.#motion.value = next;
+      this.#cache.put(next);
+      if (this.#draft.peek()?.id === id) this.#draft.value = null;
+    });
+  }
+
+  judge(id: string, reach: Reach): void {
+    this.#liveReach.value = { id, reach };
+  }
+
+  /** The verdict of the whole answer takes the place of the one during the drag. */
+  dropLiveReach(): void {
+    this.#liveReach.value = null;
+  }
+
+  scored(score: Score | null): void {
+    const next = { ...this.#motion.peek(), score };
+    this.#motion.value = next;
+    this.#cache.put(next);
+  }
+
+  report(status: Status): void {
+    this.#status.value = status;
+  }
+
+  missing(away: Away): void {
+    this.#away.value = away;
+  }
+
+  back(): void {
+    batch(() => {
+      this.#away.value = null;
+      this.#draft.value = null;
+    });
+  }
 }

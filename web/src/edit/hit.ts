@@ -9,26 +9,40 @@ import type { View } from '../draw/view';
 import type { Editor, Grip } from './editor';
 
 export type Hit =
-  | { kind: 'grip'; grip: Grip } | { kind: 'future'; index: number } | { kind: 'agent'; id: string; pile: string[] } | { kind: 'none' };
+  | { kind: 'grip'; grip: Grip }
+  | { kind: 'future'; index: number }
+  | { kind: 'agent'; id: string; pile: string[] }
+  | { kind: 'none' };
 
-const near = (p: readonly [number, number], x: number, y: number, r: number): boolean => Math.hypot(p[0] - x, p[1] - y) <= r;
+export const NOTHING: Hit = { kind: 'none' };
 
-export interface HitContext { editor: Editor; view: View; chips: readonly Chip[]; timeTag: { x: number; y: number; w: number; h: number } | null; touch: boolean }
+const near = (p: readonly [number, number], x: number, y: number, r: number): boolean =>
+  Math.hypot(p[0] - x, p[1] - y) <= r;
+
+export interface HitContext {
+  editor: Editor;
+  view: View;
+  chips: readonly Chip[];
+  timeTag: { x: number; y: number; w: number; h: number } | null;
+  touch: boolean;
+}
 
 export function hitTest(c: HitContext, x: number, y: number): Hit {
   const a = c.editor.agent.value;
   if (a && canChange(a)) {
     const grip = gripAt(c, a, x, y);
     if (grip) return { kind: 'grip', grip };
-    for (const chip of c.chips) if (near([chip.x, chip.y], x, y, c.touch ? 22 : 11)) return { kind: 'future', index: chip.index };
-    if (c.editor.layers.value.futures && futureAt(c, c.editor.chosen.value, x, y)) return { kind: 'future', index: c.editor.chosen.value };
+    for (const chip of c.chips)
+      if (near([chip.x, chip.y], x, y, c.touch ? 22 : 11)) return { kind: 'future', index: chip.index };
+    if (c.editor.layers.value.futures && futureAt(c, c.editor.chosen.value, x, y))
+      return { kind: 'future', index: c.editor.chosen.value };
   }
   const pile = agentsAt(c, x, y);
   if (pile.length) return { kind: 'agent', id: pile[0], pile };
   const f = c.editor.futures.value;
   if (a && f && c.editor.layers.value.futures)
     for (let i = 0; i < f.modes.length; i++) if (futureAt(c, i, x, y)) return { kind: 'future', index: i };
-  return { kind: 'none' };
+  return NOTHING;
 }
 
 function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
@@ -67,7 +81,7 @@ export function agentsAt(c: HitContext, x: number, y: number): string[] {
   const t = c.editor.time.value;
   const found: Agent[] = [];
   for (const a of scene.agents.values()) {
-    const p = t < 0.05 ? startPose(a) ?? poseAt(c.editor.motionFor(a), t) : poseAt(c.editor.motionFor(a), t);
+    const p = t < 0.05 ? (startPose(a) ?? poseAt(c.editor.motionFor(a), t)) : poseAt(c.editor.motionFor(a), t);
     if (!p || Math.abs(p.x - wx) > 20 + a.length || Math.abs(p.y - wy) > 20 + a.length) continue;
     if (onBox(c.view, a, p, x, y)) found.push(a);
   }
@@ -79,10 +93,14 @@ function futureAt(c: HitContext, index: number, x: number, y: number): boolean {
   const m = c.editor.futures.value?.modes[index]?.motion;
   if (!m) return false;
   const reach = c.touch ? 14 : 5;
-  let px = c.view.x(m.x[0]), py = c.view.y(m.y[0]);
+  let px = c.view.x(m.x[0]),
+    py = c.view.y(m.y[0]);
   for (let i = 1; i < m.x.length; i++) {
-    const qx = c.view.x(m.x[i]), qy = c.view.y(m.y[i]);
-    const dx = qx - px, dy = qy - py, len2 = dx * dx + dy * dy;
+    const qx = c.view.x(m.x[i]),
+      qy = c.view.y(m.y[i]);
+    const dx = qx - px,
+      dy = qy - py,
+      len2 = dx * dx + dy * dy;
     const k = len2 > 0 ? Math.max(0, Math.min(1, ((x - px) * dx + (y - py) * dy) / len2)) : 0;
     if (Math.hypot(x - px - dx * k, y - py - dy * k) <= reach) return true;
     px = qx;

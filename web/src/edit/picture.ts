@@ -26,7 +26,10 @@ export class Picture {
   private map: MapPicture | null = null;
   private reactFrom: { motion: Editor['motion']['value']; at: number } | null = null;
 
-  constructor(private readonly stage: Stage, private readonly editor: Editor) {
+  constructor(
+    private readonly stage: Stage,
+    private readonly editor: Editor,
+  ) {
     stage.painter('map', (g, v) => this.paintMap(g, v));
     stage.painter('agents', (g, v) => this.paintAgents(g, v));
     this.overlay = new Overlay(editor, (a) => this.poseNow(a));
@@ -49,19 +52,33 @@ export class Picture {
       // While a handle is dragged the others do not move, so their canvas is left alone.
       if (!e.drag.peek()) stage.invalidate('agents');
     });
-    effect(() => { void e.layers.value.lanes; stage.invalidate('map'); });
+    effect(() => {
+      void e.layers.value.lanes;
+      stage.invalidate('map');
+    });
     effect(() => {
       void [e.selection.value, e.layers.value, e.time.value, e.dragging.value, e.playing.value, e.selectedEvent.value];
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
       const m = e.motion.value;
-      if (m !== lastMotion && m.driving !== lastMotion.driving) this.reactFrom = { motion: lastMotion, at: performance.now() };
+      if (m !== lastMotion && m.driving !== lastMotion.driving)
+        this.reactFrom = { motion: lastMotion, at: performance.now() };
       lastMotion = m;
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
-      void [e.draft.value, e.changes.value, e.showBefore.value, e.hover.value, e.hoverFuture.value, e.hoverGrip.value, e.localReach.value, e.liveReach.value, e.measure.value];
+      void [
+        e.draft.value,
+        e.changes.value,
+        e.showBefore.value,
+        e.hover.value,
+        e.hoverFuture.value,
+        e.hoverGrip.value,
+        e.localReach.value,
+        e.liveReach.value,
+        e.measure.value,
+      ];
       stage.invalidate('overlay');
     });
   }
@@ -83,7 +100,10 @@ export class Picture {
     const p = poseAt(e.motionFor(a), t);
     if (!p || !this.reactFrom) return p;
     const k = (performance.now() - this.reactFrom.at) / REACT_MS;
-    if (k >= 1) { this.reactFrom = null; return p; }
+    if (k >= 1) {
+      this.reactFrom = null;
+      return p;
+    }
     const old = poseAt(motionOf(e.scene.value!, this.reactFrom.motion, a), t);
     this.stage.invalidate('agents');
     return old ? mixPose(old, p, 1 - (1 - k) ** 3) : p;
@@ -103,8 +123,11 @@ export class Picture {
       if (p && p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1) shown.push([a, p]);
     }
     // Parked below, large before small, so that nobody on foot hides under a bus.
-    shown.sort((p, q) => Number(q[0].parked) - Number(p[0].parked) || q[0].length * q[0].width - p[0].length * p[0].width);
-    if (e.layers.value.futures && !e.selection.value && !e.playing.value) for (const [a] of shown) this.softTrail(g, v, a);
+    shown.sort(
+      (p, q) => Number(q[0].parked) - Number(p[0].parked) || q[0].length * q[0].width - p[0].length * p[0].width,
+    );
+    if (e.layers.value.futures && !e.selection.value && !e.playing.value)
+      for (const [a] of shown) this.softTrail(g, v, a);
     g.globalAlpha = dragging ? 0.62 : 1;
     for (const [a, p] of shown) stamp(g, v, a, p);
     g.globalAlpha = 1;
@@ -115,7 +138,15 @@ export class Picture {
   private softTrail(g: G, v: View, a: Agent): void {
     if (a.parked || v.z < 3) return;
     const t = this.editor.time.value;
-    trail(g, v, this.editor.motionFor(a), { colour: colours()[colourKey(a)], width: 1.4, alpha: 0.5, dash: [2, 3.5], from: t, to: t + 3.5, cap: 'butt' });
+    trail(g, v, this.editor.motionFor(a), {
+      colour: colours()[colourKey(a)],
+      width: 1.4,
+      alpha: 0.5,
+      dash: [2, 3.5],
+      from: t,
+      to: t + 3.5,
+      cap: 'butt',
+    });
   }
 
   private nameLabels(g: G, v: View, shown: [Agent, Pose][]): void {
@@ -125,7 +156,14 @@ export class Picture {
     for (const [a, p] of shown) {
       if (a.parked) continue;
       const half = sizeOnScreen(a, v.z)[1] / 2 + 12;
-      pill(g, labels, v.x(p.x), v.y(p.y), a.name, { weight: 500, must: false, tries: [[-22, -half - 10], [-22, half - 8]] });
+      pill(g, labels, v.x(p.x), v.y(p.y), a.name, {
+        weight: 500,
+        must: false,
+        tries: [
+          [-22, -half - 10],
+          [-22, half - 8],
+        ],
+      });
     }
   }
 
@@ -138,7 +176,17 @@ export class Picture {
     if (!a || !p || e.drag.value) return null;
     const where = a.parked ? 'parked' : laneWords(e.scene.value!.map, a, p.x, p.y, p.heading);
     const next = e.events.value.find((v) => (v.a.id === a.id || v.b.id === a.id) && v.time >= e.time.value);
-    const todo = a.type === 'other' ? 'Shown only' : a.logStart ? (e.time.value < 0.05 ? 'Click to edit · drag to move' : 'Click to edit') : 'Appears later: not editable';
-    return { title: `${a.name} · ${speedLabel(p.speed, e.unitOf(a))} · ${where}`, line: next ? `${next.label} · ${todo}` : todo };
+    const todo =
+      a.type === 'other'
+        ? 'Shown only'
+        : a.logStart
+          ? e.time.value < 0.05
+            ? 'Click to edit · drag to move'
+            : 'Click to edit'
+          : 'Appears later: not editable';
+    return {
+      title: `${a.name} · ${speedLabel(p.speed, e.unitOf(a))} · ${where}`,
+      line: next ? `${next.label} · ${todo}` : todo,
+    };
   }
 }

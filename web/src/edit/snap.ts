@@ -3,7 +3,12 @@ import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/g
 import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
 import { startPose, type Agent, type Scene } from '../model/scene';
 
-export interface Snapped { x: number; y: number; laneHeading: number | null; lane: Lane | null }
+export interface Snapped {
+  x: number;
+  y: number;
+  laneHeading: number | null;
+  lane: Lane | null;
+}
 
 const RADIUS_M = 1.8;
 const RADIUS_PX = 14;
@@ -21,31 +26,51 @@ export function lanesFor(a: Pick<Agent, 'type'>): ((l: Lane) => boolean) | null 
  * The best lane under a point. `travel` is the line from the start to a goal: lanes that lead back against it are
  * left alone, or a goal a little beyond the middle line would turn the car round. Alt puts it anywhere.
  */
-export function snapToLane(map: LaneMap, a: Agent, x: number, y: number, heading: number | null, zoom: number, stay: string | null, travel: number | null = null): Snapped {
+export function snapToLane(
+  map: LaneMap,
+  a: Agent,
+  x: number,
+  y: number,
+  heading: number | null,
+  zoom: number,
+  stay: string | null,
+  travel: number | null = null,
+): Snapped {
   const fits = lanesFor(a);
   const free: Snapped = { x, y, laneHeading: null, lane: null };
   if (!fits) return free;
   const radius = Math.max(RADIUS_M, RADIUS_PX / zoom);
   const hits = nearestLanes(map, x, y, heading, radius, fits);
-  let best: LaneHit | null = null, score = Infinity;
+  let best: LaneHit | null = null,
+    score = Infinity;
   for (const h of hits) {
     const bike = a.type === 'cyclist' && h.lane.kind === 'bike' ? 0.8 : 0;
     if (travel !== null && Math.abs(wrapAngle(h.heading - travel)) > AGAINST) continue;
     const s = h.score - (h.lane.id === stay ? STAY_BONUS_M : 0) - bike;
-    if (s < score) { score = s; best = h; }
+    if (s < score) {
+      score = s;
+      best = h;
+    }
   }
   return best ? { x: best.x, y: best.y, laneHeading: best.heading, lane: best.lane } : free;
 }
 
 /** Where traffic stops on a lane: at a stop line with the nose on it, and 2 m behind the last of a queue. */
-export interface SoftStop { readonly s: number; readonly x: number; readonly y: number; readonly heading: number }
+export interface SoftStop {
+  readonly s: number;
+  readonly x: number;
+  readonly y: number;
+  readonly heading: number;
+}
 
 const CAPTURE_PX = 8;
 const QUEUE_GAP_M = 2;
 
 export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom: number): SoftStop | null {
   const places: number[] = [];
-  const stops = scene.signals.some((g) => g.lane === lane.id || lane.next.includes(g.lane)) || scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < 4);
+  const stops =
+    scene.signals.some((g) => g.lane === lane.id || lane.next.includes(g.lane)) ||
+    scene.map.stopSigns.some(([x, y]) => project(lane.line, x, y).d < 4);
   if (stops && !lane.inside) places.push(lane.line.length - a.length / 2 - 0.3);
   for (const b of scene.agents.values()) {
     const p = b.id === a.id || b.type !== 'vehicle' ? null : startPose(b);
@@ -53,7 +78,9 @@ export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom
     const on = project(lane.line, p.x, p.y);
     if (on.d < 1.2) places.push(on.s - b.length / 2 - QUEUE_GAP_M - a.length / 2);
   }
-  const s = places.filter((v) => v > 0 && Math.abs(v - along) * zoom < CAPTURE_PX).sort((p, q) => Math.abs(p - along) - Math.abs(q - along))[0];
+  const s = places
+    .filter((v) => v > 0 && Math.abs(v - along) * zoom < CAPTURE_PX)
+    .sort((p, q) => Math.abs(p - along) - Math.abs(q - along))[0];
   return s === undefined ? null : { s, ...pointAt(lane.line, s) };
 }
 
@@ -61,12 +88,26 @@ export function softStop(scene: Scene, lane: Lane, a: Agent, along: number, zoom
 export function alongLane(map: LaneMap, laneId: string | null, x: number, y: number): Snapped | null {
   const lane = laneId ? map.lanes.get(laneId) : undefined;
   if (!lane) return null;
-  const hit = nearestLanes(map, x, y, null, 60, (l) => l === lane || lane.next.includes(l.id) || lane.prev.includes(l.id)).sort((p, q) => p.d - q.d)[0];
+  const hit = nearestLanes(
+    map,
+    x,
+    y,
+    null,
+    60,
+    (l) => l === lane || lane.next.includes(l.id) || lane.prev.includes(l.id),
+  ).sort((p, q) => p.d - q.d)[0];
   return hit ? { x: hit.x, y: hit.y, laneHeading: hit.heading, lane: hit.lane } : null;
 }
 
 /** Heading under the tiller: lane tangent and normal within 4 degrees, else whole degrees; Shift gives 15. */
-export function snapHeading(map: LaneMap, a: Agent, x: number, y: number, heading: number, mode: 'fine' | 'steps' | 'lane'): number {
+export function snapHeading(
+  map: LaneMap,
+  a: Agent,
+  x: number,
+  y: number,
+  heading: number,
+  mode: 'fine' | 'steps' | 'lane',
+): number {
   if (mode === 'fine') return rad(Math.round(deg(heading) * 10) / 10);
   if (mode === 'steps') return wrapAngle(rad(Math.round(deg(heading) / 15) * 15));
   const fits = lanesFor(a);
@@ -89,14 +130,29 @@ export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: nu
   if (!hit) return 'off the lanes';
   const way = compass(hit.heading);
   const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
-  const what = hit.lane.kind === 'bike' ? 'bike lane' : hit.lane.kind === 'walk' ? 'pavement' : junction ? 'inside the crossing' : hit.lane.type === 'freeway' ? 'motorway lane' : hit.lane.type === 'bus_lane' ? 'bus lane' : 'lane';
+  const what =
+    hit.lane.kind === 'bike'
+      ? 'bike lane'
+      : hit.lane.kind === 'walk'
+        ? 'pavement'
+        : junction
+          ? 'inside the crossing'
+          : hit.lane.type === 'freeway'
+            ? 'motorway lane'
+            : hit.lane.type === 'bus_lane'
+              ? 'bus lane'
+              : 'lane';
   return junction ? `${what}, ${way}bound` : `${way}bound ${what}`;
 }
 
 function onFoot(map: LaneMap, x: number, y: number): string {
   if (map.crosswalks.some((p) => insidePolygon(x, y, p))) return 'on a crosswalk';
   const lane = nearestLanes(map, x, y, null, 1.9, () => true)[0];
-  return !lane || lane.lane.kind === 'walk' ? 'beside the road' : lane.lane.kind === 'bike' ? 'on a bike lane' : 'on the road';
+  return !lane || lane.lane.kind === 'walk'
+    ? 'beside the road'
+    : lane.lane.kind === 'bike'
+      ? 'on a bike lane'
+      : 'on the road';
 }
 
 function compass(heading: number): string {

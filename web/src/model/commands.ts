@@ -1,5 +1,17 @@
 // Every change of the document is a command with an exact inverse.
-import { durationOf, freeGoal, logStartSpec, withAgents, type Agent, type GoalSpec, type Length, type Others, type Replan, type Scene, type StartSpec } from './scene';
+import {
+  durationOf,
+  freeGoal,
+  logStartSpec,
+  withAgents,
+  type Agent,
+  type GoalSpec,
+  type Length,
+  type Others,
+  type Replan,
+  type Scene,
+  type StartSpec,
+} from './scene';
 
 export interface Command {
   readonly name: string;
@@ -13,9 +25,10 @@ export interface Command {
 type AgentPatch = Partial<Pick<Agent, 'start' | 'goal' | 'chosen' | 'length' | 'width'>>;
 const PATCHABLE = ['start', 'goal', 'chosen', 'length', 'width'] as const;
 
-export function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatch>, fold?: string): Command {
+function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatch>, fold?: string): Command {
   return {
-    name, fold,
+    name,
+    fold,
     apply(scene) {
       const changed: Agent[] = [];
       for (const [id, patch] of patches) {
@@ -38,7 +51,8 @@ export function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatc
   };
 }
 
-const one = (name: string, id: string, patch: AgentPatch, fold?: string): Command => patchAgents(name, new Map([[id, patch]]), fold && `${fold}:${id}`);
+const one = (name: string, id: string, patch: AgentPatch, fold?: string): Command =>
+  patchAgents(name, new Map([[id, patch]]), fold && `${fold}:${id}`);
 
 /** New demands make an earlier pick among six futures meaningless, so it goes back to the generator. */
 export const setStart = (a: Agent, start: StartSpec, what = 'Start'): Command =>
@@ -47,25 +61,45 @@ export const setGoal = (a: Agent, goal: GoalSpec, what = 'Goal'): Command =>
   one(`${what} of ${a.name} moved`, a.id, { goal: Object.freeze(goal), chosen: null }, 'goal');
 export const setBoth = (a: Agent, start: StartSpec, goal: GoalSpec): Command =>
   one(`${a.name} moved`, a.id, { start: Object.freeze(start), goal: Object.freeze(goal), chosen: null }, 'both');
-export const setSize = (a: Agent, length: number, width: number): Command => one(`Size of ${a.name} changed`, a.id, { length, width, chosen: null }, 'size');
+export const setSize = (a: Agent, length: number, width: number): Command =>
+  one(`Size of ${a.name} changed`, a.id, { length, width, chosen: null }, 'size');
 export const choose = (a: Agent, index: number | null, letter: string): Command =>
-  one(index === null ? `${a.name} back to the most likely future` : `Future ${letter} chosen for ${a.name}`, a.id, { chosen: index }, 'choose');
-export const clearGoal = (a: Agent): Command => one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });
+  one(
+    index === null ? `${a.name} back to the most likely future` : `Future ${letter} chosen for ${a.name}`,
+    a.id,
+    { chosen: index },
+    'choose',
+  );
+export const clearGoal = (a: Agent): Command =>
+  one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });
 export const resetAgent = (a: Agent): Command =>
-  one(`${a.name} back to the log`, a.id, { start: logStartSpec(a.logStart), goal: freeGoal(), chosen: null, length: a.logSize[0], width: a.logSize[1] });
+  one(`${a.name} back to the log`, a.id, {
+    start: logStartSpec(a.logStart),
+    goal: freeGoal(),
+    chosen: null,
+    length: a.logSize[0],
+    width: a.logSize[1],
+  });
 
 export function resetAll(scene: Scene): Command {
   const patches = new Map<string, AgentPatch>();
   for (const a of scene.agents.values())
-    patches.set(a.id, { start: logStartSpec(a.logStart), goal: freeGoal(), chosen: null, length: a.logSize[0], width: a.logSize[1] });
+    patches.set(a.id, {
+      start: logStartSpec(a.logStart),
+      goal: freeGoal(),
+      chosen: null,
+      length: a.logSize[0],
+      width: a.logSize[1],
+    });
   return patchAgents('Everybody back to the log', patches);
 }
 
 type ScenePatch = Partial<Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration'>>;
 
-export function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
+function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
   return {
-    name, fold,
+    name,
+    fold,
     apply: (scene) => Object.freeze({ ...scene, ...patch }),
     invert(scene) {
       const old: Record<string, unknown> = {};
@@ -76,15 +110,23 @@ export function patchScene(name: string, patch: ScenePatch, fold?: string): Comm
 }
 
 export const setSeed = (seed: number): Command => patchScene(`Seed ${seed}`, { seed });
-export const setDiversity = (diversity: number): Command => patchScene(`Diversity ${Math.round(diversity * 100)}%`, { diversity }, 'diversity');
+export const setDiversity = (diversity: number): Command =>
+  patchScene(`Diversity ${Math.round(diversity * 100)}%`, { diversity }, 'diversity');
 export const setOthers = (others: Others): Command =>
   patchScene({ react: 'Others react', log: 'Others replay the log', still: 'Others hold still' }[others], { others });
 export const setReplan = (replan: Replan): Command => patchScene(`Planned anew each ${replan} s`, { replan });
 
 /** How much is worked out. Goals that would come after the end come at the end. */
 export function setLength(scene: Scene, length: Length): Command {
-  const late = new Map([...scene.agents.values()].filter((a) => a.goal.time > length).map((a) => [a.id, { goal: Object.freeze({ ...a.goal, time: length }) }]));
-  return both(patchScene(`${length} s worked out`, { length, duration: durationOf(length, scene.steps) }), patchAgents('', late));
+  const late = new Map(
+    [...scene.agents.values()]
+      .filter((a) => a.goal.time > length)
+      .map((a) => [a.id, { goal: Object.freeze({ ...a.goal, time: length }) }]),
+  );
+  return both(
+    patchScene(`${length} s worked out`, { length, duration: durationOf(length, scene.steps) }),
+    patchAgents('', late),
+  );
 }
 
 /** Two commands as one step. */

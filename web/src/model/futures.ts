@@ -6,7 +6,9 @@ import { wrapAngle, type Pose } from './geometry';
 export const LETTERS = 'ABCDEF';
 
 export interface Future {
-  readonly probability: number; readonly motion: Motion; readonly name: string;
+  readonly probability: number;
+  readonly motion: Motion;
+  readonly name: string;
   /** Which of the generator's ideas this one follows; null for staying at rest, and where nobody says. */
   readonly anchor?: number | null;
 }
@@ -24,20 +26,43 @@ export interface Futures {
 
 export const isSettled = (f: Futures): boolean => f.step >= f.steps;
 
-export function readFutures(json: AgentFuturesJson, start: Pose, step: number, steps: number, isPedestrian: boolean, keep?: KeepOrder): Futures {
+export function readFutures(
+  json: AgentFuturesJson,
+  start: Pose,
+  step: number,
+  steps: number,
+  isPedestrian: boolean,
+  keep?: KeepOrder,
+): Futures {
   const sent = json.modes.slice(0, 6);
   const order = keep?.like ? placesLike(keep.like.modes, sent, keep.always) : sent.map((_, i) => i);
   const modes = order.map((i) => {
-    const m = sent[i], motion = motionFrom(m, start);
-    return { probability: m.probability, motion, name: m.name ?? describe(motion, isPedestrian), anchor: m.anchor ?? null };
+    const m = sent[i],
+      motion = motionFrom(m, start);
+    return {
+      probability: m.probability,
+      motion,
+      name: m.name ?? describe(motion, isPedestrian),
+      anchor: m.anchor ?? null,
+    };
   });
-  return { modes: step >= steps ? distinct(modes) : modes, chosen: Math.max(0, order.indexOf(json.chosen ?? 0)), step, steps };
+  return {
+    modes: step >= steps ? distinct(modes) : modes,
+    chosen: Math.max(0, order.indexOf(json.chosen ?? 0)),
+    step,
+    steps,
+  };
 }
 
 /** The futures on screen, whose letters the new ones take over: always, or only while the ideas are the same. */
-export interface KeepOrder { readonly like: Futures | null | undefined; readonly always: boolean }
+export interface KeepOrder {
+  readonly like: Futures | null | undefined;
+  readonly always: boolean;
+}
 
-interface HasAnchor { readonly anchor?: number | null }
+interface HasAnchor {
+  readonly anchor?: number | null;
+}
 
 /** Names for the ideas in a list. Two of the same, or several without a number, are told apart by their turn. */
 function ideas(modes: readonly HasAnchor[]): string[] {
@@ -54,7 +79,8 @@ function ideas(modes: readonly HasAnchor[]): string[] {
  * probabilities change places. Ideas that are new take the places of those that are gone.
  */
 export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor[], always: boolean): number[] {
-  const was = ideas(shown), now = ideas(sent);
+  const was = ideas(shown),
+    now = ideas(sent);
   const same = was.length === now.length && now.every((k) => was.includes(k));
   if (!same && !always) return now.map((_, i) => i);
   const rest = now.map((_, i) => i).filter((i) => !was.includes(now[i]));
@@ -68,15 +94,21 @@ export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor
 }
 
 /** A short plain name from the shape of the motion, for generators that send none. */
-export function describe(m: Motion, isPedestrian: boolean): string {
+function describe(m: Motion, isPedestrian: boolean): string {
   const n = m.x.length - 1;
-  const a = poseAtStep(m, m.first), b = endPose(m);
+  const a = poseAtStep(m, m.first),
+    b = endPose(m);
   if (!a || n < 2) return 'Unknown';
   const length = pathLength(m);
   if (length < 1.5) return isPedestrian ? 'Stays' : 'Stands still';
   const turn = totalTurn(m);
   const side = turn > 0 ? 'left' : 'right';
-  const where = Math.abs(turn) > 2.5 ? 'Turns round' : Math.abs(turn) > 0.6 ? `Turns ${side}` : shift(m, isPedestrian) ?? (isPedestrian ? 'Straight' : 'Straight on');
+  const where =
+    Math.abs(turn) > 2.5
+      ? 'Turns round'
+      : Math.abs(turn) > 0.6
+        ? `Turns ${side}`
+        : (shift(m, isPedestrian) ?? (isPedestrian ? 'Straight' : 'Straight on'));
   return `${where}${pace(m, a, b, length, isPedestrian)}`;
 }
 
@@ -89,7 +121,9 @@ function totalTurn(m: Motion): number {
 /** Sideways move without a turn, as in a lane change; a long road that bends a little is still straight on. */
 function shift(m: Motion, isPedestrian: boolean): string | null {
   const n = m.x.length - 1;
-  const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2, dx = m.x[n] - m.x[0], dy = m.y[n] - m.y[0];
+  const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2,
+    dx = m.x[n] - m.x[0],
+    dy = m.y[n] - m.y[0];
   const left = -dx * Math.sin(h) + dy * Math.cos(h);
   const limit = isPedestrian ? Math.max(1, 0.18 * Math.hypot(dx, dy)) : Math.max(2.2, 0.07 * Math.hypot(dx, dy));
   return Math.abs(left) > limit ? `${isPedestrian ? 'Bears' : 'Moves'} ${left > 0 ? 'left' : 'right'}` : null;
@@ -97,8 +131,14 @@ function shift(m: Motion, isPedestrian: boolean): string | null {
 
 function pace(m: Motion, a: Pose, b: Pose, length: number, ped: boolean): string {
   const slow = ped ? 0.25 : 0.8;
-  let low = Infinity, lowAt = 0;
-  m.speed.forEach((v, i) => { if (Math.abs(v) < low) { low = Math.abs(v); lowAt = i; } });
+  let low = Infinity,
+    lowAt = 0;
+  m.speed.forEach((v, i) => {
+    if (Math.abs(v) < low) {
+      low = Math.abs(v);
+      lowAt = i;
+    }
+  });
   const ends = Math.abs(b.speed);
   if (ends < slow) return ', stops';
   if (low < slow && lowAt > 3 && a.speed > slow * 2) return ', waits first';
@@ -114,17 +154,25 @@ function distinct(modes: Future[]): Future[] {
   const seen = new Map<string, number>();
   return modes.map((m, i) => {
     const first = seen.get(m.name);
-    if (first === undefined) { seen.set(m.name, i); return m; }
-    return { ...m, name: `${m.name.split(',')[0]}, ${difference(modes[first].motion, m.motion) ?? `almost as ${LETTERS[first]}`}` };
+    if (first === undefined) {
+      seen.set(m.name, i);
+      return m;
+    }
+    return {
+      ...m,
+      name: `${m.name.split(',')[0]}, ${difference(modes[first].motion, m.motion) ?? `almost as ${LETTERS[first]}`}`,
+    };
   });
 }
 
 function difference(a: Motion, b: Motion): string | null {
-  const sa = distances(a), sb = distances(b);
+  const sa = distances(a),
+    sb = distances(b);
   const n = Math.min(sa.length, sb.length) - 1;
   const end = sb[n] - sa[n];
   if (Math.abs(end) > 1) return `${Math.abs(end).toFixed(0)} m ${end > 0 ? 'further' : 'less'}`;
-  const mid = n >> 1, early = sb[mid] - sa[mid];
+  const mid = n >> 1,
+    early = sb[mid] - sa[mid];
   if (Math.abs(early) > 0.8) return early > 0 ? 'earlier' : 'later';
   let side = 0;
   for (let i = 1; i <= n; i++) {
@@ -134,16 +182,28 @@ function difference(a: Motion, b: Motion): string | null {
   return Math.abs(side) > 0.4 ? `further ${side > 0 ? 'left' : 'right'}` : null;
 }
 
-export interface Collision { a: string; b: string; time: number }
-export interface NearMiss extends Collision { distance: number | null; ttc: number | null }
+export interface Collision {
+  a: string;
+  b: string;
+  time: number;
+}
+export interface NearMiss extends Collision {
+  distance: number | null;
+  ttc: number | null;
+}
 export interface Score {
-  readonly collisions: readonly Collision[]; readonly nearMisses: readonly NearMiss[];
-  readonly minTtc: number | null; readonly offroadShare: number | null;
+  readonly collisions: readonly Collision[];
+  readonly nearMisses: readonly NearMiss[];
+  readonly minTtc: number | null;
+  readonly offroadShare: number | null;
 }
 
 export interface Reach {
-  readonly status: 'reached' | 'unreachable'; readonly nearest: Pose | null;
-  readonly limiting: string | null; readonly needs: unknown; readonly words: string | null;
+  readonly status: 'reached' | 'unreachable';
+  readonly nearest: Pose | null;
+  readonly limiting: string | null;
+  readonly needs: unknown;
+  readonly words: string | null;
 }
 
 /** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
@@ -152,7 +212,10 @@ export function reachWords(r: Reach, time: number): { title: string; words: stri
   const cut = /[.!?](?=\s|$)/.exec(text);
   const title = cut ? text.slice(0, cut.index) : text;
   const rest = cut ? text.slice(cut.index + 1).trim() : '';
-  return { title: title || `Out of reach in ${time.toFixed(1)} s`, words: rest || 'The nearest reachable point is shown.' };
+  return {
+    title: title || `Out of reach in ${time.toFixed(1)} s`,
+    words: rest || 'The nearest reachable point is shown.',
+  };
 }
 
 /** Everything worked out for one document key. */
@@ -172,14 +235,23 @@ export interface MotionSet {
   readonly head?: Readonly<Record<string, unknown>>;
 }
 
-export const emptyMotion = (key: string): MotionSet => ({ key, futures: new Map(), driving: new Set(), score: null, reach: new Map(), stale: false });
+export const emptyMotion = (key: string): MotionSet => ({
+  key,
+  futures: new Map(),
+  driving: new Set(),
+  score: null,
+  reach: new Map(),
+  stale: false,
+});
 
 /** Answers by document key, so that undo shows the old paths at once. Oldest out first. */
 export class MotionCache {
   private readonly map = new Map<string, MotionSet>();
   constructor(private readonly limit = 120) {}
 
-  get(key: string): MotionSet | undefined { return this.map.get(key); }
+  get(key: string): MotionSet | undefined {
+    return this.map.get(key);
+  }
 
   put(set: MotionSet): void {
     this.map.delete(set.key);
@@ -187,5 +259,7 @@ export class MotionCache {
     if (this.map.size > this.limit) this.map.delete(this.map.keys().next().value as string);
   }
 
-  clear(): void { this.map.clear(); }
+  clear(): void {
+    this.map.clear();
+  }
 }

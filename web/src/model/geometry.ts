@@ -2,16 +2,32 @@
 
 export type Vec = readonly [number, number];
 
-export interface Pose { readonly x: number; readonly y: number; readonly heading: number; readonly speed: number }
+/** A place, in metres or in pixels. */
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
 
-export interface Box { x0: number; y0: number; x1: number; y1: number }
+export interface Pose {
+  readonly x: number;
+  readonly y: number;
+  readonly heading: number;
+  readonly speed: number;
+}
 
-export const TAU = Math.PI * 2;
+export interface Box {
+  x0: number;
+  y0: number;
+  x1: number;
+  y1: number;
+}
+
+const TAU = Math.PI * 2;
 export const rad = (degrees: number): number => (degrees * Math.PI) / 180;
 export const deg = (radians: number): number => (radians * 180) / Math.PI;
 export const clamp = (v: number, lo: number, hi: number): number => Math.min(hi, Math.max(lo, v));
 export const lerp = (a: number, b: number, t: number): number => a + (b - a) * t;
-export const dist = (a: Vec, b: Vec): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
+const dist = (a: Vec, b: Vec): number => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
 /** The one place where angles are wrapped: to [-pi, pi). */
 export function wrapAngle(a: number): number {
@@ -22,11 +38,20 @@ export function wrapAngle(a: number): number {
 export const lerpAngle = (a: number, b: number, t: number): number => wrapAngle(a + wrapAngle(b - a) * t);
 
 export function mixPose(a: Pose, b: Pose, t: number): Pose {
-  return { x: lerp(a.x, b.x, t), y: lerp(a.y, b.y, t), heading: lerpAngle(a.heading, b.heading, t), speed: lerp(a.speed, b.speed, t) };
+  return {
+    x: lerp(a.x, b.x, t),
+    y: lerp(a.y, b.y, t),
+    heading: lerpAngle(a.heading, b.heading, t),
+    speed: lerp(a.speed, b.speed, t),
+  };
 }
 
 /** A polyline with its running length, so that points can be asked for by distance. */
-export interface Line { readonly pts: readonly Vec[]; readonly s: Float64Array; readonly length: number }
+export interface Line {
+  readonly pts: readonly Vec[];
+  readonly s: Float64Array;
+  readonly length: number;
+}
 
 export function makeLine(pts: readonly Vec[]): Line {
   const s = new Float64Array(pts.length);
@@ -34,34 +59,47 @@ export function makeLine(pts: readonly Vec[]): Line {
   return { pts, s, length: pts.length ? s[pts.length - 1] : 0 };
 }
 
-export interface OnLine { x: number; y: number; heading: number }
+export interface OnLine {
+  x: number;
+  y: number;
+  heading: number;
+}
 
 export function pointAt(line: Line, along: number): OnLine {
   const { pts, s } = line;
   const last = pts.length - 1;
   if (last < 1) return { x: pts[0]?.[0] ?? 0, y: pts[0]?.[1] ?? 0, heading: 0 };
   const d = clamp(along, 0, line.length);
-  let lo = 0, hi = last;
+  let lo = 0,
+    hi = last;
   while (hi - lo > 1) {
     const mid = (lo + hi) >> 1;
-    if (s[mid] <= d) lo = mid; else hi = mid;
+    if (s[mid] <= d) lo = mid;
+    else hi = mid;
   }
-  const a = pts[lo], b = pts[lo + 1];
+  const a = pts[lo],
+    b = pts[lo + 1];
   const t = (d - s[lo]) / Math.max(1e-9, s[lo + 1] - s[lo]);
   return { x: lerp(a[0], b[0], t), y: lerp(a[1], b[1], t), heading: Math.atan2(b[1] - a[1], b[0] - a[0]) };
 }
 
-export interface Projection extends OnLine { s: number; d: number }
+export interface Projection extends OnLine {
+  s: number;
+  d: number;
+}
 
 /** Nearest point of a polyline. */
 export function project(line: Line, x: number, y: number): Projection {
   let best: Projection = { x: 0, y: 0, heading: 0, s: 0, d: Infinity };
   for (let i = 1; i < line.pts.length; i++) {
-    const a = line.pts[i - 1], b = line.pts[i];
-    const dx = b[0] - a[0], dy = b[1] - a[1];
+    const a = line.pts[i - 1],
+      b = line.pts[i];
+    const dx = b[0] - a[0],
+      dy = b[1] - a[1];
     const len2 = dx * dx + dy * dy;
     const t = len2 > 0 ? clamp(((x - a[0]) * dx + (y - a[1]) * dy) / len2, 0, 1) : 0;
-    const px = a[0] + dx * t, py = a[1] + dy * t;
+    const px = a[0] + dx * t,
+      py = a[1] + dy * t;
     const d = Math.hypot(x - px, y - py);
     if (d < best.d) best = { x: px, y: py, heading: Math.atan2(dy, dx), s: line.s[i - 1] + Math.sqrt(len2) * t, d };
   }
@@ -70,7 +108,8 @@ export function project(line: Line, x: number, y: number): Projection {
 
 /** Piece of a line between two distances, both ends included. */
 export function sliceLine(line: Line, from: number, to: number): Vec[] {
-  const a = pointAt(line, from), b = pointAt(line, to);
+  const a = pointAt(line, from),
+    b = pointAt(line, to);
   const out: Vec[] = [[a.x, a.y]];
   for (let i = 0; i < line.pts.length; i++) if (line.s[i] > from + 0.05 && line.s[i] < to - 0.05) out.push(line.pts[i]);
   out.push([b.x, b.y]);
@@ -84,21 +123,23 @@ export function curveBetween(a: OnLine, b: OnLine, n = 30, pull = 0.42): Vec[] {
   const p2: Vec = [b.x - Math.cos(b.heading) * d, b.y - Math.sin(b.heading) * d];
   const out: Vec[] = [];
   for (let i = 0; i <= n; i++) {
-    const t = i / n, u = 1 - t;
-    const c0 = u * u * u, c1 = 3 * u * u * t, c2 = 3 * u * t * t, c3 = t * t * t;
+    const t = i / n,
+      u = 1 - t;
+    const c0 = u * u * u,
+      c1 = 3 * u * u * t,
+      c2 = 3 * u * t * t,
+      c3 = t * t * t;
     out.push([c0 * a.x + c1 * p1[0] + c2 * p2[0] + c3 * b.x, c0 * a.y + c1 * p1[1] + c2 * p2[1] + c3 * b.y]);
   }
   return out;
 }
 
-export function corners(p: OnLine, length: number, width: number): Vec[] {
-  const c = Math.cos(p.heading), s = Math.sin(p.heading), l = length / 2, w = width / 2;
-  return ([[l, w], [l, -w], [-l, -w], [-l, w]] as const).map(([u, v]): Vec => [p.x + u * c - v * s, p.y + u * s + v * c]);
-}
-
 /** Offset of a point in a pose's own frame: metres ahead and to the left. */
-export function toLocal(p: OnLine, x: number, y: number): Vec {
-  const c = Math.cos(p.heading), s = Math.sin(p.heading), dx = x - p.x, dy = y - p.y;
+function toLocal(p: OnLine, x: number, y: number): Vec {
+  const c = Math.cos(p.heading),
+    s = Math.sin(p.heading),
+    dx = x - p.x,
+    dy = y - p.y;
   return [dx * c + dy * s, -dx * s + dy * c];
 }
 
@@ -110,8 +151,9 @@ export function insideBox(p: OnLine, length: number, width: number, x: number, y
 export function insidePolygon(x: number, y: number, poly: readonly Vec[]): boolean {
   let inside = false;
   for (let i = 0, j = poly.length - 1; i < poly.length; j = i++) {
-    const a = poly[i], b = poly[j];
-    if ((a[1] > y) !== (b[1] > y) && x < ((b[0] - a[0]) * (y - a[1])) / (b[1] - a[1]) + a[0]) inside = !inside;
+    const a = poly[i],
+      b = poly[j];
+    if (a[1] > y !== b[1] > y && x < ((b[0] - a[0]) * (y - a[1])) / (b[1] - a[1]) + a[0]) inside = !inside;
   }
   return inside;
 }

@@ -2,7 +2,13 @@
 import type { Command } from './commands';
 import type { Scene } from './scene';
 
-interface Step { readonly name: string; readonly back: Command; readonly forth: Command; fold?: string; at: number }
+interface Step {
+  readonly name: string;
+  readonly back: Command;
+  readonly forth: Command;
+  fold?: string;
+  at: number;
+}
 
 const FOLD_MS = 600;
 
@@ -11,28 +17,45 @@ export class History {
   private undone: Step[] = [];
   private base: Scene | null = null;
 
-  constructor(public scene: Scene, private readonly now: () => number = () => Date.now()) {}
+  constructor(
+    public scene: Scene,
+    private readonly now: () => number = () => Date.now(),
+  ) {}
 
-  get undoName(): string | null { return this.done.at(-1)?.name ?? null; }
-  get redoName(): string | null { return this.undone.at(-1)?.name ?? null; }
-  get depth(): number { return this.done.length; }
-  get inTransaction(): boolean { return this.base !== null; }
+  get undoName(): string | null {
+    return this.done.at(-1)?.name ?? null;
+  }
+  get redoName(): string | null {
+    return this.undone.at(-1)?.name ?? null;
+  }
+  get depth(): number {
+    return this.done.length;
+  }
 
   /** Does a command; key repeats on the same field within 600 ms fold into one step. */
   run(command: Command): Scene {
     const before = this.scene;
     this.scene = command.apply(before);
     if (this.scene === before) return before;
-    const step: Step = { name: command.name, back: command.invert(before), forth: command, fold: command.fold, at: this.now() };
+    const step: Step = {
+      name: command.name,
+      back: command.invert(before),
+      forth: command,
+      fold: command.fold,
+      at: this.now(),
+    };
     const last = this.done.at(-1);
-    const folds = last && command.fold && last.fold === command.fold && step.at - last.at < FOLD_MS && !this.undone.length;
+    const folds =
+      last && command.fold && last.fold === command.fold && step.at - last.at < FOLD_MS && !this.undone.length;
     if (folds) this.done[this.done.length - 1] = { ...step, back: last.back };
     else this.done.push(step);
     this.undone = [];
     return this.scene;
   }
 
-  begin(): void { this.base = this.scene; }
+  begin(): void {
+    this.base = this.scene;
+  }
 
   preview(command: Command): Scene {
     if (!this.base) this.begin();

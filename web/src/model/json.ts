@@ -4,42 +4,121 @@
 export type Point = [number, number] | [number, number, number];
 
 export interface LaneJson {
-  id: string; type?: string; points_m: Point[]; width_m?: number | null; speed_limit_mps?: number | null;
-  predecessors?: string[]; successors?: string[]; interpolating?: boolean;
+  id: string;
+  type?: string;
+  points_m: Point[];
+  width_m?: number | null;
+  speed_limit_mps?: number | null;
+  predecessors?: string[];
+  successors?: string[];
+  interpolating?: boolean;
 }
-export interface LineJson { id?: string; type?: string; points_m: Point[] }
-export interface AreaJson { id?: string; polygon_m: Point[]; holes_m?: Point[][] }
+export interface LineJson {
+  id?: string;
+  type?: string;
+  points_m: Point[];
+}
+export interface AreaJson {
+  id?: string;
+  polygon_m: Point[];
+  holes_m?: Point[][];
+}
 export interface MapJson {
-  lanes?: LaneJson[]; road_lines?: LineJson[]; road_edges?: LineJson[]; crosswalks?: AreaJson[];
-  speed_bumps?: AreaJson[]; driveways?: AreaJson[]; stop_signs?: { id?: string; position_m: Point; lanes?: string[] }[];
+  lanes?: LaneJson[];
+  road_lines?: LineJson[];
+  road_edges?: LineJson[];
+  crosswalks?: AreaJson[];
+  speed_bumps?: AreaJson[];
+  driveways?: AreaJson[];
+  stop_signs?: { id?: string; position_m: Point; lanes?: string[] }[];
   drivable?: AreaJson[];
 }
-export interface MapRef { ref: string }
-export interface SignalJson { lane: string; stop_m?: Point | null; states: [number, string][] }
-export interface TrackJson {
-  first_step?: number; valid?: [number, number][];
-  x_m: number[]; y_m: number[]; heading_rad: number[]; vx_mps?: number[] | null; vy_mps?: number[] | null;
+export interface MapRef {
+  ref: string;
 }
-export interface StartJson { x_m?: number | null; y_m?: number | null; heading_rad?: number | null; speed_mps?: number | null }
-export interface GoalJson extends StartJson { time_s?: number | null }
-export interface ConditionJson { type?: string; length_m?: number; width_m?: number; start?: StartJson; goal?: GoalJson }
+export interface SignalJson {
+  lane: string;
+  stop_m?: Point | null;
+  states: [number, string][];
+}
+export interface TrackJson {
+  first_step?: number;
+  valid?: [number, number][];
+  x_m: number[];
+  y_m: number[];
+  heading_rad: number[];
+  vx_mps?: number[] | null;
+  vy_mps?: number[] | null;
+}
+export interface StartJson {
+  x_m?: number | null;
+  y_m?: number | null;
+  heading_rad?: number | null;
+  speed_mps?: number | null;
+}
+export interface GoalJson extends StartJson {
+  time_s?: number | null;
+}
+export interface ConditionJson {
+  type?: 'vehicle' | 'pedestrian' | 'cyclist' | null;
+  length_m?: number;
+  width_m?: number;
+  start?: StartJson;
+  goal?: GoalJson;
+}
 export interface AgentJson {
-  id: string; type: string; subtype?: string; role?: string | null; length_m: number; width_m: number; height_m?: number | null;
-  track: TrackJson; conditions?: ConditionJson | null;
+  id: string;
+  type: string;
+  subtype?: string;
+  role?: string | null;
+  length_m: number;
+  width_m: number;
+  height_m?: number | null;
+  track: TrackJson;
+  conditions?: ConditionJson | null;
 }
 /** `anchor`: which of the generator's ideas the future follows; absent for staying at rest. */
-export interface ModeJson extends TrackJson { probability: number; name?: string; anchor?: number | null }
-export interface AgentFuturesJson { chosen: number; modes: ModeJson[] }
-export interface SampleJson { agents: Record<string, AgentFuturesJson>; score?: unknown }
-export interface GeneratedJson { chosen_sample?: number; samples: SampleJson[]; stale?: boolean; seed?: number; [k: string]: unknown }
+export interface ModeJson extends TrackJson {
+  probability: number;
+  name?: string;
+  anchor?: number | null;
+}
+export interface AgentFuturesJson {
+  chosen: number;
+  modes: ModeJson[];
+}
+export interface SampleJson {
+  agents: Record<string, AgentFuturesJson>;
+  score?: unknown;
+}
+export interface GeneratedJson {
+  chosen_sample?: number;
+  samples: SampleJson[];
+  stale?: boolean;
+  seed?: number;
+  [k: string]: unknown;
+}
 /** What only the editor knows: the generator's own choices stand in `generated`, the user's picks here. */
-export interface EditorJson { seed?: number; diversity?: number; others?: string; length_s?: number; replan_s?: number; picked?: Record<string, number> }
+export interface EditorJson {
+  seed?: number;
+  diversity?: number;
+  others?: string;
+  length_s?: number;
+  replan_s?: number;
+  picked?: Record<string, number>;
+}
 export interface SceneJson {
-  format?: string; version?: number; id?: string; name?: string;
+  format?: string;
+  version?: number;
+  id?: string;
+  name?: string;
   meta?: { source?: string; source_id?: string; licence?: string; parent_id?: string | null; [k: string]: unknown };
   time?: { step_s?: number; steps?: number; now_step?: number };
   map: MapJson | MapRef;
-  signals?: SignalJson[]; agents: AgentJson[]; generated?: GeneratedJson | null; x_editor?: EditorJson;
+  signals?: SignalJson[];
+  agents: AgentJson[];
+  generated?: GeneratedJson | null;
+  x_editor?: EditorJson;
 }
 
 export const isMapRef = (m: MapJson | MapRef): m is MapRef => typeof (m as MapRef).ref === 'string';

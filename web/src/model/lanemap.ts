@@ -1,18 +1,44 @@
 // The lane map as the editor uses it: lines with running lengths, a grid to find them, and routes.
 import type { AreaJson, LineJson, MapJson, Point } from './json';
-import { boxOf, emptyBox, growBox, makeLine, pointAt, project, sliceLine, wrapAngle, type Box, type Line, type Projection, type Vec } from './geometry';
+import {
+  boxOf,
+  emptyBox,
+  growBox,
+  makeLine,
+  pointAt,
+  project,
+  sliceLine,
+  wrapAngle,
+  type Box,
+  type Line,
+  type Projection,
+  type Vec,
+} from './geometry';
 
 export type LaneKind = 'road' | 'bike' | 'walk' | 'other';
 
 export interface Lane {
-  readonly id: string; readonly kind: LaneKind; readonly type: string; readonly line: Line; readonly width: number;
-  readonly limit: number | null; readonly next: readonly string[]; readonly prev: readonly string[]; readonly inside: boolean;
+  readonly id: string;
+  readonly kind: LaneKind;
+  readonly type: string;
+  readonly line: Line;
+  readonly width: number;
+  readonly limit: number | null;
+  readonly next: readonly string[];
+  readonly prev: readonly string[];
+  readonly inside: boolean;
 }
-export interface MapLine { readonly type: string; readonly line: Line }
+export interface MapLine {
+  readonly type: string;
+  readonly line: Line;
+}
 export interface LaneMap {
   readonly lanes: ReadonlyMap<string, Lane>;
-  readonly lines: readonly MapLine[]; readonly edges: readonly MapLine[];
-  readonly crosswalks: readonly (readonly Vec[])[]; readonly driveways: readonly (readonly Vec[])[]; readonly bumps: readonly (readonly Vec[])[];
+  readonly lines: readonly MapLine[];
+  readonly edges: readonly MapLine[];
+  readonly crosswalks: readonly (readonly Vec[])[];
+  readonly driveways: readonly (readonly Vec[])[];
+  readonly bumps: readonly (readonly Vec[])[];
   readonly drivable: readonly { outer: readonly Vec[]; holes: readonly (readonly Vec[])[] }[];
   readonly stopSigns: readonly Vec[];
   readonly box: Box;
@@ -24,10 +50,14 @@ const flat = (pts: readonly Point[] | undefined): Vec[] => (pts ?? []).map((p): 
 
 function laneKind(type: string | undefined): LaneKind {
   switch (type) {
-    case 'bike_lane': return 'bike';
-    case 'sidewalk': return 'walk';
-    case 'parking': return 'other';
-    default: return 'road';
+    case 'bike_lane':
+      return 'bike';
+    case 'sidewalk':
+      return 'walk';
+    case 'parking':
+      return 'other';
+    default:
+      return 'road';
   }
 }
 
@@ -38,28 +68,53 @@ export function buildMap(json: MapJson): LaneMap {
     const line = makeLine(flat(l.points_m));
     if (line.pts.length < 2) continue;
     // A lane inside a crossing turns or is short and joins two others; it carries no markings of its own.
-    const inside = !!l.interpolating || (line.length < 45 && (l.predecessors?.length ?? 0) > 0 && (l.successors?.length ?? 0) > 0 && bend(line) > 0.6);
+    const inside =
+      !!l.interpolating ||
+      (line.length < 45 && (l.predecessors?.length ?? 0) > 0 && (l.successors?.length ?? 0) > 0 && bend(line) > 0.6);
     lanes.set(l.id, {
-      id: l.id, kind, type: l.type ?? 'undefined', line, width: l.width_m ?? WIDTH[kind], limit: l.speed_limit_mps ?? null,
-      next: l.successors ?? [], prev: l.predecessors ?? [], inside,
+      id: l.id,
+      kind,
+      type: l.type ?? 'undefined',
+      line,
+      width: l.width_m ?? WIDTH[kind],
+      limit: l.speed_limit_mps ?? null,
+      next: l.successors ?? [],
+      prev: l.predecessors ?? [],
+      inside,
     });
   }
-  const lines = (list: LineJson[] | undefined): MapLine[] => (list ?? []).map((l) => ({ type: l.type ?? '', line: makeLine(flat(l.points_m)) })).filter((l) => l.line.pts.length > 1);
-  const areas = (list: AreaJson[] | undefined) => (list ?? []).map((a) => flat(a.polygon_m)).filter((p) => p.length > 2);
+  const lines = (list: LineJson[] | undefined): MapLine[] =>
+    (list ?? [])
+      .map((l) => ({ type: l.type ?? '', line: makeLine(flat(l.points_m)) }))
+      .filter((l) => l.line.pts.length > 1);
+  const areas = (list: AreaJson[] | undefined) =>
+    (list ?? []).map((a) => flat(a.polygon_m)).filter((p) => p.length > 2);
   const box = emptyBox();
   for (const l of lanes.values()) for (const p of l.line.pts) growBox(box, p[0], p[1]);
   const drivable = (json.drivable ?? []).map((a) => ({ outer: flat(a.polygon_m), holes: (a.holes_m ?? []).map(flat) }));
   for (const a of drivable) for (const p of a.outer) growBox(box, p[0], p[1]);
-  if (!Number.isFinite(box.x0)) { box.x0 = box.y0 = -50; box.x1 = box.y1 = 50; }
+  if (!Number.isFinite(box.x0)) {
+    box.x0 = box.y0 = -50;
+    box.x1 = box.y1 = 50;
+  }
   return {
-    lanes, lines: lines(json.road_lines), edges: lines(json.road_edges), crosswalks: areas(json.crosswalks), driveways: areas(json.driveways),
-    bumps: areas(json.speed_bumps), drivable, stopSigns: (json.stop_signs ?? []).map((s): Vec => [s.position_m[0], s.position_m[1]]), box, grid: new Grid(lanes.values()),
+    lanes,
+    lines: lines(json.road_lines),
+    edges: lines(json.road_edges),
+    crosswalks: areas(json.crosswalks),
+    driveways: areas(json.driveways),
+    bumps: areas(json.speed_bumps),
+    drivable,
+    stopSigns: (json.stop_signs ?? []).map((s): Vec => [s.position_m[0], s.position_m[1]]),
+    box,
+    grid: new Grid(lanes.values()),
   };
 }
 
 /** Change of direction over a lane, in radians; positive to the left. */
 export function turnOf(line: Line): number {
-  const p = line.pts, n = p.length;
+  const p = line.pts,
+    n = p.length;
   const a = Math.atan2(p[1][1] - p[0][1], p[1][0] - p[0][0]);
   const b = Math.atan2(p[n - 1][1] - p[n - 2][1], p[n - 1][0] - p[n - 2][0]);
   return wrapAngle(b - a);
@@ -78,7 +133,8 @@ export class Grid {
         const b = boxOf([pts[i - 1], pts[i]]);
         this.each(b, (key) => {
           const cell = this.cells.get(key);
-          if (cell) cell.add(lane); else this.cells.set(key, new Set([lane]));
+          if (cell) cell.add(lane);
+          else this.cells.set(key, new Set([lane]));
         });
       }
     }
@@ -99,10 +155,20 @@ export class Grid {
   }
 }
 
-export interface LaneHit extends Projection { lane: Lane; score: number }
+export interface LaneHit extends Projection {
+  lane: Lane;
+  score: number;
+}
 
 /** Lanes near a pose, best first: distance plus 2 m for a right angle of difference. */
-export function nearestLanes(map: LaneMap, x: number, y: number, heading: number | null, radius: number, fits: (l: Lane) => boolean): LaneHit[] {
+export function nearestLanes(
+  map: LaneMap,
+  x: number,
+  y: number,
+  heading: number | null,
+  radius: number,
+  fits: (l: Lane) => boolean,
+): LaneHit[] {
   const hits: LaneHit[] = [];
   for (const lane of map.grid.near(x, y, radius)) {
     if (!fits(lane)) continue;
@@ -114,12 +180,21 @@ export function nearestLanes(map: LaneMap, x: number, y: number, heading: number
   return hits.sort((a, b) => a.score - b.score);
 }
 
-export interface Route { readonly line: Line; readonly length: number; readonly lanes: readonly Lane[] }
+export interface Route {
+  readonly line: Line;
+  readonly length: number;
+  readonly lanes: readonly Lane[];
+}
 
 /** Shortest way along the lanes from one hit to another, lane changes to a parallel lane not included. */
 export function findRoute(map: LaneMap, from: LaneHit, to: LaneHit, limit = 400): Route | null {
-  if (from.lane === to.lane && to.s >= from.s - 0.5) return routeOf(sliceLine(from.lane.line, from.s, to.s), [from.lane]);
-  interface Node { lane: Lane; cost: number; back: Node | null }
+  if (from.lane === to.lane && to.s >= from.s - 0.5)
+    return routeOf(sliceLine(from.lane.line, from.s, to.s), [from.lane]);
+  interface Node {
+    lane: Lane;
+    cost: number;
+    back: Node | null;
+  }
   const open: Node[] = [{ lane: from.lane, cost: from.lane.line.length - from.s, back: null }];
   const seen = new Set<string>();
   for (let n = 0; open.length && n < limit; n++) {
@@ -163,7 +238,9 @@ export function tightestRadius(line: Line): number {
     return [p.x, p.y];
   };
   for (let i = 2; i <= n; i++) {
-    const a = at(i - 2), b = at(i - 1), c = at(i);
+    const a = at(i - 2),
+      b = at(i - 1),
+      c = at(i);
     const t = Math.abs(wrapAngle(Math.atan2(c[1] - b[1], c[0] - b[0]) - Math.atan2(b[1] - a[1], b[0] - a[0])));
     const d = line.length / n;
     if (t > 1e-3) best = Math.min(best, d / t);

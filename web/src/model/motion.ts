@@ -27,8 +27,16 @@ export interface Columns {
 export function motionFrom(c: Columns, start?: Pose): Motion {
   const pad = start ? 1 : 0;
   const n = c.x_m.length + pad;
-  const x = new Float64Array(n), y = new Float64Array(n), heading = new Float64Array(n), speed = new Float64Array(n);
-  if (start) { x[0] = start.x; y[0] = start.y; heading[0] = start.heading; speed[0] = start.speed; }
+  const x = new Float64Array(n),
+    y = new Float64Array(n),
+    heading = new Float64Array(n),
+    speed = new Float64Array(n);
+  if (start) {
+    x[0] = start.x;
+    y[0] = start.y;
+    heading[0] = start.heading;
+    speed[0] = start.speed;
+  }
   for (let i = 0; i < c.x_m.length; i++) {
     const k = i + pad;
     x[k] = c.x_m[i];
@@ -47,11 +55,17 @@ function signedSpeed(vx: number, vy: number, heading: number): number {
 }
 
 /** The motion of somebody who does not appear. */
-export const nowhere: Motion = { first: 0, x: new Float64Array(0), y: new Float64Array(0), heading: new Float64Array(0), speed: new Float64Array(0), valid: [] };
+export const nowhere: Motion = {
+  first: 0,
+  x: new Float64Array(0),
+  y: new Float64Array(0),
+  heading: new Float64Array(0),
+  speed: new Float64Array(0),
+  valid: [],
+};
 
 export const isValidAt = (m: Motion, step: number): boolean => m.valid.some(([a, b]) => step >= a && step < b);
-export const firstValid = (m: Motion): number => m.valid[0]?.[0] ?? m.first;
-export const lastStep = (m: Motion): number => m.valid.length ? m.valid[m.valid.length - 1][1] - 1 : m.first - 1;
+export const lastStep = (m: Motion): number => (m.valid.length ? m.valid[m.valid.length - 1][1] - 1 : m.first - 1);
 
 export function poseAtStep(m: Motion, step: number): Pose | null {
   const i = step - m.first;
@@ -69,8 +83,10 @@ export function poseAt(m: Motion, t: number): Pose | null {
   if (i < 0 || i >= m.x.length) return null;
   if (k < 1e-6 || !isValidAt(m, a + 1) || i + 1 >= m.x.length) return poseAtStep(m, a);
   return {
-    x: lerp(m.x[i], m.x[i + 1], k), y: lerp(m.y[i], m.y[i + 1], k),
-    heading: lerpAngle(m.heading[i], m.heading[i + 1], k), speed: lerp(m.speed[i], m.speed[i + 1], k),
+    x: lerp(m.x[i], m.x[i + 1], k),
+    y: lerp(m.y[i], m.y[i + 1], k),
+    heading: lerpAngle(m.heading[i], m.heading[i + 1], k),
+    speed: lerp(m.speed[i], m.speed[i + 1], k),
   };
 }
 
@@ -95,7 +111,8 @@ export const pathLength = (m: Motion): number => distances(m)[m.x.length - 1] ??
 export function smoothSpeed(m: Motion, halfWindow = 4): Float64Array {
   const out = new Float64Array(m.speed.length);
   for (let i = 0; i < out.length; i++) {
-    let sum = 0, n = 0;
+    let sum = 0,
+      n = 0;
     for (let j = Math.max(0, i - halfWindow); j <= Math.min(out.length - 1, i + halfWindow); j++) {
       if (!isValidAt(m, m.first + j)) continue;
       sum += m.speed[j];
@@ -108,11 +125,16 @@ export function smoothSpeed(m: Motion, halfWindow = 4): Float64Array {
 
 /** True when nothing moves further than a hand's breadth in the whole record. */
 export function isStill(m: Motion): boolean {
-  let x0 = Infinity, x1 = -Infinity, y0 = Infinity, y1 = -Infinity;
+  let x0 = Infinity,
+    x1 = -Infinity,
+    y0 = Infinity,
+    y1 = -Infinity;
   for (let i = 0; i < m.x.length; i++) {
     if (!isValidAt(m, m.first + i)) continue;
-    x0 = Math.min(x0, m.x[i]); x1 = Math.max(x1, m.x[i]);
-    y0 = Math.min(y0, m.y[i]); y1 = Math.max(y1, m.y[i]);
+    x0 = Math.min(x0, m.x[i]);
+    x1 = Math.max(x1, m.x[i]);
+    y0 = Math.min(y0, m.y[i]);
+    y1 = Math.max(y1, m.y[i]);
   }
   return x1 - x0 < 0.6 && y1 - y0 < 0.6;
 }
@@ -133,9 +155,17 @@ export function straightOn(m: Motion, last: number): Motion {
   if (end >= last || !m.valid.length) return m;
   const known = continued.get(m);
   if (known && lastStep(known) === last) return known;
-  const n = last - m.first + 1, from = end - m.first;
-  const grow = (a: Float64Array): Float64Array => { const out = new Float64Array(n); out.set(a.subarray(0, from + 1)); return out; };
-  const x = grow(m.x), y = grow(m.y), heading = grow(m.heading), speed = grow(m.speed);
+  const n = last - m.first + 1,
+    from = end - m.first;
+  const grow = (a: Float64Array): Float64Array => {
+    const out = new Float64Array(n);
+    out.set(a.subarray(0, from + 1));
+    return out;
+  };
+  const x = grow(m.x),
+    y = grow(m.y),
+    heading = grow(m.heading),
+    speed = grow(m.speed);
   // A recorded velocity may point elsewhere than the body; along the body is near enough to be seen.
   const v = Math.abs(speed[from]) < STANDING ? 0 : speed[from];
   for (let i = from + 1; i < n; i++) {
@@ -145,7 +175,9 @@ export function straightOn(m: Motion, last: number): Motion {
     heading[i] = heading[from];
     speed[i] = v;
   }
-  const valid = m.valid.map(([a, b], i): readonly [number, number] => (i === m.valid.length - 1 ? [a, last + 1] : [a, b]));
+  const valid = m.valid.map(([a, b], i): readonly [number, number] =>
+    i === m.valid.length - 1 ? [a, last + 1] : [a, b],
+  );
   const out: Motion = { first: m.first, x, y, heading, speed, valid };
   continued.set(m, out);
   return out;

@@ -3,96 +3,168 @@
 import { curveBetween, makeLine, pointAt, type Line, type Pose } from './geometry';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from './lanemap';
 import { metres, seconds, speedLabel, type SpeedUnit } from './units';
+import { limitsOf, type Limits } from './domain';
 import { GOAL_TIME, type Agent, type GoalSpec } from './scene';
 
-export interface Limits { readonly accel: number; readonly top: number; readonly brake: number; readonly lateral: number }
-
-export function limitsOf(a: Pick<Agent, 'kind' | 'type'>): Limits {
-  if (a.type === 'pedestrian') return { accel: 1, top: 3.5, brake: 3, lateral: 6 };
-  if (a.type === 'cyclist') return { accel: 1, top: 12, brake: 4, lateral: 6 };
-  if (a.kind === 'truck' || a.kind === 'bus') return { accel: 1.2, top: 28, brake: 6, lateral: 6 };
-  return { accel: 2.5, top: 38, brake: 8, lateral: 6 };
-}
-
-/** Furthest distance in `t` seconds from speed `v`. */
+/** Furthest distance in `t` seconds from speed `v`: speeding up as hard as it goes, then on at top speed. */
 export function furthestReach(l: Limits, v: number, t: number): number {
-  if (v >= l.top) return v * t;
-  const t1 = (l.top - v) / l.accel;
-  return t <= t1 ? v * t + (l.accel * t * t) / 2 : v * t1 + (l.accel * t1 * t1) / 2 + l.top * (t - t1);
+  const { accel_mps2: accel, speed_mps: top } = l;
+  if (v >= top) return v * t;
+  const t1 = (top - v) / accel;
+  return t <= t1 ? v * t + (accel * t * t) / 2 : v * t1 + (accel * t1 * t1) / 2 + top * (t - t1);
 }
 
 /** Shortest distance in `t` seconds: braking as hard as it goes. */
 export function leastReach(l: Limits, v: number, t: number): number {
-  const ts = v / l.brake;
-  return t <= ts ? v * t - (l.brake * t * t) / 2 : (v * v) / (2 * l.brake);
+  const { brake_mps2: brake } = l;
+  const ts = v / brake;
+  return t <= ts ? v * t - (brake * t * t) / 2 : (v * v) / (2 * brake);
 }
 
 export type ReachKind = 'ok' | 'far' | 'near' | 'sharp';
 
 export interface LocalReach {
-  readonly kind: ReachKind; readonly path: Line; readonly onLanes: boolean; readonly along: number; readonly max: number; readonly min: number;
-  readonly nearest: Pose | null; readonly title: string; readonly words: string;
+  readonly kind: ReachKind;
+  readonly path: Line;
+  readonly onLanes: boolean;
+  readonly along: number;
+  readonly max: number;
+  readonly min: number;
+  readonly nearest: Pose | null;
+  readonly title: string;
+  readonly words: string;
   /** What would make it work: seconds, start speed in m/s. */
-  readonly time: number | null; readonly speed: number | null;
+  readonly time: number | null;
+  readonly speed: number | null;
 }
 
-const fitsAgent = (a: Pick<Agent, 'type'>) => (l: Lane): boolean => (a.type === 'cyclist' ? l.kind === 'bike' || l.kind === 'road' : l.kind === 'road');
+const fitsAgent =
+  (a: Pick<Agent, 'type'>) =>
+  (l: Lane): boolean =>
+    a.type === 'cyclist' ? l.kind === 'bike' || l.kind === 'road' : l.kind === 'road';
 
 /** The way to the goal: along the lanes when both ends lie on lanes that join up, else a plain curve. */
-export function pathTo(map: LaneMap, a: Pick<Agent, 'type'>, start: Pose, goal: { x: number; y: number; heading: number }): { line: Line; onLanes: boolean } {
+export function pathTo(
+  map: LaneMap,
+  a: Pick<Agent, 'type'>,
+  start: Pose,
+  goal: { x: number; y: number; heading: number },
+): { line: Line; onLanes: boolean } {
   if (a.type !== 'pedestrian') {
     const fit = fitsAgent(a);
     const from = nearestLanes(map, start.x, start.y, start.heading, 3, fit).slice(0, 4);
     const to = nearestLanes(map, goal.x, goal.y, goal.heading, 3, fit).slice(0, 2);
-    for (const b of to) for (const f of from) {
-      const r = findRoute(map, f, b);
-      if (r && r.line.pts.length > 1 && r.length < 1.9 * Math.hypot(goal.x - start.x, goal.y - start.y) + 12) return { line: r.line, onLanes: true };
-    }
+    for (const b of to)
+      for (const f of from) {
+        const r = findRoute(map, f, b);
+        if (r && r.line.pts.length > 1 && r.length < 1.9 * Math.hypot(goal.x - start.x, goal.y - start.y) + 12)
+          return { line: r.line, onLanes: true };
+      }
   }
-  if (a.type === 'pedestrian') return { line: makeLine([[start.x, start.y], [goal.x, goal.y]]), onLanes: false };
+  if (a.type === 'pedestrian')
+    return {
+      line: makeLine([
+        [start.x, start.y],
+        [goal.x, goal.y],
+      ]),
+      onLanes: false,
+    };
   return { line: makeLine(curveBetween(start, goal)), onLanes: false };
 }
 
-export function localReach(map: LaneMap, a: Agent, start: Pose, goal: GoalSpec, unit: SpeedUnit, latest = GOAL_TIME): LocalReach | null {
+export function localReach(
+  map: LaneMap,
+  a: Agent,
+  start: Pose,
+  goal: GoalSpec,
+  unit: SpeedUnit,
+  latest = GOAL_TIME,
+): LocalReach | null {
   if (!goal.pos) return null;
-  const l = limitsOf(a), t = goal.time, v = start.speed;
+  const l = limitsOf(a),
+    t = goal.time,
+    v = start.speed;
   const heading = goal.heading ?? Math.atan2(goal.pos[1] - start.y, goal.pos[0] - start.x);
   const target: Pose = { x: goal.pos[0], y: goal.pos[1], heading, speed: goal.speed ?? v };
   const { line, onLanes } = pathTo(map, a, start, target);
   const along = line.length;
-  const max = furthestReach(l, v, t), min = leastReach(l, v, t);
-  const who = { car: 'this car', truck: 'this truck', bus: 'this bus', motorcycle: 'this motorcycle', cyclist: 'this cyclist', pedestrian: 'this person', other: 'it' }[a.kind];
+  const max = furthestReach(l, v, t),
+    min = leastReach(l, v, t);
+  const who = {
+    car: 'this car',
+    truck: 'this truck',
+    bus: 'this bus',
+    motorcycle: 'this motorcycle',
+    cyclist: 'this cyclist',
+    pedestrian: 'this person',
+    other: 'it',
+  }[a.kind];
   const base = { path: line, onLanes, along, max, min, time: null, speed: null, nearest: null };
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
-  if (along > max + 0.5) {
+  // No way is shorter than the straight one, whatever the lanes do: only past that it is certain that it is too far.
+  const straight = Math.hypot(goal.pos[0] - start.x, goal.pos[1] - start.y);
+  if (straight > max + 0.5) {
     return {
-      ...base, kind: 'far', nearest: at(max, Math.min(l.top, v + l.accel * t)), time: timeFor(l, v, along, latest), speed: speedFor(l, t, along),
+      ...base,
+      kind: 'far',
+      nearest: at(max, Math.min(l.speed_mps, v + l.accel_mps2 * t)),
+      time: timeFor(l, v, along, latest),
+      speed: speedFor(l, t, along),
       title: `Too far for ${seconds(t)}`,
-      words: `The goal is ${metres(along, 0)} away${onLanes ? ' along the lane' : ''}. In ${seconds(t)} from ${speedLabel(v, unit)} ${who} gets ${metres(max, 0)} at most.`,
+      words:
+        `The goal is ${metres(along, 0)} away${onLanes ? ' along the lane' : ''}. ` +
+        `In ${seconds(t)} from ${speedLabel(v, unit)} ${who} gets ${metres(max, 0)} at most.`,
     };
   }
   if (along < min - 1 && along > 0.5) {
     return {
-      ...base, kind: 'near', nearest: { x: start.x + Math.cos(start.heading) * min, y: start.y + Math.sin(start.heading) * min, heading: start.heading, speed: 0 },
-      speed: Math.sqrt(Math.max(0, 2 * l.brake * along)), title: 'Cannot stop that soon',
+      ...base,
+      kind: 'near',
+      nearest: {
+        x: start.x + Math.cos(start.heading) * min,
+        y: start.y + Math.sin(start.heading) * min,
+        heading: start.heading,
+        speed: 0,
+      },
+      speed: Math.sqrt(Math.max(0, 2 * l.brake_mps2 * along)),
+      title: 'Cannot stop that soon',
       words: `From ${speedLabel(v, unit)} it needs ${metres(min, 0)}, the goal is ${metres(along, 0)} away.`,
     };
   }
   const radius = a.type === 'pedestrian' ? Infinity : tightestRadius(line);
   const needed = Math.max(0, (along / t) * 0.6);
-  if (radius < Infinity && needed * needed > l.lateral * radius) {
-    const ok = Math.sqrt(l.lateral * radius);
-    return { ...base, kind: 'sharp', speed: ok, title: 'Too tight at this speed', words: `${speedLabel(ok, unit)} would do.` };
+  if (radius < Infinity && needed * needed > l.lateral_mps2 * radius) {
+    const ok = Math.sqrt(l.lateral_mps2 * radius);
+    return {
+      ...base,
+      kind: 'sharp',
+      speed: ok,
+      title: 'Too tight at this speed',
+      words: `${speedLabel(ok, unit)} would do.`,
+    };
   }
   const mean = speedLabel(along / t, unit);
-  return { ...base, kind: 'ok', title: 'Reachable', words: a.type === 'pedestrian' ? `${metres(along, 1)} in ${seconds(t)}: ${mean}${walk(along / t)}` : `${mean} on average is enough.` };
+  return {
+    ...base,
+    kind: 'ok',
+    title: 'Reachable',
+    words:
+      a.type === 'pedestrian'
+        ? `${metres(along, 1)} in ${seconds(t)}: ${mean}${walk(along / t)}`
+        : `${mean} on average is enough.`,
+  };
 }
 
 /**
  * How far it gets and how much is missing, from whoever gave the verdict: the generator measures straight from the
  * start, the quick look along the way. The two are never mixed, or the numbers on one screen contradict each other.
  */
-export function shortfall(start: Pose, goal: readonly [number, number], nearest: { x: number; y: number } | null, local: LocalReach | null): { gets: number; beyond: number } | null {
+export function shortfall(
+  start: Pose,
+  goal: readonly [number, number],
+  nearest: { x: number; y: number } | null,
+  local: LocalReach | null,
+): { gets: number; beyond: number } | null {
   if (nearest && nearest !== local?.nearest) {
     const gets = Math.hypot(nearest.x - start.x, nearest.y - start.y);
     return { gets, beyond: Math.hypot(goal[0] - start.x, goal[1] - start.y) - gets };
@@ -100,7 +172,8 @@ export function shortfall(start: Pose, goal: readonly [number, number], nearest:
   return local?.kind === 'far' ? { gets: local.max, beyond: local.along - local.max } : null;
 }
 
-const walk = (v: number): string => (v < 0.6 ? ', a stroll.' : v < 1.6 ? ', a normal walk.' : v < 2.2 ? ', a brisk walk.' : ', running.');
+const walk = (v: number): string =>
+  v < 0.6 ? ', a stroll.' : v < 1.6 ? ', a normal walk.' : v < 2.2 ? ', a brisk walk.' : ', running.';
 
 function timeFor(l: Limits, v: number, d: number, latest: number): number | null {
   for (let t = 0.5; t <= latest; t += 0.1) if (furthestReach(l, v, t) >= d) return Math.ceil(t * 10) / 10;
@@ -108,6 +181,6 @@ function timeFor(l: Limits, v: number, d: number, latest: number): number | null
 }
 
 function speedFor(l: Limits, t: number, d: number): number | null {
-  for (let v = 0; v <= l.top; v += 0.1) if (furthestReach(l, v, t) >= d) return v;
+  for (let v = 0; v <= l.speed_mps; v += 0.1) if (furthestReach(l, v, t) >= d) return v;
   return null;
 }

@@ -1,30 +1,71 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
-import { isMapRef, type AgentFuturesJson, type AgentJson, type ConditionJson, type MapJson, type SceneJson } from './json';
+import {
+  isMapRef,
+  type AgentFuturesJson,
+  type AgentJson,
+  type ConditionJson,
+  type MapJson,
+  type SceneJson,
+} from './json';
+import { DEFAULTS } from './domain';
 import { isStill, motionFrom, poseAtStep } from './motion';
 import { emptyMotion, readFutures, type Futures, type MotionSet } from './futures';
-import { durationOf, freeGoal, GOAL_TIME, logStartSpec, readLength, readReplan, sceneKey, startPose, type Agent, type AgentType, type GoalSpec, type Kind, type Others, type Scene, type StartSpec } from './scene';
+import {
+  durationOf,
+  freeGoal,
+  GOAL_TIME,
+  logStartSpec,
+  readLength,
+  readReplan,
+  sceneKey,
+  startPose,
+  type Agent,
+  type AgentType,
+  type GoalSpec,
+  type Kind,
+  type Others,
+  type Scene,
+  type StartSpec,
+} from './scene';
 import type { Pose, Vec } from './geometry';
 
 export class SceneError extends Error {}
 
 export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
-  if (!json || typeof json !== 'object' || !Array.isArray(json.agents)) throw new SceneError('This is not a scene: it has no list of road users.');
-  if ((json.version ?? 1) > 1) throw new SceneError(`This scene was saved by a newer version (${json.version}). This one reads up to 1.`);
+  if (!json || typeof json !== 'object' || !Array.isArray(json.agents))
+    throw new SceneError('This is not a scene: it has no list of road users.');
+  if ((json.version ?? 1) > 1)
+    throw new SceneError(`This scene was saved by a newer version (${json.version}). This one reads up to 1.`);
   const source = mapJson ?? (isMapRef(json.map) ? undefined : json.map);
   if (!source) throw new SceneError('The map of this scene is not here.');
   const map = buildMap(source);
-  const steps = json.time?.steps ?? Math.max(1, ...json.agents.map((a) => (a.track.first_step ?? 0) + a.track.x_m.length));
+  const steps =
+    json.time?.steps ?? Math.max(1, ...json.agents.map((a) => (a.track.first_step ?? 0) + a.track.x_m.length));
   const agents = new Map<string, Agent>();
   const names = namer(json.agents);
   for (const a of json.agents) agents.set(a.id, readAgent(a, map, names(a), json));
   const ed = json.x_editor ?? {};
   const length = readLength(ed.length_s);
   return Object.freeze({
-    id: json.id ?? '', name: json.name ?? 'Untitled', source: json.meta?.source ?? 'drawn', licence: json.meta?.licence ?? '',
-    steps, duration: durationOf(length, steps), length, replan: readReplan(ed.replan_s), map,
-    signals: (json.signals ?? []).map((s) => ({ lane: s.lane, stop: s.stop_m ? ([s.stop_m[0], s.stop_m[1]] as Vec) : null, states: s.states })),
-    agents, seed: ed.seed ?? 0, diversity: ed.diversity ?? 0.5, others: readOthers(ed.others),
+    id: json.id ?? '',
+    name: json.name ?? 'Untitled',
+    source: json.meta?.source ?? 'drawn',
+    licence: json.meta?.licence ?? '',
+    steps,
+    duration: durationOf(length, steps),
+    length,
+    replan: readReplan(ed.replan_s),
+    map,
+    signals: (json.signals ?? []).map((s) => ({
+      lane: s.lane,
+      stop: s.stop_m ? ([s.stop_m[0], s.stop_m[1]] as Vec) : null,
+      states: s.states,
+    })),
+    agents,
+    seed: ed.seed ?? DEFAULTS.seed,
+    diversity: ed.diversity ?? DEFAULTS.diversity,
+    others: readOthers(ed.others),
   });
 }
 
@@ -38,14 +79,27 @@ function readAgent(json: AgentJson, map: LaneMap, name: string, scene: SceneJson
   const c = json.conditions ?? {};
   const picked = scene.x_editor?.picked?.[json.id];
   return Object.freeze({
-    id: json.id, type, kind, name, length: c.length_m ?? json.length_m, width: c.width_m ?? json.width_m, logSize: [json.length_m, json.width_m] as const,
-    log, logStart, parked: type === 'vehicle' && isStill(log) && offLanes(map, logStart), ego: json.role === 'ego',
-    start: readStart(c, logStart), goal: readGoal(c), chosen: typeof picked === 'number' && picked >= 0 && picked < 6 ? Math.floor(picked) : null,
+    id: json.id,
+    type,
+    kind,
+    subtype: json.subtype ?? null,
+    name,
+    length: c.length_m ?? json.length_m,
+    width: c.width_m ?? json.width_m,
+    logSize: [json.length_m, json.width_m] as const,
+    log,
+    logStart,
+    parked: type === 'vehicle' && isStill(log) && offLanes(map, logStart),
+    ego: json.role === 'ego',
+    start: readStart(c, logStart),
+    goal: readGoal(c),
+    chosen: typeof picked === 'number' && picked >= 0 && picked < 6 ? Math.floor(picked) : null,
   });
 }
 
 /** The pose before the first of the futures: the start, or for one that comes in later where the log first shows it. */
-export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null => startPose(a) ?? poseAtStep(a.log, (f.modes?.[0]?.first_step ?? 0) - 1);
+export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null =>
+  startPose(a) ?? poseAtStep(a.log, (f.modes?.[0]?.first_step ?? 0) - 1);
 
 /** The futures saved beside a scene, when they still belong to it. */
 export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
@@ -54,7 +108,8 @@ export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   if (!g || !agents) return null;
   const futures = new Map<string, Futures>();
   for (const [id, f] of Object.entries(agents)) {
-    const a = scene.agents.get(id), start = a && firstPose(a, f);
+    const a = scene.agents.get(id),
+      start = a && firstPose(a, f);
     if (a && start && f.modes?.length) futures.set(id, readFutures(f, start, 1, 1, a.type === 'pedestrian'));
   }
   if (!futures.size) return null;
@@ -66,15 +121,25 @@ function readStart(c: ConditionJson, log: Pose | null): StartSpec {
   const base = logStartSpec(log);
   const s = c.start;
   if (!s) return base;
-  const pos: Vec | null = s.x_m === undefined ? base.pos : s.x_m === null || s.y_m == null ? null : Object.freeze([s.x_m, s.y_m] as const);
-  return Object.freeze({ pos, heading: s.heading_rad === undefined ? base.heading : s.heading_rad, speed: s.speed_mps === undefined ? base.speed : s.speed_mps });
+  const pos: Vec | null =
+    s.x_m === undefined ? base.pos : s.x_m === null || s.y_m == null ? null : Object.freeze([s.x_m, s.y_m] as const);
+  return Object.freeze({
+    pos,
+    heading: s.heading_rad === undefined ? base.heading : s.heading_rad,
+    speed: s.speed_mps === undefined ? base.speed : s.speed_mps,
+  });
 }
 
 function readGoal(c: ConditionJson): GoalSpec {
   const g = c.goal;
   if (!g) return freeGoal();
   const pos: Vec | null = g.x_m == null || g.y_m == null ? null : Object.freeze([g.x_m, g.y_m] as const);
-  return Object.freeze({ pos, heading: g.heading_rad ?? null, speed: g.speed_mps ?? null, time: g.time_s ?? GOAL_TIME });
+  return Object.freeze({
+    pos,
+    heading: g.heading_rad ?? null,
+    speed: g.speed_mps ?? null,
+    time: g.time_s ?? GOAL_TIME,
+  });
 }
 
 /** Parked means still for the whole scene and off every lane centre: a queue at a red light keeps its colour. */
@@ -82,29 +147,46 @@ function offLanes(map: LaneMap, p: Pose | null): boolean {
   return !p || nearestLanes(map, p.x, p.y, null, 1.6, (l) => l.kind === 'road').length === 0;
 }
 
-export function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
+function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
   if (a.type === 'pedestrian' || a.type === 'cyclist') return a.type;
   if (a.type !== 'vehicle') return 'other';
   switch (a.subtype) {
-    case 'truck': case 'trailer': return 'truck';
-    case 'bus': return 'bus';
-    case 'motorcycle': return 'motorcycle';
-    case 'car': case 'van': case 'emergency': return 'car';
-    default: break;
+    case 'truck':
+    case 'trailer':
+      return 'truck';
+    case 'bus':
+      return 'bus';
+    case 'motorcycle':
+      return 'motorcycle';
+    case 'car':
+    case 'van':
+    case 'emergency':
+      return 'car';
+    default:
+      break;
   }
   if (a.width_m < 1.2) return 'motorcycle';
   return a.length_m > 11 ? 'bus' : a.length_m > 6.6 ? 'truck' : 'car';
 }
 
-export const KIND_NAMES: Record<Kind, string> = {
-  car: 'Car', truck: 'Truck', bus: 'Bus', motorcycle: 'Motorcycle', cyclist: 'Cyclist', pedestrian: 'Pedestrian', other: 'Object',
+const KIND_NAMES: Record<Kind, string> = {
+  car: 'Car',
+  truck: 'Truck',
+  bus: 'Bus',
+  motorcycle: 'Motorcycle',
+  cyclist: 'Cyclist',
+  pedestrian: 'Pedestrian',
+  other: 'Object',
 };
 
 /** Names carry the number in the id where that is short and unique, else a count of their own. */
 function namer(all: readonly AgentJson[]): (a: AgentJson) => string {
   const digits = new Map<string, number>();
   const key = (a: AgentJson) => /(\d{1,5})$/.exec(a.id)?.[1];
-  for (const a of all) { const k = key(a); if (k) digits.set(k, (digits.get(k) ?? 0) + 1); }
+  for (const a of all) {
+    const k = key(a);
+    if (k) digits.set(k, (digits.get(k) ?? 0) + 1);
+  }
   const count = new Map<Kind, number>();
   return (a) => {
     const kind = kindOf(a);

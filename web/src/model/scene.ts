@@ -1,6 +1,7 @@
 // The document: what the user made. Frozen and structurally shared; motion that the generator worked out
 // is not part of it, it is looked up by the document's key (see futures.ts).
 import type { LaneMap } from './lanemap';
+import { DEFAULTS } from './domain';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 import { STEP_S, type Motion } from './motion';
 
@@ -9,12 +10,24 @@ export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestr
 export type Others = 'react' | 'log' | 'still';
 
 /** A field that is null is Free: the generator decides it. Position counts as one field. */
-export interface StartSpec { readonly pos: Vec | null; readonly heading: number | null; readonly speed: number | null }
-export interface GoalSpec extends StartSpec { readonly time: number }
+export interface StartSpec {
+  readonly pos: Vec | null;
+  readonly heading: number | null;
+  readonly speed: number | null;
+}
+export interface GoalSpec extends StartSpec {
+  readonly time: number;
+}
 
 export interface Agent {
-  readonly id: string; readonly type: AgentType; readonly kind: Kind; readonly name: string;
-  readonly length: number; readonly width: number;
+  readonly id: string;
+  readonly type: AgentType;
+  readonly kind: Kind;
+  /** What the scene's author calls it; the kind is a guess from the size where nothing is said. */
+  readonly subtype: string | null;
+  readonly name: string;
+  readonly length: number;
+  readonly width: number;
   readonly logSize: readonly [number, number];
   readonly log: Motion;
   /** State at 0 s in the log; null when the road user appears later. */
@@ -27,10 +40,17 @@ export interface Agent {
   readonly chosen: number | null;
 }
 
-export interface Signal { readonly lane: string; readonly stop: Vec | null; readonly states: readonly (readonly [number, string])[] }
+export interface Signal {
+  readonly lane: string;
+  readonly stop: Vec | null;
+  readonly states: readonly (readonly [number, string])[];
+}
 
 export interface Scene {
-  readonly id: string; readonly name: string; readonly source: string; readonly licence: string;
+  readonly id: string;
+  readonly name: string;
+  readonly source: string;
+  readonly licence: string;
   readonly steps: number;
   /** Seconds that are worked out and played: the length, or less for a shorter recording. */
   readonly duration: number;
@@ -38,12 +58,16 @@ export interface Scene {
   readonly length: Length;
   /** Seconds after which everybody plans anew. */
   readonly replan: Replan;
-  readonly map: LaneMap; readonly signals: readonly Signal[];
+  readonly map: LaneMap;
+  readonly signals: readonly Signal[];
   readonly agents: ReadonlyMap<string, Agent>;
-  readonly seed: number; readonly diversity: number; readonly others: Others;
+  readonly seed: number;
+  readonly diversity: number;
+  readonly others: Others;
 }
 
-export const GOAL_TIME = 9;
+/** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
+export const GOAL_TIME = DEFAULTS.horizon_s;
 export const LENGTHS = [9, 12, 15, 20] as const;
 export const REPLANS = [3, 6, 9] as const;
 export type Length = (typeof LENGTHS)[number];
@@ -53,11 +77,16 @@ export const readLength = (v: unknown): Length => LENGTHS.find((l) => l === v) ?
 export const readReplan = (v: unknown): Replan => REPLANS.find((r) => r === v) ?? 9;
 
 /** A recording may be shorter than 9 s; past that the generator goes on by itself. */
-export const durationOf = (length: Length, steps: number): number => (length > GOAL_TIME ? length : Math.min(GOAL_TIME, Math.max(1, steps - 1) * STEP_S));
+export const durationOf = (length: Length, steps: number): number =>
+  length > GOAL_TIME ? length : Math.min(GOAL_TIME, Math.max(1, steps - 1) * STEP_S);
 export const freeGoal = (time = GOAL_TIME): GoalSpec => Object.freeze({ pos: null, heading: null, speed: null, time });
 
 export function logStartSpec(p: Pose | null): StartSpec {
-  return Object.freeze(p ? { pos: Object.freeze([p.x, p.y]) as Vec, heading: p.heading, speed: Math.abs(p.speed) } : { pos: null, heading: null, speed: null });
+  return Object.freeze(
+    p
+      ? { pos: Object.freeze([p.x, p.y]) as Vec, heading: p.heading, speed: Math.abs(p.speed) }
+      : { pos: null, heading: null, speed: null },
+  );
 }
 
 /** The start pose in force: fixed fields from the document, free ones from the log. */
@@ -71,10 +100,10 @@ export function startPose(a: Agent): Pose | null {
 export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !== null || g.speed !== null;
 
 const samePos = (a: Vec | null, b: Vec | null): boolean => a === b || (!!a && !!b && a[0] === b[0] && a[1] === b[1]);
-export const sameSpec = (a: StartSpec, b: StartSpec): boolean => samePos(a.pos, b.pos) && a.heading === b.heading && a.speed === b.speed;
-export const sameGoal = (a: GoalSpec, b: GoalSpec): boolean => sameSpec(a, b) && a.time === b.time;
+export const sameSpec = (a: StartSpec, b: StartSpec): boolean =>
+  samePos(a.pos, b.pos) && a.heading === b.heading && a.speed === b.speed;
 
-export const startChanged = (a: Agent): boolean => !sameSpec(a.start, logStartSpec(a.logStart));
+const startChanged = (a: Agent): boolean => !sameSpec(a.start, logStartSpec(a.logStart));
 export const sizeChanged = (a: Agent): boolean => a.length !== a.logSize[0] || a.width !== a.logSize[1];
 
 /** Has the user asked anything of this road user? */
@@ -89,7 +118,8 @@ export function withAgents(scene: Scene, changes: Iterable<Agent>): Scene {
 /** Text that names everything the generator's answer depends on; equal keys, equal answers. */
 export function sceneKey(scene: Scene): string {
   const parts: unknown[] = [scene.id, scene.seed, scene.diversity, scene.others, scene.length, scene.replan];
-  for (const a of scene.agents.values()) if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
+  for (const a of scene.agents.values())
+    if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
   return JSON.stringify(parts);
 }
 
@@ -99,6 +129,7 @@ const MADE = ['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'];
 export const isRecorded = (source: string): boolean => !MADE.includes(source);
 
 /** With the others held still nobody comes in from outside: it would run into those that stand. */
-export const staysAway = (s: Scene, a: Agent): boolean => s.others === 'still' && a.type !== 'other' && a.logStart === null;
+export const staysAway = (s: Scene, a: Agent): boolean =>
+  s.others === 'still' && a.type !== 'other' && a.logStart === null;
 
 export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;

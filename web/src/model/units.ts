@@ -16,7 +16,6 @@ export function num(value: number, decimals = 1): string {
 
 export const metres = (v: number, decimals = v < 10 ? 1 : 0): string => `${num(v, decimals)} m`;
 export const seconds = (v: number): string => `${num(v, 1)} s`;
-export const degrees = (radians: number): string => num(Math.round(deg(radians)), 0);
 export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), unit === 'm/s' ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;
 
@@ -45,7 +44,11 @@ function speedTo(mps: number, as: Quantity): number | null {
  * shows; null when it cannot be understood.
  */
 export function parseTyped(text: string, as: Quantity): number | null {
-  const clean = text.trim().replace(/\u2212/g, '-').replace(/,/g, '.').replace(/^≈\s*/, '');
+  const clean = text
+    .trim()
+    .replace(/\u2212/g, '-')
+    .replace(/,/g, '.')
+    .replace(/^≈\s*/, '');
   const m = /^([-+*/().\d\s]+?)\s*([a-z°/]*)$/i.exec(clean);
   if (!m) return null;
   const value = evaluate(m[1]);
@@ -63,7 +66,11 @@ function evaluate(source: string): number | null {
     const t = tokens[at++];
     if (t === '-') return -factor();
     if (t === '+') return factor();
-    if (t === '(') { const v = sum(); at++; return v; }
+    if (t === '(') {
+      const v = sum();
+      at++;
+      return v;
+    }
     return t === undefined ? NaN : Number(t);
   };
   const product = (): number => {

@@ -1,18 +1,25 @@
 // Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
 // answer at all (`Away`).
-import type { ImportReply, Problem, SceneJson, SceneList, ScoreReply } from './api';
+import type { ImportReply, Problem, SceneJson, SceneList, ScoreReply } from './types';
 import type { MapJson } from '../model/json';
 
 export class Away extends Error {}
 
 export class Refused extends Error {
-  constructor(readonly status: number, readonly problem: Problem) {
+  constructor(
+    readonly status: number,
+    readonly problem: Problem,
+  ) {
     super(problem.detail ?? problem.title);
   }
 }
 
 export async function problemOf(reply: Response): Promise<Problem> {
-  const fallback: Problem = { code: `http-${reply.status}`, title: reply.statusText || 'Refused', status: reply.status };
+  const fallback: Problem = {
+    code: `http-${reply.status}`,
+    title: reply.statusText || 'Refused',
+    status: reply.status,
+  };
   try {
     const body = (await reply.json()) as Partial<Problem>;
     return body && typeof body === 'object' ? { ...fallback, ...body } : fallback;
@@ -25,12 +32,20 @@ export async function problemOf(reply: Response): Promise<Problem> {
 const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
 
 export class Client {
-  constructor(private readonly base = '', private readonly fetcher: typeof fetch = (...a) => fetch(...a)) {}
+  constructor(
+    private readonly base = '',
+    private readonly fetcher: typeof fetch = (...a) => fetch(...a),
+  ) {}
+
+  /** The bare answer, whatever it says; `request` sorts out those that say no. */
+  send(path: string, init?: RequestInit): Promise<Response> {
+    return this.fetcher(this.base + path, init);
+  }
 
   async request(path: string, init?: RequestInit): Promise<Response> {
     let reply: Response;
     try {
-      reply = await this.fetcher(this.base + path, init);
+      reply = await this.send(path, init);
     } catch (e) {
       if ((e as Error).name === 'AbortError') throw e;
       throw new Away('The server did not answer.');
@@ -59,7 +74,9 @@ export class Client {
   }
 
   async mapRef(id: string): Promise<string | null> {
-    const json = (await (await this.request(`/v1/scenes/${encodeURIComponent(id)}?map=ref`)).json()) as { map?: { ref?: string } };
+    const json = (await (await this.request(`/v1/scenes/${encodeURIComponent(id)}?map=ref`)).json()) as {
+      map?: { ref?: string };
+    };
     return json.map?.ref ?? null;
   }
 
@@ -69,14 +86,19 @@ export class Client {
 
   async save(id: string, body: SceneJson, etag: string | null): Promise<string | null> {
     const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}`, {
-      method: 'PUT', body: JSON.stringify(body),
+      method: 'PUT',
+      body: JSON.stringify(body),
       headers: { 'Content-Type': 'application/json', ...(etag ? { 'If-Match': etag } : { 'If-None-Match': '*' }) },
     });
     return reply.headers.get('etag');
   }
 
   async create(body: SceneJson): Promise<{ id: string; etag: string | null }> {
-    const reply = await this.request('/v1/scenes', { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' } });
+    const reply = await this.request('/v1/scenes', {
+      method: 'POST',
+      body: JSON.stringify(body),
+      headers: { 'Content-Type': 'application/json' },
+    });
     const at = reply.headers.get('location')?.split('/').pop();
     const json = (await reply.json().catch(() => null)) as { id?: string } | null;
     return { id: json?.id ?? at ?? '', etag: reply.headers.get('etag') };
@@ -88,17 +110,30 @@ export class Client {
 
   async importFile(name: string, body: Blob): Promise<ImportReply> {
     const isJson = /\.json$/i.test(name);
-    const reply = await this.request(`/v1/import?name=${encodeURIComponent(name.slice(-120))}`, { method: 'POST', body, headers: { 'Content-Type': isJson ? 'application/json' : 'application/octet-stream' } });
+    const reply = await this.request(`/v1/import?name=${encodeURIComponent(name.slice(-120))}`, {
+      method: 'POST',
+      body,
+      headers: { 'Content-Type': isJson ? 'application/json' : 'application/octet-stream' },
+    });
     return (await reply.json()) as ImportReply;
   }
 
   async score(body: unknown, signal?: AbortSignal): Promise<ScoreReply> {
-    const reply = await this.request('/v1/score', { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' }, signal });
+    const reply = await this.request('/v1/score', {
+      method: 'POST',
+      body: JSON.stringify(body),
+      headers: { 'Content-Type': 'application/json' },
+      signal,
+    });
     return (await reply.json()) as ScoreReply;
   }
 
   async exportScene(body: SceneJson, format: string): Promise<{ blob: Blob; name: string; loss: string | null }> {
-    const reply = await this.request(`/v1/export?format=${format}`, { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' } });
+    const reply = await this.request(`/v1/export?format=${format}`, {
+      method: 'POST',
+      body: JSON.stringify(body),
+      headers: { 'Content-Type': 'application/json' },
+    });
     const name = /filename="?([^";]+)/.exec(reply.headers.get('content-disposition') ?? '')?.[1] ?? `scene.${format}`;
     return { blob: await reply.blob(), name, loss: reply.headers.get('dragtraffic-loss') };
   }

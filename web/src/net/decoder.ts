@@ -12,7 +12,8 @@ function start(): Worker | null {
     w.onmessage = (e: MessageEvent<{ id: number; value?: unknown; error?: string }>) => {
       const job = waiting.get(e.data.id);
       waiting.delete(e.data.id);
-      if (e.data.error) job?.fail(new SyntaxError(e.data.error)); else job?.done(e.data.value);
+      if (e.data.error) job?.fail(new SyntaxError(e.data.error));
+      else job?.done(e.data.value);
     };
     w.onerror = () => {
       worker = null;

@@ -1,212 +1,44 @@
-// One conversation with the generator: one request on the way, one waiting, the newest wins.
-import type { AcceptedEvent, DraftEvent, FinalEvent, GenerateOptions, Problem } from './api';
-import { problemOf } from './client';
-import { readEvents } from './stream';
+// What the editor asks of a generator. The editor knows this interface alone: the server is behind it today
+// (`http-generator.ts`), a test or an engine in the page may be.
+import type { SceneJson } from '../model/json';
+import type { DraftEvent, FinalEvent, GenerateOptions, Problem, ScoreReply } from './types';
 
-export interface Ask {
-  /** Ready-made JSON of the scene part: `"scene":{…}` or `"scene_id":"…"`. */
-  scenePart: () => string;
-  /** The same with the map inline, for a server that does not know the map yet. */
-  fullPart: () => Promise<string>;
-  options: Omit<GenerateOptions, 'client' | 'revision'>;
+/** A scene by its name on the server, or itself. The same object asked about twice is written once. */
+export type SceneRef = { readonly id: string } | { readonly scene: SceneJson };
+
+export interface Question {
+  /** What is asked about; made when the question is put, which a newer one may prevent. */
+  scene(): SceneRef;
+  /** The same with the map inside, for a generator that does not know the map yet. */
+  whole(): SceneJson;
+  readonly options: GenerateOptions;
   /** A preview may be dropped for a newer one; a commit is sent at once. */
-  preview: boolean;
-  on: Handlers;
+  readonly preview: boolean;
+  readonly on: Handlers;
 }
 
+/** How a question ends: with exactly one of `final`, `refused`, `away` and `dropped`. */
 export interface Handlers {
-  accepted?(e: AcceptedEvent): void;
   draft(e: DraftEvent, step: number, steps: number, ms: number): void;
   final(e: FinalEvent, ms: number): void;
   refused(p: Problem): void;
   away(): void;
   /** Nothing new for a while; said again while it lasts, with the time since the question. */
   slow?(ms: number): void;
-  /** The request ended without an answer because a newer one took its place. */
+  /** The question ended without an answer because a newer one took its place. */
   dropped?(): void;
 }
 
-interface Running { ask: Ask; revision: number; abort: AbortController; drawn: boolean;
-  /** How long since something new came, signs of life apart. */
-  idle: number;
-}
+/** Motions to be scored, by road user; all others do as the scene says. */
+export type Trajectories = Readonly<Record<string, unknown>>;
 
-/** When a silence is called slow, when it is looked into, and when it is taken for an absence in any case. */
-export interface Patience { slow: number; look: number; lost: number; tick: number; alive?: () => Promise<boolean> }
-
-/** `lost` is longer than the time between two signs of life in a stream. */
-const PATIENCE: Patience = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
-
-const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
-
-export class Generator {
-  private running: Running | null = null;
-  private waiting: Ask | null = null;
-  private revision = 0;
-  readonly client: string;
-  private readonly patience: Patience;
-  /** How long nobody has said anything, over questions that replaced each other. */
-  private silent = 0;
-
-  constructor(private readonly base = '', private readonly fetcher: typeof fetch = (...a) => fetch(...a), patience: Partial<Patience> = {}, private readonly now = () => performance.now()) {
-    this.patience = { ...PATIENCE, ...patience };
-    this.client = `editor-${Math.random().toString(36).slice(2, 10)}`;
-  }
-
-  get busy(): boolean { return this.running !== null; }
-
-  ask(ask: Ask): void {
-    // While a preview has shown nothing yet it is left to finish its first guess: aborting it on every
-    // pointer move would mean that nothing is ever drawn during a drag.
-    if (this.running && ask.preview && this.running.ask.preview && !this.running.drawn) {
-      this.waiting?.on.dropped?.();
-      this.waiting = ask;
-      return;
-    }
-    this.waiting?.on.dropped?.();
-    this.waiting = null;
-    this.stopRunning();
-    void this.run(ask);
-  }
-
-  /** Drops everything on the way. */
-  cancel(): void {
-    this.waiting?.on.dropped?.();
-    this.waiting = null;
-    this.stopRunning();
-    this.silent = 0;
-  }
-
-  private stopRunning(): void {
-    const r = this.running;
-    this.running = null;
-    r?.abort.abort();
-    r?.ask.on.dropped?.();
-  }
-
-  private async run(ask: Ask): Promise<void> {
-    const me: Running = { ask, revision: ++this.revision, abort: new AbortController(), drawn: false, idle: this.silent };
-    this.running = me;
-    const unwatch = this.watch(me);
-    const mine = () => this.running === me;
-    const began = this.now();
-    try {
-      let reply = await this.post(ask.scenePart(), me);
-      if (reply.status === 422 || reply.status === 412 || reply.status === 404) {
-        const p = await problemOf(reply);
-        const badMap = RETRY_IN_PLACE.has(p.code) || p.errors?.some((e) => e.code === 'unknown-map');
-        if (!badMap) { if (mine()) ask.on.refused(p); return; }
-        me.revision = ++this.revision;
-        reply = await this.post(await ask.fullPart(), me);
-      }
-      if (!reply.ok) {
-        const p = await problemOf(reply);
-        if (!mine()) return;
-        if (p.code === 'busy') return await this.later(ask, me, Number(reply.headers.get('retry-after')) || 1);
-        if (reply.status === 409) ask.on.dropped?.();
-        else if (reply.status >= 502 && reply.status <= 504) ask.on.away();
-        else ask.on.refused(p);
-        return;
-      }
-      await this.read(reply, me, began);
-    } catch (e) {
-      if (!mine()) return;
-      if ((e as Error).name === 'AbortError') ask.on.dropped?.(); else ask.on.away();
-    } finally {
-      unwatch();
-      if (mine()) {
-        this.running = null;
-        this.silent = 0;
-        this.next();
-      }
-    }
-  }
-
-  /**
-   * Looks after a question while it is open. Time is counted in ticks, so that a computer that slept does not take
-   * its own absence for the generator's.
-   */
-  private watch(me: Running): () => void {
-    const { slow, look, lost, tick, alive } = this.patience;
-    let looked = false;
-    let told = 0;
-    const timer = setInterval(() => {
-      if (this.running !== me) return;
-      me.idle += tick;
-      this.silent += tick;
-      if (this.silent >= lost || (!alive && this.silent >= look)) return this.lose(me);
-      if (me.idle < told) told = 0;
-      if (me.idle >= slow && me.idle - told >= 4 * tick) me.ask.on.slow?.((told = me.idle));
-      if (this.silent < look) looked = false;
-      else if (!looked && alive) {
-        looked = true;
-        void alive().then((yes) => { if (!yes && this.running === me && this.silent >= look) this.lose(me); });
-      }
-    }, tick);
-    return () => clearInterval(timer);
-  }
-
-  private lose(me: Running): void {
-    this.running = null;
-    this.silent = 0;
-    me.abort.abort();
-    this.waiting?.on.dropped?.();
-    this.waiting = null;
-    me.ask.on.away();
-  }
-
-  /** The queue is full for a moment: a preview is let go, a change waits and is asked again. */
-  private async later(ask: Ask, me: Running, seconds: number): Promise<void> {
-    if (ask.preview) { ask.on.dropped?.(); return; }
-    this.silent = 0;
-    await new Promise((r) => setTimeout(r, Math.min(5, seconds) * 1000));
-    if (this.running === me) await this.run(ask);
-  }
-
-  private post(part: string, me: Running): Promise<Response> {
-    const rest = JSON.stringify({ client: this.client, revision: me.revision, ...me.ask.options });
-    return this.fetcher(`${this.base}/v1/generate`, {
-      method: 'POST', body: `{${part},${rest.slice(1)}`, signal: me.abort.signal,
-      headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
-    });
-  }
-
-  private async read(reply: Response, me: Running, began: number): Promise<void> {
-    const { on, options } = me.ask;
-    let shown = -1, window = 0;
-    let ended = false;
-    for await (const e of readEvents(reply.body!)) {
-      if (this.running !== me) return;
-      this.silent = 0;
-      // An answer to an older question is dropped without a flash.
-      if (e.revision !== undefined && e.revision !== me.revision) continue;
-      const ms = this.now() - began;
-      if (e.event !== 'heartbeat') me.idle = 0;
-      if (e.event === 'accepted') on.accepted?.(e);
-      else if (e.event === 'initial' || e.event === 'step') {
-        const step = e.event === 'initial' ? 0 : e.step ?? shown + 1;
-        const at = e.window ?? 0;
-        // A later window begins with a first guess of its own.
-        if (at < window || (at === window && step <= shown)) continue;
-        window = at;
-        shown = step;
-        me.drawn = true;
-        on.draft(e, step, e.steps ?? options.steps, ms);
-        if (this.waiting) {
-          this.stopRunning();
-          this.next();
-          return;
-        }
-      } else if (e.event === 'final') { ended = true; on.final(e, ms); }
-      else if (e.event === 'error') { ended = true; on.refused(e.problem); }
-      else if (e.event === 'superseded') { ended = true; on.dropped?.(); }
-    }
-    if (!ended && this.running === me) on.away();
-  }
-
-  private next(): void {
-    const ask = this.waiting;
-    this.waiting = null;
-    if (ask) void this.run(ask);
-  }
+export interface Generator {
+  /** The newest question wins: one on its way, one waiting. */
+  ask(question: Question): void;
+  /** Drops everything on its way. */
+  cancel(): void;
+  /** Collisions and near misses of motions that are known already. */
+  score(scene: SceneRef, trajectories: Trajectories, signal: AbortSignal): Promise<ScoreReply>;
+  /** Is anybody there? */
+  answers(): Promise<boolean>;
 }

@@ -1,5 +1,5 @@
 // Reads a fetch body as newline-delimited JSON. EventSource cannot POST, so the stream is read by hand.
-import type { GenerateEvent } from './api';
+import type { GenerateEvent } from './types';
 import { parseLater } from './decoder';
 
 /** Lines longer than this are parsed off the main thread: they cost more than 2 ms here. */

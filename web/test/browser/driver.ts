@@ -5,13 +5,24 @@ import { chromium, type Browser, type Page } from 'playwright-core';
 import { build } from 'vite';
 import { startStandIn, type StandIn, type StandInOptions } from '../standin/server.mjs';
 
-const FLAGS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const FLAGS = [
+  '--headless',
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
 const PLACES = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
 
 export const chromiumPath = PLACES.find((p) => p && existsSync(p)) ?? null;
 if (!chromiumPath) console.log('Browser tests are skipped: no Chromium found (set CHROMIUM to its path).');
 
 export async function buildPage(): Promise<void> {
+  // What is tested is what is shipped; under the runner's own NODE_ENV it would be a development build.
+  process.env.NODE_ENV = 'production';
   await build({ root: fileURLToPath(new URL('../..', import.meta.url)), logLevel: 'error' });
 }
 
@@ -19,12 +30,22 @@ export const launch = (): Promise<Browser> => chromium.launch({ executablePath: 
 
 export class Driver {
   readonly errors: string[] = [];
-  constructor(readonly page: Page, readonly server: StandIn) {
-    page.on('console', (m) => { if (m.type() === 'error' && !/ERR_|Failed to load resource/.test(m.text())) this.errors.push(m.text()); });
+  constructor(
+    readonly page: Page,
+    readonly server: StandIn,
+  ) {
+    page.on('console', (m) => {
+      if (m.type() === 'error' && !/ERR_|Failed to load resource/.test(m.text())) this.errors.push(m.text());
+    });
     page.on('pageerror', (e) => this.errors.push(String(e.stack ?? e)));
   }
 
-  static async open(browser: Browser, options: StandInOptions = {}, path = '/', setup?: (p: Page) => Promise<void>): Promise<Driver> {
+  static async open(
+    browser: Browser,
+    options: StandInOptions = {},
+    path = '/',
+    setup?: (p: Page) => Promise<void>,
+  ): Promise<Driver> {
     const server = await startStandIn({ port: 0, delay: 4, ...options });
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: 'reduce' });
     const page = await context.newPage();
@@ -52,7 +73,9 @@ export class Driver {
     return [b.x + b.width / 2 + (x - cx) * z, b.y + b.height / 2 - (y - cy) * z];
   }
 
-  async zoom(): Promise<number> { return Number((await this.page.getAttribute('main.stage', 'data-view'))!.split(' ')[2]); }
+  async zoom(): Promise<number> {
+    return Number((await this.page.getAttribute('main.stage', 'data-view'))!.split(' ')[2]);
+  }
 
   async select(id: string): Promise<void> {
     await this.page.locator(`[data-agent="${id}"]`).evaluate((e: HTMLElement) => e.click());
@@ -60,16 +83,27 @@ export class Driver {
     await this.settled();
   }
 
+  /** Everything is asked and answered, and what came of it is on the page. */
   async settled(): Promise<void> {
-    await this.page.waitForFunction(() => !/Working|First guess|Refining|longer than usual/.test(document.querySelector('.status')?.textContent ?? ''));
-    await this.page.waitForTimeout(60);
+    await this.frames(2);
+    await this.page.waitForSelector('main.stage[aria-busy="false"]');
+    await this.frames(2);
+  }
+
+  /** The page has drawn so many frames. */
+  async frames(n: number): Promise<void> {
+    for (let i = 0; i < n; i++) await this.page.evaluate(() => new Promise(requestAnimationFrame));
   }
 
   async value(field: string, n = 0): Promise<number> {
-    return Number((await this.page.locator(`[data-field="${field}"]`).nth(n).inputValue()).replace('≈', '').replace('−', '-'));
+    return Number(
+      (await this.page.locator(`[data-field="${field}"]`).nth(n).inputValue()).replace('≈', '').replace('−', '-'),
+    );
   }
 
-  async goal(): Promise<[number, number]> { return [await this.value('goal-pos', 0), await this.value('goal-pos', 1)]; }
+  async goal(): Promise<[number, number]> {
+    return [await this.value('goal-pos', 0), await this.value('goal-pos', 1)];
+  }
 
   async drag(from: [number, number], to: [number, number], steps = 10): Promise<void> {
     const { mouse } = this.page;
@@ -77,17 +111,22 @@ export class Driver {
     await mouse.down();
     for (let i = 1; i <= steps; i++) {
       await mouse.move(from[0] + ((to[0] - from[0]) * i) / steps, from[1] + ((to[1] - from[1]) * i) / steps);
-      await this.page.waitForTimeout(16);
+      await this.frames(1);
     }
   }
 
   async release(): Promise<void> {
     await this.page.mouse.up();
-    await this.page.waitForTimeout(120);
     await this.settled();
   }
 
-  text(selector: string): Promise<string> { return this.page.locator(selector).first().innerText(); }
-  key(k: string): Promise<void> { return this.page.keyboard.press(k); }
-  last(): StandIn['log'][number] { return this.server.log.at(-1)!; }
+  text(selector: string): Promise<string> {
+    return this.page.locator(selector).first().innerText();
+  }
+  key(k: string): Promise<void> {
+    return this.page.keyboard.press(k);
+  }
+  last(): StandIn['log'][number] {
+    return this.server.log.at(-1)!;
+  }
 }

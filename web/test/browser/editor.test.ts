@@ -7,9 +7,15 @@ let browser: Browser;
 let d: Driver;
 
 describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
-  beforeAll(async () => { await buildPage(); browser = await launch(); }, 60_000);
+  beforeAll(async () => {
+    await buildPage();
+    browser = await launch();
+  }, 60_000);
   afterAll(() => browser?.close());
-  afterEach(async () => { expect(d.errors).toEqual([]); await d.close(); });
+  afterEach(async () => {
+    expect(d.errors).toEqual([]);
+    await d.close();
+  });
 
   it('opens the example, ready to drag, under the security policy', async () => {
     d = await (await Driver.open(browser)).ready();
@@ -25,9 +31,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const before = await d.goal();
     const [x, y] = await d.at(...before);
     await d.drag([x + 8, y - 26], [x + 8, y - 120]);
-    await d.page.waitForTimeout(150);
-    const previews = d.server.log.filter((l) => l.react === false && l.conditions['1']?.goal);
-    expect(previews.length).toBeGreaterThan(2);
+    const previews = () => d.server.log.filter((l) => l.react === false && l.conditions['1']?.goal);
+    await expect.poll(() => previews().length).toBeGreaterThan(2);
     expect(await d.text('.helpbar')).toContain('Others react when you let go');
     await d.release();
     expect(d.last().react).toBe(true);
@@ -40,7 +45,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Control+z');
     expect(await d.text('.goalsec h3')).toContain('free');
     await d.key('Control+Shift+z');
-    await d.page.waitForTimeout(200);
+    await d.settled();
     expect(await d.goal()).toEqual(moved);
     // Undo and redo show what was worked out before; nobody is asked again.
     expect(d.server.log.slice(asked).filter((l) => l.react)).toEqual([]);
@@ -53,7 +58,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 60, y - 90]);
     await d.key('Escape');
     await d.page.mouse.up();
-    await d.page.waitForTimeout(100);
+    await d.settled();
     expect(await d.text('.goalsec h3')).toContain('free');
     expect(await d.page.locator('[data-action="undo"]').first().getAttribute('aria-disabled')).toBe('true');
   });
@@ -65,8 +70,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.evaluate(() => {
       const w = window as unknown as { cleared: Record<string, number> };
       w.cleared = {};
-      const proto = CanvasRenderingContext2D.prototype, real = proto.clearRect;
-      proto.clearRect = function (...a) { w.cleared[this.canvas.className] = (w.cleared[this.canvas.className] ?? 0) + 1; real.apply(this, a); };
+      const proto = CanvasRenderingContext2D.prototype,
+        real = proto.clearRect;
+      proto.clearRect = function (...a) {
+        w.cleared[this.canvas.className] = (w.cleared[this.canvas.className] ?? 0) + 1;
+        real.apply(this, a);
+      };
     });
     await d.drag([x + 8, y - 26], [x + 30, y - 140], 30);
     const cleared = await d.page.evaluate(() => (window as unknown as { cleared: Record<string, number> }).cleared);
@@ -79,7 +88,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('14');
     await d.key('z');
-    await d.page.waitForTimeout(300);
+    await d.settled();
     const z = await d.zoom();
     const p: [number, number] = [await d.value('start-pos', 0), await d.value('start-pos', 1)];
     const [x, y] = await d.at(...p);
@@ -106,14 +115,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const f = d.page.locator('[data-field="goal-speed"]');
     await f.fill('1.2+0.4');
     await f.press('Enter');
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(d.last().conditions['17'].goal).toEqual({ time_s: 9, speed_mps: 1.6 });
     await d.page.locator('[aria-label="Goal speed fixed"]').click();
-    await d.page.waitForTimeout(200);
+    await d.settled();
     expect(await d.page.locator('[aria-label="Goal speed fixed"]').getAttribute('aria-checked')).toBe('false');
     await d.page.locator('[aria-label="Goal position fixed"]').click();
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(Object.keys(d.last().conditions['17'].goal!).sort()).toEqual(['time_s', 'x_m', 'y_m']);
     await f.fill('nonsense');
@@ -126,30 +133,31 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     await d.key('Alt+2');
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(await d.page.locator('.fu[aria-checked="true"]').getAttribute('data-future')).toBe('B');
     expect(d.last().agents).not.toContain('1');
     expect(d.last().scene).toBe('inline');
     await d.key('Control+z');
-    await d.page.waitForTimeout(100);
+    await d.settled();
     expect(await d.page.locator('.fu[aria-checked="true"]').getAttribute('data-future')).toBe('A');
   });
 
   it('says that a goal is too far, why, and offers three ways out', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
-    for (const [field, n, v] of [['goal-pos', 0, '1.75'], ['goal-pos', 1, '80'], ['goal-time', 0, '4']] as const) {
+    for (const [field, n, v] of [
+      ['goal-pos', 0, '1.75'],
+      ['goal-pos', 1, '80'],
+      ['goal-time', 0, '4'],
+    ] as const) {
       const el = d.page.locator(`[data-field="${field}"]`).nth(n);
       await el.fill(v);
       await el.press('Enter');
-      await d.page.waitForTimeout(150);
       await d.settled();
     }
     expect(await d.text('.hint')).toContain('Too far for 4.0 s');
     expect(await d.page.locator('.opt').allInnerTexts()).toHaveLength(3);
     await d.page.locator('.opt').first().click();
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(await d.text('.toast')).toContain('nearest reachable');
   });
@@ -166,7 +174,6 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.insp')).toContain('Futures are out of date');
     d.server.options.away = false;
     await d.page.waitForSelector('.banner', { state: 'detached', timeout: 15_000 });
-    await d.page.waitForTimeout(300);
     await d.settled();
     expect(d.last().react).toBe(true);
     expect(d.last().conditions['1'].goal).toBeDefined();
@@ -179,7 +186,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 8, y - 60]);
     d.server.options.hang = true;
     await d.drag([x + 8, y - 60], [x + 8, y - 120]);
-    await d.page.waitForFunction(() => /longer than usual \(\d\.\d s\)\. You can keep dragging/.test(document.querySelector('.status')!.textContent!), null, { timeout: 5000 });
+    await d.page.waitForFunction(
+      () =>
+        /longer than usual \(\d\.\d s\)\. You can keep dragging/.test(document.querySelector('.status')!.textContent!),
+      null,
+      { timeout: 5000 },
+    );
     await d.page.waitForSelector('.banner', { timeout: 9000 });
     expect(await d.text('.status')).toContain('Generator away');
     expect(await d.page.locator('.fu').count()).toBe(0);
@@ -193,7 +205,13 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
 
   it('leaves keys and focus where they are expected', async () => {
     d = await (await Driver.open(browser)).ready();
-    const focus = () => d.page.evaluate(() => (document.activeElement as HTMLElement).dataset.agent ?? (document.activeElement as HTMLElement).dataset.field ?? document.activeElement!.tagName);
+    const focus = () =>
+      d.page.evaluate(
+        () =>
+          (document.activeElement as HTMLElement).dataset.agent ??
+          (document.activeElement as HTMLElement).dataset.field ??
+          document.activeElement!.tagName,
+      );
     // Enter selects in the list, and then goes on to the inspector.
     await d.page.locator('[data-agent="1"]').focus();
     await d.key('Enter');
@@ -231,8 +249,15 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
 
   it('imports files with a verdict for each', async () => {
     d = await (await Driver.open(browser)).ready();
-    const good = { name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(buildCrossing('x', 'Mine').scene)) };
-    await d.page.setInputFiles('input[type="file"]', [good, { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') }]);
+    const good = {
+      name: 'mine.json',
+      mimeType: 'application/json',
+      buffer: Buffer.from(JSON.stringify(buildCrossing('x', 'Mine').scene)),
+    };
+    await d.page.setInputFiles('input[type="file"]', [
+      good,
+      { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') },
+    ]);
     await d.page.waitForSelector('.dlg.import');
     expect(await d.text('.dlg.import')).toMatch(/1 of 2 files are in, 1 could not be read/);
     expect(await d.text('.dlg.import')).toContain('“notes.pdf” is not a scene.');
@@ -247,8 +272,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const own = [...d.server.scenes.values()].find((s) => !s.readonly)!;
     await d.select('1');
     await d.key('g');
+    await d.settled();
     await d.page.waitForFunction(() => document.querySelector('.title small')?.textContent === 'Saved');
-    await d.page.waitForTimeout(500);
     const id = own.scene as unknown as { id: string };
     const stored = d.server.scenes.get(id.id)!;
     expect(stored.rev).toBeGreaterThan(1);
@@ -257,7 +282,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const asked = d.server.log.length;
     await d.page.reload();
     await d.ready();
-    await d.page.waitForTimeout(400);
+    await d.settled();
     expect(d.server.log.length).toBe(asked);
     await d.select('1');
     expect(await d.text('.goalsec h3')).not.toContain('free');
@@ -273,7 +298,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');
     await d.key('g');
-    await d.page.waitForTimeout(200);
+    await d.settled();
     await d.page.reload();
     await d.ready();
     expect(await d.text('.toast')).toContain('back');
@@ -288,11 +313,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const name = await d.text('.ih h2');
     await d.key('g');
     for (let i = 0; i < 5; i++) await d.key('Shift+ArrowUp');
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(await d.text('.toast')).toContain(`Goal of ${name} moved`);
     await d.key('Shift+f');
-    await d.page.waitForTimeout(150);
     await d.settled();
     const id = (d.last().agents as string[])[0];
     expect(d.last().conditions[id].goal).toHaveProperty('speed_mps');
@@ -304,7 +327,9 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.keyboard.type('loop');
     await d.key('Enter');
     expect(await d.page.locator('[data-action="loop"]').getAttribute('aria-pressed')).toBe('false');
-    expect(await d.page.locator('[role="slider"][aria-label="Goal time"]').getAttribute('aria-valuetext')).toBe('9.0 seconds');
+    expect(await d.page.locator('[role="slider"][aria-label="Goal time"]').getAttribute('aria-valuetext')).toBe(
+      '9.0 seconds',
+    );
   });
 
   it('shows collisions on the timeline and in the list', async () => {
@@ -324,22 +349,19 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     d = await (await Driver.open(browser)).ready();
     expect(await d.text('.tm')).toContain('/ 9.0 s');
     await d.page.locator('[data-action="length-20"]').click();
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(await d.text('.tm')).toContain('/ 20.0 s');
     expect(d.last()).toMatchObject({ agents: 'all', horizon_s: 20, replan_interval_s: 9 });
     await d.page.locator('[data-action="replan-3"]').click();
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(d.last()).toMatchObject({ horizon_s: 20, replan_interval_s: 3 });
     await d.select('1');
     expect(await d.page.locator('.plot text').allTextContents()).toContain('20 s');
     const time = d.page.locator('[data-field="goal-time"]');
     await d.key('g');
-    await d.page.waitForTimeout(150);
+    await d.settled();
     await time.fill('25');
     await time.press('Enter');
-    await d.page.waitForTimeout(150);
     await d.settled();
     expect(await d.value('goal-time')).toBe(20);
     expect(d.last().conditions['1'].goal!.time_s).toBe(20);
@@ -351,18 +373,19 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Space');
     await d.page.waitForFunction(() => document.querySelector('.tm')?.textContent?.startsWith('20.0 s'));
     await d.page.locator('[data-action="length-12"]').click();
-    await d.page.waitForTimeout(200);
     await d.settled();
     expect(await d.value('goal-time')).toBe(12);
     expect(await d.text('.tm')).toMatch(/12\.0 s\s+\/ 12\.0 s/);
     await d.key('Control+z');
-    await d.page.waitForTimeout(100);
+    await d.settled();
     expect(await d.value('goal-time')).toBe(20);
     expect(await d.text('.tm')).toContain('/ 20.0 s');
   });
 
   it('starts empty when there is no scene, and waits when there is no server', async () => {
-    d = await Driver.open(browser, { away: false }, '/', async (p) => { await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } })); });
+    d = await Driver.open(browser, { away: false }, '/', async (p) => {
+      await p.route('**/v1/scenes?*', (r) => r.fulfill({ json: { scenes: [], next: null } }));
+    });
     await d.page.waitForSelector('.empty');
     expect(await d.text('.empty')).toContain('Bring a scene');
   });

@@ -1,4 +1,9 @@
 import type { AgentJson, ConditionJson, ModeJson } from '../../src/model/json';
-export function sixFutures(agent: AgentJson, condition: ConditionJson | undefined, step: number, steps: number): ModeJson[];
+export function sixFutures(
+  agent: AgentJson,
+  condition: ConditionJson | undefined,
+  step: number,
+  steps: number,
+): ModeJson[];
 export function giveWay(agent: AgentJson, seconds: number): ModeJson;
 export function goOn(mode: ModeJson, steps: number): void;

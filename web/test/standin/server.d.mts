@@ -1,3 +1,37 @@
-export interface StandInOptions { port?: number; delay?: number; loss?: number; shuffle?: boolean; away?: boolean; hang?: boolean; busy?: number; collision?: boolean; scenes?: string[] }
-export interface StandIn { url: string; options: Required<StandInOptions>; log: { path: string; agents: string[] | 'all'; react: unknown; revision: number; client: string; scene_id?: string; scene?: string; conditions: Record<string, { goal?: Record<string, number>; start?: Record<string, number> }> }[]; scenes: Map<string, { scene: { name: string; agents: { id: string; conditions: unknown }[] }; etag: string; rev: number; readonly: boolean; ref: string }>; close(): Promise<void> }
+export interface StandInOptions {
+  port?: number;
+  delay?: number;
+  loss?: number;
+  shuffle?: boolean;
+  away?: boolean;
+  hang?: boolean;
+  busy?: number;
+  collision?: boolean;
+  scenes?: string[];
+}
+export interface StandIn {
+  url: string;
+  options: Required<StandInOptions>;
+  log: {
+    path: string;
+    agents: string[] | 'all';
+    react: unknown;
+    revision: number;
+    client: string;
+    scene_id?: string;
+    scene?: string;
+    conditions: Record<string, { goal?: Record<string, number>; start?: Record<string, number> }>;
+  }[];
+  scenes: Map<
+    string,
+    {
+      scene: { name: string; agents: { id: string; conditions: unknown }[] };
+      etag: string;
+      rev: number;
+      readonly: boolean;
+      ref: string;
+    }
+  >;
+  close(): Promise<void>;
+}
 export function startStandIn(options?: StandInOptions): Promise<StandIn>;

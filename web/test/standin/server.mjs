@@ -11,11 +11,39 @@ import { buildCrossing } from './crossing.mjs';
 import { giveWay, goOn, sixFutures } from './futures.mjs';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
-const CSP = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.woff2': 'font/woff2', '.txt': 'text/plain' };
+const CSP = [
+  "default-src 'none'",
+  "script-src 'self'",
+  "style-src 'self'",
+  "img-src 'self' data: blob:",
+  "font-src 'self'",
+  "connect-src 'self'",
+  "worker-src 'self'",
+  "base-uri 'none'",
+  "form-action 'none'",
+  "frame-ancestors 'none'",
+].join('; ');
+const TYPES = {
+  '.html': 'text/html; charset=utf-8',
+  '.js': 'text/javascript',
+  '.css': 'text/css',
+  '.svg': 'image/svg+xml',
+  '.woff2': 'font/woff2',
+  '.txt': 'text/plain',
+};
 
 export function startStandIn(options = {}) {
-  const o = { port: 8090, delay: 8, loss: 0, shuffle: false, away: false, hang: false, busy: 0, scenes: [], ...options };
+  const o = {
+    port: 8090,
+    delay: 8,
+    loss: 0,
+    shuffle: false,
+    away: false,
+    hang: false,
+    busy: 0,
+    scenes: [],
+    ...options,
+  };
   const scenes = new Map();
   const maps = new Map();
   const log = [];
@@ -25,24 +53,49 @@ export function startStandIn(options = {}) {
     const ref = scene.map.ref ?? `sha256:${createHash('sha256').update(JSON.stringify(map)).digest('hex')}`;
     maps.set(ref, map);
     const rev = (scenes.get(scene.id)?.rev ?? 0) + 1;
-    scenes.set(scene.id, { scene: { ...scene, map }, ref, rev, etag: `"${rev}-${createHash('sha256').update(JSON.stringify(scene)).digest('hex').slice(0, 16)}"`, readonly });
+    scenes.set(scene.id, {
+      scene: { ...scene, map },
+      ref,
+      rev,
+      etag: `"${rev}-${createHash('sha256').update(JSON.stringify(scene)).digest('hex').slice(0, 16)}"`,
+      readonly,
+    });
     return scenes.get(scene.id);
   };
   put(buildCrossing().scene, true);
   put(buildCrossing('demo-crossing-2', 'Second crossing').scene, true);
-  for (const file of o.scenes) { const s = JSON.parse(readFileSync(file, 'utf8')); put({ ...s, id: s.id || file.split('/').pop().replace('.json', '') }, true); }
+  for (const file of o.scenes) {
+    const s = JSON.parse(readFileSync(file, 'utf8'));
+    put({ ...s, id: s.id || file.split('/').pop().replace('.json', '') }, true);
+  }
 
-  const problem = (res, status, code, detail, extra = {}) => { res.writeHead(status, { 'Content-Type': 'application/problem+json' }); res.end(JSON.stringify({ code, title: code, detail, status, ...extra })); };
-  const json = (res, body, headers = {}, status = 200) => { res.writeHead(status, { 'Content-Type': 'application/json', 'Cache-Control': 'no-store', ...headers }); res.end(JSON.stringify(body)); };
-  const body = (req) => new Promise((done) => { const parts = []; req.on('data', (d) => parts.push(d)); req.on('end', () => done(Buffer.concat(parts))); });
+  const problem = (res, status, code, detail, extra = {}) => {
+    res.writeHead(status, { 'Content-Type': 'application/problem+json' });
+    res.end(JSON.stringify({ code, title: code, detail, status, ...extra }));
+  };
+  const json = (res, body, headers = {}, status = 200) => {
+    res.writeHead(status, { 'Content-Type': 'application/json', 'Cache-Control': 'no-store', ...headers });
+    res.end(JSON.stringify(body));
+  };
+  const body = (req) =>
+    new Promise((done) => {
+      const parts = [];
+      req.on('data', (d) => parts.push(d));
+      req.on('end', () => done(Buffer.concat(parts)));
+    });
   const sleep = (ms) => new Promise((r) => setTimeout(r, ms));
 
   async function generate(req, res) {
     const b = JSON.parse((await body(req)).toString());
-    if (o.busy > 0) { o.busy--; res.setHeader('Retry-After', '0.05'); return problem(res, 503, 'busy', 'The queue is full.'); }
+    if (o.busy > 0) {
+      o.busy--;
+      res.setHeader('Retry-After', '0.05');
+      return problem(res, 503, 'busy', 'The queue is full.');
+    }
     log.push({ path: 'generate', ...b, scene: b.scene ? 'inline' : undefined });
     const stored = b.scene_id ? scenes.get(b.scene_id)?.scene : null;
-    if (b.scene?.map?.ref && !maps.has(b.scene.map.ref)) return problem(res, 422, 'unknown-map', 'This map is not known.');
+    if (b.scene?.map?.ref && !maps.has(b.scene.map.ref))
+      return problem(res, 422, 'unknown-map', 'This map is not known.');
     const scene = stored ?? b.scene;
     if (!scene) return problem(res, 404, 'not-found', 'No such scene.');
     if (b.client) {
@@ -52,64 +105,190 @@ export function startStandIn(options = {}) {
     res.writeHead(200, { 'Content-Type': 'application/x-ndjson' });
     const all = scene.agents.filter((a) => a.type !== 'other' && a.track.x_m.length);
     const wanted = b.agents === 'all' ? all : all.filter((a) => b.agents.includes(a.id));
-    const reacting = b.react === true ? all.filter((a) => !wanted.includes(a)) : Array.isArray(b.react) ? all.filter((a) => b.react.includes(a.id)) : [];
+    const reacting =
+      b.react === true
+        ? all.filter((a) => !wanted.includes(a))
+        : Array.isArray(b.react)
+          ? all.filter((a) => b.react.includes(a.id))
+          : [];
     let seq = 0;
     const began = Date.now();
     const gone = () => res.destroyed || (b.client && seen.get(b.client) > b.revision);
-    const send = (e) => { if (Math.random() >= o.loss || e.event === 'final') res.write(`${JSON.stringify({ seq: seq++, job: 'j', revision: b.revision, elapsed_ms: Date.now() - began, ...e })}\n`); };
-    const drafts = (step) => Object.fromEntries(wanted.map((a) => [a.id, { chosen: 0, modes: sixFutures(a, b.conditions?.[a.id], step, b.steps) }]));
-    send({ event: 'accepted', regenerated: wanted.map((a) => a.id), reacting: reacting.map((a) => a.id), warnings: [] });
+    const send = (e) => {
+      if (Math.random() >= o.loss || e.event === 'final')
+        res.write(
+          `${JSON.stringify({ seq: seq++, job: 'j', revision: b.revision, elapsed_ms: Date.now() - began, ...e })}\n`,
+        );
+    };
+    const drafts = (step) =>
+      Object.fromEntries(
+        wanted.map((a) => [a.id, { chosen: 0, modes: sixFutures(a, b.conditions?.[a.id], step, b.steps) }]),
+      );
+    send({
+      event: 'accepted',
+      regenerated: wanted.map((a) => a.id),
+      reacting: reacting.map((a) => a.id),
+      warnings: [],
+    });
     const order = [...Array(b.steps + 1).keys()];
-    const horizon = b.horizon_s ?? 9, windows = Math.ceil(horizon / (b.replan_interval_s ?? 9));
+    const horizon = b.horizon_s ?? 9,
+      windows = Math.ceil(horizon / (b.replan_interval_s ?? 9));
     if (o.shuffle) order.sort(() => Math.random() - 0.5);
     for (const step of order) {
       await sleep(o.delay);
-      if (gone()) { send({ event: 'superseded' }); res.end(); return; }
-      send(step === 0 ? { event: 'initial', window: 0, sample: 0, agents: drafts(0) } : { event: 'step', window: 0, sample: 0, step, steps: b.steps, agents: drafts(step) });
+      if (gone()) {
+        send({ event: 'superseded' });
+        res.end();
+        return;
+      }
+      send(
+        step === 0
+          ? { event: 'initial', window: 0, sample: 0, agents: drafts(0) }
+          : { event: 'step', window: 0, sample: 0, step, steps: b.steps, agents: drafts(step) },
+      );
     }
     // Later windows begin where they begin; their answers are part of the last event.
     for (let window = 1; window < windows; window++)
       for (const step of order) {
         await sleep(o.delay);
-        if (gone()) { send({ event: 'superseded' }); res.end(); return; }
-        send({ event: step ? 'step' : 'initial', window, sample: 0, ...(step ? { step } : {}), steps: b.steps, agents: {} });
+        if (gone()) {
+          send({ event: 'superseded' });
+          res.end();
+          return;
+        }
+        send({
+          event: step ? 'step' : 'initial',
+          window,
+          sample: 0,
+          ...(step ? { step } : {}),
+          steps: b.steps,
+          agents: {},
+        });
       }
     const agents = drafts(b.steps);
-    reacting.forEach((a, i) => { agents[a.id] = b.conditions?.[a.id]?.goal ? { chosen: 0, modes: sixFutures(a, b.conditions[a.id], b.steps, b.steps) } : { chosen: 0, modes: [giveWay(a, i % 5 === 0 ? 2.2 : 0)] }; });
+    reacting.forEach((a, i) => {
+      agents[a.id] = b.conditions?.[a.id]?.goal
+        ? { chosen: 0, modes: sixFutures(a, b.conditions[a.id], b.steps, b.steps) }
+        : { chosen: 0, modes: [giveWay(a, i % 5 === 0 ? 2.2 : 0)] };
+    });
     if (horizon > 9) for (const f of Object.values(agents)) goOn(f.modes[f.chosen], Math.round(horizon * 10));
     const resolved = {};
     for (const a of wanted) {
       const g = b.conditions?.[a.id]?.goal;
       if (g?.x_m === undefined) continue;
-      const d = Math.hypot(g.x_m - a.track.x_m[0], g.y_m - a.track.y_m[0]), max = (g.time_s ?? 9) * 14;
+      const d = Math.hypot(g.x_m - a.track.x_m[0], g.y_m - a.track.y_m[0]),
+        max = (g.time_s ?? 9) * 14;
       const far = d > max;
-      resolved[a.id] = { reach: { status: far ? 'unreachable' : 'reached', nearest: { x_m: a.track.x_m[0] + ((g.x_m - a.track.x_m[0]) * max) / d, y_m: a.track.y_m[0] + ((g.y_m - a.track.y_m[0]) * max) / d, heading_rad: g.heading_rad ?? 0, speed_mps: 10 }, limiting: far ? 'time' : null, needs: null, words: far ? `Too far for ${(g.time_s ?? 9).toFixed(1)} s. The goal is ${d.toFixed(0)} m away.` : null } };
+      resolved[a.id] = {
+        reach: {
+          status: far ? 'unreachable' : 'reached',
+          nearest: {
+            x_m: a.track.x_m[0] + ((g.x_m - a.track.x_m[0]) * max) / d,
+            y_m: a.track.y_m[0] + ((g.y_m - a.track.y_m[0]) * max) / d,
+            heading_rad: g.heading_rad ?? 0,
+            speed_mps: 10,
+          },
+          limiting: far ? 'time' : null,
+          needs: null,
+          words: far ? `Too far for ${(g.time_s ?? 9).toFixed(1)} s. The goal is ${d.toFixed(0)} m away.` : null,
+        },
+      };
     }
-    send({ event: 'final', windows, samples: [{ agents }], resolved, scores: b.score === false ? null : score(), warnings: [], timing: {} });
+    send({
+      event: 'final',
+      windows,
+      samples: [{ agents }],
+      resolved,
+      scores: b.score === false ? null : score(),
+      warnings: [],
+      timing: {},
+    });
     res.end();
   }
 
-  const score = () => ({ scene: { collisions: o.collision ? [{ a: '1', b: '2', time_s: 5.4, iou: 0.1 }] : [], near_misses: [{ a: '11', b: '14', time_s: 3.2, distance_m: 0.6, ttc_s: 1.1 }], min_ttc_s: 1.1 }, agents: {} });
+  const score = () => ({
+    scene: {
+      collisions: o.collision ? [{ a: '1', b: '2', time_s: 5.4, iou: 0.1 }] : [],
+      near_misses: [{ a: '11', b: '14', time_s: 3.2, distance_m: 0.6, ttc_s: 1.1 }],
+      min_ttc_s: 1.1,
+    },
+    agents: {},
+  });
 
   async function api(req, res, url) {
     const m = /^\/v1\/scenes\/([\w-]+)(\/export)?$/.exec(url.pathname);
     if (url.pathname === '/v1/scenes' && req.method === 'GET')
-      return json(res, { scenes: [...scenes.values()].map((s) => ({ id: s.scene.id, name: s.scene.name, etag: s.etag, counts: countOf(s.scene), map_sha256: s.ref.slice(7), source: s.scene.meta?.source, readonly: s.readonly })), next: null });
-    if (url.pathname === '/v1/scenes' && req.method === 'POST') { const s = JSON.parse((await body(req)).toString()); const id = `own-${scenes.size}`; const k = put({ ...s, id }, false); return json(res, { id }, { ETag: k.etag, Location: `/v1/scenes/${id}` }, 201); }
-    if (m && req.method === 'GET') { const s = scenes.get(m[1]); if (!s) return problem(res, 404, 'not-found', 'No such scene.'); return json(res, { ...s.scene, map: url.searchParams.get('map') === 'ref' ? { ref: s.ref } : s.scene.map }, { ETag: s.etag }); }
-    if (m && req.method === 'PUT') { const s = scenes.get(m[1]); if (s && req.headers['if-match'] !== s.etag) return problem(res, 412, 'stale-etag', 'Changed meanwhile.', { etag: s.etag }); const k = put({ ...JSON.parse((await body(req)).toString()), id: m[1] }, false); return json(res, {}, { ETag: k.etag }); }
-    if (m && req.method === 'DELETE') { scenes.delete(m[1]); res.writeHead(204); return res.end(); }
+      return json(res, {
+        scenes: [...scenes.values()].map((s) => ({
+          id: s.scene.id,
+          name: s.scene.name,
+          etag: s.etag,
+          counts: countOf(s.scene),
+          map_sha256: s.ref.slice(7),
+          source: s.scene.meta?.source,
+          readonly: s.readonly,
+        })),
+        next: null,
+      });
+    if (url.pathname === '/v1/scenes' && req.method === 'POST') {
+      const s = JSON.parse((await body(req)).toString());
+      const id = `own-${scenes.size}`;
+      const k = put({ ...s, id }, false);
+      return json(res, { id }, { ETag: k.etag, Location: `/v1/scenes/${id}` }, 201);
+    }
+    if (m && req.method === 'GET') {
+      const s = scenes.get(m[1]);
+      if (!s) return problem(res, 404, 'not-found', 'No such scene.');
+      return json(
+        res,
+        { ...s.scene, map: url.searchParams.get('map') === 'ref' ? { ref: s.ref } : s.scene.map },
+        { ETag: s.etag },
+      );
+    }
+    if (m && req.method === 'PUT') {
+      const s = scenes.get(m[1]);
+      if (s && req.headers['if-match'] !== s.etag)
+        return problem(res, 412, 'stale-etag', 'Changed meanwhile.', { etag: s.etag });
+      const k = put({ ...JSON.parse((await body(req)).toString()), id: m[1] }, false);
+      return json(res, {}, { ETag: k.etag });
+    }
+    if (m && req.method === 'DELETE') {
+      scenes.delete(m[1]);
+      res.writeHead(204);
+      return res.end();
+    }
     if (url.pathname === '/v1/generate') return generate(req, res);
-    if (url.pathname === '/v1/score') { await body(req); return json(res, { ...score(), scene: { collisions: [], near_misses: [] } }); }
+    if (url.pathname === '/v1/score') {
+      await body(req);
+      return json(res, { ...score(), scene: { collisions: [], near_misses: [] } });
+    }
     if (url.pathname === '/v1/import') {
       const text = (await body(req)).toString();
-      try { const s = JSON.parse(text); if (!s.agents) throw 0; const id = `import-${scenes.size}`; put({ ...s, id, name: s.name ?? 'Imported' }, false); return json(res, { scenes: [{ id, name: s.name ?? 'Imported', warnings: [] }], skipped: [] }, {}, 201); } catch { return problem(res, 422, 'format-unknown', 'Not a scene.'); }
+      try {
+        const s = JSON.parse(text);
+        if (!s.agents) throw 0;
+        const id = `import-${scenes.size}`;
+        put({ ...s, id, name: s.name ?? 'Imported' }, false);
+        return json(res, { scenes: [{ id, name: s.name ?? 'Imported', warnings: [] }], skipped: [] }, {}, 201);
+      } catch {
+        return problem(res, 422, 'format-unknown', 'Not a scene.');
+      }
     }
-    if (url.pathname === '/v1/export') { res.writeHead(200, { 'Content-Type': 'application/octet-stream', 'Content-Disposition': 'attachment; filename="out.json"' }); return res.end(await body(req)); }
+    if (url.pathname === '/v1/export') {
+      res.writeHead(200, {
+        'Content-Type': 'application/octet-stream',
+        'Content-Disposition': 'attachment; filename="out.json"',
+      });
+      return res.end(await body(req));
+    }
     return problem(res, 404, 'not-found', 'Nothing here.');
   }
 
-  const countOf = (s) => { const c = { vehicle: 0, pedestrian: 0, cyclist: 0, other: 0 }; for (const a of s.agents) c[a.type]++; return c; };
+  const countOf = (s) => {
+    const c = { vehicle: 0, pedestrian: 0, cyclist: 0, other: 0 };
+    for (const a of s.agents) c[a.type]++;
+    return c;
+  };
 
   const server = createServer((req, res) => {
     const url = new URL(req.url, 'http://x');
@@ -117,18 +296,46 @@ export function startStandIn(options = {}) {
     // Takes the question and says nothing, as a stopped process does.
     if (o.hang && ['/v1/generate', '/healthz'].includes(url.pathname)) return;
     if (url.pathname === '/healthz') return void res.end('ok');
-    if (url.pathname.startsWith('/v1/')) return void api(req, res, url).catch((e) => problem(res, 500, 'internal', String(e)));
+    if (url.pathname.startsWith('/v1/'))
+      return void api(req, res, url).catch((e) => problem(res, 500, 'internal', String(e)));
     let file = normalize(join(DIST, url.pathname));
     if (!file.startsWith(DIST) || !existsSync(file) || statSync(file).isDirectory()) file = join(DIST, 'index.html');
-    res.writeHead(200, { 'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream', 'Content-Security-Policy': CSP });
+    res.writeHead(200, {
+      'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream',
+      'Content-Security-Policy': CSP,
+    });
     createReadStream(file).pipe(res);
   });
-  return new Promise((done) => server.listen(o.port, '127.0.0.1', () => done({ url: `http://127.0.0.1:${server.address().port}`, options: o, log, scenes, close: () => new Promise((r) => { server.closeAllConnections(); server.close(r); }) })));
+  return new Promise((done) =>
+    server.listen(o.port, '127.0.0.1', () =>
+      done({
+        url: `http://127.0.0.1:${server.address().port}`,
+        options: o,
+        log,
+        scenes,
+        close: () =>
+          new Promise((r) => {
+            server.closeAllConnections();
+            server.close(r);
+          }),
+      }),
+    ),
+  );
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  const arg = (name, fallback) => { const i = process.argv.indexOf(`--${name}`); return i < 0 ? fallback : process.argv[i + 1]; };
+  const arg = (name, fallback) => {
+    const i = process.argv.indexOf(`--${name}`);
+    return i < 0 ? fallback : process.argv[i + 1];
+  };
   const scenes = process.argv.flatMap((v, i, all) => (all[i - 1] === '--scene' ? [v] : []));
-  const s = await startStandIn({ port: Number(arg('port', 8090)), delay: Number(arg('delay', 8)), loss: Number(arg('loss', 0)), shuffle: process.argv.includes('--shuffle'), collision: process.argv.includes('--collision'), scenes });
+  const s = await startStandIn({
+    port: Number(arg('port', 8090)),
+    delay: Number(arg('delay', 8)),
+    loss: Number(arg('loss', 0)),
+    shuffle: process.argv.includes('--shuffle'),
+    collision: process.argv.includes('--collision'),
+    scenes,
+  });
   console.log(`stand-in on ${s.url}`);
 }

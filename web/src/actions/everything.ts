@@ -1,0 +1,103 @@
+// Everything: undo, the palette, help, and the page itself.
+import { inGroup } from './action';
+import type { Context } from './context';
+
+/** Esc: what is nearest goes first, one thing a press. */
+function letGo({ editor, gestures, importing, ui }: Context): void {
+  if (gestures.cancel()) return;
+  if (ui.dialog.value || ui.menu.value) {
+    ui.closeDialog();
+    ui.closeMenu();
+  } else if (ui.deleting.value) ui.askToDelete(null);
+  else if (importing.verdicts.value) importing.close();
+  else if (ui.eventsPanel.value) {
+    ui.showEvents(false);
+    editor.pickEvent(null);
+  } else if (editor.tool.value !== 'select') editor.chooseTool('select');
+  else editor.select(null);
+}
+
+export const everything = inGroup('Everything', [
+  {
+    id: 'deselect',
+    label: 'Let go, close, put back',
+    keys: ['Esc'],
+    help: 'Cancels a drag, then closes what is open, then selects nothing',
+    context: 'always',
+    run: letGo,
+  },
+  {
+    id: 'palette',
+    label: 'Actions',
+    keys: ['Ctrl+K'],
+    icon: 'search',
+    help: 'Find and do anything',
+    context: 'always',
+    run: ({ ui }) => (ui.dialog.value === 'palette' ? ui.closeDialog() : ui.openDialog('palette')),
+  },
+  {
+    id: 'undo',
+    label: 'Undo',
+    keys: ['Ctrl+Z'],
+    icon: 'undo',
+    help: 'One step back',
+    when: (c) => (c.editor.undoName.value ? true : 'Nothing to undo.'),
+    run: (c) => c.editor.undo(),
+  },
+  {
+    id: 'redo',
+    label: 'Redo',
+    keys: ['Ctrl+Shift+Z', 'Ctrl+Y'],
+    icon: 'redo',
+    help: 'One step on again',
+    when: (c) => (c.editor.redoName.value ? true : 'Nothing to redo.'),
+    run: (c) => c.editor.redo(),
+  },
+  {
+    id: 'shortcuts',
+    label: 'Shortcuts',
+    keys: ['?'],
+    icon: 'help',
+    help: 'This list',
+    run: (c) => c.ui.openDialog('shortcuts'),
+  },
+  {
+    id: 'theme',
+    label: 'Light or dark',
+    keys: ['Shift+D'],
+    icon: 'moon',
+    help: 'Colours of the page',
+    run: (c) => c.ui.setTheme(c.ui.theme.value === 'dark' ? 'light' : 'dark'),
+  },
+  {
+    id: 'next-group',
+    label: 'Next part of the page',
+    keys: ['F6'],
+    help: 'Top bar, scenes, road users, inspector, timeline',
+    context: 'always',
+    run: (c) => c.focusGroup(1),
+  },
+  {
+    id: 'previous-group',
+    label: 'Previous part of the page',
+    keys: ['Shift+F6'],
+    help: 'The way back',
+    context: 'always',
+    run: (c) => c.focusGroup(-1),
+  },
+  {
+    id: 'coach',
+    label: 'Show the first steps',
+    icon: 'help',
+    help: 'The three-step hint',
+    run: (c) => c.ui.coachTo(1),
+  },
+  {
+    id: 'unit',
+    label: 'km/h or mph',
+    keys: ['U'],
+    icon: 'ruler',
+    help: 'Unit of vehicle speeds',
+    run: (c) => c.editor.setUnit(c.editor.speedUnit.value === 'km/h' ? 'mph' : 'km/h'),
+  },
+]);

@@ -1,0 +1,114 @@
+// Goal and futures: what is asked of the selected road user, which future it takes, and working everything out.
+import { hasGoal, touched } from '../model/scene';
+import { clearGoal, resetAgent, setSeed } from '../model/commands';
+import { LETTERS } from '../model/futures';
+import * as moves from '../edit/moves';
+import { activePart, hasScene, inGroup, onAgent, type Action } from './action';
+
+const LARGEST_NEW_SEED = 9999;
+
+const goalTime = (id: string, label: string, key: string, seconds: number): Omit<Action, 'group'> => ({
+  id,
+  label,
+  keys: [key],
+  help: 'Time at the goal',
+  ...onAgent((c, a) => moves.later(c.editor, a, seconds)),
+});
+
+const futures = [...LETTERS].map((letter, i) => ({
+  id: `future-${letter.toLowerCase()}`,
+  label: `Choose future ${letter}`,
+  keys: [`Alt+${i + 1}`],
+  help: 'Playback follows it and the others answer',
+  ...onAgent((c, a) => moves.pickFuture(c.editor, a, i)),
+}));
+
+export const goal = inGroup('Goal and futures', [
+  {
+    id: 'set-goal',
+    label: 'Set a goal',
+    keys: ['G'],
+    icon: 'flag',
+    help: 'Where the chosen future ends; then move it',
+    ...onAgent((c, a) => {
+      c.editor.activate('goal');
+      return a.goal.pos ? null : moves.goalHere(c.editor, a);
+    }),
+  },
+  {
+    id: 'clear-goal',
+    label: 'Clear the goal',
+    keys: ['Shift+G'],
+    icon: 'x',
+    help: 'The generator decides again',
+    ...onAgent((_, a) => (hasGoal(a.goal) ? clearGoal(a) : null)),
+  },
+  {
+    id: 'toggle-field',
+    label: 'Fixed or free',
+    keys: ['F'],
+    icon: 'lock',
+    help: 'The field touched last',
+    ...onAgent(({ editor }, a) => {
+      const { part, field } = editor.lastField.value;
+      return moves.toggleField(editor, a, part, field);
+    }),
+  },
+  {
+    id: 'toggle-goal-speed',
+    label: 'Fix or free the goal speed',
+    keys: ['Shift+F'],
+    icon: 'lock',
+    help: 'Free lets the generator choose it',
+    ...onAgent((c, a) => moves.toggleField(c.editor, a, 'goal', 'speed')),
+  },
+  {
+    id: 'free-speed',
+    label: 'Speed free',
+    keys: ['Backspace'],
+    help: 'Speed of the active part',
+    ...onAgent((c, a) => {
+      const part = activePart(c);
+      return a[part].speed === null ? null : moves.toggleField(c.editor, a, part, 'speed');
+    }),
+  },
+  goalTime('goal-earlier', 'Goal 0.1 s earlier', ';', -0.1),
+  goalTime('goal-later', 'Goal 0.1 s later', "'", 0.1),
+  goalTime('goal-earlier-far', 'Goal 1 s earlier', 'Shift+;', -1),
+  goalTime('goal-later-far', 'Goal 1 s later', "Shift+'", 1),
+  ...futures,
+  {
+    id: 'future-best',
+    label: 'Back to the most likely future',
+    keys: ['Alt+0'],
+    help: 'The generator chooses again',
+    ...onAgent((c, a) => (a.chosen === null ? null : moves.pickFuture(c.editor, a, null))),
+  },
+  {
+    id: 'generate',
+    label: 'Generate',
+    keys: ['Ctrl+Enter'],
+    icon: 'play',
+    help: 'Everybody worked out anew with this seed',
+    context: 'always',
+    when: hasScene,
+    run: (c) => c.generation.generateAll(),
+  },
+  {
+    id: 'new-seed',
+    label: 'New seed',
+    keys: ['R'],
+    icon: 'dice',
+    help: 'Other futures for the same scene',
+    when: hasScene,
+    run: (c) => c.editor.run(setSeed(1 + Math.floor(Math.random() * LARGEST_NEW_SEED))),
+  },
+  {
+    id: 'reset-agent',
+    label: 'Reset to log',
+    keys: ['Shift+R'],
+    icon: 'undo',
+    help: 'This road user as it was recorded',
+    ...onAgent((_, a) => (touched(a) ? resetAgent(a) : null)),
+  },
+]);

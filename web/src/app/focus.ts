@@ -1,0 +1,23 @@
+// Where the keyboard goes on the page.
+
+/** The parts of the page in the order in which F6 goes through them. */
+const ORDER = ['top', 'scenes', 'users', 'handles', 'inspector', 'timeline'];
+/** What of a part takes the focus. */
+const FIRST = '[aria-pressed="true"][data-agent], button:not([tabindex="-1"]), input, [tabindex="0"]';
+
+export function focusField(part: 'start' | 'goal', field: string): void {
+  const el = document.querySelector<HTMLInputElement>(`[data-field="${part}-${field}"]`);
+  el?.focus();
+  el?.select();
+}
+
+export function focusAgent(id: string): void {
+  document.querySelector<HTMLElement>(`[data-agent="${CSS.escape(id)}"]`)?.focus();
+}
+
+export function focusGroup(step: 1 | -1): void {
+  const groups = [...document.querySelectorAll<HTMLElement>('[data-group]')];
+  groups.sort((a, b) => ORDER.indexOf(a.dataset.group!) - ORDER.indexOf(b.dataset.group!));
+  const at = groups.findIndex((g) => g.contains(document.activeElement));
+  groups[(at + step + groups.length) % groups.length]?.querySelector<HTMLElement>(FIRST)?.focus();
+}

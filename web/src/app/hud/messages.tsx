@@ -1,0 +1,58 @@
+// The hint of the first minute, and the toast.
+import { useApp } from '../parts/app-context';
+import { useComputed } from '@preact/signals';
+import { KeyCaps } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+
+const STEPS = ['Click a car', 'Drag its flag to where it should be in 9 s', 'Let go: the others react'];
+
+export function Coach() {
+  const { editor, ui } = useApp();
+  const shown = useComputed(
+    () => ui.coach.value > 0 && !editor.dragging.value && !editor.notices.toast.value && editor.scene.value !== null,
+  );
+  if (!shown.value) return null;
+  return (
+    <div class={`card coach ${ui.drawer.value ? 'shift' : ''}`}>
+      {STEPS.map((text, i) => (
+        <div key={i} class={`st ${ui.coach.value === i + 1 ? 'now' : ''}`}>
+          <span class="n">{i + 1}</span>
+          {text}
+        </div>
+      ))}
+      <button type="button" class="btn i" aria-label="Close the hint" onClick={() => ui.endCoach()}>
+        <Icon name="x" size={16} />
+      </button>
+    </div>
+  );
+}
+
+export function Toast() {
+  const { editor, ui } = useApp();
+  const { notices } = editor;
+  const toast = notices.toast.value;
+  if (!toast) return null;
+  const { text, undo, action } = toast;
+  return (
+    <div class={`toast ${undo || action ? '' : 'plain'} ${ui.drawer.value ? 'shift' : ''}`}>
+      <span>{text}</span>
+      {undo ? (
+        <button type="button" class="btn" data-action="undo" onClick={() => editor.undo()}>
+          Undo
+          <KeyCaps of="Ctrl+Z" />
+        </button>
+      ) : action ? (
+        <button
+          type="button"
+          class="btn"
+          onClick={() => {
+            notices.hide();
+            action.run();
+          }}
+        >
+          {action.label}
+        </button>
+      ) : null}
+    </div>
+  );
+}

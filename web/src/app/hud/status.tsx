@@ -1,0 +1,105 @@
+// The status line: what the generator is doing, or what happens in the scene.
+import { summary } from '../../model/events';
+import { touched } from '../../model/scene';
+import type { Context } from '../../actions/context';
+import type { Status as GeneratorStatus } from '../../edit/answers';
+import { outOfReach } from '../../edit/goal-verdict';
+import { useApp } from '../parts/app-context';
+
+interface Line {
+  /** Colour of the dot; empty for all well. */
+  readonly dot: '' | 'busy' | 'near' | 'collision';
+  readonly text: string;
+}
+
+export function Status() {
+  const c = useApp();
+  const { editor } = c;
+  const s = editor.status.value;
+  // At an event the line says what happens in the scene, not what the generator did last.
+  if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
+  if (s.kind === 'refining') return <Refining {...s} />;
+  return <Row {...lineFor(c, s)} />;
+}
+
+function Row({ dot, text }: Line) {
+  return (
+    <div class="row">
+      <span class={`dot ${dot}`} />
+      {text}
+    </div>
+  );
+}
+
+type RefiningStatus = Extract<GeneratorStatus, { kind: 'refining' }>;
+
+function Refining({ step, steps, ms, part }: RefiningStatus) {
+  const after = `${ms.toFixed(0)} ms`;
+  const words = part
+    ? `Refining ${part} · ${after}`
+    : step
+      ? `Refining, step ${step} of ${steps} · ${after}`
+      : ms
+        ? `First guess · ${after}`
+        : 'Working out futures …';
+  return (
+    <div class="row">
+      <span class="steps">
+        {Array.from({ length: steps }, (_, i) => (
+          <i key={i} class={i < step ? 'd' : ''} />
+        ))}
+      </span>
+      {words}
+    </div>
+  );
+}
+
+function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line {
+  const { editor } = c;
+  switch (s.kind) {
+    case 'loading':
+      return { dot: 'busy', text: 'Loading the scene …' };
+    case 'slow': {
+      const keep = editor.dragging.value ? ' You can keep dragging.' : '';
+      return { dot: 'busy', text: `This takes longer than usual (${(s.ms / 1000).toFixed(1)} s).${keep}` };
+    }
+    case 'refused':
+      return { dot: 'collision', text: s.words };
+    case 'away': {
+      const n = editor.away.value?.waiting ?? 0;
+      return { dot: 'near', text: `Generator away${n ? ` · ${n} change${n > 1 ? 's' : ''} waiting` : ''}` };
+    }
+    case 'settled':
+      return settledLine(c, s.ms, s.adapted);
+    case 'ready':
+      return sceneLine(c);
+  }
+}
+
+function settledLine(c: Context, ms: number, adapted: number | null): Line {
+  const { editor } = c;
+  const a = editor.agent.value;
+  if (a?.goal.pos && outOfReach(editor, a))
+    return { dot: 'near', text: 'Showing futures to the nearest reachable point' };
+  if (!editor.selection.value) return sceneLine(c);
+  const n = editor.futures.value?.modes.length ?? 6;
+  const parts = [
+    `${n === 6 ? 'Six' : n} futures`,
+    ms ? `${ms.toFixed(0)} ms` : '',
+    adapted ? `${adapted} other${adapted > 1 ? 's' : ''} adapted` : '',
+  ];
+  return { dot: '', text: parts.filter(Boolean).join(' · ') };
+}
+
+/** What happens in the scene. */
+function sceneLine({ editor }: Context): Line {
+  const events = editor.events.value;
+  if (events.length)
+    return { dot: events.some((e) => e.kind === 'collision') ? 'collision' : 'near', text: summary(events) };
+  const scene = editor.scene.value;
+  if (!scene) return { dot: '', text: 'Ready' };
+  const { size } = scene.agents;
+  if (!editor.layers.value.log) return { dot: '', text: `Ready · ${size} road users` };
+  const edited = [...scene.agents.values()].filter(touched).length;
+  return { dot: '', text: `Log shown dashed · ${edited} of ${size} road users edited` };
+}

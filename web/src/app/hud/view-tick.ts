@@ -1,0 +1,21 @@
+// A signal that rises when the view has changed, once a frame at most.
+import { signal, type ReadonlySignal } from '@preact/signals';
+import type { Stage } from '../../draw/stage';
+
+const tick = signal(0);
+export const viewTick: ReadonlySignal<number> = tick;
+
+export function followView(stage: Stage): void {
+  let queued = false;
+  stage.onView = () => {
+    if (queued) return;
+    queued = true;
+    requestAnimationFrame(() => {
+      queued = false;
+      tick.value++;
+      // Lets scripts that drive the page find world points on the screen.
+      const { cx, cy, z } = stage.view;
+      stage.element.dataset.view = [cx, cy, z].map((v) => v.toFixed(4)).join(' ');
+    });
+  };
+}

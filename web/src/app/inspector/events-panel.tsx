@@ -1,0 +1,65 @@
+// The list of events, and the facts of the one that is picked.
+import type { TrafficEvent } from '../../model/events';
+import { num } from '../../model/units';
+import { useApp } from '../parts/app-context';
+import { IconButton } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import { EventList } from './event-list';
+
+export function EventsPanel() {
+  const { editor } = useApp();
+  const events = editor.events.value;
+  const picked = editor.selectedEvent.value;
+  const worst = events.some((e) => e.kind === 'collision') ? 'collision' : 'near';
+  return (
+    <>
+      <div class="ih">
+        <div class={`ag t-${worst}`}>
+          <Icon name="warn" size={20} />
+        </div>
+        <div class="grow">
+          <h2>Events</h2>
+          <p>{`${events.length} in these ${num(editor.scene.peek()?.duration ?? 9, 0)} s`}</p>
+        </div>
+        <IconButton id="deselect" icon="x" size={16} />
+      </div>
+      <section class="sect">
+        <EventList />
+      </section>
+      {picked ? <Facts event={picked} /> : null}
+    </>
+  );
+}
+
+function Facts({ event: e }: { event: TrafficEvent }) {
+  const { editor, ui } = useApp();
+  const change = (id: string) => {
+    editor.setTime(0);
+    ui.showEvents(false);
+    editor.select(id);
+  };
+  return (
+    <>
+      <section class="sect">
+        <h3>{e.label.replace(/ (?=\d)/, ' at ')}</h3>
+        <dl class="wh">
+          {e.facts.flatMap(([what, value]) => [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{value}</dd>])}
+        </dl>
+        {e.kind === 'near' ? <p class="note">Counts as a near miss below 1.5 s or 1.0 m.</p> : null}
+      </section>
+      <section class="sect last">
+        <h3>What you can do</h3>
+        <div class="stack">
+          {[e.a, e.b]
+            .filter((a) => a.type !== 'other' && a.logStart)
+            .map((a) => (
+              <button key={a.id} type="button" class="opt" onClick={() => change(a.id)}>
+                <Icon name="select" size={15} />
+                Change {a.name}
+              </button>
+            ))}
+        </div>
+      </section>
+    </>
+  );
+}

@@ -1,0 +1,24 @@
+// The panel on the right: the events when they are asked for, else the selected road user, else the scene.
+import { useComputed } from '@preact/signals';
+import { useApp } from '../parts/app-context';
+import { AgentPanel } from './agent-panel';
+import { EventsPanel } from './events-panel';
+import { ScenePanel } from './scene-panel';
+
+export function Inspector() {
+  const { editor, ui } = useApp();
+  const events = useComputed(() => ui.eventsPanel.value && editor.events.value.length > 0).value;
+  const scene = useComputed(() => editor.scene.value?.id).value;
+  const selected = editor.selection.value;
+  return (
+    <aside class="insp" aria-label="Inspector" data-group="inspector">
+      {events ? (
+        <EventsPanel />
+      ) : selected ? (
+        <AgentPanel key={`agent:${selected}`} id={selected} />
+      ) : (
+        <ScenePanel key={`scene:${scene}`} />
+      )}
+    </aside>
+  );
+}

@@ -1,0 +1,267 @@
+// Start and goal: every field with its value, and whether one decides it or leaves it to the generator.
+import type { ComponentChildren } from 'preact';
+import { useComputed } from '@preact/signals';
+import { deg, rad, wrapAngle, type Vec } from '../../model/geometry';
+import { rangesOf, topSpeed } from '../../model/domain';
+import { hasGoal, type GoalSpec } from '../../model/scene';
+import { fromUnit, num, speedText, toUnit } from '../../model/units';
+import type { Field, HandleName, Part } from '../../edit/editor';
+import { goalTime, resize, shownPose, toggleField, withField } from '../../edit/moves';
+import { laneWords } from '../../edit/snap';
+import { useApp } from '../parts/app-context';
+import { Icon } from '../parts/icons';
+import { NumberField } from '../parts/number-field';
+import type { LiveAgent } from './use-agent';
+
+export function StartSection({ agent }: { agent: LiveAgent }) {
+  return (
+    <section class="sect" aria-label="Start">
+      <h3>
+        <span class="mkr" />
+        Start
+        <small>at 0.0 s</small>
+      </h3>
+      <PoseRows agent={agent} part="start" />
+      <Row label="Size">
+        <SizeField agent={agent} name="length" letter="L" />
+        <SizeField agent={agent} name="width" letter="W" />
+      </Row>
+    </section>
+  );
+}
+
+export function GoalSection({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const place = useComputed(() => {
+    const a = agent.value;
+    const drag = editor.drag.value;
+    if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
+    if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
+    return hasGoal(a.goal) ? 'partly free' : 'free: the generator decides';
+  });
+  const run = (time: number) => {
+    const rounded = Math.round(goalTime(editor.scene.peek(), time) * 10) / 10;
+    editor.run(withField(agent.peek(), 'goal', { time: rounded }));
+  };
+  return (
+    <section class="sect goalsec" aria-label="Goal">
+      <h3>
+        <span class="mk">
+          <Icon name="flag" size={15} />
+        </span>
+        Goal
+        <small>{place}</small>
+      </h3>
+      <PoseRows agent={agent} part="goal" />
+      <Row label="Time">
+        <NumberField
+          label="Time at the goal in seconds"
+          unit={() => 's'}
+          quantity={() => 'time'}
+          step={0.1}
+          field="goal-time"
+          live={() => editor.drag.value?.grip.handle === 'time'}
+          value={() => agent.value.goal.time}
+          text={() => num(agent.value.goal.time, 1)}
+          set={run}
+        />
+      </Row>
+    </section>
+  );
+}
+
+/** The words for a lane begin with their own preposition where "on" does not fit. */
+const onLane = (name: string): string => (/^(off|on|inside)\b/.test(name) ? name : `on ${name}`);
+
+interface RowProps {
+  label: string;
+  children: ComponentChildren;
+  end?: ComponentChildren;
+}
+
+function Row({ label, children, end }: RowProps) {
+  return (
+    <div class="pr">
+      <span class="lab">{label}</span>
+      <div class="fs">{children}</div>
+      {end ?? <span />}
+    </div>
+  );
+}
+
+interface PartProps {
+  agent: LiveAgent;
+  part: Part;
+}
+
+const WORD = { start: 'Start', goal: 'Goal' } as const;
+
+/** What the fields of one part have in common. */
+function usePart({ agent, part }: PartProps) {
+  const { editor } = useApp();
+  return {
+    editor,
+    word: WORD[part],
+    spec: () => agent.value[part],
+    shown: () => shownPose(editor, agent.value, part),
+    run: (patch: Partial<GoalSpec>) => editor.run(withField(agent.peek(), part, patch)),
+    dragged: (handle: HandleName) => {
+      const grip = editor.drag.value?.grip;
+      return grip?.part === part && grip.handle === handle;
+    },
+    focused: (field: Field) => () => {
+      editor.activate(part);
+      editor.touchField(part, field);
+    },
+  };
+}
+
+/** A value as it is shown: one that the generator decides is marked as about. */
+const about = (free: boolean, v: number | null | undefined, text: (v: number) => string): string =>
+  v == null ? '' : `${free ? '≈ ' : ''}${text(v)}`;
+
+function PoseRows(props: PartProps) {
+  return (
+    <>
+      <Row label="Position" end={<FixedPill {...props} field="pos" label="position" />}>
+        <Coordinate {...props} axis={0} />
+        <Coordinate {...props} axis={1} />
+      </Row>
+      <Row label="Heading" end={<FixedPill {...props} field="heading" label="heading" />}>
+        <HeadingField {...props} />
+      </Row>
+      <Row label="Speed" end={<FixedPill {...props} field="speed" label="speed" />}>
+        <SpeedField {...props} />
+      </Row>
+    </>
+  );
+}
+
+function FixedPill({ agent, part, field, label }: PartProps & { field: Field; label: string }) {
+  const { editor } = useApp();
+  const fixed = useComputed(() => agent.value[part][field] !== null).value;
+  const toggle = () => {
+    const command = toggleField(editor, agent.peek(), part, field);
+    if (command) editor.run(command);
+  };
+  return (
+    <button
+      type="button"
+      class="fx"
+      role="switch"
+      aria-checked={fixed}
+      aria-label={`${WORD[part]} ${label} fixed`}
+      title={
+        fixed
+          ? 'Fixed: you decide. Click to let the generator decide'
+          : 'Free: the generator decides. Click to fix it here'
+      }
+      onClick={toggle}
+    >
+      <Icon name="lock" size={11} />
+      {fixed ? 'Fixed' : 'Free'}
+    </button>
+  );
+}
+
+function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
+  const { word, spec, shown, run, dragged, focused } = usePart(props);
+  const name = axis ? 'y' : 'x';
+  const free = () => spec().pos === null;
+  const set = (v: number) => {
+    const p = shown();
+    if (p) run({ pos: Object.freeze(axis ? [p.x, v] : [v, p.y]) as Vec });
+  };
+  return (
+    <NumberField
+      label={`${word} ${name} in metres`}
+      letter={name}
+      unit={() => ''}
+      quantity={() => 'length'}
+      step={0.1}
+      field={`${props.part}-pos`}
+      value={() => shown()?.[name] ?? null}
+      text={() => about(free(), shown()?.[name], (v) => num(v, 1))}
+      free={free}
+      live={() => dragged('body')}
+      set={set}
+      onFocus={focused('pos')}
+    />
+  );
+}
+
+function HeadingField(props: PartProps) {
+  const { editor, word, spec, shown, run, dragged, focused } = usePart(props);
+  const degrees = (radians: number): number => Math.round(deg(radians));
+  const free = () => spec().heading === null;
+  return (
+    <NumberField
+      label={`${word} heading in degrees`}
+      unit={() => '°'}
+      quantity={() => 'angle'}
+      step={1}
+      field={`${props.part}-heading`}
+      value={() => {
+        const p = shown();
+        return p ? degrees(p.heading) : null;
+      }}
+      text={() => about(free(), shown()?.heading, (v) => num(degrees(v), 0))}
+      free={free}
+      live={() => dragged('heading')}
+      set={(v) => {
+        editor.setHeadingFollows(props.part, props.agent.peek(), false);
+        run({ heading: wrapAngle(rad(v)) });
+      }}
+      onFocus={focused('heading')}
+    />
+  );
+}
+
+function SpeedField(props: PartProps) {
+  const { editor, word, spec, shown, run, dragged, focused } = usePart(props);
+  const { agent } = props;
+  const onFoot = agent.peek().type === 'pedestrian';
+  const unit = () => editor.unitOf(agent.value);
+  const free = () => spec().speed === null;
+  return (
+    <NumberField
+      label={`${word} speed`}
+      unit={unit}
+      quantity={unit}
+      step={onFoot ? 0.1 : 1}
+      field={`${props.part}-speed`}
+      value={() => {
+        const p = shown();
+        return p ? Number(toUnit(p.speed, unit()).toFixed(2)) : null;
+      }}
+      text={() => about(free(), shown()?.speed, (v) => speedText(v, unit()))}
+      free={free}
+      live={() => dragged('speed')}
+      set={(v) => run({ speed: Math.min(topSpeed(agent.peek()), Math.max(0, fromUnit(v, unit()))) })}
+      onUnit={onFoot ? undefined : () => editor.setUnit(editor.speedUnit.peek() === 'km/h' ? 'mph' : 'km/h')}
+      onFocus={focused('speed')}
+    />
+  );
+}
+
+function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' | 'width'; letter: string }) {
+  const { editor } = useApp();
+  const set = (v: number) => {
+    const a = agent.peek();
+    const [min] = rangesOf(a)[`${name}_m`];
+    const size = Math.max(min, v);
+    editor.run(name === 'length' ? resize(a, size, a.width) : resize(a, a.length, size));
+  };
+  return (
+    <NumberField
+      label={`${name} in metres`}
+      letter={letter}
+      unit={() => 'm'}
+      quantity={() => 'length'}
+      step={0.1}
+      value={() => agent.value[name]}
+      text={() => num(agent.value[name], 1)}
+      set={set}
+    />
+  );
+}

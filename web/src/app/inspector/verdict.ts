@@ -1,0 +1,108 @@
+// What is to be said of the goal of a road user, in words: whether it can be reached, whether it was.
+import type { Context } from '../../actions/context';
+import { comparedWithLog } from '../../model/changes';
+import { isSettled, LETTERS, type Futures } from '../../model/futures';
+import { nearestLanes } from '../../model/lanemap';
+import { endPose, endsBefore, poseAt } from '../../model/motion';
+import type { Agent } from '../../model/scene';
+import { metres, seconds } from '../../model/units';
+import { outOfReach } from '../../edit/goal-verdict';
+
+export interface Verdict {
+  readonly kind: 'ok' | 'near' | 'plain';
+  readonly icon: string;
+  readonly title: string;
+  readonly words: string;
+  /** Are there ways out to offer? */
+  readonly remedies?: boolean;
+  /** Is "snap to the nearest lane" to be offered? */
+  readonly snap?: boolean;
+}
+
+/** A future that ends nearer to the goal than this has reached it, in metres. */
+const REACHED_M = 2;
+/** A goal further from all lanes than this lies beside the road, in metres. */
+const NO_LANE_M = 4;
+
+export function verdictOn(c: Context, a: Agent): Verdict | null {
+  const { editor: e } = c;
+  if (e.away.value && e.motion.value.stale) return OUTDATED;
+  const reach = onReach(c, a);
+  if (reach) return reach;
+  if (e.dragging.value) return null;
+  if (offLanes(c, a)) return NO_LANE;
+  return againstLog(c, a) ?? onFutures(c, a);
+}
+
+const OUTDATED: Verdict = {
+  kind: 'near',
+  icon: 'warn',
+  title: 'Futures are out of date',
+  words: 'They will be worked out again when the generator answers.',
+};
+
+const NO_LANE: Verdict = {
+  kind: 'plain',
+  icon: 'warn',
+  title: 'There is no lane here.',
+  words: 'Cars may still be put here, but the futures will be rough.',
+  snap: true,
+};
+
+/** Can the goal be reached? During a drag the quick answer stands even when it is yes. */
+function onReach({ editor: e }: Context, a: Agent): Verdict | null {
+  if (!a.goal.pos) return null;
+  const bad = outOfReach(e, a);
+  if (bad) return { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
+  const local = e.dragging.value ? e.localReach.value : null;
+  return local && { kind: 'ok', icon: 'check', title: local.title, words: local.words };
+}
+
+function offLanes({ editor }: Context, a: Agent): boolean {
+  if (!a.goal.pos || a.type !== 'vehicle') return false;
+  const [x, y] = a.goal.pos;
+  const { map } = editor.scene.value!;
+  return !nearestLanes(map, x, y, null, NO_LANE_M, (l) => l.kind === 'road' || l.kind === 'other').length;
+}
+
+function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
+  const log = e.layers.value.log ? comparedWithLog(a, e.motionFor(a), e.scene.value!.duration) : null;
+  if (!log) return null;
+  const words = `${log.words} Furthest apart: ${metres(log.d, 1)} at ${seconds(log.t)}.`;
+  return { kind: 'plain', icon: 'eye', title: 'Compared with the log', words };
+}
+
+function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
+  const f = e.futures.value;
+  if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.motion.value.stale) return null;
+  return goalReached(a, f, a.goal.pos);
+}
+
+/** Which of the futures reach the goal, and how closely. */
+function goalReached(a: Agent, f: Futures, goal: readonly [number, number]): Verdict {
+  const misses = f.modes.flatMap(({ motion }, i) => {
+    const p = poseAt(motion, a.goal.time) ?? endPose(motion);
+    // Of a goal later than 9 s only the future that goes on can say anything.
+    if (endsBefore(motion, a.goal.time)) return [];
+    return [{ letter: LETTERS[i], d: Math.hypot(p.x - goal[0], p.y - goal[1]) }];
+  });
+  const good = misses.filter((m) => m.d <= REACHED_M);
+  const bad = misses.filter((m) => m.d > REACHED_M);
+  const furthest = (of: typeof misses, atLeast = 0): string => metres(Math.max(atLeast, ...of.map((m) => m.d)), 1);
+  if (!good.length) {
+    const [closest] = bad.sort((p, q) => p.d - q.d);
+    const words = `The closest, ${closest.letter}, ends ${metres(closest.d, 1)} away.`;
+    return { kind: 'near', icon: 'warn', title: 'No future reaches the goal', words };
+  }
+  const letters = (of: typeof misses): string => of.map((m) => m.letter).join(', ');
+  const words = !bad.length
+    ? `${misses.length === 1 ? 'Within' : 'All within'} ${furthest(misses, 0.1)} at ${seconds(a.goal.time)}.`
+    : bad.length === 1
+      ? `${bad[0].letter} ends ${furthest(bad)} short.`
+      : `${letters(bad)} end up to ${furthest(bad)} away.`;
+  const all = !bad.length && misses.length > 1;
+  const title = all
+    ? `Goal reached in all ${misses.length === 6 ? 'six' : misses.length}`
+    : `Goal reached in ${letters(good)}`;
+  return { kind: 'ok', icon: 'check', title, words };
+}

@@ -1,0 +1,105 @@
+// The menus of the top bar: lists of actions.
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
+import { useComputed } from '@preact/signals';
+import { useApp } from './parts/app-context';
+import { ActionButton } from './parts/buttons';
+import { Icon } from './parts/icons';
+
+/** Ids of actions; null draws a line. */
+const MENUS: Record<string, readonly (string | null)[]> = {
+  file: [
+    'choose-files',
+    'save-copy',
+    'export-json',
+    'export-womd',
+    null,
+    'reset-all',
+    'delete-scene',
+    null,
+    'theme',
+    'unit',
+    'shortcuts',
+    'coach',
+  ],
+  export: ['export-json', 'export-womd'],
+};
+
+/** Opens its menu, or closes it when it is open. */
+function useMenu(name: string) {
+  const { ui } = useApp();
+  return {
+    open: useComputed(() => ui.menu.value === name),
+    toggle: () => (ui.menu.peek() === name ? ui.closeMenu() : ui.openMenu(name)),
+  };
+}
+
+export function MenuButton({ name, icon, label }: { name: string; icon: string; label: string }) {
+  const { open, toggle } = useMenu(name);
+  return (
+    <button
+      type="button"
+      class={`btn i ${open.value ? 'on' : ''}`}
+      data-menu={name}
+      aria-label={label}
+      title={label}
+      aria-haspopup="menu"
+      aria-expanded={open.value}
+      onClick={toggle}
+    >
+      <Icon name={icon} />
+    </button>
+  );
+}
+
+export function ExportButton() {
+  const { open, toggle } = useMenu('export');
+  return (
+    <button
+      type="button"
+      class="btn line"
+      data-menu="export"
+      aria-haspopup="menu"
+      aria-expanded={open.value}
+      onClick={toggle}
+    >
+      <Icon name="export" />
+      Export
+    </button>
+  );
+}
+
+/** Below its button: from its left edge, or for the one on the right to its right edge. */
+function placeUnder(name: string): Record<string, string> {
+  const button = document.querySelector(`[data-menu="${name}"]`)?.getBoundingClientRect();
+  if (name !== 'export') return { top: '44px', left: `${button?.left ?? 48}px` };
+  return { top: '44px', right: `${Math.max(8, innerWidth - (button?.right ?? innerWidth))}px` };
+}
+
+export function Menu({ name }: { name: string }) {
+  const { ui } = useApp();
+  const box = useRef<HTMLDivElement>(null);
+  const items = () => [...box.current!.querySelectorAll<HTMLElement>('button')];
+
+  useLayoutEffect(() => items()[0]?.focus({ preventScroll: true }), []);
+  useEffect(() => {
+    const away = (e: Event) => {
+      const at = e.target as Element;
+      if (!box.current?.contains(at) && !at.closest?.('[data-menu]')) ui.closeMenu();
+    };
+    addEventListener('pointerdown', away, true);
+    return () => removeEventListener('pointerdown', away, true);
+  }, [ui]);
+
+  const step = (e: KeyboardEvent) => {
+    if (e.key !== 'ArrowDown' && e.key !== 'ArrowUp') return;
+    e.preventDefault();
+    const all = items();
+    const at = all.indexOf(document.activeElement as HTMLElement);
+    all[(at + (e.key === 'ArrowDown' ? 1 : -1) + all.length) % all.length]?.focus();
+  };
+  return (
+    <div ref={box} class="menu" role="menu" style={placeUnder(name)} onClick={() => ui.closeMenu()} onKeyDown={step}>
+      {MENUS[name].map((id, i) => (id === null ? <hr key={i} /> : <ActionButton key={id} id={id} withKey />))}
+    </div>
+  );
+}

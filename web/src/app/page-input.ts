@@ -1,0 +1,77 @@
+// Keys, clicks and files that are not meant for one panel.
+import type { Context } from '../actions/context';
+import { keyOf } from '../actions/keys';
+import { actionForKey, perform } from '../actions/registry';
+import type { Action } from '../actions/action';
+
+export function listenToPage(c: Context): void {
+  addEventListener('keydown', (e) => {
+    const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e));
+    if (!a || belongsToPage(c, e, a)) return;
+    e.preventDefault();
+    perform(c, a.id);
+  });
+  addEventListener('click', leaveButton);
+  takeDrops(c);
+}
+
+/** Is the key for the element that has the focus, and not for the action it is bound to? */
+function belongsToPage({ editor, ui }: Context, e: KeyboardEvent, a: Action): boolean {
+  const target = e.target as HTMLElement;
+  const input = target instanceof HTMLInputElement ? target : null;
+  if (input && input.type !== 'range' && a.context !== 'always' && !undoesInField(input, a)) return true;
+  if (ui.dialog.peek() && a.context !== 'always') return true;
+  // Tab walks through road users only from the picture; elsewhere it is the browser's.
+  const inList = target.closest('[data-group="users"]') !== null;
+  if (/^(Shift\+)?Tab$/.test(a.keys![0]) && target !== document.body && !inList) return true;
+  if (target instanceof HTMLButtonElement && pressesButton(target, e, editor.selection.peek())) return true;
+  if (input?.type === 'range' && e.key.startsWith('Arrow')) return true;
+  return editor.dragging.peek() && a.id !== 'deselect';
+}
+
+/** In a number field undo is the browser's only while something is typed that has not been taken over. */
+const undoesInField = (input: HTMLInputElement, a: Action): boolean =>
+  (a.id === 'undo' || a.id === 'redo') && !!input.dataset.field && !('typed' in input.dataset);
+
+/** A button's own keys. In the list of road users they select, and after that Enter goes on to the inspector. */
+function pressesButton(button: HTMLButtonElement, e: KeyboardEvent, selected: string | null): boolean {
+  if ((e.key !== ' ' && e.key !== 'Enter') || e.ctrlKey) return false;
+  return !button.dataset.agent || button.dataset.agent !== selected;
+}
+
+/**
+ * A click with the mouse leaves no focus on a button: the Space that follows is meant to play. Keys keep theirs, and
+ * so do dialogs and menus, which hand the focus back themselves.
+ */
+function leaveButton(e: MouseEvent): void {
+  const button = e.detail > 0 && e.target instanceof Element ? e.target.closest('button') : null;
+  if (button && button === document.activeElement && !button.closest('.dlg, .menu')) button.blur();
+}
+
+/** Files may be dropped anywhere; a veil says so while they are over the page. */
+function takeDrops({ importing, stage }: Context): void {
+  const veil = document.createElement('div');
+  veil.className = 'dropping';
+  veil.textContent = 'Drop to import';
+  /** How many elements the files are over: entering a child comes before leaving its parent. */
+  let depth = 0;
+  const gone = () => {
+    veil.remove();
+    depth = 0;
+  };
+  addEventListener('dragenter', (e) => {
+    if (!e.dataTransfer?.types.includes('Files')) return;
+    depth++;
+    stage.element.append(veil);
+  });
+  addEventListener('dragleave', () => {
+    if (--depth <= 0) gone();
+  });
+  addEventListener('dragover', (e) => e.preventDefault());
+  addEventListener('drop', (e) => {
+    e.preventDefault();
+    gone();
+    const files = [...(e.dataTransfer?.files ?? [])];
+    if (files.length) void importing.files(files);
+  });
+}

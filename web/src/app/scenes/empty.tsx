@@ -1,0 +1,49 @@
+// The first screen when there is no scene to open.
+import { useComputed } from '@preact/signals';
+import { useApp } from '../parts/app-context';
+import { about, ChooseFiles } from './drawer';
+import { Thumbnail } from './thumbnail';
+
+const OFFERED = 3;
+
+export function Empty() {
+  const { editor, library, scenes } = useApp();
+  const empty = useComputed(() => editor.scene.value === null && scenes.listed.value).value;
+  if (!empty) return null;
+  const cards = scenes.list.value.slice(0, OFFERED);
+  return (
+    <div class="empty">
+      <div class="in">
+        <h1>{cards.length ? 'Start with a crossing' : 'Bring a scene'}</h1>
+        <Words some={cards.length > 0} />
+        {cards.length ? (
+          <div class="cards">
+            {cards.map((s) => (
+              <button key={s.id} type="button" class="crd" onClick={() => void library.open(s.id)}>
+                <Thumbnail item={s} width={220} height={132} />
+                <div>
+                  <b>{s.name}</b>
+                  <small>{about(s)}</small>
+                </div>
+              </button>
+            ))}
+          </div>
+        ) : null}
+        <div class="drop">
+          <b>Drop scene files anywhere</b>
+          {'Scenario records, lane maps or saved scenes · or '}
+          <ChooseFiles />
+        </div>
+      </div>
+    </div>
+  );
+}
+
+function Words({ some }: { some: boolean }) {
+  const { editor } = useApp();
+  const away = useComputed(() => editor.away.value !== null).value;
+  const none = away
+    ? 'The server is not answering. Scenes appear here when it does.'
+    : 'There are no examples here. Drop a scenario record or a saved scene.';
+  return <p>{some ? 'Open an example and drag a car. Or bring your own scene.' : none}</p>;
+}

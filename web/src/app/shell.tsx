@@ -1,0 +1,60 @@
+// The page: what Preact draws around the canvases and over them. The canvases themselves are the stage's.
+import { render, type ComponentChild } from 'preact';
+import { useComputed } from '@preact/signals';
+import type { Context } from '../actions/context';
+import { HandleSliders } from './access/handle-sliders';
+import { LiveRegion } from './access/live-region';
+import { RoadUsers } from './access/road-users';
+import { Dialogs } from './dialogs/dialogs';
+import { Hud } from './hud/hud';
+import { Inspector } from './inspector/inspector';
+import { AppProvider, useApp } from './parts/app-context';
+import { Drawer } from './scenes/drawer';
+import { Empty } from './scenes/empty';
+import { Timeline } from './timeline/timeline';
+import { TopBar } from './topbar';
+
+/** A place for components that takes no part in the layout. */
+function mount(parent: Element): HTMLElement {
+  const el = document.createElement('div');
+  el.className = 'swap';
+  parent.append(el);
+  return el;
+}
+
+/** Puts the page into `root`, around and over the stage's element. */
+export function drawPage(c: Context, root: HTMLElement): void {
+  const top = mount(root);
+  root.append(c.stage.element);
+  const over = mount(c.stage.element);
+  const below = mount(root);
+  const draw = (what: ComponentChild, into: HTMLElement) => render(<AppProvider value={c}>{what}</AppProvider>, into);
+  draw(<TopBar />, top);
+  draw(<OverPicture />, over);
+  draw(<Around />, below);
+}
+
+function OverPicture() {
+  const { editor, ui } = useApp();
+  const drawer = useComputed(() => ui.drawer.value && editor.scene.value !== null).value;
+  return (
+    <>
+      <Empty />
+      <RoadUsers />
+      <HandleSliders />
+      <Hud />
+      {drawer ? <Drawer /> : null}
+    </>
+  );
+}
+
+function Around() {
+  return (
+    <>
+      <Inspector />
+      <Timeline />
+      <Dialogs />
+      <LiveRegion />
+    </>
+  );
+}

@@ -1,0 +1,164 @@
+// The speed curves of the selected road user: its log, its futures, its start and goal.
+import { untracked } from '@preact/signals';
+import { smoothSpeed, type Motion } from '../../model/motion';
+import { isSettled, type Futures } from '../../model/futures';
+import { startPose, touched, type Agent } from '../../model/scene';
+import { toUnit } from '../../model/units';
+import { modeStyle } from '../../draw/strokes';
+import { useApp } from '../parts/app-context';
+import { X0, type Axes } from './axes';
+
+export function Curves({ axes: a }: { axes: Axes }) {
+  const { editor } = useApp();
+  const agent = editor.agent.peek();
+  const log = editor.layers.peek().log;
+  const name = agent ? ` · ${agent.name}${log ? ', dashed: log' : ''}` : '';
+  return (
+    <>
+      {agent ? <AgentCurves axes={a} agent={agent} /> : <Hint axes={a} />}
+      <text class="back" x={X0 + 6} y={a.y0 + 11}>
+        {`${a.unit}${name}`}
+      </text>
+    </>
+  );
+}
+
+function Hint({ axes: a }: { axes: Axes }) {
+  const { editor } = useApp();
+  return (
+    <text class="big back" x={(X0 + a.x1) / 2} y={(a.y0 + a.y1) / 2 + 4} text-anchor="middle">
+      {editor.scene.peek() ? 'Select a road user to see its speed' : 'Nothing to play yet'}
+    </text>
+  );
+}
+
+function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
+  const { editor } = useApp();
+  const f = editor.futures.peek();
+  const showLog = editor.layers.peek().log || !f;
+  return (
+    <>
+      {showLog ? (
+        <Curve
+          axes={axes}
+          motion={agent.log}
+          colour={f ? 'var(--log)' : 'var(--ink)'}
+          width={f ? 1.5 : 2.25}
+          opacity={0.9}
+          dash={f ? '4 3' : ''}
+          smooth
+        />
+      ) : null}
+      {f ? <FutureCurves axes={axes} futures={f} /> : null}
+      <StartPoint axes={axes} agent={agent} />
+      <GoalPoint axes={axes} agent={agent} />
+    </>
+  );
+}
+
+const modeColour = (i: number): string => `var(--mode-${'abcdef'[i]})`;
+
+/** The one in force last, on top of the others. */
+function FutureCurves({ axes, futures: f }: { axes: Axes; futures: Futures }) {
+  const { editor } = useApp();
+  const chosen = editor.chosen.peek();
+  const hovered = editor.hoverFuture.peek();
+  const max = Math.max(...f.modes.map((m) => m.probability));
+  const dash = isSettled(f) && !f.sketch ? '' : '3 3';
+  const inForce = f.modes[chosen];
+  return (
+    <>
+      {f.modes.map((m, i) =>
+        i === chosen ? null : (
+          <Curve
+            key={i}
+            axes={axes}
+            motion={m.motion}
+            colour={modeColour(i)}
+            width={hovered === i ? 2.25 : 1.25}
+            opacity={hovered === i ? 1 : 0.25 + 0.4 * modeStyle(m.probability, max).alpha}
+            dash={dash}
+          />
+        ),
+      )}
+      {inForce ? (
+        <Curve
+          axes={axes}
+          motion={inForce.motion}
+          colour={f.sketch ? 'var(--ink-3)' : modeColour(chosen)}
+          width={2.5}
+          opacity={1}
+          dash={dash}
+        />
+      ) : null}
+    </>
+  );
+}
+
+interface CurveProps {
+  axes: Axes;
+  motion: Motion;
+  colour: string;
+  width: number;
+  opacity: number;
+  dash: string;
+  smooth?: boolean;
+}
+
+function Curve({ axes, motion, colour, width, opacity, dash, smooth = false }: CurveProps) {
+  return (
+    <path
+      d={pathOf(axes, motion, smooth)}
+      fill="none"
+      stroke={colour}
+      stroke-width={width}
+      opacity={opacity}
+      stroke-dasharray={dash}
+      stroke-linejoin="round"
+    />
+  );
+}
+
+/** A line through the speeds, with gaps where the log has gaps. */
+function pathOf(a: Axes, m: Motion, smooth: boolean): string {
+  const speeds = smooth ? smoothSpeed(m) : m.speed;
+  let d = '';
+  let pen = false;
+  for (let i = 0; i < speeds.length; i++) {
+    const step = m.first + i;
+    if (!m.valid.some(([p, q]) => step >= p && step < q)) {
+      pen = false;
+      continue;
+    }
+    if (step < 0 || step * 0.1 > a.duration + 1e-6) continue;
+    const y = a.y(toUnit(Math.abs(speeds[i]), a.unit));
+    d += `${pen ? 'L' : 'M'}${a.x(step * 0.1).toFixed(1)} ${y.toFixed(1)}`;
+    pen = true;
+  }
+  return d;
+}
+
+function StartPoint({ axes: a, agent }: { axes: Axes; agent: Agent }) {
+  const start = startPose(agent);
+  if (!start || !touched(agent)) return null;
+  const y = a.y(toUnit(start.speed, a.unit));
+  return <circle cx={a.x(0)} cy={y} r={4.5} fill="var(--surface)" stroke="var(--ink)" stroke-width={2.5} />;
+}
+
+function GoalPoint({ axes: a, agent }: { axes: Axes; agent: Agent }) {
+  const { editor } = useApp();
+  const goal = untracked(() => editor.goalPose(agent));
+  if (!goal || !agent.goal.pos) return null;
+  const free = agent.goal.speed === null;
+  return (
+    <circle
+      cx={a.x(Math.min(a.duration, agent.goal.time))}
+      cy={a.y(toUnit(goal.speed, a.unit))}
+      r={5}
+      fill={free ? 'var(--surface)' : 'var(--goal)'}
+      stroke="var(--goal)"
+      stroke-width={2}
+      stroke-dasharray={free ? '2.6 2.4' : ''}
+    />
+  );
+}

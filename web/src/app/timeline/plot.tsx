@@ -1,0 +1,139 @@
+// Speed over time of the selected road user, with a lane of events above. Curves are drawn again when they change,
+// once a frame at most; the playhead only moves.
+import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
+import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
+import type { Context } from '../../actions/context';
+import { useApp } from '../parts/app-context';
+import { useFrameTick } from '../parts/hooks';
+import { axesOf, X0, type Axes, type Size } from './axes';
+import { Curves } from './curves';
+import { EventBadges } from './event-badges';
+import { EventTimes, Grid } from './grid';
+
+/** Everything that the curves, the grid and the badges show. */
+const shown = ({ editor }: Context): unknown => [
+  editor.agent.value,
+  editor.futures.value,
+  editor.chosen.value,
+  editor.motion.value,
+  editor.events.value,
+  editor.layers.value.log,
+  editor.scene.value,
+  editor.speedUnit.value,
+  editor.selectedEvent.value,
+  editor.hoverFuture.value,
+];
+
+export function Plot() {
+  const c = useApp();
+  const { editor } = c;
+  const box = useRef<HTMLDivElement>(null);
+  const size = useSignal<Size>({ w: 900, h: 110 });
+  const tick = useFrameTick(() => [shown(c), size.value]);
+  const now = useComputed(() => editor.time.value.toFixed(1));
+  const end = useComputed(() => String(editor.scene.value?.duration ?? 9));
+  useLayoutEffect(() => {
+    const el = box.current!;
+    const watch = new ResizeObserver(() => {
+      size.value = { w: el.clientWidth, h: el.clientHeight };
+    });
+    watch.observe(el);
+    return () => watch.disconnect();
+  }, [size]);
+  const seek = useSeek(c, size);
+  return (
+    <div
+      ref={box}
+      class="plot"
+      role="slider"
+      tabindex={0}
+      aria-label="Playhead"
+      aria-valuemin={0}
+      aria-valuemax={end as never}
+      aria-valuenow={now as never}
+      aria-valuetext={useComputed(() => `${now.value} seconds`)}
+      {...seek}
+    >
+      <svg role="img" aria-label="Speed over time">
+        <Drawing tick={tick} size={size} />
+        <Playhead tick={tick} size={size} />
+      </svg>
+    </div>
+  );
+}
+
+interface DrawingProps {
+  tick: ReadonlySignal<number>;
+  size: ReadonlySignal<Size>;
+}
+
+function Drawing({ tick, size }: DrawingProps) {
+  void tick.value;
+  const now = axesOf(useApp(), size.peek());
+  // While a goal is dragged the curves change and the axes hardly ever do: the grid is left as it is.
+  const axes = useMemo(() => now, [now.x1, now.height, now.top, now.unit, now.duration]);
+  const grid = useMemo(() => <Grid axes={axes} />, [axes]);
+  return (
+    <>
+      <g>
+        {grid}
+        <EventTimes axes={axes} />
+        <Curves axes={axes} />
+      </g>
+      <g>
+        <EventBadges axes={axes} />
+      </g>
+    </>
+  );
+}
+
+function Playhead({ tick, size }: DrawingProps) {
+  const c = useApp();
+  const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
+  const x = useComputed(() => axes.value.x(c.editor.time.value));
+  return (
+    <g class="head">
+      <line x1={x} x2={x} y1={1} y2={useComputed(() => axes.value.y1)} stroke="var(--ink)" stroke-width={1.5} />
+      <path
+        d={useComputed(() => `M${x.value - 6} 0h12v6l-6 6-6-6z`)}
+        fill="var(--ink)"
+        stroke="var(--surface)"
+        stroke-width={1.5}
+      />
+    </g>
+  );
+}
+
+/** The playhead goes where one presses and drags, and by keys in steps of 0.1 s. */
+function useSeek(c: Context, size: ReadonlySignal<Size>) {
+  const on = useRef(false);
+  const tenth = (t: number): number => Math.round(t * 10) / 10;
+  const seek = (e: PointerEvent & { currentTarget: HTMLElement }) => {
+    const a = axesOf(c, size.peek());
+    const x = e.clientX - e.currentTarget.getBoundingClientRect().left;
+    c.editor.setTime(tenth(((x - X0) / (a.x1 - X0)) * a.duration));
+  };
+  return {
+    onPointerDown: (e: PointerEvent & { currentTarget: HTMLElement }) => {
+      if ((e.target as Element).closest('.badge')) return;
+      on.current = true;
+      e.currentTarget.setPointerCapture(e.pointerId);
+      c.editor.playhead.pause();
+      seek(e);
+    },
+    onPointerMove: (e: PointerEvent & { currentTarget: HTMLElement }) => {
+      if (on.current) seek(e);
+    },
+    onPointerUp: () => {
+      on.current = false;
+    },
+    onKeyDown: (e: KeyboardEvent) => {
+      if (e.key !== 'ArrowLeft' && e.key !== 'ArrowRight') return;
+      e.preventDefault();
+      e.stopPropagation();
+      const step = (e.key === 'ArrowLeft' ? -1 : 1) * (e.shiftKey ? 1 : 0.1);
+      c.editor.playhead.pause();
+      c.editor.setTime(tenth(c.editor.time.peek() + step));
+    },
+  };
+}

@@ -1,0 +1,65 @@
+// Transport controls, what is worked out, what the others do, and the speed plot.
+import { useComputed } from '@preact/signals';
+import { LENGTHS, REPLANS } from '../../model/scene';
+import { num } from '../../model/units';
+import { useApp } from '../parts/app-context';
+import { IconButton, Segments } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import { OTHERS } from '../parts/others';
+import { Plot } from './plot';
+
+export function Timeline() {
+  return (
+    <footer class="time" aria-label="Timeline" data-group="timeline">
+      <div class="tb">
+        <IconButton id="to-start" />
+        <IconButton id="play" class="playing" after={<Icon name="pause" size={18} />} />
+        <IconButton id="to-end" />
+        <Clock />
+        <RateButton />
+        <IconButton id="loop" />
+        <IconButton id="next-event" />
+        <span class="grow" />
+        <span class="fieldlab">Length</span>
+        <Segments label="How much is worked out" items={seconds('length', LENGTHS)} />
+        <span class="fieldlab">Plan anew</span>
+        <Segments label="How often everybody plans anew" items={seconds('replan', REPLANS)} />
+        <span class="fieldlab">Others</span>
+        <Segments label="What the others do" items={OTHERS} />
+      </div>
+      <Plot />
+    </footer>
+  );
+}
+
+/** Seconds side by side; the unit stands once, at the end. */
+const seconds = (action: string, all: readonly number[]): (readonly [string, string])[] =>
+  all.map((s, i) => [`${action}-${s}`, i === all.length - 1 ? `${s} s` : `${s}`]);
+
+function Clock() {
+  const { editor } = useApp();
+  const now = useComputed(() => `${num(editor.time.value, 1)} s `);
+  const end = useComputed(() => `/ ${num(editor.scene.value?.duration ?? 9, 1)} s`);
+  return (
+    <span class="tm">
+      {now}
+      <small>{end}</small>
+    </span>
+  );
+}
+
+function RateButton() {
+  const { playhead } = useApp().editor;
+  const rate = playhead.rate.value;
+  return (
+    <button
+      type="button"
+      class="btn rate"
+      title="Playback speed (Shift < >)"
+      aria-label={`Playback speed ${rate} times`}
+      onClick={(e) => playhead.changeRate(e.shiftKey ? -1 : 1, true)}
+    >
+      {rate}×
+    </button>
+  );
+}

@@ -1,0 +1,180 @@
+// Top bar: scene name and saving, undo, seed, diversity, generate, export, help.
+import { useRef } from 'preact/hooks';
+import { useComputed } from '@preact/signals';
+import { DEFAULTS } from '../model/domain';
+import { rename, setDiversity, setSeed } from '../model/commands';
+import { isRecorded } from '../model/scene';
+import type { SaveState } from '../edit/saving';
+import { ExportButton, Menu, MenuButton } from './menu';
+import { useApp } from './parts/app-context';
+import { ActionButton, IconButton } from './parts/buttons';
+
+const SAVED: Record<SaveState, string> = {
+  example: 'Example',
+  saved: 'Saved',
+  saving: 'Saving …',
+  local: 'Saved on this computer',
+  conflict: 'Changed elsewhere',
+  full: 'No room to save',
+};
+
+export function TopBar() {
+  const { editor, ui } = useApp();
+  const open = useComputed(() => editor.scene.value !== null).value;
+  return (
+    <header class="top" data-group="top">
+      <Logo />
+      <MenuButton name="file" icon="menu" label="File and settings" />
+      <IconButton id="scenes" />
+      <Title />
+      {open ? (
+        <>
+          <div class="sep" />
+          <IconButton id="undo" />
+          <IconButton id="redo" />
+        </>
+      ) : null}
+      <div class="grow" />
+      {open ? <Controls /> : null}
+      <div class="grow" />
+      {open ? (
+        <>
+          <ActionButton id="palette" withKey size={16}>
+            <span class="mut">Actions</span>
+          </ActionButton>
+          <ExportButton />
+        </>
+      ) : null}
+      <IconButton id="theme" />
+      <IconButton id="shortcuts" />
+      {ui.menu.value ? <Menu key={ui.menu.value} name={ui.menu.value} /> : null}
+    </header>
+  );
+}
+
+function Logo() {
+  return (
+    <div class="logo" aria-hidden="true">
+      <svg viewBox="0 0 18 18" width={18} height={18}>
+        <path d="M4 15C4 9 5 7 13 5M13 5l-3-2.200M13 5l-2 3.200" />
+        <circle cx={4} cy={15} r={1.3} fill="currentColor" />
+      </svg>
+    </div>
+  );
+}
+
+function Title() {
+  const { editor, saving } = useApp();
+  const id = useComputed(() => editor.scene.value?.id).value;
+  const state = useComputed(() => {
+    const scene = editor.scene.value;
+    if (editor.dragging.value) return 'Dragging';
+    if (!scene) return '';
+    const saved = saving.state.value;
+    return saved === 'example' && isRecorded(scene.source) ? 'Recorded scene' : SAVED[saved];
+  });
+  return (
+    <div class="title">
+      {id === undefined ? <span>DragTraffic</span> : <NameField key={id} />}
+      <small>{state}</small>
+    </div>
+  );
+}
+
+function NameField() {
+  const { editor } = useApp();
+  const input = useRef<HTMLInputElement>(null);
+  const name = useComputed(() => editor.scene.value?.name ?? '');
+  return (
+    <input
+      ref={input}
+      type="text"
+      aria-label="Name of the scene"
+      maxlength={80}
+      spellcheck={false}
+      value={name}
+      onChange={() => {
+        const typed = input.current!.value.trim();
+        if (typed && typed !== name.peek()) editor.run(rename(typed));
+      }}
+      onKeyDown={(e) => {
+        if (e.key === 'Enter') input.current!.blur();
+        if (e.key !== 'Escape') return;
+        input.current!.value = name.peek();
+        input.current!.blur();
+        e.stopPropagation();
+      }}
+    />
+  );
+}
+
+function Controls() {
+  const { editor } = useApp();
+  const away = useComputed(() => editor.away.value !== null).value;
+  return (
+    <>
+      <span class="fieldlab">Seed</span>
+      <SeedField />
+      <IconButton id="new-seed" />
+      <span class="gap" />
+      <span class="fieldlab">Diversity</span>
+      <DiversitySlider />
+      <ActionButton id="generate" class="pri" icon="" withKey>
+        {away ? 'Waiting …' : 'Generate'}
+      </ActionButton>
+    </>
+  );
+}
+
+function SeedField() {
+  const { editor } = useApp();
+  const input = useRef<HTMLInputElement>(null);
+  const seed = useComputed(() => String(editor.scene.value?.seed ?? DEFAULTS.seed));
+  return (
+    <label class="field seed">
+      <input
+        ref={input}
+        type="text"
+        inputmode="numeric"
+        aria-label="Seed"
+        maxlength={16}
+        value={seed}
+        onChange={() => {
+          const v = Number(input.current!.value.replace(/\D/g, ''));
+          if (Number.isSafeInteger(v) && String(v) !== seed.peek()) editor.run(setSeed(v));
+          input.current!.value = seed.peek();
+        }}
+        onKeyDown={(e) => {
+          if (e.key === 'Enter') input.current!.blur();
+        }}
+      />
+    </label>
+  );
+}
+
+/** The largest diversity, in percent: the slider's length. */
+const MOST = 200;
+
+function DiversitySlider() {
+  const { editor } = useApp();
+  const percent = useComputed(() => Math.round((editor.scene.value?.diversity ?? DEFAULTS.diversity) * 100)).value;
+  return (
+    <>
+      <input
+        type="range"
+        min={0}
+        max={MOST}
+        step={10}
+        aria-label="Diversity"
+        title="How far the six may differ"
+        value={percent}
+        style={{ '--fill': `${(percent / MOST) * 100}%` }}
+        onInput={(e) => {
+          const v = Number(e.currentTarget.value) / 100;
+          if (v !== editor.scene.peek()?.diversity) editor.run(setDiversity(v));
+        }}
+      />
+      <span class="pct">{percent}%</span>
+    </>
+  );
+}

@@ -1,0 +1,49 @@
+// What follows by itself from what happens: the hint of the first minute, the report of a crash, the wait for a
+// server that is not there yet.
+import { effect } from '@preact/signals-core';
+import type { Context } from '../actions/context';
+import { hasGoal } from '../model/scene';
+
+/** The three-step hint moves on with what one does and closes for good after the first drop. */
+export function coach({ editor, ui }: Context): void {
+  let opened = ui.drawer.peek();
+  effect(() => {
+    const a = editor.agent.value;
+    const dragging = editor.dragging.value;
+    if (a && opened) {
+      opened = false;
+      ui.showDrawer(false);
+    }
+    if (!ui.coach.peek()) return;
+    if (ui.coach.peek() === 1 && a) ui.coachTo(2);
+    if (ui.coach.peek() === 2 && dragging) ui.coachTo(3);
+    if (ui.coach.peek() === 3 && !dragging && a && hasGoal(a.goal)) ui.endCoach();
+  });
+}
+
+/** An error nobody caught is said once; what was changed is saved already. */
+export function reportCrashes({ editor }: Context): void {
+  addEventListener('error', (e) => {
+    if (e.error) editor.notices.crashed(e.error);
+  });
+  addEventListener('unhandledrejection', (e) => {
+    if ((e.reason as Error | null)?.name !== 'AbortError') editor.notices.crashed(e.reason);
+  });
+}
+
+const RETRY_S = [1, 2, 4, 6];
+
+/** Nothing to show without the server: it is asked again at growing intervals, then the page begins anew. */
+export function waitForServer(c: Context, tries = 0): void {
+  const { answers } = c.editor;
+  let left = RETRY_S[Math.min(tries, RETRY_S.length - 1)];
+  answers.report({ kind: 'away' });
+  answers.missing({ retryIn: left, waiting: 0 });
+  const timer = setInterval(() => {
+    left--;
+    answers.missing({ retryIn: Math.max(0, left), waiting: 0 });
+    if (left > 0) return;
+    clearInterval(timer);
+    void c.client.answers().then((yes) => (yes ? location.reload() : waitForServer(c, tries + 1)));
+  }, 1000);
+}

@@ -1,0 +1,286 @@
+// What is asked of the generator, and when: six futures of whom one selects, live ones during a drag, everybody's
+// answer after a change. What becomes of the answers is in `reception.ts`.
+import { signal, type ReadonlySignal } from '@preact/signals-core';
+import { DEFAULTS } from '../model/domain';
+import type { MotionSet } from '../model/futures';
+import { canChange, GOAL_TIME, sceneKey, touched, type Scene } from '../model/scene';
+import { motionOf } from '../model/changes';
+import { trackJson } from '../model/write';
+import { Away } from '../net/client';
+import type { Generator, Handlers, SceneRef } from '../net/generator';
+import { Absence } from './absence';
+import type { Editor, Step } from './editor';
+import type { Previews } from './gestures/chart';
+import { Questions, type Wanted } from './question';
+import { readScore } from './read-answer';
+import { Reception } from './reception';
+import type { Saving } from './saving';
+import type { SceneFile } from './scene-file';
+import { sketchFutures } from './sketch';
+
+/** A key held down asks once, when it rests. */
+const REST_MS = 80;
+
+export class Generation implements Previews {
+  readonly #questions: Questions;
+  readonly #reception: Reception;
+  readonly #absence: Absence;
+  readonly #busy = signal(false);
+  /** What is asked and not answered yet, and a change that rests before it is asked about. */
+  readonly #open = new Set<object>();
+  #rest: ReturnType<typeof setTimeout> | undefined;
+  #rested: () => void = () => undefined;
+  #scoring: AbortController | null = null;
+
+  /** Is anything asked, or about to be? */
+  readonly busy: ReadonlySignal<boolean> = this.#busy;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly file: SceneFile,
+    private readonly saving: Saving,
+    private readonly generator: Generator,
+  ) {
+    this.#questions = new Questions(editor, file);
+    this.#absence = new Absence(
+      editor,
+      () => generator.answers(),
+      (waiting) => this.#back(waiting),
+    );
+    this.#reception = new Reception(editor, {
+      answered: () => this.#absence.end(),
+      away: (w) => this.#away(w),
+      askAgain: (w) => this.#ask(w),
+      look: (id) => this.#look(id),
+      score: (step) => void this.score(step, true),
+    });
+    editor.onCommit = (scene, step) => this.#committed(scene, step);
+    editor.onSelect = (id) => this.#selected(id);
+  }
+
+  // -------------------------------------------------------------- what sets it off
+
+  #selected(id: string | null): void {
+    if (id) {
+      this.#look(id);
+      return;
+    }
+    const { answers, motion, status } = this.editor;
+    // A running answer to a change must still arrive; only a look at futures is dropped.
+    if (motion.peek().stale) return;
+    this.generator.cancel();
+    // What was said about its futures goes with it.
+    if (['refining', 'slow', 'settled'].includes(status.peek().kind)) answers.report({ kind: 'ready' });
+  }
+
+  /** The six futures of one; nobody else moves. */
+  #look(id: string): void {
+    const { editor } = this;
+    const a = editor.agent.peek();
+    const m = editor.motion.peek();
+    if (!a || !canChange(a) || m.futures.has(id) || m.stale) return;
+    this.#ask({ agents: [id], react: false, step: null }, true);
+  }
+
+  /** A drag frame: the newest pose, one request on the way and one waiting. */
+  preview(id: string): void {
+    if (this.#absence.now) this.#sketch(id);
+    else this.#ask({ agents: [id], react: false, step: null }, true);
+  }
+
+  /** Drops the previews of a drag that was put back. */
+  cancelPreviews(): void {
+    this.generator.cancel();
+    if (!this.editor.motion.peek().stale || this.#absence.now) return;
+    // A drag that began while a change was being worked out has pushed that aside; it is asked for again.
+    this.#workOut({ name: 'Change', agent: this.editor.selection.peek(), undo: true });
+  }
+
+  #committed(scene: Scene, step: Step): void {
+    const { editor } = this;
+    this.saving.changed(scene);
+    clearTimeout(this.#rest);
+    this.#rested();
+    if (!editor.motion.peek().stale) {
+      this.generator.cancel();
+      editor.answers.report({ kind: 'ready' });
+      this.#selected(editor.selection.peek());
+    } else if (this.#absence.now) {
+      this.#absence.wait();
+      if (step.agent) this.#sketch(step.agent, true);
+    } else {
+      const rested = (this.#rested = this.#begin());
+      this.#rest = setTimeout(() => {
+        this.#workOut(step);
+        rested();
+      }, REST_MS);
+    }
+  }
+
+  /** The Generate button: everybody anew. */
+  generateAll(): void {
+    if (!this.editor.scene.peek()) return;
+    this.editor.answers.outdate();
+    const step = { name: 'Everybody worked out anew', agent: null, undo: false };
+    this.#ask({ agents: 'all', react: false, step });
+  }
+
+  /** Asks at once whether the generator is back. */
+  tryNow(): Promise<void> {
+    return this.#absence.tryNow();
+  }
+
+  // -------------------------------------------------------------- a change
+
+  /** Release, typed value, undo to an unknown state: the others are asked too. */
+  #workOut(step: Step): void {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    if (!scene) return;
+    const mine = editor.touchedIds(scene);
+    if (!mine.length) return this.#pristine(scene, step);
+    if (scene.others !== 'react') return this.#workOutAlone(scene, mine, step);
+    const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
+    const rest = [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
+    const subject = step.agent ? scene.agents.get(step.agent) : undefined;
+    if (subject && subject.chosen !== null && editor.motion.peek().futures.has(subject.id)) {
+      // A picked future is kept as it is; everybody else answers it.
+      if (rest.length) this.#ask({ agents: rest, react: false, step, kept: new Set(picked) });
+      else void this.score(step);
+      return;
+    }
+    const first = subject && touched(subject) ? subject.id : mine[0];
+    const react = picked.length ? rest.filter((id) => id !== first) : true;
+    this.#ask({ agents: [first], react, step, kept: new Set(picked.filter((id) => id !== first)) });
+  }
+
+  /** The others keep to the log or stand: only those that were asked something are worked out. */
+  #workOutAlone(scene: Scene, mine: string[], step: Step): void {
+    const known = this.editor.motion.peek().futures;
+    const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
+    const kept = new Set(mine.filter((id) => !open.includes(id)));
+    if (open.length) this.#ask({ agents: open, react: false, step, kept });
+    else void this.score(step);
+  }
+
+  /** Nobody is asked anything: everybody follows the log again, or, past its end, makes a way of their own. */
+  #pristine(scene: Scene, step: Step): void {
+    const { editor } = this;
+    if (scene.length > GOAL_TIME && scene.others === 'react') {
+      this.#ask({ agents: 'all', react: false, step });
+      return;
+    }
+    const nothing = { futures: new Map(), driving: new Set<string>(), score: null, reach: new Map(), stale: false };
+    editor.answers.settle(scene, { key: sceneKey(scene), ...nothing }, null);
+    void this.score(step);
+    const selected = editor.selection.peek();
+    if (selected) this.#look(selected);
+  }
+
+  #ask(w: Wanted, preview = false): void {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    if (!scene || this.#absence.now) return;
+    const handlers = this.#untilAnswered(this.#reception.of(scene, w));
+    this.generator.ask(this.#questions.make(scene, w, preview, handlers));
+    if (!preview) editor.answers.report({ kind: 'refining', step: 0, steps: DEFAULTS.steps, ms: 0 });
+  }
+
+  /** Something is open from now on; what it gives back ends it. */
+  #begin(): () => void {
+    const token = {};
+    this.#open.add(token);
+    this.#busy.value = true;
+    return () => {
+      this.#open.delete(token);
+      this.#busy.value = this.#open.size > 0;
+    };
+  }
+
+  /** The same handlers, with the question open until one of its endings. */
+  #untilAnswered(on: Handlers): Handlers {
+    const end = this.#begin();
+    const ending =
+      <A extends unknown[]>(handle?: (...a: A) => void) =>
+      (...a: A): void => {
+        handle?.(...a);
+        end();
+      };
+    return {
+      ...on,
+      final: ending(on.final),
+      refused: ending(on.refused),
+      away: ending(on.away),
+      dropped: ending(on.dropped),
+    };
+  }
+
+  // -------------------------------------------------------------- scores
+
+  /** Events of motions that are known already: after a pick among futures, and of the log at the start. */
+  async score(step: Step | null = null, quiet = false): Promise<void> {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    if (!scene || !this.file.raw) return;
+    this.#scoring?.abort();
+    const abort = (this.#scoring = new AbortController());
+    const end = this.#begin();
+    const shown = this.#shown(scene);
+    if (editor.motion.peek().stale) editor.answers.settle(scene, shown, null);
+    const scored = [...scene.agents.values()].filter(
+      (a) => shown.driving.has(a.id) || (scene.others === 'still' && canChange(a)),
+    );
+    const trajectories = Object.fromEntries(scored.map((a) => [a.id, trackJson(motionOf(scene, shown, a))]));
+    try {
+      const reply = await this.generator.score(this.#stored(scene), trajectories, abort.signal);
+      if (editor.scene.peek() !== scene) return;
+      editor.answers.scored(readScore(reply));
+      if (step && !quiet) this.#reception.settled(step, 0);
+    } catch (e) {
+      // Without a score there are no events to show; the motions stand.
+      if (e instanceof Away && step) this.#away({ agents: [], react: false, step });
+    } finally {
+      end();
+    }
+    if (step && !quiet && editor.status.peek().kind === 'refining') editor.answers.report({ kind: 'ready' });
+  }
+
+  /** The motions as the document has them now: those asked something follow their futures where there are any. */
+  #shown(scene: Scene): MotionSet {
+    const set = this.editor.motion.peek();
+    const asked = this.editor.touchedIds(scene).filter((id) => set.futures.has(id));
+    return { ...set, key: sceneKey(scene), driving: new Set([...set.driving, ...asked]), stale: false, fresh: null };
+  }
+
+  #stored(scene: Scene): SceneRef {
+    const { raw, map, stored } = this.file;
+    return stored ? { id: scene.id } : { scene: { ...raw!, map: map!, generated: null } };
+  }
+
+  // -------------------------------------------------------------- absence
+
+  #away(w: Wanted): void {
+    this.#absence.begin(w.step !== null);
+    const id = w.step?.agent ?? (Array.isArray(w.agents) ? w.agents[0] : null);
+    if (id) this.#sketch(id, true);
+  }
+
+  #back(waiting: number): void {
+    const { editor } = this;
+    this.saving.retry();
+    const done = waiting ? ` ${waiting} change${waiting > 1 ? 's' : ''} worked out.` : '';
+    editor.notices.show({ text: `The generator is back.${done}` });
+    const agent = editor.selection.peek();
+    if (editor.motion.peek().stale) this.#workOut({ name: 'Waiting changes', agent, undo: true });
+    else this.#selected(agent);
+  }
+
+  /** A plain curve in place of futures. */
+  #sketch(id: string, selectedOnly = false): void {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    const a = scene?.agents.get(id);
+    const f = scene && a ? sketchFutures(scene, a) : null;
+    if (f && (!selectedOnly || editor.selection.peek() === id)) editor.answers.showDraft(id, f);
+  }
+}

@@ -1,0 +1,192 @@
+// The pointer as a state chart: exactly one state is live, and it alone answers what the pointer does. States know
+// nothing of the page; `pointer.ts` hands them the page's events, a test hands them its own.
+import type { Point } from '../../model/geometry';
+import type { View } from '../../draw/view';
+import type { Editor } from '../editor';
+import type { Hit } from '../hit';
+import { Idle } from './idle';
+import { Pile } from './pile';
+import { Pinching } from './pinching';
+import type { Tool, ToolName } from './tools';
+
+export interface Modifiers {
+  readonly alt: boolean;
+  readonly shift: boolean;
+  readonly ctrl: boolean;
+}
+
+/** A button or finger that went down. */
+export interface PointerDown extends Point {
+  readonly id: number;
+  readonly touch: boolean;
+  /** 0 the main button, 1 the middle one, 2 the right one. */
+  readonly button: number;
+}
+
+/** What a state is told and may do. Every method is optional: what is left out is not answered. */
+export interface State {
+  readonly name: string;
+  enter?(): void;
+  leave?(): void;
+  /** The first button or finger went down. */
+  down?(p: PointerDown): void;
+  /** The pointer moved: called once a frame with the newest place in `chart.at`. */
+  move?(): void;
+  /** One of several fingers moved; called at once. */
+  moveFinger?(from: Point, to: Point, other: Point): void;
+  up?(timeStamp: number): void;
+  /** The pointer is over a panel, or off the page. */
+  outside?(): void;
+  /** Time for what goes on by itself; true when the picture moved under the pointer. */
+  frame?(seconds: number): boolean;
+  /** Does the state follow a wheel that moves the picture under the pointer? */
+  readonly followsView?: boolean;
+  /** Does it answer to a change of the modifier keys? */
+  readonly followsModifiers?: boolean;
+  /** Esc, a second finger, a pointer taken away: true when there was something to put back. */
+  cancel?(): boolean;
+}
+
+/** Where the picture is, as gestures see it; the stage is one. */
+export interface Surface {
+  readonly view: View;
+  invalidate(...layers: ('map' | 'agents' | 'overlay')[]): void;
+  viewChanged(): void;
+  /** The shape of the pointer over the picture; empty for the plain one. */
+  setCursor(name: string): void;
+}
+
+/** Live futures during a drag; the generation is one. */
+export interface Previews {
+  preview(id: string): void;
+  cancelPreviews(): void;
+}
+
+export interface ChartParts {
+  readonly surface: Surface;
+  readonly editor: Editor;
+  readonly previews: Previews;
+  hitAt(p: Point, touch: boolean): Hit;
+  agentsAt(p: Point): string[];
+  /** Is motion to be kept small? */
+  calm(): boolean;
+  tool(name: ToolName): Tool;
+}
+
+export class Chart {
+  /** The newest place of the pointer, in pixels of the picture. */
+  at: Point = { x: 0, y: 0 };
+  modifiers: Modifiers = { alt: false, shift: false, ctrl: false };
+  spaceHeld = false;
+  readonly pile = new Pile();
+  readonly surface: Surface;
+  readonly editor: Editor;
+  readonly previews: Previews;
+  readonly #fingers = new Map<number, Point>();
+  #state: State;
+  #moved = false;
+
+  constructor(readonly parts: ChartParts) {
+    this.surface = parts.surface;
+    this.editor = parts.editor;
+    this.previews = parts.previews;
+    this.#state = new Idle(this);
+  }
+
+  get state(): State {
+    return this.#state;
+  }
+
+  /** The one way from state to state. */
+  go(next: State): void {
+    this.#state.leave?.();
+    this.#state = next;
+    next.enter?.();
+  }
+
+  rest(): void {
+    this.go(new Idle(this));
+  }
+
+  // -------------------------------------------------------------- what the pointer does
+
+  down(p: PointerDown): void {
+    this.#fingers.set(p.id, { x: p.x, y: p.y });
+    if (this.#fingers.size === 1) {
+      this.at = { x: p.x, y: p.y };
+      this.#state.down?.(p);
+      return;
+    }
+    this.cancel();
+    if (this.#fingers.size === 2) this.go(new Pinching(this));
+  }
+
+  move(id: number, p: Point, modifiers: Modifiers, overPicture: boolean): void {
+    const from = this.#fingers.get(id);
+    if (from && this.#state.moveFinger) {
+      const other = [...this.#fingers].find(([k]) => k !== id)![1];
+      this.#fingers.set(id, p);
+      this.#state.moveFinger(from, p, other);
+      return;
+    }
+    if (from) this.#fingers.set(id, p);
+    this.at = p;
+    this.modifiers = modifiers;
+    if (!overPicture && this.#state.outside) {
+      this.#state.outside();
+      return;
+    }
+    this.again();
+  }
+
+  /** The pointer's place is to be worked off with the next frame. */
+  again(): void {
+    this.#moved = true;
+    this.surface.invalidate();
+  }
+
+  up(id: number, p: Point, timeStamp: number): void {
+    if (!this.#fingers.delete(id)) return;
+    this.at = p;
+    this.#state.up?.(timeStamp);
+    this.surface.invalidate('agents', 'overlay');
+  }
+
+  /** The page took the pointer away. */
+  lost(id: number): void {
+    this.#fingers.delete(id);
+    this.cancel();
+  }
+
+  outside(): void {
+    this.#state.outside?.();
+  }
+
+  frame(seconds: number): void {
+    if (this.#state.frame?.(seconds)) this.#moved = true;
+    if (!this.#moved) return;
+    this.#moved = false;
+    this.#state.move?.();
+  }
+
+  /** A wheel or a double click moved the picture. */
+  viewMoved(): void {
+    if (this.#state.followsView) this.#moved = true;
+    this.surface.viewChanged();
+  }
+
+  /** True when a state answers to the modifier keys. */
+  modified(modifiers: Modifiers): boolean {
+    if (!this.#state.followsModifiers) return false;
+    this.modifiers = modifiers;
+    this.again();
+    return true;
+  }
+
+  /** Esc: everything back to where it was before the press. */
+  cancel(): boolean {
+    const done = this.#state.cancel?.() ?? false;
+    this.rest();
+    return done;
+  }
+}

@@ -1,0 +1,77 @@
+// A handle is dragged: the document follows as a preview, the generator shows live futures, the release is one step.
+import { clamp } from '../../model/geometry';
+import type { Command } from '../../model/commands';
+import type { Chart, State } from './chart';
+import type { HandleMove } from './handle-move';
+import type { Press } from './pressed';
+
+/** Within this many pixels of the edge the picture scrolls, up to this many pixels a second. */
+const EDGE_PX = 32;
+const EDGE_SPEED = 600;
+
+export class DraggingHandle implements State {
+  readonly name = 'dragging handle';
+  readonly followsView = true;
+  readonly followsModifiers = true;
+  #command: Command | null = null;
+
+  constructor(
+    private readonly chart: Chart,
+    private readonly press: Press,
+    private readonly what: HandleMove,
+  ) {}
+
+  enter(): void {
+    const { editor, surface } = this.chart;
+    const { grip } = this.what;
+    editor.beginDrag(grip);
+    surface.setCursor({ body: 'grabbing', heading: 'crosshair', speed: 'resize', time: 'resize' }[grip.handle]);
+    surface.invalidate('agents');
+  }
+
+  leave(): void {
+    this.chart.surface.setCursor('');
+  }
+
+  move(): void {
+    const { chart } = this;
+    this.#command = this.what.to(chart.at, chart.modifiers, this.press);
+    chart.editor.previewDrag(this.#command);
+    chart.previews.preview(this.what.agent.id);
+    chart.surface.invalidate('overlay');
+  }
+
+  /** The picture scrolls while the pointer is near its edge. */
+  frame(seconds: number): boolean {
+    const { chart } = this;
+    if (chart.parts.calm()) return false;
+    const v = chart.surface.view;
+    const dx = pull(chart.at.x, v.w);
+    const dy = pull(chart.at.y, v.h);
+    if (!dx && !dy) return false;
+    v.panBy(dx * EDGE_SPEED * seconds, dy * EDGE_SPEED * seconds);
+    chart.surface.viewChanged();
+    return true;
+  }
+
+  up(): void {
+    const { chart } = this;
+    this.move();
+    chart.rest();
+    chart.editor.endDrag(this.#command);
+  }
+
+  cancel(): boolean {
+    const { chart } = this;
+    chart.editor.cancelDrag();
+    chart.previews.cancelPreviews();
+    chart.surface.invalidate('agents', 'overlay');
+    return true;
+  }
+}
+
+/** How hard an edge pulls: 0 away from both, up to 1 to the right or down and -1 to the left or up. */
+function pull(at: number, size: number): number {
+  const past = at < EDGE_PX ? EDGE_PX - at : at > size - EDGE_PX ? size - EDGE_PX - at : 0;
+  return clamp(past / EDGE_PX, -1, 1);
+}

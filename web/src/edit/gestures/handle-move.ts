@@ -1,0 +1,182 @@
+// What dragging a handle to a place asks of the document: a command, made anew for every place from the state at the
+// beginning of the drag.
+import { clamp, project, wrapAngle, type Point, type Pose, type Vec } from '../../model/geometry';
+import { setBoth, setGoal, setStart, type Command } from '../../model/commands';
+import { topSpeed } from '../../model/domain';
+import { startPose, type Agent, type GoalSpec, type StartSpec } from '../../model/scene';
+import { speedForTip } from '../../draw/handles';
+import type { View } from '../../draw/view';
+import type { Editor, Grip } from '../editor';
+import { goalTime } from '../moves';
+import { alongLane, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../snap';
+import type { Modifiers } from './chart';
+
+/** Pixels of drag on the time tag for one second. */
+const PX_PER_SECOND = 40;
+/** Nearer to a whole second than this, a dragged time is that second. */
+const WHOLE_SECOND_S = 0.15;
+/** A goal further from the start than this prefers lanes that lead away from the start, in metres. */
+const LEADS_AWAY_M = 6;
+
+interface Beginning {
+  readonly grip: Grip;
+  readonly agent: Agent;
+  readonly start: Pose;
+  readonly goal: Pose;
+  readonly press: Point;
+}
+
+export class HandleMove {
+  readonly grip: Grip;
+  readonly agent: Agent;
+  readonly #start: Pose;
+  readonly #goal: Pose;
+  /** Where the handle was taken, in metres. */
+  readonly #grab: Vec;
+  /** May a lane set the heading? One that was set by hand is never overwritten. */
+  readonly #laneSetsHeading: boolean;
+  #lane: string | null = null;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly view: View,
+    { grip, agent, start, goal, press }: Beginning,
+  ) {
+    this.grip = grip;
+    this.agent = agent;
+    this.#start = start;
+    this.#goal = goal;
+    this.#grab = view.from(press.x, press.y);
+    const free = (grip.part === 'goal' ? agent.goal : agent.start).heading === null;
+    this.#laneSetsHeading = free || editor.headingFollows(grip.part, agent) || this.#startsOnLane();
+  }
+
+  #startsOnLane(): boolean {
+    const { x, y, heading } = this.#start;
+    const map = this.editor.scene.peek()!.map;
+    return this.grip.part === 'start' && snapToLane(map, this.agent, x, y, heading, this.view.z, null).lane !== null;
+  }
+
+  /** The pose of the dragged part at the beginning. */
+  get #pose(): Pose {
+    return this.grip.part === 'goal' ? this.#goal : this.#start;
+  }
+
+  /** The command for the pointer at a place of the picture. */
+  to(at: Point, mods: Modifiers, press: Point): Command {
+    const [x, y] = this.view.from(at.x, at.y);
+    switch (this.grip.handle) {
+      case 'body':
+        return this.#put(this.#position(x, y, mods), mods);
+      case 'heading':
+        return this.#named('heading', this.#put({ heading: this.#heading(x, y, mods), ...this.#keptGoal() }, mods));
+      case 'speed':
+        return this.#named('speed', this.#put({ speed: this.#speed(x, y, mods), ...this.#keptGoal() }, mods));
+      case 'time':
+        return this.#time(at.x - press.x, mods);
+    }
+  }
+
+  #named(what: 'heading' | 'speed', c: Command): Command {
+    const words = { heading: ['Goal heading', 'Heading'], speed: ['Goal speed', 'Speed'] }[what];
+    return { ...c, name: `${words[this.grip.part === 'goal' ? 0 : 1]} of ${this.agent.name} changed` };
+  }
+
+  #put(patch: Partial<GoalSpec>, mods: Modifiers): Command {
+    const { agent: a } = this;
+    if (mods.ctrl) return this.#both(patch);
+    if (this.grip.part === 'goal') return setGoal(a, { ...a.goal, ...patch });
+    return { ...setStart(a, { ...a.start, ...patch } as StartSpec), name: `Start of ${a.name} moved` };
+  }
+
+  /** Turning a goal's tiller means that the goal is wanted here: a free position becomes fixed with it. */
+  #keptGoal(): Partial<GoalSpec> {
+    if (this.grip.part !== 'goal' || this.agent.goal.pos) return {};
+    return { pos: Object.freeze([this.#goal.x, this.#goal.y] as const) };
+  }
+
+  // -------------------------------------------------------------- the four handles
+
+  #position(wx: number, wy: number, mods: Modifiers): Partial<GoalSpec> {
+    const { editor, agent: a, grip } = this;
+    const s = this.#snapped(this.#pose.x + wx - this.#grab[0], this.#pose.y + wy - this.#grab[1], mods);
+    const scene = editor.scene.peek()!;
+    const held = s.lane && !mods.alt && a.type === 'vehicle' ? s.lane : null;
+    const stop = held && softStop(scene, held, a, project(held.line, s.x, s.y).s, this.view.z);
+    const at = stop ? { x: stop.x, y: stop.y, laneHeading: stop.heading } : s;
+    this.#lane = s.lane?.id ?? null;
+    const laneName = laneWords(scene.map, a, at.x, at.y, at.laneHeading);
+    editor.dragOver({ laneId: this.#lane, laneName, stop: stop ?? null });
+
+    const pos = Object.freeze([at.x, at.y] as const);
+    if (this.#laneSetsHeading && at.laneHeading !== null) {
+      editor.setHeadingFollows(grip.part, a, true);
+      return { pos, heading: wrapAngle(at.laneHeading) };
+    }
+    if (this.#laneSetsHeading && grip.part === 'goal') {
+      editor.setHeadingFollows(grip.part, a, false);
+      return { pos, heading: null };
+    }
+    return { pos };
+  }
+
+  /** Shift keeps to the lane, Alt lets go of all lanes, else the best lane near by. */
+  #snapped(x: number, y: number, mods: Modifiers): Snapped {
+    const { agent: a, grip } = this;
+    const map = this.editor.scene.peek()!.map;
+    const kept = mods.shift ? alongLane(map, this.#lane, x, y) : null;
+    if (kept) return kept;
+    if (mods.alt) return { x, y, laneHeading: null, lane: null };
+    const start = startPose(a)!;
+    // A start prefers lanes in its own direction; a goal may lie on any lane, best one that leads away from the start.
+    const away = grip.part === 'goal' && Math.hypot(x - start.x, y - start.y) > LEADS_AWAY_M;
+    const travel = away ? Math.atan2(y - start.y, x - start.x) : null;
+    const ownHeading = !this.#laneSetsHeading || grip.part === 'start';
+    const heading = ownHeading ? this.#pose.heading : this.#lane ? null : travel;
+    return snapToLane(map, a, x, y, heading, this.view.z, this.#lane, travel);
+  }
+
+  #heading(wx: number, wy: number, mods: Modifiers): number {
+    const { editor, agent: a, grip } = this;
+    const { x, y } = this.#pose;
+    editor.setHeadingFollows(grip.part, a, false);
+    const mode = mods.alt ? 'fine' : mods.shift ? 'steps' : 'lane';
+    return snapHeading(editor.scene.peek()!.map, a, x, y, Math.atan2(y - wy, x - wx), mode);
+  }
+
+  #speed(wx: number, wy: number, mods: Modifiers): number {
+    const { agent: a } = this;
+    const raw = speedForTip(this.view, a, this.#pose, wx, wy);
+    const unit = a.type === 'pedestrian' ? 0.1 : 1 / 3.6;
+    const step = mods.shift ? unit * 10 : unit;
+    return clamp(mods.alt ? raw : Math.round(raw / step) * step, 0, topSpeed(a));
+  }
+
+  #time(dx: number, mods: Modifiers): Command {
+    const { agent: a } = this;
+    const raw = a.goal.time + dx / PX_PER_SECOND;
+    const grid = mods.alt ? 0.01 : mods.shift || Math.abs(raw - Math.round(raw)) < WHOLE_SECOND_S ? 1 : 0.1;
+    const time = goalTime(this.editor.scene.peek(), Math.round(raw / grid) * grid);
+    const patch = { time: Math.round(time * 100) / 100, ...this.#keptGoal() };
+    return { ...setGoal(a, { ...a.goal, ...patch }), name: `Goal time of ${a.name} changed` };
+  }
+
+  /** Ctrl: start and goal move, turn or change speed together. */
+  #both(patch: Partial<GoalSpec>): Command {
+    const { agent: a } = this;
+    const from = this.#pose;
+    const s = { pos: a.start.pos, heading: a.start.heading, speed: a.start.speed };
+    const g = { ...a.goal };
+    if (patch.pos) {
+      const dx = patch.pos[0] - from.x;
+      const dy = patch.pos[1] - from.y;
+      s.pos = Object.freeze([this.#start.x + dx, this.#start.y + dy] as const);
+      g.pos = Object.freeze([this.#goal.x + dx, this.#goal.y + dy] as const);
+    } else if (patch.heading != null) {
+      const turn = patch.heading - from.heading;
+      s.heading = wrapAngle(this.#start.heading + turn);
+      g.heading = wrapAngle(this.#goal.heading + turn);
+    } else if (patch.speed != null) s.speed = g.speed = patch.speed;
+    return setBoth(a, s, g);
+  }
+}

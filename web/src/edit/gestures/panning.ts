@@ -1,0 +1,43 @@
+// The picture moves with the pointer.
+import type { Chart, State } from './chart';
+import type { Press } from './pressed';
+
+export class Panning implements State {
+  readonly name = 'panning';
+  constructor(
+    private readonly chart: Chart,
+    private readonly press: Press,
+  ) {}
+
+  enter(): void {
+    this.chart.surface.setCursor('grabbing');
+  }
+
+  leave(): void {
+    this.chart.surface.setCursor('');
+  }
+
+  move(): void {
+    const { chart, press } = this;
+    const v = chart.surface.view;
+    v.cx = press.cx - (chart.at.x - press.x) / v.z;
+    v.cy = press.cy + (chart.at.y - press.y) / v.z;
+    chart.surface.viewChanged();
+  }
+
+  up(): void {
+    this.chart.rest();
+  }
+}
+
+export const PAN = {
+  name: 'pan' as const,
+  label: 'Move the picture',
+  key: 'H',
+  icon: 'hand',
+  help: 'Dragging moves the picture wherever it starts',
+  cursor: 'grab',
+  picks: false,
+  drag: (chart: Chart, press: Press): State => new Panning(chart, press),
+  click: (chart: Chart): void => chart.editor.measureBetween(null),
+};

@@ -1,0 +1,137 @@
+// The page's pointer and keys, handed to the state chart. Moves are gathered and worked off once a frame.
+import type { Point } from '../../model/geometry';
+import type { Stage } from '../../draw/stage';
+import type { Editor } from '../editor';
+import { agentsAt, hitTest, type HitContext } from '../hit';
+import type { Picture } from '../picture';
+import { Chart, type Modifiers, type Previews } from './chart';
+import { toolOf } from './tools';
+
+const MODIFIER_KEYS = ['Alt', 'Shift', 'Control', 'Meta'];
+/** Zoom a pixel of wheel; pinching on a trackpad arrives as a wheel with Ctrl. */
+const WHEEL_ZOOM = 0.0016;
+const TRACKPAD_ZOOM = 0.006;
+const PX_PER_LINE = 33;
+
+const modifiersOf = (e: MouseEvent | KeyboardEvent): Modifiers => ({
+  alt: e.altKey,
+  shift: e.shiftKey,
+  ctrl: e.ctrlKey || e.metaKey,
+});
+
+export class Gestures {
+  readonly chart: Chart;
+  #inside = false;
+  #lastFrame = 0;
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly editor: Editor,
+    private readonly picture: Picture,
+    previews: Previews,
+  ) {
+    const calm = matchMedia('(prefers-reduced-motion: reduce)');
+    this.chart = new Chart({
+      surface: stage,
+      editor,
+      previews,
+      hitAt: (p, touch) => hitTest(this.#context(touch), p.x, p.y),
+      agentsAt: (p) => agentsAt(this.#context(false), p.x, p.y),
+      calm: () => calm.matches,
+      tool: toolOf,
+    });
+    this.#listen(stage.element);
+  }
+
+  #listen(el: HTMLElement): void {
+    const { chart } = this;
+    el.addEventListener('pointerdown', (e) => this.#down(e));
+    el.addEventListener('pointermove', (e) => {
+      this.#inside = true;
+      chart.move(e.pointerId, this.#place(e), modifiersOf(e), this.#onPicture(e));
+    });
+    el.addEventListener('pointerup', (e) => chart.up(e.pointerId, this.#place(e), e.timeStamp));
+    el.addEventListener('pointercancel', (e) => chart.lost(e.pointerId));
+    el.addEventListener('pointerleave', () => {
+      this.#inside = false;
+      chart.outside();
+    });
+    el.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
+    el.addEventListener('dblclick', (e) => this.#doubleClick(e));
+    addEventListener('keydown', (e) => this.#key(e, true));
+    addEventListener('keyup', (e) => this.#key(e, false));
+  }
+
+  /** Called by the stage before it paints. */
+  frame(now: number): void {
+    const seconds = this.#lastFrame ? Math.min(0.05, (now - this.#lastFrame) / 1000) : 0.016;
+    this.#lastFrame = now;
+    this.chart.frame(seconds);
+  }
+
+  cancel(): boolean {
+    return this.chart.cancel();
+  }
+
+  /** Pointer position for the hover card; null outside the stage. */
+  get pointer(): Point | null {
+    return this.#inside ? this.chart.at : null;
+  }
+
+  #place(e: MouseEvent): Point {
+    const r = this.stage.element.getBoundingClientRect();
+    return { x: e.clientX - r.left, y: e.clientY - r.top };
+  }
+
+  #onPicture(e: Event): boolean {
+    return e.target instanceof HTMLCanvasElement || e.target === this.stage.element;
+  }
+
+  #context(touch: boolean): HitContext {
+    const { editor, stage, picture } = this;
+    const { chips, timeTag } = picture.overlay;
+    return { editor, view: stage.view, chips, timeTag, touch };
+  }
+
+  #down(e: PointerEvent): void {
+    if (!this.#onPicture(e)) return;
+    if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
+    try {
+      this.stage.element.setPointerCapture(e.pointerId);
+    } catch {
+      // The pointer may be gone already.
+    }
+    this.chart.down({ id: e.pointerId, ...this.#place(e), touch: e.pointerType === 'touch', button: e.button });
+  }
+
+  #wheel(e: WheelEvent): void {
+    if (!this.#onPicture(e)) return;
+    e.preventDefault();
+    const v = this.stage.view;
+    if (e.shiftKey && !e.ctrlKey) v.panBy(-(e.deltaX || e.deltaY), 0);
+    else {
+      const { x, y } = this.#place(e);
+      const pixels = e.deltaY * (e.deltaMode === 1 ? PX_PER_LINE : 1);
+      v.zoomAt(x, y, Math.exp(-pixels * (e.ctrlKey ? TRACKPAD_ZOOM : WHEEL_ZOOM)));
+    }
+    this.chart.viewMoved();
+  }
+
+  #doubleClick(e: MouseEvent): void {
+    if (!this.#onPicture(e)) return;
+    const { x, y } = this.#place(e);
+    if (hitTest(this.#context(false), x, y).kind !== 'none') return;
+    this.stage.view.zoomAt(x, y, 1.6);
+    this.chart.viewMoved();
+  }
+
+  #key(e: KeyboardEvent, down: boolean): void {
+    const { chart } = this;
+    if (e.key === ' ') {
+      chart.spaceHeld = down;
+      // Space would press the button that has the focus, or scroll.
+      if (down && chart.state.followsModifiers) e.preventDefault();
+    }
+    if (MODIFIER_KEYS.includes(e.key) && chart.modified(modifiersOf(e))) e.preventDefault();
+  }
+}

@@ -1,0 +1,29 @@
+// Can the goal of a road user be reached? The generator's verdict where it is known, the quick one while it is not.
+import type { Point } from '../model/geometry';
+import { reachWords, type Reach } from '../model/futures';
+import type { Agent } from '../model/scene';
+import type { Editor } from './editor';
+
+/** Why a goal cannot be reached, and the nearest place that can. */
+export interface OutOfReach {
+  readonly title: string;
+  readonly words: string;
+  readonly nearest: (Point & { readonly heading: number }) | null;
+}
+
+/** What the generator said of the goal as it is now; during a drag, of the goal as it is dragged. */
+export function knownReach(e: Editor, a: Agent): Reach | null {
+  const live = e.liveReach.value;
+  if (live?.id === a.id) return live.reach;
+  const m = e.motion.value;
+  return e.dragging.value || m.stale ? null : (m.reach.get(a.id) ?? null);
+}
+
+/** Null when the goal can be reached, as far as anybody knows. */
+export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
+  const known = knownReach(e, a);
+  if (known)
+    return known.status === 'unreachable' ? { ...reachWords(known, a.goal.time), nearest: known.nearest } : null;
+  const local = e.localReach.value;
+  return local && local.kind !== 'ok' ? local : null;
+}

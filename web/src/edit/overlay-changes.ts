@@ -1,0 +1,106 @@
+// What the overlay shows of everybody: who changed since the last change, and collisions and near misses.
+import type { Pose } from '../model/geometry';
+import { poseAt } from '../model/motion';
+import type { Agent } from '../model/scene';
+import { seconds } from '../model/units';
+import { paintIcon, tag, type Labels } from '../draw/labels';
+import { paintGhost, paintRing } from '../draw/handles';
+import { colourKey, stamp } from '../draw/sprites';
+import { trail } from '../draw/strokes';
+import { colours } from '../draw/theme';
+import type { View } from '../draw/view';
+import type { Editor } from './editor';
+
+type G = CanvasRenderingContext2D;
+
+export class ChangesOverlay {
+  constructor(
+    private readonly editor: Editor,
+    private readonly labels: Labels,
+    private readonly poseNow: (a: Agent) => Pose | null,
+  ) {}
+
+  /** Dashed: where the others would have gone before the last change. */
+  paintBefore(g: G, v: View): void {
+    const { editor: e } = this;
+    const scene = e.scene.value!;
+    const c = colours();
+    const t = e.time.value;
+    for (const ch of e.changes.value.slice(0, 8)) {
+      const a = scene.agents.get(ch.id);
+      if (!a) continue;
+      trail(g, v, ch.before, {
+        colour: c['ink-2'],
+        width: 1.4,
+        dash: [5, 4],
+        alpha: 0.75,
+        halo: true,
+        from: t,
+        cap: 'butt',
+      });
+      trail(g, v, e.motionFor(a), { colour: c[colourKey(a)], width: 2.4, halo: true, dots: true, from: t });
+      const p = poseAt(ch.before, t),
+        q = this.poseNow(a);
+      if (p && t > 0.05) paintGhost(g, v, a, p, c['ink-2'], null, [3, 3], 1.4);
+      if (q) {
+        stamp(g, v, a, q);
+        g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+        paintRing(g, v, a, q, c.select, 1.4, 3, [3, 3]);
+      }
+    }
+  }
+
+  paintChangeLabels(g: G, v: View): void {
+    const { editor: e } = this;
+    if (!e.showBefore.value || e.playing.value) return;
+    for (const ch of e.changes.value.slice(0, 5)) {
+      const a = e.scene.value!.agents.get(ch.id);
+      const p = a && this.poseNow(a);
+      const x = p ? v.x(p.x) : -1,
+        y = p ? v.y(p.y) : -1;
+      if (x > 0 && x < v.w && y > 0 && y < v.h)
+        tag(g, this.labels, [x, y], `${ch.name}: ${ch.short}`, {
+          leader: colours().ink,
+          radii: [44, 60, 84, 110],
+          must: false,
+        });
+    }
+  }
+
+  paintEvents(g: G, v: View): void {
+    const { editor: e } = this;
+    const c = colours();
+    const picked = e.selectedEvent.value;
+    const t = e.time.value;
+    for (const ev of e.events.value) {
+      if (ev !== picked && Math.abs(ev.time - t) > 0.45) continue;
+      const hit = ev.kind === 'collision';
+      for (const a of [ev.a, ev.b]) {
+        const p = this.poseNow(e.scene.value!.agents.get(a.id) ?? a);
+        if (p && Math.abs(ev.time - t) < 0.5) paintRing(g, v, a, p, hit ? c.collision : c['near-edge'], 2, 3);
+      }
+      const x = v.x(ev.at[0]),
+        y = v.y(ev.at[1]);
+      if (hit) {
+        g.beginPath();
+        g.arc(x, y, 10, 0, Math.PI * 2);
+        g.fillStyle = c.collision;
+        g.strokeStyle = c.halo;
+        g.lineWidth = 2.5;
+        g.stroke();
+        g.fill();
+        paintIcon(g, 'cross', x, y, c['on-collision']);
+        this.labels.block(x - 12, y - 12, 24, 24);
+      }
+      const text = hit ? `Collision · ${ev.title}` : `${seconds(ev.time)} · ${ev.short}`;
+      tag(g, this.labels, [x, y], text, {
+        leader: hit ? c.collision : c['near-text'],
+        radii: [44, 60, 84],
+        bg: hit ? c.collision : c.near,
+        fg: hit ? c['on-collision'] : c['on-near'],
+        height: 22,
+        icon: hit ? 'cross' : 'triangle',
+      });
+    }
+  }
+}

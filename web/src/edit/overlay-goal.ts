@@ -1,0 +1,197 @@
+// The goal of the selected road user on the overlay: flag, handles, how far it can get, and labels of a drag.
+import type { Pose } from '../model/geometry';
+import { shortfall } from '../model/reach';
+import { startPose, type Agent } from '../model/scene';
+import { metres, seconds, speedLabel } from '../model/units';
+import { pill, tag, type Labels } from '../draw/labels';
+import { paintFlag, paintGhost, paintHandles } from '../draw/handles';
+import { polyline } from '../draw/strokes';
+import { colours } from '../draw/theme';
+import type { View } from '../draw/view';
+import type { Editor } from './editor';
+import { outOfReach, type OutOfReach } from './goal-verdict';
+
+type G = CanvasRenderingContext2D;
+
+export class GoalOverlay {
+  /** Where the time tag was painted, for the pointer. */
+  timeTag: { x: number; y: number; w: number; h: number } | null = null;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly labels: Labels,
+  ) {}
+
+  paintLaneGlow(g: G, v: View): void {
+    const d = this.editor.drag.value;
+    const lane = d?.laneId ? this.editor.scene.value!.map.lanes.get(d.laneId) : null;
+    if (lane)
+      polyline(
+        g,
+        v,
+        lane.line.pts,
+        d!.grip.part === 'goal' ? colours().goal : colours().vehicle,
+        Math.min(3.2, lane.width) * v.z,
+        0.22,
+      );
+    const bar = d?.stop;
+    if (bar) {
+      const half = 1.5,
+        at = (k: number): [number, number] => [
+          bar.x + Math.cos(bar.heading) * 2.6 - Math.sin(bar.heading) * k,
+          bar.y + Math.sin(bar.heading) * 2.6 + Math.cos(bar.heading) * k,
+        ];
+      polyline(g, v, [at(-half), at(half)], colours().goal, 3, 1, [], 'round');
+    }
+  }
+
+  /** How far it gets, and what lies beyond. */
+  paintReach(g: G, v: View, a: Agent): void {
+    const { editor: e } = this;
+    const r = e.localReach.value;
+    if (!r || r.kind === 'ok' || !a.goal.pos || !outOfReach(this.editor, a)) return;
+    const c = colours();
+    const w = Math.max(4, a.width * 1.5 * v.z);
+    const cut = r.kind === 'far' ? r.max : r.along;
+    const pts = r.path.pts;
+    const inside = pts.filter((_, i) => r.path.s[i] <= cut),
+      beyond = pts.filter((_, i) => r.path.s[i] >= cut - 3);
+    polyline(g, v, inside, c.goal, w, 0.2);
+    if (r.kind === 'far') {
+      polyline(g, v, beyond, c.near, w, 0.45);
+      polyline(g, v, beyond, c['near-edge'], 2.5, 1, [2, 6], 'round');
+    }
+  }
+
+  paintGoal(g: G, v: View, a: Agent, goal: Pose & { set: boolean }): void {
+    const { editor: e } = this;
+    const c = colours();
+    const [x, y] = v.to(goal.x, goal.y);
+    const bad = outOfReach(this.editor, a);
+    const colour = bad ? c['near-text'] : c.goal;
+    paintGhost(g, v, a, goal, colour, bad ? c['near-soft'] : c['goal-soft'], goal.set && !bad ? [] : [4, 3]);
+    const drag = e.drag.value?.grip;
+    const unit = e.unitOf(a);
+    if (goal.set) {
+      const h = paintHandles(g, this.labels, v, a, goal, {
+        colour,
+        freeHeading: a.goal.heading === null,
+        freeSpeed: a.goal.speed === null,
+        tick: a.type === 'pedestrian' ? 1 : 10 / 3.6,
+      });
+      if (a.goal.speed !== null || (drag?.part === 'goal' && drag.handle === 'speed'))
+        tag(g, this.labels, h.tip, speedLabel(goal.speed, unit), {
+          tries: [
+            [14, -10],
+            [-22, 14],
+            [-22, -32],
+          ],
+          bg: colour,
+          fg: c.surface,
+        });
+    }
+    paintFlag(g, this.labels, x, y, colour, !goal.set);
+    if (bad) this.paintNearest(g, v, a, bad.nearest);
+    const text = bad ? bad.title : goal.set ? `Goal · ${seconds(a.goal.time)}` : 'Goal · free';
+    if (drag?.part === 'goal' && drag.handle === 'body') return;
+    const r = pill(
+      g,
+      this.labels,
+      x,
+      y,
+      text,
+      bad
+        ? {
+            tries: [
+              [32, -44],
+              [-150, -44],
+            ],
+            bg: c.near,
+            fg: c['on-near'],
+            icon: 'triangle',
+          }
+        : {
+            fg: c['goal-text'],
+            tries: [
+              [30, -42],
+              [30, -20],
+              [-100, -42],
+              [-100, 6],
+              [30, 6],
+            ],
+          },
+    );
+    if (goal.set && r) this.timeTag = r;
+  }
+
+  private paintNearest(g: G, v: View, a: Agent, nearest: OutOfReach['nearest']): void {
+    if (!nearest) return;
+    const c = colours();
+    paintGhost(g, v, a, nearest, c.goal, c['goal-soft'], [], 2);
+    const x = v.x(nearest.x),
+      y = v.y(nearest.y);
+    paintFlag(g, this.labels, x, y, c.goal, true);
+  }
+
+  /** After the handles, which would cover it. */
+  labelNearest(g: G, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>): void {
+    const c = colours();
+    const x = v.x(nearest.x),
+      y = v.y(nearest.y);
+    const start = startPose(a);
+    const far = start && a.goal.pos ? shortfall(start, a.goal.pos, nearest, this.editor.localReach.value) : null;
+    tag(g, this.labels, [x, y], far ? `Nearest reachable · ${metres(far.gets, 0)}` : 'Nearest reachable', {
+      tries: [
+        [34, -26],
+        [-170, -26],
+        [34, 8],
+        [-170, 8],
+      ],
+      bg: c.goal,
+      fg: c.surface,
+    });
+    if (far && far.beyond > 1 && a.goal.pos)
+      tag(
+        g,
+        this.labels,
+        [(x + v.x(a.goal.pos[0])) / 2, (y + v.y(a.goal.pos[1])) / 2],
+        `${metres(far.beyond, 0)} beyond reach`,
+        { weight: 500, must: false },
+      );
+  }
+
+  dragLabels(g: G, v: View, a: Agent, goal: Pose | null): void {
+    const d = this.editor.drag.value;
+    if (!d || d.grip.handle !== 'body') return;
+    const c = colours();
+    const p = d.grip.part === 'goal' ? goal : startPose(a);
+    if (!p) return;
+    const [x, y] = v.to(p.x, p.y);
+    const r = this.editor.localReach.value;
+    if (d.laneName)
+      tag(
+        g,
+        this.labels,
+        [x, y],
+        `on ${d.laneName}`.replace('on on foot', 'on foot').replace('on off', 'off').replace('on inside', 'inside'),
+        {
+          tries: [
+            [34, -46],
+            [-150, -46],
+            [34, 12],
+          ],
+          bg: d.grip.part === 'goal' ? c.goal : c.select,
+          fg: d.grip.part === 'goal' ? c.surface : c.halo,
+        },
+      );
+    if (d.grip.part === 'goal' && r)
+      tag(g, this.labels, [x, y], `at ${seconds(a.goal.time)} · ${metres(r.along, 0)} along the way`, {
+        weight: 500,
+        tries: [
+          [34, -22],
+          [-170, -22],
+          [34, 36],
+        ],
+      });
+  }
+}

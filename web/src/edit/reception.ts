@@ -1,0 +1,226 @@
+// What becomes of the generator's answers: drafts on their way, the futures of a look, the motion after a change.
+import { batch } from '@preact/signals-core';
+import { DEFAULTS } from '../model/domain';
+import type { AgentFuturesJson } from '../model/json';
+import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
+import { motionFrom } from '../model/motion';
+import { firstPose } from '../model/read';
+import { sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import type { Handlers } from '../net/generator';
+import type { DraftEvent, FinalEvent, Problem } from '../net/types';
+import type { Editor, Step } from './editor';
+import type { Wanted } from './question';
+import { readReach, readScore, readWarnings } from './read-answer';
+import { outcome, spokenCollision, spokenOutcome } from './report';
+
+/** What an answer may set off; the generation does it. */
+export interface Hooks {
+  answered(): void;
+  away(w: Wanted): void;
+  askAgain(w: Wanted): void;
+  look(id: string): void;
+  score(step: Step): void;
+}
+
+/** Refinement steps left behind on screen as trails. */
+const TRAILS = 3;
+
+type Keep = (a: Agent) => KeepOrder;
+
+export class Reception {
+  readonly #calm =
+    typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly hooks: Hooks,
+  ) {}
+
+  /** Handlers for the answer to one question. */
+  of(scene: Scene, w: Wanted): Handlers {
+    const { editor, hooks } = this;
+    const subject = w.step ? (w.step.agent ?? editor.selection.peek()) : w.agents[0];
+    let began = false;
+    let slow = false;
+    const keep: Keep = (a) => this.#lettersOf(a, began && a.id === subject);
+    return {
+      draft: (e, step, steps, ms) => {
+        hooks.answered();
+        began = this.#draft(scene, e, { step, steps, ms, subject, keep }) || began;
+      },
+      final: (e, ms) => {
+        hooks.answered();
+        if (w.step) this.#finalOfChange(scene, e, w, w.step, ms, keep);
+        else this.#finalOfLook(scene, e, w.agents[0], ms, keep);
+      },
+      refused: (p) => {
+        // Futures matter more than their score: when working out both fails, they are asked for alone.
+        if (p.code === 'internal' && w.step && !w.unscored) hooks.askAgain({ ...w, unscored: true });
+        else this.#refused(p);
+      },
+      slow: (ms) => {
+        editor.answers.report({ kind: 'slow', ms });
+        if (!slow) editor.notices.say('This takes longer than usual.');
+        slow = true;
+      },
+      away: () => hooks.away(w),
+    };
+  }
+
+  /** Letters stay with their ideas during a drag and from first guess to answer, and a pick keeps its letter. */
+  #lettersOf(a: Agent, began: boolean): KeepOrder {
+    const { editor } = this;
+    const d = editor.draft.peek();
+    const like = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
+    return { like, always: editor.dragging.peek() || a.chosen !== null || began };
+  }
+
+  // -------------------------------------------------------------- drafts
+
+  /** True when something of it was drawn. */
+  #draft(
+    scene: Scene,
+    e: DraftEvent,
+    at: { step: number; steps: number; ms: number; subject: string | null; keep: Keep },
+  ): boolean {
+    const { editor } = this;
+    const { step, steps, ms, subject } = at;
+    return batch(() => {
+      // Later windows go on from where the first one led; its six stay on screen until all is worked out.
+      if (e.window) {
+        editor.answers.report({ kind: 'refining', step, steps, ms, part: secondsOf(scene, e.window) });
+        return false;
+      }
+      const id = subject && e.agents[subject] && editor.selection.peek() === subject ? subject : null;
+      const drawn = id !== null && this.#draw(id, e.agents[id], step, steps, at.keep);
+      editor.answers.report({ kind: 'refining', step, steps, ms });
+      return drawn;
+    });
+  }
+
+  #draw(id: string, json: AgentFuturesJson, step: number, steps: number, keep: Keep): boolean {
+    const { editor } = this;
+    const a = editor.scene.peek()?.agents.get(id);
+    const start = a && startPose(a);
+    if (!a || !start) return false;
+    const shown = editor.draft.peek();
+    const last = shown?.id === id && !shown.futures.sketch ? shown : null;
+    // The answer to a release starts rough again; what the drag has settled already stays until it is better.
+    if (last && !editor.dragging.peek() && step < last.futures.step) return false;
+    const f = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
+    const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
+    editor.answers.showDraft(id, f, trails);
+    return true;
+  }
+
+  // -------------------------------------------------------------- final answers
+
+  #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
+    const { editor } = this;
+    const f = this.#futuresOf(scene, e, keep).get(id);
+    if (!f) return;
+    const reach = readReach(e.resolved?.[id]);
+    const dragging = editor.dragging.peek();
+    batch(() => {
+      editor.answers.report({ kind: 'settled', ms, adapted: null });
+      if (reach) editor.answers.judge(id, reach);
+      if (!dragging && !editor.motion.peek().stale) editor.answers.look(id, f, reach);
+      else if (editor.selection.peek() === id) editor.answers.showDraft(id, f);
+    });
+    const best = f.modes[f.chosen];
+    if (!best || dragging) return;
+    editor.notices.say(`Six futures. Most likely: ${best.name}, ${Math.round(best.probability * 100)} percent.`);
+  }
+
+  #finalOfChange(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number, keep: Keep): void {
+    const { editor, hooks } = this;
+    if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
+    const set = this.#motionAfter(scene, e, w, keep);
+    // Those that were asked something are no others, also when only the mode of the others was changed.
+    const subjects = new Set(step.agent ? [step.agent] : editor.touchedIds(scene));
+    const selected = editor.selection.peek();
+    if (selected) subjects.add(selected);
+    editor.answers.dropLiveReach();
+    editor.answers.settle(scene, set, subjects);
+    this.settled(step, ms);
+    if (selected && !set.futures.has(selected)) hooks.look(selected);
+    if (!set.score) hooks.score(step);
+  }
+
+  #motionAfter(scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
+    const { editor } = this;
+    const before = editor.motion.peek();
+    const answers = this.#futuresOf(scene, e, keep);
+    // A look at somebody's futures from before the change is no longer true.
+    const stillTrue = (id: string) => before.driving.has(id) || w.kept?.has(id) || touched(scene.agents.get(id)!);
+    const futures = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+    const everybody = scene.others === 'react' || w.agents === 'all';
+    const driving = new Set(everybody ? [...before.driving, ...answers.keys()] : []);
+    for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
+    const reach = new Map(before.reach);
+    for (const [id, resolved] of Object.entries(e.resolved ?? {})) {
+      const verdict = readReach(resolved);
+      if (verdict) reach.set(id, verdict);
+      else reach.delete(id);
+    }
+    return {
+      key: sceneKey(scene),
+      futures,
+      driving,
+      score: readScore(e.scores),
+      reach,
+      stale: false,
+      head: e.generated,
+      warnings: readWarnings(e),
+    };
+  }
+
+  /** A change is worked out: who changed, in the status line, a toast and a sentence. */
+  settled(step: Step, ms: number): void {
+    const { editor } = this;
+    const changes = editor.changes.peek();
+    editor.answers.report({ kind: 'settled', ms, adapted: step.agent ? changes.length : null });
+    if (step.undo) return;
+    const scene = editor.scene.peek()!;
+    editor.notices.show({ text: outcome(step, scene, changes), undo: true });
+    editor.notices.say(spokenOutcome(step, scene, changes));
+    const collision = spokenCollision(editor.events.peek());
+    if (collision) editor.notices.say(collision, true);
+  }
+
+  #futuresOf(scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {
+    const out = new Map<string, Futures>();
+    for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
+      const a = scene.agents.get(id);
+      const f = a && this.#futures(a, json, keep);
+      if (f) out.set(id, f);
+    }
+    return out;
+  }
+
+  #futures(a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
+    const start = firstPose(a, json);
+    if (!start || !json.modes?.length) return null;
+    const known = this.editor.motion.peek().futures.get(a.id);
+    const picked = a.chosen !== null && json.modes.length === 1 ? known?.modes[a.chosen] : undefined;
+    if (!known || !picked) {
+      const { steps } = DEFAULTS;
+      return readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
+    }
+    // A picked future comes back longer than it was; the other five stand as they are.
+    const longer = { ...picked, motion: motionFrom(json.modes[0], start) };
+    return { ...known, modes: known.modes.map((m) => (m === picked ? longer : m)) };
+  }
+
+  #refused(p: Problem): void {
+    const first = p.errors?.[0];
+    const range = first?.min !== undefined ? `A value is outside ${first.min} to ${first.max}.` : null;
+    const words = first?.detail ?? range ?? p.detail ?? p.title;
+    this.editor.answers.report({ kind: 'refused', words });
+    this.editor.notices.say(words);
+  }
+}
+
+/** Which seconds a later window is about. */
+const secondsOf = (s: Scene, window: number): string =>
+  `${window * s.replan} to ${Math.min(s.length, (window + 1) * s.replan)} s`;

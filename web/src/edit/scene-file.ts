@@ -1,0 +1,51 @@
+// The open scene as a file: as it came, and as it is written back with the user's changes in it.
+import type { MapJson, SceneJson } from '../model/json';
+import { generatedJson, writeScene } from '../model/write';
+import type { Editor } from './editor';
+
+export class SceneFile {
+  /** As it came from the server; null while nothing is open. */
+  raw: SceneJson | null = null;
+  map: MapJson | null = null;
+  /** Hash by which the server knows the map. */
+  mapRef: string | null = null;
+  /** Does the server know this scene by its id? */
+  stored = false;
+  #withConditions = new Set<string>();
+
+  constructor(private readonly editor: Editor) {}
+
+  adopt(json: SceneJson, map: MapJson, stored: boolean): void {
+    this.raw = json;
+    this.map = map;
+    this.mapRef = null;
+    this.stored = stored;
+    this.noteConditions(json);
+  }
+
+  /** The server holds this version: whose conditions it knows, so that freed ones are sent as free. */
+  noteConditions(json: SceneJson): void {
+    const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
+    this.#withConditions = new Set(asked.map((a) => a.id));
+  }
+
+  hadConditions(id: string): boolean {
+    return this.#withConditions.has(id);
+  }
+
+  /** The scene with its changes and the futures that belong to them; the map by its hash where the server has it. */
+  current(): SceneJson | null {
+    const scene = this.editor.scene.peek();
+    if (!scene || !this.raw) return null;
+    const m = this.editor.motion.peek();
+    const driving = [...m.futures].filter(([id]) => m.driving.has(id));
+    const generated = m.stale ? null : generatedJson(scene, driving, m.head);
+    return writeScene(this.raw, scene, generated, this.mapRef ? { ref: this.mapRef } : (this.map ?? undefined));
+  }
+
+  /** The same with the map inside: for files, and for servers that do not know the map. */
+  complete(): SceneJson | null {
+    const json = this.current();
+    return json && this.map ? { ...json, map: this.map } : json;
+  }
+}

@@ -1,0 +1,46 @@
+// The list of scenes on the server.
+import { signal, type ReadonlySignal } from '@preact/signals-core';
+import type { Client } from '../net/client';
+import type { SceneListItem } from '../net/types';
+
+/** Examples in the order in which they are best met, last first. */
+const FIRST = ['demo-motorway', 'demo-arterial', 'demo-residential', 'demo-roundabout', 'demo-crossing'];
+
+const isExample = (id: string): boolean => id.startsWith('demo-');
+
+/** Road users of a scene in the list; 0 where the list does not say. */
+export const countAll = (s: SceneListItem): number => Object.values(s.counts ?? {}).reduce((sum, n) => sum + n, 0);
+
+export class SceneList {
+  readonly #list = signal<readonly SceneListItem[]>([]);
+  readonly #listed = signal(false);
+
+  readonly list: ReadonlySignal<readonly SceneListItem[]> = this.#list;
+  /** Has the server been asked yet? */
+  readonly listed: ReadonlySignal<boolean> = this.#listed;
+
+  constructor(private readonly client: Client) {}
+
+  async refresh(): Promise<void> {
+    try {
+      this.#list.value = inOrder((await this.client.scenes()).scenes);
+    } finally {
+      this.#listed.value = true;
+    }
+  }
+
+  find(id: string): SceneListItem | undefined {
+    return this.#list.peek().find((s) => s.id === id);
+  }
+
+  isOwn(id: string): boolean {
+    return !isExample(id) && this.find(id)?.readonly !== true;
+  }
+}
+
+/** Own scenes first, newest on top, then the examples, then what was recorded. */
+function inOrder(scenes: readonly SceneListItem[]): SceneListItem[] {
+  const rank = (s: SceneListItem): number => (isExample(s.id) ? 1 : s.readonly !== true ? 0 : 2);
+  const example = (s: SceneListItem): number => (isExample(s.id) ? -FIRST.indexOf(s.id) : 0);
+  return [...scenes].sort((a, b) => rank(a) - rank(b) || example(a) - example(b));
+}

@@ -1,0 +1,57 @@
+// Where something goes on in a scene: for the first look at it, and for its small picture.
+import { boxOf, type Box, type Vec } from './geometry';
+import { startPose, type Scene } from './scene';
+
+/** The middle of what moves: the median, so that one queue far out does not pull it away. */
+function busyCentre(scene: Scene): [number, number] {
+  const at = [...scene.agents.values()]
+    .filter((a) => !a.parked && a.type !== 'other')
+    .map(startPose)
+    .filter((p) => p !== null);
+  if (!at.length) return [(scene.map.box.x0 + scene.map.box.x1) / 2, (scene.map.box.y0 + scene.map.box.y1) / 2];
+  const median = (v: number[]): number => v.sort((a, b) => a - b)[v.length >> 1];
+  return [median(at.map((p) => p.x)), median(at.map((p) => p.y))];
+}
+
+const JUNCTION_M = 30;
+
+/** The middle of the junction the busy part is about; without one near it, the busy middle itself. */
+export function sceneCentre(scene: Scene): [number, number] {
+  const [bx, by] = busyCentre(scene);
+  const inside = [...scene.map.lanes.values()]
+    .filter((l) => l.inside && l.kind === 'road')
+    .map((l) => l.line.pts[l.line.pts.length >> 1])
+    .filter(([x, y]) => Math.hypot(x - bx, y - by) < 2 * JUNCTION_M);
+  let best: readonly Vec[] = [],
+    score = 0;
+  for (const [x, y] of inside) {
+    const round = inside.filter((p) => Math.hypot(p[0] - x, p[1] - y) < JUNCTION_M);
+    const s = round.length - Math.hypot(x - bx, y - by) / 20;
+    if (s > score) {
+      score = s;
+      best = round;
+    }
+  }
+  if (best.length < 4) return [bx, by];
+  const mean = (i: 0 | 1): number => best.reduce((sum, p) => sum + p[i], 0) / best.length;
+  return [mean(0), mean(1)];
+}
+
+/** Where the road users are: the middle four fifths of them, so that one far away does not shrink the rest. */
+export function busyBox(scene: Scene, margin = 8): Box {
+  const moving = [...scene.agents.values()].filter((a) => !a.parked && a.type !== 'other');
+  const at = moving.map(startPose).filter((p) => p !== null);
+  if (at.length < 3) return scene.map.box;
+  const cut = (v: number[]): [number, number] => {
+    v.sort((a, b) => a - b);
+    const n = Math.floor(v.length * 0.1);
+    return [v[n], v[v.length - 1 - n]];
+  };
+  const [x0, x1] = cut(at.map((p) => p.x)),
+    [y0, y1] = cut(at.map((p) => p.y));
+  const b = boxOf([
+    [x0, y0],
+    [x1, y1],
+  ] as Vec[]);
+  return { x0: b.x0 - margin, y0: b.y0 - margin, x1: b.x1 + margin, y1: b.y1 + margin };
+}

@@ -1,0 +1,255 @@
+// The generator behind the HTTP API: one request on the way, one waiting, the newest wins.
+import type { SceneJson } from '../model/json';
+import { problemOf, type Client } from './client';
+import type { Generator, Question, SceneRef, Trajectories } from './generator';
+import { readEvents } from './stream';
+import type { ScoreReply } from './types';
+
+interface Running {
+  question: Question;
+  revision: number;
+  abort: AbortController;
+  drawn: boolean;
+  /** How long since something new came, signs of life apart. */
+  idle: number;
+}
+
+/** When a silence is called slow, when it is looked into, and when it is taken for an absence in any case. */
+export interface Patience {
+  slow: number;
+  look: number;
+  lost: number;
+  tick: number;
+  alive: () => Promise<boolean>;
+}
+
+/** `lost` is longer than the time between two signs of life in a stream. */
+const PATIENCE: Omit<Patience, 'alive'> = { slow: 2000, look: 6500, lost: 13000, tick: 250 };
+
+/** A server that is only busy says so within this time. */
+const PROBE_MS = 1500;
+
+const RETRY_IN_PLACE = new Set(['unknown-map', 'stale-etag', 'not-found']);
+
+export class HttpGenerator implements Generator {
+  private running: Running | null = null;
+  private waiting: Question | null = null;
+  private revision = 0;
+  /** Names this editor to the server, which lets a newer question of the same one overtake. */
+  private readonly name = `editor-${Math.random().toString(36).slice(2, 10)}`;
+  private readonly patience: Patience;
+  private readonly texts = new WeakMap<SceneJson, string>();
+  /** How long nobody has said anything, over questions that replaced each other. */
+  private silent = 0;
+
+  constructor(
+    private readonly client: Client,
+    patience: Partial<Patience> = {},
+    private readonly now = () => performance.now(),
+  ) {
+    this.patience = { ...PATIENCE, alive: () => client.answers(PROBE_MS), ...patience };
+  }
+
+  answers(): Promise<boolean> {
+    return this.client.answers();
+  }
+
+  score(scene: SceneRef, trajectories: Trajectories, signal: AbortSignal): Promise<ScoreReply> {
+    const motions = Object.keys(trajectories).length ? { trajectories } : {};
+    const part = 'id' in scene ? { scene_id: scene.id } : { scene: scene.scene };
+    return this.client.score({ ...part, ...motions }, signal);
+  }
+
+  get busy(): boolean {
+    return this.running !== null;
+  }
+
+  ask(ask: Question): void {
+    // While a preview has shown nothing yet it is left to finish its first guess: aborting it on every
+    // pointer move would mean that nothing is ever drawn during a drag.
+    if (this.running && ask.preview && this.running.question.preview && !this.running.drawn) {
+      this.waiting?.on.dropped?.();
+      this.waiting = ask;
+      return;
+    }
+    this.waiting?.on.dropped?.();
+    this.waiting = null;
+    this.stopRunning();
+    void this.run(ask);
+  }
+
+  /** Drops everything on the way. */
+  cancel(): void {
+    this.waiting?.on.dropped?.();
+    this.waiting = null;
+    this.stopRunning();
+    this.silent = 0;
+  }
+
+  private stopRunning(): void {
+    const r = this.running;
+    this.running = null;
+    r?.abort.abort();
+    r?.question.on.dropped?.();
+  }
+
+  private async run(ask: Question): Promise<void> {
+    const me: Running = {
+      question: ask,
+      revision: ++this.revision,
+      abort: new AbortController(),
+      drawn: false,
+      idle: this.silent,
+    };
+    this.running = me;
+    const unwatch = this.watch(me);
+    const mine = () => this.running === me;
+    const began = this.now();
+    try {
+      let reply = await this.post(ask.scene(), me);
+      if (reply.status === 422 || reply.status === 412 || reply.status === 404) {
+        const p = await problemOf(reply);
+        const badMap = RETRY_IN_PLACE.has(p.code) || p.errors?.some((e) => e.code === 'unknown-map');
+        if (!badMap) {
+          if (mine()) ask.on.refused(p);
+          return;
+        }
+        me.revision = ++this.revision;
+        reply = await this.post({ scene: ask.whole() }, me);
+      }
+      if (!reply.ok) {
+        const p = await problemOf(reply);
+        if (!mine()) return;
+        if (p.code === 'busy') return await this.later(ask, me, Number(reply.headers.get('retry-after')) || 1);
+        if (reply.status === 409) ask.on.dropped?.();
+        else if (reply.status >= 502 && reply.status <= 504) ask.on.away();
+        else ask.on.refused(p);
+        return;
+      }
+      await this.read(reply, me, began);
+    } catch (e) {
+      if (!mine()) return;
+      if ((e as Error).name === 'AbortError') ask.on.dropped?.();
+      else ask.on.away();
+    } finally {
+      unwatch();
+      if (mine()) {
+        this.running = null;
+        this.silent = 0;
+        this.next();
+      }
+    }
+  }
+
+  /**
+   * Looks after a question while it is open. Time is counted in ticks, so that a computer that slept does not take
+   * its own absence for the generator's.
+   */
+  private watch(me: Running): () => void {
+    const { slow, look, lost, tick, alive } = this.patience;
+    let looked = false;
+    let told = 0;
+    const timer = setInterval(() => {
+      if (this.running !== me) return;
+      me.idle += tick;
+      this.silent += tick;
+      if (this.silent >= lost) return this.lose(me);
+      if (me.idle < told) told = 0;
+      if (me.idle >= slow && me.idle - told >= 4 * tick) me.question.on.slow?.((told = me.idle));
+      if (this.silent < look) looked = false;
+      else if (!looked) {
+        looked = true;
+        void alive().then((yes) => {
+          if (!yes && this.running === me && this.silent >= look) this.lose(me);
+        });
+      }
+    }, tick);
+    return () => clearInterval(timer);
+  }
+
+  private lose(me: Running): void {
+    this.running = null;
+    this.silent = 0;
+    me.abort.abort();
+    this.waiting?.on.dropped?.();
+    this.waiting = null;
+    me.question.on.away();
+  }
+
+  /** The queue is full for a moment: a preview is let go, a change waits and is asked again. */
+  private async later(ask: Question, me: Running, seconds: number): Promise<void> {
+    if (ask.preview) {
+      ask.on.dropped?.();
+      return;
+    }
+    this.silent = 0;
+    await new Promise((r) => setTimeout(r, Math.min(5, seconds) * 1000));
+    if (this.running === me) await this.run(ask);
+  }
+
+  private post(scene: SceneRef, me: Running): Promise<Response> {
+    const rest = JSON.stringify({ client: this.name, revision: me.revision, ...me.question.options });
+    const part = 'id' in scene ? `"scene_id":${JSON.stringify(scene.id)}` : `"scene":${this.textOf(scene.scene)}`;
+    return this.client.send('/v1/generate', {
+      method: 'POST',
+      body: `{${part},${rest.slice(1)}`,
+      signal: me.abort.signal,
+      headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
+    });
+  }
+
+  /** A drag asks sixty times a second about the same surroundings; they are written once. */
+  private textOf(scene: SceneJson): string {
+    const known = this.texts.get(scene);
+    if (known !== undefined) return known;
+    const text = JSON.stringify(scene);
+    this.texts.set(scene, text);
+    return text;
+  }
+
+  private async read(reply: Response, me: Running, began: number): Promise<void> {
+    const { on, options } = me.question;
+    let shown = -1,
+      window = 0;
+    let ended = false;
+    for await (const e of readEvents(reply.body!)) {
+      if (this.running !== me) return;
+      this.silent = 0;
+      // An answer to an older question is dropped without a flash.
+      if (e.revision !== undefined && e.revision !== me.revision) continue;
+      const ms = this.now() - began;
+      if (e.event !== 'heartbeat') me.idle = 0;
+      if (e.event === 'initial' || e.event === 'step') {
+        const step = e.event === 'initial' ? 0 : (e.step ?? shown + 1);
+        const at = e.window ?? 0;
+        // A later window begins with a first guess of its own.
+        if (at < window || (at === window && step <= shown)) continue;
+        window = at;
+        shown = step;
+        me.drawn = true;
+        on.draft(e, step, e.steps ?? options.steps, ms);
+        if (this.waiting) {
+          this.stopRunning();
+          this.next();
+          return;
+        }
+      } else if (e.event === 'final') {
+        ended = true;
+        on.final(e, ms);
+      } else if (e.event === 'error') {
+        ended = true;
+        on.refused(e.problem);
+      } else if (e.event === 'superseded') {
+        ended = true;
+        on.dropped?.();
+      }
+    }
+    if (!ended && this.running === me) on.away();
+  }
+
+  private next(): void {
+    const ask = this.waiting;
+    this.waiting = null;
+    if (ask) void this.run(ask);
+  }
+}

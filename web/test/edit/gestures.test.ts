@@ -1,0 +1,189 @@
+// From state to state: what a press, a movement and a release become, without a page.
+import { beforeEach, describe, expect, it } from 'vitest';
+import { startPose } from '../../src/model/scene';
+import { TOOLS } from '../../src/edit/gestures/tools';
+import { Pointer } from './pointer';
+
+let p: Pointer;
+beforeEach(() => {
+  p = new Pointer();
+});
+
+const A = { x: 300, y: 300 };
+const B = { x: 340, y: 280 };
+const goalBody = { kind: 'grip', grip: { part: 'goal', handle: 'body' } } as const;
+
+describe('idle', () => {
+  it('lights up what is under the pointer and shows what it would do', () => {
+    p.hit = { kind: 'agent', id: '2', pile: ['2'] };
+    p.move(A);
+    expect(p.state).toBe('idle');
+    expect([p.editor.hover.peek(), p.cursor]).toEqual(['2', 'grab']);
+    p.chart.outside();
+    expect([p.editor.hover.peek(), p.cursor]).toEqual([null, '']);
+  });
+
+  it('shows nothing under another tool than select', () => {
+    p.hit = { kind: 'agent', id: '2', pile: ['2'] };
+    p.editor.chooseTool('measure');
+    p.move(A);
+    expect([p.editor.hover.peek(), p.cursor]).toEqual([null, 'crosshair']);
+  });
+});
+
+describe('pressed', () => {
+  it('stays pressed while the hand trembles, and clicks on release', () => {
+    p.hit = { kind: 'agent', id: '2', pile: ['2', '3'] };
+    p.down(A);
+    p.move({ x: A.x + 2, y: A.y + 1 });
+    expect(p.state).toBe('pressed');
+    p.up(A, { timeStamp: 100 });
+    expect([p.state, p.editor.selection.peek()]).toEqual(['idle', '2']);
+    p.click(A, 400);
+    expect(p.editor.selection.peek()).toBe('3');
+  });
+
+  it('lets a finger tremble more than a mouse', () => {
+    p.down(A, { touch: true });
+    p.move({ x: A.x + 6, y: A.y });
+    expect(p.state).toBe('pressed');
+    p.move({ x: A.x + 9, y: A.y });
+    expect(p.state).toBe('panning');
+  });
+
+  it('deselects where nothing is', () => {
+    p.editor.select('1');
+    p.click(A);
+    expect(p.editor.selection.peek()).toBeNull();
+  });
+
+  it('is forgotten on Esc, which then does what it does otherwise', () => {
+    p.down(A);
+    expect(p.chart.cancel()).toBe(false);
+    expect(p.state).toBe('idle');
+    p.up(A);
+    expect(p.state).toBe('idle');
+  });
+});
+
+describe('panning', () => {
+  it('moves the picture with the pointer, and begins with Space and the middle button over anything', () => {
+    p.hit = goalBody;
+    p.editor.select('1');
+    p.down(A, { button: 1 });
+    p.move(B);
+    expect([p.state, p.cursor]).toEqual(['panning', 'grabbing']);
+    expect(p.view.cx).toBeCloseTo(-40 / p.view.z);
+    expect(p.view.cy).toBeCloseTo(-20 / p.view.z);
+    p.up(B);
+    expect([p.state, p.cursor]).toEqual(['idle', '']);
+    p.chart.spaceHeld = true;
+    p.down(A);
+    p.move(B);
+    expect(p.state).toBe('panning');
+  });
+});
+
+describe('dragging a handle', () => {
+  const take = () => {
+    p.editor.select('1');
+    const a = p.editor.agent.peek()!;
+    p.hit = goalBody;
+    const from = p.at(startPose(a)!.x + 20, startPose(a)!.y);
+    p.down(from);
+    return from;
+  };
+
+  it('previews the document, asks for live futures, and commits one step on release', () => {
+    const from = take();
+    p.move({ x: from.x + 4, y: from.y });
+    expect([p.state, p.cursor]).toEqual(['dragging handle', 'grabbing']);
+    expect(p.editor.drag.peek()?.grip).toEqual(goalBody.grip);
+    const to = { x: from.x + 80, y: from.y };
+    p.move(to);
+    expect(p.previewed).toEqual(['1', '1']);
+    expect(p.editor.agent.peek()!.goal.pos).not.toBeNull();
+    expect(p.editor.undoName.peek()).toBeNull();
+    p.up(to);
+    expect([p.state, p.editor.drag.peek()]).toEqual(['idle', null]);
+    expect(p.editor.undoName.peek()).toMatch(/^Goal of Car 1/);
+    p.editor.undo();
+    expect(p.editor.agent.peek()!.goal.pos).toBeNull();
+  });
+
+  it('puts everything back on Esc and drops the previews', () => {
+    const from = take();
+    p.move({ x: from.x + 50, y: from.y });
+    expect(p.chart.cancel()).toBe(true);
+    expect([p.state, p.editor.drag.peek(), p.dropped]).toEqual(['idle', null, 1]);
+    expect(p.editor.agent.peek()!.goal.pos).toBeNull();
+    p.up(from);
+    expect(p.editor.undoName.peek()).toBeNull();
+  });
+
+  it('is put back by a second finger, which then pinches', () => {
+    const from = take();
+    p.move({ x: from.x + 50, y: from.y });
+    p.down({ x: 500, y: 400 }, { id: 2 });
+    expect([p.state, p.editor.drag.peek()]).toEqual(['pinching', null]);
+  });
+
+  it('answers to modifier keys at once', () => {
+    const from = take();
+    expect(p.chart.modified({ alt: true, shift: false, ctrl: false })).toBe(false);
+    p.move({ x: from.x + 50, y: from.y });
+    expect(p.chart.modified({ alt: true, shift: false, ctrl: false })).toBe(true);
+    p.chart.frame(0.016);
+    expect(p.previewed).toHaveLength(2);
+  });
+
+  it('takes the box of a road user as the handle of its start, at the start of the scene alone', () => {
+    p.hit = { kind: 'agent', id: '2', pile: ['2'] };
+    p.down(A);
+    p.move(B);
+    expect(p.editor.selection.peek()).toBe('2');
+    expect(p.editor.drag.peek()?.grip).toEqual({ part: 'start', handle: 'body' });
+    p.chart.cancel();
+    p.up(B);
+    p.editor.setTime(3);
+    p.down(A);
+    p.move(B);
+    expect(p.state).toBe('panning');
+  });
+});
+
+describe('pinching', () => {
+  it('zooms with the distance of two fingers and ends with either', () => {
+    const z = p.view.z;
+    p.down(A);
+    p.down({ x: 400, y: 300 }, { id: 2 });
+    expect(p.state).toBe('pinching');
+    p.move({ x: 500, y: 300 }, { id: 2 });
+    expect(p.view.z).toBeCloseTo(z * 2);
+    p.up(A);
+    expect(p.state).toBe('idle');
+    p.up(B, { id: 2 });
+    expect(p.state).toBe('idle');
+  });
+});
+
+describe('measuring', () => {
+  it('draws a line that stays until the next click', () => {
+    p.editor.chooseTool('measure');
+    p.down(A);
+    p.move({ x: A.x + 80, y: A.y });
+    expect(p.state).toBe('measuring');
+    p.up(A);
+    const { a, b } = p.editor.measure.peek()!;
+    expect(b[0] - a[0]).toBeCloseTo(80 / p.view.z);
+    p.click(A);
+    expect(p.editor.measure.peek()).toBeNull();
+  });
+});
+
+describe('tools', () => {
+  it('each have a name, a key and words of their own', () => {
+    for (const of of ['name', 'key', 'label', 'help'] as const)
+      expect(new Set(TOOLS.map((t) => t[of])).size).toBe(TOOLS.length);
+  });
+});

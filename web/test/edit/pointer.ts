@@ -1,0 +1,72 @@
+// A pointer without a page: drives the state chart of gestures as the page would.
+import { View } from '../../src/draw/view';
+import { Editor } from '../../src/edit/editor';
+import { Chart, type Modifiers, type Surface } from '../../src/edit/gestures/chart';
+import { toolOf } from '../../src/edit/gestures/tools';
+import { NOTHING, type Hit } from '../../src/edit/hit';
+import type { Point } from '../../src/model/geometry';
+import { crossing } from '../helpers';
+
+const PLAIN: Modifiers = { alt: false, shift: false, ctrl: false };
+
+export class Pointer {
+  readonly editor = new Editor();
+  readonly view = new View();
+  /** What lies under the pointer, wherever it is. */
+  hit: Hit = NOTHING;
+  cursor = '';
+  /** Road users that live futures were asked for, and how often they were dropped again. */
+  readonly previewed: string[] = [];
+  dropped = 0;
+  readonly chart: Chart;
+
+  constructor() {
+    this.editor.open(crossing());
+    const surface: Surface = {
+      view: this.view,
+      invalidate: () => undefined,
+      viewChanged: () => undefined,
+      setCursor: (name) => {
+        this.cursor = name;
+      },
+    };
+    this.chart = new Chart({
+      surface,
+      editor: this.editor,
+      previews: { preview: (id) => this.previewed.push(id), cancelPreviews: () => this.dropped++ },
+      hitAt: () => this.hit,
+      agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
+      calm: () => true,
+      tool: toolOf,
+    });
+  }
+
+  get state(): string {
+    return this.chart.state.name;
+  }
+
+  down(p: Point, { id = 1, button = 0, touch = false } = {}): void {
+    this.chart.down({ ...p, id, button, touch });
+  }
+
+  /** Moves, and lets a frame pass. */
+  move(p: Point, { id = 1, ...mods }: Partial<Modifiers> & { id?: number } = {}): void {
+    this.chart.move(id, p, { ...PLAIN, ...mods }, true);
+    this.chart.frame(0.016);
+  }
+
+  up(p: Point, { id = 1, timeStamp = 0 } = {}): void {
+    this.chart.up(id, p, timeStamp);
+  }
+
+  click(p: Point, timeStamp = 0): void {
+    this.down(p);
+    this.up(p, { timeStamp });
+  }
+
+  /** Screen position of a world point. */
+  at(x: number, y: number): Point {
+    const [px, py] = this.view.to(x, y);
+    return { x: px, y: py };
+  }
+}
