@@ -87,3 +87,45 @@ fn only_one_file_of_the_server_knows_the_lab() {
         }
     }
 }
+
+/// Modules of `experts` from the bottom to the top: each may import those of the lines above it and itself, so
+/// placement and generator know nothing of each other.
+const EXPERTS: &[&[&str]] = &[
+    &["clock", "tuning"],
+    &["planning"],
+    &["features"],
+    &["net"],
+    &["request", "weights", "maps"],
+    &["placement", "generator"],
+    &["engine"],
+];
+
+/// Names after `crate::` in a file, comments left out.
+fn imported(text: &str) -> BTreeSet<&str> {
+    let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let after = code.flat_map(|line| line.split("crate::").skip(1));
+    after.map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
+}
+
+#[test]
+fn modules_of_experts_import_downwards_only() {
+    let level = |name: &str| EXPERTS.iter().position(|line| line.contains(&name));
+    let source = root().join("models/experts/src");
+    let mut paths = vec![source.clone()];
+    while let Some(path) = paths.pop() {
+        if path.is_dir() {
+            paths.extend(std::fs::read_dir(path).unwrap().flatten().map(|entry| entry.path()));
+            continue;
+        }
+        let first = path.strip_prefix(&source).unwrap().components().next().unwrap();
+        let own = first.as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned();
+        if own == "lib" {
+            continue;
+        }
+        let Some(mine) = level(&own) else { panic!("the module {own} of experts has no place") };
+        for other in imported(&std::fs::read_to_string(&path).unwrap()) {
+            let below = level(other).is_some_and(|theirs| theirs < mine);
+            assert!(below || other == own, "{} must not import {other}", path.display());
+        }
+    }
+}

@@ -218,10 +218,9 @@ impl GenerateRequest {
         self.check_ranges()?;
         let scene = Arc::new(self.apply(scene)?);
         let request = self.request(&scene, limits.regenerated_agents, limits.reply_points)?;
-        let weights = generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone()));
         let head = GeneratedHead {
             input_sha256: scene.input_hash().hex(),
-            weights: weights.collect(),
+            weights: generator.hashes(),
             seed: self.seed,
             request: self.options(),
         };

@@ -119,10 +119,7 @@ pub fn run(
     let (scenes, crop) = cropped(scenes, options.crop)?;
     let scenes = scenes.as_ref();
     let wants = |table: Table| options.tables.contains(&table);
-    let weights = judged.iter().map(|own| {
-        let hashes = own.generator.weights().iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
-        (own.name.clone(), hashes.collect())
-    });
+    let weights = judged.iter().map(|own| (own.name.clone(), own.generator.hashes()));
     let mut report = Report {
         seed,
         scenes: scenes.len(),
