@@ -1,7 +1,7 @@
 //! Rooms inside a crate: which module imports which, read from the sources.
 //!
-//! A room is a module of a crate's root. Rooms stand in an order, and a room may import those below it
-//! alone; so there is no ring either. What is read is the text: paths that begin with `crate::` or climb
+//! A room is a module of a crate's root. Rooms stand on floors, and a room may import those on the floors below
+//! it alone; so there is no ring either, and rooms on one floor know nothing of each other. What is read is the text: paths that begin with `crate::` or climb
 //! with `super::` to the root, wherever they stand outside comments and strings.
 
 use std::path::{Path, PathBuf};
@@ -12,8 +12,8 @@ pub struct House {
     pub name: &'static str,
     /// Folder of its sources, below the repository's root.
     pub sources: &'static str,
-    /// Its rooms, the lowest first.
-    pub rooms: &'static [&'static str],
+    /// Its rooms floor by floor, the lowest first.
+    pub floors: &'static [&'static [&'static str]],
 }
 
 impl House {
@@ -37,15 +37,16 @@ impl House {
     pub fn faults_of(&self, module: &[String], text: &str) -> Vec<String> {
         // The root itself puts the rooms together.
         let Some(room) = module.first() else { return Vec::new() };
-        let place = |name: &str| self.rooms.iter().position(|known| *known == name);
+        let place = |name: &str| self.floors.iter().position(|floor| floor.contains(&name));
         let Some(own) = place(room) else {
-            return vec![format!("the room {room} of {} has no place in the order", self.name)];
+            return vec![format!("the room {room} of {} has no floor", self.name)];
         };
         let mut used: Vec<String> = used_rooms(module, text);
         used.sort();
         used.dedup();
-        let above = used.into_iter().filter(|name| place(name).is_some_and(|at| at > own));
-        above.map(|name| format!("{room} stands below {name} and must not import it")).collect()
+        let not_below = |name: &String| name != room && place(name).is_some_and(|at| at >= own);
+        let faulty = used.into_iter().filter(not_below);
+        faulty.map(|name| format!("{room} does not stand above {name} and must not import it")).collect()
     }
 }
 
@@ -160,7 +161,8 @@ mod tests {
     use super::{House, module_of, used_rooms};
     use std::path::Path;
 
-    const HOUSE: House = House { name: "house", sources: "src", rooms: &["cellar", "kitchen", "attic"] };
+    const HOUSE: House =
+        House { name: "house", sources: "src", floors: &[&["cellar"], &["kitchen", "hall"], &["attic"]] };
 
     fn faults(module: &str, text: &str) -> usize {
         let module: Vec<String> = module.split("::").map(str::to_owned).collect();
@@ -177,6 +179,7 @@ mod tests {
         assert_eq!(faults("kitchen::stove", "use super::super::attic::Trunk;"), 1);
         assert_eq!(faults("kitchen::stove", "use super::attic::Shelf;"), 0, "a module of its own room");
         assert_eq!(faults("cellar", "macro_rules! m { () => { $crate::attic::open() } }"), 1);
+        assert_eq!(faults("kitchen", "use crate::hall::Door;"), 1, "on the same floor");
         assert_eq!(faults("garage", "use crate::cellar::Wine;"), 1, "no place in the order");
     }
 

@@ -220,8 +220,8 @@ impl GenerateRequest {
         self.check_ranges()?;
         let scene = Arc::new(self.apply(scene.clone())?);
         let request = self.request(&scene, limits.regenerated_agents, limits.reply_points)?;
-        let weights = generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone()));
-        let head = GeneratedHead::new(scene.input_hash().hex(), weights.collect(), self.seed, self.options());
+        let head =
+            GeneratedHead::new(scene.input_hash().hex(), generator.hashes(), self.seed, self.options());
         let all_modes = self.stream_modes == StreamModes::All;
         Ok(Task { request, all_modes, score: self.score, head })
     }

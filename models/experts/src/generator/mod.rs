@@ -124,6 +124,12 @@ impl Generator {
         &self.info
     }
 
+    /// Hashes of all that its answers depend on: the experts' weights by name, and `tuning`.
+    pub fn hashes(&self) -> BTreeMap<String, String> {
+        let weights = self.info.iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
+        weights.chain([("tuning".to_owned(), self.tuning.hash().hex())]).collect()
+    }
+
     /// The maps that it knows.
     pub fn maps(&self) -> &Maps {
         &self.maps

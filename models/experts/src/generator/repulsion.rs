@@ -197,29 +197,29 @@ mod tests {
     use scene::Goal;
 
     /// A car at 8 m/s, and somebody who stands at `x`, `y`.
-    fn energy_of(x: f64, y: f64, terms: Terms) -> Option<(f32, Residual)> {
+    fn energy_of(x: f64, y: f64, terms: Terms, draft: &Residual) -> Option<(f32, Residual)> {
         let plan = car_on_a_street(8.0, Goal::default());
         let who = plan.present.clone();
         let actor = Actor::new("1".into(), plan, None);
         let standing = Outline::new([pose_of(Vec2::new(x, y), 0.0); INSTANTS], &who, &SHIPPED.overlaps);
         let (pullback, drivable) = (Pullback::default(), Drivable::default());
         let energy = SceneEnergy { pullback: &pullback, drivable: &drivable, tuning: &SHIPPED.overlaps };
-        energy.downhill(&actor, Slot::FIRST, &[0.0; RESIDUAL], &[&standing], terms)
+        energy.downhill(&actor, Slot::FIRST, draft, &[&standing], terms)
     }
 
     #[test]
     fn what_stands_on_the_way_repels_and_what_stands_aside_does_not() {
-        // A little to the left of the way, so that there is a side to go to.
-        let (energy, downhill) = energy_of(24.0, 0.6, Terms::Boxes).unwrap();
-        let aside: f32 = downhill[scene::KNOTS..].iter().sum();
-        assert!(energy > 0.0 && aside < 0.0, "{energy} {aside}");
-        assert!(energy_of(24.0, 9.0, Terms::All).is_none());
+        let (energy, downhill) = energy_of(24.0, 0.6, Terms::Boxes, &[0.0; RESIDUAL]).unwrap();
+        let moved = downhill.map(|step| 0.05 * step);
+        let (lower, _) = energy_of(24.0, 0.6, Terms::Boxes, &moved).unwrap();
+        assert!(lower > 0.0 && lower < energy, "{energy} to {lower}");
+        assert!(energy_of(24.0, 9.0, Terms::All, &[0.0; RESIDUAL]).is_none());
     }
 
     #[test]
     fn all_terms_see_farther_than_boxes() {
-        let (boxes, _) = energy_of(24.0, 0.6, Terms::Boxes).unwrap();
-        let (all, _) = energy_of(24.0, 0.6, Terms::All).unwrap();
+        let (boxes, _) = energy_of(24.0, 0.6, Terms::Boxes, &[0.0; RESIDUAL]).unwrap();
+        let (all, _) = energy_of(24.0, 0.6, Terms::All, &[0.0; RESIDUAL]).unwrap();
         assert!(all > boxes, "{all} {boxes}");
     }
 

@@ -39,10 +39,7 @@ pub fn run(
 ) -> Result<EvalReport> {
     let seed = options.seed;
     let (scenes, crop) = cropped(scenes, options.crop)?;
-    let weights = judged.iter().map(|own| {
-        let hashes = own.generator.weights().iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
-        (own.name.clone(), hashes.collect())
-    });
+    let weights = judged.iter().map(|own| (own.name.clone(), own.generator.hashes()));
     let mut report = EvalReport {
         seed,
         scenes: scenes.len(),

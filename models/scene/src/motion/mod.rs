@@ -1,5 +1,5 @@
 //! Motion in control space: what a road user does is a set of [`Knots`], and every rollout of any knots
-//! obeys the limits of its kind (`model.md` section 1).
+//! obeys the limits of its kind.
 //!
 //! Vehicles and cyclists are driven by acceleration and curvature of a reference point near the rear
 //! axle ([`drive`]); people on foot by their velocity ([`walk`]).

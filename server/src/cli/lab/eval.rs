@@ -3,6 +3,7 @@
 use super::{SceneArgs, failed, print_json, scenes};
 use crate::cli::{Common, Exit, Failure, generator, output};
 use clap::Args;
+use experts::Tuning;
 use lab_eval::{Judged, Table};
 use lab_train::baselines::Baseline;
 use lab_train::scenes::Crop;
@@ -19,6 +20,10 @@ pub struct EvalArgs {
     /// Further weights to judge beside them.
     #[arg(long, value_name = "NAME=DIR", value_parser = named_folder)]
     also: Vec<(String, PathBuf)>,
+    /// The same weights with one tuned number changed, beside them in the same tables: a name of
+    /// `experts::tuning`, such as `choice.overlap`. Without a value, what the number is for is left out.
+    #[arg(long, value_name = "NAME[=VALUE]", value_parser = tuned)]
+    ablate: Vec<(String, Tuning)>,
     /// Learned rivals to stand beside them in tables 1, 2 and 4: weights made by `train --baseline`, a file or
     /// a folder with one for each type.
     #[arg(long, value_name = "NAME=PATH", value_parser = named_folder)]
@@ -59,6 +64,16 @@ fn replan_steps(text: &str) -> Result<usize, String> {
     }
 }
 
+/// A tuned number and its value as text, and all numbers with that one changed.
+fn tuned(text: &str) -> Result<(String, Tuning), String> {
+    let (name, value) = match text.split_once('=') {
+        Some((name, value)) => (name, Some(value.parse().map_err(|_| format!("\"{value}\" is no number"))?)),
+        None => (text, None),
+    };
+    let changed = Tuning::default().with(name, value).map_err(|error| error.to_string())?;
+    Ok((text.to_owned(), changed))
+}
+
 fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
     match text.split_once('=') {
         Some((name, folder)) if !name.is_empty() && !folder.is_empty() => Ok((name.into(), folder.into())),
@@ -75,7 +90,11 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     // Scenes are judged side by side, each on one thread.
     let one =
         |name: String, generator: experts::Generator| Judged { name, generator: generator.with_threads(1) };
-    let mut judged = vec![one(args.name, generator(common)?)];
+    let mut judged = vec![one(args.name.clone(), generator(common)?)];
+    for (what, tuning) in args.ablate {
+        let changed = generator(common)?.with_tuning(tuning);
+        judged.push(one(format!("{}, {what}", args.name), changed));
+    }
     for (name, folder) in args.also {
         let common = Common { weights: Some(folder), ..common.clone() };
         judged.push(one(name, generator(&common)?));
