@@ -5,20 +5,26 @@
 //! distributions, and whatever would touch somebody is drawn again. Speeds are drawn last, those nearest
 //! to a conflict first, so that everybody knows who is in front.
 
+mod assign;
+mod cells;
+mod checks;
+mod context;
+mod driving;
 pub mod learn;
 mod model;
-mod observe;
 mod place;
+mod placed;
 mod pose;
 mod random;
 mod region;
-mod sites;
-mod speed;
-mod stops;
+mod request;
+mod speeds;
+mod stop_lines;
 
 pub use model::{PlacementInfo, PlacementModel};
-pub use place::{Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, place};
+pub use place::place;
 pub use region::{Region, map_bounds, ring_area_m2};
+pub use request::{Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement};
 
 /// Name of the weights file, beside those of the experts.
 pub const FILE_NAME: &str = "placement.json";
