@@ -1,5 +1,5 @@
-//! The situations that learned distributions are kept by: of speeds, and of poses. Their names are the keys of
-//! the weights file.
+//! The situations that learned distributions are kept by: of speeds, and of poses. Their names are the
+//! keys of the weights file.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! What training needs: observations of recorded scenes, and the form of the weights that they become.
 //!
-//! [`observe`] reads a recorded scene with the same cells, features and situations that placing uses, so the two
-//! cannot drift apart. How the numbers are fitted is the trainer's own affair; it writes them as a
+//! [`observe`] reads a recorded scene with the same cells, features and situations that placing uses, so
+//! the two cannot drift apart. How the numbers are fitted is the trainer's own affair; it writes them as a
 //! [`PlacementModel`](super::PlacementModel) in the classes given here.
 
 use super::assign::assign;

@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Room between a driveway's end and a car's, metres.
 const DRIVEWAY_END_M: f64 = 0.3;
-/// Beside a strip narrower than this parked vehicles keep to the kerb, beside a wider one to the lane, metres.
+/// In a strip narrower than this parked vehicles keep to the kerb, in a wider one to the lane, metres.
 const NARROW_KERB_M: f64 = 3.5;
 
 /// Which offsets and headings hold in a cell.

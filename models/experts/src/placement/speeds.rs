@@ -1,5 +1,5 @@
-//! Speeds of those who were placed: drawn last, those nearest to a conflict first and leaders before followers, so
-//! that everybody knows how fast the one in front is.
+//! Speeds of those who were placed: drawn last, those nearest to a conflict first and leaders before
+//! followers, so that everybody knows how fast the one in front is.
 
 use super::cells::Cells;
 use super::context::SpeedContext;
