@@ -125,6 +125,21 @@ impl Lane {
     }
 }
 
+/// Words for the type of a road line, in the order of WOMD's numbers.
+pub const ROAD_LINE_TYPES: [&str; 9] = [
+    "unknown",
+    "broken_single_white",
+    "solid_single_white",
+    "solid_double_white",
+    "broken_single_yellow",
+    "broken_double_yellow",
+    "solid_single_yellow",
+    "solid_double_yellow",
+    "passing_double_yellow",
+];
+/// Words for the type of a road edge: WOMD's, in the order of its numbers, then our own.
+pub const ROAD_EDGE_TYPES: [&str; 4] = ["unknown", "boundary", "median", "sidewalk"];
+
 /// A line with a type in the source's words (WOMD's names in snake case).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]

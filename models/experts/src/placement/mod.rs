@@ -5,19 +5,25 @@
 //! distributions, and whatever would touch somebody is drawn again. Speeds are drawn last, those nearest
 //! to a conflict first, so that everybody knows who is in front.
 
+mod assign;
+mod cells;
+mod checks;
+mod context;
+mod driving;
 pub mod learn;
 mod model;
-mod observe;
 mod place;
+mod placed;
 mod placer;
 mod pose;
 mod random;
 mod region;
-mod sites;
-mod speed;
-mod stops;
+mod request;
+mod speeds;
+mod stop_lines;
 
 pub use model::{PlacementInfo, PlacementModel};
-pub use place::{Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, place};
+pub use place::place;
 pub use placer::Placer;
 pub use region::{Region, map_bounds, ring_area_m2};
+pub use request::{Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement};

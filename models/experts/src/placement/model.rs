@@ -1,9 +1,10 @@
 //! The learned numbers: how often somebody is in a cell, and how they stand and move there.
 //!
-//! Rates are log-linear: per metre (per driveway) times one factor for each fact of the cell. The rest
+//! Rates are log-linear: per metre (per driveway) times one factor for each feature of the cell. The rest
 //! are histograms by context. All of it is one JSON file, small enough to read.
 
-use super::sites::{FACTS, Site, SiteKind};
+use super::cells::{Cell, CellKind, FEATURES};
+use super::context::{PoseContext, SpeedContext};
 use crate::weights::{PLACEMENT_FILE, WeightsError};
 use scene::{AgentType, ContentHash};
 use serde::{Deserialize, Serialize};
@@ -12,7 +13,7 @@ use std::collections::BTreeMap;
 /// Value of `format` in a weights file.
 pub const FORMAT: &str = "dragtraffic.placement";
 /// Value of `version`.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Largest weights file that is read, bytes.
 const MAX_BYTES: usize = 1 << 20;
 /// Classes of a speed histogram: standing, then shares of the speed that the place allows.
@@ -38,7 +39,7 @@ pub struct Histogram {
 pub struct Rate {
     /// Road users a metre (a driveway) where all factors are one.
     pub per_m: f64,
-    /// Factor by fact of the cell, then by its class.
+    /// Factor by feature of the cell, then by its class.
     pub factors: Vec<Vec<f64>>,
 }
 
@@ -46,16 +47,16 @@ pub struct Rate {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TypeModel {
-    /// By kind of place.
-    pub rates: BTreeMap<SiteKind, Rate>,
-    /// Boxes by kind of place: length and width in metres, share.
-    pub sizes: BTreeMap<SiteKind, Vec<[f64; 3]>>,
-    /// Offsets across the line of the cell by [`pose_context`], metres; on crosswalks in half widths.
-    pub lateral: BTreeMap<u16, Histogram>,
-    /// Heading against the line of the cell by [`pose_context`], radians.
-    pub heading: BTreeMap<u16, Histogram>,
-    /// Speeds as shares of what the place allows by speed context, [`SPEED_CLASSES`] each.
-    pub speed: BTreeMap<u16, Vec<f64>>,
+    /// By kind of cell.
+    pub rates: BTreeMap<CellKind, Rate>,
+    /// Boxes by kind of cell: length and width in metres, share.
+    pub sizes: BTreeMap<CellKind, Vec<[f64; 3]>>,
+    /// Offsets across the line of the cell by situation, metres; on crosswalks in half widths.
+    pub lateral: BTreeMap<PoseContext, Histogram>,
+    /// Heading against the line of the cell by situation, radians.
+    pub heading: BTreeMap<PoseContext, Histogram>,
+    /// Speeds as shares of what the place allows by situation, [`SPEED_CLASSES`] each.
+    pub speed: BTreeMap<SpeedContext, Vec<f64>>,
 }
 
 /// The file.
@@ -100,23 +101,23 @@ fn shares(values: &[f64]) -> bool {
 
 impl Rate {
     /// Expected road users in a cell.
-    pub(super) fn of(&self, site: &Site) -> f64 {
-        site.extent() * self.per_m * self.factor(&site.facts)
+    pub(super) fn of(&self, cell: &Cell) -> f64 {
+        cell.extent() * self.per_m * self.factor(&cell.features)
     }
 
-    /// Product of the factors of a cell's facts.
-    pub fn factor(&self, facts: &[u8; FACTS]) -> f64 {
-        let each = self.factors.iter().zip(facts);
+    /// Product of the factors of a cell's features.
+    pub fn factor(&self, features: &[u8; FEATURES]) -> f64 {
+        let each = self.factors.iter().zip(features);
         each.map(|(factors, class)| factors.get(usize::from(*class)).copied().unwrap_or(0.0)).product()
     }
 }
 
-/// Kinds of places where a type is.
-pub fn kinds(agent_type: AgentType) -> &'static [SiteKind] {
+/// Kinds of cells where a type is looked for.
+pub fn cell_kinds(agent_type: AgentType) -> &'static [CellKind] {
     match agent_type {
-        AgentType::Vehicle => &[SiteKind::Lane, SiteKind::Kerb, SiteKind::Driveway],
-        AgentType::Pedestrian => &[SiteKind::Crosswalk, SiteKind::Pavement],
-        AgentType::Cyclist => &[SiteKind::Lane, SiteKind::Crosswalk, SiteKind::Pavement],
+        AgentType::Vehicle => &[CellKind::Lane, CellKind::Kerb, CellKind::Driveway],
+        AgentType::Pedestrian => &[CellKind::Crosswalk, CellKind::Pavement],
+        AgentType::Cyclist => &[CellKind::Lane, CellKind::Crosswalk, CellKind::Pavement],
         AgentType::Other => &[],
     }
 }
@@ -145,7 +146,7 @@ impl PlacementModel {
         }
         for (agent_type, model) in &self.types {
             for (kind, rate) in &model.rates {
-                let classes = kind.classes();
+                let classes = kind.feature_classes();
                 let fits = rate.factors.len() == classes.len()
                     && rate.factors.iter().zip(classes).all(|(f, n)| f.len() == *n && shares(f));
                 if !fits || !shares(&[rate.per_m]) {

@@ -1,5 +1,6 @@
 //! Draws in proportion to weights that change.
 
+use scene::AgentType;
 use scene::random::{Key, Stream};
 
 /// The stream of a seed for a purpose of placement and one of its numbers.
@@ -7,14 +8,24 @@ pub(super) fn stream(seed: u64, purpose: &str, number: usize) -> Stream {
     Key::default().text("place").number(seed).number(number as u64).text(purpose).stream()
 }
 
+/// Name of a type in the key of its random streams.
+pub(super) fn stream_name(agent_type: AgentType) -> &'static str {
+    match agent_type {
+        AgentType::Vehicle => "vehicle",
+        AgentType::Pedestrian => "pedestrian",
+        AgentType::Cyclist => "cyclist",
+        AgentType::Other => "other",
+    }
+}
+
 /// Weights of many places, drawn from and changed in logarithmic time (a binary tree of sums).
-pub(super) struct Weights {
+pub(super) struct WeightTree {
     /// `sums[1]` is the whole; the children of `i` are `2 i` and `2 i + 1`.
     sums: Vec<f64>,
     leaves: usize,
 }
 
-impl Weights {
+impl WeightTree {
     pub(super) fn new(weights: &[f64]) -> Self {
         let leaves = weights.len().next_power_of_two().max(1);
         let mut sums = vec![0.0; 2 * leaves];
@@ -65,7 +76,7 @@ mod tests {
 
     #[test]
     fn draws_follow_the_weights() {
-        let mut weights = Weights::new(&[1.0, 0.0, 3.0, 4.0, 2.0]);
+        let mut weights = WeightTree::new(&[1.0, 0.0, 3.0, 4.0, 2.0]);
         weights.set(3, 0.0);
         let mut stream = stream(5, "test", 0);
         let mut counts = [0; 5];
@@ -80,6 +91,6 @@ mod tests {
             weights.set(at, 0.0);
         }
         assert_eq!(weights.draw(&mut stream), None);
-        assert_eq!(Weights::new(&[]).draw(&mut stream), None);
+        assert_eq!(WeightTree::new(&[]).draw(&mut stream), None);
     }
 }

@@ -117,7 +117,7 @@ impl<'a> World<'a> {
         let scene = scene.into();
         let agents = scene.agents.iter().zip(&conditions).enumerate();
         let mut present: Vec<AgentAtStart> =
-            agents.filter_map(|(index, (agent, c))| present(index, agent, c, step)).collect();
+            agents.filter_map(|(index, (agent, c))| AgentAtStart::at(index, agent, c, step)).collect();
         // Sums over road users run in this order, so that the scene's own order changes no byte.
         present.sort_by(|a, b| scene.agents[a.index].id.cmp(&scene.agents[b.index].id));
         let mut signals = Vec::new();
@@ -163,44 +163,46 @@ impl<'a> World<'a> {
 
     /// All others as obstacles of a route.
     pub fn obstacles(&self, but: usize) -> Vec<Obstacle> {
-        let others = self.present.iter().filter(|p| p.index != but);
-        others
-            .map(|p| Obstacle {
-                outline: OrientedBox::of_state(&p.start, &p.size),
-                speed_mps: p.start.speed_mps(),
-            })
-            .collect()
+        self.present.iter().filter(|p| p.index != but).map(AgentAtStart::obstacle).collect()
     }
 }
 
 impl AgentAtStart {
+    /// The road user at `step` with its conditions applied; `None` when nothing says where it is.
+    pub fn at(index: usize, agent: &Agent, conditions: &Conditions, step: usize) -> Option<Self> {
+        let logged = agent.state_at(step);
+        let fixed = &conditions.start;
+        let position = fixed.position.or(logged.map(|s| s.position()))?;
+        let heading_rad = fixed.heading_rad.or(logged.map(|s| s.heading_rad)).unwrap_or(0.0);
+        let velocity = match (fixed.speed_mps, logged) {
+            (Some(speed), _) => scene::geometry::direction(heading_rad) * speed,
+            // A turned start takes its speed with it.
+            (None, Some(s)) if fixed.heading_rad.is_some() => {
+                scene::geometry::direction(heading_rad) * s.speed_mps()
+            }
+            (None, Some(s)) => s.velocity(),
+            (None, None) => Vec2::zeros(),
+        };
+        let size = Size {
+            length_m: conditions.length_m.unwrap_or(agent.size.length_m),
+            width_m: conditions.width_m.unwrap_or(agent.size.width_m),
+            ..agent.size
+        };
+        let start =
+            State { x_m: position.x, y_m: position.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y };
+        Some(Self { index, agent_type: conditions.kind_of(agent), size, start })
+    }
+
     /// Pose at the start.
     pub fn pose(&self) -> Pose {
         Pose::new(self.start.position(), self.start.heading_rad)
     }
-}
 
-/// The road user at `step` with its conditions applied; `None` when nothing says where it is.
-fn present(index: usize, agent: &Agent, conditions: &Conditions, step: usize) -> Option<AgentAtStart> {
-    let logged = agent.state_at(step);
-    let fixed = &conditions.start;
-    let position = fixed.position.or(logged.map(|s| s.position()))?;
-    let heading_rad = fixed.heading_rad.or(logged.map(|s| s.heading_rad)).unwrap_or(0.0);
-    let velocity = match (fixed.speed_mps, logged) {
-        (Some(speed), _) => scene::geometry::direction(heading_rad) * speed,
-        // A turned start takes its speed with it.
-        (None, Some(s)) if fixed.heading_rad.is_some() => {
-            scene::geometry::direction(heading_rad) * s.speed_mps()
+    /// Its box and speed, as others see them.
+    pub fn obstacle(&self) -> Obstacle {
+        Obstacle {
+            outline: OrientedBox::of_state(&self.start, &self.size),
+            speed_mps: self.start.speed_mps(),
         }
-        (None, Some(s)) => s.velocity(),
-        (None, None) => Vec2::zeros(),
-    };
-    let size = Size {
-        length_m: conditions.length_m.unwrap_or(agent.size.length_m),
-        width_m: conditions.width_m.unwrap_or(agent.size.width_m),
-        ..agent.size
-    };
-    let start =
-        State { x_m: position.x, y_m: position.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y };
-    Some(AgentAtStart { index, agent_type: conditions.kind_of(agent), size, start })
+    }
 }

@@ -7,21 +7,6 @@ use scene::map::LaneType;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
 
-/// Words for the type of a road line, in the order of WOMD's numbers.
-pub const ROAD_LINE_TYPES: [&str; 9] = [
-    "unknown",
-    "broken_single_white",
-    "solid_single_white",
-    "solid_double_white",
-    "broken_single_yellow",
-    "broken_double_yellow",
-    "solid_single_yellow",
-    "solid_double_yellow",
-    "passing_double_yellow",
-];
-/// Words for the type of a road edge: WOMD's, in the order of its numbers, then our own.
-pub const ROAD_EDGE_TYPES: [&str; 4] = ["unknown", "boundary", "median", "sidewalk"];
-
 /// One more than a map may have: enough to be refused for, however many a document holds.
 const LINES: usize = MAX_POLYLINES + 1;
 /// Most links, neighbours or boundaries of one lane.
@@ -32,11 +17,11 @@ fn lane_types(_: &mut SchemaGenerator) -> Schema {
 }
 
 fn line_types(_: &mut SchemaGenerator) -> Schema {
-    words(&ROAD_LINE_TYPES)
+    words(&scene::map::ROAD_LINE_TYPES)
 }
 
 fn edge_types(_: &mut SchemaGenerator) -> Schema {
-    words(&ROAD_EDGE_TYPES)
+    words(&scene::map::ROAD_EDGE_TYPES)
 }
 
 /// A stretch of a lane's side and the line or edge that bounds it.

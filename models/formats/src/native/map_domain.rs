@@ -1,8 +1,8 @@
 //! Map documents to and from the domain's lane map.
 
 use super::map::{
-    AreaDoc, BoundaryDoc, DrivableDoc, LaneDoc, MapDoc, MapField, MapRef, NeighborDoc, ROAD_EDGE_TYPES,
-    ROAD_LINE_TYPES, RoadEdgeDoc, RoadLineDoc, StopSignDoc,
+    AreaDoc, BoundaryDoc, DrivableDoc, LaneDoc, MapDoc, MapField, MapRef, NeighborDoc, RoadEdgeDoc,
+    RoadLineDoc, StopSignDoc,
 };
 use super::value::{PointDoc, PointsDoc};
 use crate::limits::MAX_POLYLINES;
@@ -50,10 +50,10 @@ impl MapDoc {
             }
         };
         for (i, line) in self.road_lines.iter().enumerate() {
-            check("road_lines", i, &line.line_type, &ROAD_LINE_TYPES);
+            check("road_lines", i, &line.line_type, &scene::map::ROAD_LINE_TYPES);
         }
         for (i, edge) in self.road_edges.iter().enumerate() {
-            check("road_edges", i, &edge.line_type, &ROAD_EDGE_TYPES);
+            check("road_edges", i, &edge.line_type, &scene::map::ROAD_EDGE_TYPES);
         }
         self.check_counts(&mut problems);
         self.check_sign_ids(&mut problems);

@@ -24,8 +24,8 @@ pub use document::{FORMAT, MapForm, MetaDoc, OriginDoc, RunDoc, SceneDoc, Signal
 pub use generated::{AgentFuturesDoc, FutureDoc, GeneratedDoc, SampleDoc};
 pub use json::from_json;
 pub use map::{
-    AreaDoc, BoundaryDoc, DrivableDoc, LaneDoc, MapDoc, MapField, MapRef, NeighborDoc, ROAD_EDGE_TYPES,
-    ROAD_LINE_TYPES, RoadEdgeDoc, RoadLineDoc, StopSignDoc,
+    AreaDoc, BoundaryDoc, DrivableDoc, LaneDoc, MapDoc, MapField, MapRef, NeighborDoc, RoadEdgeDoc,
+    RoadLineDoc, StopSignDoc,
 };
 pub use resolve::{Context, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, Ranges, Window, check_goal_time};
 pub use value::{MAX_MEMBERS, MAX_SAFE_INTEGER, Members, PointDoc, PointsDoc, round_m, round_rad};

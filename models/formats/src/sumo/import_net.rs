@@ -1,27 +1,19 @@
 //! From a network file to a map about the origin, with its signals.
 
 use super::map::{MapOptions, SignalPlace, lane_map};
-use super::net::{LaneKind, Net, NetLane};
+use super::net::{LaneKind, Net, NetLane, too_large};
 use super::polyline::length;
 use super::programs::Program;
-use super::xml::{Event, Scanner};
-use super::{SumoError, unpack};
+use super::unpack;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS};
 use crate::problem::{FieldProblem, ReadError, Warning, code};
 use scene::map::LaneMap;
 use scene::{MAX_COORDINATE_M, STEP_S, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
-use std::io::Read;
 use std::sync::Arc;
 
 /// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
 const MAX_BYTES: u64 = 64 << 20;
-/// Most bytes of one tag: a shape with the most points a polyline may have, twice (`outlineShape`).
-const MAX_TAG: usize = 1 << 20;
-/// Most elements of a network.
-const MAX_ELEMENTS: usize = 600_000;
-/// Most attributes in a network.
-const MAX_ATTRIBUTES: usize = 4_000_000;
 /// Farthest a network's coordinate may lie from its own origin, metres.
 pub(super) const MAX_SOURCE_M: f64 = 1e8;
 
@@ -46,14 +38,7 @@ pub(super) struct NetScene {
 /// value that cannot be read, `cannot-represent` for another sort of file or one without lanes,
 /// `map-too-large` and `out-of-range` for what no scene can hold.
 pub(super) fn read(bytes: &[u8]) -> Result<NetScene, ReadError> {
-    let mut text = Vec::new();
-    let read = unpack::open(bytes, MAX_BYTES).read_to_end(&mut text);
-    read.map_err(|error| unpack::fault(&error, text.len() as u64))?;
-    check_xml(&text)?;
-    let text = String::from_utf8(text)
-        .map_err(|e| ReadError::malformed(e.utf8_error().valid_up_to() as u64, "not UTF-8"))?;
-    let mut net = Net::read(&text)?;
-    drop(text);
+    let mut net = Net::read_from(unpack::open(bytes, MAX_BYTES))?;
     let (origin, half) = check_net(&net)?;
     for lane in &mut net.lanes {
         lane.shape.iter_mut().for_each(|p| *p -= origin);
@@ -85,34 +70,6 @@ impl NetScene {
         };
         self.places.iter().filter_map(signal).collect()
     }
-}
-
-/// The tree that [`Net::read`] builds is bounded only if this has looked first: it grows with elements
-/// and attributes, and looks for twins among the attributes of an element.
-fn check_xml(text: &[u8]) -> Result<(), ReadError> {
-    let mut scanner = Scanner::new(text, MAX_TAG);
-    let (mut elements, mut attributes) = (0, 0);
-    while let Some(event) = scanner.next()? {
-        let Event::Start(element) = event else { continue };
-        elements += 1;
-        attributes += element.attributes.len();
-        if elements == 1 && element.name != "net" {
-            let found = format!("<{}>", element.name.chars().take(40).collect::<String>());
-            return Err(SumoError::Content { expected: "a SUMO network (<net>)", found }.into());
-        }
-        if elements > MAX_ELEMENTS || attributes > MAX_ATTRIBUTES {
-            return Err(too_large(format!(
-                "line {}: more than {MAX_ELEMENTS} elements or {MAX_ATTRIBUTES} attributes",
-                element.line
-            )));
-        }
-    }
-    Ok(())
-}
-
-fn too_large(detail: String) -> ReadError {
-    let advice = "cut a part out with netconvert --keep-edges.in-boundary";
-    FieldProblem::new("", code::MAP_TOO_LARGE, format!("{detail}; {advice}")).into()
 }
 
 /// Finds what no scene can hold before anything is drawn. Gives the middle of the network in whole

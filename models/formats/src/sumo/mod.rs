@@ -26,9 +26,9 @@ use crate::problem::{FieldProblem, ReadError, code};
 /// Why a SUMO file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SumoError {
-    /// Not well-formed XML (a document type definition is refused too).
-    #[error("not readable as XML: {0}")]
-    Xml(#[from] roxmltree::Error),
+    /// Not well-formed XML (a document type definition is refused too), broken gzip, or a bound that was met.
+    #[error("{0}")]
+    File(#[from] ReadError),
     /// A required attribute is not there.
     #[error("line {line}: <{element}> has no attribute \"{attribute}\"")]
     Missing {
@@ -69,9 +69,7 @@ impl From<SumoError> for ReadError {
     fn from(error: SumoError) -> Self {
         let detail = error.to_string();
         match error {
-            // A file that is broken has been refused with its byte before; what is left are oddities of
-            // namespaces, which have a line and column in their text.
-            SumoError::Xml(_) => Self::malformed(0, detail),
+            SumoError::File(error) => error,
             SumoError::Missing { .. } | SumoError::Value { .. } => {
                 FieldProblem::new("", code::INVALID_FIELD, detail).into()
             }

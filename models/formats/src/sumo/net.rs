@@ -1,13 +1,11 @@
-//! Reader of `net.xml`, the network that `netconvert` writes.
+//! The road network that `netconvert` writes (`net.xml`).
 
-use super::SumoError;
+mod read;
+
+pub(super) use read::too_large;
+
 use super::programs::Program;
-use roxmltree::{Document, Node, ParsingOptions};
 use scene::Vec2;
-use std::collections::HashMap;
-
-/// Most elements that are read from one file.
-const MOST_NODES: u32 = 4_000_000;
 
 /// Who uses a lane, from its permissions and its edge's function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -121,44 +119,6 @@ pub struct NetNotes {
 }
 
 impl Net {
-    /// Reads a network.
-    ///
-    /// # Errors
-    /// When the text is no XML, is no SUMO network, or a value cannot be read.
-    pub fn read(text: &str) -> Result<Self, SumoError> {
-        let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..Default::default() };
-        let document = Document::parse_with_options(text, options)?;
-        let root = document.root_element();
-        if !root.has_tag_name("net") {
-            let found = format!("<{}>", root.tag_name().name());
-            return Err(SumoError::Content { expected: "a SUMO network (<net>)", found });
-        }
-        let mut net = Self::default();
-        net.notes.left_hand = root.attribute("lefthand") == Some("true");
-        for node in root.children().filter(|n| n.has_tag_name("location")) {
-            net.notes.projected = !matches!(node.attribute("projParameter"), None | Some("!" | "-" | ""));
-        }
-        for node in root.children().filter(|n| n.has_tag_name("edge")) {
-            net.add_edge(node)?;
-        }
-        for node in root.children().filter(|n| n.has_tag_name("tlLogic")) {
-            net.programs.push(program(node)?);
-        }
-        for node in root.children().filter(|n| n.has_tag_name("junction")) {
-            if node.attribute("type") != Some("internal") {
-                let position = Vec2::new(number(node, "x")?, number(node, "y")?);
-                let kind = node.attribute("type").unwrap_or_default().to_owned();
-                net.junctions.push(NetJunction { id: required(node, "id")?.to_owned(), kind, position });
-            }
-        }
-        let by_id: HashMap<String, usize> =
-            net.lanes.iter().enumerate().map(|(i, l)| (l.id.clone(), i)).collect();
-        for node in root.children().filter(|n| n.has_tag_name("connection")) {
-            net.add_connection(node, &by_id)?;
-        }
-        Ok(net)
-    }
-
     /// The edge of a lane.
     pub fn edge_of(&self, lane: usize) -> &NetEdge {
         &self.edges[self.lanes[lane].edge]
@@ -168,163 +128,12 @@ impl Net {
     pub fn lanes_of(&self, edge: &NetEdge, kind: LaneKind) -> impl Iterator<Item = usize> {
         edge.lanes.iter().copied().filter(move |&l| self.lanes[l].kind == kind)
     }
-
-    fn add_edge(&mut self, node: Node<'_, '_>) -> Result<(), SumoError> {
-        let function = match node.attribute("function").unwrap_or("normal") {
-            "normal" | "connector" => EdgeFunction::Normal,
-            "internal" => EdgeFunction::Internal,
-            "crossing" => EdgeFunction::Crossing,
-            "walkingarea" => EdgeFunction::WalkingArea,
-            _ => return Ok(()),
-        };
-        let text = |name| node.attribute(name).unwrap_or_default().to_owned();
-        let mut edge = NetEdge {
-            id: required(node, "id")?.to_owned(),
-            function,
-            from: text("from"),
-            to: text("to"),
-            road_type: text("type"),
-            lanes: Vec::new(),
-        };
-        for lane in node.children().filter(|n| n.has_tag_name("lane")) {
-            edge.lanes.push(self.lanes.len());
-            self.lanes.push(NetLane {
-                id: required(lane, "id")?.to_owned(),
-                edge: self.edges.len(),
-                index: edge.lanes.len() - 1,
-                kind: kind_of(function, lane),
-                speed_mps: number(lane, "speed")?,
-                width_m: if lane.has_attribute("width") { number(lane, "width")? } else { 3.2 },
-                shape: shape(lane, &mut self.notes.heights)?,
-                successors: Vec::new(),
-                signal: None,
-                stops: false,
-            });
-        }
-        self.edges.push(edge);
-        Ok(())
-    }
-
-    fn add_connection(
-        &mut self,
-        node: Node<'_, '_>,
-        by_id: &HashMap<String, usize>,
-    ) -> Result<(), SumoError> {
-        let end = |edge, lane| -> Result<Option<usize>, SumoError> {
-            let id = format!("{}_{}", required(node, edge)?, required(node, lane)?);
-            Ok(by_id.get(&id).copied())
-        };
-        let (Some(from), Some(to)) = (end("from", "fromLane")?, end("to", "toLane")?) else { return Ok(()) };
-        let via = node.attribute("via").and_then(|id| by_id.get(id).copied());
-        self.lanes[from].successors.push(via.unwrap_or(to));
-        if let Some(via) = via.filter(|_| matches!(node.attribute("state"), Some("s" | "w"))) {
-            self.lanes[via].stops = true;
-        }
-        if let Some(program) = node.attribute("tl") {
-            let link = number(node, "linkIndex")?.max(0.0) as usize;
-            let ruled = match via {
-                Some(via) => Some(via),
-                None => (self.lanes[to].kind == LaneKind::Crossing).then_some(to),
-            };
-            if let Some(lane) = ruled {
-                self.lanes[lane].signal = Some((program.to_owned(), link));
-            }
-        }
-        Ok(())
-    }
-}
-
-fn kind_of(function: EdgeFunction, lane: Node<'_, '_>) -> LaneKind {
-    match function {
-        EdgeFunction::Crossing => return LaneKind::Crossing,
-        EdgeFunction::WalkingArea => return LaneKind::WalkingArea,
-        _ => {}
-    }
-    let Some(allow) = lane.attribute("allow").filter(|a| !a.is_empty() && *a != "all") else {
-        let closed = lane.attribute("disallow") == Some("all");
-        return if closed { LaneKind::Closed } else { LaneKind::Vehicle };
-    };
-    let only = |names: &[&str]| allow.split_whitespace().all(|class| names.contains(&class));
-    match allow {
-        _ if only(&["pedestrian", "wheelchair"]) => LaneKind::Sidewalk,
-        _ if only(&["bicycle", "scooter", "pedestrian", "wheelchair"]) => LaneKind::Bike,
-        _ if only(&["bus", "coach", "taxi"]) => LaneKind::Bus,
-        _ if only(&[
-            "tram",
-            "rail",
-            "rail_urban",
-            "rail_fast",
-            "rail_electric",
-            "subway",
-            "cable_car",
-            "ship",
-        ]) =>
-        {
-            LaneKind::Closed
-        }
-        _ => LaneKind::Vehicle,
-    }
-}
-
-fn line_of(node: Node<'_, '_>) -> u32 {
-    node.document().text_pos_at(node.range().start).row
-}
-
-fn required<'a>(node: Node<'a, '_>, attribute: &'static str) -> Result<&'a str, SumoError> {
-    node.attribute(attribute).ok_or_else(|| SumoError::Missing {
-        element: node.tag_name().name().to_owned(),
-        attribute,
-        line: line_of(node),
-    })
-}
-
-fn number(node: Node<'_, '_>, attribute: &'static str) -> Result<f64, SumoError> {
-    let text = required(node, attribute)?;
-    let value: Option<f64> = text.parse().ok().filter(|v: &f64| v.is_finite());
-    value.ok_or_else(|| SumoError::value(text, "a number", line_of(node)))
-}
-
-fn program(node: Node<'_, '_>) -> Result<Program, SumoError> {
-    let mut phases = Vec::new();
-    let mut jumps = false;
-    for phase in node.children().filter(|n| n.has_tag_name("phase")) {
-        let duration_s = number(phase, "duration")?;
-        if duration_s < 0.0 {
-            let found = phase.attribute("duration").unwrap_or_default();
-            return Err(SumoError::value(found, "a duration in seconds", line_of(phase)));
-        }
-        jumps |= phase.has_attribute("next");
-        phases.push((duration_s, required(phase, "state")?.as_bytes().to_vec()));
-    }
-    Ok(Program {
-        id: required(node, "id")?.to_owned(),
-        kind: node.attribute("type").unwrap_or("static").to_owned(),
-        offset_s: match node.attribute("offset") {
-            // The word means the time at which the simulation begins.
-            None | Some("begin") => 0.0,
-            Some(_) => number(node, "offset")?,
-        },
-        phases,
-        jumps,
-    })
-}
-
-fn shape(node: Node<'_, '_>, heights: &mut bool) -> Result<Vec<Vec2>, SumoError> {
-    let mut point = |text: &str| {
-        let mut values = text.split(',').map(|v| v.parse::<f64>().ok().filter(|v| v.is_finite()));
-        let point = Vec2::new(values.next()??, values.next()??);
-        *heights |= values.next().is_some();
-        Some(point)
-    };
-    let read = |text: &str| {
-        point(text).ok_or_else(|| SumoError::value(text, "a point such as 1.5,-2.0", line_of(node)))
-    };
-    required(node, "shape")?.split_whitespace().map(read).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sumo::SumoError;
 
     const SMALL: &str = r#"<net><edge id=":c_0" function="internal">
         <lane id=":c_0_0" index="0" disallow="pedestrian" speed="6.5" length="3" shape="10,0 13,0"/></edge>
@@ -351,9 +160,18 @@ mod tests {
     }
 
     #[test]
+    fn the_order_of_the_elements_does_not_matter() {
+        let (edges, links) = SMALL.split_at(SMALL.find("<connection").unwrap());
+        let links = links.trim_end_matches("</net>");
+        let turned = format!("<net>{links}{}</net>", edges.trim_start_matches("<net>"));
+        let (first, second) = (Net::read(SMALL).unwrap(), Net::read(&turned).unwrap());
+        assert_eq!(format!("{first:?}"), format!("{second:?}"));
+    }
+
+    #[test]
     fn refuses_what_is_no_network() {
         assert!(matches!(Net::read("<routes/>"), Err(SumoError::Content { .. })));
-        assert!(matches!(Net::read("<!DOCTYPE net><net/>"), Err(SumoError::Xml(_))));
+        assert!(matches!(Net::read("<!DOCTYPE net><net/>"), Err(SumoError::File(_))));
         let error = Net::read(&SMALL.replace("0,0 10,0", "0,zero")).unwrap_err();
         assert_eq!(error.to_string(), "line 7: \"0,zero\" found where a point such as 1.5,-2.0 was expected");
         assert!(matches!(Net::read("<net><edge/></net>"), Err(SumoError::Missing { attribute: "id", .. })));

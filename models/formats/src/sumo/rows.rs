@@ -148,7 +148,7 @@ impl XmlRows<'_> {
             }
             match element.name.as_str() {
                 "timestep" => {
-                    let time_s = time(required(&element, "time")?, self.time_s, element.line)?;
+                    let time_s = time(element.required("time")?, self.time_s, element.line)?;
                     self.time_s = Some(time_s);
                     return Ok(Some(Item::Step(time_s)));
                 }
@@ -171,17 +171,9 @@ impl XmlRows<'_> {
     }
 }
 
-fn required<'e>(element: &'e Element, attribute: &'static str) -> Result<&'e str, SumoError> {
-    element.get(attribute).ok_or_else(|| SumoError::Missing {
-        element: element.name.chars().take(40).collect(),
-        attribute,
-        line: element.line,
-    })
-}
-
 fn row_of(element: &Element) -> Result<Row, SumoError> {
     let line = element.line;
-    let text = |attribute| required(element, attribute);
+    let text = |attribute| element.required(attribute);
     Ok(Row {
         id: id(text("id")?, line)?,
         person: element.name == "person",

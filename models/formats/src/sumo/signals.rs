@@ -1,9 +1,12 @@
 //! Reader of recorded signal states (`SaveTLSStates` output).
 
 use super::SumoError;
-use roxmltree::{Document, ParsingOptions};
+use super::xml::{Event, Scanner};
 use scene::SignalState;
 use std::collections::HashMap;
+
+/// Most bytes of one row; it has a letter for each link of a signal.
+const MAX_TAG: usize = 64 << 10;
 
 /// States of all signal programs over time.
 #[derive(Clone, Debug, Default)]
@@ -17,18 +20,17 @@ impl SignalLog {
     /// # Errors
     /// When the text is no XML or a time is no number.
     pub fn read(text: &str) -> Result<Self, SumoError> {
-        let options = ParsingOptions { allow_dtd: false, nodes_limit: 4_000_000, ..Default::default() };
-        let document = Document::parse_with_options(text, options)?;
+        let mut scanner = Scanner::new(text.as_bytes(), MAX_TAG);
         let mut log = Self::default();
-        for node in document.root_element().children().filter(|n| n.has_tag_name("tlsState")) {
-            let (Some(id), Some(time), Some(state)) =
-                (node.attribute("id"), node.attribute("time"), node.attribute("state"))
+        while let Some(event) = scanner.next()? {
+            let Event::Start(row) = event else { continue };
+            let (true, Some(id), Some(time), Some(state)) =
+                (row.name == "tlsState", row.get("id"), row.get("time"), row.get("state"))
             else {
                 continue;
             };
-            let time_s: f64 = time.parse().map_err(|_| {
-                SumoError::value(time, "a time in seconds", document.text_pos_at(node.range().start).row)
-            })?;
+            let time_s: f64 =
+                time.parse().map_err(|_| SumoError::value(time, "a time in seconds", row.line))?;
             let rows = log.programs.entry(id.to_owned()).or_default();
             if rows.last().is_none_or(|(_, last)| last != state.as_bytes()) {
                 rows.push((time_s, state.as_bytes().to_vec()));

@@ -1,10 +1,17 @@
-//! A pull scanner for the XML that SUMO writes: elements and attributes, no text.
+//! A pull scanner for the XML that SUMO writes: elements and attributes, no text. All of SUMO's files are
+//! read with it.
 //!
 //! XML 1.0 without document type definitions (so there are no entities but the five of section 4.6 and
 //! character references), bounded in depth, in attributes and in the length of a tag. Memory does not
 //! grow with the file.
+//!
+//! Why not a library: on an FCD of 50 MB (366,000 elements) this scanner took 0.41 to 0.49 s, quick-xml
+//! (0.42) took 0.44 to 0.63 s, and roxmltree 0.62 to 0.86 s with a tree of 336 MB. quick-xml keeps a whole
+//! text, comment or tag in memory (51 to 105 MB where one fills a file of 50 MB; here 2 MB) and bounds
+//! neither depth nor attributes, so lines, bounds, the root and what is left open at the end would still be
+//! ours to check.
 
-use super::unpack;
+use super::{SumoError, unpack};
 use crate::problem::ReadError;
 use std::io::{self, BufRead};
 
@@ -25,6 +32,16 @@ pub(super) struct Element {
 impl Element {
     pub fn get(&self, name: &str) -> Option<&str> {
         self.attributes.iter().find(|(n, _)| n == name).map(|(_, value)| value.as_str())
+    }
+
+    /// # Errors
+    /// When the attribute is not there.
+    pub fn required(&self, attribute: &'static str) -> Result<&str, SumoError> {
+        self.get(attribute).ok_or_else(|| SumoError::Missing {
+            element: shown(&self.name),
+            attribute,
+            line: self.line,
+        })
     }
 }
 

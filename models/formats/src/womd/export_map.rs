@@ -7,9 +7,9 @@ use super::proto::{
     TypedLine,
 };
 use crate::loss::{Loss, code};
-use crate::native::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use scene::LaneMap;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points};
+use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// First number given to a feature whose id is no number.

@@ -5,9 +5,9 @@ use super::proto::{
     BoundarySegment, FeatureData, LaneCenter, LaneNeighbor, MapFeature, MapPoint, Polygon, StopSign,
     TypedLine,
 };
-use crate::native::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use crate::problem::Warning;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points, StopSign as Sign, TypedLine as Line};
+use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use scene::{LaneMap, Vec2};
 
 /// Metres a second in a mile an hour.

@@ -3,8 +3,8 @@
 use crate::scenes::{read_scenes, scene_files};
 use anyhow::{Result, ensure};
 use experts::placement::learn::{
-    ANY_CONTEXT, CellCounts, FORMAT, Histogram, Observation, PlacementModel, Rate, SPEED_CLASSES, SiteKind,
-    TypeModel, VERSION, fact_classes, group_context, heading_classes, kinds, lateral_classes, observe,
+    CellCounts, CellKind, FORMAT, Histogram, Observation, PlacementModel, PoseContext, Rate, SPEED_CLASSES,
+    SpeedContext, TypeModel, VERSION, cell_kinds, heading_classes, lateral_classes, observe,
 };
 use rayon::prelude::*;
 use scene::routes::LaneGraph;
@@ -14,9 +14,9 @@ use std::path::{Path, PathBuf};
 
 /// Steps of a window that are looked at; between them the traffic has moved on.
 const STEPS: [usize; 3] = [0, 45, 90];
-/// Sweeps over the factors; each step is exact for one fact, and they settle quickly.
+/// Sweeps over the factors; each step is exact for one feature, and they settle quickly.
 const SWEEPS: usize = 60;
-/// Road users that a class of a fact is held to have had at the average rate: rare classes stay near it.
+/// Road users that a class of a feature is held to have had at the average rate: rare classes stay near it.
 const PRIOR_COUNT: f64 = 2.0;
 /// The same of a speed context, towards the one without the leader.
 const PRIOR_SPEEDS: f64 = 8.0;
@@ -45,7 +45,7 @@ pub struct PlacementSummary {
     pub unreadable: usize,
     pub scenes: u64,
     /// Road users in cells by type and kind of place.
-    pub seen: BTreeMap<AgentType, BTreeMap<SiteKind, f64>>,
+    pub seen: BTreeMap<AgentType, BTreeMap<CellKind, f64>>,
     /// Road users in no cell, by type.
     pub nowhere: BTreeMap<AgentType, usize>,
 }
@@ -55,10 +55,10 @@ pub struct PlacementSummary {
 struct Sums {
     scenes: u64,
     cells: CellCounts,
-    lateral: BTreeMap<(AgentType, u16), Vec<f64>>,
-    heading: BTreeMap<(AgentType, u16), Vec<f64>>,
-    boxes: BTreeMap<(AgentType, SiteKind), BTreeMap<(u32, u32), Box2>>,
-    speeds: BTreeMap<AgentType, BTreeMap<u16, Vec<f64>>>,
+    lateral: BTreeMap<(AgentType, PoseContext), Vec<f64>>,
+    heading: BTreeMap<(AgentType, PoseContext), Vec<f64>>,
+    boxes: BTreeMap<(AgentType, CellKind), BTreeMap<(u32, u32), Box2>>,
+    speeds: BTreeMap<AgentType, BTreeMap<SpeedContext, Vec<f64>>>,
     nowhere: BTreeMap<AgentType, usize>,
 }
 
@@ -142,7 +142,7 @@ impl Sums {
         }
         for (agent_type, context, class) in seen.speeds {
             let of_type = self.speeds.entry(agent_type).or_default();
-            for context in contexts(context) {
+            for context in context.with_broader() {
                 of_type.entry(context).or_insert_with(|| vec![0.0; SPEED_CLASSES])[class] += 1.0;
             }
         }
@@ -188,7 +188,7 @@ impl Sums {
         let mut types = BTreeMap::new();
         for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
             let mut model = TypeModel::default();
-            for &kind in kinds(agent_type) {
+            for &kind in cell_kinds(agent_type) {
                 if let Some(rate) = self.rate(agent_type, kind) {
                     model.rates.insert(kind, rate);
                 }
@@ -197,8 +197,8 @@ impl Sums {
                     model.sizes.insert(kind, boxes);
                 }
             }
-            let of_type = |all: &BTreeMap<(AgentType, u16), Vec<f64>>,
-                           classes: fn(u16) -> (f64, f64, usize)| {
+            let of_type = |all: &BTreeMap<(AgentType, PoseContext), Vec<f64>>,
+                           classes: fn(PoseContext) -> (f64, f64, usize)| {
                 let own = all.iter().filter(|((t, _), _)| *t == agent_type);
                 own.map(|((_, context), values)| (*context, histogram(values, classes(*context)))).collect()
             };
@@ -219,33 +219,34 @@ impl Sums {
 
     /// Poisson regression by backfitting: each factor in turn is set so that its classes have the
     /// observed number of road users.
-    fn rate(&self, agent_type: AgentType, kind: SiteKind) -> Option<Rate> {
+    fn rate(&self, agent_type: AgentType, kind: CellKind) -> Option<Rate> {
         let own = || self.cells.iter().filter(|((t, k, _), _)| *t == agent_type && *k == kind);
         let (extent, count) = own().fold((0.0, 0.0), |sum, (_, c)| (sum.0 + c.0, sum.1 + c.1));
         if extent <= 0.0 {
             return None;
         }
-        let factors = fact_classes(kind).iter().map(|n| vec![1.0; *n]).collect();
+        let factors = kind.feature_classes().iter().map(|n| vec![1.0; *n]).collect();
         let mut rate = Rate { per_m: count / extent, factors };
         for _ in 0..SWEEPS {
-            for fact in 0..rate.factors.len() {
-                let classes = rate.factors[fact].len();
+            for feature in 0..rate.factors.len() {
+                let classes = rate.factors[feature].len();
                 let (mut seen, mut expected) = (vec![PRIOR_COUNT; classes], vec![PRIOR_COUNT; classes]);
-                for ((_, _, facts), (extent, count)) in own() {
-                    let class = usize::from(facts[fact]);
+                for ((_, _, features), (extent, count)) in own() {
+                    let class = usize::from(features[feature]);
                     seen[class] += count;
-                    expected[class] += extent * rate.per_m * rate.factor(facts);
+                    expected[class] += extent * rate.per_m * rate.factor(features);
                 }
                 for (factor, (seen, expected)) in
-                    rate.factors[fact].iter_mut().zip(seen.iter().zip(&expected))
+                    rate.factors[feature].iter_mut().zip(seen.iter().zip(&expected))
                 {
                     // The prior pulls towards one, not towards the value of the last sweep.
                     let without = (expected - PRIOR_COUNT) / *factor;
                     *factor = (seen / (without + PRIOR_COUNT)).max(1e-6);
                 }
             }
-            let expected: f64 =
-                own().map(|((_, _, facts), (extent, _))| extent * rate.per_m * rate.factor(facts)).sum();
+            let expected: f64 = own()
+                .map(|((_, _, features), (extent, _))| extent * rate.per_m * rate.factor(features))
+                .sum();
             if expected > 0.0 {
                 rate.per_m *= count / expected;
             }
@@ -254,11 +255,6 @@ impl Sums {
         rate.factors.iter_mut().flatten().for_each(|f| *f = short(*f));
         Some(rate)
     }
-}
-
-/// A speed context and those it falls back on.
-fn contexts(context: u16) -> Vec<u16> {
-    if context < 1000 { vec![context, group_context(context), ANY_CONTEXT] } else { vec![context] }
 }
 
 /// Three digits are what the data say.
@@ -310,8 +306,8 @@ fn common_boxes(classes: &BTreeMap<(u32, u32), Box2>) -> Vec<[f64; 3]> {
 }
 
 /// Shares by context, rare contexts drawn towards the one without the leader.
-fn speed_rows(counts: &BTreeMap<u16, Vec<f64>>) -> BTreeMap<u16, Vec<f64>> {
-    let blended = |context: u16, row: &Vec<f64>, prior: Option<&Vec<f64>>| {
+fn speed_rows(counts: &BTreeMap<SpeedContext, Vec<f64>>) -> BTreeMap<SpeedContext, Vec<f64>> {
+    let blended = |context: SpeedContext, row: &Vec<f64>, prior: Option<&Vec<f64>>| {
         let total: f64 = row.iter().sum();
         let shares = (0..SPEED_CLASSES).map(|class| {
             let before = prior.map_or(0.0, |p| PRIOR_SPEEDS * p[class]);
@@ -319,18 +315,15 @@ fn speed_rows(counts: &BTreeMap<u16, Vec<f64>>) -> BTreeMap<u16, Vec<f64>> {
         });
         (context, shares.collect::<Vec<f64>>())
     };
-    let mut rows: BTreeMap<u16, Vec<f64>> = BTreeMap::new();
-    // From the general to the particular: 2000, then 1000 and on, then the rest.
-    let (leading, whole): (Vec<_>, Vec<_>) = counts.iter().partition(|(c, _)| **c < 1000);
-    for (context, row) in whole.into_iter().rev().chain(leading) {
+    let mut rows: BTreeMap<SpeedContext, Vec<f64>> = BTreeMap::new();
+    // From the general to the particular, so that what a row leans on is there before it.
+    let mut general_first: Vec<_> = counts.iter().collect();
+    general_first.sort_by_key(|(context, _)| context.with_broader().count());
+    for (context, row) in general_first {
         if row.iter().sum::<f64>() < LEAST_SPEEDS {
             continue;
         }
-        let parent = match *context {
-            c if c < 1000 => Some(group_context(c)),
-            c if c < ANY_CONTEXT => Some(ANY_CONTEXT),
-            _ => None,
-        };
+        let parent = context.broader();
         let (context, shares) = blended(*context, row, parent.and_then(|p| rows.get(&p)));
         rows.insert(context, shares);
     }
@@ -340,25 +333,26 @@ fn speed_rows(counts: &BTreeMap<u16, Vec<f64>>) -> BTreeMap<u16, Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use experts::placement::learn::{LeaderGap, LeaderPace, RoadAhead};
 
     #[test]
     fn factors_are_found_again() {
-        // Twice as many in class 1 of the first fact, three times in class 2 of the second.
+        // Twice as many in class 1 of the first feature, three times in class 2 of the second.
         let mut sums = Sums::default();
         for a in 0..4u8 {
             for b in 0..5u8 {
                 let rate = 0.01 * if a == 1 { 2.0 } else { 1.0 } * if b == 2 { 3.0 } else { 1.0 };
                 let extent = 1e6 + 1e5 * f64::from(a * b);
-                let cell = (AgentType::Pedestrian, SiteKind::Pavement, [a, b, 0, 0, 0, 0]);
+                let cell = (AgentType::Pedestrian, CellKind::Pavement, [a, b, 0, 0, 0, 0]);
                 sums.cells.insert(cell, (extent, extent * rate));
             }
         }
-        let rate = sums.rate(AgentType::Pedestrian, SiteKind::Pavement).unwrap();
+        let rate = sums.rate(AgentType::Pedestrian, CellKind::Pavement).unwrap();
         let of = |a: u8, b: u8| rate.per_m * rate.factor(&[a, b, 0, 0, 0, 0]);
         for (a, b, expected) in [(0, 0, 0.01), (1, 0, 0.02), (0, 2, 0.03), (1, 2, 0.06)] {
             assert!((of(a, b) / expected - 1.0).abs() < 0.01, "{a} {b}: {} for {expected}", of(a, b));
         }
-        assert!(sums.rate(AgentType::Cyclist, SiteKind::Pavement).is_none());
+        assert!(sums.rate(AgentType::Cyclist, CellKind::Pavement).is_none());
     }
 
     #[test]
@@ -369,14 +363,17 @@ mod tests {
             row[class] = n;
             row
         };
-        counts.insert(ANY_CONTEXT, row(10, 1000.0));
-        counts.insert(group_context(3), row(10, 1000.0));
-        counts.insert(3, row(0, 24.0));
-        counts.insert(4, row(0, 1.0));
+        counts.insert(SpeedContext::AnyDriver, row(10, 1000.0));
+        let clear = RoadAhead::Clear;
+        let follows = |pace| SpeedContext::Driver(clear, Some((LeaderGap::Within4M, pace)));
+        let (common, rare) = (follows(LeaderPace::Slow), follows(LeaderPace::Fast));
+        counts.insert(SpeedContext::DriverAnyLeader(clear), row(10, 1000.0));
+        counts.insert(common, row(0, 24.0));
+        counts.insert(rare, row(0, 1.0));
         let rows = speed_rows(&counts);
-        assert_eq!((rows[&3][0], rows[&3][10]), (0.75, 0.25));
-        assert!(!rows.contains_key(&4));
-        assert_eq!(rows[&ANY_CONTEXT][10], 1.0);
+        assert_eq!((rows[&common][0], rows[&common][10]), (0.75, 0.25));
+        assert!(!rows.contains_key(&rare));
+        assert_eq!(rows[&SpeedContext::AnyDriver][10], 1.0);
     }
 
     #[test]

@@ -1,8 +1,7 @@
 //! How fast a place may be driven, and what a driver there has in front.
 
 use super::model::{SPEED_CLASSES, SPEED_STEP};
-use super::sites::SiteKind;
-use super::stops::{Ahead, straightest};
+use super::stop_lines::straightest;
 use scene::STANDING_MPS;
 use scene::geometry::obb::OrientedBox;
 use scene::routes::speed::{Leader, Obstacle, leader};
@@ -12,8 +11,8 @@ use scene::{AgentType, Vec2};
 /// How far ahead bends are braked for, metres.
 const BEND_LOOK_M: f64 = 20.0;
 /// How far ahead a leader matters, metres.
-pub(super) const LEADER_LOOK_M: f64 = 45.0;
-/// Sideways acceleration in bends and braking ahead of them, m/s2 (as routes have them).
+const LEADER_LOOK_M: f64 = 45.0;
+/// Sideways acceleration in bends and braking ahead of them, m/s2 (the figure that routes use).
 const BEND_MPS2: f64 = 2.2;
 /// No cyclist is expected to be faster, m/s.
 const CYCLIST_MPS: f64 = 7.0;
@@ -67,32 +66,6 @@ pub(super) fn leader_ahead(
     Some(Leader { index: index[found.index], ..found })
 }
 
-/// Class of what is ahead of a driver, for speeds: the place, then gap and speed of the leader.
-pub(super) fn drive_context(ahead: Ahead, leader: Option<(f64, f64)>) -> u16 {
-    let following = match leader {
-        Some((gap_m, speed_mps)) if gap_m < 40.0 => {
-            let gap = [4.0, 8.0, 15.0, 25.0].iter().filter(|b| gap_m >= **b).count();
-            let pace = if speed_mps < 0.5 { 0 } else { 1 + usize::from(speed_mps > 5.0) };
-            1 + 3 * gap + pace
-        }
-        _ => 0,
-    };
-    (16 * ahead.group() + following) as u16
-}
-
-/// The context without the leader, in place of one that was too rare.
-pub fn group_context(context: u16) -> u16 {
-    1000 + context / 16
-}
-
-/// Speeds of all contexts together.
-pub const ANY_CONTEXT: u16 = 2000;
-
-/// Context of speeds off the lanes.
-pub(super) fn walk_context(kind: SiteKind) -> u16 {
-    3000 + kind as u16
-}
-
 /// Class of a speed in units of what is allowed.
 pub fn speed_class(speed_mps: f64, unit_mps: f64) -> usize {
     if speed_mps < STANDING_MPS {
@@ -100,5 +73,3 @@ pub fn speed_class(speed_mps: f64, unit_mps: f64) -> usize {
     }
     (1 + (speed_mps / unit_mps.max(0.1) / SPEED_STEP) as usize).min(SPEED_CLASSES - 1)
 }
-
-const _: () = assert!(16 * Ahead::GROUPS < 1000);

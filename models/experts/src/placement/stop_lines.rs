@@ -1,5 +1,6 @@
 //! What a driver on a lane has to stop for: lights, stop signs, junctions.
 
+use super::context::RoadAhead;
 use scene::routes::LaneGraph;
 use scene::{Scene, SignalState};
 use std::collections::HashMap;
@@ -10,18 +11,20 @@ pub(super) const LOOK_M: f64 = 80.0;
 const MAX_HOPS: usize = 12;
 /// A stop line this little behind still counts as ahead, metres.
 const PASSED_M: f64 = 0.5;
+/// Room that a driver keeps to a red light's stop line, metres.
+pub(super) const STOP_LINE_M: f64 = 0.3;
 /// Upper bounds of the distance classes, metres.
 const NEAR_M: [f64; 6] = [4.0, 10.0, 18.0, 30.0, 50.0, LOOK_M];
 
-/// What stands at the next stop line.
+/// What rules the next stop line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum StopKind {
+pub(super) enum StopControl {
     /// A junction without lights.
-    Open,
+    Unsignalled,
     /// A stop sign.
-    Sign,
+    StopSign,
     /// Lights of which at least one way is not red.
-    Go,
+    NotRed,
     /// Lights, all ways red.
     Red,
 }
@@ -32,7 +35,7 @@ pub(super) enum Ahead {
     /// Nothing to stop for within [`LOOK_M`].
     Nothing,
     /// A stop line at this distance, metres.
-    Stop(StopKind, f64),
+    StopLine(StopControl, f64),
     /// Inside a junction; its light, if it has one that is lit, is red or not.
     Inside(Option<bool>),
 }
@@ -45,7 +48,7 @@ impl Ahead {
             Self::Inside(None) => 1,
             Self::Inside(Some(false)) => 2,
             Self::Inside(Some(true)) => 3,
-            Self::Stop(kind, distance_m) => {
+            Self::StopLine(kind, distance_m) => {
                 let near = NEAR_M.iter().filter(|m| distance_m >= **m).count().min(NEAR_M.len() - 1);
                 4 + kind as usize * NEAR_M.len() + near
             }
@@ -54,36 +57,35 @@ impl Ahead {
 
     pub(super) const CLASSES: usize = 4 + 4 * NEAR_M.len();
 
-    /// Class of the place for speeds, below [`Self::GROUPS`].
-    pub(super) fn group(self) -> usize {
+    /// Class of the place for speeds.
+    pub(super) fn road_ahead(self) -> RoadAhead {
+        use StopControl::{NotRed, Red, StopSign, Unsignalled};
         match self {
-            Self::Nothing => 0,
-            Self::Inside(Some(true)) => 2,
-            Self::Inside(_) => 1,
-            Self::Stop(StopKind::Open | StopKind::Sign, m) if m < 12.0 => 3,
-            Self::Stop(StopKind::Open | StopKind::Sign, m) if m < 30.0 => 4,
-            Self::Stop(StopKind::Go, m) if m < 30.0 => 5,
-            Self::Stop(StopKind::Red, m) if m < 10.0 => 6,
-            Self::Stop(StopKind::Red, m) if m < 25.0 => 7,
-            Self::Stop(StopKind::Red, m) if m < 50.0 => 8,
-            Self::Stop(..) => 0,
+            Self::Nothing => RoadAhead::Clear,
+            Self::Inside(Some(true)) => RoadAhead::JunctionOnRed,
+            Self::Inside(_) => RoadAhead::Junction,
+            Self::StopLine(Unsignalled | StopSign, m) if m < 12.0 => RoadAhead::YieldWithin12M,
+            Self::StopLine(Unsignalled | StopSign, m) if m < 30.0 => RoadAhead::YieldWithin30M,
+            Self::StopLine(NotRed, m) if m < 30.0 => RoadAhead::GoWithin30M,
+            Self::StopLine(Red, m) if m < 10.0 => RoadAhead::RedWithin10M,
+            Self::StopLine(Red, m) if m < 25.0 => RoadAhead::RedWithin25M,
+            Self::StopLine(Red, m) if m < 50.0 => RoadAhead::RedWithin50M,
+            Self::StopLine(..) => RoadAhead::Clear,
         }
     }
-
-    pub(super) const GROUPS: usize = 9;
 
     /// Distance to a stop line, metres; infinite without one.
     pub(super) fn stop_m(self) -> f64 {
         match self {
-            Self::Stop(_, m) => m,
+            Self::StopLine(_, m) => m,
             _ => f64::INFINITY,
         }
     }
 
     /// Traffic queues here: a red light or a stop sign is near.
     pub(super) fn queues(self) -> bool {
-        matches!(self, Self::Stop(StopKind::Red, m) if m < 50.0)
-            || matches!(self, Self::Stop(StopKind::Sign | StopKind::Open, m) if m < 18.0)
+        matches!(self, Self::StopLine(StopControl::Red, m) if m < 50.0)
+            || matches!(self, Self::StopLine(StopControl::StopSign | StopControl::Unsignalled, m) if m < 18.0)
     }
 }
 
@@ -105,7 +107,7 @@ impl Lights {
     /// What is ahead of the place at `s_m` of a lane.
     pub(super) fn ahead(&self, graph: &LaneGraph, lane: usize, s_m: f64) -> Ahead {
         let lanes = graph.lanes();
-        let kind = |red: bool| if red { StopKind::Red } else { StopKind::Go };
+        let kind = |red: bool| if red { StopControl::Red } else { StopControl::NotRed };
         if lanes[lane].interpolating {
             return Ahead::Inside(self.0.get(&lane).map(|(state, _)| state.is_stop()));
         }
@@ -116,7 +118,7 @@ impl Lights {
                 return stop(kind(state.is_stop()), travelled_m + stop_m - s);
             }
             if let Some(stop_m) = here.stop_sign_m.filter(|stop| *stop >= s - PASSED_M) {
-                return stop(StopKind::Sign, travelled_m + stop_m - s);
+                return stop(StopControl::StopSign, travelled_m + stop_m - s);
             }
             travelled_m += here.path.length_m() - s;
             if travelled_m > LOOK_M {
@@ -127,7 +129,7 @@ impl Lights {
                 return stop(kind(lit().all(|(state, _)| state.is_stop())), travelled_m + line_m);
             }
             if here.successors.iter().any(|next| lanes[*next].interpolating) {
-                return stop(StopKind::Open, travelled_m);
+                return stop(StopControl::Unsignalled, travelled_m);
             }
             let Some(next) = straightest(graph, at) else { return Ahead::Nothing };
             (at, s) = (next, 0.0);
@@ -136,8 +138,8 @@ impl Lights {
     }
 }
 
-fn stop(kind: StopKind, distance_m: f64) -> Ahead {
-    if distance_m < LOOK_M { Ahead::Stop(kind, distance_m.max(0.0)) } else { Ahead::Nothing }
+fn stop(kind: StopControl, distance_m: f64) -> Ahead {
+    if distance_m < LOOK_M { Ahead::StopLine(kind, distance_m.max(0.0)) } else { Ahead::Nothing }
 }
 
 /// The successor that turns least by its end.

@@ -1,0 +1,218 @@
+//! Where road users can be: short cells of lanes, kerbs, crosswalks and pavements, each with the few
+//! features of its surroundings that say how often somebody is there.
+
+mod build;
+
+use super::context::SpeedContext;
+use super::model::cell_kinds;
+use super::region::{Region, in_ring};
+use super::stop_lines::{Ahead, Lights};
+use scene::routes::Polyline;
+use scene::routes::graph::LaneGraph;
+use scene::{AgentType, Scene, Vec2};
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+
+/// Length of a cell, metres, on maps that are not huge.
+const CELL_M: f64 = 5.0;
+/// Most cells; larger maps get longer ones.
+const MAX_CELLS: f64 = 40_000.0;
+/// Most features of a cell.
+pub(super) const FEATURES: usize = 6;
+/// Index of the gap to the leader among a lane cell's features.
+pub(super) const LEADER_GAP: usize = 5;
+/// Upper bounds of the classes of distance to the leader, centre to centre, metres.
+const LEADER_M: [f64; 7] = [7.0, 10.0, 14.0, 20.0, 30.0, 40.0, f64::INFINITY];
+/// Farthest leader that counts, metres.
+const LEADER_REACH_M: f64 = 40.0;
+
+/// Sort of cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CellKind {
+    /// On a lane, driving or waiting.
+    Lane,
+    /// Parked between a lane and the kerb, or beside a lane without one.
+    Kerb,
+    /// On a crosswalk.
+    Crosswalk,
+    /// On the pavement along a road edge, or on a sidewalk lane.
+    Pavement,
+    /// Parked in a driveway.
+    Driveway,
+}
+
+impl CellKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Lane, Self::Kerb, Self::Crosswalk, Self::Pavement, Self::Driveway];
+
+    /// The situation that speeds off the lanes are learned by; `None` for drivers and parked vehicles.
+    pub(super) fn speed_context(self) -> Option<SpeedContext> {
+        match self {
+            Self::Crosswalk => Some(SpeedContext::Crosswalk),
+            Self::Pavement => Some(SpeedContext::Pavement),
+            Self::Lane | Self::Kerb | Self::Driveway => None,
+        }
+    }
+
+    /// How many classes each feature has.
+    pub fn feature_classes(self) -> &'static [usize] {
+        match self {
+            Self::Lane => const { &[8, 7, Ahead::CLASSES, 5, 9, 2 * (LEADER_M.len() + 1)] },
+            Self::Kerb => &[7, 2, 7, 4, 8],
+            Self::Crosswalk => &[2],
+            Self::Pavement => &[4, 5, 7, 2],
+            Self::Driveway => &[],
+        }
+    }
+}
+
+/// One cell.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub(super) kind: CellKind,
+    /// Graph lane; of a pavement without lane the road edge; of a driveway its index.
+    pub(super) line: usize,
+    /// A pavement that is a sidewalk lane.
+    pub(super) on_lane: bool,
+    pub(super) from_m: f64,
+    pub(super) to_m: f64,
+    pub(super) center: Vec2,
+    /// Kerbs: +1 left of the lane, -1 right. Pavements along an edge: the side away from the road.
+    pub(super) side: f64,
+    /// Kerbs: from the lane's border to the kerb, metres; infinite without one.
+    pub(super) free_m: f64,
+    pub(super) features: [u8; FEATURES],
+    pub(super) ahead: Ahead,
+}
+
+impl Cell {
+    /// What its rate is multiplied by: metres, or one for a driveway.
+    pub(super) fn extent(&self) -> f64 {
+        if self.kind == CellKind::Driveway { 1.0 } else { self.to_m - self.from_m }
+    }
+}
+
+/// All cells of a scene at one moment.
+pub(super) struct Cells<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) graph: &'a LaneGraph,
+    pub(super) lights: Lights,
+    /// Road edges as lines.
+    pub(super) edges: Vec<Polyline>,
+    pub(super) all: Vec<Cell>,
+    /// By graph lane: the cells of kind lane, of which the first may not be the lane's own first.
+    by_lane: HashMap<usize, LaneCells>,
+}
+
+struct LaneCells {
+    /// Indices into the scene's cells.
+    held: Range<usize>,
+    /// Number along the lane of the first one held.
+    first: usize,
+    /// Cells of the whole lane.
+    count: usize,
+}
+
+fn class(value: f64, bounds: &[f64]) -> u8 {
+    bounds.iter().filter(|b| value >= **b).count() as u8
+}
+
+impl<'a> Cells<'a> {
+    /// Cells whose centre may lie in the region, with the features that hold at `step`.
+    pub(super) fn new(scene: &'a Scene, graph: &'a LaneGraph, step: usize, region: &Region) -> Self {
+        let map = &scene.map;
+        let edges: Vec<Polyline> =
+            map.road_edges.iter().map(|e| Polyline::new(e.points.xy.iter().copied())).collect();
+        let lanes_m: f64 = graph.lanes().iter().map(|l| l.path.length_m()).sum();
+        let edges_m: f64 = edges.iter().map(Polyline::length_m).sum();
+        let cell_m = CELL_M.max((2.0 * lanes_m + edges_m) / MAX_CELLS);
+        let lights = Lights::new(scene, graph, step);
+        let mut cells = Self { scene, graph, lights, edges, all: Vec::new(), by_lane: HashMap::new() };
+        cells.lanes(cell_m, region);
+        cells.kerbs(region);
+        cells.crosswalks(cell_m, region);
+        cells.pavements(cell_m, region);
+        cells.driveways(region);
+        cells
+    }
+
+    /// A type is looked for in such a cell.
+    pub(super) fn may_hold(&self, cell: &Cell, agent_type: AgentType) -> bool {
+        let lane_fits = || self.graph.lanes().get(cell.line).is_some_and(|l| l.carries(agent_type));
+        cell_kinds(agent_type).contains(&cell.kind) && (cell.kind != CellKind::Lane || lane_fits())
+    }
+
+    /// The line a cell lies on; `None` for driveways.
+    pub(super) fn path(&self, cell: &Cell) -> Option<&Polyline> {
+        match cell.kind {
+            CellKind::Driveway => None,
+            CellKind::Pavement if !cell.on_lane => self.edges.get(cell.line),
+            _ => self.graph.lanes().get(cell.line).map(|l| &l.path),
+        }
+    }
+
+    /// The cell at arc length `s_m` of a lane.
+    pub(super) fn lane_cell(&self, lane: usize, s_m: f64) -> Option<usize> {
+        let of_lane = self.by_lane.get(&lane)?;
+        let length_m = self.graph.lanes()[lane].path.length_m();
+        let number = ((s_m / length_m * of_lane.count as f64) as usize).min(of_lane.count - 1);
+        let at = of_lane.held.start + number.checked_sub(of_lane.first)?;
+        of_lane.held.contains(&at).then_some(at)
+    }
+
+    /// Kilometres of lane for motor vehicles in the region, junctions left out.
+    pub(super) fn lane_km(&self, region: &Region) -> f64 {
+        let counted = self.all.iter().filter(|s| {
+            let lane = &self.graph.lanes()[s.line.min(self.graph.lanes().len() - 1)];
+            s.kind == CellKind::Lane
+                && lane.carries(AgentType::Vehicle)
+                && !lane.interpolating
+                && region.contains(s.center)
+        });
+        counted.map(Cell::extent).sum::<f64>() / 1000.0
+    }
+
+    /// Calls `found` with the cells behind the place at `s_m` of a lane and their distance to it, metres,
+    /// up to [`LEADER_REACH_M`], along all lanes that lead there.
+    pub(super) fn behind(&self, lane: usize, s_m: f64, mut found: impl FnMut(usize, f64)) {
+        let mut todo = vec![(lane, s_m, 0.0)];
+        let mut seen = HashSet::new();
+        while let Some((lane, s_m, travelled_m)) = todo.pop() {
+            if !seen.insert(lane) || seen.len() > 32 {
+                continue;
+            }
+            if let Some(of_lane) = self.by_lane.get(&lane) {
+                for at in of_lane.held.clone().rev() {
+                    let cell = &self.all[at];
+                    let gap_m = travelled_m + s_m - 0.5 * (cell.from_m + cell.to_m);
+                    // The own cell is not behind.
+                    if cell.to_m <= s_m && (0.0..LEADER_REACH_M).contains(&gap_m) {
+                        found(at, gap_m);
+                    }
+                }
+            }
+            if travelled_m + s_m < LEADER_REACH_M {
+                for before in &self.graph.lanes()[lane].predecessors {
+                    todo.push((*before, self.graph.lanes()[*before].path.length_m(), travelled_m + s_m));
+                }
+            }
+        }
+    }
+
+    /// The driveway that holds a point.
+    pub(super) fn driveway_at(&self, point: Vec2) -> Option<usize> {
+        let of_driveways =
+            self.all.iter().enumerate().rev().take_while(|(_, s)| s.kind == CellKind::Driveway);
+        let mut holding = of_driveways
+            .filter(|(_, s)| (s.center - point).norm() < 40.0)
+            .filter(|(_, s)| in_ring(&self.scene.map.driveways[s.line].polygon.xy, point));
+        holding.next().map(|(at, _)| at)
+    }
+}
+
+/// Class of a cell's distance to the leader; twice as many, for queues apart from flowing traffic.
+pub(super) fn leader_class(gap_m: f64, queues: bool) -> u8 {
+    let gap = if gap_m.is_finite() { class(gap_m, &LEADER_M) } else { LEADER_M.len() as u8 };
+    gap + (LEADER_M.len() as u8 + 1) * u8::from(queues)
+}

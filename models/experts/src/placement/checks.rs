@@ -1,0 +1,143 @@
+//! What a drawn pose must keep to: it touches nobody, and it is where such a road user may be.
+
+use super::cells::{CellKind, Cells};
+use super::placed::PlacedAgent;
+use super::stop_lines::{Ahead, STOP_LINE_M, StopControl};
+use scene::geometry::obb::{OrientedBox, overlaps};
+use scene::geometry::wrap_angle;
+use scene::routes::speed::Obstacle;
+use scene::routes::{GraphLane, LaneGraph};
+use scene::{AgentType, Vec2};
+use std::f64::consts::FRAC_PI_4;
+
+/// Room around every box, metres.
+const MARGIN_M: f64 = 0.1;
+/// Share of a lane's half width on which nobody parks or stands.
+const BAND: f64 = 0.9;
+
+/// The boxes that a new one keeps clear of.
+#[derive(Default)]
+pub(super) struct Neighbours {
+    /// Kept road users, then placed ones in order.
+    pub(super) obstacles: Vec<Obstacle>,
+    /// Whether each of them drives on a lane.
+    driving: Vec<bool>,
+}
+
+impl Neighbours {
+    /// Adds one.
+    pub(super) fn push(&mut self, obstacle: Obstacle, drives: bool) {
+        self.obstacles.push(obstacle);
+        self.driving.push(drives);
+    }
+
+    /// Nobody is too near; `min_gap_m` is the room along the lane between those who drive the same way.
+    pub(super) fn is_free(&self, placed: &PlacedAgent, min_gap_m: f64) -> bool {
+        let outline = placed.outline();
+        let near = outline.grown(MARGIN_M);
+        let gap_m = min_gap_m.max(MARGIN_M);
+        let long = OrientedBox::new(
+            outline.center(),
+            outline.half_length_m() + gap_m,
+            near.half_width_m(),
+            outline.heading_rad(),
+        );
+        self.obstacles.iter().zip(&self.driving).all(|(other, driving)| {
+            let turn = wrap_angle(other.outline.heading_rad() - outline.heading_rad()).abs();
+            let follows = *driving && placed.lane.is_some() && turn < FRAC_PI_4;
+            !overlaps(if follows { &long } else { &near }, &other.outline, 0.0)
+        })
+    }
+}
+
+/// Drivers wait at red lights, nobody parks on a lane, and people stand on the pavement.
+pub(super) fn is_sensible(placed: &PlacedAgent, cells: &Cells<'_>) -> bool {
+    let outline = placed.outline();
+    match placed.kind {
+        CellKind::Lane => {
+            match placed.lane.map(|lane| cells.lights.ahead(cells.graph, lane, placed.pose.s_m)) {
+                Some(Ahead::StopLine(StopControl::Red, m)) => m >= outline.half_length_m() + STOP_LINE_M,
+                _ => true,
+            }
+        }
+        CellKind::Kerb | CellKind::Driveway => {
+            let nose = outline.forward() * outline.half_length_m();
+            let points = [outline.center() + nose, outline.center(), outline.center() - nose];
+            points.iter().all(|p| !on_lane(*p, cells.graph))
+        }
+        CellKind::Pavement => !on_lane(outline.center(), cells.graph),
+        CellKind::Crosswalk => true,
+    }
+}
+
+/// The point lies on the band that traffic of some lane uses.
+fn on_lane(point: Vec2, graph: &LaneGraph) -> bool {
+    let drives = |_: usize, l: &GraphLane| l.carries(AgentType::Vehicle) || l.carries(AgentType::Cyclist);
+    let hits = graph.nearest_lanes(point, 4.0, drives);
+    hits.iter().any(|h| h.distance_m < BAND * 0.5 * graph.lanes()[h.lane].width_m)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::placement::pose::Pose;
+    use crate::placement::region::Region;
+    use scene::map::{Lane, LaneMap};
+    use scene::{Scene, Signal, SignalState, Size, Subtype};
+
+    fn car(x_m: f64, y_m: f64, heading_rad: f64, kind: CellKind) -> PlacedAgent {
+        let pose = Pose { position: Vec2::new(x_m, y_m), heading_rad, s_m: x_m };
+        PlacedAgent {
+            agent_type: AgentType::Vehicle,
+            subtype: Subtype::Car,
+            size: Size { length_m: 4.0, width_m: 2.0, height_m: None },
+            pose,
+            kind,
+            lane: (kind == CellKind::Lane).then_some(0),
+        }
+    }
+
+    fn beside(other: &PlacedAgent, drives: bool) -> Neighbours {
+        let mut neighbours = Neighbours::default();
+        neighbours.push(Obstacle { outline: other.outline(), speed_mps: 0.0 }, drives);
+        neighbours
+    }
+
+    #[test]
+    fn those_who_follow_keep_the_gap_and_others_the_margin() {
+        let leader = car(10.0, 0.0, 0.0, CellKind::Lane);
+        let at = |x_m| car(x_m, 0.0, 0.0, CellKind::Lane);
+        // Bumper to bumper there are 10 - x - 4 metres.
+        assert!(beside(&leader, true).is_free(&at(3.9), 2.0));
+        assert!(!beside(&leader, true).is_free(&at(4.1), 2.0));
+        assert!(beside(&leader, false).is_free(&at(5.8), 2.0), "parked cars need no gap");
+        assert!(!beside(&leader, false).is_free(&at(5.95), 2.0));
+        let across = car(10.0, 0.0, 1.0, CellKind::Lane);
+        assert!(beside(&across, true).is_free(&at(4.5), 2.0), "nobody follows across");
+        assert!(beside(&leader, true).is_free(&car(10.0, 2.2, 0.0, CellKind::Lane), 2.0));
+        assert!(!beside(&leader, true).is_free(&car(10.0, 2.05, 0.0, CellKind::Lane), 2.0));
+    }
+
+    #[test]
+    fn drivers_stay_behind_red_lights_and_parked_cars_off_the_lanes() {
+        let points: Vec<Vec2> = (0..=20).map(|i| Vec2::new(5.0 * f64::from(i), 0.0)).collect();
+        let lane = Lane::street("a", points);
+        let map = LaneMap { lanes: vec![lane], ..LaneMap::default() };
+        let mut scene = Scene::bare("light", map, Vec::new());
+        scene.signals = vec![Signal {
+            lane: "a".into(),
+            stop: Some(Vec2::new(50.0, 0.0)),
+            stop_z_m: None,
+            runs: vec![(0, SignalState::Stop)],
+        }];
+        let graph = LaneGraph::new(&scene.map);
+        let cells = Cells::new(&scene, &graph, 0, &Region::Everywhere);
+        // The front bumper is two metres ahead of the centre.
+        assert!(is_sensible(&car(47.6, 0.0, 0.0, CellKind::Lane), &cells));
+        assert!(!is_sensible(&car(47.8, 0.0, 0.0, CellKind::Lane), &cells));
+        assert!(is_sensible(&car(52.0, 0.0, 0.0, CellKind::Lane), &cells), "past the line");
+        assert!(is_sensible(&car(30.0, 3.0, 0.0, CellKind::Kerb), &cells));
+        assert!(!is_sensible(&car(30.0, 1.0, 0.0, CellKind::Kerb), &cells));
+        assert!(!is_sensible(&car(30.0, 3.0, 1.5, CellKind::Driveway), &cells), "its nose is on the lane");
+    }
+}

@@ -1,0 +1,134 @@
+//! What placing is asked for, and its answer.
+
+use super::region::Region;
+use scene::{Agent, AgentId, AgentType, MAX_AGENTS, Scene};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Most road users asked for by count.
+pub const MAX_COUNT: usize = MAX_AGENTS;
+/// Highest density, road users a kilometre of lane.
+pub const MAX_PER_LANE_KM: f64 = 200.0;
+/// Greatest room along the lane that may be asked for, metres.
+pub const MAX_GAP_M: f64 = 50.0;
+
+/// How many road users.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Amount {
+    /// For each kilometre of lane for motor vehicles in the region, junctions left out.
+    PerLaneKm(f64),
+    /// So many in all.
+    Count(usize),
+    /// So many of each type, whatever [`PlaceRequest::types`] says.
+    Each(BTreeMap<AgentType, usize>),
+}
+
+/// How road users are placed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[schemars(rename = "PlacementMethod")]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// By learned rates and distributions.
+    Model,
+    /// Even along lanes, at the speed limit: where there are no weights, and to compare with.
+    LaneSampler,
+}
+
+/// One call of placement.
+#[derive(Clone, Debug)]
+pub struct PlaceRequest {
+    /// Map, signals, and road users that may be kept.
+    pub scene: Arc<Scene>,
+    /// Scene step at which the placed start; signals and kept road users are as they are then.
+    pub step: usize,
+    /// Where centres may lie.
+    pub region: Region,
+    /// How many.
+    pub amount: Amount,
+    /// Share of each type; sums to one.
+    pub types: BTreeMap<AgentType, f64>,
+    /// Road users of the scene that stay; `None` keeps all. The rest are as if they were not there.
+    pub keep: Option<BTreeSet<AgentId>>,
+    /// Repeats the answer.
+    pub seed: u64,
+    /// Least room between those who drive, along the lane, metres.
+    pub min_gap_m: f64,
+}
+
+impl PlaceRequest {
+    /// The defaults of `POST /v1/place` for a scene.
+    pub fn new(scene: Arc<Scene>) -> Self {
+        let types = [(AgentType::Vehicle, 0.8), (AgentType::Pedestrian, 0.15), (AgentType::Cyclist, 0.05)];
+        Self {
+            scene,
+            step: 0,
+            region: Region::Everywhere,
+            amount: Amount::PerLaneKm(12.0),
+            types: BTreeMap::from(types),
+            keep: None,
+            seed: 0,
+            min_gap_m: 2.0,
+        }
+    }
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placement {
+    /// New road users with one state at the step and the same start as a condition; goals are free.
+    pub agents: Vec<Agent>,
+    /// Those that were asked for and found no place, by type.
+    pub unplaced: BTreeMap<AgentType, usize>,
+    /// Why, in one sentence; `None` when all were placed.
+    pub reason: Option<String>,
+    /// How they were placed.
+    pub method: Method,
+}
+
+impl PlaceRequest {
+    /// How many of each type, by largest remainder; vehicles first.
+    pub(super) fn wanted(&self, lane_km: f64) -> BTreeMap<AgentType, usize> {
+        let total = match &self.amount {
+            Amount::Each(each) => return each.clone(),
+            Amount::Count(n) => *n,
+            Amount::PerLaneKm(density) => (density * lane_km).round().min(1e6) as usize,
+        };
+        let exact = |share: f64| share * total as f64;
+        let mut counts: BTreeMap<AgentType, usize> =
+            self.types.iter().map(|(t, share)| (*t, (exact(*share) + 1e-9) as usize)).collect();
+        let mut rest: Vec<(f64, AgentType)> = self
+            .types
+            .iter()
+            .map(|(t, share)| (exact(*share) - (exact(*share) + 1e-9).floor(), *t))
+            .collect();
+        rest.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let missing = total.saturating_sub(counts.values().sum());
+        for (_, agent_type) in rest.into_iter().take(missing) {
+            *counts.entry(agent_type).or_default() += 1;
+        }
+        counts
+    }
+}
+
+/// Why some found no place, in one sentence; `full` when the scene can hold no more.
+pub(super) fn reason(unplaced: &BTreeMap<AgentType, usize>, full: bool) -> Option<String> {
+    if unplaced.is_empty() {
+        return None;
+    }
+    let name = |t: &AgentType, n: usize| {
+        let one = match t {
+            AgentType::Vehicle => "vehicle",
+            AgentType::Pedestrian => "pedestrian",
+            AgentType::Cyclist => "cyclist",
+            AgentType::Other => "road user",
+        };
+        format!("{n} {one}{}", if n == 1 { "" } else { "s" })
+    };
+    let who: Vec<String> = unplaced.iter().map(|(t, n)| name(t, *n)).collect();
+    let why = if full {
+        format!("a scene holds {MAX_AGENTS} road users")
+    } else {
+        "no free place found".to_owned()
+    };
+    Some(format!("{why} for {}", who.join(", ")))
+}

@@ -1,0 +1,172 @@
+//! Speeds of those who were placed: drawn last, those nearest to a conflict first and leaders before
+//! followers, so that everybody knows how fast the one in front is.
+
+use super::cells::Cells;
+use super::context::SpeedContext;
+use super::driving::{allowed_mps, leader_ahead, usual_mps};
+use super::model::{PlacementModel, SPEED_STEP, TypeModel};
+use super::placed::{PlacedAgent, rounded};
+use super::random::{self, stream_name};
+use super::stop_lines::{Ahead, STOP_LINE_M, StopControl};
+use scene::limits::Limits;
+use scene::random::Stream;
+use scene::routes::speed::Obstacle;
+use scene::{AgentType, STANDING_MPS};
+use std::collections::HashSet;
+
+/// Braking that starts may ask of a driver at once, m/s2: no start is an emergency.
+const BRAKE_MPS2: f64 = 3.0;
+/// Until it is drawn, a leader on a lane is taken to drive so fast, m/s: only that it moves matters.
+const UNKNOWN_LEADER_MPS: f64 = 5.0;
+
+/// Draws the speeds of one answer.
+pub(super) struct StartSpeeds<'a> {
+    pub(super) seed: u64,
+    pub(super) model: Option<&'a PlacementModel>,
+    pub(super) cells: &'a Cells<'a>,
+    pub(super) placed: &'a [PlacedAgent],
+    /// Number of kept road users, whose speeds stay.
+    pub(super) kept: usize,
+    /// Kept road users, then the placed ones in order.
+    pub(super) obstacles: Vec<Obstacle>,
+}
+
+impl StartSpeeds<'_> {
+    /// Speed of everyone placed, m/s.
+    pub(super) fn draw(mut self) -> Vec<f64> {
+        let mut order: Vec<(f64, usize)> = Vec::new();
+        for (i, placed) in self.placed.iter().enumerate() {
+            let ahead = placed.lane.map(|l| self.cells.lights.ahead(self.cells.graph, l, placed.pose.s_m));
+            let distance_m = match ahead {
+                Some(Ahead::Inside(_)) => 0.0,
+                Some(ahead) => ahead.stop_m(),
+                None => 0.0,
+            };
+            self.obstacles[self.kept + i].speed_mps =
+                if placed.lane.is_some() { UNKNOWN_LEADER_MPS } else { 0.0 };
+            order.push((distance_m, i));
+        }
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut begun = HashSet::new();
+        for (_, i) in order {
+            self.draw_after_leader(i, &mut begun);
+        }
+        self.obstacles[self.kept..].iter().map(|o| o.speed_mps).collect()
+    }
+
+    /// Draws the speed of one road user, after that of the leader. A ring of leaders is cut where it began.
+    fn draw_after_leader(&mut self, i: usize, begun: &mut HashSet<usize>) {
+        if !begun.insert(i) {
+            return;
+        }
+        let placed = &self.placed[i];
+        let mut stream = random::stream(self.seed, &format!("{} speed", stream_name(placed.agent_type)), i);
+        let own = self.kept + i;
+        let speed_mps = match placed.lane {
+            Some(lane) => {
+                let s_m = placed.pose.s_m;
+                let outline = self.obstacles[own].outline;
+                // A leader's path begins at the own centre, where nothing else can be; the own box is too
+                // near to count as ahead.
+                let leader = leader_ahead(self.cells.graph, lane, s_m, &outline, &self.obstacles);
+                if let Some(index) = leader.and_then(|l| l.index.checked_sub(self.kept)) {
+                    self.draw_after_leader(index, begun);
+                }
+                let leader = leader.map(|l| {
+                    let aligned = l.speed_mps > 0.0;
+                    (l.gap_m, if aligned { self.obstacles[l.index].speed_mps } else { 0.0 })
+                });
+                self.drive_speed(i, lane, leader, &mut stream)
+            }
+            None => self.walk_speed(i, &mut stream),
+        };
+        self.obstacles[own].speed_mps = rounded(speed_mps, 1e3);
+    }
+
+    fn drive_speed(&self, i: usize, lane: usize, leader: Option<(f64, f64)>, stream: &mut Stream) -> f64 {
+        let placed = &self.placed[i];
+        let limits = Limits::of(placed.agent_type, placed.subtype, placed.size.length_m);
+        let Some(model) = self.model.and_then(|m| m.types.get(&placed.agent_type)) else {
+            let limit_mps = self.cells.graph.lanes()[lane].speed_limit_mps;
+            let most = if placed.agent_type == AgentType::Cyclist { 5.0 } else { limits.speed_mps };
+            return limit_mps.min(most);
+        };
+        let ahead = self.cells.lights.ahead(self.cells.graph, lane, placed.pose.s_m);
+        let unit_mps = allowed_mps(self.cells.graph, lane, placed.pose.s_m, placed.agent_type);
+        let mut most = limits.speed_mps;
+        let brakes_from =
+            |room_m: f64, to_mps: f64| (to_mps * to_mps + 2.0 * BRAKE_MPS2 * room_m.max(0.0)).sqrt();
+        if let Some((gap_m, speed_mps)) = leader {
+            most = most.min(brakes_from(gap_m - 1.0, speed_mps));
+        }
+        if let Ahead::StopLine(StopControl::Red, m) = ahead {
+            most = most.min(brakes_from(m - 0.5 * placed.size.length_m - STOP_LINE_M, 0.0));
+        }
+        let context = SpeedContext::driver(ahead.road_ahead(), leader);
+        drawn_speed(model, context, unit_mps, most, stream)
+    }
+
+    fn walk_speed(&self, i: usize, stream: &mut Stream) -> f64 {
+        let placed = &self.placed[i];
+        if placed.agent_type == AgentType::Vehicle {
+            return 0.0;
+        }
+        let most = Limits::of(placed.agent_type, placed.subtype, placed.size.length_m).speed_mps;
+        let unit_mps = usual_mps(placed.agent_type);
+        match self.model.and_then(|m| m.types.get(&placed.agent_type)) {
+            Some(model) => placed
+                .kind
+                .speed_context()
+                .map_or(0.0, |context| drawn_speed(model, context, unit_mps, most, stream)),
+            None => 0.7 * unit_mps,
+        }
+    }
+}
+
+/// A speed for the situation or the next more general one that is known, at most `most` m/s.
+fn drawn_speed(
+    model: &TypeModel,
+    context: SpeedContext,
+    unit_mps: f64,
+    most: f64,
+    stream: &mut Stream,
+) -> f64 {
+    let row = context.with_broader().find_map(|context| model.speed.get(&context));
+    let class = row.and_then(|row| stream.among(row.iter().copied())).unwrap_or(0);
+    let part = stream.unit();
+    if class == 0 {
+        return 0.0;
+    }
+    let speed_mps = (unit_mps * SPEED_STEP * (class as f64 - 1.0 + part)).min(most);
+    if speed_mps < STANDING_MPS { 0.0 } else { speed_mps }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::placement::context::RoadAhead;
+    use crate::placement::model::SPEED_CLASSES;
+
+    fn only(class: usize) -> Vec<f64> {
+        (0..SPEED_CLASSES).map(|c| f64::from(u8::from(c == class))).collect()
+    }
+
+    #[test]
+    fn an_unknown_situation_falls_back_on_a_more_general_one() {
+        let known = SpeedContext::driver(RoadAhead::Clear, None);
+        let mut model = TypeModel::default();
+        model.speed.insert(known, only(0));
+        model.speed.insert(SpeedContext::DriverAnyLeader(RoadAhead::Clear), only(10));
+        model.speed.insert(SpeedContext::AnyDriver, only(3));
+        let mut stream = random::stream(1, "test", 0);
+        let mut drawn = |context, most| drawn_speed(&model, context, 10.0, most, &mut stream);
+        assert_eq!(drawn(known, 40.0), 0.0);
+        let follows = drawn(SpeedContext::driver(RoadAhead::Clear, Some((3.0, 0.0))), 40.0);
+        assert!((6.3..=7.0).contains(&follows), "class 10 of 10 m/s, {follows} found");
+        let red = drawn(SpeedContext::driver(RoadAhead::RedWithin10M, None), 40.0);
+        assert!((1.4..=2.1).contains(&red), "class 3 of 10 m/s, {red} found");
+        assert_eq!(drawn(SpeedContext::Pavement, 40.0), 0.0, "nothing was learned there");
+        assert_eq!(drawn(SpeedContext::driver(RoadAhead::Clear, Some((3.0, 0.0))), 2.5), 2.5);
+        assert_eq!(drawn(SpeedContext::driver(RoadAhead::Clear, Some((3.0, 0.0))), 0.1), 0.0, "it stands");
+    }
+}

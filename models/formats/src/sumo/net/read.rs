@@ -1,0 +1,297 @@
+//! Reads a network in one pass over its elements; nothing is kept of those that it does not know.
+
+use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
+use crate::problem::{FieldProblem, ReadError, code};
+use crate::sumo::SumoError;
+use crate::sumo::programs::Program;
+use crate::sumo::xml::{Element, Event, Scanner};
+use scene::Vec2;
+use std::collections::HashMap;
+use std::io::BufRead;
+
+/// Most bytes of one tag: a shape with the most points a polyline may have, twice (`outlineShape`).
+const MAX_TAG: usize = 1 << 20;
+/// Most elements of a network.
+const MAX_ELEMENTS: usize = 600_000;
+/// Most attributes in a network.
+const MAX_ATTRIBUTES: usize = 4_000_000;
+/// Width of a lane that gives none, metres: the default of SUMO.
+const LANE_WIDTH_M: f64 = 3.2;
+
+/// The element below the root that is open.
+#[derive(Default)]
+enum Open {
+    /// None, or one that is not read.
+    #[default]
+    Other,
+    Edge(NetEdge),
+    Program(Program),
+}
+
+/// A `<connection>`; it may stand before the lanes that it names.
+struct Connection {
+    from: String,
+    to: String,
+    via: Option<String>,
+    /// Past a stop sign.
+    stops: bool,
+    signal: Option<(String, usize)>,
+}
+
+#[derive(Default)]
+struct Reader {
+    net: Net,
+    /// Elements that are open.
+    depth: usize,
+    open: Open,
+    connections: Vec<Connection>,
+    elements: usize,
+    attributes: usize,
+}
+
+impl Net {
+    /// Reads a network.
+    ///
+    /// # Errors
+    /// When the text is no XML, is no SUMO network, or a value cannot be read.
+    pub fn read(text: &str) -> Result<Self, SumoError> {
+        Self::read_from(text.as_bytes())
+    }
+
+    /// Reads a network from a stream, whose faults and bounds come back in [`SumoError::File`].
+    pub(in crate::sumo) fn read_from(input: impl BufRead) -> Result<Self, SumoError> {
+        let mut scanner = Scanner::new(input, MAX_TAG);
+        let mut reader = Reader::default();
+        while let Some(event) = scanner.next()? {
+            match event {
+                Event::Start(element) => reader.start(&element)?,
+                Event::End => reader.end(),
+            }
+        }
+        Ok(reader.linked())
+    }
+}
+
+impl Reader {
+    fn start(&mut self, element: &Element) -> Result<(), SumoError> {
+        self.count(element)?;
+        self.depth += 1;
+        match (self.depth, element.name.as_str(), &mut self.open) {
+            (1, "net", _) => self.net.notes.left_hand = element.get("lefthand") == Some("true"),
+            (1, ..) => {
+                let found = format!("<{}>", element.name.chars().take(40).collect::<String>());
+                return Err(SumoError::Content { expected: "a SUMO network (<net>)", found });
+            }
+            (2, "location", _) => {
+                self.net.notes.projected =
+                    !matches!(element.get("projParameter"), None | Some("!" | "-" | ""));
+            }
+            (2, "edge", open) => *open = edge(element)?.map_or(Open::Other, Open::Edge),
+            (2, "tlLogic", open) => *open = Open::Program(program(element)?),
+            (2, "junction", _) if element.get("type") != Some("internal") => {
+                self.net.junctions.push(junction(element)?);
+            }
+            (2, "connection", _) => self.connections.push(connection(element)?),
+            (3, "lane", Open::Edge(edge)) => {
+                let number = edge.lanes.len();
+                edge.lanes.push(self.net.lanes.len());
+                let lane = lane(element, edge.function, &mut self.net.notes.heights)?;
+                self.net.lanes.push(NetLane { edge: self.net.edges.len(), index: number, ..lane });
+            }
+            (3, "phase", Open::Program(program)) => add_phase(element, program)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Bounds what the lists of a network can grow to.
+    fn count(&mut self, element: &Element) -> Result<(), SumoError> {
+        self.elements += 1;
+        self.attributes += element.attributes.len();
+        if self.elements > MAX_ELEMENTS || self.attributes > MAX_ATTRIBUTES {
+            let line = element.line;
+            let detail =
+                format!("line {line}: more than {MAX_ELEMENTS} elements or {MAX_ATTRIBUTES} attributes");
+            return Err(SumoError::File(too_large(detail)));
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) {
+        if self.depth == 2 {
+            match std::mem::take(&mut self.open) {
+                Open::Edge(edge) => self.net.edges.push(edge),
+                Open::Program(program) => self.net.programs.push(program),
+                Open::Other => {}
+            }
+        }
+        self.depth = self.depth.saturating_sub(1);
+    }
+
+    /// The network with its lanes linked. A connection of lanes that are not there links nothing.
+    fn linked(self) -> Net {
+        let Self { mut net, connections, .. } = self;
+        let by_id: HashMap<String, usize> =
+            net.lanes.iter().enumerate().map(|(i, l)| (l.id.clone(), i)).collect();
+        for connection in connections {
+            let (from, to) = (by_id.get(&connection.from), by_id.get(&connection.to));
+            let (Some(&from), Some(&to)) = (from, to) else { continue };
+            let via = connection.via.and_then(|id| by_id.get(&id).copied());
+            net.lanes[from].successors.push(via.unwrap_or(to));
+            if let Some(via) = via.filter(|_| connection.stops) {
+                net.lanes[via].stops = true;
+            }
+            let crossing = || (net.lanes[to].kind == LaneKind::Crossing).then_some(to);
+            if let (Some(lane), Some(signal)) = (via.or_else(crossing), connection.signal) {
+                net.lanes[lane].signal = Some(signal);
+            }
+        }
+        net
+    }
+}
+
+/// A network of more than a scene holds.
+pub(in crate::sumo) fn too_large(detail: String) -> ReadError {
+    let advice = "cut a part out with netconvert --keep-edges.in-boundary";
+    FieldProblem::new("", code::MAP_TOO_LARGE, format!("{detail}; {advice}")).into()
+}
+
+fn owned(element: &Element, attribute: &'static str) -> Result<String, SumoError> {
+    element.required(attribute).map(str::to_owned)
+}
+
+fn number(element: &Element, attribute: &'static str) -> Result<f64, SumoError> {
+    let text = element.required(attribute)?;
+    let value: Option<f64> = text.parse().ok().filter(|v: &f64| v.is_finite());
+    value.ok_or_else(|| SumoError::value(text, "a number", element.line))
+}
+
+/// An edge without its lanes; `None` for one of an unknown function.
+fn edge(element: &Element) -> Result<Option<NetEdge>, SumoError> {
+    let function = match element.get("function").unwrap_or("normal") {
+        "normal" | "connector" => EdgeFunction::Normal,
+        "internal" => EdgeFunction::Internal,
+        "crossing" => EdgeFunction::Crossing,
+        "walkingarea" => EdgeFunction::WalkingArea,
+        _ => return Ok(None),
+    };
+    let text = |name| element.get(name).unwrap_or_default().to_owned();
+    Ok(Some(NetEdge {
+        id: owned(element, "id")?,
+        function,
+        from: text("from"),
+        to: text("to"),
+        road_type: text("type"),
+        lanes: Vec::new(),
+    }))
+}
+
+/// A lane; its place in the network is for the caller to say.
+fn lane(element: &Element, function: EdgeFunction, heights: &mut bool) -> Result<NetLane, SumoError> {
+    let has_width = element.get("width").is_some();
+    Ok(NetLane {
+        id: owned(element, "id")?,
+        edge: 0,
+        index: 0,
+        kind: kind_of(function, element),
+        speed_mps: number(element, "speed")?,
+        width_m: if has_width { number(element, "width")? } else { LANE_WIDTH_M },
+        shape: shape(element, heights)?,
+        successors: Vec::new(),
+        signal: None,
+        stops: false,
+    })
+}
+
+fn junction(element: &Element) -> Result<NetJunction, SumoError> {
+    let position = Vec2::new(number(element, "x")?, number(element, "y")?);
+    let kind = element.get("type").unwrap_or_default().to_owned();
+    Ok(NetJunction { id: owned(element, "id")?, kind, position })
+}
+
+fn connection(element: &Element) -> Result<Connection, SumoError> {
+    let lane = |edge, index| -> Result<String, SumoError> {
+        Ok(format!("{}_{}", element.required(edge)?, element.required(index)?))
+    };
+    let signal = match element.get("tl") {
+        Some(program) => Some((program.to_owned(), number(element, "linkIndex")?.max(0.0) as usize)),
+        None => None,
+    };
+    Ok(Connection {
+        from: lane("from", "fromLane")?,
+        to: lane("to", "toLane")?,
+        via: element.get("via").map(str::to_owned),
+        stops: matches!(element.get("state"), Some("s" | "w")),
+        signal,
+    })
+}
+
+/// A signal program without its phases.
+fn program(element: &Element) -> Result<Program, SumoError> {
+    Ok(Program {
+        id: owned(element, "id")?,
+        kind: element.get("type").unwrap_or("static").to_owned(),
+        offset_s: match element.get("offset") {
+            // The word means the time at which the simulation begins.
+            None | Some("begin") => 0.0,
+            Some(_) => number(element, "offset")?,
+        },
+        phases: Vec::new(),
+        jumps: false,
+    })
+}
+
+fn add_phase(element: &Element, program: &mut Program) -> Result<(), SumoError> {
+    let duration_s = number(element, "duration")?;
+    if duration_s < 0.0 {
+        let found = element.required("duration")?;
+        return Err(SumoError::value(found, "a duration in seconds", element.line));
+    }
+    program.jumps |= element.get("next").is_some();
+    program.phases.push((duration_s, element.required("state")?.as_bytes().to_vec()));
+    Ok(())
+}
+
+fn kind_of(function: EdgeFunction, lane: &Element) -> LaneKind {
+    match function {
+        EdgeFunction::Crossing => return LaneKind::Crossing,
+        EdgeFunction::WalkingArea => return LaneKind::WalkingArea,
+        _ => {}
+    }
+    let Some(allow) = lane.get("allow").filter(|a| !a.is_empty() && *a != "all") else {
+        let closed = lane.get("disallow") == Some("all");
+        return if closed { LaneKind::Closed } else { LaneKind::Vehicle };
+    };
+    let only = |names: &[&str]| allow.split_whitespace().all(|class| names.contains(&class));
+    match allow {
+        _ if only(&["pedestrian", "wheelchair"]) => LaneKind::Sidewalk,
+        _ if only(&["bicycle", "scooter", "pedestrian", "wheelchair"]) => LaneKind::Bike,
+        _ if only(&["bus", "coach", "taxi"]) => LaneKind::Bus,
+        _ if only(&[
+            "tram",
+            "rail",
+            "rail_urban",
+            "rail_fast",
+            "rail_electric",
+            "subway",
+            "cable_car",
+            "ship",
+        ]) =>
+        {
+            LaneKind::Closed
+        }
+        _ => LaneKind::Vehicle,
+    }
+}
+
+fn shape(lane: &Element, heights: &mut bool) -> Result<Vec<Vec2>, SumoError> {
+    let mut point = |text: &str| {
+        let mut values = text.split(',').map(|v| v.parse::<f64>().ok().filter(|v| v.is_finite()));
+        let point = Vec2::new(values.next()??, values.next()??);
+        *heights |= values.next().is_some();
+        Some(point)
+    };
+    let read =
+        |text: &str| point(text).ok_or_else(|| SumoError::value(text, "a point such as 1.5,-2.0", lane.line));
+    lane.required("shape")?.split_whitespace().map(read).collect()
+}
