@@ -1,4 +1,4 @@
-//! Bounds on outside data (`api.md` section 9); `scene::Scene::checked` holds the same ones.
+//! Bounds on outside data; `scene::Scene::checked` holds the same ones.
 
 pub use scene::{MAX_AGENTS, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 

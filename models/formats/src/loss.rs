@@ -18,7 +18,7 @@ impl Loss {
     }
 }
 
-/// The codes of `formats.md` and those that its formats add.
+/// What a format cannot carry, by name; they never change.
 pub mod code {
     /// What the user fixed.
     pub const NO_CONDITIONS: &str = "no-conditions";

@@ -1,7 +1,7 @@
 //! One table of formats, for the server, the command line and the documentation.
 
 use crate::format::{Format, ImportOptions};
-use crate::loss::{Loss, code as loss_code};
+use crate::loss::Loss;
 use crate::native::format::NativeJson;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::sumo::formats::{SumoFcd, SumoNet};
@@ -46,18 +46,3 @@ pub fn loss_header(losses: &[Loss]) -> String {
     codes.dedup();
     codes.join(", ")
 }
-
-/// Every loss code that a writer here can give.
-pub const LOSS_CODES: [&str; 11] = [
-    loss_code::NO_CONDITIONS,
-    loss_code::NO_MODES,
-    loss_code::NO_SUBTYPE,
-    loss_code::NO_ROLES,
-    loss_code::NO_LICENCE,
-    loss_code::NO_NOTES,
-    loss_code::NO_DRIVABLE,
-    loss_code::NO_LANE_WIDTH,
-    loss_code::NO_LANE_TYPE,
-    loss_code::IDS_RENUMBERED,
-    loss_code::LONG_RECORD,
-];

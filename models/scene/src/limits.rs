@@ -6,7 +6,7 @@ use serde::Serialize;
 /// Bounds of motion of one kind of road user. Hard limits are never broken by an answer; the
 /// comfortable ones are what scoring calls normal.
 ///
-/// Hard limits follow the measured 99 % tails of real tracks (`prototype.md` Q1) and Waymax's bounds.
+/// Hard limits follow the 99 % tails measured on recorded tracks, and the bounds that Waymax takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limits {
     /// Greatest speeding up, m/s2.

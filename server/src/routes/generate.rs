@@ -386,7 +386,11 @@ impl GenerateRequest {
 
 fn unknown(pointer: String, id: &str) -> FieldProblem {
     let shown: String = id.chars().take(64).collect();
-    FieldProblem::new(pointer, "unknown-agent", format!("the scene has no road user \"{shown}\""))
+    FieldProblem::new(
+        pointer,
+        formats::problem::code::UNKNOWN_AGENT,
+        format!("the scene has no road user \"{shown}\""),
+    )
 }
 
 fn refuse(faults: Vec<FieldProblem>) -> Result<(), Problem> {

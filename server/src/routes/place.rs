@@ -199,7 +199,11 @@ impl PlaceBody {
         for (i, id) in self.keep.iter().flatten().enumerate().filter(|(_, id)| scene.agent(id).is_none()) {
             let shown: String = id.chars().take(64).collect();
             let detail = format!("the scene has no road user \"{shown}\"");
-            faults.push(FieldProblem::new(format!("/keep/{i}"), "unknown-agent", detail));
+            faults.push(FieldProblem::new(
+                format!("/keep/{i}"),
+                formats::problem::code::UNKNOWN_AGENT,
+                detail,
+            ));
         }
         if !faults.is_empty() {
             faults.truncate(32);

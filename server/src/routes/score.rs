@@ -138,7 +138,11 @@ fn states(
     let at = format!("{base}/{}", pointer_token(id));
     let before = faults.len();
     if scene.agent(id).is_none() {
-        faults.push(FieldProblem::new(at.clone(), "unknown-agent", "the scene has no such road user"));
+        faults.push(FieldProblem::new(
+            at.clone(),
+            formats::problem::code::UNKNOWN_AGENT,
+            "the scene has no such road user",
+        ));
     }
     let (first, steps) = (doc.first_step as f64, doc.x_m.len());
     if first + steps as f64 > 1_000.0 {

@@ -1,4 +1,4 @@
-//! What a user fixes about one road user (`api.md` section 3), as a document.
+//! What a user fixes about one road user, as a document.
 
 use super::value::words;
 use scene::AgentType;

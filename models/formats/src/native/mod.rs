@@ -1,4 +1,4 @@
-//! Native scene JSON, version 1 (`api.md` section 4): the form that scenes are stored and sent in.
+//! Native scene JSON, version 1: the form that scenes are stored and sent in.
 //!
 //! The `*Doc` types are the document; other crates may embed them in their own requests. A document
 //! becomes a [`Scene`] in one step, [`SceneDoc::into_scene`].
@@ -40,7 +40,7 @@ pub const MEDIA_TYPE: &str = "application/vnd.dragtraffic.scene+json";
 /// Reads a scene document whose map is inline.
 ///
 /// # Errors
-/// Every fault of `api.md` section 8 that a scene can have; a map given by hash is `unknown-map`.
+/// Every fault that a scene can have, by the codes of [`crate::problem::code`]; a map given by hash is `unknown-map`.
 pub fn read(bytes: &[u8]) -> Result<Scene, ReadError> {
     read_doc(bytes)?.into_scene(|_| None)
 }

@@ -1,7 +1,7 @@
 //! Knots from positions: least squares of a logged track, or of a path with a speed profile.
 //!
 //! Two linear problems give a start (arc length to acceleration, heading to curvature); three
-//! Gauss-Newton steps on the positions finish it (`prototype.md` Q1). A straight start would leave
+//! Gauss-Newton steps on the positions finish it. A straight start would leave
 //! 10 to 20 % of turning cars unfitted.
 
 use super::drive::{rollout, sensitivities};

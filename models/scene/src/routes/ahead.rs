@@ -1,4 +1,4 @@
-//! Routes ahead of a road user that has no goal (`routes.md` section 3).
+//! Routes ahead of a road user that has no goal.
 
 use super::assemble::{self, Hop};
 use super::start::{StartLane, start_lanes, with_lanes_beside};

@@ -8,7 +8,7 @@ pub(super) const CURVATURE_WINDOW_M: f64 = 2.0;
 /// Points on a join.
 const POINTS: usize = 41;
 
-/// Curvature that a comfortable join keeps, 1/m (`routes.md` 2b for cars).
+/// Curvature that a comfortable join keeps, 1/m: a car's.
 pub(super) fn comfortable_curvature(agent_type: AgentType) -> f64 {
     match agent_type {
         AgentType::Vehicle | AgentType::Other => 0.17,
@@ -45,7 +45,7 @@ pub(super) fn cubic(from: Pose, to: Pose, strength: f64) -> Cubic {
     Cubic { path: Polyline::new(points), max_curvature }
 }
 
-/// `routes.md` 2b: 1.6 for each metre of the cubic and 150 for each 1/m of curvature over `limit`.
+/// What a join costs beside others: 1.6 for each metre of the cubic and 150 for each 1/m of curvature over `limit`.
 pub(super) fn cost(join: &Cubic, limit: f64) -> f64 {
     1.6 * join.path.length_m() + 150.0 * (join.max_curvature - limit).max(0.0)
 }

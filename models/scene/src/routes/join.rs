@@ -1,4 +1,4 @@
-//! Ways that no lane gives: onto the lanes that lead to a goal (`routes.md` 2b), and off them.
+//! Ways that no lane gives: onto the lanes that lead to a goal, and off them.
 
 use super::cubic::{self, Cubic, comfortable_curvature};
 use super::start::errors_at;

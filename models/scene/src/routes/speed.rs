@@ -5,7 +5,7 @@ use crate::geometry::direction;
 use crate::geometry::obb::OrientedBox;
 use crate::{SignalState, Vec2};
 
-/// Window over which the curvature of a path is measured, metres (`routes.md` section 3).
+/// Window over which the curvature of a path is measured, metres.
 const CURVATURE_WINDOW_M: f64 = 3.0;
 /// No bend asks for a cap above this, m/s.
 const TOP_SPEED_MPS: f64 = 35.0;
@@ -18,7 +18,7 @@ const SAME_WAY: f64 = 0.3;
 /// A stop line this little behind still counts as here, metres.
 const PASSED_M: f64 = 1.0;
 
-/// Comfort that limits speed in bends (`routes.md` section 3).
+/// Comfort that limits speed in bends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedRules {
     /// Sideways acceleration v^2 k, m/s2.

@@ -8,7 +8,7 @@ use crate::{AgentType, wrap_angle};
 const ON_LANE_M: f64 = 2.0;
 /// Greatest difference of heading on a lane.
 const ON_LANE_TURN_RAD: f64 = std::f64::consts::FRAC_PI_4;
-/// Farthest from a lane when none is under the road user (`routes.md` section 3: relaxed start), metres.
+/// Farthest from a lane when none is under the road user, metres.
 const RELAXED_M: f64 = 6.0;
 /// Greatest difference of heading then.
 const RELAXED_TURN_RAD: f64 = 75.0 * std::f64::consts::PI / 180.0;

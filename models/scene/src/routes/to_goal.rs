@@ -85,7 +85,7 @@ pub struct GoalRoute {
 /// and least effort has to do.
 ///
 /// Forward routes come first unless all of them end more than 1.5 m beside the goal and a join does
-/// better (`routes.md` 2b). Goals more than 3 m off every lane are reached from the nearest lane.
+/// better. Goals more than 3 m off every lane are reached from the nearest lane.
 pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     let starts = start_lanes(graph, query.pose, query.agent_type);
     let starts = with_lanes_beside(graph, starts, query.agent_type);

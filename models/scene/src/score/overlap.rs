@@ -4,7 +4,7 @@ use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, overlaps};
 use crate::{Size, State};
 
-/// "Close" boxes come nearer than this, metres (`model.md` section 5).
+/// "Close" boxes come nearer than this, metres.
 pub const CLOSE_M: f64 = 0.5;
 /// Boxes between two bounding rectangles.
 const CHUNK: usize = 8;
