@@ -141,3 +141,15 @@ fn the_shipped_weights_answer_as_they_did() {
         failed.join(", ")
     );
 }
+
+/// The page of the networks' inputs is the one that their tables make.
+#[test]
+fn the_page_of_inputs_is_up_to_date() {
+    let path = root().join("docs/features.md");
+    let page = experts::features::tables::page();
+    if mode() == Mode::Accept {
+        std::fs::write(&path, &page).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(committed == page, "docs/features.md: `cargo xtask golden --accept` makes it anew");
+}

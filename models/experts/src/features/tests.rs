@@ -2,7 +2,7 @@
 
 use super::agent::{AgentPlan, plan};
 use super::block::{Block, described};
-use super::tables::{AnchorInputs, Neighbour, Own, tables, tables_hash};
+use super::tables::{AnchorInputs, Neighbour, Own};
 use crate::planning::MODES;
 use crate::planning::world::World;
 use scene::map::{Lane, LaneMap};
@@ -252,18 +252,4 @@ fn an_empty_road_has_nothing_ahead_and_slots_count_timings() {
         let timing = value::<AnchorInputs>(row, "timing") * timings - 0.5;
         assert!(timing > -0.01 && timing < timings - 0.99, "timing {timing} of {timings}");
     }
-}
-
-/// The committed page of inputs is the one that the tables make.
-#[test]
-fn the_page_of_inputs_is_up_to_date() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/features.md");
-    let page = super::tables::page();
-    if std::env::var("GOLDEN").as_deref() == Ok("accept") {
-        std::fs::write(path, &page).unwrap();
-    }
-    let committed = std::fs::read_to_string(path).unwrap_or_default();
-    assert!(committed == page, "docs/features.md: `cargo xtask golden --accept` makes it anew");
-    assert_eq!(tables().map(|(_, rows)| rows.len()), [super::OWN, super::NEIGHBOUR, super::ANCHOR]);
-    println!("{}", tables_hash());
 }

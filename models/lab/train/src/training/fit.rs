@@ -3,6 +3,7 @@
 use experts::features::{AgentFeatures, GroundTruth};
 
 use experts::planning::{INSTANTS, MODES, RESIDUAL};
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use scene::KNOTS;
 
 use super::Record;
@@ -19,15 +20,17 @@ pub(super) fn recorded(
 ) -> [[f32; RESIDUAL]; MODES] {
     let mut residual = [[0.0; RESIDUAL]; MODES];
     for half in 0..2 {
-        let (factor, design) = factorised(route.rows(half), &agent.tangent[half], &target.valid);
+        // The ridge keeps it definite; a recording that is no number leaves the residual at zero.
+        let found = factorised(route.rows(half), &agent.tangent[half], &target.valid);
+        let Some((factor, design)) = found else { continue };
         for (mode, residual) in residual.iter_mut().enumerate() {
-            let wanted: [f64; INSTANTS] = std::array::from_fn(|i| {
+            let wanted = SVector::<f64, INSTANTS>::from_fn(|i, _| {
                 f64::from(match half {
                     0 => target.along[mode][i] - target.base_along[mode][i],
                     _ => target.across[mode][i],
                 })
             });
-            let free = solve(&factor, &project_back(&design, &wanted, &target.valid));
+            let free = factor.solve(&design.tr_mul(&wanted));
             for i in 0..KNOTS {
                 let knot: f64 = (0..KNOTS).map(|j| f64::from(agent.tangent[half][i][j]) * free[j]).sum();
                 residual[half * KNOTS + i] = knot as f32;
@@ -74,70 +77,20 @@ impl Default for FitError {
     }
 }
 
-type Matrix = [[f64; KNOTS]; KNOTS];
-type Design = [[f64; KNOTS]; INSTANTS];
+type Design = SMatrix<f64, INSTANTS, KNOTS>;
+type Factor = Cholesky<f64, Const<KNOTS>>;
 
-/// Cholesky factor of `A' A + ridge` over the valid instants, and `A = B P`.
+/// Rows of instants that are not recorded are zero: `A = B P` of the others, and the factor of `A' A + ridge`.
 fn factorised(
     rows: &[[f32; KNOTS]; INSTANTS],
     tangent: &[[f32; KNOTS]; KNOTS],
     valid: &[f32; INSTANTS],
-) -> (Matrix, Design) {
-    let mut design = [[0.0; KNOTS]; INSTANTS];
-    for (row, out) in rows.iter().zip(&mut design) {
-        for (k, row) in row.iter().enumerate() {
-            for j in 0..KNOTS {
-                out[j] += f64::from(*row) * f64::from(tangent[k][j]);
-            }
-        }
-    }
-    let mut normal = [[0.0; KNOTS]; KNOTS];
-    for (row, valid) in design.iter().zip(valid) {
-        for i in 0..KNOTS {
-            for j in 0..KNOTS {
-                normal[i][j] += f64::from(*valid) * row[i] * row[j];
-            }
-        }
-    }
-    for (i, row) in normal.iter_mut().enumerate() {
-        row[i] += RIDGE;
-    }
-    (cholesky(&normal), design)
-}
-
-fn project_back(design: &Design, wanted: &[f64; INSTANTS], valid: &[f32; INSTANTS]) -> [f64; KNOTS] {
-    let mut right = [0.0; KNOTS];
-    for ((row, wanted), valid) in design.iter().zip(wanted).zip(valid) {
-        for i in 0..KNOTS {
-            right[i] += f64::from(*valid) * row[i] * wanted;
-        }
-    }
-    right
-}
-
-fn cholesky(a: &Matrix) -> Matrix {
-    let mut lower = [[0.0; KNOTS]; KNOTS];
-    for i in 0..KNOTS {
-        for j in 0..=i {
-            let rest: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
-            lower[i][j] =
-                if i == j { (a[i][i] - rest).max(1e-12).sqrt() } else { (a[i][j] - rest) / lower[j][j] };
-        }
-    }
-    lower
-}
-
-fn solve(lower: &Matrix, right: &[f64; KNOTS]) -> [f64; KNOTS] {
-    let mut x = *right;
-    for i in 0..KNOTS {
-        let rest: f64 = (0..i).map(|j| lower[i][j] * x[j]).sum();
-        x[i] = (x[i] - rest) / lower[i][i];
-    }
-    for i in (0..KNOTS).rev() {
-        let rest: f64 = (i + 1..KNOTS).map(|j| lower[j][i] * x[j]).sum();
-        x[i] = (x[i] - rest) / lower[i][i];
-    }
-    x
+) -> Option<(Factor, Design)> {
+    let basis = Design::from_fn(|i, k| f64::from(valid[i] * rows[i][k]));
+    let tangent = SMatrix::<f64, KNOTS, KNOTS>::from_fn(|i, j| f64::from(tangent[i][j]));
+    let design = basis * tangent;
+    let normal = design.tr_mul(&design) + SMatrix::identity() * RIDGE;
+    Some((normal.cholesky()?, design))
 }
 
 #[cfg(test)]
