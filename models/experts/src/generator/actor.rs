@@ -1,7 +1,7 @@
 //! Road users that get new futures in a window.
 
-use super::candidates::Slot;
 use super::retimed::retimed_anchors;
+use super::slot::Slot;
 use crate::features::agent::{AgentPlan, plan, plan_with};
 use crate::planning::anchors::{Anchor, PathKind};
 use crate::planning::world::{AgentAtStart, World};

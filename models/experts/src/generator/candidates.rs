@@ -2,46 +2,12 @@
 
 use super::actor::{Actor, Drafts};
 use super::choice::distance;
+use super::slot::Slot;
 use super::trajectory::{Motion, as_it_is, mean_trajectory, rest, to_trajectory, without_creep};
-use crate::planning::{MODES, Modes, Residual};
+use crate::planning::MODES;
 use crate::request::Shown;
 use crate::tuning::MiddleTuning;
 use scene::AgentType;
-
-/// A mode by its place among an actor's anchors and drafts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Slot(u8);
-
-impl Slot {
-    /// The first: trained to be the middle of what may happen, where there is a place to go.
-    pub(super) const FIRST: Self = Self(0);
-
-    /// Of an index below [`MODES`].
-    pub(super) fn new(index: usize) -> Self {
-        debug_assert!(index < MODES);
-        Self(index as u8)
-    }
-
-    /// As the answer names it.
-    pub(super) fn number(self) -> u32 {
-        u32::from(self.0)
-    }
-
-    /// Every slot in order.
-    pub(super) fn all() -> impl Iterator<Item = Self> {
-        (0..MODES).map(Self::new)
-    }
-
-    /// Index below [`MODES`].
-    pub(super) fn index(self) -> usize {
-        usize::from(self.0)
-    }
-
-    /// The draft in this slot.
-    pub(super) fn of(self, modes: &Modes) -> &Residual {
-        &modes[self.index()]
-    }
-}
 
 /// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
 /// only candidate that its actor has ([`Origin::Pinned`]). A rejected one belongs here as well: the modes

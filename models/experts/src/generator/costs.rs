@@ -2,8 +2,9 @@
 
 use super::KnownMap;
 use super::actor::Actor;
-use super::candidates::{Candidate, Slot};
+use super::candidates::Candidate;
 use super::choice::{Choosable, medoid_costs, swept};
+use super::slot::Slot;
 use super::trajectory::PER_INSTANT;
 use crate::planning::INSTANTS;
 use crate::tuning::ChoiceTuning;

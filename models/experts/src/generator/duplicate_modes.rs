@@ -5,7 +5,7 @@
 //! less probable of the two does that. In one recorded case of fifteen in which this happens it is then the best of
 //! the six; on synthetic traffic, where the modes are sure with reason, next to nothing is lost.
 
-use super::candidates::Slot;
+use super::slot::Slot;
 use super::trajectory::{BASIS, PER_INSTANT, places};
 use crate::features::agent::AgentPlan;
 use crate::planning::profile::{Caps, approaching};

@@ -1,8 +1,9 @@
 //! Guidance: drafts of a chosen scene that conflict, led out of each other's way.
 
 use super::actor::Actor;
-use super::candidates::{Candidate, Origin, Slot};
+use super::candidates::{Candidate, Origin};
 use super::repulsion::{Outline, SceneEnergy, Terms};
+use super::slot::Slot;
 use super::trajectory::{Motion, places, to_trajectory};
 use crate::planning::{Modes, Residual};
 use crate::tuning::GuidanceTuning;

@@ -19,6 +19,7 @@ mod repulsion;
 mod retimed;
 #[cfg(test)]
 mod samples;
+mod slot;
 mod subgoal;
 mod trajectory;
 mod window;

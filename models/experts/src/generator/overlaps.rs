@@ -1,8 +1,8 @@
 //! Overlaps of drawn drafts, resolved without the networks.
 
 use super::actor::{Actor, Drafts};
-use super::candidates::Slot;
 use super::repulsion::{Outline, Poses, SceneEnergy, Terms, leading_outlines, poses_of};
+use super::slot::Slot;
 use super::trajectory::places;
 use crate::planning::Residual;
 

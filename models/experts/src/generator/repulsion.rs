@@ -2,8 +2,8 @@
 //! downhill in it.
 
 use super::actor::{Actor, Drafts};
-use super::candidates::Slot;
 use super::kerb::kerb;
+use super::slot::Slot;
 use super::trajectory::{PER_INSTANT, places};
 use super::workers::Workers;
 use crate::planning::pullback::Pullback;

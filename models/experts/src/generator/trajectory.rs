@@ -1,7 +1,7 @@
 //! From route coordinates to motion: residual knots on an anchor, to positions, to control knots, to a
 //! rollout that meets the goal and the limits.
 
-use super::candidates::Slot;
+use super::slot::Slot;
 use crate::features::agent::AgentPlan;
 use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, Residual, STAYS_WITHIN_M};
 use scene::geometry::direction;

@@ -3,11 +3,12 @@
 
 use super::actor::{Actor, Drafts};
 use super::background::Background;
-use super::candidates::{Candidate, Material, Slot, leads_by_probability, middle};
+use super::candidates::{Candidate, Material, leads_by_probability, middle};
 use super::noise::Key;
 use super::overlaps::resolve_overlaps;
 use super::reacting::reacting;
 use super::repulsion::{SceneEnergy, repulsions};
+use super::slot::Slot;
 use super::trajectory::may_rest;
 use super::workers::Workers;
 use super::{Generator, KnownMap, costs, duplicate_modes};

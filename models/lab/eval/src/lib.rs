@@ -24,6 +24,7 @@ mod run;
 pub mod sheet;
 pub mod stats;
 mod table;
+mod tables;
 pub mod together;
 mod variety;
 
@@ -31,7 +32,8 @@ pub use cases::{Case, Site, Subset, cases};
 pub use quality::type_name;
 pub use report::{CropReport, EvalReport};
 pub use run::{EvalOptions, run};
-pub use table::{TABLES, Table};
+pub use table::Table;
+pub use tables::TABLES;
 
 use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};
 use lab_train::baselines::Baseline;

@@ -2,7 +2,8 @@
 
 use super::report::{CropReport, EvalReport};
 use super::stats::Bootstrap;
-use super::table::{TABLES, Table, Trial};
+use super::table::{Table, Trial};
+use super::tables::TABLES;
 use super::{Judged, Site};
 use anyhow::Result;
 use lab_train::baselines::Baseline;

@@ -1,9 +1,8 @@
-//! What a table of the evaluation is, and the list of all. A table is one file and one line of [`TABLES`].
+//! What a table of the evaluation is.
 
 use super::sheet::Sheet;
 use super::stats::Bootstrap;
 use super::{Entrants, Judged, Site};
-use super::{ablation, coherence, control, cost, quality, realism, refining, variety};
 use anyhow::Result;
 use lab_train::baselines::Baseline;
 use scene::Scene;
@@ -17,25 +16,6 @@ pub struct Table {
     pub name: &'static str,
     /// Makes it.
     pub(super) make: fn(&mut Trial<'_>) -> Result<Made>,
-}
-
-/// All tables, in the order of their numbers.
-pub const TABLES: [Table; 8] = [
-    quality::TABLE,
-    coherence::TABLE,
-    control::TABLE,
-    realism::TABLE,
-    variety::TABLE,
-    cost::TABLE,
-    ablation::TABLE,
-    refining::TABLE,
-];
-
-impl Table {
-    /// By its number.
-    pub fn numbered(number: usize) -> Option<&'static Self> {
-        const { &TABLES }.iter().find(|table| table.number == number)
-    }
 }
 
 /// Who is judged, on what, and how: what a table is made from.
@@ -79,19 +59,5 @@ pub(super) struct Made {
 impl From<Vec<Sheet>> for Made {
     fn from(sheets: Vec<Sheet>) -> Self {
         Self { sheets, ..Self::default() }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tables_are_found_by_their_numbers() {
-        for (place, table) in TABLES.iter().enumerate() {
-            assert_eq!(table.number, place + 1, "{}", table.name);
-            assert_eq!(Table::numbered(table.number).map(|found| found.name), Some(table.name));
-        }
-        assert!(Table::numbered(0).is_none() && Table::numbered(9).is_none());
     }
 }

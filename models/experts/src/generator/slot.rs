@@ -1,0 +1,38 @@
+//! The places of an actor's modes.
+
+use crate::planning::{MODES, Modes, Residual};
+
+/// A mode by its place among an actor's anchors and drafts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Slot(u8);
+
+impl Slot {
+    /// The first: trained to be the middle of what may happen, where there is a place to go.
+    pub(super) const FIRST: Self = Self(0);
+
+    /// Of an index below [`MODES`].
+    pub(super) fn new(index: usize) -> Self {
+        debug_assert!(index < MODES);
+        Self(index as u8)
+    }
+
+    /// As the answer names it.
+    pub(super) fn number(self) -> u32 {
+        u32::from(self.0)
+    }
+
+    /// Every slot in order.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        (0..MODES).map(Self::new)
+    }
+
+    /// Index below [`MODES`].
+    pub(super) fn index(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// The draft in this slot.
+    pub(super) fn of(self, modes: &Modes) -> &Residual {
+        &modes[self.index()]
+    }
+}

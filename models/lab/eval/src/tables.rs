@@ -1,0 +1,37 @@
+//! The list of all tables. A table is one file and one line of [`TABLES`].
+
+use super::table::Table;
+use super::{ablation, coherence, control, cost, quality, realism, refining, variety};
+
+/// All tables, in the order of their numbers.
+pub const TABLES: [Table; 8] = [
+    quality::TABLE,
+    coherence::TABLE,
+    control::TABLE,
+    realism::TABLE,
+    variety::TABLE,
+    cost::TABLE,
+    ablation::TABLE,
+    refining::TABLE,
+];
+
+impl Table {
+    /// By its number.
+    pub fn numbered(number: usize) -> Option<&'static Self> {
+        const { &TABLES }.iter().find(|table| table.number == number)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_found_by_their_numbers() {
+        for (place, table) in TABLES.iter().enumerate() {
+            assert_eq!(table.number, place + 1, "{}", table.name);
+            assert_eq!(Table::numbered(table.number).map(|found| found.name), Some(table.name));
+        }
+        assert!(Table::numbered(0).is_none() && Table::numbered(9).is_none());
+    }
+}
