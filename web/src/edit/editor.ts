@@ -235,9 +235,12 @@ export class Editor {
 
   /** A frame of the drag: the document as it would be. */
   previewDrag(command: Command): void {
-    if (!this.#history) return;
-    this.#scene.value = this.#history.preview(command);
-    this.answers.dragMoved();
+    const preview = this.#history?.preview(command);
+    if (!preview) return;
+    batch(() => {
+      this.#scene.value = preview;
+      this.answers.dragMoved();
+    });
   }
 
   dragOver(place: DragPlace): void {

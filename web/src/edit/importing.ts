@@ -9,8 +9,8 @@ import { countAll, type SceneList } from './scene-list';
 export interface ImportedScene {
   readonly id: string;
   readonly name: string;
-  /** Road users; null where nobody says. */
-  readonly count: number | null;
+  /** Road users. */
+  readonly count: number;
 }
 
 /** What became of one file, and, when it could not be read, what is wrong, where, and what to do. */
@@ -49,16 +49,10 @@ export class Importing {
     for (const f of files) verdicts.push(await this.#one(f));
     await this.list.refresh().catch(() => undefined);
     notices.hide();
-    const counted = verdicts.map((v) => ({ ...v, scenes: v.scenes.map((s) => this.#counted(s)) }));
-    const good = counted.flatMap((v) => v.scenes);
+    const good = verdicts.flatMap((v) => v.scenes);
     if (good.length) await this.library.open(good[0].id);
-    if (good.length === 1 && counted.every((v) => v.ok)) notices.show({ text: `${good[0].name} imported.` });
-    else this.#verdicts.value = counted;
-  }
-
-  #counted(s: ImportedScene): ImportedScene {
-    const item = this.list.find(s.id);
-    return { ...s, count: s.count ?? (item ? countAll(item) : null) };
+    if (good.length === 1 && verdicts.every((v) => v.ok)) notices.show({ text: `${good[0].name} imported.` });
+    else this.#verdicts.value = verdicts;
   }
 
   async #one(file: File): Promise<FileVerdict> {
@@ -82,14 +76,14 @@ function verdictOf(file: string, reply: ImportReply): FileVerdict {
   const scenes = reply.scenes.map(({ id = '', name, counts }) => ({
     id,
     name,
-    count: counts ? Object.values(counts).reduce((sum, n) => sum + n, 0) : null,
+    count: countAll(counts),
   }));
-  const skipped = reply.skipped ?? [];
+  const { skipped } = reply;
   if (!scenes.length) return { file, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
   if (!skipped.length) return { file, ok: true, scenes };
-  const { detail, title } = skipped[0].problem;
+  const { detail } = skipped[0].problem;
   const share = `${skipped.length} of ${scenes.length + skipped.length} scenes in this file could not be read`;
-  return { file, ok: true, scenes, wrong: `${share}: ${detail ?? title}` };
+  return { file, ok: true, scenes, wrong: `${share}: ${detail}` };
 }
 
 function explain(file: string, p: Problem | undefined): Explanation {

@@ -119,7 +119,7 @@ export class Reception {
     const { editor } = this;
     const f = this.#futuresOf(scene, e, keep).get(id);
     if (!f) return;
-    const reach = readReach(e.resolved?.[id]);
+    const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
@@ -158,7 +158,7 @@ export class Reception {
     const driving = new Set(everybody ? [...before.driving, ...answers.keys()] : []);
     for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
     const reach = new Map(before.reach);
-    for (const [id, resolved] of Object.entries(e.resolved ?? {})) {
+    for (const [id, resolved] of Object.entries(e.resolved)) {
       const verdict = readReach(resolved);
       if (verdict) reach.set(id, verdict);
       else reach.delete(id);
@@ -167,7 +167,7 @@ export class Reception {
       key: sceneKey(scene),
       futures,
       driving,
-      score: readScore(e.scores),
+      score: readScore(e.scores?.[0]),
       reach,
       stale: false,
       head: e.generated,

@@ -8,8 +8,9 @@ const FIRST = ['demo-motorway', 'demo-arterial', 'demo-residential', 'demo-round
 
 const isExample = (id: string): boolean => id.startsWith('demo-');
 
-/** Road users of a scene in the list; 0 where the list does not say. */
-export const countAll = (s: SceneListItem): number => Object.values(s.counts ?? {}).reduce((sum, n) => sum + n, 0);
+/** Road users of all types together. */
+export const countAll = (counts: SceneListItem['counts']): number =>
+  Object.values(counts).reduce((sum, n) => sum + n, 0);
 
 export class SceneList {
   readonly #list = signal<readonly SceneListItem[]>([]);
@@ -34,13 +35,13 @@ export class SceneList {
   }
 
   isOwn(id: string): boolean {
-    return !isExample(id) && this.find(id)?.readonly !== true;
+    return !isExample(id) && !this.find(id)?.readonly;
   }
 }
 
 /** Own scenes first, newest on top, then the examples, then what was recorded. */
 function inOrder(scenes: readonly SceneListItem[]): SceneListItem[] {
-  const rank = (s: SceneListItem): number => (isExample(s.id) ? 1 : s.readonly !== true ? 0 : 2);
+  const rank = (s: SceneListItem): number => (isExample(s.id) ? 1 : !s.readonly ? 0 : 2);
   const example = (s: SceneListItem): number => (isExample(s.id) ? -FIRST.indexOf(s.id) : 0);
   return [...scenes].sort((a, b) => rank(a) - rank(b) || example(a) - example(b));
 }

@@ -287,19 +287,66 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * AcceptedEvent
+         * @description First event: what will be done.
+         */
         AcceptedEvent: {
-            /** @constant */
-            event?: "accepted";
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "accepted";
+            /** @description Road users that keep their motion. */
             fixed: string[];
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint
+             * @description Jobs before this one when it was asked for.
+             */
             queue_position: number;
+            /** @description Road users that answer to them. */
             reacting: string[];
+            /** @description Road users that get new futures. */
             regenerated: string[];
-            seed?: number;
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description The seed in use.
+             */
+            seed: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /**
+             * Format: uint
+             * @description Refinement steps of a window.
+             */
             steps: number;
-            warnings?: components["schemas"]["Warning"][];
+            /** @description Unlikely things known by now. */
+            warnings: components["schemas"]["Warning"][];
+            /**
+             * Format: uint
+             * @description Planning windows, one after the other.
+             */
             windows: number;
-        } & components["schemas"]["EventBase"];
-        /** @description One road user. */
+        };
+        /**
+         * AgentDoc
+         * @description One road user.
+         */
         AgentDoc: {
             /**
              * @description What the user fixed.
@@ -357,7 +404,10 @@ export interface components {
              */
             width_m?: number | null;
         };
-        /** @description The futures of one road user. */
+        /**
+         * AgentFuturesDoc
+         * @description The futures of one road user.
+         */
         AgentFuturesDoc: {
             /**
              * Format: uint64
@@ -367,16 +417,125 @@ export interface components {
             /** @description By falling probability. */
             modes: components["schemas"]["FutureDoc"][];
         };
-        /** @description The word `all`. */
+        /**
+         * AgentScore
+         * @description Score of one road user.
+         */
+        AgentScore: {
+            /**
+             * Format: double
+             * @description Mean distance of the chosen future, metres.
+             */
+            ade_m?: number | null;
+            /**
+             * Format: uint
+             * @description Collisions it is part of.
+             */
+            collisions: number;
+            /** @description Which step counted as the end. */
+            endpoint?: components["schemas"]["Endpoint"];
+            /** @description Only when a goal field is fixed. */
+            goal_error: components["schemas"]["GoalError"] | null;
+            /**
+             * Format: double
+             * @description Mean absolute heading error of the future that ends closest, radians.
+             */
+            heading_error_rad?: number | null;
+            /** @description Generated motion only. */
+            kinematic: components["schemas"]["Kinematic"] | null;
+            /**
+             * Format: double
+             * @description Greatest distance of the chosen future, metres (the log ghost's figure).
+             */
+            max_distance_m?: number | null;
+            /**
+             * Format: double
+             * @description Least mean distance of any future, metres.
+             */
+            min_ade_m?: number | null;
+            /**
+             * Format: double
+             * @description As in [`SceneScore`].
+             */
+            min_distance_m: number | null;
+            /**
+             * Format: double
+             * @description Least distance at the end of any future, metres.
+             */
+            min_fde_m?: number | null;
+            /**
+             * Format: double
+             * @description As in [`SceneScore`].
+             */
+            min_ttc_s: number | null;
+            /**
+             * Format: uint
+             * @description Near misses it is part of.
+             */
+            near_misses: number;
+            /**
+             * Format: double
+             * @description Vehicles only.
+             */
+            offroad_max_m: number | null;
+            /**
+             * Format: double
+             * @description Vehicles only.
+             */
+            offroad_share: number | null;
+            /**
+             * Format: double
+             * @description As in [`SceneScore`].
+             */
+            pet_s: number | null;
+            /**
+             * Format: double
+             * @description Mean absolute speed error of the future that ends closest, m/s.
+             */
+            speed_error_mps?: number | null;
+            /**
+             * Format: double
+             * @description Vehicles only.
+             */
+            wrong_way_share: number | null;
+        };
+        /**
+         * AgentType
+         * @description What kind of road user; selects the expert and the motion model.
+         */
+        AgentType: "vehicle" | "pedestrian" | "cyclist" | "other";
+        /**
+         * All
+         * @description The word `all`.
+         */
         All: "all";
-        /** @description A crosswalk, speed bump or driveway. */
+        /**
+         * AreaDoc
+         * @description A crosswalk, speed bump or driveway.
+         */
         AreaDoc: {
             /** @description Unique among areas of the kind. */
             id: string;
             /** @description Open ring. */
             polygon_m: components["schemas"]["Points"];
         };
-        /** @description A stretch of a lane's side and the line or edge that bounds it. */
+        /**
+         * Bound
+         * @description One bound as it is in force.
+         */
+        Bound: {
+            /**
+             * Format: uint64
+             * @description In the unit of the bound's name.
+             */
+            value: number;
+            /** @description What it bounds. */
+            what: string;
+        };
+        /**
+         * BoundaryDoc
+         * @description A stretch of a lane's side and the line or edge that bounds it.
+         */
         BoundaryDoc: {
             /**
              * Format: uint32
@@ -396,7 +555,20 @@ export interface components {
              */
             to: number;
         };
-        /** @description A circle. */
+        /**
+         * Build
+         * @description What the program was built for.
+         */
+        Build: {
+            /** @description Cargo profile. */
+            profile: string;
+            /** @description Target triple. */
+            target: string;
+        };
+        /**
+         * CircleDoc
+         * @description A circle.
+         */
         CircleDoc: {
             /**
              * Format: double
@@ -414,7 +586,71 @@ export interface components {
              */
             y_m: number;
         };
-        /** @description All that a user fixes about one road user. A number fixes a field, null or absence frees it. */
+        /**
+         * Collision
+         * @description Two road users overlap. One entry a pair.
+         */
+        Collision: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Speed at which the two closed in at the first moment, m/s (their relative speed when they
+             *     already overlap).
+             */
+            closing_speed_mps: number;
+            /**
+             * Format: double
+             * @description Greatest intersection over union of the whole encounter, 0 to 1.
+             */
+            iou: number;
+            /**
+             * Format: double
+             * @description Scene time of the first moment over the threshold, seconds.
+             */
+            time_s: number;
+        };
+        /**
+         * Condition
+         * @description A word for those who look after the server.
+         */
+        Condition: "ok" | "ready";
+        /**
+         * ConditionRange
+         * @description Allowed sizes and speeds of one agent type; both ends are allowed.
+         */
+        ConditionRange: {
+            /** @description Metres. */
+            length_m: [
+                number,
+                number
+            ];
+            /** @description m/s; also the norm of a velocity. */
+            speed_mps: [
+                number,
+                number
+            ];
+            /** @description Metres. */
+            width_m: [
+                number,
+                number
+            ];
+        };
+        /**
+         * ConditionRanges
+         * @description What conditions may ask for, by type; both ends are allowed.
+         */
+        ConditionRanges: {
+            cyclist: components["schemas"]["ConditionRange"];
+            pedestrian: components["schemas"]["ConditionRange"];
+            vehicle: components["schemas"]["ConditionRange"];
+        };
+        /**
+         * ConditionsDoc
+         * @description All that a user fixes about one road user. A number fixes a field, null or absence frees it.
+         */
         ConditionsDoc: {
             /**
              * @description Frame of the goal; replies are always in `scene`.
@@ -441,7 +677,10 @@ export interface components {
              */
             width_m?: number | null;
         };
-        /** @description Road users by type. */
+        /**
+         * Counts
+         * @description Road users by type.
+         */
         Counts: {
             /** Format: uint */
             cyclist: number;
@@ -452,7 +691,46 @@ export interface components {
             /** Format: uint */
             vehicle: number;
         };
-        /** @description How many: exactly one of the two. */
+        /**
+         * Defaults
+         * @description What a request has when it does not say: the one place, for the API, the command line and clients.
+         */
+        Defaults: {
+            /**
+             * Format: double
+             * @description Scale of the draw's noise.
+             */
+            diversity: number;
+            /**
+             * Format: double
+             * @description Seconds to generate.
+             */
+            horizon_s: number;
+            /**
+             * Format: uint
+             * @description Alternatives kept per road user.
+             */
+            modes: number;
+            /**
+             * Format: uint
+             * @description Independent joint scenes.
+             */
+            samples: number;
+            /**
+             * Format: uint64
+             * @description Repeats the answer.
+             */
+            seed: number;
+            /**
+             * Format: uint
+             * @description Refinement steps.
+             */
+            steps: number;
+        };
+        /**
+         * DensityDoc
+         * @description How many: exactly one of the two.
+         */
         DensityDoc: {
             /**
              * Format: uint64
@@ -467,19 +745,62 @@ export interface components {
              */
             per_lane_km?: number | null;
         };
-        /** @description `initial`: the first guess. `step`: after a denoising step. The futures of a later window begin where it begins. */
+        /**
+         * DraftEvent
+         * @description `initial`: the first guess. `step`: after a refinement step. The futures of a later window begin where it begins.
+         */
         DraftEvent: {
+            /** @description Futures by road user; the chosen ones alone, or all as `stream_modes` says. */
             agents: {
                 [key: string]: components["schemas"]["AgentFuturesDoc"];
             };
-            /** @enum {unknown} */
-            event?: "initial" | "step";
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @enum {string}
+             */
+            event: "initial" | "step";
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint
+             * @description Joint scene, from 0.
+             */
             sample: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /**
+             * Format: uint
+             * @description Refinement step, from 1; not in `initial`.
+             */
             step?: number;
+            /**
+             * Format: uint
+             * @description Refinement steps of a window.
+             */
             steps: number;
+            /**
+             * Format: uint
+             * @description Planning window, from 0.
+             */
             window: number;
-        } & components["schemas"]["EventBase"];
-        /** @description A surface that may be driven on. */
+        };
+        /**
+         * DrivableDoc
+         * @description A surface that may be driven on.
+         */
         DrivableDoc: {
             /**
              * @description Open rings that are not drivable.
@@ -491,7 +812,10 @@ export interface components {
             /** @description Open ring. */
             polygon_m: components["schemas"]["Points"];
         };
-        /** @description How the copy is called. */
+        /**
+         * DuplicateRequest
+         * @description How the copy is called.
+         */
         DuplicateRequest: {
             /**
              * @description The original's with "copy" after it when absent.
@@ -499,60 +823,158 @@ export interface components {
              */
             name?: string | null;
         };
+        /**
+         * Endpoint
+         * @description Which step counts as the end of a future.
+         */
+        Endpoint: "last" | "before_last";
+        /**
+         * ErrorEvent
+         * @description Last event of a call that failed or was cancelled.
+         */
         ErrorEvent: {
-            /** @constant */
-            event?: "error";
-            problem: components["schemas"]["Problem"];
-        } & components["schemas"]["EventBase"];
-        /** @description One event of the stream. Exactly one of final, error and superseded ends it. */
-        Event: components["schemas"]["AcceptedEvent"] | components["schemas"]["DraftEvent"] | components["schemas"]["FinalEvent"] | components["schemas"]["ErrorEvent"] | components["schemas"]["SupersededEvent"] | components["schemas"]["HeartbeatEvent"];
-        EventBase: {
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
             elapsed_ms: number;
-            event: string;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "error";
+            /** @description Id of the job. */
             job: string;
+            /** @description What a refusal before the stream would have been answered with. */
+            problem: components["schemas"]["Problem"];
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
             revision?: number;
-            /** @description Rises; a gap shows steps dropped for a slow reader. */
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
             seq: number;
         };
-        /** @description A value as it was used, and where it came from. */
+        /**
+         * Event
+         * @description One event of the stream. Exactly one of final, error and superseded ends it.
+         */
+        Event: components["schemas"]["AcceptedEvent"] | components["schemas"]["DraftEvent"] | components["schemas"]["FinalEvent"] | components["schemas"]["ErrorEvent"] | components["schemas"]["SupersededEvent"] | components["schemas"]["HeartbeatEvent"];
+        /**
+         * Field
+         * @description A value and where it came from.
+         */
         Field: {
-            /** @enum {unknown} */
-            from: "user" | "log" | "default" | "model";
+            /** @description Origin. */
+            from: components["schemas"]["Source"];
+            /**
+             * Format: double
+             * @description In the unit of the field's name.
+             */
             value: number;
         };
+        /**
+         * FieldProblem
+         * @description One fault and its place.
+         */
         FieldProblem: {
+            /** @description A word that programs can switch on. */
             code: string;
+            /** @description What was found and what was expected, for people. */
             detail: string;
+            /**
+             * Format: double
+             * @description The value found, where it is a number.
+             */
             got?: number;
+            /**
+             * Format: double
+             * @description Greatest value allowed, where that is the fault.
+             */
             max?: number;
+            /**
+             * Format: double
+             * @description Least value allowed, where that is the fault.
+             */
             min?: number;
-            /** @description JSON pointer into the body; /query/NAME for a parameter. */
+            /** @description JSON pointer into the body, empty for the whole of it; /query/NAME for a parameter. */
             pointer: string;
         };
+        /**
+         * FinalEvent
+         * @description Last event of a call that succeeded: the answer.
+         */
         FinalEvent: {
-            /** @constant */
-            event?: "final";
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "final";
             /** @description The scene's `generated` member, all but `samples`: put `samples` in and save. */
-            generated: Record<string, never>;
+            generated: components["schemas"]["GeneratedHead"];
+            /** @description Id of the job. */
+            job: string;
+            /** @description Every condition field as it was used. */
             resolved: {
                 [key: string]: components["schemas"]["Resolved"];
             };
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /** @description Joint scenes. */
             samples: components["schemas"]["SampleDoc"][];
-            /** @description One a sample; null when none was asked for. */
-            scores?: components["schemas"]["ScoreReply"][] | null;
-            timing: {
-                choice_ms?: number;
-                encode_ms?: number;
-                initial_ms?: number;
-                queue_ms?: number;
-                score_ms?: number;
-                step_ms?: number[];
-            };
+            /** @description One report a sample, or null when none was asked for. */
+            scores: components["schemas"]["ScoreReply"][] | null;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+            /** @description Where the time went. */
+            timing: components["schemas"]["Timing"];
+            /** @description Unlikely things that were done anyway. */
             warnings: components["schemas"]["Warning"][];
-            /** @description Planning windows that were run. A chosen future runs through all of them; its alternatives are those of the first and end with its plan. */
+            /**
+             * Format: uint
+             * @description Planning windows that were run. A chosen future runs through all of them; its alternatives are those
+             *     of the first and end with its plan.
+             */
             windows: number;
-        } & components["schemas"]["EventBase"];
+        };
         /**
+         * FormatInfo
+         * @description What people and programs need to know about a format.
+         */
+        FormatInfo: {
+            /** @description Can be written. */
+            export: boolean;
+            /** @description Ends of file names, the first one for exports. */
+            extensions: string[];
+            /** @description Word for `--from`, `--to` and `?format=`. */
+            id: string;
+            /** @description Can be read. */
+            import: boolean;
+            /** @description Holds many scenes in one file. */
+            many: boolean;
+            /** @description Media type of an exported file. */
+            media_type: string;
+            /** @description For people. */
+            name: string;
+            /** @description May come with the network it belongs to ([`ImportOptions::net`]). */
+            takes_net: boolean;
+        };
+        /**
+         * FutureDoc
          * @description One possible motion as columns, one value a step from `first_step`, without gaps. Rounded to
          *     0.001 m, 0.0001 rad and 0.001 m/s.
          */
@@ -584,7 +1006,10 @@ export interface components {
             /** @description Box centre, metres. */
             y_m: number[];
         };
-        /** @description Body of a generation. Exactly one of `scene` and `scene_id` is given. */
+        /**
+         * GenerateRequest
+         * @description Body of a generation. Exactly one of `scene` and `scene_id` is given.
+         */
         GenerateRequest: {
             /**
              * @description Road users put in for this call.
@@ -703,7 +1128,10 @@ export interface components {
              */
             stream_modes?: components["schemas"]["StreamModes"];
         };
-        /** @description What the generator added to a scene. */
+        /**
+         * GeneratedDoc
+         * @description What the generator added to a scene.
+         */
         GeneratedDoc: {
             /**
              * Format: uint64
@@ -744,7 +1172,38 @@ export interface components {
                 [key: string]: string;
             };
         };
-        /** @description Where a road user should be at `time_s`; absent or null is free. */
+        /**
+         * GeneratedHead
+         * @description The members of `generated` that do not come from the generator.
+         */
+        GeneratedHead: {
+            /**
+             * Format: uint
+             * @description Index into `samples`.
+             */
+            chosen_sample: number;
+            /** @description RFC 3339 time. */
+            created_at: string;
+            /** @description Hash of the user's part that the futures answer. */
+            input_sha256: string;
+            /** @description The request's options as sent, without scene and conditions. */
+            request: unknown;
+            /**
+             * Format: uint64
+             * @description Seed that repeats the answer.
+             */
+            seed: number;
+            /** @description The user's part has changed since. */
+            stale: boolean;
+            /** @description Expert's name to the hash of its weights. */
+            weights: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * GoalDoc
+         * @description Where a road user should be at `time_s`; absent or null is free.
+         */
         GoalDoc: {
             /**
              * Format: double
@@ -789,51 +1248,211 @@ export interface components {
              */
             y_m?: number | null;
         } & (unknown & unknown & unknown & unknown);
+        /**
+         * GoalError
+         * @description Error at the goal time; a member is missing where its field was free.
+         */
+        GoalError: {
+            /**
+             * Format: double
+             * @description Absolute turn from the goal heading, radians.
+             */
+            heading_rad?: number | null;
+            /**
+             * Format: double
+             * @description Distance from the goal, metres.
+             */
+            position_m?: number | null;
+            /**
+             * Format: double
+             * @description Absolute difference from the goal speed, m/s.
+             */
+            speed_mps?: number | null;
+        };
+        /**
+         * Health
+         * @description How the server is.
+         */
+        Health: {
+            status: components["schemas"]["Condition"];
+        };
+        /**
+         * HeartbeatEvent
+         * @description A sign of life between events, in NDJSON alone: SSE has comments for it.
+         */
         HeartbeatEvent: {
             /** @constant */
             event: "heartbeat";
         };
+        /**
+         * ImportReply
+         * @description What an import gave.
+         */
         ImportReply: {
+            /** @description A name of the formats table. */
             format: string;
-            scenes: {
-                counts: components["schemas"]["Counts"];
-                etag?: string;
-                id?: string;
-                name: string;
-                scene?: components["schemas"]["Scene"];
-                steps: number;
-                warnings: components["schemas"]["Warning"][];
-            }[];
-            skipped: {
-                index: number;
-                problem: components["schemas"]["Problem"];
-            }[];
+            /** @description Scenes in the order of the file. */
+            scenes: components["schemas"]["ImportedScene"][];
+            /** @description Records that are no scenes. */
+            skipped: components["schemas"]["SkippedRecord"][];
         };
-        Info: {
-            build?: Record<string, never>;
-            condition_ranges?: Record<string, never>;
-            device?: string;
-            formats: Record<string, never>[];
-            limits: {
-                [key: string]: {
-                    value?: number;
-                    what?: string;
-                };
-            };
+        /**
+         * ImportWarning
+         * @description Something a reader changed or left out without refusing.
+         */
+        ImportWarning: {
+            /** @description A word that programs can switch on. */
+            code: string;
+            /** @description For people. */
+            detail: string;
+        };
+        /**
+         * ImportedScene
+         * @description One scene of a file.
+         */
+        ImportedScene: {
+            /** @description Road users by type. */
+            counts: components["schemas"]["Counts"];
+            /** @description As in the ETag header; not in a dry run. */
+            etag?: string;
+            /** @description Id it was stored under; not in a dry run. */
+            id?: string;
+            /** @description For people. */
             name: string;
-            notices?: string[];
-            placement?: {
-                licence?: string;
-                numbers?: number;
-                sha256?: string;
-                trained_on?: string;
-            } | null;
+            /** @description The scene itself, in a dry run alone. */
+            scene?: components["schemas"]["SceneDoc"];
+            /**
+             * Format: uint
+             * @description Steps of 0.1 s.
+             */
+            steps: number;
+            /** @description What the reader changed or left out. */
+            warnings: components["schemas"]["ImportWarning"][];
+        };
+        /**
+         * Info
+         * @description What this server is and can do.
+         */
+        Info: {
+            build: components["schemas"]["Build"];
+            /** @description What conditions may ask for. */
+            condition_ranges: components["schemas"]["ConditionRanges"];
+            /** @description What a generation has when the request does not say. */
+            defaults: components["schemas"]["Defaults"];
+            /** @description What computes the networks. */
+            device: string;
+            /** @description Formats of files. */
+            formats: components["schemas"]["FormatInfo"][];
+            /** @description Bounds of the server by name, and those of the scene format. */
+            limits: {
+                [key: string]: components["schemas"]["Bound"];
+            };
+            /** @description What each kind of road user can do. */
+            motion_limits: components["schemas"]["KindLimits"];
+            /** @description Name of the program. */
+            name: string;
+            /** @description Sentences for people who run the server. */
+            notices: string[];
+            /** @description Weights of placement; null when road users are placed evenly along lanes. */
+            placement: components["schemas"]["PlacementInfo"] | null;
+            /** @description Version of the program. */
             version: string;
+            /** @description Experts by name. */
             weights: {
-                [key: string]: Record<string, never>;
+                [key: string]: components["schemas"]["WeightsInfo"];
             };
         };
-        /** @description One lane. */
+        /**
+         * Intermediate
+         * @description Where a window sent a road user whose goal is due after the window's end: the state there on the
+         *     way to the goal at constant acceleration, along the lanes where they lead to it, else straight.
+         */
+        Intermediate: {
+            /** Format: double */
+            heading_rad: number;
+            /** @description The plan met it. */
+            reached: boolean;
+            /** Format: double */
+            speed_mps: number;
+            /**
+             * Format: double
+             * @description Scene time at which the state was to be reached, seconds: the end of the window's plan.
+             */
+            time_s: number;
+            /**
+             * Format: uint
+             * @description Planning window, from 0.
+             */
+            window: number;
+            /** Format: double */
+            x_m: number;
+            /** Format: double */
+            y_m: number;
+        };
+        /**
+         * KindLimits
+         * @description Motion limits by kind of road user, each of the kind's usual size.
+         */
+        KindLimits: {
+            bus: components["schemas"]["MotionLimits"];
+            car: components["schemas"]["MotionLimits"];
+            cyclist: components["schemas"]["MotionLimits"];
+            motorcycle: components["schemas"]["MotionLimits"];
+            other: components["schemas"]["MotionLimits"];
+            pedestrian: components["schemas"]["MotionLimits"];
+            trailer: components["schemas"]["MotionLimits"];
+            truck: components["schemas"]["MotionLimits"];
+        };
+        /**
+         * Kinematic
+         * @description Greatest values of a motion.
+         */
+        Kinematic: {
+            /**
+             * Format: double
+             * @description Greatest speeding up, m/s2.
+             */
+            accel_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest braking, m/s2, positive.
+             */
+            brake_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest curvature above 1 m/s, 1/m; none for walkers.
+             */
+            curvature_per_m: number | null;
+            /**
+             * Format: double
+             * @description Greatest jerk along the way, m/s3; none for walkers.
+             */
+            jerk_mps3: number | null;
+            /**
+             * Format: double
+             * @description Greatest sideways acceleration, m/s2.
+             */
+            lateral_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest speed, m/s.
+             */
+            speed_mps: number;
+            /**
+             * Format: uint
+             * @description Steps with at least one value over its limit ([`KinematicLimits`]).
+             */
+            violations: number;
+            /**
+             * Format: double
+             * @description Greatest turning, rad/s; none for walkers.
+             */
+            yaw_rate_radps: number | null;
+        };
+        /**
+         * LaneDoc
+         * @description One lane.
+         */
         LaneDoc: {
             /** @description Unique among lanes, `[A-Za-z0-9_.:-]{1,64}`. */
             id: string;
@@ -893,10 +1512,21 @@ export interface components {
              */
             width_m?: number | null;
         };
-        /** @description The word `log`. */
+        /**
+         * Limiting
+         * @description The limit of motion that binds.
+         */
+        Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature";
+        /**
+         * Log
+         * @description The word `log`.
+         */
         Log: "log";
         Map: components["schemas"]["MapDoc"];
-        /** @description Everything that does not move. */
+        /**
+         * MapDoc
+         * @description Everything that does not move.
+         */
         MapDoc: {
             /**
              * @description Crosswalks.
@@ -939,9 +1569,15 @@ export interface components {
              */
             stop_signs?: components["schemas"]["StopSignDoc"][];
         };
-        /** @description A map, or the hash of one. */
+        /**
+         * MapField
+         * @description A map, or the hash of one.
+         */
         MapField: components["schemas"]["MapRef"] | components["schemas"]["MapDoc"];
-        /** @description One map of the store. */
+        /**
+         * MapItem
+         * @description One map of the store.
+         */
         MapItem: {
             /**
              * Format: uint64
@@ -961,16 +1597,25 @@ export interface components {
             /** @description Content hash, 64 hex digits. */
             sha256: string;
         };
-        /** @description Maps of the store. */
+        /**
+         * MapList
+         * @description Maps of the store.
+         */
         MapList: {
             maps: components["schemas"]["MapItem"][];
         };
-        /** @description Names a map by its content. */
+        /**
+         * MapRef
+         * @description Names a map by its content.
+         */
         MapRef: {
             /** @description `sha256:` and 64 hex digits, see `scene::LaneMap::hash`. */
             ref: string;
         };
-        /** @description Where the scene came from and what people say about it. */
+        /**
+         * MetaDoc
+         * @description Where the scene came from and what people say about it.
+         */
         MetaDoc: {
             /**
              * @description Version of the program that made it.
@@ -1029,11 +1674,90 @@ export interface components {
             ][];
         };
         /**
-         * @description Words of [`Method`].
-         * @enum {string}
+         * MotionLimits
+         * @description What one kind of road user can do; answers never go beyond it.
          */
-        MethodWord: "model" | "lane-sampler";
-        /** @description A lane beside this one. */
+        MotionLimits: {
+            /**
+             * Format: double
+             * @description Greatest speeding up.
+             */
+            accel_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest braking, positive.
+             */
+            brake_mps2: number;
+            /**
+             * Format: double
+             * @description Sideways acceleration that drivers choose in bends: comfort, not a bound.
+             */
+            comfort_lateral_mps2: number;
+            /**
+             * Format: double
+             * @description Greatest curvature; null on foot, where turning has no bound. Vehicles longer than the kind's
+             *     usual ones turn wider.
+             */
+            curvature_per_m: number | null;
+            /**
+             * Format: double
+             * @description Greatest sideways acceleration.
+             */
+            lateral_mps2: number;
+            /**
+             * Format: double
+             * @description Top speed.
+             */
+            speed_mps: number;
+        };
+        /**
+         * NearMiss
+         * @description Two moving road users nearly collide. One entry a pair, at its worst moment.
+         */
+        NearMiss: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Rate at which the gap shrank then, m/s.
+             */
+            closing_speed_mps: number;
+            /**
+             * Format: double
+             * @description Gap between the boxes then, metres.
+             */
+            distance_m: number;
+            /**
+             * Format: double
+             * @description Scene time, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Time to collision at constant velocity then, seconds, if there is one.
+             */
+            ttc_s: number | null;
+        };
+        /**
+         * NearestState
+         * @description A pose and speed, scene frame.
+         */
+        NearestState: {
+            /** Format: double */
+            heading_rad: number;
+            /** Format: double */
+            speed_mps: number;
+            /** Format: double */
+            x_m: number;
+            /** Format: double */
+            y_m: number;
+        };
+        /**
+         * NeighborDoc
+         * @description A lane beside this one.
+         */
         NeighborDoc: {
             /** @description Lines between the two, over the other lane's indices. */
             boundaries?: components["schemas"]["BoundaryDoc"][];
@@ -1044,7 +1768,10 @@ export interface components {
             /** @description First and last point index on this lane. */
             self: number[];
         };
-        /** @description Where the scene lies in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`. */
+        /**
+         * OriginDoc
+         * @description Where the scene lies in its source's frame: `source = rotate(scene, rotation_rad) + (x, y, z)`.
+         */
         OriginDoc: {
             /** @default null */
             crs?: string | null;
@@ -1070,11 +1797,14 @@ export interface components {
             z_m?: number;
         };
         /**
+         * PairChoice
          * @description Which pairs are looked at.
-         * @enum {string}
          */
-        PairWord: "all" | "regenerated";
-        /** @description Body of a placement. Exactly one of `scene` and `scene_id` is given. */
+        PairChoice: "all" | "regenerated";
+        /**
+         * PlaceBody
+         * @description Body of a placement. Exactly one of `scene` and `scene_id` is given.
+         */
         PlaceBody: {
             /**
              * Format: double
@@ -1084,6 +1814,11 @@ export interface components {
             at_s?: number;
             /** @description How many. */
             density?: components["schemas"]["DensityDoc"];
+            /**
+             * @description With `scene_id`: refuse when the scene has changed.
+             * @default null
+             */
+            etag?: string | null;
             /**
              * @description Road users of the scene that stay; null keeps all. The others are taken to be gone.
              * @default null
@@ -1121,75 +1856,204 @@ export interface components {
                 [key: string]: number;
             } | null;
         };
-        /** @description What was placed. */
+        /**
+         * PlaceReply
+         * @description What was placed.
+         */
         PlaceReply: {
             /** @description New road users: one state at `at_s`, the same as a fixed start, goals free. */
             agents: components["schemas"]["AgentDoc"][];
             /** @description `model`, or `lane-sampler` where the weights folder has no placement weights. */
-            method: components["schemas"]["MethodWord"];
+            method: components["schemas"]["PlacementMethod"];
             /** @description Why, in one sentence; null when all were placed. */
-            reason?: string | null;
+            reason: string | null;
             /**
              * Format: uint
              * @description Road users asked for that found no place.
              */
             unplaced: number;
         };
-        /** @description [x, y] or [x, y, z], metres in the scene frame. */
+        /**
+         * PlacementInfo
+         * @description Facts about placement weights.
+         */
+        PlacementInfo: {
+            licence: string;
+            /** Format: uint */
+            numbers: number;
+            sha256: string;
+            trained_on: string;
+        };
+        /**
+         * PlacementMethod
+         * @description How road users are placed.
+         */
+        PlacementMethod: "model" | "lane-sampler";
+        /**
+         * Point
+         * @description [x, y] or [x, y, z], metres in the scene frame.
+         */
         Point: [
             number,
             number
         ];
-        /** @description A line or open ring; all its points have two or all have three numbers. */
+        /**
+         * Points
+         * @description A line or open ring; all its points have two or all have three numbers.
+         */
         Points: components["schemas"]["Point"][] | unknown | unknown;
-        /** @description RFC 9457 problem. Switch on `code`, which never changes. */
+        /**
+         * Problem
+         * @description RFC 9457 problem. Switch on `code`, which never changes.
+         */
         Problem: {
+            /** @description Road user that an expert failed for. */
+            agent?: string;
+            /**
+             * Format: uint64
+             * @description The revision that took over.
+             */
             by_revision?: number;
-            /** @enum {string} */
+            /**
+             * @description The word to switch on.
+             * @enum {string}
+             */
             code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "shutting-down" | "generate-timeout" | "store-full";
+            /**
+             * Format: uint
+             * @description Column of the fault in bytes, from 1.
+             */
             column?: number;
+            /** @description What happened this time. */
             detail: string;
+            /** @description All faults that were found in the body or the query. */
             errors?: components["schemas"]["FieldProblem"][];
+            /** @description ETag of the scene as it is stored now. */
             etag?: string;
+            /** @description What is not ready. */
             failing?: string[];
+            /**
+             * Format: uint64
+             * @description The highest revision that the client has sent.
+             */
             highest_revision?: number;
+            /** @description Address that was asked for. */
             instance?: string;
+            /**
+             * Format: uint64
+             * @description The bound that was met.
+             */
             limit?: number;
+            /**
+             * Format: uint
+             * @description Line of the fault, from 1.
+             */
             line?: number;
-            /** @description Byte of the decoded file. */
+            /**
+             * Format: uint64
+             * @description Byte of the decoded file.
+             */
             offset?: number;
+            /** @description What the reader of a file found there. */
+            reason?: string;
+            /** @description Id of the request, as in X-Request-Id and in the server's log. */
             request_id?: string;
+            /**
+             * Format: uint64
+             * @description Seconds after which to ask again, as in Retry-After.
+             */
             retry_after_s?: number;
+            /**
+             * Format: uint16
+             * @description HTTP status.
+             */
             status: number;
+            /**
+             * Format: uint
+             * @description Refinement step at which an expert failed; 0 is the first guess.
+             */
+            step?: number;
+            /** @description A few words for people, the same for each occurrence. */
             title: string;
             /** @description Page about the code, relative to this server. */
             type: string;
+            /** @description When the scene was stored, RFC 3339. */
             updated_at?: string;
         };
-        /** @description Whether the goal was met; `unreachable` gives the nearest state and what it would take. */
+        /**
+         * Reach
+         * @description Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and
+         *     what it would take.
+         */
         Reach: {
-            heading_rad?: number;
-            limiting?: string;
-            nearest?: {
-                heading_rad?: number;
-                speed_mps?: number;
-                x_m?: number;
-                y_m?: number;
-            };
-            needs?: number | null;
-            position_m?: number;
-            speed_mps?: number;
-            /** @enum {unknown} */
-            status: "reached" | "unreachable";
-            words?: string;
+            /**
+             * Format: double
+             * @description Radians.
+             */
+            heading_rad: number;
+            /**
+             * Format: double
+             * @description Distance to the goal position, metres.
+             */
+            position_m: number;
+            /**
+             * Format: double
+             * @description m/s.
+             */
+            speed_mps: number;
+            /** @constant */
+            status: "reached";
+        } | {
+            /** @description Limit that binds. */
+            limiting: components["schemas"]["Limiting"];
+            /** @description State at the goal time that comes nearest. */
+            nearest: components["schemas"]["NearestState"];
+            /**
+             * Format: double
+             * @description What it would take, in that limit's unit, when it can be told.
+             */
+            needs: number | null;
+            /** @constant */
+            status: "unreachable";
+            /** @description One sentence for people. */
+            words: string;
         };
-        /** @description Who else answers: true for everyone near, or ids. */
+        /**
+         * Reacting
+         * @description Who else answers: true for everyone near, or ids.
+         */
         Reacting: boolean | string[];
-        /** @description What trajectories are compared with. */
+        /**
+         * RedLight
+         * @description A stop line is crossed while its signal says stop.
+         */
+        RedLight: {
+            /** @description Who. */
+            agent: string;
+            /** @description Lane whose signal says stop. */
+            lane: string;
+            /**
+             * Format: double
+             * @description Speed then, m/s.
+             */
+            speed_mps: number;
+            /**
+             * Format: double
+             * @description Scene time at which the front crosses, seconds.
+             */
+            time_s: number;
+        };
+        /**
+         * Reference
+         * @description What trajectories are compared with.
+         */
         Reference: components["schemas"]["Log"] | {
             [key: string]: components["schemas"]["TrajectoryDoc"];
         };
-        /** @description Where centres may lie: exactly one of the two. */
+        /**
+         * RegionDoc
+         * @description Where centres may lie: exactly one of the two.
+         */
         RegionDoc: {
             /** @description Circle. */
             circle?: components["schemas"]["CircleDoc"] | null;
@@ -1199,31 +2063,52 @@ export interface components {
              */
             polygon_m?: number[][] | null;
         };
-        /** @description Every condition field of one road user as it was used. */
+        /**
+         * Resolved
+         * @description Every condition field of one road user as it was used.
+         */
         Resolved: {
-            goal?: {
-                [key: string]: components["schemas"]["Field"];
-            };
-            /** @description Where windows that ended before the goal was due were sent: states on the way to it. */
-            intermediate?: {
-                heading_rad: number;
-                reached: boolean;
-                speed_mps: number;
-                time_s: number;
-                window: number;
-                x_m: number;
-                y_m: number;
-            }[];
-            length_m?: components["schemas"]["Field"];
+            /** @description Where it goes. */
+            goal: components["schemas"]["ResolvedGoal"];
+            /** @description One entry for each window that ended its plan before the goal was due. */
+            intermediate?: components["schemas"]["Intermediate"][];
+            /** @description Along the heading. */
+            length_m: components["schemas"]["Field"];
+            /** @description Verdict on the goal. */
             reach: components["schemas"]["Reach"];
-            start?: {
-                [key: string]: components["schemas"]["Field"];
-            };
-            /** @enum {unknown} */
-            type: "vehicle" | "pedestrian" | "cyclist" | "other";
-            width_m?: components["schemas"]["Field"];
+            /** @description Where it begins. */
+            start: components["schemas"]["ResolvedStart"];
+            /** @description Expert that ran. */
+            type: components["schemas"]["AgentType"];
+            /** @description Across the heading. */
+            width_m: components["schemas"]["Field"];
         };
-        /** @description The end of the road's surface. */
+        /**
+         * ResolvedGoal
+         * @description The goal of a road user as it was used, in the scene frame.
+         */
+        ResolvedGoal: {
+            heading_rad: components["schemas"]["Field"];
+            speed_mps: components["schemas"]["Field"];
+            /** @description Scene time at which it is due. */
+            time_s: components["schemas"]["Field"];
+            x_m: components["schemas"]["Field"];
+            y_m: components["schemas"]["Field"];
+        };
+        /**
+         * ResolvedStart
+         * @description The start of a road user as it was used.
+         */
+        ResolvedStart: {
+            heading_rad: components["schemas"]["Field"];
+            speed_mps: components["schemas"]["Field"];
+            x_m: components["schemas"]["Field"];
+            y_m: components["schemas"]["Field"];
+        };
+        /**
+         * RoadEdgeDoc
+         * @description The end of the road's surface.
+         */
         RoadEdgeDoc: {
             /** @description Unique among road edges. */
             id: string;
@@ -1236,7 +2121,10 @@ export interface components {
              */
             type?: "unknown" | "boundary" | "median" | "sidewalk";
         };
-        /** @description A painted line. */
+        /**
+         * RoadLineDoc
+         * @description A painted line.
+         */
         RoadLineDoc: {
             /** @description Unique among road lines. */
             id: string;
@@ -1249,7 +2137,10 @@ export interface components {
              */
             type?: "unknown" | "broken_single_white" | "solid_single_white" | "solid_double_white" | "broken_single_yellow" | "broken_double_yellow" | "solid_single_yellow" | "solid_double_yellow" | "passing_double_yellow";
         };
-        /** @description One coherent answer for all regenerated road users. */
+        /**
+         * SampleDoc
+         * @description One coherent answer for all regenerated road users.
+         */
         SampleDoc: {
             /** @description Road user's id to its futures. */
             agents: {
@@ -1261,80 +2152,17 @@ export interface components {
              */
             score?: unknown;
         };
-        /** @description What a change gave. */
+        /**
+         * Saved
+         * @description What a change gave.
+         */
         Saved: {
             /** @description As in the ETag header. */
             etag: string;
+            /** @description Of the scene. */
             id: string;
         };
-        /**
-         * DragTraffic scene
-         * @description A scene document, version 1.
-         */
-        Scene: {
-            /**
-             * @description Road users.
-             * @default []
-             */
-            agents?: components["schemas"]["AgentDoc"][];
-            /**
-             * @description `dragtraffic.scene`.
-             * @constant
-             */
-            format: "dragtraffic.scene";
-            /**
-             * @description What the generator added.
-             * @default null
-             */
-            generated?: components["schemas"]["GeneratedDoc"] | null;
-            /**
-             * @description Set by the server.
-             * @default null
-             */
-            id?: string | null;
-            /** @description Map, or its hash. */
-            map: components["schemas"]["MapField"];
-            /**
-             * @description Where it came from.
-             * @default {
-             *       "created_with": null,
-             *       "licence": null,
-             *       "notes": "",
-             *       "origin": {
-             *         "crs": null,
-             *         "rotation_rad": 0,
-             *         "x_m": 0,
-             *         "y_m": 0,
-             *         "z_m": 0
-             *       },
-             *       "parent_id": null,
-             *       "source": "",
-             *       "source_id": null,
-             *       "tags": []
-             *     }
-             */
-            meta?: components["schemas"]["MetaDoc"];
-            /**
-             * @description For people.
-             * @default
-             */
-            name?: string;
-            /**
-             * @description Traffic signals.
-             * @default []
-             */
-            signals?: components["schemas"]["SignalDoc"][];
-            /** @description Steps. */
-            time: components["schemas"]["TimeDoc"];
-            /**
-             * Format: uint64
-             * @description 1.
-             * @constant
-             */
-            version: 1;
-        } & {
-            [key: string]: unknown;
-        };
+        Scene: components["schemas"]["SceneDoc"];
         /**
          * DragTraffic scene
          * @description A scene document, version 1.
@@ -1403,7 +2231,10 @@ export interface components {
         } & {
             [key: string]: unknown;
         };
-        /** @description A scene as lists show it. */
+        /**
+         * SceneItem
+         * @description A scene as lists show it.
+         */
         SceneItem: {
             /**
              * Format: uint64
@@ -1421,19 +2252,19 @@ export interface components {
             /** @description Id of the scene. */
             id: string;
             /** @description Licence of the content. */
-            licence?: string | null;
+            licence: string | null;
             /** @description Content hash of the map, 64 hex digits. */
             map_sha256: string;
             /** @description For people. */
             name: string;
             /** @description Scene it is a variant of. */
-            parent_id?: string | null;
+            parent_id: string | null;
             /** @description Demo scenes and those of the data folder; duplicate one to change it. */
             readonly: boolean;
             /** @description Format or tool it came from. */
             source: string;
             /** @description Id in the source. */
-            source_id?: string | null;
+            source_id: string | null;
             /**
              * Format: uint
              * @description Steps of 0.1 s.
@@ -1444,13 +2275,19 @@ export interface components {
             /** @description RFC 3339. */
             updated_at: string;
         };
-        /** @description A page of scenes. */
+        /**
+         * SceneList
+         * @description A page of scenes.
+         */
         SceneList: {
             /** @description Send as `after` for the next page; null on the last. */
-            next?: string | null;
+            next: string | null;
             scenes: components["schemas"]["SceneItem"][];
         };
-        /** @description Merge patch of what people say about a scene. */
+        /**
+         * ScenePatch
+         * @description Merge patch of what people say about a scene.
+         */
         ScenePatch: {
             /**
              * @description New name; null empties it.
@@ -1468,27 +2305,143 @@ export interface components {
              */
             tags?: string[] | null;
         };
-        ScoreReply: {
-            agents: {
-                [key: string]: Record<string, never>;
-            };
-            scene: {
-                collision_rate?: number;
-                collisions?: Record<string, never>[];
-                min_distance_m?: number | null;
-                min_ttc_s?: number | null;
-                near_misses?: Record<string, never>[];
-                offroad_share?: number | null;
-            };
-            thresholds: Record<string, never>;
+        /**
+         * SceneScore
+         * @description Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+         */
+        SceneScore: {
+            /**
+             * Format: double
+             * @description Mean distance of the chosen future, metres.
+             */
+            ade_m?: number | null;
+            /** @description The map has no drivable areas, and some lane widths were assumed by type. */
+            assumed_width: boolean;
+            /**
+             * Format: double
+             * @description Share of road users in any collision (the paper's scenario collision rate).
+             */
+            collision_rate: number;
+            /** @description By time, then by pair. */
+            collisions: components["schemas"]["Collision"][];
+            /** @description Which step counted as the end. */
+            endpoint?: components["schemas"]["Endpoint"];
+            /** @description Means over the road users with fixed goal fields. */
+            goal_error: components["schemas"]["GoalError"] | null;
+            /**
+             * Format: double
+             * @description Share of road users with fixed goal fields that meet them all.
+             */
+            goals_reached: number | null;
+            /** @description Braking harder than the threshold; `worst` in m/s2. */
+            harsh_braking: components["schemas"]["Stretch"][];
+            /**
+             * Format: double
+             * @description Mean absolute heading error of the future that ends closest, radians.
+             */
+            heading_error_rad?: number | null;
+            /** @description Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only). */
+            implausible_turns: components["schemas"]["Stretch"][];
+            /** @description Greatest values of all generated road users, and their violations together. */
+            kinematic: components["schemas"]["Kinematic"] | null;
+            /**
+             * Format: double
+             * @description Greatest distance of the chosen future, metres (the log ghost's figure).
+             */
+            max_distance_m?: number | null;
+            /**
+             * Format: double
+             * @description Least mean distance of any future, metres.
+             */
+            min_ade_m?: number | null;
+            /**
+             * Format: double
+             * @description Least gap of any pair that is not parked, metres; negative for depth.
+             */
+            min_distance_m: number | null;
+            /**
+             * Format: double
+             * @description Least distance at the end of any future, metres.
+             */
+            min_fde_m?: number | null;
+            /**
+             * Format: double
+             * @description Least time to collision of any pair, seconds; none within the look-ahead.
+             */
+            min_ttc_s: number | null;
+            /** @description By time, then by pair. */
+            near_misses: components["schemas"]["NearMiss"][];
+            /** @description Vehicles off the road. */
+            off_road: components["schemas"]["Stretch"][];
+            /**
+             * Format: double
+             * @description Farthest a vehicle's corner goes off the road, metres.
+             */
+            offroad_max_m: number | null;
+            /**
+             * Format: double
+             * @description Share of vehicle steps with a corner off the road.
+             */
+            offroad_share: number | null;
+            /**
+             * Format: double
+             * @description Share of road users whose box overlaps another's at all, however little.
+             */
+            overlap_rate: number;
+            /**
+             * Format: double
+             * @description Least post-encroachment time of crossing paths, seconds.
+             */
+            pet_s: number | null;
+            /** @description Stop lines crossed at red. */
+            red_lights: components["schemas"]["RedLight"][];
+            /**
+             * Format: double
+             * @description Mean absolute speed error of the future that ends closest, m/s.
+             */
+            speed_error_mps?: number | null;
+            /**
+             * Format: uint
+             * @description Same as `kinematic.violations`: steps over a limit.
+             */
+            violations: number;
+            /** @description Vehicles against the traffic. */
+            wrong_way: components["schemas"]["Stretch"][];
+            /**
+             * Format: double
+             * @description Share of moving vehicle steps against the direction of every lane there.
+             */
+            wrong_way_share: number | null;
         };
-        /** @description Body of a score. Exactly one of `scene` and `scene_id` is given. */
+        /**
+         * ScoreReply
+         * @description Answer to a score request.
+         */
+        ScoreReply: {
+            /** @description Each road user, by id. */
+            agents: {
+                [key: string]: components["schemas"]["AgentScore"];
+            };
+            /** @description The scene as a whole. */
+            scene: components["schemas"]["SceneScore"];
+            /** @description The thresholds that were used. */
+            thresholds: components["schemas"]["Thresholds"];
+        };
+        /**
+         * ScoreRequest
+         * @description Body of a score. Exactly one of `scene` and `scene_id` is given.
+         */
         ScoreRequest: {
+            /**
+             * @description With `scene_id`: refuse when the scene has changed.
+             * @default null
+             */
+            etag?: string | null;
             /**
              * @description `all` or `regenerated`.
              * @default all
              */
-            pairs?: components["schemas"]["PairWord"];
+            pairs?: components["schemas"]["PairChoice"];
             /** @description The log by default. */
             reference?: components["schemas"]["Reference"] | null;
             /**
@@ -1519,15 +2472,16 @@ export interface components {
              *       "ttc_s": 1.5
              *     }
              */
-            thresholds?: {
-                [key: string]: unknown;
-            };
+            thresholds?: components["schemas"]["Thresholds"];
             /** @description Motion to score; for the rest the chosen futures, else the log. */
             trajectories?: {
                 [key: string]: components["schemas"]["TrajectoryDoc"];
             };
         };
-        /** @description The signal of one lane over the scene. */
+        /**
+         * SignalDoc
+         * @description The signal of one lane over the scene.
+         */
         SignalDoc: {
             /** @description Lane that obeys it. */
             lane: string;
@@ -1539,12 +2493,36 @@ export interface components {
              */
             stop_m?: components["schemas"]["Point"] | null;
         };
-        /** @description [first step, state] */
+        /**
+         * SignalRun
+         * @description [first step, state]
+         */
         SignalRun: [
             number,
             "unknown" | "arrow_stop" | "arrow_caution" | "arrow_go" | "stop" | "caution" | "go" | "flashing_stop" | "flashing_caution"
         ];
-        /** @description Where a road user starts; absent or null is free. */
+        /**
+         * SkippedRecord
+         * @description A record of a file that is no scene.
+         */
+        SkippedRecord: {
+            /**
+             * Format: uint
+             * @description Position in the file, from 0.
+             */
+            index: number;
+            /** @description Why. */
+            problem: components["schemas"]["Problem"];
+        };
+        /**
+         * Source
+         * @description Where the value of a field came from.
+         */
+        Source: "user" | "log" | "default" | "model";
+        /**
+         * StartDoc
+         * @description Where a road user starts; absent or null is free.
+         */
         StartDoc: {
             /**
              * Format: double
@@ -1569,7 +2547,10 @@ export interface components {
              */
             y_m?: number | null;
         } & (unknown & unknown);
-        /** @description A stop sign. */
+        /**
+         * StopSignDoc
+         * @description A stop sign.
+         */
         StopSignDoc: {
             /** @description Unique among stop signs. */
             id: string;
@@ -1581,14 +2562,157 @@ export interface components {
             /** @description Where it stands. */
             position_m: components["schemas"]["Point"];
         };
-        /** @description What drafts carry. */
+        /**
+         * StreamModes
+         * @description What drafts carry.
+         */
         StreamModes: "chosen" | "all";
+        /**
+         * Stretch
+         * @description Something one road user does over a stretch of time.
+         */
+        Stretch: {
+            /** @description Who. */
+            agent: string;
+            /**
+             * Format: double
+             * @description Scene time of the first step, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Scene time of the last step, seconds.
+             */
+            until_s: number;
+            /**
+             * Format: double
+             * @description The worst of it: metres off the road, m/s2 of braking, share of the limit for turns; none for
+             *     wrong-way driving.
+             */
+            worst: number | null;
+        };
+        /**
+         * SupersededEvent
+         * @description Last event of a call that a newer revision of its client took over.
+         */
         SupersededEvent: {
+            /**
+             * Format: uint64
+             * @description The newer one.
+             */
             by_revision: number;
-            /** @constant */
-            event?: "superseded";
-        } & components["schemas"]["EventBase"];
-        /** @description Steps of the scene. */
+            /**
+             * Format: double
+             * @description Since the request was read, milliseconds.
+             */
+            elapsed_ms: number;
+            /**
+             * @description What it is.
+             * @constant
+             */
+            event: "superseded";
+            /** @description Id of the job. */
+            job: string;
+            /**
+             * Format: uint64
+             * @description Revision of the request, when it had one.
+             */
+            revision?: number;
+            /**
+             * Format: uint64
+             * @description Rises by one an event; a gap shows events that were dropped for a slow reader.
+             */
+            seq: number;
+        };
+        /**
+         * Thresholds
+         * @description Numbers that decide what counts. Those absent in a document have their defaults.
+         */
+        Thresholds: {
+            /**
+             * Format: double
+             * @description Near miss: only when the gap shrinks faster than this, m/s.
+             * @default 1
+             */
+            closing_speed_mps?: number;
+            /**
+             * Format: double
+             * @description ... or when more than this share of the smaller box is covered: a child under a bus has a
+             *     tiny intersection over union. Above 1 turns the rule off (the paper's form).
+             * @default 0.5
+             */
+            covered_share?: number;
+            /**
+             * Format: double
+             * @description Near miss of one that follows another: only when avoiding the collision needs more braking
+             *     than this, m/s2 (deceleration rate to avoid a crash, 3.35 in Archer 2005).
+             * @default 3.35
+             */
+            follow_brake_mps2?: number;
+            /**
+             * Format: double
+             * @description Near miss: gap below this, metres.
+             * @default 1
+             */
+            gap_m?: number;
+            /**
+             * Format: double
+             * @description Goal heading met within this, radians.
+             * @default 0.02
+             */
+            goal_heading_rad?: number;
+            /**
+             * Format: double
+             * @description Goal position met within this, metres.
+             * @default 0.05
+             */
+            goal_position_m?: number;
+            /**
+             * Format: double
+             * @description Goal speed met within this, m/s.
+             * @default 0.05
+             */
+            goal_speed_mps?: number;
+            /**
+             * Format: double
+             * @description Braking above this is harsh, m/s2.
+             * @default 4
+             */
+            harsh_brake_mps2?: number;
+            /**
+             * Format: double
+             * @description Boxes collide when their intersection over union is above this.
+             * @default 0.02
+             */
+            iou?: number;
+            /**
+             * Format: double
+             * @description Slower than this counts as standing, m/s.
+             * @default 0.5
+             */
+            moving_mps?: number;
+            /**
+             * Format: double
+             * @description A corner farther outside than this is off the road, metres.
+             * @default 0.1
+             */
+            offroad_m?: number;
+            /**
+             * @description Turning right at red after a stop is allowed.
+             * @default true
+             */
+            right_on_red?: boolean;
+            /**
+             * Format: double
+             * @description Near miss: time to collision below this, seconds.
+             * @default 1.5
+             */
+            ttc_s?: number;
+        };
+        /**
+         * TimeDoc
+         * @description Steps of the scene.
+         */
         TimeDoc: {
             /**
              * Format: uint64
@@ -1609,7 +2733,43 @@ export interface components {
              */
             steps: number;
         };
-        /** @description Recorded states as columns, one value a step from `first_step`. */
+        /**
+         * Timing
+         * @description Time spent, milliseconds.
+         */
+        Timing: {
+            /**
+             * Format: double
+             * @description Joint choice of modes.
+             */
+            choice_ms: number;
+            /**
+             * Format: double
+             * @description Map and road users.
+             */
+            encode_ms: number;
+            /**
+             * Format: double
+             * @description First guess.
+             */
+            initial_ms: number;
+            /**
+             * Format: double
+             * @description Waiting for a worker.
+             */
+            queue_ms: number;
+            /**
+             * Format: double
+             * @description Scores.
+             */
+            score_ms: number;
+            /** @description Each denoising step. */
+            step_ms: number[];
+        };
+        /**
+         * TrackDoc
+         * @description Recorded states as columns, one value a step from `first_step`.
+         */
         TrackDoc: {
             /**
              * Format: uint64
@@ -1638,7 +2798,10 @@ export interface components {
              */
             z_m?: number[] | null;
         };
-        /** @description Motion of one road user as columns, one value a step from `first_step`. */
+        /**
+         * TrajectoryDoc
+         * @description Motion of one road user as columns, one value a step from `first_step`.
+         */
         TrajectoryDoc: {
             /**
              * Format: uint64
@@ -1652,6 +2815,7 @@ export interface components {
             y_m: number[];
         };
         /**
+         * VelocityDoc
          * @description A velocity in place of a speed: `x_mps` and `y_mps`, or, in a goal of frame `agent`,
          *     `ahead_mps` and `left_mps`.
          */
@@ -1677,12 +2841,45 @@ export interface components {
              */
             y_mps?: number | null;
         } & (unknown & unknown & unknown & unknown);
+        /**
+         * Warning
+         * @description Something unlikely that was done anyway.
+         */
         Warning: {
-            agent?: string | null;
-            code: string;
+            /** @description Whom it concerns. */
+            agent: string | null;
+            /** @description A word that programs can switch on. */
+            code: components["schemas"]["WarningCode"];
+            /** @description One sentence. */
             detail: string;
         };
-        /** @description `"all"` or a list of ids. */
+        /**
+         * WarningCode
+         * @description What is unlikely.
+         */
+        WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated";
+        /**
+         * WeightsInfo
+         * @description Facts about one expert's weights.
+         */
+        WeightsInfo: {
+            /** Format: double */
+            horizon_s: number;
+            licence: string;
+            /** Format: uint */
+            modes: number;
+            name: string;
+            /** Format: uint */
+            parameters: number;
+            sha256: string;
+            trained_on: string;
+            /** @description Random weights, for tests. */
+            untrained: boolean;
+        };
+        /**
+         * Who
+         * @description `"all"` or a list of ids.
+         */
         Who: components["schemas"]["All"] | string[];
     };
     responses: never;
@@ -1707,7 +2904,9 @@ export interface operations {
                 headers: {
                     [name: string]: unknown;
                 };
-                content?: never;
+                content: {
+                    "application/json": components["schemas"]["Health"];
+                };
             };
             /** @description bad-host */
             400: {
@@ -1718,6 +2917,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -1813,6 +3024,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
             /** @description cross-site */
             403: {
                 headers: {
@@ -1889,7 +3112,9 @@ export interface operations {
                 headers: {
                     [name: string]: unknown;
                 };
-                content?: never;
+                content: {
+                    "application/json": components["schemas"]["Health"];
+                };
             };
             /** @description bad-host */
             400: {
@@ -1900,6 +3125,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -2006,7 +3243,7 @@ export interface operations {
                     "application/octet-stream": number[];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -2014,7 +3251,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -2039,6 +3288,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -2090,7 +3351,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, unknown-map, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2098,7 +3359,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "unknown-map" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent";
                     };
                 };
             };
@@ -2123,6 +3384,30 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
                     };
                 };
             };
@@ -2170,7 +3455,7 @@ export interface operations {
                     "text/event-stream": components["schemas"]["Event"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -2178,7 +3463,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -2230,7 +3527,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description exists, superseded, stale-revision, cancelled */
+            /** @description cancelled, exists, superseded, stale-revision */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -2238,7 +3535,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "exists" | "superseded" | "stale-revision" | "cancelled";
+                        code?: "cancelled" | "exists" | "superseded" | "stale-revision";
                     };
                 };
             };
@@ -2302,7 +3599,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, unknown-map, too-many-agents, map-too-large, unsupported-version, start-missing, unknown-agent, reply-too-large */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, reply-too-large */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2310,7 +3607,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "unknown-map" | "too-many-agents" | "map-too-large" | "unsupported-version" | "start-missing" | "unknown-agent" | "reply-too-large";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "reply-too-large";
                     };
                 };
             };
@@ -2404,7 +3701,7 @@ export interface operations {
                     "application/json": components["schemas"]["ImportReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -2412,7 +3709,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -2437,6 +3746,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -2488,7 +3809,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, unknown-map, too-many-agents, map-too-large, unsupported-version, format-unknown, licence-refused */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, licence-refused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -2496,7 +3817,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "unknown-map" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "licence-refused";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "licence-refused";
                     };
                 };
             };
@@ -2524,6 +3845,30 @@ export interface operations {
                     };
                 };
             };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
             /** @description store-full */
             507: {
                 headers: {
@@ -2547,7 +3892,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description the answer */
+            /** @description the server */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2565,6 +3910,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -2660,6 +4017,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
             /** @description cross-site, bad-origin */
             403: {
                 headers: {
@@ -2743,7 +4112,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description the answer */
+            /** @description all maps */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2761,6 +4130,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -2837,7 +4218,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description the answer */
+            /** @description the map */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2865,6 +4246,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
             /** @description cross-site */
             403: {
                 headers: {
@@ -2886,6 +4279,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -2937,6 +4342,30 @@ export interface operations {
                     };
                 };
             };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
         };
     };
     place: {
@@ -2974,7 +4403,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description the answer */
+            /** @description what was placed */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2983,7 +4412,7 @@ export interface operations {
                     "application/json": components["schemas"]["PlaceReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -2991,7 +4420,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -3043,6 +4484,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
+                    };
+                };
+            };
             /** @description body-too-large, decoded-too-large, expansion-too-high */
             413: {
                 headers: {
@@ -3091,7 +4544,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, unknown-map, too-many-agents, map-too-large, unsupported-version, unknown-agent */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -3099,7 +4552,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "unknown-map" | "too-many-agents" | "map-too-large" | "unsupported-version" | "unknown-agent";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
                     };
                 };
             };
@@ -3124,6 +4577,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
                     };
                 };
             };
@@ -3163,7 +4628,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description the answer */
+            /** @description a page */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -3181,6 +4646,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -3280,7 +4757,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3288,7 +4765,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -3316,7 +4805,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description exists */
+            /** @description cancelled, exists */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -3324,7 +4813,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "exists";
+                        code?: "cancelled" | "exists";
                     };
                 };
             };
@@ -3376,7 +4865,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, unknown-map, too-many-agents, map-too-large, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -3384,7 +4873,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "unknown-map" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
                     };
                 };
             };
@@ -3409,6 +4898,30 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
                     };
                 };
             };
@@ -3440,7 +4953,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description the answer */
+            /** @description the scene */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -3468,6 +4981,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
             /** @description cross-site */
             403: {
                 headers: {
@@ -3489,6 +5014,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -3516,7 +5053,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field */
+            /** @description invalid-field, out-of-range */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -3524,7 +5061,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field";
+                        code?: "invalid-field" | "out-of-range";
                     };
                 };
             };
@@ -3552,6 +5089,30 @@ export interface operations {
                     };
                 };
             };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
         };
     };
     replaceScene: {
@@ -3572,7 +5133,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description the answer */
+            /** @description replaced */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -3581,7 +5142,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description stored */
+            /** @description made */
             201: {
                 headers: {
                     [name: string]: unknown;
@@ -3590,7 +5151,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3598,7 +5159,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -3635,6 +5208,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -3698,7 +5283,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, unknown-map, too-many-agents, map-too-large, unsupported-version */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -3706,7 +5291,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "unknown-map" | "too-many-agents" | "map-too-large" | "unsupported-version";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
                     };
                 };
             };
@@ -3743,6 +5328,30 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
                     };
                 };
             };
@@ -3789,6 +5398,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -3912,7 +5533,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description the answer */
+            /** @description changed */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -3921,7 +5542,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3929,7 +5550,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -3966,6 +5599,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -4029,7 +5674,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4037,7 +5682,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
                     };
                 };
             };
@@ -4074,6 +5719,30 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
                     };
                 };
             };
@@ -4120,7 +5789,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4128,7 +5797,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -4165,6 +5846,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -4249,6 +5942,30 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
                     };
                 };
             };
@@ -4305,6 +6022,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
             /** @description cross-site */
             403: {
                 headers: {
@@ -4326,6 +6055,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
                     };
                 };
             };
@@ -4353,7 +6094,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description format-unknown, cannot-represent, invalid-field, out-of-range */
+            /** @description invalid-field, out-of-range, format-unknown, cannot-represent */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4361,7 +6102,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "format-unknown" | "cannot-represent" | "invalid-field" | "out-of-range";
+                        code?: "invalid-field" | "out-of-range" | "format-unknown" | "cannot-represent";
                     };
                 };
             };
@@ -4389,6 +6130,30 @@ export interface operations {
                     };
                 };
             };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
         };
     };
     score: {
@@ -4409,7 +6174,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description the answer */
+            /** @description the score */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -4418,7 +6183,7 @@ export interface operations {
                     "application/json": components["schemas"]["ScoreReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file */
+            /** @description bad-host, malformed-json, malformed-file, bad-header */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4426,7 +6191,19 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file";
+                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
                     };
                 };
             };
@@ -4463,6 +6240,30 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description stale-etag */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "stale-etag";
                     };
                 };
             };
@@ -4514,7 +6315,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, unknown-map, too-many-agents, map-too-large, unsupported-version, unknown-agent */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4522,7 +6323,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "unknown-map" | "too-many-agents" | "map-too-large" | "unsupported-version" | "unknown-agent";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version";
                     };
                 };
             };
@@ -4547,6 +6348,30 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
                     };
                 };
             };

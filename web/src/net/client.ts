@@ -57,8 +57,8 @@ export class Client {
   }
 
   async scenes(query = ''): Promise<SceneList> {
-    const all: SceneList = { scenes: [] };
-    let after: string | null | undefined;
+    const all: SceneList = { scenes: [], next: null };
+    let after: string | null = null;
     do {
       const p = new URLSearchParams({ limit: '200', ...(query ? { q: query } : {}), ...(after ? { after } : {}) });
       const page = (await (await this.request(`/v1/scenes?${p}`)).json()) as SceneList;

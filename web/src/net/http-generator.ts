@@ -208,26 +208,26 @@ export class HttpGenerator implements Generator {
   }
 
   private async read(reply: Response, me: Running, began: number): Promise<void> {
-    const { on, options } = me.question;
+    const { on } = me.question;
     let shown = -1,
       window = 0;
     let ended = false;
     for await (const e of readEvents(reply.body!)) {
       if (this.running !== me) return;
       this.silent = 0;
+      if (e.event === 'heartbeat') continue;
       // An answer to an older question is dropped without a flash.
       if (e.revision !== undefined && e.revision !== me.revision) continue;
       const ms = this.now() - began;
-      if (e.event !== 'heartbeat') me.idle = 0;
+      me.idle = 0;
       if (e.event === 'initial' || e.event === 'step') {
         const step = e.event === 'initial' ? 0 : (e.step ?? shown + 1);
-        const at = e.window ?? 0;
         // A later window begins with a first guess of its own.
-        if (at < window || (at === window && step <= shown)) continue;
-        window = at;
+        if (e.window < window || (e.window === window && step <= shown)) continue;
+        window = e.window;
         shown = step;
         me.drawn = true;
-        on.draft(e, step, e.steps ?? options.steps, ms);
+        on.draft(e, step, e.steps, ms);
         if (this.waiting) {
           this.stopRunning();
           this.next();

@@ -14,6 +14,11 @@ import { readScene } from '../../src/model/read';
 import { crossingJson } from '../helpers';
 import { sixFutures } from '../standin/futures.mjs';
 
+/** A score in which nothing happens; of the rest the editor reads nothing. */
+const uneventful = {
+  scene: { collisions: [], near_misses: [], min_ttc_s: null, offroad_share: null },
+} as unknown as ScoreReply;
+
 /** Keeps the questions; the test answers them when it likes. */
 class InMemoryGenerator implements Generator {
   readonly asked: Question[] = [];
@@ -31,7 +36,7 @@ class InMemoryGenerator implements Generator {
 
   async score(scene: SceneRef, trajectories: Trajectories): Promise<ScoreReply> {
     this.scored.push({ scene, ids: Object.keys(trajectories) });
-    return { scene: { collisions: [], near_misses: [] }, agents: {}, thresholds: {} };
+    return uneventful;
   }
 
   answers(): Promise<boolean> {
@@ -59,7 +64,9 @@ const finalOf = (...ids: string[]) =>
   ({
     event: 'final',
     samples: [{ agents: Object.fromEntries(ids.map((id) => [id, modes(id)])) }],
-    scores: [{ scene: { collisions: [], near_misses: [] } }],
+    resolved: {},
+    scores: [uneventful],
+    warnings: [],
   }) as unknown as FinalEvent;
 
 let editor: Editor;

@@ -180,18 +180,20 @@ export function startStandIn(options = {}) {
         max = (g.time_s ?? 9) * 14;
       const far = d > max;
       resolved[a.id] = {
-        reach: {
-          status: far ? 'unreachable' : 'reached',
-          nearest: {
-            x_m: a.track.x_m[0] + ((g.x_m - a.track.x_m[0]) * max) / d,
-            y_m: a.track.y_m[0] + ((g.y_m - a.track.y_m[0]) * max) / d,
-            heading_rad: g.heading_rad ?? 0,
-            speed_mps: 10,
-          },
-          limiting: far ? 'time' : null,
-          needs: null,
-          words: far ? `Too far for ${(g.time_s ?? 9).toFixed(1)} s. The goal is ${d.toFixed(0)} m away.` : null,
-        },
+        reach: far
+          ? {
+              status: 'unreachable',
+              nearest: {
+                x_m: a.track.x_m[0] + ((g.x_m - a.track.x_m[0]) * max) / d,
+                y_m: a.track.y_m[0] + ((g.y_m - a.track.y_m[0]) * max) / d,
+                heading_rad: g.heading_rad ?? 0,
+                speed_mps: 10,
+              },
+              limiting: 'speed',
+              needs: null,
+              words: `Too far for ${(g.time_s ?? 9).toFixed(1)} s. The goal is ${d.toFixed(0)} m away.`,
+            }
+          : { status: 'reached', position_m: 0, heading_rad: 0, speed_mps: 0 },
       };
     }
     send({
@@ -199,7 +201,7 @@ export function startStandIn(options = {}) {
       windows,
       samples: [{ agents }],
       resolved,
-      scores: b.score === false ? null : score(),
+      scores: b.score === false ? null : [score()],
       warnings: [],
       timing: {},
     });
@@ -211,6 +213,7 @@ export function startStandIn(options = {}) {
       collisions: o.collision ? [{ a: '1', b: '2', time_s: 5.4, iou: 0.1 }] : [],
       near_misses: [{ a: '11', b: '14', time_s: 3.2, distance_m: 0.6, ttc_s: 1.1 }],
       min_ttc_s: 1.1,
+      offroad_share: null,
     },
     agents: {},
   });
@@ -260,7 +263,7 @@ export function startStandIn(options = {}) {
     if (url.pathname === '/v1/generate') return generate(req, res);
     if (url.pathname === '/v1/score') {
       await body(req);
-      return json(res, { ...score(), scene: { collisions: [], near_misses: [] } });
+      return json(res, { ...score(), scene: { ...score().scene, collisions: [], near_misses: [], min_ttc_s: null } });
     }
     if (url.pathname === '/v1/import') {
       const text = (await body(req)).toString();
@@ -269,7 +272,12 @@ export function startStandIn(options = {}) {
         if (!s.agents) throw 0;
         const id = `import-${scenes.size}`;
         put({ ...s, id, name: s.name ?? 'Imported' }, false);
-        return json(res, { scenes: [{ id, name: s.name ?? 'Imported', warnings: [] }], skipped: [] }, {}, 201);
+        return json(
+          res,
+          { scenes: [{ id, name: s.name ?? 'Imported', warnings: [], counts: countOf(s) }], skipped: [] },
+          {},
+          201,
+        );
       } catch {
         return problem(res, 422, 'format-unknown', 'Not a scene.');
       }

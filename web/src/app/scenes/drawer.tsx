@@ -94,7 +94,7 @@ function Item({ item }: { item: SceneListItem }) {
 
 /** `29 road users · example` */
 export function about(s: SceneListItem): string {
-  const n = countAll(s);
+  const n = countAll(s.counts);
   const kind = s.source && isRecorded(s.source) ? 'recorded' : s.readonly ? 'example' : 'own';
   return [n ? `${n} road users` : '', kind].filter(Boolean).join(' · ');
 }

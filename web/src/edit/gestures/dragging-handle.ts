@@ -1,4 +1,5 @@
 // A handle is dragged: the document follows as a preview, the generator shows live futures, the release is one step.
+import { batch } from '@preact/signals-core';
 import { clamp } from '../../model/geometry';
 import type { Command } from '../../model/commands';
 import type { Chart, State } from './chart';
@@ -33,22 +34,24 @@ export class DraggingHandle implements State {
     this.chart.surface.setCursor('');
   }
 
+  /** The page follows a step as a whole: the lane under the pointer, the document, the question. */
   move(): void {
     const { chart } = this;
-    this.#command = this.what.to(chart.at, chart.modifiers, this.press);
-    chart.editor.previewDrag(this.#command);
-    chart.previews.preview(this.what.agent.id);
+    batch(() => {
+      this.#command = this.what.to(chart.at, chart.modifiers, this.press);
+      chart.editor.previewDrag(this.#command);
+      chart.previews.preview(this.what.agent.id);
+    });
     chart.surface.invalidate('overlay');
   }
 
   /** The picture scrolls while the pointer is near its edge. */
   frame(seconds: number): boolean {
     const { chart } = this;
-    if (chart.parts.calm()) return false;
     const v = chart.surface.view;
     const dx = pull(chart.at.x, v.w);
     const dy = pull(chart.at.y, v.h);
-    if (!dx && !dy) return false;
+    if ((!dx && !dy) || chart.parts.calm()) return false;
     v.panBy(dx * EDGE_SPEED * seconds, dy * EDGE_SPEED * seconds);
     chart.surface.viewChanged();
     return true;

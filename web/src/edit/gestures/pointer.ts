@@ -22,6 +22,8 @@ const modifiersOf = (e: MouseEvent | KeyboardEvent): Modifiers => ({
 export class Gestures {
   readonly chart: Chart;
   #inside = false;
+  /** Where the picture lies on the page while a pointer is down; measuring it at every move would lay out the page. */
+  #held: DOMRect | null = null;
   #lastFrame = 0;
 
   constructor(
@@ -50,10 +52,17 @@ export class Gestures {
       this.#inside = true;
       chart.move(e.pointerId, this.#place(e), modifiersOf(e), this.#onPicture(e));
     });
-    el.addEventListener('pointerup', (e) => chart.up(e.pointerId, this.#place(e), e.timeStamp));
-    el.addEventListener('pointercancel', (e) => chart.lost(e.pointerId));
+    el.addEventListener('pointerup', (e) => {
+      chart.up(e.pointerId, this.#place(e), e.timeStamp);
+      this.#held = null;
+    });
+    el.addEventListener('pointercancel', (e) => {
+      chart.lost(e.pointerId);
+      this.#held = null;
+    });
     el.addEventListener('pointerleave', () => {
       this.#inside = false;
+      this.#held = null;
       chart.outside();
     });
     el.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
@@ -79,7 +88,7 @@ export class Gestures {
   }
 
   #place(e: MouseEvent): Point {
-    const r = this.stage.element.getBoundingClientRect();
+    const r = this.#held ?? this.stage.element.getBoundingClientRect();
     return { x: e.clientX - r.left, y: e.clientY - r.top };
   }
 
@@ -101,6 +110,7 @@ export class Gestures {
     } catch {
       // The pointer may be gone already.
     }
+    this.#held = this.stage.element.getBoundingClientRect();
     this.chart.down({ id: e.pointerId, ...this.#place(e), touch: e.pointerType === 'touch', button: e.button });
   }
 
