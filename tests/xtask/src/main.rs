@@ -102,7 +102,8 @@ fn run(command: &mut Command) -> anyhow::Result<Outcome> {
 
 fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
     let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    run(Command::new(program).args(arguments).current_dir(root()))
+    // A subcommand that finds the name of this package would take itself for a program that cargo runs.
+    run(Command::new(program).args(arguments).env_remove("CARGO_PKG_NAME").current_dir(root()))
 }
 
 /// Runs a cargo tool that is installed apart; without it the check is skipped.
