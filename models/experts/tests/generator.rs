@@ -1,13 +1,16 @@
 //! The generator's promises, with random weights: they hold whatever the networks say.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
+use crossing::{agent, crossing};
 use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request, WarningCode};
-use scene::map::{Lane, LaneMap};
+use scene::map::LaneMap;
 use scene::motion::{MotionModel, MotionState, limit_excess};
-use scene::{Agent, AgentType, Future, Goal, Scene, State, Subtype, Vec2};
+use scene::{Agent, AgentType, Future, Goal, Scene, State, Vec2};
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
+#[path = "generator/crossing.rs"]
+mod crossing;
 #[path = "generator/leaks.rs"]
 mod leaks;
 #[path = "generator/planning.rs"]
@@ -18,53 +21,6 @@ mod refining;
 mod rollouts;
 
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::random(3).unwrap().with_threads(1));
-
-fn lane(id: &str, from: Vec2, to: Vec2, successors: &[&str]) -> Lane {
-    let n = (to - from).norm().ceil() as usize;
-    let points: Vec<Vec2> = (0..=n).map(|i| from + (to - from) * (i as f64 / n as f64)).collect();
-    Lane {
-        width_m: Some(3.5),
-        speed_limit_mps: Some(13.4),
-        successors: successors.iter().map(|s| (*s).to_owned()).collect(),
-        ..Lane::street(id, points)
-    }
-}
-
-fn agent(id: &str, agent_type: AgentType, at: (f64, f64), heading_rad: f64, speed: f64) -> Agent {
-    let ahead = scene::geometry::direction(heading_rad);
-    let state = |i: usize| {
-        let p = Vec2::new(at.0, at.1) + ahead * (speed * 0.1 * i as f64);
-        State { x_m: p.x, y_m: p.y, heading_rad, vx_mps: ahead.x * speed, vy_mps: ahead.y * speed }
-    };
-    Agent::bare(id, agent_type, Subtype::Unknown, (0..91).map(|i| Some(state(i))).collect())
-}
-
-/// Two streets that cross, with cars, a cyclist, a pedestrian and a parked car.
-fn crossing() -> Scene {
-    use std::f64::consts::FRAC_PI_2;
-    let v = Vec2::new;
-    let map = LaneMap {
-        lanes: vec![
-            lane("w", v(-100.0, -1.75), v(-8.0, -1.75), &["we", "wn"]),
-            lane("we", v(-8.0, -1.75), v(8.0, -1.75), &["e"]),
-            lane("wn", v(-8.0, -1.75), v(1.75, 8.0), &["n"]),
-            lane("e", v(8.0, -1.75), v(120.0, -1.75), &[]),
-            lane("s", v(1.75, -100.0), v(1.75, -8.0), &["sn"]),
-            lane("sn", v(1.75, -8.0), v(1.75, 8.0), &["n"]),
-            lane("n", v(1.75, 8.0), v(1.75, 120.0), &[]),
-        ],
-        ..LaneMap::default()
-    };
-    let agents = vec![
-        agent("1", AgentType::Vehicle, (-40.0, -1.75), 0.0, 8.0),
-        agent("2", AgentType::Vehicle, (-60.0, -1.75), 0.0, 9.0),
-        agent("3", AgentType::Vehicle, (1.75, -45.0), FRAC_PI_2, 8.0),
-        agent("4", AgentType::Cyclist, (1.9, -20.0), FRAC_PI_2, 4.0),
-        agent("5", AgentType::Pedestrian, (-12.0, 6.0), -FRAC_PI_2, 1.3),
-        agent("6", AgentType::Vehicle, (-30.0, -6.5), 0.0, 0.0),
-    ];
-    Scene::bare("crossing", map, agents).checked().unwrap()
-}
 
 fn run(generator: &Generator, request: Request) -> Answer {
     for event in generator.start(request, Cancel::default()).unwrap() {

@@ -7,9 +7,10 @@ use super::{Task, scoring};
 use crate::base::metrics;
 use crate::base::problem::Problem;
 use crate::work::Kind;
+use experts::weights::EXPERTS;
 use experts::{Answer, Draft, Event, GenerateError, Generator};
 use formats::native::SampleDoc;
-use scene::{AgentType, Scene};
+use scene::Scene;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -54,7 +55,7 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
 }
 
 fn count(scene: &Scene, draft: &Draft) {
-    let types = draft.futures.agents.keys().filter_map(|id| scene.agent(id)).map(expert_of);
+    let types = draft.futures.agents.keys().filter_map(|id| scene.agent(id)).filter_map(expert_of);
     if draft.step == 0 {
         types.for_each(|expert| metrics::agents(expert, 1));
     } else {
@@ -62,12 +63,9 @@ fn count(scene: &Scene, draft: &Draft) {
     }
 }
 
-fn expert_of(agent: &scene::Agent) -> &'static str {
-    match agent.kind() {
-        AgentType::Pedestrian => "pedestrian",
-        AgentType::Cyclist => "cyclist",
-        AgentType::Vehicle | AgentType::Other => "vehicle",
-    }
+/// Name of the expert that an agent runs on.
+fn expert_of(agent: &scene::Agent) -> Option<&'static str> {
+    EXPERTS.iter().find(|(agent_type, _)| *agent_type == agent.kind()).map(|(_, name)| *name)
 }
 
 fn final_body(head: &GeneratedHead, answer: &Answer, queued: Duration) -> FinalBody {

@@ -4,9 +4,15 @@
 use dragtraffic_tests::program::root;
 use experts::placement::{Amount, PlaceRequest};
 use experts::{React, Request};
-use scene::map::{Lane, LaneMap};
-use scene::{Agent, AgentType, Goal, Scene, State, Subtype, Vec2};
+use scene::{Goal, Scene, Vec2};
 use std::sync::Arc;
+
+/// The same scene as in the tests of the generator's promises.
+#[path = "../../../models/experts/tests/generator/crossing.rs"]
+#[allow(dead_code, reason = "its parts serve the other tests")]
+mod crossing;
+
+use crossing::crossing;
 
 /// One call.
 pub enum Case {
@@ -109,49 +115,4 @@ fn to(at: (f64, f64), heading_rad: Option<f64>, speed_mps: Option<f64>, time_s: 
 fn with_goal(mut scene: Scene, id: &str, goal: Goal) -> Scene {
     scene.agents.iter_mut().find(|a| a.id == id).unwrap().conditions.goal = goal;
     scene
-}
-
-/// Two streets that cross, with three cars, a cyclist, a pedestrian and a parked car.
-fn crossing() -> Scene {
-    use std::f64::consts::FRAC_PI_2;
-    let lane = |id: &str, from: (f64, f64), to: (f64, f64), successors: &[&str]| {
-        let (from, to) = (Vec2::new(from.0, from.1), Vec2::new(to.0, to.1));
-        let n = (to - from).norm().ceil() as usize;
-        let points: Vec<Vec2> = (0..=n).map(|i| from + (to - from) * (i as f64 / n as f64)).collect();
-        Lane {
-            width_m: Some(3.5),
-            speed_limit_mps: Some(13.4),
-            successors: successors.iter().map(|s| (*s).to_owned()).collect(),
-            ..Lane::street(id, points)
-        }
-    };
-    let map = LaneMap {
-        lanes: vec![
-            lane("w", (-100.0, -1.75), (-8.0, -1.75), &["we", "wn"]),
-            lane("we", (-8.0, -1.75), (8.0, -1.75), &["e"]),
-            lane("wn", (-8.0, -1.75), (1.75, 8.0), &["n"]),
-            lane("e", (8.0, -1.75), (120.0, -1.75), &[]),
-            lane("s", (1.75, -100.0), (1.75, -8.0), &["sn"]),
-            lane("sn", (1.75, -8.0), (1.75, 8.0), &["n"]),
-            lane("n", (1.75, 8.0), (1.75, 120.0), &[]),
-        ],
-        ..LaneMap::default()
-    };
-    let agent = |id: &str, agent_type, at: (f64, f64), heading_rad: f64, speed: f64| {
-        let ahead = scene::geometry::direction(heading_rad);
-        let state = |i: usize| {
-            let p = Vec2::new(at.0, at.1) + ahead * (speed * 0.1 * i as f64);
-            State { x_m: p.x, y_m: p.y, heading_rad, vx_mps: ahead.x * speed, vy_mps: ahead.y * speed }
-        };
-        Agent::bare(id, agent_type, Subtype::Unknown, (0..91).map(|i| Some(state(i))).collect())
-    };
-    let agents = vec![
-        agent("1", AgentType::Vehicle, (-40.0, -1.75), 0.0, 8.0),
-        agent("2", AgentType::Vehicle, (-60.0, -1.75), 0.0, 9.0),
-        agent("3", AgentType::Vehicle, (1.75, -45.0), FRAC_PI_2, 8.0),
-        agent("4", AgentType::Cyclist, (1.9, -20.0), FRAC_PI_2, 4.0),
-        agent("5", AgentType::Pedestrian, (-12.0, 6.0), -FRAC_PI_2, 1.3),
-        agent("6", AgentType::Vehicle, (-30.0, -6.5), 0.0, 0.0),
-    ];
-    Scene::bare("crossing", map, agents).checked().unwrap()
 }

@@ -42,7 +42,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let obstacles = world.obstacles(who.index);
     let mut last: Option<(u64, PathFacts)> = None;
     for (slot, anchor) in anchors.iter().enumerate() {
-        let path_identity = anchor.identity / 8;
+        let path_identity = anchor.path_identity();
         // Slots of one path share what can be said of the path.
         let facts = match last.take() {
             Some((identity, facts)) if identity == path_identity => facts,

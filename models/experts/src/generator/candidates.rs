@@ -123,7 +123,7 @@ impl Material<'_> {
         if middle(actor).is_some() || actor.keeps_its_path() || actor.only_rests() {
             return Vec::new();
         }
-        let path = |slot: Slot| actor.plan.anchors[slot.index()].identity / 8;
+        let path = |slot: Slot| actor.plan.anchors[slot.index()].path_identity();
         let mut paths: Vec<(Slot, Vec<(Slot, &Candidate)>)> = Vec::new();
         for mode in alternatives {
             let Origin::Mode(slot) = mode.origin else { continue };

@@ -47,6 +47,9 @@ pub struct Anchor {
     pub timing: (usize, usize),
 }
 
+/// Names of timings on one path; more than there are modes.
+const TIMINGS: u64 = 8;
+
 /// Slots of each path when there are 1 to 6 of them.
 const SLOTS: [[usize; MODES]; MODES] = [
     [6, 0, 0, 0, 0, 0],
@@ -408,7 +411,7 @@ impl Way {
             caps_mps: self.caps_mps.clone(),
             kind: self.kind,
             route: self.route.clone(),
-            identity: self.identity.wrapping_mul(8).wrapping_add(timing.0 as u64),
+            identity: self.identity.wrapping_mul(TIMINGS).wrapping_add(timing.0 as u64),
             timing,
         }
     }
@@ -448,6 +451,11 @@ impl Anchor {
             return (behind.min(0.0), across);
         }
         (foot.s_m, foot.lateral_m)
+    }
+
+    /// Names the path alone, whatever the timing on it.
+    pub fn path_identity(&self) -> u64 {
+        self.identity / TIMINGS
     }
 
     /// Progress, base speed and the like at a step.

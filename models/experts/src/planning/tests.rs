@@ -103,7 +103,7 @@ fn without_a_goal_both_ways_of_a_fork_get_anchors_with_rising_timings() {
     assert!(found.iter().all(|a| a.kind == PathKind::Route));
     let ends: BTreeSet<bool> = found.iter().map(|a| a.path.last().position.y > 20.0).collect();
     assert_eq!(ends.len(), 2, "straight on and to the left");
-    for pair in found.windows(2).filter(|pair| pair[0].identity / 8 == pair[1].identity / 8) {
+    for pair in found.windows(2).filter(|pair| pair[0].path_identity() == pair[1].path_identity()) {
         assert!(pair[0].base[HORIZON_STEPS] < pair[1].base[HORIZON_STEPS], "from slow to fast");
     }
     for anchor in &found {
