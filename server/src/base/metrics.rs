@@ -58,10 +58,10 @@ pub fn agents(expert: &'static str, count: u64) {
     counter!("dragtraffic_agents_total", "expert" => expert).increment(count);
 }
 
-/// Jobs that wait and jobs under way, of all kinds.
-pub fn load(queued: usize, running: usize) {
-    gauge!("dragtraffic_queue_length").set(queued as f64);
-    gauge!("dragtraffic_running").set(running as f64);
+/// Jobs of a lane that wait and that are under way.
+pub fn load(lane: &'static str, queued: usize, running: usize) {
+    gauge!("dragtraffic_queue_length", "lane" => lane).set(queued as f64);
+    gauge!("dragtraffic_running", "lane" => lane).set(running as f64);
 }
 
 /// An event that a slow reader did not get.
@@ -93,5 +93,7 @@ pub fn identity(weights: impl Iterator<Item = (String, String)>) {
     for expert in ["vehicle", "pedestrian", "cyclist"] {
         counter!("dragtraffic_steps_total", "expert" => expert).increment(0);
     }
-    load(0, 0);
+    for lane in ["long", "short"] {
+        load(lane, 0, 0);
+    }
 }

@@ -35,25 +35,25 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Jobs of one lane that wait.
+/// Jobs of one lane.
 #[derive(Default)]
-struct Waiting {
+struct Traffic {
     queue: VecDeque<Arc<Job>>,
+    running: usize,
     /// Running mean of a job's time, seconds.
     mean_s: f64,
 }
 
 struct State {
-    long: Waiting,
-    short: Waiting,
+    long: Traffic,
+    short: Traffic,
     jobs: HashMap<String, Arc<Job>>,
     clients: Clients,
-    running: usize,
     closing: bool,
 }
 
 impl State {
-    fn lane(&mut self, lane: Lane) -> &mut Waiting {
+    fn lane(&mut self, lane: Lane) -> &mut Traffic {
         match lane {
             Lane::Long => &mut self.long,
             Lane::Short => &mut self.short,
@@ -82,7 +82,9 @@ impl State {
     }
 
     fn show(&self) {
-        metrics::load(self.long.queue.len() + self.short.queue.len(), self.running);
+        for (name, lane) in [("long", &self.long), ("short", &self.short)] {
+            metrics::load(name, lane.queue.len(), lane.running);
+        }
     }
 }
 
@@ -101,11 +103,10 @@ impl Pool {
     /// When the system gives no thread.
     pub fn start(limits: &Arc<Limits>) -> io::Result<Arc<Self>> {
         let state = State {
-            long: Waiting { mean_s: 0.3, ..Waiting::default() },
-            short: Waiting { mean_s: 0.03, ..Waiting::default() },
+            long: Traffic { mean_s: 0.3, ..Traffic::default() },
+            short: Traffic { mean_s: 0.03, ..Traffic::default() },
             jobs: HashMap::new(),
             clients: Clients::new(limits.clients as usize, Duration::from_secs(limits.client_idle_s)),
-            running: 0,
             closing: false,
         };
         let pool = Arc::new(Self {
@@ -156,7 +157,7 @@ impl Pool {
             })?;
             state.supersede(client, *revision);
         }
-        let running = state.running;
+        let running = state.long.running + state.short.running;
         let lane = state.lane(kind.lane());
         let waiting = lane.queue.len();
         if waiting as u64 >= self.limits.queue {
@@ -235,7 +236,7 @@ impl Pool {
                 return None;
             }
             if let Some(job) = lanes.iter().find_map(|lane| state.lane(*lane).queue.pop_front()) {
-                state.running += 1;
+                state.lane(job.kind.lane()).running += 1;
                 state.show();
                 let work = job.begin();
                 return Some((job, work));
@@ -247,9 +248,9 @@ impl Pool {
     fn finished(&self, job: &Job, took: Duration) {
         metrics::work(job.kind.name(), "work", took.as_secs_f64());
         let mut state = lock(&self.state);
-        state.running -= 1;
         state.jobs.remove(&job.ticket.id);
         let lane = state.lane(job.kind.lane());
+        lane.running -= 1;
         lane.mean_s = 0.8 * lane.mean_s + 0.2 * took.as_secs_f64();
         state.show();
     }
