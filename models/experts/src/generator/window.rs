@@ -20,6 +20,7 @@ use crate::planning::{MODES, Modes, RESIDUAL};
 use crate::request::{Draft, GenerateError, Intermediate, Request, Shown};
 use crate::tuning::Tuning;
 use crate::weights::EXPERTS;
+use scene::judge::About;
 use scene::motion::Trajectory;
 use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, State};
 use std::collections::{BTreeMap, BTreeSet};
@@ -317,8 +318,9 @@ impl<'g> Window<'g> {
             probability: if total > 0.0 { c.probability / total } else { 1.0 / alternatives.len() as f64 },
             first_step: self.world.step + 1,
             states: self.cut(&c.motion.states),
+            about: About::default(),
         });
-        AgentFutures { chosen, modes: modes.collect() }
+        AgentFutures::of(chosen, modes.collect())
     }
 
     /// The asked-for part of a trajectory, the start left out.
