@@ -14,6 +14,7 @@ import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { outOfReach } from './goal-verdict';
 import { ChangesOverlay } from './overlay-changes';
+import { EventsOverlay } from './overlay-events';
 import { GoalOverlay } from './overlay-goal';
 import { VerdictOverlay } from './overlay-verdicts';
 
@@ -29,12 +30,14 @@ export class Overlay {
   private readonly goal: GoalOverlay;
   private readonly changes: ChangesOverlay;
   private readonly verdicts: VerdictOverlay;
+  private readonly events: EventsOverlay;
 
   constructor(
     private readonly editor: Editor,
     private readonly poseNow: (a: Agent) => Pose | null,
   ) {
     this.goal = new GoalOverlay(editor, this.labels);
+    this.events = new EventsOverlay(editor, this.labels, poseNow);
     this.verdicts = new VerdictOverlay(editor, this.labels);
     this.changes = new ChangesOverlay(editor, this.labels, poseNow);
   }
@@ -62,7 +65,7 @@ export class Overlay {
     const a = e.agent.value;
     if (e.showBefore.value) this.changes.paintBefore(g, v);
     if (a) this.paintSelected(g, v, a);
-    this.changes.paintEvents(g, v);
+    this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);
     this.paintMeasure(g, v);
   }

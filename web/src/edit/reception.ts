@@ -236,9 +236,10 @@ export class Reception {
     editor.answers.report({ kind: 'settled', ms, adapted: step.agent ? changes.length : null });
     if (step.undo) return;
     const scene = editor.scene.peek()!;
-    editor.notices.show({ text: outcome(step, scene, changes), undo: true });
-    editor.notices.say(spokenOutcome(step, scene, changes));
-    const collision = spokenCollision(editor.events.peek());
+    const events = editor.events.peek();
+    editor.notices.show({ text: outcome(step, scene, changes, events), undo: true });
+    editor.notices.say(spokenOutcome(step, scene, changes, events));
+    const collision = spokenCollision(events);
     if (collision) editor.notices.say(collision, true);
   }
 

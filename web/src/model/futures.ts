@@ -1,6 +1,6 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
 import type { AgentFuturesJson } from './json';
-import { readAbout, sentAbout, type About, type SentAbout } from './about';
+import { readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './about';
 import type { Point, Pose } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
@@ -135,14 +135,28 @@ export interface Collision {
   a: string;
   b: string;
   time: number;
+  /** m/s. */
+  closing?: number | null;
+  /** Absent where the generator does not tell. */
+  inLog?: boolean;
 }
 export interface NearMiss extends Collision {
   distance: number | null;
   ttc: number | null;
 }
+/** One road user does something that it should not for a while. */
+export interface Stretch {
+  readonly what: Exclude<FaultKind, 'collision' | 'near_miss'>;
+  readonly agent: string;
+  readonly time: number;
+  readonly until: number;
+  readonly extent: number | null;
+  readonly inLog?: boolean;
+}
 export interface Score {
   readonly collisions: readonly Collision[];
   readonly nearMisses: readonly NearMiss[];
+  readonly stretches?: readonly Stretch[];
   readonly minTtc: number | null;
   readonly offroadShare: number | null;
 }

@@ -212,10 +212,24 @@ export function startStandIn(options = {}) {
     res.end();
   }
 
+  // Close together, and at the very end.
+  const crowd = {
+    harsh_braking: [
+      { agent: '3', time_s: 1.6, until_s: 2, worst: 5.1 },
+      { agent: '6', time_s: 1.7, until_s: 1.9, worst: 4.4 },
+      { agent: '9', time_s: 9, until_s: 9, worst: 6 },
+    ],
+    red_lights: [{ agent: '5', lane: 'x_in21_out01', time_s: 1.9, speed_mps: 8.6 }],
+  };
+
   const score = () => ({
     scene: {
       collisions: o.collision ? [{ a: '1', b: '2', time_s: 5.4, iou: 0.1 }] : [],
-      near_misses: [{ a: '11', b: '14', time_s: 3.2, distance_m: 0.6, ttc_s: 1.1 }],
+      near_misses: [
+        { a: '11', b: '14', time_s: 3.2, distance_m: 0.6, ttc_s: 1.1 },
+        ...(o.judged ? [{ a: '19', b: '20', time_s: 1.4, distance_m: 0.4, ttc_s: null, in_log: true }] : []),
+      ],
+      ...(o.judged ? crowd : {}),
       min_ttc_s: 1.1,
       offroad_share: null,
     },

@@ -1,5 +1,5 @@
 // The status line: what the generator is doing, or what happens in the scene.
-import { summary } from '../../model/events';
+import { summary, worstOf } from '../../model/events';
 import { touched } from '../../model/scene';
 import type { Context } from '../../actions/context';
 import type { Status as GeneratorStatus } from '../../edit/answers';
@@ -94,8 +94,9 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
 /** What happens in the scene. */
 function sceneLine({ editor }: Context): Line {
   const events = editor.events.value;
-  if (events.length)
-    return { dot: events.some((e) => e.kind === 'collision') ? 'collision' : 'near', text: summary(events) };
+  const worst = worstOf(events);
+  if (worst)
+    return { dot: worst === 'collision' ? 'collision' : worst === 'short' ? '' : 'near', text: summary(events) };
   const scene = editor.scene.value;
   if (!scene) return { dot: '', text: 'Ready' };
   const { size } = scene.agents;
