@@ -68,6 +68,8 @@ pub struct Stages {
     pub background_in_the_way: bool,
     /// Of futures that coincide one takes another course; otherwise both stay as the initializer has them.
     pub parted: bool,
+    /// What is wrong with each future is said.
+    pub judged: bool,
     /// How each road user's futures are planned. The choice knows the whole map either way.
     pub planning: Planning,
     /// How refinement goes about its steps.
@@ -99,6 +101,7 @@ impl Default for Stages {
             guidance: true,
             background_in_the_way: true,
             parted: true,
+            judged: true,
             planning: Planning::default(),
             refining: Refining::default(),
         }

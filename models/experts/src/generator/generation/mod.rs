@@ -9,6 +9,7 @@ mod ledger;
 mod roster;
 mod scenes;
 mod targets;
+mod verdicts;
 
 use super::window::{Window, steps};
 use super::{Generator, KnownMap, report};
@@ -209,7 +210,11 @@ impl<'g> Generation<'g> {
 
     fn finish_sample(&mut self) -> Result<(), GenerateError> {
         let world = &self.windows.first.as_ref().ok_or_else(no_window)?.world;
-        self.ledger.finish_sample(&self.request, world, self.roster.guesses());
+        let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
+        if self.request.stages.judged {
+            verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+        }
+        self.ledger.samples.push(sample);
         Ok(())
     }
 
