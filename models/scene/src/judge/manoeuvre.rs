@@ -165,7 +165,7 @@ mod tests {
     /// Two lanes to the east, side by side.
     fn street() -> LaneGraph {
         let lane = |id: &str, y: f64| {
-            Lane::street(id, (0..=40).map(|i| Vec2::new(4.0 * f64::from(i) - 20.0, y)).collect())
+            Lane::street(id, (0..=40).map(|i| Vec2::new(4.0 * f64::from(i) - 20.0, y)).collect::<Vec<_>>())
         };
         LaneGraph::new(&LaneMap { lanes: vec![lane("a", 0.0), lane("b", 3.5)], ..LaneMap::default() })
     }

@@ -147,7 +147,7 @@ pub fn relations<'a>(
     others: impl IntoIterator<Item = &'a Trace>,
     start_step: usize,
 ) -> Vec<Relation> {
-    let mut found: Vec<Found> = Vec::new();
+    let mut found: Vec<Found<'_>> = Vec::new();
     for other in others {
         if other.id == me.id || !me.may_meet(other) {
             continue;
@@ -157,9 +157,9 @@ pub fn relations<'a>(
     // The most telling stay, the rest is left out.
     found.sort_by(|a, b| a.weight().total_cmp(&b.weight()).then_with(|| a.with.cmp(b.with)));
     found.truncate(MOST);
-    let follows = |f: &Found| f.kind == RelationKind::Follows;
+    let follows = |f: &Found<'_>| f.kind == RelationKind::Follows;
     found.sort_by(|a, b| follows(a).cmp(&follows(b)).then(a.moment.cmp(&b.moment)));
-    let told = |f: Found| Relation {
+    let told = |f: Found<'_>| Relation {
         kind: f.kind,
         with: f.with.to_owned(),
         time_s: (start_step + f.moment * STRIDE) as f64 * STEP_S,
