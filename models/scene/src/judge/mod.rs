@@ -7,7 +7,7 @@ mod relations;
 
 pub use about::{About, Fault, FaultKind, Manoeuvre, Reaction, ReactionKind, Relation, RelationKind};
 pub use manoeuvre::manoeuvre;
-pub use relations::{Trace, relations};
+pub use relations::{Ground, Trace, crossing, relations};
 
 use crate::score::goal::goal_error;
 use crate::score::kinematic::{harsh_braking, harsh_steering};

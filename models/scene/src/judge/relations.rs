@@ -52,6 +52,7 @@ struct Moment {
 pub struct Trace {
     id: AgentId,
     agent_type: AgentType,
+    size: Size,
     /// One each [`MOMENT_S`], the first at the start; `None` where it is not there.
     moments: Vec<Option<Moment>>,
     /// Where it would go on from its last moment, for one that waits at its end.
@@ -76,6 +77,7 @@ impl Trace {
         let mut trace = Self {
             id: id.to_owned(),
             agent_type,
+            size: *size,
             moments: Vec::with_capacity(steps.div_ceil(STRIDE)),
             goes_on: Vec::new(),
             low: Vec2::repeat(f64::INFINITY),
@@ -101,9 +103,15 @@ impl Trace {
         trace
     }
 
-    /// The same for a motion that is looked at itself: one state a step.
-    pub fn of_states(id: &str, agent_type: AgentType, size: &Size, states: &[State]) -> Self {
-        let mut trace = Self::new(id, agent_type, size, states.len(), |step| states.get(step).copied());
+    /// The same for one that is looked at itself: where it would go on from its end counts too.
+    pub fn ahead(
+        id: &str,
+        agent_type: AgentType,
+        size: &Size,
+        steps: usize,
+        at: impl Fn(usize) -> Option<State>,
+    ) -> Self {
+        let mut trace = Self::new(id, agent_type, size, steps, at);
         if let Some(last) = trace.moments.iter().rev().flatten().next().copied()
             && last.speed_mps < WAITING_MPS
         {
@@ -127,12 +135,50 @@ impl Trace {
         &self.id
     }
 
-    fn may_meet(&self, other: &Self) -> bool {
+    /// Its type.
+    pub fn agent_type(&self) -> AgentType {
+        self.agent_type
+    }
+
+    /// Its box.
+    pub fn size(&self) -> &Size {
+        &self.size
+    }
+
+    /// Seconds from the first moment to this one.
+    pub fn seconds(moment: usize) -> f64 {
+        moment as f64 * MOMENT_S
+    }
+
+    /// Both are somewhere near each other, at whatever time.
+    pub fn may_meet(&self, other: &Self) -> bool {
         let reach = self.radius_m + other.radius_m + QUEUE_M;
         self.low.x < other.high.x + reach
             && other.low.x < self.high.x + reach
             && self.low.y < other.high.y + reach
             && other.low.y < self.high.y + reach
+    }
+
+    /// The boxes overlap at some moment after the first.
+    pub fn meets(&self, other: &Self) -> bool {
+        let reach = self.radius_m + other.radius_m;
+        let closing_m = (self.stride_m + other.stride_m).max(1e-6);
+        let count = self.moments.len().min(other.moments.len());
+        let mut i = 1;
+        while i < count {
+            if let (Some(a), Some(b)) = (&self.moments[i], &other.moments[i]) {
+                let apart = (a.outline.center() - b.outline.center()).norm() - reach;
+                if apart > 0.0 {
+                    i += 1 + (apart / closing_m) as usize;
+                    continue;
+                }
+                if overlaps(&a.outline, &b.outline, 0.0) {
+                    return true;
+                }
+            }
+            i += 1;
+        }
+        false
     }
 
     fn speed_at(&self, moment: usize) -> Option<f64> {
@@ -190,55 +236,69 @@ impl Found<'_> {
     }
 }
 
-/// Where and when two share ground.
-struct Shared {
-    /// The moment at which this one comes there first, and the other's moment that meets it.
+/// Ground that two use within [`WINDOW_S`] of each other: moments of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ground {
+    /// The moment at which the first of the two comes there, and the other's that it meets first.
     enters: (usize, usize),
-    /// Pairs of moments with the least shift.
+    /// The pair of moments with the least shift.
     nearest: (usize, usize),
-    /// The shift has one sign throughout: positive where this one is first.
-    shift: i64,
-    /// The other's last moment there.
-    other_leaves: usize,
-    /// This one only would come there, had it gone on.
+    /// The first one's first and last moment there.
+    pub mine: (usize, usize),
+    /// The other's first and last moment there.
+    pub theirs: (usize, usize),
+    /// Least and greatest shift in moments: positive where the first one is there first.
+    shift: (i64, i64),
+    /// The first one only would come there, had it gone on.
     beyond: bool,
 }
 
-fn relation<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
-    let walkers = me.agent_type == AgentType::Pedestrian && other.agent_type == AgentType::Pedestrian;
-    if walkers {
-        return None;
+impl Ground {
+    /// Who is first: 1 for the first one, -1 for the other, 0 where they meet.
+    pub fn order(&self) -> i64 {
+        match self.shift {
+            (least, _) if least > 0 => 1,
+            (_, most) if most < 0 => -1,
+            _ => 0,
+        }
     }
-    if other.way_m >= GOES_M
-        && let Some(shared) = shared(me, other)
-    {
-        return of_shared(me, other, &shared).or_else(|| follows(me, other));
-    }
-    follows(me, other)
 }
 
-fn of_shared<'a>(me: &Trace, other: &'a Trace, shared: &Shared) -> Option<Found<'a>> {
-    let (mine, theirs) = shared.nearest;
+/// Ground where the paths of two cross or merge; `None` for those that are behind each other from the start on, and
+/// for two walkers.
+pub fn crossing(me: &Trace, other: &Trace) -> Option<Ground> {
+    let walkers = me.agent_type == AgentType::Pedestrian && other.agent_type == AgentType::Pedestrian;
+    if walkers || other.way_m < GOES_M || !me.may_meet(other) {
+        return None;
+    }
+    let ground = ground(me, other)?;
     let heading = |trace: &Trace, moment: usize| {
         trace.moments.get(moment).and_then(Option::as_ref).map(|m| m.outline.heading_rad())
     };
-    let there = me.moments.get(shared.enters.0).and_then(Option::as_ref);
-    let place = match there.filter(|_| !shared.beyond) {
+    let (mine, theirs) = ground.nearest;
+    let along = wrap_angle(heading(me, mine)? - heading(other, theirs)?).abs() < SAME_WAY_RAD;
+    let same_way = !ground.beyond && along && came_the_same_way(me, other);
+    (!same_way).then_some(ground)
+}
+
+fn relation<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
+    let crosses = crossing(me, other).and_then(|ground| of_ground(me, other, &ground));
+    crosses.or_else(|| follows(me, other))
+}
+
+fn of_ground<'a>(me: &Trace, other: &'a Trace, ground: &Ground) -> Option<Found<'a>> {
+    let there = me.moments.get(ground.enters.0).and_then(Option::as_ref);
+    let place = match there.filter(|_| !ground.beyond) {
         Some(moment) => moment.outline.center(),
-        None => other.moments.get(theirs)?.as_ref()?.outline.center(),
+        None => other.moments.get(ground.nearest.1)?.as_ref()?.outline.center(),
     };
-    let gap_s = shared.shift.unsigned_abs() as f64 * MOMENT_S;
-    let same_way = !shared.beyond
-        && wrap_angle(heading(me, mine)? - heading(other, theirs)?).abs() < SAME_WAY_RAD
-        && came_the_same_way(me, other);
-    if same_way {
-        return None;
-    }
-    let found = |kind, gap_s| Some(Found { kind, with: &other.id, moment: shared.enters.0, place, gap_s });
-    match shared.shift.signum() {
-        1 if !shared.beyond => found(RelationKind::Before, Some(gap_s)),
-        -1 if gives_way(me, shared) => found(RelationKind::GivesWayTo, (!shared.beyond).then_some(gap_s)),
-        -1 if !shared.beyond => found(RelationKind::After, Some(gap_s)),
+    let gap = ground.shift.0.unsigned_abs().min(ground.shift.1.unsigned_abs());
+    let gap_s = (!ground.beyond).then_some(gap as f64 * MOMENT_S);
+    let found = |kind| Some(Found { kind, with: &other.id, moment: ground.enters.0, place, gap_s });
+    match ground.order() {
+        1 if !ground.beyond => found(RelationKind::Before),
+        -1 if gives_way(me, ground) => found(RelationKind::GivesWayTo),
+        -1 if !ground.beyond => found(RelationKind::After),
         _ => None,
     }
 }
@@ -255,16 +315,15 @@ fn came_the_same_way(me: &Trace, other: &Trace) -> bool {
     starts_on(other, me) || starts_on(me, other)
 }
 
-/// Ground that both use within [`WINDOW_S`]; `None` where there is none, or where they meet there.
-fn shared(me: &Trace, other: &Trace) -> Option<Shared> {
+fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
     let window = (WINDOW_S / MOMENT_S) as usize;
     let reach = me.radius_m + other.radius_m;
-    let mut found: Option<Shared> = None;
+    let mut found: Option<Ground> = None;
     let mine = me.moments.iter().enumerate().filter_map(|(i, m)| Some((i, m.as_ref()?.outline, false)));
     let last = me.moments.len().saturating_sub(1);
     let beyond = me.goes_on.iter().map(|outline| (last, *outline, true));
     for (i, outline, beyond) in mine.chain(beyond) {
-        if beyond && found.as_ref().is_some_and(|f| !f.beyond) {
+        if beyond && found.is_some_and(|f| !f.beyond) {
             break;
         }
         let from = if beyond { 0 } else { i.saturating_sub(window) };
@@ -283,24 +342,15 @@ fn shared(me: &Trace, other: &Trace) -> Option<Shared> {
             }
             if overlaps(&moment.outline, &outline, 0.0) {
                 let shift = j as i64 - i as i64;
-                match &mut found {
-                    None => {
-                        found =
-                            Some(Shared { enters: (i, j), nearest: (i, j), shift, other_leaves: j, beyond });
-                    }
-                    Some(known) => {
-                        if shift.signum() != known.shift.signum() {
-                            return None;
-                        }
-                        if shift.abs() < known.shift.abs() {
-                            (known.nearest, known.shift) = ((i, j), shift);
-                        }
-                        known.other_leaves = known.other_leaves.max(j);
-                    }
-                }
-                if shift == 0 && !beyond {
-                    return None;
-                }
+                let now = Ground {
+                    enters: (i, j),
+                    nearest: (i, j),
+                    mine: (i, i),
+                    theirs: (j, j),
+                    shift: (shift, shift),
+                    beyond,
+                };
+                found = Some(found.map_or(now, |known| known.and(&now)));
             }
             j += 1;
         }
@@ -308,11 +358,25 @@ fn shared(me: &Trace, other: &Trace) -> Option<Shared> {
     found
 }
 
+impl Ground {
+    fn and(self, more: &Self) -> Self {
+        let span = |a: (usize, usize), b: (usize, usize)| (a.0.min(b.0), a.1.max(b.1));
+        let nearer = more.shift.0.abs() < (self.nearest.1 as i64 - self.nearest.0 as i64).abs();
+        Self {
+            nearest: if nearer { more.nearest } else { self.nearest },
+            mine: span(self.mine, more.mine),
+            theirs: span(self.theirs, more.theirs),
+            shift: (self.shift.0.min(more.shift.0), self.shift.1.max(more.shift.1)),
+            ..self
+        }
+    }
+}
+
 /// It slows down or waits before the shared ground until the other has been there.
-fn gives_way(me: &Trace, shared: &Shared) -> bool {
-    let enters = shared.enters.0;
+fn gives_way(me: &Trace, ground: &Ground) -> bool {
+    let enters = ground.enters.0;
     let Some(at) = me.moments.get(enters).and_then(Option::as_ref) else { return false };
-    let until = enters.min(shared.other_leaves + (1.0 / MOMENT_S) as usize);
+    let until = enters.min(ground.theirs.1 + (1.0 / MOMENT_S) as usize);
     let near = |moment: &Moment| at.way_m - moment.way_m < SLOWS_WITHIN_M;
     let slowest = (0..=until)
         .filter_map(|k| Some((k, me.moments.get(k)?.as_ref()?)))
@@ -409,12 +473,17 @@ mod tests {
             .collect()
     }
 
+    fn trace(id: &str, agent_type: AgentType, states: &[State]) -> Trace {
+        let at = |step: usize| states.get(step).copied();
+        Trace::ahead(id, agent_type, &size(agent_type), states.len(), at)
+    }
+
     fn car(id: &str, states: &[State]) -> Trace {
-        Trace::of_states(id, AgentType::Vehicle, &size(AgentType::Vehicle), states)
+        trace(id, AgentType::Vehicle, states)
     }
 
     fn walker(id: &str, states: &[State]) -> Trace {
-        Trace::of_states(id, AgentType::Pedestrian, &size(AgentType::Pedestrian), states)
+        trace(id, AgentType::Pedestrian, states)
     }
 
     /// Eastwards through x = 40 at 10 m/s: there at 4 s.
