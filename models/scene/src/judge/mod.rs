@@ -2,8 +2,12 @@
 //! fault with its time, place and extent.
 
 mod about;
+mod manoeuvre;
+mod relations;
 
 pub use about::{About, Fault, FaultKind, Manoeuvre, Reaction, ReactionKind, Relation, RelationKind};
+pub use manoeuvre::manoeuvre;
+pub use relations::{Ground, Trace, crossing, relations};
 
 use crate::score::goal::goal_error;
 use crate::score::kinematic::{harsh_braking, harsh_steering};

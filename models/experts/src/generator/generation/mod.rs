@@ -8,6 +8,7 @@
 mod ledger;
 mod roster;
 mod scenes;
+mod standing;
 mod targets;
 mod verdicts;
 
@@ -213,6 +214,7 @@ impl<'g> Generation<'g> {
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+            standing::relate(&self.request, &self.map, &self.generator.workers, &mut sample);
         }
         self.ledger.samples.push(sample);
         Ok(())
