@@ -76,6 +76,16 @@ tuning! {
         /// How a standing vehicle sets off towards a goal, m/s2. Along-road error of 62 cases of the 71
         /// scenes: 2.2 m when it leaves at once, 1.2 m with this; 1.0 to 1.2 are as good. 2026-11-22.
         setting_off_mps2 = 1.1;
+        /// A way to a goal that breaks the rules of the road on less than this passes for legal, metres: bends are
+        /// cut, boxes swing. Set by hand. 2026-11-22.
+        broken_m = 2.0;
+        /// Metres against the rules that a metre of a longer way is worth. Set by hand. 2026-11-22.
+        detour = 0.1, off 0.0;
+        /// A goal on a lane with its heading free is met along the lane where the path there is within this of it,
+        /// radians. Set by hand. 2026-11-22.
+        along_lane_rad = 1.0, off 0.0;
+        /// Pace of drivers on a long way round to a goal, m/s. Set by hand. 2026-11-22.
+        easy_mps = 13.0;
         /// Speed that is taken for allowed, over the limit that the map names. Set by hand. 2026-11-21.
         over_limit = 1.15, off 1.0;
     }
