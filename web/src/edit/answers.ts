@@ -29,6 +29,12 @@ export interface Away {
   readonly waiting: number;
 }
 
+/** A sentence about one road user. */
+export interface Remark {
+  readonly id: string;
+  readonly words: string;
+}
+
 export interface LiveReach {
   readonly id: string;
   readonly reach: Reach;
@@ -39,6 +45,7 @@ export class Answers {
   readonly #draft = signal<Draft | null>(null);
   readonly #changes = signal<readonly Change[]>([]);
   readonly #liveReach = signal<LiveReach | null>(null);
+  readonly #remark = signal<Remark | null>(null);
   readonly #status = signal<Status>({ kind: 'loading' });
   readonly #away = signal<Away | null>(null);
   readonly #cache = new MotionCache();
@@ -50,6 +57,8 @@ export class Answers {
   readonly changes: ReadonlySignal<readonly Change[]> = this.#changes;
   /** The generator's verdict on the goal as it is being dragged. */
   readonly liveReach: ReadonlySignal<LiveReach | null> = this.#liveReach;
+  /** Why another future is shown than the one that was bold in the drag. */
+  readonly remark: ReadonlySignal<Remark | null> = this.#remark;
   readonly status: ReadonlySignal<Status> = this.#status;
   /** Null while the generator answers. */
   readonly away: ReadonlySignal<Away | null> = this.#away;
@@ -60,6 +69,7 @@ export class Answers {
       this.#draft.value = null;
       this.#changes.value = [];
       this.#liveReach.value = null;
+      this.#remark.value = null;
       this.#motion.value = saved ?? emptyMotion(sceneKey(scene));
       if (saved) this.#cache.put(saved);
       this.#status.value = { kind: 'ready' };
@@ -71,12 +81,16 @@ export class Answers {
     batch(() => {
       this.#draft.value = null;
       this.#liveReach.value = null;
+      this.#remark.value = null;
     });
   }
 
   /** A drag begins: who changed the last time is no longer of interest. */
   dragBegan(): void {
-    this.#changes.value = [];
+    batch(() => {
+      this.#changes.value = [];
+      this.#remark.value = null;
+    });
   }
 
   dragMoved(): void {
@@ -104,6 +118,7 @@ export class Answers {
     const known = this.#cache.get(key);
     batch(() => {
       this.#changes.value = [];
+      this.#remark.value = null;
       if (known) {
         this.#motion.value = known;
         this.#draft.value = null;
@@ -157,6 +172,10 @@ export class Answers {
   /** The verdict of the whole answer takes the place of the one during the drag. */
   dropLiveReach(): void {
     this.#liveReach.value = null;
+  }
+
+  explain(remark: Remark | null): void {
+    this.#remark.value = remark;
   }
 
   scored(score: Score | null): void {

@@ -9,6 +9,7 @@ import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Editor, Step } from './editor';
 import type { SceneFile } from './scene-file';
+import { shownFuture } from './shown';
 
 /** What is wanted of the generator. */
 export interface Wanted {
@@ -58,6 +59,7 @@ export class Questions {
       steps: DEFAULTS.steps,
       stream_modes: 'all',
       score: w.step !== null && !w.unscored,
+      ...shownOf(this.editor, w),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME
         ? { horizon_s: scene.length, replan_interval_s: scene.replan }
@@ -86,4 +88,10 @@ export class Questions {
     const agents = scene.others === 'still' ? stillAgents(raw, scene, moving) : raw.agents;
     return { ...raw, map, agents, generated: generatedJson(scene, kept) };
   }
+}
+
+/** Only a drag and its release go on from what is shown; a look at somebody new starts afresh. */
+function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
+  const shown = w.step || editor.dragging.peek() ? shownFuture(editor, w.agents) : undefined;
+  return shown ? { shown } : {};
 }
