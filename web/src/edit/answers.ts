@@ -38,6 +38,7 @@ export class Answers {
   readonly #motion = signal<MotionSet>(emptyMotion(''));
   readonly #draft = signal<Draft | null>(null);
   readonly #changes = signal<readonly Change[]>([]);
+  readonly #foreseen = signal<readonly Change[] | null>(null);
   readonly #liveReach = signal<LiveReach | null>(null);
   readonly #status = signal<Status>({ kind: 'loading' });
   readonly #away = signal<Away | null>(null);
@@ -48,6 +49,8 @@ export class Answers {
   readonly draft: ReadonlySignal<Draft | null> = this.#draft;
   /** Who else does something else since the last change. */
   readonly changes: ReadonlySignal<readonly Change[]> = this.#changes;
+  /** Who else would change if one let go now; null where nobody has asked, or nobody has answered yet. */
+  readonly foreseen: ReadonlySignal<readonly Change[] | null> = this.#foreseen;
   /** The generator's verdict on the goal as it is being dragged. */
   readonly liveReach: ReadonlySignal<LiveReach | null> = this.#liveReach;
   readonly status: ReadonlySignal<Status> = this.#status;
@@ -59,6 +62,7 @@ export class Answers {
       this.#cache.clear();
       this.#draft.value = null;
       this.#changes.value = [];
+      this.#foreseen.value = null;
       this.#liveReach.value = null;
       this.#motion.value = saved ?? emptyMotion(sceneKey(scene));
       if (saved) this.#cache.put(saved);
@@ -76,7 +80,10 @@ export class Answers {
 
   /** A drag begins: who changed the last time is no longer of interest. */
   dragBegan(): void {
-    this.#changes.value = [];
+    batch(() => {
+      this.#changes.value = [];
+      this.#foreseen.value = null;
+    });
   }
 
   dragMoved(): void {
@@ -86,6 +93,7 @@ export class Answers {
   dragPutBack(): void {
     batch(() => {
       this.forgetLook();
+      this.#foreseen.value = null;
       this.#status.value = { kind: 'ready' };
     });
   }
@@ -107,6 +115,7 @@ export class Answers {
       if (known) {
         this.#motion.value = known;
         this.#draft.value = null;
+        this.#foreseen.value = null;
         return;
       }
       const m = this.#motion.peek();
@@ -123,8 +132,14 @@ export class Answers {
       this.#cache.put(set);
       this.#motion.value = set;
       this.#draft.value = null;
+      this.#foreseen.value = null;
       if (except) this.#changes.value = findChanges(scene, before, set, except);
     });
+  }
+
+  /** What the others would do; null when it is not known any more. */
+  foresee(changes: readonly Change[] | null): void {
+    this.#foreseen.value = changes;
   }
 
   showDraft(id: string, futures: Futures, earlier: readonly Futures[] = []): void {
