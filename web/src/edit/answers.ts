@@ -44,6 +44,7 @@ export class Answers {
   readonly #motion = signal<MotionSet>(emptyMotion(''));
   readonly #draft = signal<Draft | null>(null);
   readonly #changes = signal<readonly Change[]>([]);
+  readonly #foreseen = signal<readonly Change[] | null>(null);
   readonly #liveReach = signal<LiveReach | null>(null);
   readonly #remark = signal<Remark | null>(null);
   readonly #status = signal<Status>({ kind: 'loading' });
@@ -55,6 +56,8 @@ export class Answers {
   readonly draft: ReadonlySignal<Draft | null> = this.#draft;
   /** Who else does something else since the last change. */
   readonly changes: ReadonlySignal<readonly Change[]> = this.#changes;
+  /** Who else would change if one let go now; null where nobody has asked, or nobody has answered yet. */
+  readonly foreseen: ReadonlySignal<readonly Change[] | null> = this.#foreseen;
   /** The generator's verdict on the goal as it is being dragged. */
   readonly liveReach: ReadonlySignal<LiveReach | null> = this.#liveReach;
   /** Why another future is shown than the one that was bold in the drag. */
@@ -68,6 +71,7 @@ export class Answers {
       this.#cache.clear();
       this.#draft.value = null;
       this.#changes.value = [];
+      this.#foreseen.value = null;
       this.#liveReach.value = null;
       this.#remark.value = null;
       this.#motion.value = saved ?? emptyMotion(sceneKey(scene));
@@ -90,6 +94,7 @@ export class Answers {
     batch(() => {
       this.#changes.value = [];
       this.#remark.value = null;
+      this.#foreseen.value = null;
     });
   }
 
@@ -100,6 +105,7 @@ export class Answers {
   dragPutBack(): void {
     batch(() => {
       this.forgetLook();
+      this.#foreseen.value = null;
       this.#status.value = { kind: 'ready' };
     });
   }
@@ -122,6 +128,7 @@ export class Answers {
       if (known) {
         this.#motion.value = known;
         this.#draft.value = null;
+        this.#foreseen.value = null;
         return;
       }
       const m = this.#motion.peek();
@@ -138,8 +145,14 @@ export class Answers {
       this.#cache.put(set);
       this.#motion.value = set;
       this.#draft.value = null;
+      this.#foreseen.value = null;
       if (except) this.#changes.value = findChanges(scene, before, set, except);
     });
+  }
+
+  /** What the others would do; null when it is not known any more. */
+  foresee(changes: readonly Change[] | null): void {
+    this.#foreseen.value = changes;
   }
 
   showDraft(id: string, futures: Futures, earlier: readonly Futures[] = []): void {

@@ -70,7 +70,7 @@ export class EventsOverlay {
         ? `Collision · ${ev.title}`
         : ev.b
           ? `${seconds(ev.time)} · ${ev.short}`
-          : `${seconds(ev.time)} · ${ev.title} ${ev.short}`;
+          : `${seconds(ev.time)} · ${ev.title}, ${ev.short}`;
     const style = styleOf(ev);
     tag(g, this.labels, [v.x(ev.at[0]), v.y(ev.at[1])], ev.inLog ? `${text} · in the log` : text, {
       ...style,

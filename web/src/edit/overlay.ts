@@ -15,6 +15,7 @@ import type { Editor } from './editor';
 import { outOfReach } from './goal-verdict';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
+import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
 import { VerdictOverlay } from './overlay-verdicts';
 
@@ -31,6 +32,7 @@ export class Overlay {
   private readonly changes: ChangesOverlay;
   private readonly verdicts: VerdictOverlay;
   private readonly events: EventsOverlay;
+  private readonly ghosts: GhostOverlay;
 
   constructor(
     private readonly editor: Editor,
@@ -40,11 +42,17 @@ export class Overlay {
     this.events = new EventsOverlay(editor, this.labels, poseNow);
     this.verdicts = new VerdictOverlay(editor, this.labels);
     this.changes = new ChangesOverlay(editor, this.labels, poseNow);
+    this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
   }
 
   /** Where the time tag was painted, for the pointer. */
   get timeTag(): GoalOverlay['timeTag'] {
     return this.goal.timeTag;
+  }
+
+  /** Is something still fading? It is to be painted again then. */
+  get fading(): boolean {
+    return this.ghosts.fading;
   }
 
   paint(g: G, v: View): void {
@@ -64,7 +72,9 @@ export class Overlay {
     this.paintHover(g, v);
     const a = e.agent.value;
     if (e.showBefore.value) this.changes.paintBefore(g, v);
+    this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
+    this.ghosts.paintLabels(g, v);
     this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);
     this.paintMeasure(g, v);

@@ -1,7 +1,7 @@
 // What becomes of the generator's answers: drafts on their way, the futures of a look, the motion after a change.
-import { batch } from '@preact/signals-core';
+import { batch, effect } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
-import type { AgentFuturesJson } from '../model/json';
+import type { AgentFuturesJson, ReactionJson } from '../model/json';
 import {
   ideas,
   percents,
@@ -13,6 +13,7 @@ import {
 } from '../model/futures';
 import { motionFrom } from '../model/motion';
 import type { Naming } from '../model/names';
+import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
 import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { whyAnother } from '../model/verdict-words';
@@ -21,6 +22,7 @@ import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
 import { FrozenNames } from './frozen-names';
 import type { Wanted } from './question';
+import { Steady } from './steady';
 import { readReach, readScore, readWarnings } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome } from './report';
 
@@ -51,10 +53,18 @@ export class Reception {
     typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
   readonly #names = new FrozenNames();
 
+  readonly #steady: Steady;
+
   constructor(
     private readonly editor: Editor,
     private readonly hooks: Hooks,
-  ) {}
+  ) {
+    this.#steady = new Steady((changes) => editor.answers.foresee(changes));
+    // What was said of a drag ends with it.
+    effect(() => {
+      if (editor.foreseen.value === null) this.#steady.forget();
+    });
+  }
 
   /** Handlers for the answer to one question. */
   of(scene: Scene, w: Wanted): Handlers {
@@ -87,7 +97,10 @@ export class Reception {
         if (!slow) editor.notices.say('This takes longer than usual.');
         slow = true;
       },
-      away: () => hooks.away(w),
+      away: () => {
+        editor.answers.foresee(null);
+        hooks.away(w);
+      },
     };
   }
 
@@ -164,6 +177,32 @@ export class Reception {
     return true;
   }
 
+  // -------------------------------------------------------------- what the others would do
+
+  /** What a release would be answered, while the hand still moves. */
+  foresee(scene: Scene, e: FinalEvent, w: Wanted): void {
+    const { editor } = this;
+    if (!editor.dragging.peek()) return;
+    this.hooks.answered();
+    const set = this.#motionAfter(scene, e, w, (a) => this.#lettersOf(a, true));
+    this.#steady.hear(findChanges(scene, editor.motion.peek(), set, this.#subjects(scene, w.step)));
+  }
+
+  /** The release is answered by what was foreseen of it. */
+  takeOver(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number): void {
+    this.hooks.answered();
+    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersOf(a, true));
+  }
+
+  /** Those that were asked something are no others, also when only the mode of the others was changed. */
+  #subjects(scene: Scene, step: Step | null): Set<string> {
+    const { editor } = this;
+    const subjects = new Set(step?.agent ? [step.agent] : editor.touchedIds(scene));
+    const selected = editor.selection.peek();
+    if (selected) subjects.add(selected);
+    return subjects;
+  }
+
   // -------------------------------------------------------------- final answers
 
   #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
@@ -189,13 +228,10 @@ export class Reception {
     const { editor, hooks } = this;
     if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
     const set = this.#motionAfter(scene, e, w, keep);
-    // Those that were asked something are no others, also when only the mode of the others was changed.
-    const subjects = new Set(step.agent ? [step.agent] : editor.touchedIds(scene));
     const selected = editor.selection.peek();
-    if (selected) subjects.add(selected);
     this.#names.rest();
     editor.answers.dropLiveReach();
-    editor.answers.settle(scene, set, subjects);
+    editor.answers.settle(scene, set, this.#subjects(scene, step));
     this.settled(step, ms);
     if (selected && !set.futures.has(selected)) hooks.look(selected);
     if (!set.score) hooks.score(step);
@@ -225,6 +261,7 @@ export class Reception {
       reach,
       stale: false,
       head: e.generated,
+      reactions: reactionsAfter(before, e),
       warnings: readWarnings(e),
     };
   }
@@ -272,6 +309,7 @@ export class Reception {
     const first = p.errors?.[0];
     const range = first?.min !== undefined ? `A value is outside ${first.min} to ${first.max}.` : null;
     const words = first?.detail ?? range ?? p.detail ?? p.title;
+    this.editor.answers.foresee(null);
     this.editor.answers.report({ kind: 'refused', words });
     this.editor.notices.say(words);
   }
@@ -280,3 +318,14 @@ export class Reception {
 /** Which seconds a later window is about. */
 const secondsOf = (s: Scene, window: number): string =>
   `${window * s.replan} to ${Math.min(s.length, (window + 1) * s.replan)} s`;
+
+/** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
+function reactionsAfter(before: MotionSet, e: FinalEvent): Map<string, ReactionJson> {
+  const out = new Map(before.reactions);
+  const agents: Record<string, AgentFuturesJson> = e.samples[0]?.agents ?? {};
+  for (const [id, { reaction }] of Object.entries(agents)) {
+    if (reaction) out.set(id, reaction);
+    else out.delete(id);
+  }
+  return out;
+}

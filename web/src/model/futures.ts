@@ -1,5 +1,5 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
-import type { AgentFuturesJson } from './json';
+import type { AgentFuturesJson, ReactionJson } from './json';
 import { readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './about';
 import type { Point, Pose } from './geometry';
 import { motionFrom, type Motion } from './motion';
@@ -200,6 +200,8 @@ export interface MotionSet {
   readonly stale: boolean;
   /** The one road user whose futures still hold while the rest is out of date: another of its six was picked. */
   readonly fresh?: string | null;
+  /** Why those that answer others do so. */
+  readonly reactions?: ReadonlyMap<string, ReactionJson>;
   /** Unlikely things that were done anyway, by road user. */
   readonly warnings?: ReadonlyMap<string, readonly string[]>;
   /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */

@@ -132,9 +132,22 @@ export interface ShownJson {
   x_m: number[];
   y_m: number[];
 }
+export type ReactionKind = 'waits' | 'slows' | 'speeds_up' | 'keeps_clear';
+/** Why a road user gave up the motion it had: whom it answers, and where it waits or is slowest. */
+export interface ReactionJson {
+  kind: ReactionKind;
+  cause: string;
+  delay_s?: number | null;
+  time_s?: number;
+  x_m?: number;
+  y_m?: number;
+  speed_mps?: number;
+}
+/** `reaction`: absent for whoever was asked for or does as before. */
 export interface AgentFuturesJson {
   chosen: number;
   modes: ModeJson[];
+  reaction?: ReactionJson | null;
 }
 export interface SampleJson {
   agents: Record<string, AgentFuturesJson>;

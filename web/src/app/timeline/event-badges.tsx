@@ -86,12 +86,12 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
           {e.label}
         </text>
       ) : null}
-      {more ? <More x={p.x + SIGN - 2} count={more + 1} /> : null}
+      {more ? <More x={p.x + (p.words === 'left' ? SIGN - 1 : 1 - SIGN)} count={more + 1} /> : null}
     </g>
   );
 }
 
-/** How many share the place, on the upper right of the sign. */
+/** How many share the place, at the outer edge of the sign. */
 function More({ x, count }: { x: number; count: number }) {
   return (
     <>
