@@ -93,8 +93,9 @@ export class Questions {
   }
 }
 
-/** Only a drag and its release go on from what is shown; a look at somebody new starts afresh. */
+/** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
 function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
-  const shown = w.step || editor.dragging.peek() ? shownFuture(editor, w.agents) : undefined;
+  const drags = editor.dragging.peek() || (w.step !== null && editor.draft.peek()?.id === editor.selection.peek());
+  const shown = drags ? shownFuture(editor, w.agents) : undefined;
   return shown ? { shown } : {};
 }

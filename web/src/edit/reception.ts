@@ -169,12 +169,19 @@ export class Reception {
     // The answer to a release starts rough again; what the drag has settled already stays until it is better.
     if (last && !editor.dragging.peek() && step < last.futures.step) return false;
     const read = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
-    const before = last?.futures ?? editor.motion.peek().futures.get(id);
-    const who = naming(editor.scene.peek()!, a);
-    const f = before ? this.#names.keep(before, read, who, performance.now()) : withNames(read, who);
+    const f = this.#withFrozenNames(a, read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
     editor.answers.showDraft(id, f, trails);
     return true;
+  }
+
+  /** What is on screen keeps its names as far as they hold. */
+  #withFrozenNames(a: Agent, read: Futures): Futures {
+    const { editor } = this;
+    const d = editor.draft.peek();
+    const before = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
+    const who = naming(editor.scene.peek()!, a);
+    return before ? this.#names.keep(before, read, who, performance.now()) : withNames(read, who);
   }
 
   // -------------------------------------------------------------- what the others would do
@@ -191,7 +198,9 @@ export class Reception {
   /** The release is answered by what was foreseen of it. */
   takeOver(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number): void {
     this.hooks.answered();
-    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersOf(a, true));
+    const bold = step.agent ? this.#boldOf(step.agent) : null;
+    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersAtRest(a));
+    this.#sayWhyAnother(scene, bold);
   }
 
   /** Those that were asked something are no others, also when only the mode of the others was changed. */
@@ -207,10 +216,11 @@ export class Reception {
 
   #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
     const { editor } = this;
-    const f = this.#futuresOf(scene, e, keep).get(id);
-    if (!f) return;
+    const settled = this.#futuresOf(scene, e, keep).get(id);
+    if (!settled) return;
     const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
+    const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, settled) : settled;
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
       if (reach) editor.answers.judge(id, reach);
