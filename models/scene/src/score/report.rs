@@ -4,7 +4,7 @@ use super::accuracy::Accuracy;
 use super::goal::GoalError;
 use super::input::{ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
-use super::pairs::PairScores;
+use super::pairs::{PairScores, PairTotals};
 use crate::AgentId;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -36,6 +36,9 @@ pub struct Collision {
     /// Speed at which the two closed in at the first moment, m/s (their relative speed when they
     /// already overlap).
     pub closing_speed_mps: f64,
+    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
+    /// the same time, no less hard. It does not count.
+    pub in_log: bool,
 }
 
 /// Two moving road users nearly collide. One entry a pair, at its worst moment.
@@ -53,6 +56,9 @@ pub struct NearMiss {
     pub ttc_s: Option<f64>,
     /// Rate at which the gap shrank then, m/s.
     pub closing_speed_mps: f64,
+    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
+    /// the same time, no less hard. It does not count.
+    pub in_log: bool,
 }
 
 /// Something one road user does over a stretch of time.
@@ -67,6 +73,9 @@ pub struct Stretch {
     /// The worst of it: metres off the road, m/s2 of braking, share of the limit for turns; none for
     /// wrong-way driving.
     pub worst: Option<f64>,
+    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
+    /// the same time, no less bad.
+    pub in_log: bool,
 }
 
 /// A stop line is crossed while its signal says stop.
@@ -80,15 +89,25 @@ pub struct RedLight {
     pub time_s: f64,
     /// Speed then, m/s.
     pub speed_mps: f64,
+    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
+    /// the same time, no less bad.
+    pub in_log: bool,
 }
 
 /// Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+///
+/// Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
+/// `collision_rate` nor with the road users; distances, times and the other shares are measured over all
+/// motion, the recorded too.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SceneScore {
     /// By time, then by pair.
     pub collisions: Vec<Collision>,
-    /// Share of road users in any collision (the paper's scenario collision rate).
+    /// Share of road users in any collision that the log does not show.
     pub collision_rate: f64,
+    /// Share of road users in any collision, those of the log counted (the paper's scenario collision
+    /// rate).
+    pub collision_rate_with_log: f64,
     /// Share of road users whose box overlaps another's at all, however little.
     pub overlap_rate: f64,
     /// By time, then by pair.
@@ -141,9 +160,9 @@ pub struct SceneScore {
 /// Score of one road user.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct AgentScore {
-    /// Collisions it is part of.
+    /// Collisions it is part of and the log does not show.
     pub collisions: usize,
-    /// Near misses it is part of.
+    /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
     /// As in [`SceneScore`].
     pub min_ttc_s: Option<f64>,
@@ -174,6 +193,8 @@ impl SceneScore {
         self.pet_s = minimum(agents.iter().map(|a| a.pet_s));
         let of_all = |count: usize| count as f64 / agents.len().max(1) as f64;
         self.collision_rate = of_all(agents.iter().filter(|a| a.collisions > 0).count());
+        let any = |a: &PairTotals| a.collisions + a.logged_collisions > 0;
+        self.collision_rate_with_log = of_all(pairs.agents.iter().filter(|a| any(a)).count());
         self.overlap_rate = of_all(pairs.agents.iter().filter(|a| a.overlaps).count());
         self.collisions = pairs.collisions;
         self.near_misses = pairs.near_misses;
@@ -241,6 +262,7 @@ pub(super) fn stretches(agent: &str, flagged: &[(usize, f64)], with_worst: bool)
         time_s: time_of(first as f64),
         until_s: time_of(last as f64),
         worst: with_worst.then_some(worst),
+        in_log: false,
     };
     found.into_iter().map(to_stretch).collect()
 }

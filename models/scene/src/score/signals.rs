@@ -99,6 +99,7 @@ fn crossed_at_red(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[StopLine<'
                 lane: c.line.signal.lane.clone(),
                 time_s: time_of(c.step as f64 + c.part),
                 speed_mps: state.speed_mps(),
+                in_log: false,
             });
         }
     }
