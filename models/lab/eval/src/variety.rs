@@ -216,8 +216,7 @@ mod tests {
 
     #[test]
     fn spread_of_two_futures() {
-        let futures =
-            AgentFutures { chosen: 0, modes: vec![straight(0.5, 10.0, 0.0), straight(0.5, 10.0, 3.0)] };
+        let futures = AgentFutures::of(0, vec![straight(0.5, 10.0, 0.0), straight(0.5, 10.0, 3.0)]);
         assert!((pairwise(&futures, 90) - 3.0).abs() < 1e-9);
     }
 

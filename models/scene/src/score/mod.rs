@@ -39,7 +39,11 @@ pub fn score(input: &ScoreInput<'_>) -> Score {
         let mut braking = kinematic::harsh_braking(actor, input);
         recorded::mark_braking(input, actor, &mut braking);
         scene.harsh_braking.extend(braking);
+        let mut steering = kinematic::harsh_steering(actor, input);
+        recorded::mark_steering(input, actor, &mut steering);
+        scene.harsh_steering.extend(steering);
         scene.off_road.extend(road.off_road);
+        scene.over_median.extend(road.over_median);
         scene.wrong_way.extend(road.wrong_way);
         agents.push(AgentScore {
             collisions: pair.collisions,

@@ -10,8 +10,10 @@ use std::borrow::Cow;
 const SAME_S: f64 = 1.0;
 /// A stretch that much worse than the log's is another one: metres off the road.
 const SAME_OFF_ROAD_M: f64 = 0.3;
-/// ... and m/s2 of braking.
-const SAME_BRAKING_MPS2: f64 = 1.0;
+/// ... m/s2 of braking or sideways ...
+const SAME_HARSH_MPS2: f64 = 1.0;
+/// ... metres driven against the traffic.
+const SAME_WRONG_WAY_M: f64 = 5.0;
 
 /// The road user as it was recorded, if it was.
 fn as_recorded<'a>(actor: &Actor<'a>) -> Option<Actor<'a>> {
@@ -39,12 +41,18 @@ fn mark(actor: &Actor<'_>, found: &mut [Stretch], worse: f64, look: impl Fn(&Act
 /// Marks stretches off the road and against the traffic.
 pub(super) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut road::RoadScore) {
     mark(actor, &mut found.off_road, SAME_OFF_ROAD_M, |a| road::score_road(input, a).off_road);
-    mark(actor, &mut found.wrong_way, 0.0, |a| road::score_road(input, a).wrong_way);
+    mark(actor, &mut found.over_median, SAME_OFF_ROAD_M, |a| road::score_road(input, a).over_median);
+    mark(actor, &mut found.wrong_way, SAME_WRONG_WAY_M, |a| road::score_road(input, a).wrong_way);
 }
 
 /// Marks stretches of hard braking.
 pub(super) fn mark_braking(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
-    mark(actor, found, SAME_BRAKING_MPS2, |a| kinematic::harsh_braking(a, input));
+    mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_braking(a, input));
+}
+
+/// Marks stretches of hard turning.
+pub(super) fn mark_steering(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
+    mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_steering(a, input));
 }
 
 /// Marks red lights that are run in the log.

@@ -5,13 +5,14 @@ mod log;
 mod mover;
 mod near;
 
-use super::input::{Exclude, PairChoice, ScoreInput};
+use super::input::{Actor, Exclude, PairChoice, ScoreInput};
 use super::pet::post_encroachment_s;
 use super::report::{Collision, NearMiss, time_of};
 use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
-pub(super) use mover::{Moment, Mover, Rectangle};
+pub(super) use mover::Rectangle;
+pub(crate) use mover::{Moment, Mover};
 use near::{Gap, Nearest, PARKED_M, Side, near_miss};
 
 /// Moments looked at between two steps, the step itself counted.
@@ -101,7 +102,7 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
         }
         let (a, b) = (&input.actors[i], &input.actors[j]);
         let asked = input.pairs == PairChoice::All || a.generated || b.generated;
-        if !asked || is_excluded(input, i, j) {
+        if !asked || is_excluded(input, a, b) {
             continue;
         }
         let pair = look_at(input, &movers[i], &movers[j], known);
@@ -119,17 +120,54 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
             totals.min_distance_m = least(totals.min_distance_m, pair.min_distance_m);
             totals.pet_s = least(totals.pet_s, pet_s);
         }
-        let scene_time = |step: f64| time_of(input.steps.start as f64 + step);
-        if let Some(Contact { first, closing_mps: closing_speed_mps, iou, .. }) = pair.collision {
-            let ((a, b), time_s) = (ids, scene_time(first));
-            scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
-        } else if let Some(Nearest { step, gap, .. }) = pair.near {
-            let ((a, b), time_s) = (ids, scene_time(step as f64));
-            let Gap { gap_m: distance_m, ttc_s, closing_mps: closing_speed_mps, .. } = gap;
-            scores.near_misses.push(NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps, in_log });
+        let (a, b) = ids;
+        match Meeting::of(&pair, input.steps.start) {
+            Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
+                scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
+            }
+            Some(Meeting::Near { time_s, distance_m, ttc_s, closing_speed_mps }) => {
+                let miss = NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps, in_log };
+                scores.near_misses.push(miss);
+            }
+            None => {}
         }
     }
     scores
+}
+
+/// How two motions meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Meeting {
+    /// As [`Collision`].
+    Collision { time_s: f64, iou: f64, closing_speed_mps: f64 },
+    /// As [`NearMiss`].
+    Near { time_s: f64, distance_m: f64, ttc_s: Option<f64>, closing_speed_mps: f64 },
+}
+
+impl Meeting {
+    fn of(pair: &Pair, first_step: usize) -> Option<Self> {
+        let scene_time = |step: f64| time_of(first_step as f64 + step);
+        if let Some(Contact { first, iou, closing_mps: closing_speed_mps, .. }) = pair.collision {
+            return Some(Self::Collision { time_s: scene_time(first), iou, closing_speed_mps });
+        }
+        let Nearest { step, gap, .. } = pair.near.as_ref()?;
+        let (distance_m, ttc_s, closing_speed_mps) = (gap.gap_m, gap.ttc_s, gap.closing_mps);
+        Some(Self::Near { time_s: scene_time(*step as f64), distance_m, ttc_s, closing_speed_mps })
+    }
+
+    /// Of two motions by themselves, whoever made them. `input` gives thresholds and what to leave out.
+    pub(crate) fn between(
+        input: &ScoreInput<'_>,
+        (a, mover_a): (&Actor<'_>, &Mover),
+        (b, mover_b): (&Actor<'_>, &Mover),
+    ) -> Option<Self> {
+        // Nothing but collisions and near misses is asked for: no least gap or time is still to be found.
+        let known = Known { gap_m: input.thresholds.gap_m, ttc_s: input.thresholds.ttc_s };
+        if stay_apart(mover_a, mover_b, known.gap_m) || is_excluded(input, a, b) {
+            return None;
+        }
+        Self::of(&look_at(input, mover_a, mover_b, known), input.steps.start)
+    }
 }
 
 /// Nothing this pair does can change a score: neither reaches the other within the look-ahead, and
@@ -146,8 +184,7 @@ fn stay_apart(a: &Mover, b: &Mover, known_m: f64) -> bool {
 }
 
 /// The log itself shows this pair overlapping, or a truck and its trailer.
-fn is_excluded(input: &ScoreInput<'_>, i: usize, j: usize) -> bool {
-    let (a, b) = (&input.actors[i], &input.actors[j]);
+fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
     let (Some(log_a), Some(log_b)) = (a.log, b.log) else { return false };
     let mut logged = input.steps.clone().filter_map(|step| {
         let boxes = (log_a.at(step)?, log_b.at(step)?);

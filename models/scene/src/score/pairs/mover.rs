@@ -12,7 +12,7 @@ const TURN_STEPS: usize = 2;
 
 /// One road user made ready for many pairs: its boxes and velocities over the scored steps.
 #[derive(Debug)]
-pub(in crate::score) struct Mover {
+pub(crate) struct Mover {
     /// Box and velocity a scored step.
     pub moments: Vec<Option<Moment>>,
     /// Greatest distance from its first place, metres.
@@ -31,11 +31,11 @@ pub(in crate::score) struct Mover {
 }
 
 /// Centre and half extents of an upright rectangle, metres.
-pub(in crate::score) type Rectangle = (Vec2, Vec2);
+pub(crate) type Rectangle = (Vec2, Vec2);
 
 /// Box and velocity (m/s) at one step.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::score) struct Moment {
+pub(crate) struct Moment {
     pub outline: OrientedBox,
     pub velocity: Vec2,
     pub speed_mps: f64,
@@ -45,7 +45,7 @@ pub(in crate::score) struct Moment {
 
 impl Mover {
     /// Of the motion that is scored, over these scene steps.
-    pub(in crate::score) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
+    pub(crate) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
         let moment = |step| {
             let state = actor.state(step)?;
             let outline = OrientedBox::of_state(state, &actor.size);
