@@ -33,7 +33,10 @@ export class Picture {
     stage.painter('map', (g, v) => this.paintMap(g, v));
     stage.painter('agents', (g, v) => this.paintAgents(g, v));
     this.overlay = new Overlay(editor, (a) => this.poseNow(a));
-    stage.painter('overlay', (g, v) => this.overlay.paint(g, v));
+    stage.painter('overlay', (g, v) => {
+      this.overlay.paint(g, v);
+      if (this.overlay.fading) stage.invalidate('overlay');
+    });
     this.watch();
   }
 
@@ -71,6 +74,8 @@ export class Picture {
       void [
         e.draft.value,
         e.changes.value,
+        e.foreseen.value,
+        e.showForeseen.value,
         e.showBefore.value,
         e.hover.value,
         e.hoverFuture.value,
@@ -175,7 +180,7 @@ export class Picture {
     const p = a && this.poseNow(a);
     if (!a || !p || e.drag.value) return null;
     const where = a.parked ? 'parked' : laneWords(e.scene.value!.map, a, p.x, p.y, p.heading);
-    const next = e.events.value.find((v) => (v.a.id === a.id || v.b.id === a.id) && v.time >= e.time.value);
+    const next = e.events.value.find((v) => (v.a.id === a.id || v.b?.id === a.id) && v.time >= e.time.value);
     const todo =
       a.type === 'other'
         ? 'Shown only'

@@ -86,6 +86,16 @@ impl<'a> Judge<'a> {
         found
     }
 
+    /// There are signals to obey.
+    pub fn has_lights(&self) -> bool {
+        !self.lines.is_empty()
+    }
+
+    /// A motion crosses a stop line at red.
+    pub fn runs_red(&self, actor: &Actor<'_>) -> bool {
+        !crossed_at_red(&self.input, actor, &self.lines).is_empty()
+    }
+
     /// Whom a motion meets, or all but.
     pub fn among<'o>(&self, actor: &Actor<'_>, others: impl Iterator<Item = &'o Other<'a>>) -> Vec<Fault>
     where
