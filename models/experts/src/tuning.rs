@@ -152,6 +152,19 @@ tuning! {
         past_edge_m = 0.1;
         /// A goal that is missed: worse than anything but an overlap. Set by hand. 2026-11-21.
         goal_missed = 3.0, off 0.0;
+        /// A vehicle against the direction of every lane there, by the share of the time. Set by hand.
+        /// 2026-11-22.
+        wrong_way = 8.0, off 0.0;
+        /// A stop line that is crossed at red. Set by hand. 2026-11-22.
+        red_light = 4.0, off 0.0;
+        /// Leaving the future that was shown last, while a goal is dragged: less than an overlap, a missed goal or
+        /// a drive off the road, more than what tells modes apart. Jumps over 1 m when a goal moves by 5 cm on
+        /// drags of the 68 recorded scenes. 2026-11-22.
+        leaving = 1.2, off 0.0;
+        /// Mean distance from it at which it is left altogether, metres.
+        leaving_m = 1.0;
+        /// Another mode than the one shown last, however near. Set by hand. 2026-11-22.
+        other_mode = 0.1, off 0.0;
         /// A reacting road user that gives up the motion it has. Set by hand. 2026-11-21.
         deviating = 0.6, off 0.0;
         /// Mean distance from the motion that it has which costs as much as 1, metres. Set by hand.

@@ -76,6 +76,7 @@ export class Editor {
   readonly #tool = signal<ToolName>('select');
   readonly #measure = signal<MeasuredLine | null>(null);
   readonly #showBefore = signal(true);
+  readonly #showForeseen = signal(true);
   readonly #drag = signal<DragInfo | null>(null);
   readonly #selectedEvent = signal<TrafficEvent | null>(null);
   readonly #speedUnit = signal<SpeedUnit>(recall<SpeedUnit>('speed-unit') ?? 'km/h');
@@ -100,6 +101,8 @@ export class Editor {
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
   /** Are the paths before the last change shown beside the new ones? */
   readonly showBefore: ReadonlySignal<boolean> = this.#showBefore;
+  /** Are the others' answers shown on the picture while a handle is dragged? */
+  readonly showForeseen: ReadonlySignal<boolean> = this.#showForeseen;
   readonly drag: ReadonlySignal<DragInfo | null> = this.#drag;
   readonly selectedEvent: ReadonlySignal<TrafficEvent | null> = this.#selectedEvent;
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
@@ -110,6 +113,7 @@ export class Editor {
   readonly motion = this.answers.motion;
   readonly draft = this.answers.draft;
   readonly changes = this.answers.changes;
+  readonly foreseen = this.answers.foreseen;
   readonly liveReach = this.answers.liveReach;
   readonly status = this.answers.status;
   readonly away = this.answers.away;
@@ -323,6 +327,10 @@ export class Editor {
 
   toggleBefore(): void {
     this.#showBefore.value = !this.#showBefore.peek();
+  }
+
+  toggleForeseen(): void {
+    this.#showForeseen.value = !this.#showForeseen.peek();
   }
 
   chooseTool(tool: ToolName): void {

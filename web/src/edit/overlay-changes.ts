@@ -13,6 +13,9 @@ import type { Editor } from './editor';
 
 type G = CanvasRenderingContext2D;
 
+/** More labels than these would hide what they are about; the list has them all. */
+export const LABELS = 3;
+
 export class ChangesOverlay {
   constructor(
     private readonly editor: Editor,
@@ -53,13 +56,13 @@ export class ChangesOverlay {
   paintChangeLabels(g: G, v: View): void {
     const { editor: e } = this;
     if (!e.showBefore.value || e.playing.value) return;
-    for (const ch of e.changes.value.slice(0, 5)) {
+    for (const ch of e.changes.value.slice(0, LABELS)) {
       const a = e.scene.value!.agents.get(ch.id);
       const p = a && this.poseNow(a);
       const x = p ? v.x(p.x) : -1,
         y = p ? v.y(p.y) : -1;
       if (x > 0 && x < v.w && y > 0 && y < v.h)
-        tag(g, this.labels, [x, y], `${ch.name}: ${ch.short}`, {
+        tag(g, this.labels, [x, y], `${ch.name} ${ch.words}`, {
           leader: colours().ink,
           radii: [44, 60, 84, 110],
           must: false,

@@ -33,7 +33,10 @@ export class Picture {
     stage.painter('map', (g, v) => this.paintMap(g, v));
     stage.painter('agents', (g, v) => this.paintAgents(g, v));
     this.overlay = new Overlay(editor, (a) => this.poseNow(a));
-    stage.painter('overlay', (g, v) => this.overlay.paint(g, v));
+    stage.painter('overlay', (g, v) => {
+      this.overlay.paint(g, v);
+      if (this.overlay.fading) stage.invalidate('overlay');
+    });
     this.watch();
   }
 
@@ -71,6 +74,8 @@ export class Picture {
       void [
         e.draft.value,
         e.changes.value,
+        e.foreseen.value,
+        e.showForeseen.value,
         e.showBefore.value,
         e.hover.value,
         e.hoverFuture.value,

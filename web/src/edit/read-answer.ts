@@ -5,7 +5,10 @@ import type { Reach, Score } from '../model/futures';
 export function readReach(r: Resolved | undefined): Reach | null {
   if (!r) return null;
   const j = r.reach;
-  if (j.status === 'reached') return { status: 'reached', nearest: null, limiting: null, needs: null, words: null };
+  const { by_road: road } = r;
+  const byRoad = road ? { x: road.x_m, y: road.y_m, heading: road.heading_rad, distance: road.distance_m } : null;
+  if (j.status === 'reached')
+    return { status: 'reached', nearest: null, limiting: null, needs: null, words: null, byRoad };
   const { x_m, y_m, heading_rad, speed_mps } = j.nearest;
   return {
     status: 'unreachable',
@@ -13,6 +16,7 @@ export function readReach(r: Resolved | undefined): Reach | null {
     limiting: j.limiting,
     needs: j.needs,
     words: j.words,
+    byRoad,
   };
 }
 

@@ -71,6 +71,7 @@ const finalOf = (...ids: string[]) =>
 
 let editor: Editor;
 let generator: InMemoryGenerator;
+let others: InMemoryGenerator;
 let generation: Generation;
 
 beforeEach(() => {
@@ -80,7 +81,8 @@ beforeEach(() => {
   const file = new SceneFile(editor);
   const client = new Client('', () => Promise.reject(new Error('nothing is fetched here')));
   const saving = new Saving(editor, file, new SceneList(client), client);
-  generation = new Generation(editor, file, saving, generator);
+  others = new InMemoryGenerator();
+  generation = new Generation(editor, file, saving, generator, others);
   file.adopt(json, isMapRef(json.map) ? ({} as MapJson) : json.map, true);
   editor.open(readScene(json));
 });

@@ -20,6 +20,7 @@ mod retimed;
 #[cfg(test)]
 mod samples;
 mod slot;
+mod standing;
 mod subgoal;
 mod trajectory;
 mod window;

@@ -9,6 +9,7 @@ use super::overlaps::resolve_overlaps;
 use super::reacting::reacting;
 use super::repulsion::{SceneEnergy, repulsions};
 use super::slot::Slot;
+use super::standing::background_traces;
 use super::trajectory::may_rest;
 use super::workers::Workers;
 use super::{Generator, KnownMap, costs, duplicate_modes};
@@ -20,7 +21,7 @@ use crate::planning::{MODES, Modes, RESIDUAL};
 use crate::request::{Draft, GenerateError, Intermediate, Request, Shown};
 use crate::tuning::Tuning;
 use crate::weights::EXPERTS;
-use scene::judge::About;
+use scene::judge::{About, Trace};
 use scene::motion::Trajectory;
 use scene::{AgentFutures, AgentId, AgentType, Future, HORIZON_STEPS, Sample, State};
 use std::collections::{BTreeMap, BTreeSet};
@@ -73,6 +74,8 @@ pub(super) struct Window<'g> {
     pub(super) subgoals: BTreeMap<usize, Intermediate>,
     /// Those who get no new futures; nobody where they do not count.
     pub(super) background: Background,
+    /// The same as motions that drafts are named by.
+    pub(super) traces: Vec<Trace>,
     pullback: Pullback,
     /// The present sample, from 0.
     pub(super) sample: usize,
@@ -100,6 +103,7 @@ impl<'g> Window<'g> {
             batches: Vec::new(),
             subgoals: BTreeMap::new(),
             background: Background::none(),
+            traces: Vec::new(),
             pullback: Pullback::default(),
             sample: 0,
             drafts: Vec::new(),
@@ -112,6 +116,7 @@ impl<'g> Window<'g> {
         }
         if window.request.stages.background_in_the_way {
             window.background = Background::of(&window.world, &window.actors, &tuning.overlaps);
+            window.traces = background_traces(&window.world, &window.actors);
         }
         Ok(window)
     }
@@ -293,13 +298,18 @@ impl<'g> Window<'g> {
     pub(super) fn draft(&self, step: usize) -> Draft {
         let all = self.request.stream_all || self.actors.len() < SHOW_ALL_BELOW;
         let count = if all { self.request.modes } else { 1 };
+        let leading = self.named_by();
         let shown = self.workers().map(&self.indices(), |&i| {
             let actor = &self.actors[i];
             let alternatives = self.material(i).alternatives(count);
             let middle = middle(actor);
             let is_middle = |c: &Candidate| middle.is_some() && c.origin.slot() == middle;
             let shown = alternatives.iter().position(is_middle).unwrap_or(0);
-            (actor.id.clone(), self.futures(shown, &alternatives))
+            let mut futures = self.futures(shown, &alternatives);
+            for (future, draft) in futures.modes.iter_mut().zip(&alternatives) {
+                future.about = self.named(i, draft, leading.as_deref());
+            }
+            (actor.id.clone(), futures)
         });
         Draft {
             window: self.number,
@@ -324,7 +334,7 @@ impl<'g> Window<'g> {
     }
 
     /// The asked-for part of a trajectory, the start left out.
-    fn cut(&self, states: &Trajectory) -> Vec<State> {
+    pub(super) fn cut(&self, states: &Trajectory) -> Vec<State> {
         let left = self.request.start_step + self.request.horizon_steps - self.world.step;
         states.iter().skip(1).take(left.min(HORIZON_STEPS)).map(State::from).collect()
     }

@@ -35,7 +35,9 @@ pub fn score(input: &ScoreInput<'_>) -> Score {
         let (kinematic, turns) = kinematic.unzip();
         scene.implausible_turns.extend(turns.into_iter().flatten());
         scene.harsh_braking.extend(kinematic::harsh_braking(actor, input));
+        scene.harsh_steering.extend(kinematic::harsh_steering(actor, input));
         scene.off_road.extend(road.off_road);
+        scene.over_median.extend(road.over_median);
         scene.wrong_way.extend(road.wrong_way);
         agents.push(AgentScore {
             collisions: pair.collisions,

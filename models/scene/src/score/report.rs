@@ -2,10 +2,10 @@
 
 use super::accuracy::Accuracy;
 use super::goal::GoalError;
-use super::input::{ScoreInput, Thresholds};
+use super::input::{Actor, ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
 use super::pairs::PairScores;
-use crate::AgentId;
+use crate::{AgentId, State};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -64,9 +64,13 @@ pub struct Stretch {
     pub time_s: f64,
     /// Scene time of the last step, seconds.
     pub until_s: f64,
-    /// The worst of it: metres off the road, m/s2 of braking, share of the limit for turns; none for
-    /// wrong-way driving.
+    /// The worst of it: metres off the road, m/s2 of braking or sideways, share of the limit for turns,
+    /// metres driven against the traffic.
     pub worst: Option<f64>,
+    /// Box centre where it is worst, metres.
+    pub x_m: f64,
+    /// Box centre where it is worst, metres.
+    pub y_m: f64,
 }
 
 /// A stop line is crossed while its signal says stop.
@@ -118,12 +122,16 @@ pub struct SceneScore {
     /// Means over the road users with a reference.
     #[serde(flatten)]
     pub accuracy: Option<Accuracy>,
-    /// Vehicles off the road.
+    /// Vehicles off the road, but for those over a median.
     pub off_road: Vec<Stretch>,
+    /// Vehicles over what divides two roads.
+    pub over_median: Vec<Stretch>,
     /// Vehicles against the traffic.
     pub wrong_way: Vec<Stretch>,
     /// Braking harder than the threshold; `worst` in m/s2.
     pub harsh_braking: Vec<Stretch>,
+    /// Turning harder than the threshold; `worst` in m/s2 sideways.
+    pub harsh_steering: Vec<Stretch>,
     /// Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only).
     pub implausible_turns: Vec<Stretch>,
     /// Stop lines crossed at red.
@@ -190,9 +198,14 @@ impl SceneScore {
         let reached = goals.clone().filter(|g| g.is_reached(&input.thresholds)).count();
         self.goals_reached = share(reached, goals.count());
         self.accuracy = Accuracy::mean(agents.iter().filter_map(|a| a.accuracy.as_ref()));
-        for list in
-            [&mut self.off_road, &mut self.wrong_way, &mut self.harsh_braking, &mut self.implausible_turns]
-        {
+        for list in [
+            &mut self.off_road,
+            &mut self.over_median,
+            &mut self.wrong_way,
+            &mut self.harsh_braking,
+            &mut self.harsh_steering,
+            &mut self.implausible_turns,
+        ] {
             list.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         }
     }
@@ -224,23 +237,32 @@ pub(super) fn time_of(step: f64) -> f64 {
     (step * crate::STEP_S * 1000.0).round() / 1000.0
 }
 
-/// Cuts flagged steps (rising) into stretches; `worst` keeps the greatest value.
-pub(super) fn stretches(agent: &str, flagged: &[(usize, f64)], with_worst: bool) -> Vec<Stretch> {
-    let mut found: Vec<(usize, usize, f64)> = Vec::new();
+/// Cuts flagged steps (rising) into stretches; each has its greatest value and the place of that.
+pub(super) fn stretches(actor: &Actor<'_>, flagged: &[(usize, f64)]) -> Vec<Stretch> {
+    /// First and last step, the worst step and its value.
+    type Found = (usize, usize, (usize, f64));
+    let mut found: Vec<Found> = Vec::new();
     for &(step, value) in flagged {
         match found.last_mut() {
             Some((_, last, worst)) if step <= *last + 2 => {
                 *last = step;
-                *worst = worst.max(value);
+                if value > worst.1 {
+                    *worst = (step, value);
+                }
             }
-            _ => found.push((step, step, value)),
+            _ => found.push((step, step, (step, value))),
         }
     }
-    let to_stretch = |(first, last, worst): (usize, usize, f64)| Stretch {
-        agent: agent.to_owned(),
-        time_s: time_of(first as f64),
-        until_s: time_of(last as f64),
-        worst: with_worst.then_some(worst),
+    let to_stretch = |(first, last, (step, value)): Found| {
+        let place = actor.state(step).map(State::position).unwrap_or_default();
+        Stretch {
+            agent: actor.id.to_owned(),
+            time_s: time_of(first as f64),
+            until_s: time_of(last as f64),
+            worst: Some(value),
+            x_m: place.x,
+            y_m: place.y,
+        }
     };
     found.into_iter().map(to_stretch).collect()
 }

@@ -1,6 +1,6 @@
 //! What happens between two road users: collisions, near misses, least gap, least time to collision.
 
-use super::input::{Exclude, PairChoice, ScoreInput};
+use super::input::{Actor, Exclude, PairChoice, ScoreInput};
 use super::pet::post_encroachment_s;
 use super::report::{Collision, NearMiss, time_of};
 use crate::AgentType;
@@ -8,6 +8,7 @@ use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, over
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
 use crate::geometry::{Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_6;
+use std::ops::Range;
 
 /// Moments looked at between two steps, the step itself counted.
 pub const SUBSTEPS: usize = 4;
@@ -45,7 +46,7 @@ pub struct PairScores {
 
 /// One road user made ready for many pairs: its boxes and velocities over the scored steps.
 #[derive(Debug)]
-pub(super) struct Mover {
+pub(crate) struct Mover {
     /// Box and velocity a scored step.
     pub moments: Vec<Option<Moment>>,
     /// Greatest distance from its first place, metres.
@@ -62,11 +63,11 @@ pub(super) struct Mover {
 }
 
 /// Centre and half extents of an upright rectangle, metres.
-pub(super) type Rectangle = (Vec2, Vec2);
+pub(crate) type Rectangle = (Vec2, Vec2);
 
 /// Box and velocity (m/s) at one step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moment {
+pub(crate) struct Moment {
     pub outline: OrientedBox,
     pub velocity: Vec2,
     pub speed_mps: f64,
@@ -75,8 +76,7 @@ pub(super) struct Moment {
 }
 
 impl Mover {
-    pub(super) fn new(input: &ScoreInput<'_>, index: usize) -> Self {
-        let actor = &input.actors[index];
+    pub(crate) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
         let moment = |step| {
             let state = actor.state(step)?;
             let outline = OrientedBox::of_state(state, &actor.size);
@@ -87,7 +87,7 @@ impl Mover {
                 displacement_m: None,
             })
         };
-        let mut moments: Vec<Option<Moment>> = input.steps.clone().map(moment).collect();
+        let mut moments: Vec<Option<Moment>> = steps.clone().map(moment).collect();
         for step in 1..moments.len() {
             if let [Some(from), Some(to)] = &mut moments[step - 1..=step] {
                 from.displacement_m = Some(displacement(from, to));
@@ -98,7 +98,7 @@ impl Mover {
         let top_mps = seen.iter().map(|m| m.speed_mps).fold(0.0, f64::max);
         let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
         let reach = rectangle(moments.iter().flatten().map(|m| (m.outline, m.velocity * LOOK_AHEAD_S)));
-        let travel_m = actor.travel_m(input.steps.clone());
+        let travel_m = actor.travel_m(steps);
         Self { moments, travel_m, max_displacement_m, top_mps, places, reach, agent_type: actor.agent_type }
     }
 
@@ -164,7 +164,7 @@ impl Known {
 
 /// Looks at all pairs that the input asks for.
 pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
-    let movers: Vec<Mover> = (0..input.actors.len()).map(|i| Mover::new(input, i)).collect();
+    let movers: Vec<Mover> = input.actors.iter().map(|a| Mover::new(a, input.steps.clone())).collect();
     let mut scores = PairScores { agents: vec![PairTotals::default(); movers.len()], ..Default::default() };
     let pairs = (0..movers.len()).flat_map(|i| (i + 1..movers.len()).map(move |j| (i, j)));
     for (i, j) in pairs {
@@ -174,7 +174,7 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
         }
         let (a, b) = (&input.actors[i], &input.actors[j]);
         let asked = input.pairs == PairChoice::All || a.generated || b.generated;
-        if !asked || is_excluded(input, i, j) {
+        if !asked || is_excluded(input, a, b) {
             continue;
         }
         let pair = look_at(input, &movers[i], &movers[j], known);
@@ -189,16 +189,52 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
             totals.min_distance_m = least(totals.min_distance_m, pair.min_distance_m);
             totals.pet_s = least(totals.pet_s, pet_s);
         }
-        let scene_time = |step: f64| time_of(input.steps.start as f64 + step);
-        if let Some((at, closing_speed_mps, iou)) = pair.collision {
-            let (a, b) = ids;
-            scores.collisions.push(Collision { a, b, time_s: scene_time(at), iou, closing_speed_mps });
-        } else if let Some((step, distance_m, ttc_s, closing_speed_mps)) = pair.near {
-            let ((a, b), time_s) = (ids, scene_time(step as f64));
-            scores.near_misses.push(NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps });
+        let (a, b) = ids;
+        match Meeting::of(&pair, input.steps.start) {
+            Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
+                scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps });
+            }
+            Some(Meeting::Near { time_s, distance_m, ttc_s, closing_speed_mps }) => {
+                scores.near_misses.push(NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps });
+            }
+            None => {}
         }
     }
     scores
+}
+
+/// How two motions meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Meeting {
+    /// As [`Collision`].
+    Collision { time_s: f64, iou: f64, closing_speed_mps: f64 },
+    /// As [`NearMiss`].
+    Near { time_s: f64, distance_m: f64, ttc_s: Option<f64>, closing_speed_mps: f64 },
+}
+
+impl Meeting {
+    fn of(pair: &Pair, first_step: usize) -> Option<Self> {
+        let scene_time = |step: f64| time_of(first_step as f64 + step);
+        if let Some((at, closing_speed_mps, iou)) = pair.collision {
+            return Some(Self::Collision { time_s: scene_time(at), iou, closing_speed_mps });
+        }
+        let (step, distance_m, ttc_s, closing_speed_mps) = pair.near?;
+        Some(Self::Near { time_s: scene_time(step as f64), distance_m, ttc_s, closing_speed_mps })
+    }
+
+    /// Of two motions by themselves, whoever made them. `input` gives thresholds and what to leave out.
+    pub(crate) fn between(
+        input: &ScoreInput<'_>,
+        (a, mover_a): (&Actor<'_>, &Mover),
+        (b, mover_b): (&Actor<'_>, &Mover),
+    ) -> Option<Self> {
+        // Nothing but collisions and near misses is asked for: no least gap or time is still to be found.
+        let known = Known { gap_m: input.thresholds.gap_m, ttc_s: input.thresholds.ttc_s };
+        if stay_apart(mover_a, mover_b, known.gap_m) || is_excluded(input, a, b) {
+            return None;
+        }
+        Self::of(&look_at(input, mover_a, mover_b, known), input.steps.start)
+    }
 }
 
 /// Nothing this pair does can change a score: neither reaches the other within the look-ahead, and
@@ -215,8 +251,7 @@ fn stay_apart(a: &Mover, b: &Mover, known_m: f64) -> bool {
 }
 
 /// The log itself shows this pair overlapping.
-fn is_excluded(input: &ScoreInput<'_>, i: usize, j: usize) -> bool {
-    let (a, b) = (&input.actors[i], &input.actors[j]);
+fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
     let (Some(log_a), Some(log_b)) = (a.log, b.log) else { return false };
     let mut logged = input.steps.clone().filter_map(|step| {
         let boxes = (log_a.at(step)?, log_b.at(step)?);
