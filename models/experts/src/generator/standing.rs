@@ -3,10 +3,11 @@
 use super::actor::Actor;
 use super::background::background_state;
 use super::candidates::Candidate;
+use super::slot::Slot;
 use super::trajectory::{PER_INSTANT, places};
 use super::window::Window;
-use crate::planning::INSTANTS;
 use crate::planning::world::World;
+use crate::planning::{INSTANTS, Modes};
 use scene::geometry::direction;
 use scene::judge::{About, Trace, manoeuvre, relations};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, State, Vec2, wrap_angle};
@@ -54,26 +55,22 @@ pub(super) fn trace_of(actor: &Actor, places: &[(Vec2, f64); INSTANTS]) -> Trace
     Trace::new(&actor.id, present.agent_type, &present.size, HORIZON_STEPS, at)
 }
 
-impl Window<'_> {
-    /// What every actor leads with.
-    pub(super) fn leading_traces(&self) -> Vec<Trace> {
-        let each = self.actors.iter().zip(&self.drafts);
-        each.map(|(actor, drafts)| {
-            let start = &actor.plan.present.start;
-            let places = if actor.rests {
-                [(start.position(), start.heading_rad); INSTANTS]
-            } else {
-                places(&actor.plan, drafts.leading, drafts.leading.of(&drafts.modes))
-            };
-            trace_of(actor, &places)
-        })
-        .collect()
+/// A mode that an actor leads with, as others see it.
+pub(super) fn leading(actor: &Actor, slot: Slot, modes: &Modes) -> Trace {
+    let start = &actor.plan.present.start;
+    if actor.rests {
+        return trace_of(actor, &[(start.position(), start.heading_rad); INSTANTS]);
     }
+    trace_of(actor, &places(&actor.plan, slot, slot.of(modes)))
+}
 
+impl Window<'_> {
     /// Whom drafts are named by; nobody where there are too many.
     pub(super) fn named_by(&self) -> Option<Vec<Trace>> {
         let asked = self.actors.iter().filter(|a| a.kept.is_none()).count();
-        (self.request.stages.judged && asked <= NAMED).then(|| self.leading_traces())
+        let each = self.actors.iter().zip(&self.drafts);
+        let traces = || each.map(|(actor, drafts)| leading(actor, drafts.leading, &drafts.modes)).collect();
+        (self.request.stages.judged && asked <= NAMED).then(traces)
     }
 
     /// What can be said of a draft of one that was asked for.

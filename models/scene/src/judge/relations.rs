@@ -262,6 +262,11 @@ impl Ground {
             _ => 0,
         }
     }
+
+    /// Moments between the two, the fewer the closer; zero where they meet.
+    pub fn least_shift(&self) -> i64 {
+        if self.order() == 0 { 0 } else { self.shift.0.abs().min(self.shift.1.abs()) }
+    }
 }
 
 /// Ground where the paths of two cross or merge; `None` for those that are behind each other from the start on, and
