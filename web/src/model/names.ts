@@ -232,8 +232,8 @@ export function differences(a: Motion, b: Motion, sa?: About | null, sb?: About 
   const far = Math.max(1, 0.03 * da[n]);
   if (Math.abs(ahead(n)) >= far) say(ahead(n), far, 'faster', 'slower');
   else say(ahead(n >> 1), 0.8, 'earlier', 'later');
-  say(ahead(n >> 2), 0.8, 'quick start', 'slow start');
-  say(ahead(n) - ahead((3 * n) >> 2), 0.8, 'quick end', 'slow end');
+  say(ahead(n >> 2), 0.8, 'early start', 'late start');
+  say(ahead(n) - ahead((3 * n) >> 2), 0.8, 'faster end', 'slower end');
   const side = sideOf(a, b, n);
   const turn = totalTurn(a);
   if (Math.abs(turn) > 0.4) say(turn > 0 ? -side : side, 0.4, 'wider', 'tighter');

@@ -213,7 +213,8 @@ export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameO
   const is = `${LETTERS[shown]} is shown`;
   if (!old) return `${is}: the one before is not among these`;
   const likelier = now.probability > old.probability;
-  return whyNot(f, was, shown, nameOf) ?? `${is}${likelier ? ': it is likelier than' : ', not'} ${LETTERS[was]}`;
+  const plain = likelier ? `${is}: it is likelier than ${LETTERS[was]}` : `${is}; it was ${LETTERS[was]} in the drag`;
+  return whyNot(f, was, shown, nameOf) ?? plain;
 }
 
 const WHY: Readonly<Record<Mark, (f: Fault, nameOf: NameOf) => string>> = {
