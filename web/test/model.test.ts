@@ -461,7 +461,13 @@ describe('futures', () => {
       },
     };
     const ev = readEvents(s, set);
-    expect(ev.map((e) => e.kind)).toEqual(['near', 'collision']);
-    expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed']);
+    expect(ev.map((e) => [e.kind, e.inLog])).toEqual([
+      ['near', true],
+      ['collision', true],
+    ]);
+    expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed', 'Where from']);
+    // As soon as one of the two does something of its own, it counts.
+    const own = readEvents(s, { ...set, driving: new Set(['1']) });
+    expect(own.map((e) => e.inLog)).toEqual([true, false]);
   });
 });

@@ -1,5 +1,6 @@
 //! Futures that the generator made, as they are kept with a scene.
 
+use crate::judge::{About, Reaction};
 use crate::{AgentId, State};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -15,6 +16,16 @@ pub struct Future {
     pub first_step: usize,
     /// One state a step, without gaps.
     pub states: Vec<State>,
+    /// What is said about it; nothing where nobody judged it.
+    #[serde(flatten)]
+    pub about: About,
+}
+
+impl Future {
+    /// A future of which nothing is said.
+    pub fn bare(probability: f64, first_step: usize, states: Vec<State>) -> Self {
+        Self { probability, anchor: None, first_step, states, about: About::default() }
+    }
 }
 
 /// The futures of one road user in one sample.
@@ -24,6 +35,15 @@ pub struct AgentFutures {
     pub chosen: usize,
     /// By falling probability, never empty.
     pub modes: Vec<Future>,
+    /// Why it gave up the motion that it had; `None` for one that was asked for.
+    pub reaction: Option<Reaction>,
+}
+
+impl AgentFutures {
+    /// Futures of one that was asked for.
+    pub fn of(chosen: usize, modes: Vec<Future>) -> Self {
+        Self { chosen, modes, reaction: None }
+    }
 }
 
 /// One coherent answer for all regenerated road users.

@@ -12,6 +12,7 @@ pub mod condition;
 pub mod generated;
 pub mod geometry;
 pub mod hash;
+pub mod judge;
 pub mod limits;
 pub mod map;
 pub mod motion;

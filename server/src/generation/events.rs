@@ -103,7 +103,7 @@ fn futures_doc(futures: &AgentFutures, all_modes: bool) -> AgentFuturesDoc {
         return AgentFuturesDoc::from_futures(futures);
     }
     let chosen = futures.modes.get(futures.chosen).map(FutureDoc::from_future);
-    AgentFuturesDoc { chosen: 0, modes: chosen.into_iter().collect() }
+    AgentFuturesDoc { chosen: 0, modes: chosen.into_iter().collect(), reaction: futures.reaction.clone() }
 }
 
 /// Time spent, milliseconds.

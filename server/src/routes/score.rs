@@ -100,8 +100,8 @@ fn of(scene: &Scene, request: &ScoreRequest) -> Result<Score, Problem> {
     let mut sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample)).cloned();
     for (id, doc) in &request.trajectories.0 {
         let Some(states) = states(scene, "/trajectories", id, doc, &mut faults) else { continue };
-        let future = Future { probability: 1.0, anchor: None, first_step: doc.first_step as usize, states };
-        let futures = AgentFutures { chosen: 0, modes: vec![future] };
+        let future = Future::bare(1.0, doc.first_step as usize, states);
+        let futures = AgentFutures::of(0, vec![future]);
         sample.get_or_insert_with(Sample::default).agents.insert(id.clone(), futures);
     }
     let mut references: BTreeMap<&str, Track> = BTreeMap::new();

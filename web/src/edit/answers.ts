@@ -29,6 +29,12 @@ export interface Away {
   readonly waiting: number;
 }
 
+/** A sentence about one road user. */
+export interface Remark {
+  readonly id: string;
+  readonly words: string;
+}
+
 export interface LiveReach {
   readonly id: string;
   readonly reach: Reach;
@@ -40,6 +46,7 @@ export class Answers {
   readonly #changes = signal<readonly Change[]>([]);
   readonly #foreseen = signal<readonly Change[] | null>(null);
   readonly #liveReach = signal<LiveReach | null>(null);
+  readonly #remark = signal<Remark | null>(null);
   readonly #status = signal<Status>({ kind: 'loading' });
   readonly #away = signal<Away | null>(null);
   readonly #cache = new MotionCache();
@@ -53,6 +60,8 @@ export class Answers {
   readonly foreseen: ReadonlySignal<readonly Change[] | null> = this.#foreseen;
   /** The generator's verdict on the goal as it is being dragged. */
   readonly liveReach: ReadonlySignal<LiveReach | null> = this.#liveReach;
+  /** Why another future is shown than the one that was bold in the drag. */
+  readonly remark: ReadonlySignal<Remark | null> = this.#remark;
   readonly status: ReadonlySignal<Status> = this.#status;
   /** Null while the generator answers. */
   readonly away: ReadonlySignal<Away | null> = this.#away;
@@ -64,6 +73,7 @@ export class Answers {
       this.#changes.value = [];
       this.#foreseen.value = null;
       this.#liveReach.value = null;
+      this.#remark.value = null;
       this.#motion.value = saved ?? emptyMotion(sceneKey(scene));
       if (saved) this.#cache.put(saved);
       this.#status.value = { kind: 'ready' };
@@ -75,6 +85,7 @@ export class Answers {
     batch(() => {
       this.#draft.value = null;
       this.#liveReach.value = null;
+      this.#remark.value = null;
     });
   }
 
@@ -82,6 +93,7 @@ export class Answers {
   dragBegan(): void {
     batch(() => {
       this.#changes.value = [];
+      this.#remark.value = null;
       this.#foreseen.value = null;
     });
   }
@@ -112,6 +124,7 @@ export class Answers {
     const known = this.#cache.get(key);
     batch(() => {
       this.#changes.value = [];
+      this.#remark.value = null;
       if (known) {
         this.#motion.value = known;
         this.#draft.value = null;
@@ -172,6 +185,10 @@ export class Answers {
   /** The verdict of the whole answer takes the place of the one during the drag. */
   dropLiveReach(): void {
     this.#liveReach.value = null;
+  }
+
+  explain(remark: Remark | null): void {
+    this.#remark.value = remark;
   }
 
   scored(score: Score | null): void {

@@ -186,7 +186,7 @@ export class Picture {
     const p = a && this.poseNow(a);
     if (!a || !p || e.drag.value) return null;
     const where = a.parked ? 'parked' : laneWords(e.scene.value!.map, a, p.x, p.y, p.heading);
-    const next = e.events.value.find((v) => (v.a.id === a.id || v.b.id === a.id) && v.time >= e.time.value);
+    const next = e.events.value.find((v) => (v.a.id === a.id || v.b?.id === a.id) && v.time >= e.time.value);
     const todo =
       a.type === 'other'
         ? 'Shown only'

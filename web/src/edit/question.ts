@@ -9,6 +9,7 @@ import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Editor, Step } from './editor';
 import type { SceneFile } from './scene-file';
+import { shownFuture } from './shown';
 
 /** What is wanted of the generator. */
 export interface Wanted {
@@ -60,6 +61,7 @@ export class Questions {
       steps: DEFAULTS.steps,
       stream_modes: w.drafts ?? 'all',
       score: w.step !== null && !w.unscored,
+      ...shownOf(this.editor, w),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME
         ? { horizon_s: scene.length, replan_interval_s: scene.replan }
@@ -89,4 +91,11 @@ export class Questions {
     const agents = scene.others === 'still' ? stillAgents(raw, scene, moving) : raw.agents;
     return { ...raw, map, agents, generated: generatedJson(scene, kept) };
   }
+}
+
+/** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
+function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
+  const drags = editor.dragging.peek() || (w.step !== null && editor.draft.peek()?.id === editor.selection.peek());
+  const shown = drags ? shownFuture(editor, w.agents) : undefined;
+  return shown ? { shown } : {};
 }

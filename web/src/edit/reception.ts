@@ -2,14 +2,25 @@
 import { batch, effect } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
 import type { AgentFuturesJson, ReactionJson } from '../model/json';
-import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
+import {
+  ideas,
+  percents,
+  readFutures,
+  withNames,
+  type Futures,
+  type KeepOrder,
+  type MotionSet,
+} from '../model/futures';
 import { motionFrom } from '../model/motion';
+import type { Naming } from '../model/names';
 import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
-import { sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { whyAnother } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
+import { FrozenNames } from './frozen-names';
 import type { Wanted } from './question';
 import { Steady } from './steady';
 import { readReach, readScore, readWarnings } from './read-answer';
@@ -29,9 +40,18 @@ const TRAILS = 3;
 
 type Keep = (a: Agent) => KeepOrder;
 
+/** A road user and the idea that was bold. */
+interface Bold {
+  readonly id: string;
+  readonly idea: string;
+}
+
+const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
+
 export class Reception {
   readonly #calm =
     typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
+  readonly #names = new FrozenNames();
 
   readonly #steady: Steady;
 
@@ -52,7 +72,9 @@ export class Reception {
     const subject = w.step ? (w.step.agent ?? editor.selection.peek()) : w.agents[0];
     let began = false;
     let slow = false;
-    const keep: Keep = (a) => this.#lettersOf(a, began && a.id === subject);
+    const bold = w.step && subject ? this.#boldOf(subject) : null;
+    const keep: Keep = (a) => this.#lettersOf(a, (began || w.step !== null) && a.id === subject);
+    const atRest: Keep = (a) => this.#lettersAtRest(a);
     return {
       draft: (e, step, steps, ms) => {
         hooks.answered();
@@ -60,8 +82,10 @@ export class Reception {
       },
       final: (e, ms) => {
         hooks.answered();
-        if (w.step) this.#finalOfChange(scene, e, w, w.step, ms, keep);
-        else this.#finalOfLook(scene, e, w.agents[0], ms, keep);
+        if (w.step) {
+          this.#finalOfChange(scene, e, w, w.step, ms, atRest);
+          this.#sayWhyAnother(scene, bold);
+        } else this.#finalOfLook(scene, e, w.agents[0], ms, editor.dragging.peek() ? keep : atRest);
       },
       refused: (p) => {
         // Futures matter more than their score: when working out both fails, they are asked for alone.
@@ -86,6 +110,30 @@ export class Reception {
     const d = editor.draft.peek();
     const like = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
     return { like, always: editor.dragging.peek() || a.chosen !== null || began };
+  }
+
+  /** At rest A is the likeliest; only where somebody picked a letter do they stay. */
+  #lettersAtRest(a: Agent): KeepOrder {
+    return a.chosen === null ? 'rank' : this.#lettersOf(a, true);
+  }
+
+  /** Which idea is bold as the hand lets go; null where no drag left one. */
+  #boldOf(id: string): Bold | null {
+    const { editor } = this;
+    const d = editor.draft.peek();
+    const a = editor.scene.peek()?.agents.get(id);
+    if (d?.id !== id || d.futures.sketch || !a || a.chosen !== null) return null;
+    return { id, idea: ideas(d.futures.modes)[d.futures.chosen] };
+  }
+
+  /** The bold one is another than in the drag: one sentence says why. */
+  #sayWhyAnother(scene: Scene, bold: Bold | null): void {
+    const { editor } = this;
+    const f = bold && editor.motion.peek().futures.get(bold.id);
+    if (!bold || !f || editor.motion.peek().stale) return;
+    const why = whyAnother(f, ideas(f.modes).indexOf(bold.idea), f.chosen, nameIn(scene));
+    editor.answers.explain(why === null ? null : { id: bold.id, words: `${why}.` });
+    if (why) editor.notices.say(`${why}.`);
   }
 
   // -------------------------------------------------------------- drafts
@@ -120,10 +168,20 @@ export class Reception {
     const last = shown?.id === id && !shown.futures.sketch ? shown : null;
     // The answer to a release starts rough again; what the drag has settled already stays until it is better.
     if (last && !editor.dragging.peek() && step < last.futures.step) return false;
-    const f = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
+    const read = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
+    const f = this.#withFrozenNames(a, read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
     editor.answers.showDraft(id, f, trails);
     return true;
+  }
+
+  /** What is on screen keeps its names as far as they hold. */
+  #withFrozenNames(a: Agent, read: Futures): Futures {
+    const { editor } = this;
+    const d = editor.draft.peek();
+    const before = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
+    const who = naming(editor.scene.peek()!, a);
+    return before ? this.#names.keep(before, read, who, performance.now()) : withNames(read, who);
   }
 
   // -------------------------------------------------------------- what the others would do
@@ -140,7 +198,9 @@ export class Reception {
   /** The release is answered by what was foreseen of it. */
   takeOver(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number): void {
     this.hooks.answered();
-    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersOf(a, true));
+    const bold = step.agent ? this.#boldOf(step.agent) : null;
+    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersAtRest(a));
+    this.#sayWhyAnother(scene, bold);
   }
 
   /** Those that were asked something are no others, also when only the mode of the others was changed. */
@@ -156,10 +216,11 @@ export class Reception {
 
   #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
     const { editor } = this;
-    const f = this.#futuresOf(scene, e, keep).get(id);
-    if (!f) return;
+    const settled = this.#futuresOf(scene, e, keep).get(id);
+    if (!settled) return;
     const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
+    const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, settled) : settled;
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
       if (reach) editor.answers.judge(id, reach);
@@ -168,7 +229,9 @@ export class Reception {
     });
     const best = f.modes[f.chosen];
     if (!best || dragging) return;
-    editor.notices.say(`Six futures. Most likely: ${best.name}, ${Math.round(best.probability * 100)} percent.`);
+    this.#names.rest();
+    const likely = percents(f.modes)[f.chosen];
+    editor.notices.say(`Six futures. Most likely: ${best.name}, ${likely} percent.`);
   }
 
   #finalOfChange(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number, keep: Keep): void {
@@ -176,6 +239,7 @@ export class Reception {
     if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
     const set = this.#motionAfter(scene, e, w, keep);
     const selected = editor.selection.peek();
+    this.#names.rest();
     editor.answers.dropLiveReach();
     editor.answers.settle(scene, set, this.#subjects(scene, step));
     this.settled(step, ms);
@@ -219,9 +283,10 @@ export class Reception {
     editor.answers.report({ kind: 'settled', ms, adapted: step.agent ? changes.length : null });
     if (step.undo) return;
     const scene = editor.scene.peek()!;
-    editor.notices.show({ text: outcome(step, scene, changes), undo: true });
-    editor.notices.say(spokenOutcome(step, scene, changes));
-    const collision = spokenCollision(editor.events.peek());
+    const events = editor.events.peek();
+    editor.notices.show({ text: outcome(step, scene, changes, events), undo: true });
+    editor.notices.say(spokenOutcome(step, scene, changes, events));
+    const collision = spokenCollision(events);
     if (collision) editor.notices.say(collision, true);
   }
 
@@ -229,20 +294,21 @@ export class Reception {
     const out = new Map<string, Futures>();
     for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
       const a = scene.agents.get(id);
-      const f = a && this.#futures(a, json, keep);
+      const f = a && this.#futures(scene, a, json, keep);
       if (f) out.set(id, f);
     }
     return out;
   }
 
-  #futures(a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
+  #futures(scene: Scene, a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
     const start = firstPose(a, json);
     if (!start || !json.modes?.length) return null;
     const known = this.editor.motion.peek().futures.get(a.id);
     const picked = a.chosen !== null && json.modes.length === 1 ? known?.modes[a.chosen] : undefined;
     if (!known || !picked) {
       const { steps } = DEFAULTS;
-      return readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
+      const f = readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
+      return withNames(f, naming(scene, a));
     }
     // A picked future comes back longer than it was; the other five stand as they are.
     const longer = { ...picked, motion: motionFrom(json.modes[0], start) };

@@ -10,12 +10,13 @@ import {
 } from './json';
 import { DEFAULTS } from './domain';
 import { isStill, motionFrom, poseAtStep, type Motion } from './motion';
-import { emptyMotion, readFutures, type Futures, type MotionSet } from './futures';
+import { emptyMotion, readFutures, withNames, type Futures, type MotionSet } from './futures';
 import {
   durationOf,
   freeGoal,
   GOAL_TIME,
   logStartSpec,
+  nameIn,
   readLength,
   readReplan,
   sceneKey,
@@ -110,7 +111,10 @@ export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   for (const [id, f] of Object.entries(agents)) {
     const a = scene.agents.get(id),
       start = a && firstPose(a, f);
-    if (a && start && f.modes?.length) futures.set(id, readFutures(f, start, 1, 1, a.type === 'pedestrian'));
+    if (a && start && f.modes?.length) {
+      const onFoot = a.type === 'pedestrian';
+      futures.set(id, withNames(readFutures(f, start, 1, 1, onFoot), { onFoot, nameOf: nameIn(scene) }));
+    }
   }
   if (!futures.size) return null;
   const head = Object.fromEntries(Object.entries(g).filter(([k]) => k !== 'samples'));

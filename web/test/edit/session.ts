@@ -48,7 +48,7 @@ export class InMemoryGenerator implements Generator {
 
 export const json = crossingJson();
 const agentOf = (id: string) => json.agents.find((a) => a.id === id)!;
-const six = (id: string): AgentFuturesJson => ({ chosen: 0, modes: sixFutures(agentOf(id), undefined, 5, 5) });
+export const six = (id: string): AgentFuturesJson => ({ chosen: 0, modes: sixFutures(agentOf(id), undefined, 5, 5) });
 
 /** Somebody comes so many seconds later, for `cause` where one is named. */
 export function late(id: string, seconds: number, cause?: string): AgentFuturesJson {

@@ -7,8 +7,11 @@ use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
+use crate::planning::lights::{Gate, gates};
 use crate::planning::world::{AgentAtStart, World};
-use scene::motion::{MotionModel, Target};
+use scene::Vec2;
+use scene::motion::{Kind, MotionModel, Target};
+use scene::wrap_angle;
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
@@ -21,6 +24,13 @@ pub struct AgentPlan {
     pub target: Target,
     /// [`MODES`] of them.
     pub anchors: Vec<Anchor>,
+    /// Red lights on each anchor's path.
+    pub lights: [Vec<Gate>; MODES],
+    /// Heading of the lane that each anchor brings to the goal, where the goal lies on a lane and leaves its
+    /// heading free, radians.
+    pub lane_headings: [Option<f64>; MODES],
+    /// How those who stand set off towards a goal, m/s2.
+    pub easy_mps2: f64,
     /// For the networks.
     pub features: AgentFeatures,
     /// Motions are projected onto the goal: see [`Planning::projection`](crate::planning::world::Planning).
@@ -40,17 +50,25 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let frame = Frame::of(who);
     let mut encoded = Box::new([[0.0; ANCHOR]; MODES]);
     let obstacles = world.obstacles(who.index);
+    let mut lights: [Vec<Gate>; MODES] = Default::default();
     let mut last: Option<(u64, PathFacts)> = None;
     for (slot, anchor) in anchors.iter().enumerate() {
         let path_identity = anchor.path_identity();
         // Slots of one path share what can be said of the path.
         let facts = match last.take() {
-            Some((identity, facts)) if identity == path_identity => facts,
-            _ => PathFacts::of(world, who, anchor, &obstacles),
+            Some((identity, facts)) if identity == path_identity => {
+                lights[slot] = lights[slot - 1].clone();
+                facts
+            }
+            _ => {
+                lights[slot] = gates(world, who, &anchor.path);
+                PathFacts::of(world, who, anchor, &obstacles)
+            }
         };
         encoded[slot] = encode::anchor(&frame, anchor, &facts, slot);
         last = Some((path_identity, facts));
     }
+    let lane_headings = lane_headings(world, who, &model, &target, &anchors);
     let features = AgentFeatures {
         own: encode::own(world, who, &model, &target, &frame),
         neighbours: encode::neighbours(world, who, &frame),
@@ -58,5 +76,35 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         tangent: Box::new(tangent(&target)),
     };
     let projected = world.planning.projection;
-    AgentPlan { present: who.clone(), model, target, anchors, features, projected }
+    let easy_mps2 = world.tuning.anchors.setting_off_mps2;
+    let present = who.clone();
+    AgentPlan { present, model, target, anchors, lights, lane_headings, easy_mps2, features, projected }
+}
+
+/// See [`AgentPlan::lane_headings`].
+fn lane_headings(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    anchors: &[Anchor],
+) -> [Option<f64>; MODES] {
+    let (Some(goal), None, Kind::Drive) = (target.position, target.heading_rad, model.kind) else {
+        return [None; MODES];
+    };
+    let under = lanes_under(world, who, goal);
+    std::array::from_fn(|slot| {
+        let path = &anchors.get(slot)?.path;
+        let arriving_rad = path.sample(path.project(goal).s_m).heading_rad;
+        let turn = |heading_rad: &f64| wrap_angle(heading_rad - arriving_rad).abs();
+        let nearest = under.iter().copied().min_by(|a, b| turn(a).total_cmp(&turn(b)))?;
+        (turn(&nearest) < world.tuning.anchors.along_lane_rad).then_some(nearest)
+    })
+}
+
+/// Headings of the lanes that a place lies on.
+fn lanes_under(world: &World<'_>, who: &AgentAtStart, place: Vec2) -> Vec<f64> {
+    let lanes = world.graph.lanes();
+    let near = world.graph.nearest_for(place, 4.0, who.agent_type);
+    near.iter().filter(|h| h.distance_m <= 0.5 * lanes[h.lane].width_m).map(|h| h.heading_rad).collect()
 }

@@ -43,7 +43,12 @@ impl Background {
 
 /// Where a road user in the background is at a step of the window (0 is the start): by its chosen future, else its
 /// log; one that was only drawn goes straight on.
-fn background_state(scene: &Scene, agent: &Agent, start_step: usize, step: usize) -> Option<State> {
+pub(super) fn background_state(
+    scene: &Scene,
+    agent: &Agent,
+    start_step: usize,
+    step: usize,
+) -> Option<State> {
     let at = start_step + step;
     if let Some(generated) = scene.generated.as_ref()
         && let Some(future) = generated.chosen_future(&agent.id)

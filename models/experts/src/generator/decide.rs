@@ -2,13 +2,15 @@
 
 use super::candidates::{Candidate, Origin, own, shown};
 use super::choice::{Choice, Choosable};
-use super::costs::options;
+use super::costs::{Yardstick, options};
 use super::guidance::guided;
 use super::repulsion::{ABSENT, Outline, poses_of_states};
 use super::trajectory::Motion;
 use super::window::Window;
 use crate::planning::INSTANTS;
 use crate::request::Shown;
+use scene::HORIZON_STEPS;
+use scene::judge::Judge;
 
 /// What a window decided for one actor.
 pub(super) struct Decided {
@@ -46,7 +48,10 @@ impl Window<'_> {
             self.workers().map(&self.indices(), |&i| self.material(i).candidates());
         let mut choice =
             Choice { agents: Vec::new(), fixed: &self.background.boxes, tuning: &self.tuning().choice };
-        choice.agents = candidates.iter().enumerate().map(|(i, all)| self.options(i, all)).collect();
+        let (scene, step) = (&self.world.scene, self.world.step);
+        let steps = step..step + HORIZON_STEPS + 1;
+        let judge = Judge::new(&scene.map, &scene.signals, &self.map.drivable, steps);
+        choice.agents = self.workers().map(&self.indices(), |&i| self.options(&judge, i, &candidates[i]));
         let mut chosen = match self.request.stages.shown {
             Shown::Chosen => choice.solve(),
             Shown::Likeliest | Shown::Drawn => {
@@ -55,7 +60,7 @@ impl Window<'_> {
             }
         };
         if self.request.stages.guidance {
-            self.guide(&mut choice, &mut candidates, &mut chosen);
+            self.guide(&judge, &mut choice, &mut candidates, &mut chosen);
         }
         let count = self.request.modes.max(1);
         let each = self.actors.iter().zip(candidates).zip(chosen).enumerate();
@@ -68,7 +73,13 @@ impl Window<'_> {
 
     /// Where the chosen scene still has conflicts, drafts guided out of them become further candidates; the choice
     /// takes them only where that costs less.
-    fn guide(&self, choice: &mut Choice<'_>, candidates: &mut [Vec<Candidate>], chosen: &mut Vec<usize>) {
+    fn guide(
+        &self,
+        judge: &Judge<'_>,
+        choice: &mut Choice<'_>,
+        candidates: &mut [Vec<Candidate>],
+        chosen: &mut Vec<usize>,
+    ) {
         let conflict = choice.in_conflict(chosen);
         if !conflict.contains(&true) {
             return;
@@ -92,13 +103,23 @@ impl Window<'_> {
         });
         for (i, found) in concerned.into_iter().zip(found) {
             candidates[i].extend(found);
-            choice.agents[i] = self.options(i, &candidates[i]);
+            choice.agents[i] = self.options(judge, i, &candidates[i]);
         }
         *chosen = choice.solve();
     }
 
-    fn options(&self, i: usize, candidates: &[Candidate]) -> Vec<Choosable> {
-        let around = self.material(i).around(self.sample);
-        options(&self.actors[i], candidates, around, &self.map, &self.tuning().choice)
+    fn options(&self, judge: &Judge<'_>, i: usize, candidates: &[Candidate]) -> Vec<Choosable> {
+        let actor = &self.actors[i];
+        let first = self.sample == 0 && self.world.step == self.request.start_step;
+        let yardstick = Yardstick {
+            around: self.material(i).around(self.sample),
+            shown: self.request.shown.get(&actor.id).filter(|_| first),
+            map: &self.map,
+            judge,
+            agent: self.world.agent(&actor.plan.present),
+            start_step: self.world.step,
+            tuning: &self.tuning().choice,
+        };
+        options(actor, candidates, &yardstick)
     }
 }

@@ -3,6 +3,8 @@
 
 use super::slot::Slot;
 use crate::features::agent::AgentPlan;
+use crate::planning::lights::Waiting;
+use crate::planning::profile::{Caps, Progress};
 use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, Residual, STAYS_WITHIN_M};
 use scene::geometry::direction;
 use scene::motion::{
@@ -44,7 +46,39 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
         last = along.max(last);
         *place = (last, across);
     }
-    out
+    at_lights(plan, slot, out)
+}
+
+/// Progress and offset at the instants, waiting at red lights. Whoever waits is beside the path where it would
+/// have been at that progress.
+fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(f64, f64); INSTANTS] {
+    let gates = &plan.lights[slot.index()];
+    if gates.is_empty() || plan.model.gear == Gear::Reverse {
+        return wanted;
+    }
+    let anchor = &plan.anchors[slot.index()];
+    let before = |i: usize| if i == 0 { (0.0, 0.0) } else { wanted[i - 1] };
+    let progress: Progress = std::array::from_fn(|step| {
+        let (i, part) = (step / PER_INSTANT, (step % PER_INSTANT) as f64 / PER_INSTANT as f64);
+        let (from, to) = (before(i).0, before((i + 1).min(INSTANTS)).0);
+        from + part * (to - from)
+    });
+    let waiting = Waiting {
+        gates,
+        v0: plan.model.start_speed_mps(),
+        limits: &plan.model.limits,
+        target: &plan.target,
+        caps: Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
+        easy_mps2: plan.easy_mps2,
+    };
+    let Some(held) = waiting.obeying(&progress) else { return wanted };
+    std::array::from_fn(|i| {
+        let along = held[(i + 1) * PER_INSTANT];
+        let next = (0..INSTANTS).find(|k| wanted[*k].0 >= along).unwrap_or(INSTANTS - 1);
+        let (from, to) = (before(next), wanted[next]);
+        let part = if to.0 - from.0 > 1e-6 { ((along - from.0) / (to.0 - from.0)).min(1.0) } else { 1.0 };
+        (along, from.1 + part * (to.1 - from.1))
+    })
 }
 
 /// Box centres and headings of a draft at the instants, before any motion model has its say.
@@ -58,7 +92,7 @@ pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
     }
-    through(plan, places(plan, slot, residual))
+    through(plan, slot, places(plan, slot, residual))
 }
 
 /// The motion between drafts on one path: the mean of their progress and offset by probability. They lie on the
@@ -74,7 +108,7 @@ pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot
         }
     }
     let anchor = &plan.anchors[path.index()];
-    through(plan, mean.map(|(along, across)| anchor.place(along, across)))
+    through(plan, path, mean.map(|(along, across)| anchor.place(along, across)))
 }
 
 /// What motions are projected onto: the goal, or nothing but the limits.
@@ -83,8 +117,9 @@ fn projected_onto(plan: &AgentPlan) -> Target {
     if plan.projected { target } else { Target { step: target.step, ..Target::default() } }
 }
 
-/// The motion that passes near these places (box centres and the path's headings) at the instants.
-fn through(plan: &AgentPlan, places: [(Vec2, f64); INSTANTS]) -> Motion {
+/// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
+/// this slot.
+fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Motion {
     let mut samples = Vec::with_capacity(INSTANTS);
     let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
     for (i, (position, path_heading)) in places.into_iter().enumerate() {
@@ -97,7 +132,15 @@ fn through(plan: &AgentPlan, places: [(Vec2, f64); INSTANTS]) -> Motion {
         last = (position, heading_rad);
     }
     let knots = fit(&plan.model, &samples);
-    let motion = project(&plan.model, &knots, &projected_onto(plan), None);
+    let target = projected_onto(plan);
+    if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
+        let along = Target { heading_rad: Some(heading_rad), ..target };
+        let motion = project(&plan.model, &knots, &along, None);
+        if motion.reach.is_reached() {
+            return motion.into();
+        }
+    }
+    let motion = project(&plan.model, &knots, &target, None);
     if motion.reach.is_reached() {
         return motion.into();
     }

@@ -4,6 +4,7 @@ use super::any::AnyDoc;
 use super::lists::bounded;
 use super::value::{Members, check_integer, round_m, round_rad};
 use crate::problem::Problems;
+use scene::judge::{About, Fault, Manoeuvre, Reaction, Relation};
 use scene::{AgentFutures, Future, Generated, Sample, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,15 @@ pub struct FutureDoc {
     pub vx_mps: Vec<f64>,
     /// m/s.
     pub vy_mps: Vec<f64>,
+    /// What is wrong with it, the worst first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, 64>")]
+    pub faults: Vec<Fault>,
+    /// How it stands to others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, 64>")]
+    pub relations: Vec<Relation>,
+    /// What it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub manoeuvre: Option<Manoeuvre>,
 }
 
 /// The futures of one road user.
@@ -44,6 +54,9 @@ pub struct AgentFuturesDoc {
     /// By falling probability.
     #[serde(deserialize_with = "bounded::<_, _, 64>")]
     pub modes: Vec<FutureDoc>,
+    /// Why it gave up the motion that it had.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reaction: Option<Reaction>,
 }
 
 /// One coherent answer for all regenerated road users.
@@ -100,6 +113,9 @@ impl FutureDoc {
             heading_rad: column(|s| round_rad(s.heading_rad)),
             vx_mps: column(|s| round_m(s.vx_mps)),
             vy_mps: column(|s| round_m(s.vy_mps)),
+            faults: future.about.faults.clone(),
+            relations: future.about.relations.clone(),
+            manoeuvre: future.about.manoeuvre,
         }
     }
 
@@ -134,6 +150,7 @@ impl FutureDoc {
             anchor: self.anchor,
             first_step: self.first_step as usize,
             states,
+            about: About { faults: self.faults, relations: self.relations, manoeuvre: self.manoeuvre },
         }
     }
 }
@@ -144,6 +161,7 @@ impl AgentFuturesDoc {
         Self {
             chosen: futures.chosen as u64,
             modes: futures.modes.iter().map(FutureDoc::from_future).collect(),
+            reaction: futures.reaction.clone(),
         }
     }
 }
@@ -193,7 +211,10 @@ impl GeneratedDoc {
                 for (m, mode) in futures.modes.into_iter().enumerate() {
                     modes.push(mode.into_future(&format!("{at}/modes/{m}"), problems));
                 }
-                agents.insert(id, AgentFutures { chosen: futures.chosen as usize, modes });
+                agents.insert(
+                    id,
+                    AgentFutures { chosen: futures.chosen as usize, modes, reaction: futures.reaction },
+                );
             }
             samples.push(Sample { agents, score: sample.score.0 });
         }

@@ -25,7 +25,7 @@ pub fn shifted(mut agent: Agent, x_m: f64, y_m: f64) -> Agent {
 /// A future east from (0, left) at even speed.
 pub fn straight(probability: f64, speed_mps: f64, left_m: f64) -> Future {
     let states = (1..=90).map(|i| east(speed_mps * STEP_S * f64::from(i), left_m, speed_mps));
-    Future { probability, anchor: None, first_step: 1, states: states.collect() }
+    Future::bare(probability, 1, states.collect())
 }
 
 /// Road users on two straight lanes east.

@@ -90,7 +90,7 @@ pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     let starts = start_lanes(graph, query.pose, query.agent_type);
     let starts = with_lanes_beside(graph, starts, query.agent_type);
     let goals = goal_lanes(graph, query, ON_LANE_M);
-    let mut routes = forward(graph, query, &starts, &goals);
+    let mut routes = forward(graph, query, &starts, &goals, query.longest_m());
     let close = |r: &GoalRoute| r.goal_lateral_m.abs() < CLOSE_M;
     let wants_join = !routes.iter().any(close) && query.distance_m() >= NO_JOIN_M;
     if wants_join && let Some(joined) = join::joined(graph, query, &goals) {
@@ -98,10 +98,25 @@ pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     }
     if routes.is_empty() && goals.is_empty() {
         let near = goal_lanes(graph, query, OFF_LANE_M);
-        let lead_in = forward(graph, query, &starts, &near);
+        let lead_in = forward(graph, query, &starts, &near, query.longest_m());
         routes = lead_in.into_iter().filter_map(|r| join::leaving(r, query)).collect();
     }
     routes.truncate(MAX_GOAL_ROUTES);
+    routes
+}
+
+/// Further routes, for a goal to which none of [`routes_to_goal`] will do: long ways round along lanes of up to
+/// `longest_m`, and ways along lanes that the road user can drive to near the goal, left for it at the end.
+pub fn further_routes_to_goal(graph: &LaneGraph, query: &GoalQuery, longest_m: f64) -> Vec<GoalRoute> {
+    let starts = start_lanes(graph, query.pose, query.agent_type);
+    let starts = with_lanes_beside(graph, starts, query.agent_type);
+    let longest_m = longest_m.max(query.longest_m());
+    let near = goal_lanes(graph, query, OFF_LANE_M);
+    let under: Vec<LaneHit> = near.iter().copied().filter(|hit| hit.distance_m <= ON_LANE_M).collect();
+    let mut routes = forward(graph, query, &starts, &under, longest_m);
+    let lead_in = forward(graph, query, &starts, &near, longest_m);
+    let beside = lead_in.into_iter().filter(|r| r.goal_lateral_m.abs() > CLOSE_M);
+    routes.extend(beside.filter_map(|r| join::leaving(r, query)));
     routes
 }
 
@@ -124,15 +139,20 @@ struct Candidate {
     trace: Vec<Vec2>,
 }
 
-/// Distinct forward routes from the starts to the goal lanes, best first.
-fn forward(graph: &LaneGraph, query: &GoalQuery, starts: &[StartLane], goals: &[LaneHit]) -> Vec<GoalRoute> {
+/// Distinct forward routes of up to `longest_m` from the starts to the goal lanes, best first.
+fn forward(
+    graph: &LaneGraph,
+    query: &GoalQuery,
+    starts: &[StartLane],
+    goals: &[LaneHit],
+    longest_m: f64,
+) -> Vec<GoalRoute> {
     if goals.is_empty() {
         return Vec::new();
     }
     let mut candidates = Vec::new();
     for start in starts {
-        let found =
-            search::shortest(graph, start, goals, query.speed_mps, query.agent_type, query.longest_m());
+        let found = search::shortest(graph, start, goals, query.speed_mps, query.agent_type, longest_m);
         candidates.extend(found.into_iter().map(|chain| {
             let goal = goals[chain.goal];
             let turn = METRES_PER_RAD * query.goal_turn_rad(goal.heading_rad);

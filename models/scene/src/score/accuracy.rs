@@ -140,12 +140,7 @@ mod tests {
         let log = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0).track.into_owned();
         let mode = |speed: f64| {
             let track = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, speed).track.into_owned();
-            Future {
-                anchor: None,
-                probability: 0.5,
-                first_step: 1,
-                states: track.states.into_iter().skip(1).flatten().collect(),
-            }
+            Future::bare(0.5, 1, track.states.into_iter().skip(1).flatten().collect())
         };
         let modes = [mode(9.0), mode(10.5)];
         let mut actor = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 9.0);

@@ -35,6 +35,8 @@ pub struct Drivable {
     edges: SegmentIndex,
     centers: SegmentIndex,
     bands: Vec<Band>,
+    /// By road edge: it bounds a median.
+    medians: Vec<bool>,
     assumed_width: bool,
 }
 
@@ -43,7 +45,12 @@ impl Drivable {
     pub fn new(map: &LaneMap) -> Self {
         let lanes = || map.lanes.iter().enumerate().filter(|(_, l)| l.lane_type != LaneType::Sidewalk);
         let centers = lanes().flat_map(|(i, l)| thinned_pieces(&l.points.xy, false, i as u32)).collect();
-        let edges = map.road_edges.iter().flat_map(|e| thinned_pieces(&e.points.xy, false, 0)).collect();
+        let edges = map
+            .road_edges
+            .iter()
+            .zip(0..)
+            .flat_map(|(e, i)| thinned_pieces(&e.points.xy, false, i))
+            .collect();
         let has_areas = map.drivable.iter().any(|a| a.polygon.xy.len() >= 3);
         let band = |lane: &crate::map::Lane| Band {
             half_width_m: 0.5 * lane.width_or_assumed_m(),
@@ -56,6 +63,7 @@ impl Drivable {
             area_sides: SegmentIndex::new(sides(&map.drivable).collect()),
             centers: SegmentIndex::new(centers),
             bands: map.lanes.iter().map(band).collect(),
+            medians: map.road_edges.iter().map(|e| e.line_type == "median").collect(),
             assumed_width: !has_areas && edges.is_empty() && lanes().any(|(_, l)| l.width_m.is_none()),
             edges,
         }
@@ -97,6 +105,12 @@ impl Drivable {
         }
         let corners = outline.corners().map(|c| self.outside_m(c).unwrap_or(0.0));
         Some(corners.into_iter().fold(0.0, f64::max))
+    }
+
+    /// The road edge nearest to a point, if one is within `reach_m`, bounds a median.
+    pub fn is_median(&self, point: Vec2, reach_m: f64) -> bool {
+        let nearest = self.edges.nearest(point, reach_m);
+        nearest.is_some_and(|(edge, ..)| self.medians.get(edge.owner as usize) == Some(&true))
     }
 
     /// How far a point lies off the road, metres, and the way (a unit vector) in which that grows; `None`
@@ -142,6 +156,15 @@ impl Drivable {
         let middle = 0.5 * (point + foot);
         let crossed = self.edges.near(middle, 0.5 * away).any(|edge| edge.crosses(point, foot));
         if crossed { distance(&self.edges, point) } else { 0.0 }
+    }
+
+    /// The straight line between two points leaves the road over an edge of it, be the ground behind a
+    /// median of no width. Edges across the mouth of a driveway do not count.
+    pub fn crosses_an_edge(&self, from: Vec2, to: Vec2) -> bool {
+        let middle = 0.5 * (from + to);
+        let radius_m = 0.5 * (to - from).norm();
+        self.edges.near(middle, radius_m).any(|edge| edge.crosses(from, to))
+            && !self.driveways.contain(middle)
     }
 
     /// Against the traffic: there are vehicle lanes at `point`, and `forward` (a unit vector) is more
@@ -290,6 +313,9 @@ mod tests {
         assert_eq!(index.outside_m(at(20.0, -8.0)), Some(2.0));
         assert_eq!(index.outside_m(at(45.0, -8.0)), Some(0.0));
         assert_eq!(index.outside_m(at(20.0, 5.0)), Some(3.0));
+        assert!(index.crosses_an_edge(at(20.0, 1.0), at(21.0, 3.0)));
+        assert!(!index.crosses_an_edge(at(20.0, -1.0), at(90.0, 1.0)));
+        assert!(!index.crosses_an_edge(at(45.0, -5.0), at(45.0, -7.0)), "into the driveway");
         assert!(!index.assumed_width());
     }
 }

@@ -30,6 +30,8 @@ pub struct Thresholds {
     pub moving_mps: f64,
     /// Braking above this is harsh, m/s2.
     pub harsh_brake_mps2: f64,
+    /// Sideways acceleration above this is harsh, m/s2.
+    pub harsh_lateral_mps2: f64,
     /// A corner farther outside than this is off the road, metres.
     pub offroad_m: f64,
     /// Goal position met within this, metres.
@@ -53,6 +55,7 @@ impl Default for Thresholds {
             follow_brake_mps2: 3.35,
             moving_mps: 0.5,
             harsh_brake_mps2: 4.0,
+            harsh_lateral_mps2: 4.0,
             offroad_m: 0.1,
             goal_position_m: 0.05,
             goal_heading_rad: 0.02,

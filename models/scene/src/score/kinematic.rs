@@ -143,7 +143,7 @@ pub fn score_kinematic(actor: &Actor<'_>, steps: Range<usize>) -> (Kinematic, Ve
         }
         found.violations += usize::from(turn.max(along).max(part(jerk, limits.jerk_mps3)) > 1.0);
     }
-    (found, stretches(actor.id, &turns, true))
+    (found, stretches(actor, &turns))
 }
 
 fn moment(states: &[Option<&State>], i: usize, walks: bool) -> Option<Moment> {
@@ -194,7 +194,23 @@ pub fn harsh_braking(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> 
     };
     let harsh = |b: &(usize, f64)| b.1 > input.thresholds.harsh_brake_mps2;
     let flagged: Vec<_> = input.steps.clone().filter_map(braking).filter(harsh).collect();
-    stretches(actor.id, &flagged, true)
+    stretches(actor, &flagged)
+}
+
+/// Stretches of turning above the threshold of sideways acceleration, as [`harsh_braking`].
+pub fn harsh_steering(actor: &Actor<'_>, input: &ScoreInput<'_>) -> Vec<Stretch> {
+    if actor.agent_type == AgentType::Pedestrian {
+        return Vec::new();
+    }
+    let state = |i: usize| actor.state(i).filter(|_| input.steps.contains(&i));
+    let sideways = |i: usize| {
+        let (before, after) = (state(i.checked_sub(2)?)?, state(i + 2)?);
+        let turned = wrap_angle(after.heading_rad - before.heading_rad).abs();
+        Some((i, state(i)?.speed_mps() * turned / (4.0 * STEP_S)))
+    };
+    let harsh = |b: &(usize, f64)| b.1 > input.thresholds.harsh_lateral_mps2;
+    let flagged: Vec<_> = input.steps.clone().filter_map(sideways).filter(harsh).collect();
+    stretches(actor, &flagged)
 }
 
 #[cfg(test)]

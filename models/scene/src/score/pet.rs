@@ -163,7 +163,8 @@ mod tests {
     fn pet(actors: Vec<Actor<'static>>) -> Option<f64> {
         let drivable = super::super::Drivable::default();
         let input: ScoreInput<'_> = input_of(actors, &drivable);
-        post_encroachment_s(&Mover::new(&input, 0), &Mover::new(&input, 1))
+        let mover = |i: usize| Mover::new(&input.actors[i], input.steps.clone());
+        post_encroachment_s(&mover(0), &mover(1))
     }
 
     #[test]

@@ -2,10 +2,10 @@
 
 use super::accuracy::Accuracy;
 use super::goal::GoalError;
-use super::input::{ScoreInput, Thresholds};
+use super::input::{Actor, ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
-use super::pairs::PairScores;
-use crate::AgentId;
+use super::pairs::{PairScores, PairTotals};
+use crate::{AgentId, State};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -36,6 +36,9 @@ pub struct Collision {
     /// Speed at which the two closed in at the first moment, m/s (their relative speed when they
     /// already overlap).
     pub closing_speed_mps: f64,
+    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
+    /// the same time, no less hard. It does not count.
+    pub in_log: bool,
 }
 
 /// Two moving road users nearly collide. One entry a pair, at its worst moment.
@@ -53,6 +56,9 @@ pub struct NearMiss {
     pub ttc_s: Option<f64>,
     /// Rate at which the gap shrank then, m/s.
     pub closing_speed_mps: f64,
+    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
+    /// the same time, no less hard. It does not count.
+    pub in_log: bool,
 }
 
 /// Something one road user does over a stretch of time.
@@ -64,9 +70,16 @@ pub struct Stretch {
     pub time_s: f64,
     /// Scene time of the last step, seconds.
     pub until_s: f64,
-    /// The worst of it: metres off the road, m/s2 of braking, share of the limit for turns; none for
-    /// wrong-way driving.
+    /// The worst of it: metres off the road, m/s2 of braking or sideways, share of the limit for turns,
+    /// metres driven against the traffic.
     pub worst: Option<f64>,
+    /// Box centre where it is worst, metres.
+    pub x_m: f64,
+    /// Box centre where it is worst, metres.
+    pub y_m: f64,
+    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
+    /// the same time, no less bad.
+    pub in_log: bool,
 }
 
 /// A stop line is crossed while its signal says stop.
@@ -80,15 +93,25 @@ pub struct RedLight {
     pub time_s: f64,
     /// Speed then, m/s.
     pub speed_mps: f64,
+    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
+    /// the same time, no less bad.
+    pub in_log: bool,
 }
 
 /// Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+///
+/// Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
+/// `collision_rate` nor with the road users; distances, times and the other shares are measured over all
+/// motion, the recorded too.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SceneScore {
     /// By time, then by pair.
     pub collisions: Vec<Collision>,
-    /// Share of road users in any collision (the paper's scenario collision rate).
+    /// Share of road users in any collision that the log does not show.
     pub collision_rate: f64,
+    /// Share of road users in any collision, those of the log counted (the paper's scenario collision
+    /// rate).
+    pub collision_rate_with_log: f64,
     /// Share of road users whose box overlaps another's at all, however little.
     pub overlap_rate: f64,
     /// By time, then by pair.
@@ -118,12 +141,16 @@ pub struct SceneScore {
     /// Means over the road users with a reference.
     #[serde(flatten)]
     pub accuracy: Option<Accuracy>,
-    /// Vehicles off the road.
+    /// Vehicles off the road, but for those over a median.
     pub off_road: Vec<Stretch>,
+    /// Vehicles over what divides two roads.
+    pub over_median: Vec<Stretch>,
     /// Vehicles against the traffic.
     pub wrong_way: Vec<Stretch>,
     /// Braking harder than the threshold; `worst` in m/s2.
     pub harsh_braking: Vec<Stretch>,
+    /// Turning harder than the threshold; `worst` in m/s2 sideways.
+    pub harsh_steering: Vec<Stretch>,
     /// Turns over a limit of lateral acceleration, yaw rate or curvature (generated motion only).
     pub implausible_turns: Vec<Stretch>,
     /// Stop lines crossed at red.
@@ -141,9 +168,9 @@ pub struct SceneScore {
 /// Score of one road user.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct AgentScore {
-    /// Collisions it is part of.
+    /// Collisions it is part of and the log does not show.
     pub collisions: usize,
-    /// Near misses it is part of.
+    /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
     /// As in [`SceneScore`].
     pub min_ttc_s: Option<f64>,
@@ -174,6 +201,8 @@ impl SceneScore {
         self.pet_s = minimum(agents.iter().map(|a| a.pet_s));
         let of_all = |count: usize| count as f64 / agents.len().max(1) as f64;
         self.collision_rate = of_all(agents.iter().filter(|a| a.collisions > 0).count());
+        let any = |a: &PairTotals| a.collisions + a.logged_collisions > 0;
+        self.collision_rate_with_log = of_all(pairs.agents.iter().filter(|a| any(a)).count());
         self.overlap_rate = of_all(pairs.agents.iter().filter(|a| a.overlaps).count());
         self.collisions = pairs.collisions;
         self.near_misses = pairs.near_misses;
@@ -190,9 +219,14 @@ impl SceneScore {
         let reached = goals.clone().filter(|g| g.is_reached(&input.thresholds)).count();
         self.goals_reached = share(reached, goals.count());
         self.accuracy = Accuracy::mean(agents.iter().filter_map(|a| a.accuracy.as_ref()));
-        for list in
-            [&mut self.off_road, &mut self.wrong_way, &mut self.harsh_braking, &mut self.implausible_turns]
-        {
+        for list in [
+            &mut self.off_road,
+            &mut self.over_median,
+            &mut self.wrong_way,
+            &mut self.harsh_braking,
+            &mut self.harsh_steering,
+            &mut self.implausible_turns,
+        ] {
             list.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         }
     }
@@ -224,23 +258,33 @@ pub(super) fn time_of(step: f64) -> f64 {
     (step * crate::STEP_S * 1000.0).round() / 1000.0
 }
 
-/// Cuts flagged steps (rising) into stretches; `worst` keeps the greatest value.
-pub(super) fn stretches(agent: &str, flagged: &[(usize, f64)], with_worst: bool) -> Vec<Stretch> {
-    let mut found: Vec<(usize, usize, f64)> = Vec::new();
+/// Cuts flagged steps (rising) into stretches; each has its greatest value and the place of that.
+pub(super) fn stretches(actor: &Actor<'_>, flagged: &[(usize, f64)]) -> Vec<Stretch> {
+    /// First and last step, the worst step and its value.
+    type Found = (usize, usize, (usize, f64));
+    let mut found: Vec<Found> = Vec::new();
     for &(step, value) in flagged {
         match found.last_mut() {
             Some((_, last, worst)) if step <= *last + 2 => {
                 *last = step;
-                *worst = worst.max(value);
+                if value > worst.1 {
+                    *worst = (step, value);
+                }
             }
-            _ => found.push((step, step, value)),
+            _ => found.push((step, step, (step, value))),
         }
     }
-    let to_stretch = |(first, last, worst): (usize, usize, f64)| Stretch {
-        agent: agent.to_owned(),
-        time_s: time_of(first as f64),
-        until_s: time_of(last as f64),
-        worst: with_worst.then_some(worst),
+    let to_stretch = |(first, last, (step, value)): Found| {
+        let place = actor.state(step).map(State::position).unwrap_or_default();
+        Stretch {
+            agent: actor.id.to_owned(),
+            time_s: time_of(first as f64),
+            until_s: time_of(last as f64),
+            worst: Some(value),
+            x_m: place.x,
+            y_m: place.y,
+            in_log: false,
+        }
     };
     found.into_iter().map(to_stretch).collect()
 }

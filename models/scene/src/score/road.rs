@@ -1,9 +1,9 @@
 //! Off the road and against the traffic, vehicles only.
 
 use super::input::{Actor, ScoreInput};
-use super::report::{Stretch, share, stretches};
+use super::report::{Stretch, share, stretches, time_of};
 use crate::geometry::direction;
-use crate::{AgentType, Subtype};
+use crate::{AgentType, STEP_S, Subtype, Vec2};
 
 /// What a vehicle's motion comes to on the map.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,9 +14,11 @@ pub struct RoadScore {
     pub offroad_max_m: Option<f64>,
     /// Share of its moving steps against the traffic.
     pub wrong_way_share: Option<f64>,
-    /// Stretches off the road; `worst` in metres.
+    /// Stretches off the road but for those over a median; `worst` in metres.
     pub off_road: Vec<Stretch>,
-    /// Stretches against the traffic.
+    /// Stretches over a median; `worst` in metres.
+    pub over_median: Vec<Stretch>,
+    /// Stretches against the traffic; `worst` in metres driven.
     pub wrong_way: Vec<Stretch>,
     pub(super) offroad_steps: usize,
     pub(super) road_steps: usize,
@@ -36,6 +38,7 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     let (mut off, mut wrong) = (Vec::new(), Vec::new());
     let mut score = RoadScore::default();
     let mut farthest: Option<f64> = None;
+    let mut travelled_m = 0.0;
     for step in input.steps.clone() {
         let (Some(state), Some(outline)) = (actor.state(step), actor.outline(step)) else { continue };
         if let Some(outside_m) = input.drivable.box_outside_m(&outline) {
@@ -45,11 +48,12 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
                 off.push((step, outside_m));
             }
         }
+        travelled_m += state.speed_mps() * STEP_S;
         if state.speed_mps() > limits.moving_mps {
             score.moving_steps += 1;
             let forward = direction(state.heading_rad);
             if input.drivable.is_wrong_way(state.position(), forward) == Some(true) {
-                wrong.push((step, 0.0));
+                wrong.push((step, travelled_m));
             }
         }
     }
@@ -58,9 +62,29 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     score.offroad_max_m = farthest;
     score.offroad_share = share(off.len(), score.road_steps);
     score.wrong_way_share = share(wrong.len(), score.moving_steps);
-    score.off_road = stretches(actor.id, &off, true);
-    score.wrong_way = stretches(actor.id, &wrong, false);
+    let over_median = |s: &Stretch| is_over_median(input, actor, s);
+    (score.over_median, score.off_road) = stretches(actor, &off).into_iter().partition(over_median);
+    score.wrong_way = stretches(actor, &wrong);
+    // They hold how far had been driven by then.
+    for stretch in &mut score.wrong_way {
+        let before = |w: &&(usize, f64)| time_of(w.0 as f64) == stretch.time_s;
+        let begun_m = wrong.iter().find(before).map_or(0.0, |w| w.1);
+        stretch.worst = stretch.worst.map(|m| m - begun_m);
+    }
     score
+}
+
+/// What is driven over divides two roads: the edge is called a median, or the vehicle comes down on a lane
+/// that runs against it.
+fn is_over_median(input: &ScoreInput<'_>, actor: &Actor<'_>, stretch: &Stretch) -> bool {
+    let step = |time_s: f64| (time_s / STEP_S).round() as usize;
+    let place = Vec2::new(stretch.x_m, stretch.y_m);
+    if input.drivable.is_median(place, actor.size.length_m + stretch.worst.unwrap_or(0.0)) {
+        return true;
+    }
+    let (from, to) = (actor.state(step(stretch.time_s)), actor.state(step(stretch.until_s) + 2));
+    let (Some(from), Some(to)) = (from, to) else { return false };
+    input.drivable.is_wrong_way(to.position(), direction(from.heading_rad)) == Some(true)
 }
 
 #[cfg(test)]

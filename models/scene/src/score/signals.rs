@@ -16,7 +16,7 @@ const SAME_LANE_M: f64 = 0.3;
 const TELLING_M: f64 = 20.0;
 
 /// Stop line of a signal.
-struct StopLine<'a> {
+pub(crate) struct StopLine<'a> {
     signal: &'a Signal,
     line: Polyline,
     at: Pose,
@@ -31,18 +31,14 @@ struct StopLine<'a> {
 /// as a stop sign and is left out; a right turn after a stop is allowed when the thresholds say so.
 pub fn red_lights(input: &ScoreInput<'_>) -> Vec<RedLight> {
     let lines = stop_lines(input);
-    let mut found: Vec<RedLight> = Vec::new();
-    for actor in &input.actors {
-        let rides = matches!(actor.agent_type, AgentType::Vehicle | AgentType::Cyclist);
-        if !lines.is_empty() && rides && actor.travel_m(input.steps.clone()) > 1.0 {
-            found.extend(crossed_at_red(input, actor, &lines));
-        }
-    }
+    let mut found: Vec<RedLight> =
+        input.actors.iter().flat_map(|actor| crossed_at_red(input, actor, &lines)).collect();
     found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
     found
 }
 
-fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
+/// The stop lines of the input's signals.
+pub(crate) fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
     if input.signals.is_empty() {
         return Vec::new();
     }
@@ -71,7 +67,16 @@ struct Crossing<'a, 'b> {
     off_lane_m: f64,
 }
 
-fn crossed_at_red(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[StopLine<'_>]) -> Vec<RedLight> {
+/// Lines that one road user crosses at red.
+pub(crate) fn crossed_at_red(
+    input: &ScoreInput<'_>,
+    actor: &Actor<'_>,
+    lines: &[StopLine<'_>],
+) -> Vec<RedLight> {
+    let rides = matches!(actor.agent_type, AgentType::Vehicle | AgentType::Cyclist);
+    if lines.is_empty() || !rides || actor.travel_m(input.steps.clone()) <= 1.0 {
+        return Vec::new();
+    }
     let mut crossings: Vec<Crossing<'_, '_>> = Vec::new();
     for line in lines {
         for step in input.steps.clone() {
@@ -99,6 +104,7 @@ fn crossed_at_red(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[StopLine<'
                 lane: c.line.signal.lane.clone(),
                 time_s: time_of(c.step as f64 + c.part),
                 speed_mps: state.speed_mps(),
+                in_log: false,
             });
         }
     }

@@ -32,7 +32,7 @@ pub(super) struct Progress {
 #[derive(Default)]
 pub(super) struct Ledger {
     progress: BTreeMap<usize, Progress>,
-    samples: Vec<Sample>,
+    pub(super) samples: Vec<Sample>,
     resolved: BTreeMap<AgentId, Resolved>,
     pub(super) warnings: Vec<Warning>,
     pub(super) timings: Timings,
@@ -97,7 +97,7 @@ impl Ledger {
         request: &Request,
         world: &World<'_>,
         guesses: impl Iterator<Item = (usize, Guessed)>,
-    ) {
+    ) -> Sample {
         let progress = std::mem::take(&mut self.progress);
         if self.samples.is_empty() {
             self.resolve(request, world, &progress);
@@ -111,7 +111,7 @@ impl Ledger {
             }
             sample.agents.insert(request.scene.agents[i].id.clone(), futures);
         }
-        self.samples.push(sample);
+        sample
     }
 
     /// What became of everybody's conditions.

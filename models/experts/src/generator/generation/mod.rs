@@ -8,7 +8,9 @@
 mod ledger;
 mod roster;
 mod scenes;
+mod standing;
 mod targets;
+mod verdicts;
 
 use super::window::{Window, steps};
 use super::{Generator, KnownMap, report};
@@ -209,7 +211,12 @@ impl<'g> Generation<'g> {
 
     fn finish_sample(&mut self) -> Result<(), GenerateError> {
         let world = &self.windows.first.as_ref().ok_or_else(no_window)?.world;
-        self.ledger.finish_sample(&self.request, world, self.roster.guesses());
+        let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
+        if self.request.stages.judged {
+            verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+            standing::relate(&self.request, &self.map, &self.generator.workers, &mut sample);
+        }
+        self.ledger.samples.push(sample);
         Ok(())
     }
 

@@ -227,8 +227,7 @@ fn collect(entrants: Entrants<'_>, sites: &[Site<'_>], seed: u64) -> Result<Vec<
 
 fn site_outcomes(entrants: Entrants<'_>, site: &Site<'_>, seed: u64) -> Result<Vec<Outcome>> {
     let judged = entrants.judged;
-    let first =
-        |modes: Vec<Future>| (!modes.is_empty()).then_some((AgentFutures { chosen: 0, modes }, false));
+    let first = |modes: Vec<Future>| (!modes.is_empty()).then_some((AgentFutures::of(0, modes), false));
     let mut out = Vec::new();
     for (index, case) in site.cases.iter().enumerate() {
         let log = site.log(case);

@@ -46,7 +46,7 @@ impl<'a> Together<'a> {
             let Some(start) = agent.state_at(0) else { continue };
             let goal = if goals { joint_goal(site, i) } else { Goal::default() };
             let states = least_effort(agent, &start, &goal, goal.step_in_window(0.0));
-            modes.push(Future { probability: 1.0, anchor: None, first_step: 1, states });
+            modes.push(Future::bare(1.0, 1, states));
         }
         Ok(Self { site, futures: whom.into_iter().zip(futures).collect() })
     }

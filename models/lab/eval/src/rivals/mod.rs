@@ -69,7 +69,7 @@ impl Rival {
             Self::LaneDriver => Vec::new(),
         };
         let probability = 1.0 / all.len().max(1) as f64;
-        all.into_iter().map(|states| Future { probability, anchor: None, first_step: 1, states }).collect()
+        all.into_iter().map(|states| Future::bare(probability, 1, states)).collect()
     }
 }
 

@@ -113,11 +113,8 @@ impl Baseline {
 
 /// Points and scores as futures, the most probable first.
 fn decoded(start: &State, modes: &[Points; MODES], score: &[f32; MODES]) -> Vec<Future> {
-    let future = |(points, probability): (&Points, f32)| Future {
-        probability: f64::from(probability),
-        anchor: None,
-        first_step: 1,
-        states: curve::states(start, points),
+    let future = |(points, probability): (&Points, f32)| {
+        Future::bare(f64::from(probability), 1, curve::states(start, points))
     };
     let mut futures: Vec<Future> = modes.iter().zip(softmax(score)).map(future).collect();
     futures.swap(0, least(&score.map(|score| -score)));

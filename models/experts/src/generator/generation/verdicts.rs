@@ -1,0 +1,88 @@
+//! What is said about the futures of a finished sample: each is judged by the rules of a scene's score, against
+//! what the others are shown to do.
+
+use super::targets::due;
+use crate::generator::KnownMap;
+use crate::generator::workers::Workers;
+use crate::request::Request;
+use scene::judge::{Fault, Judge, Other, by_weight};
+use scene::score::Actor;
+use scene::{Agent, Future, STEP_S, Sample, Vec2};
+
+/// Whoever stays farther than this from all futures can meet none of them, metres: a long vehicle's half and as
+/// much for the near miss.
+const AWAY_M: f64 = 25.0;
+
+/// Writes down what is wrong with each future of a sample.
+pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample: &mut Sample) {
+    let scene = &request.scene;
+    let steps = request.start_step..request.start_step + request.horizon_steps + 1;
+    let judge = Judge::new(&scene.map, &scene.signals, &map.drivable, steps);
+    let ground = Ground::of(sample);
+    let others: Vec<Other<'_>> = scene
+        .agents
+        .iter()
+        .map(|agent| as_shown(request, sample, agent))
+        .filter(|actor| actor.track.states.iter().flatten().any(|s| ground.holds(s.position())))
+        .map(|actor| judge.other(actor))
+        .collect();
+    let futures: Vec<(usize, &Future)> = scene
+        .agents
+        .iter()
+        .enumerate()
+        .filter_map(|(i, agent)| Some((i, sample.agents.get(&agent.id)?)))
+        .flat_map(|(i, futures)| futures.modes.iter().map(move |future| (i, future)))
+        .collect();
+    let found = workers.map(&futures, |&(i, future)| {
+        let mut actor = Actor::of_future(&scene.agents[i], future, &[]);
+        let due_s = (request.start_step as isize + due(request, i)) as f64 * STEP_S;
+        actor.goal.time_s = actor.goal.time_s.or(Some(due_s));
+        let mut faults = judge.alone(&actor);
+        faults.extend(judge.among(&actor, others.iter()));
+        by_weight(&mut faults);
+        faults
+    });
+    let mut found: std::vec::IntoIter<Vec<Fault>> = found.into_iter();
+    for agent in &scene.agents {
+        let Some(futures) = sample.agents.get_mut(&agent.id) else { continue };
+        for (future, faults) in futures.modes.iter_mut().zip(found.by_ref()) {
+            future.about.faults = faults;
+        }
+    }
+}
+
+/// A road user with the motion that it is shown with: its future in the sample, the one that the scene keeps, or
+/// its log.
+pub(super) fn as_shown<'a>(request: &'a Request, sample: &Sample, agent: &'a Agent) -> Actor<'a> {
+    let new = sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen));
+    let kept = || request.scene.generated.as_ref()?.chosen_future(&agent.id);
+    match new.or_else(kept) {
+        Some(future) => Actor::of_future(agent, future, &[]),
+        None => Actor::of_log(agent),
+    }
+}
+
+/// Upright rectangle about all futures of a sample.
+struct Ground {
+    low: Vec2,
+    high: Vec2,
+}
+
+impl Ground {
+    fn of(sample: &Sample) -> Self {
+        let mut ground = Self { low: Vec2::repeat(f64::INFINITY), high: Vec2::repeat(f64::NEG_INFINITY) };
+        for future in sample.agents.values().flat_map(|f| &f.modes) {
+            for place in future.states.iter().map(scene::State::position) {
+                ground.low = ground.low.inf(&place);
+                ground.high = ground.high.sup(&place);
+            }
+        }
+        let away = Vec2::repeat(AWAY_M);
+        Self { low: ground.low - away, high: ground.high + away }
+    }
+
+    fn holds(&self, place: Vec2) -> bool {
+        let (low, high) = (self.low, self.high);
+        (low.x..=high.x).contains(&place.x) && (low.y..=high.y).contains(&place.y)
+    }
+}

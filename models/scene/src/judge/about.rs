@@ -1,0 +1,148 @@
+//! What is said about a future: what is wrong with it, how it stands to others, what it does, why it was
+//! taken. These are the members of the API's modes.
+
+use crate::AgentId;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What can be wrong with a motion, the worst first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FaultKind {
+    /// Its box meets another's; `extent` is the closing speed, m/s.
+    Collision,
+    /// A stop line is crossed at red; `extent` is the speed, m/s.
+    RedLight,
+    /// Against the direction of every lane there; `extent` is how far, metres.
+    WrongWay,
+    /// Over what divides two roads; `extent` is how far past the edge, metres.
+    OverMedian,
+    /// Over a kerb or away from the road; `extent` is how far past the edge, metres.
+    OffRoad,
+    /// Braking; `extent` in m/s2.
+    HarshBraking,
+    /// Turning; `extent` is the acceleration sideways, m/s2.
+    HarshSteering,
+    /// Another is met all but; `extent` is the gap, metres.
+    NearMiss,
+    /// The goal is not met; `extent` is what is left, metres.
+    GoalMissed,
+}
+
+/// One thing that is wrong with a motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fault {
+    /// What.
+    pub kind: FaultKind,
+    /// Scene time at which it begins, seconds.
+    pub time_s: f64,
+    /// Scene time at which it ends, seconds.
+    pub until_s: f64,
+    /// Box centre where it is worst, metres.
+    pub x_m: f64,
+    /// Box centre where it is worst, metres.
+    pub y_m: f64,
+    /// How bad, in the unit of its kind.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extent: Option<f64>,
+    /// The other road user.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with: Option<AgentId>,
+}
+
+/// How a motion stands to another's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RelationKind {
+    /// Their paths cross, and this one is there first.
+    Before,
+    /// Their paths cross, and this one is there second.
+    After,
+    /// Behind the other on the same way.
+    Follows,
+    /// Slows down or waits where their paths cross, so that the other goes first.
+    GivesWayTo,
+}
+
+/// A motion and another's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Relation {
+    /// Which.
+    pub kind: RelationKind,
+    /// The other road user.
+    pub with: AgentId,
+    /// Scene time at which this one is there, seconds.
+    pub time_s: f64,
+    /// Where, metres.
+    pub x_m: f64,
+    /// Where, metres.
+    pub y_m: f64,
+    /// Time between the two at that place, seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap_s: Option<f64>,
+}
+
+/// What a motion does, by its shape and the lanes that it takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Manoeuvre {
+    Straight,
+    Left,
+    Right,
+    TurnRound,
+    LaneLeft,
+    LaneRight,
+    Stays,
+    Reverse,
+}
+
+/// What is said about one future.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct About {
+    /// What is wrong with it, the worst first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub faults: Vec<Fault>,
+    /// How it stands to others, the nearest in time first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub relations: Vec<Relation>,
+    /// What it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub manoeuvre: Option<Manoeuvre>,
+}
+
+/// How a road user answers another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ReactionKind {
+    /// Comes to rest.
+    Waits,
+    /// Is slower.
+    Slows,
+    /// Is faster.
+    SpeedsUp,
+    /// Takes another line.
+    KeepsClear,
+}
+
+/// Why a road user gave up the motion that it had.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reaction {
+    /// How it answers.
+    pub kind: ReactionKind,
+    /// Whom it answers: the road user that its own motion would have met.
+    pub cause: AgentId,
+    /// How much later than without it, seconds; negative for earlier.
+    pub delay_s: f64,
+    /// Scene time at which it waits or is slowest, seconds.
+    pub time_s: f64,
+    /// Where then, metres.
+    pub x_m: f64,
+    /// Where then, metres.
+    pub y_m: f64,
+    /// Speed then, m/s.
+    pub speed_mps: f64,
+}

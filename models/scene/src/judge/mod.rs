@@ -1,0 +1,172 @@
+//! What a traffic engineer says of a motion: every future is judged by the same rules as a scene's score, each
+//! fault with its time, place and extent.
+
+mod about;
+mod manoeuvre;
+mod relations;
+
+pub use about::{About, Fault, FaultKind, Manoeuvre, Reaction, ReactionKind, Relation, RelationKind};
+pub use manoeuvre::manoeuvre;
+pub use relations::{Ground, Trace, crossing, relations};
+
+use crate::score::goal::goal_error;
+use crate::score::kinematic::{harsh_braking, harsh_steering};
+use crate::score::pairs::{Meeting, Mover};
+use crate::score::report::{RedLight, Stretch};
+use crate::score::road::score_road;
+use crate::score::signals::{StopLine, crossed_at_red, stop_lines};
+use crate::score::{Actor, Drivable, Exclude, PairChoice, ScoreInput, Thresholds};
+use crate::{LaneMap, STEP_S, Signal, State};
+use std::ops::Range;
+
+/// A wheel that touches the kerb is no event: metres past the edge.
+const PAST_EDGE_M: f64 = 0.15;
+/// Shorter stretches off the road are touches, metres driven.
+const TOUCH_M: f64 = 0.3;
+/// Shorter stretches against the traffic are turns across it, metres driven.
+const WRONG_WAY_M: f64 = 4.0;
+/// Shorter braking and steering is a jerk of the wheel or of the record, seconds.
+const HARSH_S: f64 = 0.2;
+
+/// The rules of one scene over a stretch of time. Cheap to make; judges any number of motions.
+pub struct Judge<'a> {
+    /// Nobody is in it: the map, the time and the thresholds.
+    input: ScoreInput<'a>,
+    lines: Vec<StopLine<'a>>,
+}
+
+/// Somebody else with the motion that one may meet.
+pub struct Other<'a> {
+    actor: Actor<'a>,
+    mover: Mover,
+}
+
+impl<'a> Judge<'a> {
+    /// `steps` are the scene steps that are looked at, the start of the motions first.
+    pub fn new(map: &'a LaneMap, signals: &'a [Signal], drivable: &'a Drivable, steps: Range<usize>) -> Self {
+        let input = ScoreInput {
+            actors: Vec::new(),
+            map,
+            signals,
+            drivable,
+            steps,
+            pairs: PairChoice::All,
+            exclude: Exclude::OverlapAtStart,
+            thresholds: Thresholds { offroad_m: PAST_EDGE_M, ..Thresholds::default() },
+        };
+        Self { lines: stop_lines(&input), input }
+    }
+
+    /// Somebody to meet.
+    pub fn other(&self, actor: Actor<'a>) -> Other<'a> {
+        let mover = Mover::new(&actor, self.input.steps.clone());
+        Other { actor, mover }
+    }
+
+    /// What is wrong with a motion whoever else is there: road, lights, brakes, steering, goal.
+    pub fn alone(&self, actor: &Actor<'_>) -> Vec<Fault> {
+        let mut found = Vec::new();
+        let road = score_road(&self.input, actor);
+        let mut add = |kind, stretches: Vec<Stretch>, keeps: &dyn Fn(&Stretch) -> bool| {
+            found.extend(stretches.into_iter().filter(|s| keeps(s)).map(|s| fault(kind, s)));
+        };
+        // Who starts off the road or against the traffic was put there.
+        let first_s = self.input.steps.start as f64 * STEP_S;
+        let entered = |s: &Stretch| s.time_s > first_s + 1e-6;
+        let driven = |s: &Stretch| entered(s) && self.driven_m(actor, s) >= TOUCH_M;
+        add(FaultKind::OffRoad, road.off_road, &driven);
+        add(FaultKind::OverMedian, road.over_median, &driven);
+        let against = |s: &Stretch| entered(s) && s.worst.unwrap_or(0.0) >= WRONG_WAY_M;
+        add(FaultKind::WrongWay, road.wrong_way, &against);
+        let lasting = |s: &Stretch| s.until_s - s.time_s >= HARSH_S - 1e-6;
+        add(FaultKind::HarshBraking, harsh_braking(actor, &self.input), &lasting);
+        add(FaultKind::HarshSteering, harsh_steering(actor, &self.input), &lasting);
+        found.extend(crossed_at_red(&self.input, actor, &self.lines).into_iter().map(|r| at_red(actor, r)));
+        found.extend(self.goal_missed(actor));
+        found
+    }
+
+    /// There are signals to obey.
+    pub fn has_lights(&self) -> bool {
+        !self.lines.is_empty()
+    }
+
+    /// A motion crosses a stop line at red.
+    pub fn runs_red(&self, actor: &Actor<'_>) -> bool {
+        !crossed_at_red(&self.input, actor, &self.lines).is_empty()
+    }
+
+    /// Whom a motion meets, or all but.
+    pub fn among<'o>(&self, actor: &Actor<'_>, others: impl Iterator<Item = &'o Other<'a>>) -> Vec<Fault>
+    where
+        'a: 'o,
+    {
+        let mover = Mover::new(actor, self.input.steps.clone());
+        let meets = |other: &Other<'_>| {
+            let met = Meeting::between(&self.input, (actor, &mover), (&other.actor, &other.mover))?;
+            let (kind, time_s, extent) = match met {
+                Meeting::Collision { time_s, closing_speed_mps, .. } => {
+                    (FaultKind::Collision, time_s, closing_speed_mps)
+                }
+                Meeting::Near { time_s, distance_m, .. } => {
+                    (FaultKind::NearMiss, time_s, distance_m.max(0.0))
+                }
+            };
+            let state = near(actor, time_s)?;
+            let with = Some(other.actor.id.to_owned());
+            Some(Fault { with, ..new(kind, (time_s, time_s), state, Some(extent)) })
+        };
+        others.filter(|o| o.actor.id != actor.id).filter_map(meets).collect()
+    }
+
+    /// Metres driven in a stretch, a step before it counted: who leaves a kerb at once has touched it.
+    fn driven_m(&self, actor: &Actor<'_>, stretch: &Stretch) -> f64 {
+        let steps = step(stretch.time_s).saturating_sub(1)..step(stretch.until_s);
+        steps.filter_map(|i| actor.state(i)).map(|s| s.speed_mps() * STEP_S).sum()
+    }
+
+    fn goal_missed(&self, actor: &Actor<'_>) -> Option<Fault> {
+        let error = goal_error(actor)?;
+        if error.is_reached(&self.input.thresholds) {
+            return None;
+        }
+        let due_s = actor.goal.time_s.unwrap_or(f64::INFINITY);
+        let time_s = due_s.min(self.input.steps.end.saturating_sub(1) as f64 * STEP_S);
+        let state = near(actor, time_s)?;
+        Some(new(FaultKind::GoalMissed, (time_s, time_s), state, error.position_m))
+    }
+}
+
+/// The worst first, then by time: the order of [`About::faults`].
+pub fn by_weight(faults: &mut [Fault]) {
+    faults.sort_by(|a, b| a.kind.cmp(&b.kind).then(a.time_s.total_cmp(&b.time_s)));
+}
+
+fn step(time_s: f64) -> usize {
+    (time_s / STEP_S).round().max(0.0) as usize
+}
+
+fn near<'s>(actor: &'s Actor<'_>, time_s: f64) -> Option<&'s State> {
+    actor.state(step(time_s)).or_else(|| actor.state(actor.track.last_valid_step()?))
+}
+
+fn new(kind: FaultKind, (time_s, until_s): (f64, f64), state: &State, extent: Option<f64>) -> Fault {
+    let place = state.position();
+    let extent = extent.map(rounded);
+    Fault { kind, time_s, until_s, x_m: rounded(place.x), y_m: rounded(place.y), extent, with: None }
+}
+
+fn fault(kind: FaultKind, stretch: Stretch) -> Fault {
+    let place = State { x_m: stretch.x_m, y_m: stretch.y_m, ..State::default() };
+    new(kind, (stretch.time_s, stretch.until_s), &place, stretch.worst)
+}
+
+fn at_red(actor: &Actor<'_>, found: RedLight) -> Fault {
+    let state = near(actor, found.time_s).copied().unwrap_or_default();
+    new(FaultKind::RedLight, (found.time_s, found.time_s), &state, Some(found.speed_mps))
+}
+
+/// To a millimetre, as coordinates are written.
+fn rounded(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}
