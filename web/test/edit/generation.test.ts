@@ -4,7 +4,7 @@ import { clearGoal, setGoal, setOthers } from '../../src/model/commands';
 import type { Editor } from '../../src/edit/editor';
 import type { Generation } from '../../src/edit/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
-import type { AgentFuturesJson, ModeJson } from '../../src/model/json';
+import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
 import { judged } from '../standin/judged.mjs';
 import { draftOf, finalOf, json, Session, six as modes, type InMemoryGenerator } from './session';
 
@@ -122,6 +122,9 @@ describe('a drag', () => {
     generation.preview('2');
     expect(generator.last.scene()).toEqual(first);
     expect((generator.last.scene() as { scene: unknown }).scene).toBe((first as { scene: unknown }).scene);
+    // Of those that go another way than recorded it says the one way they go.
+    const { generated } = (first as { scene: SceneJson }).scene;
+    expect(generated?.samples[0].agents['1']).toMatchObject({ chosen: 0, modes: [{ probability: 0.41 }] });
   });
 });
 
