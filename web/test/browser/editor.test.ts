@@ -53,6 +53,26 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(d.server.log.slice(asked).filter((l) => l.react)).toEqual([]);
   });
 
+  it('shows who would change while the hand moves, and takes that over on release', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    const [x, y] = await d.at(...(await d.goal()));
+    await d.drag([x + 8, y - 26], [x + 8, y - 120]);
+    await d.settled();
+    expect(await d.text('.foreseen h3')).toMatch(/^\d others would change\s+if you let go now$/);
+    const causes = await d.page.locator('.foreseen .ch').allInnerTexts();
+    for (const c of causes) expect(c).toMatch(/^\w+ \d+\s+\S.* Car 1$/);
+    await d.key('h');
+    await expect.poll(() => d.text('.helpbar')).toContain('show the others’ answers');
+    await d.key('h');
+    await expect.poll(() => d.text('.helpbar')).toContain('hide the others’ answers');
+    const asked = d.server.log.filter((l) => l.react).length;
+    await d.release();
+    expect(d.server.log.filter((l) => l.react).length).toBe(asked);
+    expect(await d.page.locator('.foreseen').count()).toBe(0);
+    expect(await d.page.locator('.ch').allInnerTexts()).toEqual(causes);
+  });
+
   it('puts everything back on Esc, without an undo step', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');

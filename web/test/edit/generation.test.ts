@@ -1,75 +1,12 @@
 // What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { clearGoal, setGoal, setOthers } from '../../src/model/commands';
-import { Editor } from '../../src/edit/editor';
-import { Generation } from '../../src/edit/generation';
-import { SceneFile } from '../../src/edit/scene-file';
-import { SceneList } from '../../src/edit/scene-list';
-import { Saving } from '../../src/edit/saving';
-import { Client } from '../../src/net/client';
-import type { Generator, Question, SceneRef, Trajectories } from '../../src/net/generator';
-import type { DraftEvent, FinalEvent, ScoreReply } from '../../src/net/types';
-import { isMapRef, type MapJson } from '../../src/model/json';
-import { readScene } from '../../src/model/read';
-import { crossingJson } from '../helpers';
-import type { AgentFuturesJson, ModeJson } from '../../src/model/json';
-import { sixFutures } from '../standin/futures.mjs';
+import type { Editor } from '../../src/edit/editor';
+import type { Generation } from '../../src/edit/generation';
+import type { DraftEvent, FinalEvent } from '../../src/net/types';
+import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
 import { judged } from '../standin/judged.mjs';
-
-/** A score in which nothing happens; of the rest the editor reads nothing. */
-const uneventful = {
-  scene: { collisions: [], near_misses: [], min_ttc_s: null, offroad_share: null },
-} as unknown as ScoreReply;
-
-/** Keeps the questions; the test answers them when it likes. */
-class InMemoryGenerator implements Generator {
-  readonly asked: Question[] = [];
-  readonly scored: { scene: SceneRef; ids: string[] }[] = [];
-  cancelled = 0;
-  there = true;
-
-  ask(q: Question): void {
-    this.asked.push(q);
-  }
-
-  cancel(): void {
-    this.cancelled++;
-  }
-
-  async score(scene: SceneRef, trajectories: Trajectories): Promise<ScoreReply> {
-    this.scored.push({ scene, ids: Object.keys(trajectories) });
-    return uneventful;
-  }
-
-  answers(): Promise<boolean> {
-    return Promise.resolve(this.there);
-  }
-
-  get last(): Question {
-    return this.asked.at(-1)!;
-  }
-}
-
-const json = crossingJson();
-const modes = (id: string) => ({
-  chosen: 0,
-  modes: sixFutures(
-    json.agents.find((a) => a.id === id)!,
-    undefined,
-    5,
-    5,
-  ),
-});
-const draftOf = (...ids: string[]) =>
-  ({ event: 'step', window: 0, agents: Object.fromEntries(ids.map((id) => [id, modes(id)])) }) as unknown as DraftEvent;
-const finalOf = (...ids: string[]) =>
-  ({
-    event: 'final',
-    samples: [{ agents: Object.fromEntries(ids.map((id) => [id, modes(id)])) }],
-    resolved: {},
-    scores: [uneventful],
-    warnings: [],
-  }) as unknown as FinalEvent;
+import { draftOf, finalOf, json, Session, six as modes, type InMemoryGenerator } from './session';
 
 let editor: Editor;
 let generator: InMemoryGenerator;
@@ -78,15 +15,7 @@ let generation: Generation;
 
 beforeEach(() => {
   vi.useFakeTimers();
-  editor = new Editor();
-  generator = new InMemoryGenerator();
-  const file = new SceneFile(editor);
-  const client = new Client('', () => Promise.reject(new Error('nothing is fetched here')));
-  const saving = new Saving(editor, file, new SceneList(client), client);
-  others = new InMemoryGenerator();
-  generation = new Generation(editor, file, saving, generator, others);
-  file.adopt(json, isMapRef(json.map) ? ({} as MapJson) : json.map, true);
-  editor.open(readScene(json));
+  ({ editor, generator, others, generation } = new Session());
 });
 
 const rest = () => vi.advanceTimersByTime(100);
@@ -193,6 +122,9 @@ describe('a drag', () => {
     generation.preview('2');
     expect(generator.last.scene()).toEqual(first);
     expect((generator.last.scene() as { scene: unknown }).scene).toBe((first as { scene: unknown }).scene);
+    // Of those that go another way than recorded it says the one way they go.
+    const { generated } = (first as { scene: SceneJson }).scene;
+    expect(generated?.samples[0].agents['1']).toMatchObject({ chosen: 0, modes: [{ probability: 0.41 }] });
   });
 });
 
@@ -276,17 +208,18 @@ describe('what is shown of a drag', () => {
     expect(editor.answers.remark.peek()).toBeNull();
   });
 
-  it('is taken over from what was foreseen, ranked and explained', () => {
+  it('is taken over from what was foreseen, ranked and explained', async () => {
     editor.run(setOthers('react'));
     rest();
     dragTo(10);
     generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
     generator.last.on.final(final(sent('BACDEF', 0)), 12);
+    await Promise.resolve();
     expect(others.last.options).toMatchObject({ react: true, shown: { '1': { anchor: 1 } } });
     others.last.on.final(final(sent('FBACDE', 2)), 20);
     editor.endDrag(goal(10));
     rest();
     expect(anchors()).toEqual([5, 1, 0, 2, 3, 4]);
-    expect(editor.answers.remark.peek()?.words).toBe('C is shown, not B.');
+    expect(editor.answers.remark.peek()?.words).toBe('C is shown; it was B in the drag.');
   });
 });

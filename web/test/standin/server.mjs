@@ -8,10 +8,12 @@ import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { buildCrossing } from './crossing.mjs';
-import { giveWay, goOn, sixFutures } from './futures.mjs';
+import { giveWay, goOn, reactionTo, sixFutures } from './futures.mjs';
 import { byRoad, judged } from './judged.mjs';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
+/** Seconds that every fifth of the others loses. */
+const LATE_S = 2.2;
 const CSP = [
   "default-src 'none'",
   "script-src 'self'",
@@ -170,9 +172,14 @@ export function startStandIn(options = {}) {
       }
     const agents = drafts(b.steps);
     reacting.forEach((a, i) => {
-      agents[a.id] = b.conditions?.[a.id]?.goal
-        ? { chosen: 0, modes: sixFutures(a, b.conditions[a.id], b.steps, b.steps) }
-        : { chosen: 0, modes: [giveWay(a, i % 5 === 0 ? 2.2 : 0)] };
+      if (b.conditions?.[a.id]?.goal) {
+        agents[a.id] = { chosen: 0, modes: sixFutures(a, b.conditions[a.id], b.steps, b.steps) };
+        return;
+      }
+      const late = i % 5 === 0 ? LATE_S : 0;
+      const mode = giveWay(a, late);
+      agents[a.id] = { chosen: 0, modes: [mode] };
+      if (late && wanted.length) agents[a.id].reaction = reactionTo(wanted[0].id, mode, late);
     });
     if (horizon > 9) for (const f of Object.values(agents)) goOn(f.modes[f.chosen], Math.round(horizon * 10));
     const resolved = {};
