@@ -8,7 +8,7 @@ import { emptyMotion, percents, readFutures, withNames, type Futures, type Motio
 import type { Naming } from '../src/model/names';
 import { readGenerated, readScene } from '../src/model/read';
 import { nameIn, startPose } from '../src/model/scene';
-import { headline, placeWord, whyAnother, type Walker } from '../src/model/verdict-words';
+import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/verdict-words';
 import { generatedJson, writeScene } from '../src/model/write';
 import { FrozenNames } from '../src/edit/frozen-names';
 import { outcome } from '../src/edit/report';
@@ -76,6 +76,7 @@ describe('verdicts', () => {
     const word = (f: FaultJson) => placeWord(readAbout({ faults: [f] })!.faults[0], nameOf);
     expect(word(fault('collision', { with: '2' }))).toBe('hits Car 2');
     expect(word(fault('near_miss', { with: '14', extent: 0.5 }))).toBe('0.5 m to Cyclist 14');
+    expect(word(fault('near_miss', { with: '14', extent: 15.5 }))).toBe('close call with Cyclist 14');
     expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6 m/s²');
     expect(word(fault('goal_missed', { extent: 14.2 }))).toBe('14 m short');
     expect(['over_median', 'off_road', 'wrong_way', 'red_light'].map((k) => word(fault(k as never)))).toEqual([
@@ -145,12 +146,19 @@ describe('verdicts', () => {
 
 describe('places', () => {
   it('share a word where futures break the same rule within 8 m', () => {
-    const at = (x: number) => mode({ faults: [fault('over_median', { x_m: x, extent: 0.1 * x })] });
+    const at = (x: number, time = 0) =>
+      mode({
+        speed: 0,
+        faults: [
+          fault('over_median', { x_m: start.x + x, y_m: start.y, extent: 0.1 * x, time_s: time, until_s: time }),
+        ],
+        x_m: Array.from({ length: 90 }, () => start.x + x),
+      });
     const f = futures([at(0), at(6), at(12), at(40)]);
     const places = faultPlaces(f, [0, 1, 2, 3], 1);
     expect(places.map((p) => p.futures)).toEqual([[0, 1, 2], [3]]);
     // The place of the shown one, the figure of the worst.
-    expect(places[0].fault).toMatchObject({ at: [6, 0], extent: expect.closeTo(1.2) });
+    expect(places[0].fault).toMatchObject({ at: [start.x + 6, start.y], extent: expect.closeTo(1.2) });
   });
 
   it('are one for each rule and each other, the shown future first', () => {
@@ -220,7 +228,8 @@ describe('names', () => {
     );
     expect(new Set(list).size).toBe(6);
     expect(list[0]).toBe('Waits for Pedestrian 17');
-    expect(list.slice(1, 4).map((n) => n.split(', ')[1])).toEqual(['slower', 'faster', 'more left']);
+    // Where the difference has no room beside the other's name, something else is said.
+    expect(list.slice(1, 4)).toEqual(['Lets Ped. 17 go, slower', 'Lets Ped. 17 go, faster', 'Straight on']);
     for (const n of list) {
       expect(n.length).toBeLessThanOrEqual(24);
       expect(n).not.toMatch(/\d m\b|almost/);
@@ -291,9 +300,10 @@ describe('letters and shares', () => {
 
   it('say why another is shown than the one before', () => {
     const f = six(true);
+    expect([whyNot(f, 0, 2, nameOf), whyNot(f, 1, 2, nameOf)]).toEqual(['C is shown: A hits Car 2', null]);
     expect(whyAnother(f, 0, 2, nameOf)).toBe('C is shown: A hits Car 2');
     expect(whyAnother(f, 1, 4, nameOf)).toBe('E is shown: B goes over the median');
-    expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: it is likelier than C now');
+    expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: it is likelier than C');
     expect(whyAnother(f, -1, 0, nameOf)).toBe('A is shown: the one before is not among these');
     expect(whyAnother(f, 3, 3, nameOf)).toBeNull();
   });

@@ -12,7 +12,7 @@ import { paintChips, paintFutures, polyline, trail, type Chip } from '../draw/st
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-import { outOfReach } from './goal-verdict';
+import { outOfReach, verdictsHold } from './goal-verdict';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
@@ -204,7 +204,7 @@ export class Overlay {
   /** Those whose verdicts are shown: of futures from before a change nothing is said. */
   private judged(a: Agent, f: Futures): readonly number[] {
     const { editor: e } = this;
-    if (f.sketch || e.outdated.value) return [];
+    if (!verdictsHold(e)) return [];
     const only = e.hoverFuture.value ?? (this.committed(a) ? e.chosen.value : null);
     if (only !== null) return only < f.modes.length ? [only] : [];
     return f.modes.map((_, i) => i);

@@ -16,7 +16,7 @@ import type { Naming } from '../model/names';
 import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
 import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
-import { whyAnother } from '../model/verdict-words';
+import { whyAnother, whyNot } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
@@ -39,12 +39,6 @@ export interface Hooks {
 const TRAILS = 3;
 
 type Keep = (a: Agent) => KeepOrder;
-
-/** A road user and the idea that was bold. */
-interface Bold {
-  readonly id: string;
-  readonly idea: string;
-}
 
 const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
 
@@ -84,7 +78,7 @@ export class Reception {
         hooks.answered();
         if (w.step) {
           this.#finalOfChange(scene, e, w, w.step, ms, atRest);
-          this.#sayWhyAnother(scene, bold);
+          this.#sayWhyAnother(scene, subject, bold);
         } else this.#finalOfLook(scene, e, w.agents[0], ms, editor.dragging.peek() ? keep : atRest);
       },
       refused: (p) => {
@@ -118,21 +112,22 @@ export class Reception {
   }
 
   /** Which idea is bold as the hand lets go; null where no drag left one. */
-  #boldOf(id: string): Bold | null {
+  #boldOf(id: string): string | null {
     const { editor } = this;
     const d = editor.draft.peek();
     const a = editor.scene.peek()?.agents.get(id);
     if (d?.id !== id || d.futures.sketch || !a || a.chosen !== null) return null;
-    return { id, idea: ideas(d.futures.modes)[d.futures.chosen] };
+    return ideas(d.futures.modes)[d.futures.chosen];
   }
 
-  /** The bold one is another than in the drag: one sentence says why. */
-  #sayWhyAnother(scene: Scene, bold: Bold | null): void {
+  /** The bold one is another than in the drag, or not the likeliest: one sentence says why. */
+  #sayWhyAnother(scene: Scene, id: string | null, bold: string | null): void {
     const { editor } = this;
-    const f = bold && editor.motion.peek().futures.get(bold.id);
-    if (!bold || !f || editor.motion.peek().stale) return;
-    const why = whyAnother(f, ideas(f.modes).indexOf(bold.idea), f.chosen, nameIn(scene));
-    editor.answers.explain(why === null ? null : { id: bold.id, words: `${why}.` });
+    const f = id !== null && editor.motion.peek().futures.get(id);
+    if (!f || editor.motion.peek().stale || scene.agents.get(id)!.chosen !== null) return;
+    const was = bold === null ? 0 : ideas(f.modes).indexOf(bold);
+    const why = (bold === null ? whyNot : whyAnother)(f, was, f.chosen, nameIn(scene));
+    editor.answers.explain(why === null ? null : { id, words: `${why}.` });
     if (why) editor.notices.say(`${why}.`);
   }
 
@@ -200,7 +195,7 @@ export class Reception {
     this.hooks.answered();
     const bold = step.agent ? this.#boldOf(step.agent) : null;
     this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersAtRest(a));
-    this.#sayWhyAnother(scene, bold);
+    this.#sayWhyAnother(scene, step.agent, bold);
   }
 
   /** Those that were asked something are no others, also when only the mode of the others was changed. */

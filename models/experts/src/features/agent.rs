@@ -9,9 +9,14 @@ use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
 use crate::planning::lights::{Gate, gates};
 use crate::planning::world::{AgentAtStart, World};
-use scene::Vec2;
-use scene::motion::{Kind, MotionModel, Target};
-use scene::wrap_angle;
+use scene::geometry::obb::OrientedBox;
+use scene::motion::{MotionModel, Target};
+use scene::score::Drivable;
+use scene::{AgentType, Vec2, wrap_angle};
+use std::sync::Arc;
+
+/// So far beyond the road's edge a corner still counts as on the road, metres.
+pub const BEYOND_M: f64 = 0.1;
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
@@ -31,6 +36,8 @@ pub struct AgentPlan {
     pub lane_headings: [Option<f64>; MODES],
     /// How those who stand set off towards a goal, m/s2.
     pub easy_mps2: f64,
+    /// Where vehicles may drive; `None` for who does not start there or is no vehicle.
+    pub ground: Option<Arc<Drivable>>,
     /// For the networks.
     pub features: AgentFeatures,
     /// Motions are projected onto the goal: see [`Planning::projection`](crate::planning::world::Planning).
@@ -68,28 +75,52 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         encoded[slot] = encode::anchor(&frame, anchor, &facts, slot);
         last = Some((path_identity, facts));
     }
-    let lane_headings = lane_headings(world, who, &model, &target, &anchors);
+    let lane_headings = lane_headings(world, who, &target, &anchors);
     let features = AgentFeatures {
         own: encode::own(world, who, &model, &target, &frame),
         neighbours: encode::neighbours(world, who, &frame),
         anchors: encoded,
-        tangent: Box::new(tangent(&target)),
+        // What is learned leaves an end along the lane alone too.
+        tangent: Box::new(tangent(&Target {
+            heading_rad: target.heading_rad.or(lane_headings[0]),
+            ..target
+        })),
     };
     let projected = world.planning.projection;
     let easy_mps2 = world.tuning.anchors.setting_off_mps2;
     let present = who.clone();
-    AgentPlan { present, model, target, anchors, lights, lane_headings, easy_mps2, features, projected }
+    let ground = ground(world, who);
+    AgentPlan {
+        present,
+        model,
+        target,
+        anchors,
+        lights,
+        lane_headings,
+        easy_mps2,
+        ground,
+        features,
+        projected,
+    }
+}
+
+/// See [`AgentPlan::ground`].
+fn ground(world: &World<'_>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
+    let outline = OrientedBox::of_state(&who.start, &who.size);
+    let ground = world.graph.ground();
+    let starts_there = ground.box_outside_m(&outline).is_some_and(|outside_m| outside_m <= BEYOND_M);
+    (who.agent_type == AgentType::Vehicle && starts_there).then(|| ground.clone())
 }
 
 /// See [`AgentPlan::lane_headings`].
 fn lane_headings(
     world: &World<'_>,
     who: &AgentAtStart,
-    model: &MotionModel,
     target: &Target,
     anchors: &[Anchor],
 ) -> [Option<f64>; MODES] {
-    let (Some(goal), None, Kind::Drive) = (target.position, target.heading_rad, model.kind) else {
+    // Riders go on and off lanes as they like.
+    let (Some(goal), None, AgentType::Vehicle) = (target.position, target.heading_rad, who.agent_type) else {
         return [None; MODES];
     };
     let under = lanes_under(world, who, goal);

@@ -7,7 +7,7 @@
 
 use super::actor::Actor;
 use super::candidates::middle;
-use super::ideas::{Sketch, ladder};
+use super::ideas::{HURRY, Sketch, ladder};
 use super::slot::Slot;
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::DuplicateTuning;
@@ -164,8 +164,8 @@ impl<'a> Covering<'a> {
         let tries = ladder(&self.actor.plan, i % 2 == 1).into_iter().map(|offset| from.with(&offset));
         tries
             .filter(|made| !waits || made.way_m() <= from.way_m())
-            .filter(|made| self.accepted.iter().all(|j| made.apart_m(&self.sketches[*j]) > 1.2 * copy_m))
-            .find(|made| made.is_usual(from) && self.is_free(from, made))
+            .filter(|made| self.accepted.iter().all(|j| made.apart_m(&self.sketches[*j]) > 1.05 * copy_m))
+            .find(|made| made.is_usual(from, HURRY) && self.is_free(from, made))
     }
 
     /// It meets nobody that the draft it was made from does not meet.
@@ -195,5 +195,97 @@ impl<'a> Covering<'a> {
             *p = if made(i) { self.tuning.probability } else { *p * left / rest.max(1e-12) };
         }
         self.cover.probability = probability;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use crate::planning::INSTANTS;
+    use crate::tuning::SHIPPED;
+    use scene::geometry::direction;
+    use scene::{AgentType, Goal, Size, State, Subtype, Vec2};
+
+    fn driver(speed_mps: f64, goal_m: Option<f64>) -> Actor {
+        let position = goal_m.map(|x| Vec2::new(x, 0.0));
+        let mut actor =
+            Actor::new("1".into(), car_on_a_street(speed_mps, Goal { position, ..Goal::default() }), None);
+        // All do what the first does.
+        let first = actor.plan.anchors[0].clone();
+        actor.plan.anchors.iter_mut().for_each(|anchor| *anchor = first.clone());
+        actor
+    }
+
+    /// Over the street at x = 40, there after so many seconds.
+    fn crossing_at(passes_s: f64) -> Trace {
+        let size = Size::default_for(AgentType::Vehicle, Subtype::Car);
+        let at = |step: usize| {
+            let v = direction(std::f64::consts::FRAC_PI_2) * 9.0;
+            let y_m = 9.0 * (0.1 * (step + 1) as f64 - passes_s);
+            let heading_rad = std::f64::consts::FRAC_PI_2;
+            Some(State { x_m: 40.0, y_m, heading_rad, vx_mps: v.x, vy_mps: v.y })
+        };
+        Trace::new("7", AgentType::Vehicle, &size, 90, at)
+    }
+
+    fn shown<'a>(actor: &'a Actor, cover: &Cover) -> Vec<Sketch<'a>> {
+        let offset = |slot: Slot| *slot.of(&cover.offset);
+        Slot::all().map(|slot| Sketch::of(actor, slot, &offset(slot))).collect()
+    }
+
+    fn nearest_m(all: &[Sketch<'_>]) -> f64 {
+        let pairs = (0..all.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.map(|(a, b)| all[a].apart_m(&all[b])).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn six_alike_become_six_that_keep_the_goal() {
+        let actor = driver(9.0, Some(80.0));
+        let cover = Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates);
+        let all = shown(&actor, &cover);
+        assert!(nearest_m(&all) > SHIPPED.duplicates.copy_with_goal_m, "{}", nearest_m(&all));
+        assert_eq!(cover.offset[0], [0.0; RESIDUAL], "the best guess stays");
+        for sketch in &all {
+            assert!((sketch.way_m() - all[0].way_m()).abs() < 0.05, "{}", sketch.way_m());
+        }
+        assert!((cover.probability.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{:?}", cover.probability);
+        assert!(cover.probability[0] > 0.85, "what is made up is unlikely: {:?}", cover.probability);
+    }
+
+    #[test]
+    fn one_goes_before_and_one_after_whoever_crosses() {
+        let actor = driver(9.0, Some(80.0));
+        for passes_s in [3.6, 4.4, 5.2] {
+            let other = crossing_at(passes_s);
+            let cover = Cover::of(&actor, &[&other], 1.0, &SHIPPED.duplicates);
+            let all = shown(&actor, &cover);
+            let orders: Vec<i64> =
+                all.iter().filter_map(|s| Some(crossing(s.trace(), &other)?.order())).collect();
+            assert!(orders.contains(&1) && orders.contains(&-1), "{passes_s}: {orders:?}");
+            assert!(nearest_m(&all) > 0.5, "{}", nearest_m(&all));
+        }
+    }
+
+    #[test]
+    fn without_a_goal_copies_part_and_who_waits_waits() {
+        let actor = driver(9.0, None);
+        let all = shown(&actor, &Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates));
+        assert!(nearest_m(&all) > SHIPPED.duplicates.copy_m, "{}", nearest_m(&all));
+        let mut waiting = driver(0.0, None);
+        waiting.plan.anchors.iter_mut().for_each(|anchor| anchor.base.fill(0.0));
+        let cover = Cover::of(&waiting, &[], 1.0, &SHIPPED.duplicates);
+        assert!(shown(&waiting, &cover).iter().all(|s| s.way_m() < 1e-6));
+    }
+
+    #[test]
+    fn six_of_their_own_are_left_alone() {
+        let mut actor = driver(9.0, Some(80.0));
+        for (i, anchor) in actor.plan.anchors.iter_mut().enumerate() {
+            for step in 0..anchor.base.len() {
+                anchor.base[step] += 0.5 * i as f64 * (step as f64 / 30.0).min(1.0) * INSTANTS as f64 / 6.0;
+            }
+        }
+        assert_eq!(Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates), Cover::none(&actor));
     }
 }

@@ -20,6 +20,8 @@ use std::cell::OnceCell;
 const END_S: f64 = INSTANTS as f64 * INSTANT_S;
 /// Time kept from the other at shared ground: what is tried, seconds.
 const GAPS_S: [f64; 2] = [0.9, 0.4];
+/// Over the caps of a path by so much is usual.
+pub(super) const HURRY: f64 = 1.1;
 /// Way kept from shared ground, metres.
 const CLEAR_M: f64 = 0.6;
 
@@ -84,8 +86,9 @@ impl<'a> Sketch<'a> {
         })
     }
 
-    /// Nobody but a racer would call it unlike `from`: braking, speeding up and pace stay usual, or as they are there.
-    pub(super) fn is_usual(&self, from: &Self) -> bool {
+    /// Braking, speeding up and pace stay usual, or as they are in `from`; `hurry` is how far over the caps of its path
+    /// it may be.
+    pub(super) fn is_usual(&self, from: &Self, hurry: f64) -> bool {
         let plan = &self.actor.plan;
         let (brakes, speeds_up) = match plan.present.agent_type {
             AgentType::Pedestrian => (1.3, 1.3),
@@ -111,7 +114,7 @@ impl<'a> Sketch<'a> {
         let most = own.iter().copied().fold(speeds_up, f64::max);
         let each = rates(&mine).into_iter().zip(mine).zip(&self.route);
         each.into_iter().all(|((rate, speed), (along, _))| {
-            let cap = (1.1 * caps.at(*along)).max(fastest);
+            let cap = (hurry * caps.at(*along)).max(fastest);
             rate >= least - 0.3 && rate <= most + 0.3 && speed <= cap + 0.3
         })
     }
@@ -132,7 +135,7 @@ impl<'a> Sketch<'a> {
             }
             let shift_m = wanted_m - self.along_at(when_s);
             let made = self.with(&pace(&self.actor.plan, &[(when_s, shift_m)])?);
-            made.is_usual(self).then_some(made)
+            made.is_usual(self, HURRY).then_some(made)
         })?;
         let order = crossing(made.trace(), other).map(|g| g.order());
         (order == Some(if before { 1 } else { -1 })).then_some(made)
@@ -214,11 +217,11 @@ pub(super) fn ladder(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
     let goal_s = plan.target.step as f64 * STEP_S;
     let agent_type = plan.present.agent_type;
     let (paces, aside_m): (&[f64], f64) = match (agent_type, plan.target.position.is_some()) {
-        (AgentType::Pedestrian, true) => (&[1.3, 2.2, 0.8], 0.9),
+        (AgentType::Pedestrian, true) => (&[1.3, 2.2, 0.8], 1.1),
         (AgentType::Pedestrian, false) => (&[3.0, 5.0, 2.0], 3.0),
-        (AgentType::Cyclist, true) => (&[1.5, 3.0, 5.0], 0.8),
+        (AgentType::Cyclist, true) => (&[1.3, 2.6, 4.5], 0.8),
         (AgentType::Cyclist, false) => (&[6.0, 12.0, 3.5], 0.8),
-        (_, true) => (&[2.0, 4.0, 1.3, 6.0], 0.7),
+        (_, true) => (&[1.3, 2.6, 4.0, 6.0], 0.7),
         (_, false) => (&[8.0, 14.0, 5.0, 22.0], 0.7),
     };
     let sign = if late_first { -1.0 } else { 1.0 };

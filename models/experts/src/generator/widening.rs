@@ -2,7 +2,7 @@
 
 use super::actor::Actor;
 use super::covering::{Cover, best};
-use super::ideas::{Sketch, moves_m, tangent};
+use super::ideas::{HURRY, Sketch, moves_m, tangent};
 use super::noise::Key;
 use super::slot::Slot;
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
@@ -10,7 +10,7 @@ use crate::tuning::DiversityTuning;
 use scene::{AgentType, HORIZON_STEPS, KNOT_S, KNOTS, STEP_S};
 
 /// Draws of each mode; the one farthest from the others is taken.
-const DRAWS: usize = 3;
+const DRAWS: usize = 4;
 /// Steps of the key that are no refinement steps.
 const FIRST_KEY: usize = 1 << 32;
 /// Waves of a drawn pace, and of a drawn line.
@@ -42,8 +42,7 @@ pub(super) fn widen(
     for slot in Slot::all().filter(|slot| !steady(slot) && *slot != best) {
         let from = Sketch::of(actor, slot, &shown(slot));
         let drawn = draws.iter().map(|normals| {
-            let (offset, far) = reach.offset(actor, &from, slot.of(normals));
-            let made = from.with(&offset);
+            let (offset, far, made) = reach.offset(actor, &from, slot.of(normals));
             let apart = taken.iter().map(|t| t.apart_m(&made)).fold(f64::INFINITY, f64::min);
             (apart, offset, far, made)
         });
@@ -62,6 +61,8 @@ struct Reach {
     across_m: f64,
     /// The way over which it reaches so far: who hardly moves is hardly moved.
     way_m: f64,
+    /// How far over the caps of its path it may be.
+    hurry: f64,
 }
 
 impl Reach {
@@ -83,11 +84,21 @@ impl Reach {
         } else {
             1.0
         };
-        Self { along_m: along * along_m * room, across_m: along.min(share) * across_m, way_m }
+        Self {
+            along_m: along * along_m * room,
+            across_m: along * across_m,
+            way_m,
+            hurry: HURRY + 0.15 * share,
+        }
     }
 
     /// A drawn offset that keeps the goal, and how far it goes of what it may.
-    fn offset(&self, actor: &Actor, from: &Sketch<'_>, normals: &Residual) -> (Residual, f64) {
+    fn offset<'a>(
+        &self,
+        actor: &Actor,
+        from: &Sketch<'a>,
+        normals: &Residual,
+    ) -> (Residual, f64, Sketch<'a>) {
         let waits = actor.plan.target.position.is_none() && from.ends_at_rest();
         let moving = if waits { 0.0 } else { (from.way_m() / self.way_m).min(1.0) };
         let mut waves = [0.0; RESIDUAL];
@@ -114,12 +125,67 @@ impl Reach {
                 (scale * f64::from(shape[k])) as f32
             })
         };
-        for share in [1.0, 0.6, 0.3, 0.1] {
+        for share in [1.0, 0.7, 0.45, 0.2] {
             let offset = scaled(share);
-            if from.with(&offset).is_usual(from) {
-                return (offset, share * far_along);
+            let made = from.with(&offset);
+            if made.is_usual(from, self.hurry) {
+                return (offset, share * far_along, made);
             }
         }
-        (scaled(0.0), 0.0)
+        let offset = scaled(0.0);
+        (offset, 0.0, from.with(&offset))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use crate::tuning::SHIPPED;
+    use scene::{Goal, Vec2};
+
+    fn driver(goal_m: Option<f64>) -> Actor {
+        let position = goal_m.map(|x| Vec2::new(x, 0.0));
+        Actor::new("1".into(), car_on_a_street(9.0, Goal { position, ..Goal::default() }), None)
+    }
+
+    fn drawn(actor: &Actor, diversity: f64, seed: u64) -> Vec<Sketch<'_>> {
+        let cover = Cover::of(actor, &[], 1.0, &SHIPPED.duplicates);
+        let key = Key { seed, sample: 0, agent: "1", window: 0, step: 0 };
+        let (added, probability) = widen(actor, &cover, diversity, key, &SHIPPED.diversity);
+        assert!((probability.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        let offset = |i: usize| std::array::from_fn(|k| cover.offset[i][k] + added[i][k]);
+        (0..MODES).map(|i| Sketch::of(actor, Slot::new(i), &offset(i))).collect()
+    }
+
+    fn spread_m(all: &[Sketch<'_>]) -> f64 {
+        let pairs = (0..MODES).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.map(|(a, b)| all[a].apart_m(&all[b])).sum::<f64>()
+    }
+
+    #[test]
+    fn zero_repeats_and_more_parts_modes_and_seeds() {
+        for goal_m in [None, Some(80.0)] {
+            let actor = driver(goal_m);
+            let of = |diversity: f64, seed: u64| drawn(&actor, diversity, seed);
+            let moved = |a: &[Sketch<'_>], b: &[Sketch<'_>]| -> f64 {
+                a.iter().zip(b).map(|(a, b)| a.apart_m(b)).sum()
+            };
+            assert_eq!(moved(&of(0.0, 1), &of(0.0, 2)), 0.0);
+            let apart = [0.5, 1.0, 2.0].map(|d| moved(&of(d, 1), &of(d, 2)));
+            assert!(0.0 < apart[0] && apart[0] < apart[1] && apart[1] < apart[2], "{apart:?}");
+            let mean = |d: f64| (0..8).map(|seed| spread_m(&of(d, seed))).sum::<f64>();
+            assert!(mean(2.0) > 1.15 * mean(0.5), "{goal_m:?}: {} {}", mean(2.0), mean(0.5));
+        }
+    }
+
+    #[test]
+    fn the_best_guess_and_the_goal_stay() {
+        let actor = driver(Some(80.0));
+        let (zero, wide) = (drawn(&actor, 0.0, 3), drawn(&actor, 2.0, 3));
+        assert_eq!(zero[0].apart_m(&wide[0]), 0.0);
+        for sketch in &wide {
+            assert!((sketch.way_m() - zero[0].way_m()).abs() < 0.05, "{}", sketch.way_m());
+        }
     }
 }

@@ -10,7 +10,7 @@ use super::overlaps::resolve_overlaps;
 use super::reacting::reacting;
 use super::repulsion::{SceneEnergy, repulsions};
 use super::slot::Slot;
-use super::standing::{self, background_traces};
+use super::standing::{self, Names, background_traces};
 use super::trajectory::may_rest;
 use super::widening::widen;
 use super::workers::Workers;
@@ -78,6 +78,8 @@ pub(super) struct Window<'g> {
     pub(super) background: Background,
     /// The same as motions that drafts are named by.
     pub(super) traces: Vec<Trace>,
+    /// What is said of the sample's first drafts.
+    names: Names,
     pullback: Pullback,
     /// The present sample, from 0.
     pub(super) sample: usize,
@@ -106,6 +108,7 @@ impl<'g> Window<'g> {
             subgoals: BTreeMap::new(),
             background: Background::none(),
             traces: Vec::new(),
+            names: Names::default(),
             pullback: Pullback::default(),
             sample: 0,
             drafts: Vec::new(),
@@ -340,28 +343,32 @@ impl<'g> Window<'g> {
     }
 
     /// The present drafts as futures that can be shown.
-    pub(super) fn draft(&self, step: usize) -> Draft {
+    pub(super) fn draft(&mut self, step: usize) -> Draft {
         let all = self.request.stream_all || self.actors.len() < SHOW_ALL_BELOW;
         let count = if all { self.request.modes } else { 1 };
-        let leading = self.named_by();
-        let shown = self.workers().map(&self.indices(), |&i| {
+        let shown: Vec<Vec<Candidate>> =
+            self.workers().map(&self.indices(), |&i| self.material(i).alternatives(count));
+        if step == 0 {
+            self.names = self.names(&shown);
+        }
+        let futures = shown.iter().enumerate().map(|(i, alternatives)| {
             let actor = &self.actors[i];
-            let alternatives = self.material(i).alternatives(count);
             let middle = middle(actor);
             let is_middle = |c: &Candidate| middle.is_some() && c.origin.slot() == middle;
-            let shown = alternatives.iter().position(is_middle).unwrap_or(0);
-            let mut futures = self.futures(shown, &alternatives);
-            for (future, draft) in futures.modes.iter_mut().zip(&alternatives) {
-                future.about = self.named(i, draft, leading.as_deref());
+            let chosen = alternatives.iter().position(is_middle).unwrap_or(0);
+            let mut futures = self.futures(chosen, alternatives);
+            for (future, draft) in futures.modes.iter_mut().zip(alternatives) {
+                future.about = self.names.of(i, draft);
             }
             (actor.id.clone(), futures)
         });
+        let futures = futures.collect();
         Draft {
             window: self.number,
             sample: self.sample,
             step,
             steps: self.request.steps,
-            futures: Sample { agents: shown.into_iter().collect(), score: serde_json::Value::Null },
+            futures: Sample { agents: futures, score: serde_json::Value::Null },
         }
     }
 

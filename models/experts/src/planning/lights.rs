@@ -10,7 +10,7 @@ use scene::{AgentType, HORIZON_STEPS, STEP_S, Signal, SignalState, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 
 /// A lane is taken by a path that stays within this of its centre on average, metres.
-const ON_LANE_M: f64 = 1.5;
+const ON_LANE_M: f64 = 2.2;
 /// Lanes this close to equally near cannot be told apart, metres.
 const SAME_LANE_M: f64 = 0.3;
 /// Length of path after (or before) a line that tells which lane is taken, metres.
@@ -23,8 +23,13 @@ const BEYOND_M: f64 = 60.0;
 const PASSED_M: f64 = 2.5;
 /// Slower than this counts as standing at a line, m/s.
 const STOPPED_MPS: f64 = 1.0;
-/// Where those who wait have their front, metres before the line.
+/// Where those who wait have their front, metres before the line, and how near to it others may come.
 const BEFORE_LINE_M: f64 = 1.0;
+const NEAR_LINE_M: f64 = 0.5;
+/// A turn at red shows this long after the line, steps, and takes this far, metres; who does not get there does
+/// not begin it.
+const TURN_STEPS: usize = 45;
+const TURN_M: f64 = 12.0;
 /// Braking for a light: as a rule, and at most, m/s2.
 const BRAKE_MPS2: f64 = 2.0;
 const HARDEST_MPS2: f64 = 4.0;
@@ -173,10 +178,16 @@ impl Waiting<'_> {
 
     /// Progress that waits at one gate.
     fn held(&self, gate: &Gate, wanted: &Progress) -> Option<Progress> {
-        let passes = |p: &Progress| (1..=HORIZON_STEPS).find(|i| p[*i] > gate.line_m.max(0.05));
+        let passes =
+            |p: &Progress| (1..=HORIZON_STEPS).find(|i| p[*i] > (gate.line_m - NEAR_LINE_M).max(0.05));
         let is_red = |step: usize| gate.red >> step & 1 == 1;
+        let turns = |p: &Progress, step: usize| {
+            gate.right
+                && stood_before(p, step)
+                && p[(step + TURN_STEPS).min(HORIZON_STEPS)] > gate.line_m + TURN_M
+        };
         let mut step = passes(wanted).filter(|step| is_red(*step))?;
-        if gate.right && stood_before(wanted, step) {
+        if turns(wanted, step) {
             return None;
         }
         let stop_m = (gate.line_m - BEFORE_LINE_M).max(0.0);
@@ -194,7 +205,7 @@ impl Waiting<'_> {
                 }
                 _ => self.free(gate, stop_m, green, wanted),
             };
-            match passes(&held).filter(|step| is_red(*step) && !gate.right) {
+            match passes(&held).filter(|step| is_red(*step) && !turns(&held, *step)) {
                 Some(again) if again > step => step = again,
                 _ => return Some(held),
             }
@@ -217,7 +228,8 @@ impl Waiting<'_> {
                 continue;
             }
             stood += usize::from(speed < 0.3);
-            gone |= green.is_some_and(|green| i >= green) || (gate.right && stood > 10);
+            let turns = gate.right && stood > 10 && i < TURN_STEPS;
+            gone |= turns || green.is_some_and(|green| i >= green);
             let open = if gone {
                 let cap = self.caps.at(out[i]).min(fastest);
                 (speed + SET_OFF_MPS2 * STEP_S).min(cap.max(speed - BRAKE_MPS2 * STEP_S))
@@ -291,7 +303,7 @@ impl Waiting<'_> {
     }
 }
 
-/// Stood in the three seconds before a step.
+/// Stood in the two seconds before a step.
 fn stood_before(progress: &Progress, step: usize) -> bool {
-    (step.saturating_sub(30).max(1)..=step).any(|i| speed_at(progress, i) < STOPPED_MPS)
+    (step.saturating_sub(20).max(1)..=step).any(|i| speed_at(progress, i) < STOPPED_MPS)
 }

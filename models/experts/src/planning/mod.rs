@@ -10,6 +10,8 @@ mod legal;
 pub mod lights;
 pub mod profile;
 pub mod pullback;
+#[cfg(test)]
+mod road_tests;
 pub mod smooth;
 #[cfg(test)]
 mod tests;

@@ -87,9 +87,12 @@ fn paths_to_goal(
     }
     let least = project(model, &model.coasting(), target, None);
     let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));
+    let v0 = model.start_speed_mps();
+    let pace_mps = (goal - who.start.position()).norm() / (target.step as f64 * STEP_S);
     let query = GoalQuery {
         pose: who.pose(),
-        speed_mps: model.start_speed_mps(),
+        // Who has time changes lanes over a shorter way than who goes on as fast.
+        speed_mps: v0.min(0.5 * (v0 + pace_mps)),
         agent_type: who.agent_type,
         goal,
         goal_heading_rad: target.heading_rad,
@@ -136,8 +139,9 @@ impl Trip<'_, '_> {
 
     fn along(&self, found: GoalRoute) -> Way {
         let end = EndPose { position: self.goal, heading_rad: self.target.heading_rad };
-        let GoalQuery { pose, speed_mps, agent_type, .. } = self.query;
-        let path = base_path(&found.route.path, pose, speed_mps, agent_type, Some(end));
+        let GoalQuery { pose, agent_type, .. } = self.query;
+        let v0 = self.model.start_speed_mps();
+        let path = base_path(&found.route.path, pose, v0, agent_type, Some(end));
         let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
         let identity = identity_of(&found.route);
         let tuning = &self.world.tuning.anchors;
@@ -192,7 +196,7 @@ impl Trip<'_, '_> {
         if way.kind == PathKind::LeastEffort {
             return self.least.reach.is_reached();
         }
-        let (v0, limits, step) = (self.query.speed_mps, &self.model.limits, self.target.step);
+        let (v0, limits, step) = (self.model.start_speed_mps(), &self.model.limits, self.target.step);
         let caps: Vec<f64> = way.caps_mps.iter().map(|cap| PRESSED * cap).collect();
         let caps = Caps::new(way.path.arc_m(), &caps);
         let soon = fastest(v0, PRESSED_SHARE * limits.accel_mps2, limits.speed_mps, &caps)[step];
@@ -204,7 +208,7 @@ impl Trip<'_, '_> {
     fn drivable_m(&self) -> f64 {
         let AnchorTuning { easy_mps, setting_off_mps2, .. } = self.world.tuning.anchors;
         let caps = Caps::new(&[0.0], &[f64::INFINITY]);
-        fastest(self.query.speed_mps, setting_off_mps2, easy_mps, &caps)[self.target.step]
+        fastest(self.model.start_speed_mps(), setting_off_mps2, easy_mps, &caps)[self.target.step]
     }
 }
 

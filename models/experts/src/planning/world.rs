@@ -128,8 +128,9 @@ impl<'a> World<'a> {
         let mut signal_ages_s = Vec::new();
         for signal in &scene.signals {
             if let Some(lane) = graph.lane_index(&signal.lane) {
-                signals.push(LaneSignal { lane, state: signal.at(step), stop: signal.stop });
-                signal_ages_s.push(signal.age_steps(step) as f64 * scene::STEP_S);
+                let (state, age) = signal.last_known(step);
+                signals.push(LaneSignal { lane, state, stop: signal.stop });
+                signal_ages_s.push(age as f64 * scene::STEP_S);
             }
         }
         let stop_lines = scene.signals.iter().filter_map(|s| StopLine::of(s, &graph, step)).collect();

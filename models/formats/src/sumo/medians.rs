@@ -132,14 +132,15 @@ fn blunt(map: &mut LaneMap, near: End, far: End) {
     };
     let (a, b) = (towards_end(near), resample(&towards_end(far), STEP_M));
     let lengths = arc_lengths(&a);
+    let total = length(&a);
+    // Beyond its end `near` says nothing about the width.
     let Some((at_b, s, foot)) = (0..b.len()).rev().find_map(|i| {
         let (s, foot) = foot_on(&a, &lengths, b[i]);
-        ((foot - b[i]).norm() >= NOSE_M).then_some((i, s, foot))
+        ((foot - b[i]).norm() >= NOSE_M && s < total - 1e-6).then_some((i, s, foot))
     }) else {
         return;
     };
-    let total = length(&a);
-    if at_b < 2 || s < STEP_M || s > total - 1e-6 {
+    if at_b < 2 || s < STEP_M {
         return;
     }
     let (kept_a, tail_a) = (part(&a, 0.0, s), part(&a, s, total));

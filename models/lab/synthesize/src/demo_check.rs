@@ -12,10 +12,8 @@ const OVERHANG_M: f64 = 0.35;
 
 /// Slower than this, a vehicle stands in the first frame, m/s.
 const STANDS_MPS: f64 = 1.0;
-/// Long vehicles that stand are no farther off their lane's direction than this, radians.
-const ASKEW_RAD: f64 = 0.12;
-/// Vehicles longer than this are long, metres.
-const LONG_M: f64 = 7.0;
+/// Vehicles that stand are no farther off their lane's direction than this, radians.
+const ASKEW_RAD: f64 = 0.13;
 
 /// Takes out one of each two who nearly collide: a person, a cyclist, or a parked car rather than a moving
 /// one. Vehicles that move stay.
@@ -48,9 +46,11 @@ pub fn is_on_crosswalk(scene: &Scene, agent: &Agent, step: usize) -> bool {
     places.into_iter().any(|p| scene.map.crosswalks.iter().any(|c| contains(&c.polygon.xy, p)))
 }
 
-/// A long vehicle stands at an angle to every lane near it at a step.
+/// A vehicle that is not parked stands at an angle to every lane near it at a step.
 pub fn is_askew(scene: &Scene, agent: &Agent, step: usize) -> bool {
-    let Some(state) = agent.track.at(step).filter(|_| agent.size.length_m > LONG_M) else { return false };
+    let Some(state) = agent.track.at(step).filter(|_| agent.agent_type == AgentType::Vehicle) else {
+        return false;
+    };
     if state.speed_mps() >= STANDS_MPS || agent.role.as_deref() == Some("parked") {
         return false;
     }

@@ -1,12 +1,12 @@
 //! Brings a demo scene to what a planner expects to see, without another simulation: medians end in a
-//! nose, pieces of road that lead nowhere are gone, and nobody drives over a kerb.
+//! nose, pieces of road that lead nowhere are gone, nobody drives over a kerb or jerks at the wheel.
 
-use super::filters::{gaussian, gradient};
+use super::filters::{gaussian, gradient, unwrap};
 use formats::sumo::medians;
 use scene::geometry::obb::OrientedBox;
 use scene::geometry::{cross, direction};
 use scene::map::{LaneMap, LaneType};
-use scene::score::Drivable;
+use scene::score::{Drivable, ScoreInput, score};
 use scene::{Agent, AgentType, STEP_S, Scene, State, Vec2, wrap_angle};
 use std::sync::Arc;
 
@@ -20,6 +20,8 @@ const LET_M: f64 = 0.03;
 const HOLD: usize = 12;
 /// Smoothing of the correction, steps.
 const SMOOTH: f64 = 7.0;
+/// Smoothing of headings where somebody turns harder than people do, steps, and the most of it.
+const CALM: (f64, f64) = (2.0, 8.0);
 /// Most rounds of correction.
 const ROUNDS: usize = 12;
 
@@ -34,7 +36,28 @@ pub fn mend(mut scene: Scene, half: f64) -> Scene {
         keep_on_road(agent, &drivable);
     }
     scene.map = Arc::new(map);
+    calm(&mut scene, &drivable);
     scene
+}
+
+/// Smooths the headings of those who turn too hard for a moment.
+fn calm(scene: &mut Scene, drivable: &Drivable) {
+    let mut sigma = CALM.0;
+    while sigma <= CALM.1 {
+        let found = score(&ScoreInput::of_sample(scene, None, drivable)).scene;
+        if found.harsh_steering.is_empty() {
+            return;
+        }
+        let hard = |id: &str| found.harsh_steering.iter().any(|s| s.agent == id);
+        for agent in scene.agents.iter_mut().filter(|a| hard(&a.id)) {
+            let headings: Vec<f64> = agent.track.states.iter().flatten().map(|s| s.heading_rad).collect();
+            let smooth = gaussian(&unwrap(&headings), sigma);
+            for (state, heading) in agent.track.states.iter_mut().flatten().zip(smooth) {
+                state.heading_rad = rounded(wrap_angle(heading), 1e4);
+            }
+        }
+        sigma += CALM.0;
+    }
 }
 
 fn rounded(value: f64, parts: f64) -> f64 {

@@ -14,7 +14,7 @@ pub mod kinematic;
 pub mod overlap;
 pub mod pairs;
 pub mod pet;
-mod recorded;
+pub(crate) mod recorded;
 pub mod report;
 pub mod road;
 pub mod signals;

@@ -39,19 +39,19 @@ fn mark(actor: &Actor<'_>, found: &mut [Stretch], worse: f64, look: impl Fn(&Act
 }
 
 /// Marks stretches off the road and against the traffic.
-pub(super) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut road::RoadScore) {
+pub(crate) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut road::RoadScore) {
     mark(actor, &mut found.off_road, SAME_OFF_ROAD_M, |a| road::score_road(input, a).off_road);
     mark(actor, &mut found.over_median, SAME_OFF_ROAD_M, |a| road::score_road(input, a).over_median);
     mark(actor, &mut found.wrong_way, SAME_WRONG_WAY_M, |a| road::score_road(input, a).wrong_way);
 }
 
 /// Marks stretches of hard braking.
-pub(super) fn mark_braking(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
+pub(crate) fn mark_braking(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
     mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_braking(a, input));
 }
 
 /// Marks stretches of hard turning.
-pub(super) fn mark_steering(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
+pub(crate) fn mark_steering(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
     mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_steering(a, input));
 }
 
@@ -66,11 +66,28 @@ pub(super) fn mark_red_lights(input: &ScoreInput<'_>, found: &mut [RedLight]) {
         signals::red_lights(&ScoreInput { actors: runners, ..input.clone() })
     };
     for red in found {
-        let same = |l: &RedLight| {
-            l.agent == red.agent && l.lane == red.lane && (l.time_s - red.time_s).abs() <= SAME_S
-        };
-        red.in_log = of(&red.agent).is_some_and(|a| !a.generated) || log.iter().any(same);
+        red.in_log = of(&red.agent).is_some_and(|a| !a.generated) || log.iter().any(|l| is_same(l, red));
     }
+}
+
+fn is_same(logged: &RedLight, red: &RedLight) -> bool {
+    logged.agent == red.agent && logged.lane == red.lane && (logged.time_s - red.time_s).abs() <= SAME_S
+}
+
+/// Leaves out the red lights that one road user runs in the log too.
+pub(crate) fn beyond_log(
+    input: &ScoreInput<'_>,
+    actor: &Actor<'_>,
+    lines: &[signals::StopLine<'_>],
+    mut found: Vec<RedLight>,
+) -> Vec<RedLight> {
+    if !found.is_empty()
+        && let Some(recorded) = as_recorded(actor)
+    {
+        let log = signals::crossed_at_red(input, &recorded, lines);
+        found.retain(|red| !log.iter().any(|l| is_same(l, red)));
+    }
+    found
 }
 
 #[cfg(test)]

@@ -60,13 +60,14 @@ function SecondLines({ axes: a }: { axes: Axes }) {
   );
 }
 
-/** The times at which something happens, marked behind the curves. */
+/** The times at which something happens to whose curves they are, marked behind them; else to anybody. */
 export function EventTimes({ axes: a }: { axes: Axes }) {
   const { editor } = useApp();
+  const id = editor.selection.peek();
   return (
     <>
       {counted(editor.shownEvents.peek()).map((e, i) => {
-        if (e.kind === 'short') return null;
+        if (e.kind === 'short' || (id !== null && e.a.id !== id && e.b?.id !== id)) return null;
         const [from, to] = markedSpan(e.time, e.until, MARKED_S[e.kind], a.duration);
         return (
           <rect

@@ -262,13 +262,13 @@ impl<'g> Generation<'g> {
                 self.begin(number)?;
                 let refines = steps(&self.request) > 0;
                 self.stage = if refines { Stage::Step(number, 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present()?.draft(0)))
+                Ok(Event::Draft(self.windows.present_mut()?.draft(0)))
             }
             Stage::Step(number, step) => {
                 self.refine(step)?;
                 let more = step < steps(&self.request);
                 self.stage = if more { Stage::Step(number, step + 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present()?.draft(step)))
+                Ok(Event::Draft(self.windows.present_mut()?.draft(step)))
             }
             Stage::Finish | Stage::Done => {
                 self.stage = Stage::Done;

@@ -25,8 +25,7 @@ pub(super) fn logged(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> Op
 
 /// The collision, else the near miss, of this pair is the log's own: both move as recorded, or the log
 /// shows them meet so at about the same time, no less hard.
-pub(super) fn is_in_log(input: &ScoreInput<'_>, i: usize, j: usize, pair: &Pair) -> bool {
-    let (a, b) = (&input.actors[i], &input.actors[j]);
+pub(super) fn is_in_log(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>, pair: &Pair) -> bool {
     if !a.generated && !b.generated {
         return true;
     }

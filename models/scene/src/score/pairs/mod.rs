@@ -108,7 +108,7 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
         let pair = look_at(input, &movers[i], &movers[j], known);
         let pet_s = post_encroachment_s(&movers[i], &movers[j]);
         let happens = pair.collision.is_some() || pair.near.is_some();
-        let in_log = happens && log::is_in_log(input, i, j, &pair);
+        let in_log = happens && log::is_in_log(input, a, b, &pair);
         let ids = (a.id.to_owned(), b.id.to_owned());
         for k in [i, j] {
             let totals = &mut scores.agents[k];
@@ -155,7 +155,8 @@ impl Meeting {
         Some(Self::Near { time_s: scene_time(*step as f64), distance_m, ttc_s, closing_speed_mps })
     }
 
-    /// Of two motions by themselves, whoever made them. `input` gives thresholds and what to leave out.
+    /// Of two motions by themselves, whoever made them, but for what the log shows too. `input` gives thresholds
+    /// and what to leave out.
     pub(crate) fn between(
         input: &ScoreInput<'_>,
         (a, mover_a): (&Actor<'_>, &Mover),
@@ -166,7 +167,9 @@ impl Meeting {
         if stay_apart(mover_a, mover_b, known.gap_m) || is_excluded(input, a, b) {
             return None;
         }
-        Self::of(&look_at(input, mover_a, mover_b, known), input.steps.start)
+        let pair = look_at(input, mover_a, mover_b, known);
+        let met = Self::of(&pair, input.steps.start)?;
+        (!log::is_in_log(input, a, b, &pair)).then_some(met)
     }
 }
 
