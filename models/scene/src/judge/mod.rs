@@ -140,7 +140,10 @@ impl<'a> Judge<'a> {
             return score_road(&self.input, actor);
         }
         let as_driver = Actor { agent_type: AgentType::Vehicle, ..actor.clone() };
-        RoadScore { over_median: score_road(&self.input, &as_driver).over_median, ..RoadScore::default() }
+        let mut road = score_road(&self.input, &as_driver);
+        road.off_road.clear();
+        road.wrong_way.clear();
+        road
     }
 
     fn goal_missed(&self, actor: &Actor<'_>) -> Option<Fault> {
