@@ -367,7 +367,7 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.tm')).toContain('5.4 s');
   });
 
-  it('says what is wrong with a future: in its row, in the first line, on the timeline, and the way by the road', async () => {
+  it('says what is wrong with futures, row by row and in one line, and offers the way by the road', async () => {
     d = await (await Driver.open(browser, { judged: true })).ready();
     await d.select('1');
     const [x, y] = await d.at(...(await d.goal()));
