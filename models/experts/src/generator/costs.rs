@@ -2,7 +2,7 @@
 
 use super::KnownMap;
 use super::actor::Actor;
-use super::candidates::Candidate;
+use super::candidates::{Candidate, Origin};
 use super::choice::{Choosable, medoid_costs, swept};
 use super::slot::Slot;
 use super::trajectory::PER_INSTANT;
@@ -34,7 +34,7 @@ pub(super) fn options(
         // What is given costs nothing by itself.
         let given = c.origin.is_given();
         let cost = if given { 0.0 } else { cost + off_road(actor, &c.motion.states, map, tuning) };
-        Choosable { boxes, cost }
+        Choosable { boxes, cost, kept: c.origin == Origin::Kept }
     };
     candidates.iter().zip(costs).map(option).collect()
 }
@@ -96,7 +96,6 @@ fn deviation_m(states: &Trajectory, kept: &[State]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generator::candidates::Origin;
     use crate::generator::samples::car_on_a_street;
     use crate::generator::trajectory::rest;
     use crate::tuning::SHIPPED;

@@ -5,6 +5,7 @@ use crate::generator::actor::Actor;
 use crate::generator::candidates::Candidate;
 use crate::generator::decide::Decided;
 use crate::generator::extrapolation::Guessed;
+use crate::generator::reacting::Answered;
 use crate::generator::report::{self, Outcome};
 use crate::generator::window::Window;
 use crate::planning::world::World;
@@ -87,6 +88,32 @@ impl Ledger {
             }
             progress.reach = reach;
         }
+        self.progress.insert(agent, progress);
+    }
+
+    /// Writes down where somebody goes in these steps who gave up what it did for others.
+    pub(super) fn answer_of(
+        &mut self,
+        request: &Request,
+        base: &Scene,
+        window: &Window<'_>,
+        answered: &Answered,
+        span: Range<usize>,
+    ) {
+        // It comes in, or leaves what it did, after these steps: a later window sees to that.
+        let there = span.len().saturating_sub(answered.enters);
+        if there <= answered.own {
+            return;
+        }
+        let agent = answered.index;
+        let mut progress = self.progress.remove(&agent).unwrap_or_else(|| {
+            let executed = before(base, request, agent, span.start);
+            let absent = window.world.step + answered.enters - request.start_step - executed.len();
+            let reach = ReachReport::Reached { position_m: 0.0, heading_rad: 0.0, speed_mps: 0.0 };
+            let futures = window.answer_of(answered);
+            Progress { futures, executed, absent, parked: false, reach, intermediate: Vec::new() }
+        });
+        progress.executed.extend(answered.states.iter().take(there));
         self.progress.insert(agent, progress);
     }
 
@@ -183,11 +210,12 @@ fn first_of(
     executed: Vec<State>,
     reach: &ReachReport,
 ) -> Progress {
-    let futures = if later {
+    let mut futures = if later {
         window.futures(0, &[Candidate { probability: 1.0, ..decided.shown().clone() }])
     } else {
         window.futures(decided.chosen, &decided.alternatives)
     };
+    futures.reaction.clone_from(&decided.reaction);
     let absent = window.world.step - window.request.start_step - executed.len();
     let parked = actor.is_parked() && decided.rests();
     Progress { futures, executed, absent, parked, reach: reach.clone(), intermediate: Vec::new() }
