@@ -56,6 +56,8 @@ pub(super) struct Cast {
     pub(super) may_react: BTreeSet<usize>,
     /// Those among the acting that were parked when the call began: they stay.
     pub(super) parked: BTreeSet<usize>,
+    /// What those among the others do, from the window's start on, that gave up their motion in an earlier window.
+    pub(super) resumed: BTreeMap<usize, Vec<State>>,
 }
 
 /// One planning window of one call.
@@ -115,7 +117,7 @@ impl<'g> Window<'g> {
         }
         if window.request.stages.background_in_the_way {
             let Self { world, request, actors, .. } = &window;
-            window.answerers = Answerers::of(world, request, actors, &cast.may_react, tuning);
+            window.answerers = Answerers::of(world, request, actors, cast, tuning);
             window.background = Background::of(&window.answerers, &tuning.overlaps);
         }
         Ok(window)
@@ -331,7 +333,7 @@ impl<'g> Window<'g> {
         let left = self.steps_left().saturating_sub(answered.enters);
         let states = answered.states.iter().take(left).copied().collect();
         let future = Future::bare(1.0, self.world.step + answered.enters + 1, states);
-        AgentFutures { reaction: Some(answered.reaction.clone()), ..AgentFutures::of(0, vec![future]) }
+        AgentFutures { reaction: answered.reaction.clone(), ..AgentFutures::of(0, vec![future]) }
     }
 
     fn steps_left(&self) -> usize {

@@ -151,7 +151,7 @@ impl<'g> Generation<'g> {
             world.aim(agent, goal);
         }
         let end = self.request.start_step + span.end;
-        let mut cast = self.roster.in_window(number, &world, end, &self.ledger.acted());
+        let mut cast = self.roster.in_window(number, &world, end, &self.ledger);
         cast.parked = self.ledger.parked();
         let (request, map) = (self.request.clone(), self.map.clone());
         let mut window = Window::plan(self.generator, request, map, world, number, &cast)?;

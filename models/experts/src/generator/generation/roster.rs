@@ -1,8 +1,10 @@
 //! The roster of a call: one part for every road user of the scene, and who acts in each window.
 
 use super::Spans;
+use super::ledger::Ledger;
 use super::scenes::known_to_the_end;
 use crate::generator::extrapolation::Guessed;
+use crate::generator::reacting::carry_on;
 use crate::generator::window::{Cast, MOST_ACTORS};
 use crate::planning::world::World;
 use crate::request::{GenerateError, React, Request};
@@ -44,6 +46,8 @@ impl Part {
 
 /// Everybody's part, one entry an agent of the scene.
 pub(super) struct Roster {
+    /// The scene that windows are cut from.
+    base: Arc<Scene>,
     parts: Vec<Part>,
     /// From where on nothing is known of those that keep their motion, in calls of several windows.
     guessed: Vec<Option<Guessed>>,
@@ -114,7 +118,7 @@ impl Roster {
             }
         };
         let parts = (0..scene.agents.len()).map(part).collect();
-        Ok((Self { parts, guessed }, base))
+        Ok((Self { base: base.clone(), parts, guessed }, base))
     }
 
     /// A road user's part.
@@ -132,24 +136,25 @@ impl Roster {
         self.guessed.iter().enumerate().filter_map(|(i, guessed)| Some((i, (*guessed)?)))
     }
 
-    /// Who acts in window `number`, which begins at `world.step` and is executed up to scene step `end`. `acted`
-    /// are those that got futures in earlier windows of the sample; `parked` is left to the caller.
-    pub(super) fn in_window(
-        &self,
-        number: usize,
-        world: &World<'_>,
-        end: usize,
-        acted: &BTreeSet<usize>,
-    ) -> Cast {
+    /// Who acts in window `number`, which begins at `world.step` and is executed up to scene step `end`. `ledger`
+    /// knows who got futures in earlier windows of the sample; `parked` is left to the caller.
+    pub(super) fn in_window(&self, number: usize, world: &World<'_>, end: usize, ledger: &Ledger) -> Cast {
         let first = number == 0;
+        let acted = &ledger.acted();
         // A picked future is background after the first window, like any other motion that is kept.
         let asked = self.with(|part| part == Part::Asked || (part == Part::Picked && first));
         let mut acting: BTreeSet<usize> = asked.collect();
-        acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked()));
+        let known_until = |i: usize, step: usize| self.guessed[i].is_some_and(|g| g.step <= step);
+        // Who drives its own way at another pace does so as long as there is one.
+        let mut resumed = ledger.answering();
+        resumed.retain(|i, _| !known_until(*i, end));
+        for (i, ahead) in &mut resumed {
+            carry_on(ahead, &self.base.agents[*i].track.states);
+        }
+        acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked() && !resumed.contains_key(i)));
         let new = |part: Part| self.with(move |p| p == part).filter(move |i| !acted.contains(i));
         let mut may_react: BTreeSet<usize> = new(Part::MayReact).collect();
         if !first {
-            let known_until = |i: usize, step: usize| self.guessed[i].is_some_and(|g| g.step <= step);
             // Nothing is left to keep for those whose log ends in what this window executes.
             let seen = |i: &usize| world.scene.agents[*i].track.at(world.step).is_some();
             let ended = new(Part::MayReact).chain(new(Part::Arrives)).filter(seen);
@@ -161,7 +166,7 @@ impl Roster {
             let over: Vec<usize> = over.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
             acting.extend(over);
         }
-        Cast { acting, may_react, parked: BTreeSet::new() }
+        Cast { acting, may_react, parked: BTreeSet::new(), resumed }
     }
 }
 

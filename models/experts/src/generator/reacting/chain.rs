@@ -30,7 +30,8 @@ pub(in crate::generator) struct Answered {
     pub(in crate::generator) states: Vec<State>,
     /// So many of them are what it did anyway.
     pub(in crate::generator) own: usize,
-    pub(in crate::generator) reaction: Reaction,
+    /// `None` for one that goes on with what it answered in an earlier window.
+    pub(in crate::generator) reaction: Option<Reaction>,
 }
 
 impl Answerers<'_> {
@@ -53,14 +54,21 @@ impl Answerers<'_> {
         let ways = self.ways(changed);
         let causes = self.causes(changed, &ways);
         let answered = ways.into_iter().zip(causes).enumerate().filter_map(|(i, (way, cause))| {
-            let (way, cause, own) = (way?, cause?, &self.all[i]);
-            Some(Answered {
+            let own = &self.all[i];
+            let of = |states: &[State], own_steps: usize, reaction: Option<Reaction>| Answered {
                 index: own.index,
                 enters: own.course.enters,
-                own: way.paced.own - 1,
-                reaction: reaction(own, &way, cause, self.start_step),
-                states: way.states.into_iter().skip(1).collect(),
-            })
+                states: states.iter().skip(1).copied().collect(),
+                own: own_steps,
+                reaction,
+            };
+            match way.zip(cause) {
+                Some((way, cause)) => {
+                    let reaction = reaction(own, &way, cause, self.start_step);
+                    Some(of(&way.states, way.paced.own - 1, Some(reaction)))
+                }
+                None => own.resumed.then(|| of(&own.course.states, own.course.states.len() - 1, None)),
+            }
         });
         answered.collect()
     }

@@ -194,6 +194,25 @@ impl Course {
     }
 }
 
+/// How somebody who is later than it was takes up its own speed again, m/s2.
+const TAKES_UP_MPS2: (f64, f64) = (-3.0, 1.5);
+
+/// Carries a plan on for a window: along the way that these states have, as fast as they are at each place.
+pub(in crate::generator) fn carry_on(plan: &mut Vec<State>, way: &[Option<State>]) {
+    let (Some(course), Some(last)) = (Course::of(way, 0.0), plan.last().copied()) else { return };
+    let apart = |p: &Place| (p.position - last.position()).norm();
+    let Some(nearest) = course.places.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
+    let ahead = direction(nearest.heading_rad).dot(&(last.position() - nearest.position));
+    let (mut along, mut speed) = (nearest.along_m + ahead, last.speed_mps());
+    while plan.len() <= HORIZON_STEPS {
+        let rate = (course.speed_at_mps(along) - speed) / STEP_S;
+        let then = (speed + rate.clamp(TAKES_UP_MPS2.0, TAKES_UP_MPS2.1) * STEP_S).max(0.0);
+        along += 0.5 * (speed + then) * STEP_S;
+        speed = then;
+        plan.push(course.state(along, speed));
+    }
+}
+
 /// States up to the first long gap, short ones bridged.
 fn bridged(known: &[Option<State>]) -> Vec<State> {
     let mut out: Vec<State> = Vec::with_capacity(known.len());
@@ -257,6 +276,15 @@ mod tests {
         known[70..85].fill(None);
         let course = Course::of(&known, 0.5).unwrap();
         assert!(course.leaves() && course.last_step() == 69);
+    }
+
+    #[test]
+    fn a_plan_is_carried_on_along_the_way_it_is_on() {
+        let way = going(8.0, 120);
+        let mut plan = vec![State { x_m: 20.0, vx_mps: 2.0, ..State::default() }];
+        carry_on(&mut plan, &way);
+        assert_eq!(plan.len(), 91);
+        assert!((plan[1].x_m - 20.2).abs() < 0.05 && (plan[90].vx_mps - 8.0).abs() < 1e-6);
     }
 
     #[test]

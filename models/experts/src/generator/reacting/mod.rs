@@ -12,12 +12,13 @@ mod reaction;
 mod yielding;
 
 pub(super) use chain::{Answered, Changed, caused};
-pub(super) use course::Moving;
+pub(super) use course::{Moving, carry_on};
 pub(super) use reaction::reaction_of;
 
 use super::actor::Actor;
 use super::background::{background_state, background_states};
 use super::trajectory::{rest, to_trajectory};
+use super::window::Cast;
 use super::workers::Workers;
 use crate::planning::STAYS_WITHIN_M;
 use crate::planning::world::{AgentAtStart, World};
@@ -59,6 +60,8 @@ pub(super) struct Answerer {
     corridor: Corridor,
     kept: Moving,
     keeps: Keeps,
+    /// It gave up its motion in an earlier window: this is how it goes on.
+    resumed: bool,
     /// Red lights on its way.
     lights: Vec<Block>,
     /// Where and when others are in its way by what they keep: first those that may answer, then the fixed ones.
@@ -80,12 +83,12 @@ impl<'g> Answerers<'g> {
         Self { all: Vec::new(), fixed: Vec::new(), tuning, start_step: 0 }
     }
 
-    /// Everybody but the actors; `may_react` are those among them that may give up what they do.
+    /// Everybody but the actors.
     pub(super) fn of(
         world: &World<'_>,
         request: &Request,
         actors: &[Actor],
-        may_react: &BTreeSet<usize>,
+        cast: &Cast,
         tuning: &'g Tuning,
     ) -> Self {
         let acting: BTreeSet<usize> = actors.iter().map(|a| a.plan.present.index).collect();
@@ -96,9 +99,13 @@ impl<'g> Answerers<'g> {
         for index in order {
             let agent = &world.scene.agents[index];
             let present = world.present.iter().find(|p| p.index == index);
-            let mut known: Vec<Option<State>> = (0..=HORIZON_STEPS)
-                .map(|step| background_state(&world.scene, agent, world.step, step))
-                .collect();
+            let resumed = cast.resumed.get(&index);
+            let mut known: Vec<Option<State>> = match resumed {
+                Some(states) => (0..=HORIZON_STEPS).map(|step| states.get(step).copied()).collect(),
+                None => (0..=HORIZON_STEPS)
+                    .map(|step| background_state(&world.scene, agent, world.step, step))
+                    .collect(),
+            };
             if let Some(present) = present {
                 known[0] = Some(present.start);
             }
@@ -118,12 +125,15 @@ impl<'g> Answerers<'g> {
             let generated = request.scene.generated.as_ref();
             let chosen = generated.and_then(|g| g.chosen_future(&agent.id));
             let pinned = request.pinned.contains_key(&agent.id);
-            let keeps = if chosen.is_some() || pinned { Keeps::Future } else { Keeps::Log };
+            let made = chosen.is_some() || pinned || resumed.is_some();
+            let keeps = if made { Keeps::Future } else { Keeps::Log };
             let agent_type = conditions.kind_of(agent);
-            let may = may_react.contains(&index)
+            let may = (resumed.is_some() || cast.may_react.contains(&index))
                 && agent_type != AgentType::Other
                 && (conditions.start == Start::default() || keeps == Keeps::Future);
-            let course = may.then(|| Course::of(&known, STAYS_WITHIN_M)).flatten();
+            // Who stands all the time stays; who gave up something goes on, and be it standing.
+            let shortest_m = if resumed.is_some() { 0.0 } else { STAYS_WITHIN_M };
+            let course = may.then(|| Course::of(&known, shortest_m)).flatten();
             let Some(course) = course else {
                 out.fixed.push(Fixed { id: agent.id.clone(), moving, keeps });
                 continue;
@@ -140,6 +150,7 @@ impl<'g> Answerers<'g> {
                 corridor,
                 kept: moving,
                 keeps,
+                resumed: resumed.is_some(),
                 lights,
                 around: OnceLock::new(),
             });

@@ -11,6 +11,8 @@ const WORTH_GOING_M: f64 = 1.0;
 const GOING_STEPS: usize = 15;
 /// Others are given this much time before and after, steps.
 const TIME_GAP: usize = 3;
+/// Steps of a second.
+const SECOND: usize = 10;
 /// Rounding of distances, metres.
 const HAIR_M: f64 = 0.02;
 /// Halvings of the span of accelerations.
@@ -43,20 +45,28 @@ struct Bounds {
     at_m: Vec<f64>,
     /// The least of this and all later ones.
     from_m: Vec<f64>,
+    /// Bounds at the window's end that go on after it, and how fast they move on then, m/s.
+    after: Vec<(f64, f64)>,
 }
 
 impl Bounds {
-    fn new(at_m: Vec<f64>) -> Self {
+    fn new(at_m: Vec<f64>, after: Vec<(f64, f64)>) -> Self {
         let mut from_m = at_m.clone();
         for i in (0..from_m.len().saturating_sub(1)).rev() {
             from_m[i] = from_m[i].min(from_m[i + 1]);
         }
-        Self { at_m, from_m }
+        Self { at_m, from_m, after }
     }
 
-    /// Braking from here on at this rate stays below them.
+    /// Braking from here on at this rate stays below them, and below those that go on though they brake as well.
     fn hold(&self, step: usize, along_m: f64, speed_mps: f64, brake_mps2: f64) -> bool {
         let stops_m = speed_mps * speed_mps / (2.0 * brake_mps2);
+        let behind = |(bound, speed): &(f64, f64)| {
+            along_m + stops_m <= bound + speed * speed / (2.0 * brake_mps2) + HAIR_M
+        };
+        if !self.after.iter().all(behind) {
+            return false;
+        }
         if along_m + stops_m <= self.from_m[step] + HAIR_M {
             return true;
         }
@@ -67,6 +77,19 @@ impl Bounds {
             along_m + moved <= bound + HAIR_M
         })
     }
+}
+
+/// Where these blocks are when the window ends, for those that are there then, and how fast they move on.
+fn after(blocks: &[&Block], gap_m: f64) -> Vec<(f64, f64)> {
+    let there = blocks.iter().filter(|b| b.from + b.taken.len() > HORIZON_STEPS);
+    let bound = |b: &&Block| {
+        let (last, _) = *b.taken.last()?;
+        let earlier = b.taken.len().saturating_sub(1 + SECOND);
+        let (before, _) = *b.taken.get(earlier)?;
+        let seconds = (b.taken.len() - 1 - earlier).max(1) as f64 * STEP_S;
+        Some(((last - gap_m).max(0.0), ((last - before) / seconds).max(0.0)))
+    };
+    there.filter_map(bound).collect()
 }
 
 /// Bounds that keep somebody behind these blocks.
@@ -87,7 +110,8 @@ fn behind(blocks: &[&Block], gap_m: f64) -> Vec<f64> {
 impl Paced {
     /// A course behind these blocks. What cannot be helped is braked for as hard as the manner allows.
     pub(super) fn behind(course: &Course, blocks: &[&Block], manner: Manner) -> Self {
-        let bounds = Bounds::new(behind(blocks, manner.gap_m));
+        let mut after_end = after(blocks, manner.gap_m);
+        let bounds = Bounds::new(behind(blocks, manner.gap_m), after_end.clone());
         // Who has left its own timing does not pass where it stood while it stood: there was a reason.
         let mut waiting = bounds.at_m.clone();
         for (i, state) in course.states.iter().enumerate() {
@@ -96,7 +120,11 @@ impl Paced {
                 *bound = bound.min(course.along_m[i] + 0.1);
             }
         }
-        let waiting = Bounds::new(waiting);
+        let stands = |s: &&State| s.speed_mps() < STANDING_MPS;
+        if !course.leaves() && course.states.last().filter(stands).is_some() {
+            after_end.push((course.length_m() + 0.1, 0.0));
+        }
+        let waiting = Bounds::new(waiting, after_end);
         let brake = manner.brake_mps2;
         let start_mps = course.states.first().map_or(0.0, State::speed_mps);
         let mut out = Self { along_m: vec![0.0], speed_mps: vec![start_mps], own: 1 };
@@ -230,6 +258,15 @@ mod tests {
         let rest = &paced.along_m[75..];
         assert!(rest.iter().all(|a| *a == rest[0]), "{rest:?}");
         assert_eq!(paced.speed_mps[80], 0.0);
+    }
+
+    #[test]
+    fn what_still_stands_there_when_the_window_ends_is_not_run_into_after_it() {
+        let course = course(20.0);
+        let stands = Block { from: 60, taken: vec![(182.0, 186.0); 31] };
+        let paced = Paced::behind(&course, &[&stands], EASY);
+        let (along, speed) = (paced.along_m[90], paced.speed_mps[90]);
+        assert!(along + speed * speed / 4.0 < 181.5, "{along} m at {speed} m/s");
     }
 
     #[test]
