@@ -22,9 +22,14 @@ describe('action registry', () => {
   });
 
   it('uses no key twice', () => {
-    const all = ACTIONS.flatMap((a) => (a.keys ?? []).map((k) => k));
-    expect(all.filter((k, i) => all.indexOf(k) !== i)).toEqual([]);
-    for (const k of all) expect(actionForKey(k)?.keys).toContain(k);
+    for (const dragging of [false, true]) {
+      const all = ACTIONS.filter((a) => !!a.whileDragging === dragging).flatMap((a) => (a.keys ?? []).map((k) => k));
+      expect(all.filter((k, i) => all.indexOf(k) !== i)).toEqual([]);
+      for (const k of all) {
+        expect(actionForKey(k, dragging)?.keys).toContain(k);
+        expect(!!actionForKey(k, dragging)?.whileDragging).toBe(dragging);
+      }
+    }
   });
 
   it('knows every action that a button names', () => {

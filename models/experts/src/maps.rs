@@ -15,7 +15,7 @@ pub(crate) struct KnownMap {
     /// Lanes with their links.
     pub(crate) graph: Arc<LaneGraph>,
     /// Where vehicles may drive.
-    pub(crate) drivable: Drivable,
+    pub(crate) drivable: Arc<Drivable>,
 }
 
 /// Known maps, a bounded number of them. A map's content never changes, so nothing is ever out of date.
@@ -48,7 +48,8 @@ impl Maps {
             return known;
         }
         // Not under the lock: others may go on with maps that are known.
-        let known = Arc::new(KnownMap { graph: Arc::new(LaneGraph::new(map)), drivable: Drivable::new(map) });
+        let graph = Arc::new(LaneGraph::new(map));
+        let known = Arc::new(KnownMap { drivable: graph.ground().clone(), graph });
         self.cached().insert(hash, map, known.clone());
         known
     }

@@ -52,8 +52,19 @@ pub struct Request {
     /// Futures the user picked: kept as chosen (index into last answer's modes cannot be trusted,
     /// so the picked motion itself is given).
     pub pinned: BTreeMap<AgentId, Vec<State>>,
+    /// What was shown last, while somebody drags: the first sample leaves it only for a gain worth the jump.
+    pub shown: BTreeMap<AgentId, ShownLast>,
     /// Parts that run; all of them but in an evaluation.
     pub stages: Stages,
+}
+
+/// The future of a road user that a person has seen last.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShownLast {
+    /// Its [`scene::Future::anchor`].
+    pub anchor: Option<u32>,
+    /// Box centres at every half second after the start, from the first on, as far as known.
+    pub places: Vec<Vec2>,
 }
 
 /// Which parts of a call run. An evaluation leaves some out to see what each brings; users get all.
@@ -164,6 +175,7 @@ impl Request {
             steps: DEFAULTS.steps,
             stream_all: false,
             pinned: BTreeMap::new(),
+            shown: BTreeMap::new(),
             stages: Stages::default(),
         }
     }

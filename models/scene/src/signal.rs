@@ -51,8 +51,10 @@ impl Signal {
         self.runs.iter().rev().find(|(first, _)| *first <= step).map_or(SignalState::Unknown, |r| r.1)
     }
 
-    /// Steps since the state at `step` began.
-    pub fn age_steps(&self, step: usize) -> usize {
-        self.runs.iter().rev().find(|(first, _)| *first <= step).map_or(0, |r| step - r.0)
+    /// What it showed last at a step, and how many steps ago that began; unknown before anything is known.
+    pub fn last_known(&self, step: usize) -> (SignalState, usize) {
+        let mut past = self.runs.iter().rev().filter(|(first, _)| *first <= step);
+        let known = past.clone().find(|(_, state)| *state != SignalState::Unknown);
+        known.or(past.next()).map_or((SignalState::Unknown, 0), |(first, state)| (*state, step - first))
     }
 }

@@ -14,10 +14,10 @@ use crate::work::Caller;
 use axum::extract::{FromRequest, Request, State};
 use axum::response::Response;
 use experts::React;
-use experts::request::DEFAULTS;
+use experts::request::{DEFAULTS, ShownLast};
 use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
-use scene::{MAX_HORIZON_STEPS, STEP_S, Scene};
+use scene::{MAX_HORIZON_STEPS, STEP_S, Scene, Vec2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -25,6 +25,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::Duration;
 
+/// Half seconds of a planning window.
+const MOST_SHOWN: usize = 18;
 /// Intervals of re-planning, seconds: the paper's.
 const REPLAN_S: [f64; 3] = [3.0, 6.0, 9.0];
 
@@ -140,12 +142,40 @@ pub struct GenerateRequest {
     #[serde(default = "usual_steps")]
     #[schemars(range(max = 100))]
     steps: u64,
+    /// What a person has seen last of these road users, while dragging: the answer leaves it only for a gain worth
+    /// the jump.
+    #[serde(default)]
+    shown: Members<ShownDoc>,
     /// What drafts carry.
     #[serde(default)]
     stream_modes: StreamModes,
     /// Put scores into `final`.
     #[serde(default = "yes")]
     score: bool,
+}
+
+/// The future that was shown last.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShownDoc {
+    /// Its `anchor`.
+    #[serde(default)]
+    anchor: Option<u32>,
+    /// Box centres at every half second after the start, metres; at most 18 count.
+    x_m: Vec<f64>,
+    /// As many as `x_m`.
+    y_m: Vec<f64>,
+}
+
+impl ShownDoc {
+    fn places(&self, pointer: &str) -> Result<Vec<Vec2>, FieldProblem> {
+        if self.x_m.len() != self.y_m.len() {
+            let detail = format!("{} values, as many as x_m ({}) expected", self.y_m.len(), self.x_m.len());
+            return Err(FieldProblem::new(format!("{pointer}/y_m"), "invalid-field", detail));
+        }
+        let places = self.x_m.iter().zip(&self.y_m).take(MOST_SHOWN);
+        Ok(places.map(|(x, y)| Vec2::new(*x, *y)).collect())
+    }
 }
 
 fn everyone() -> Who {
@@ -360,10 +390,12 @@ impl GenerateRequest {
             let detail = format!("the reply would have {points} points; at most {most_points}");
             return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).limit(most_points));
         }
+        let shown = self.shown(scene)?;
         let replan_steps = self.replan_interval_s.map(|s| (s / STEP_S).round() as usize);
         Ok(experts::Request {
             agents,
             react,
+            shown,
             start_step: self.start_step(),
             horizon_steps,
             replan_steps,
@@ -400,6 +432,23 @@ impl GenerateRequest {
         }
         refuse(faults)?;
         Ok(out)
+    }
+
+    fn shown(&self, scene: &Scene) -> Result<BTreeMap<String, ShownLast>, Problem> {
+        let (mut shown, mut faults) = (BTreeMap::new(), Vec::new());
+        for (id, doc) in &self.shown.0 {
+            let pointer = format!("/shown/{}", pointer_token(id));
+            if scene.agent(id).is_none() {
+                faults.push(unknown(pointer, id));
+                continue;
+            }
+            match doc.places(&pointer) {
+                Ok(places) => drop(shown.insert(id.clone(), ShownLast { anchor: doc.anchor, places })),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        refuse(faults)?;
+        Ok(shown)
     }
 
     fn known(&self, scene: &Scene, pointer: &str, ids: &[String]) -> Result<BTreeSet<String>, Problem> {

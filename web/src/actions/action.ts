@@ -18,6 +18,8 @@ export interface Action {
   readonly icon?: string;
   /** Where its keys work: everywhere, or only while no text field has the focus. */
   readonly context?: 'always';
+  /** Its keys are its own while a handle is dragged; at other times they are another action's. */
+  readonly whileDragging?: true;
   /** True when possible; words say why not. */
   when?(c: Context): true | string;
   checked?(c: Context): boolean;

@@ -12,7 +12,10 @@ import { time } from './time';
 export const ACTIONS: readonly Action[] = Object.freeze([look, movement, goal, time, scene, everything].flat());
 
 const byId = new Map(ACTIONS.map((a) => [a.id, a]));
-const byKey = new Map(ACTIONS.flatMap((a) => (a.keys ?? []).map((k) => [k, a] as const)));
+const keysOf = (actions: readonly Action[]): ReadonlyMap<string, Action> =>
+  new Map(actions.flatMap((a) => (a.keys ?? []).map((k) => [k, a] as const)));
+const byKey = keysOf(ACTIONS.filter((a) => !a.whileDragging));
+const byKeyWhileDragging = keysOf(ACTIONS.filter((a) => a.whileDragging));
 
 export function actionOf(id: string): Action {
   const a = byId.get(id);
@@ -20,7 +23,8 @@ export function actionOf(id: string): Action {
   return a;
 }
 
-export const actionForKey = (key: string): Action | undefined => byKey.get(key);
+export const actionForKey = (key: string, dragging = false): Action | undefined =>
+  (dragging ? byKeyWhileDragging.get(key) : undefined) ?? byKey.get(key);
 export const possible = (c: Context, a: Action): true | string => a.when?.(c) ?? true;
 
 export function perform(c: Context, id: string): void {

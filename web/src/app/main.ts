@@ -47,7 +47,7 @@ function makeParts(): Context {
   const saving = new Saving(editor, file, scenes, client);
   const library = new Library(editor, file, saving, scenes, client);
   const importing = new Importing(editor, library, scenes, client);
-  const generation = new Generation(editor, file, saving, new HttpGenerator(client));
+  const generation = new Generation(editor, file, saving, new HttpGenerator(client), new HttpGenerator(client));
   const main = document.createElement('main');
   main.className = 'stage';
   main.setAttribute('aria-label', 'Traffic scene');

@@ -6,7 +6,7 @@ import type { Action } from '../actions/action';
 
 export function listenToPage(c: Context): void {
   addEventListener('keydown', (e) => {
-    const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e));
+    const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e), c.editor.dragging.peek());
     if (!a || belongsToPage(c, e, a)) return;
     e.preventDefault();
     perform(c, a.id);
@@ -26,7 +26,7 @@ function belongsToPage({ editor, ui }: Context, e: KeyboardEvent, a: Action): bo
   if (/^(Shift\+)?Tab$/.test(a.keys![0]) && target !== document.body && !inList) return true;
   if (target instanceof HTMLButtonElement && pressesButton(target, e, editor.selection.peek())) return true;
   if (input?.type === 'range' && e.key.startsWith('Arrow')) return true;
-  return editor.dragging.peek() && a.id !== 'deselect';
+  return editor.dragging.peek() && a.id !== 'deselect' && !a.whileDragging;
 }
 
 /** In a number field undo is the browser's only while something is typed that has not been taken over. */

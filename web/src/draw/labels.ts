@@ -14,6 +14,7 @@ export type Offset = readonly [number, number];
 
 export class Labels {
   private used: Rect[] = [];
+  private avoided: readonly Rect[] = [];
   constructor(
     private w = 0,
     private h = 0,
@@ -25,6 +26,7 @@ export class Labels {
     this.h = h;
     this.inset = inset;
     this.used = [];
+    this.avoided = [];
   }
 
   /** Is a point out of the picture? What belongs to it is not labelled then. */
@@ -36,6 +38,13 @@ export class Labels {
     this.used.push({ x, y, w, h });
   }
 
+  /** Keeps what is placed in `place` off other things too, which later labels may cover. */
+  avoiding(rects: readonly Rect[], place: () => void): void {
+    this.avoided = rects;
+    place();
+    this.avoided = [];
+  }
+
   place(x: number, y: number, w: number, h: number, tries: readonly Offset[], must: boolean): Rect | null {
     const at = (o: Offset): Rect => ({
       x: clamp(x + o[0], 6 + this.inset.left, Math.max(6, this.w - w - 6 - this.inset.right)),
@@ -45,7 +54,8 @@ export class Labels {
     });
     for (const o of tries) {
       const r = at(o);
-      if (!this.used.some((u) => r.x < u.x + u.w && r.x + w > u.x && r.y < u.y + u.h && r.y + h > u.y)) {
+      const meets = (u: Rect) => r.x < u.x + u.w && r.x + w > u.x && r.y < u.y + u.h && r.y + h > u.y;
+      if (!this.used.some(meets) && !this.avoided.some(meets)) {
         this.used.push(r);
         return r;
       }
@@ -69,13 +79,15 @@ function around(w: number, h: number, radii: readonly number[]): Offset[] {
   return out;
 }
 
+export type PillIcon = 'cross' | 'triangle' | 'bar' | 'flag';
+
 export interface PillStyle {
   fg?: string;
   bg?: string;
   border?: string;
   weight?: number;
   height?: number;
-  icon?: 'cross' | 'triangle';
+  icon?: PillIcon;
   leader?: string;
   tries?: readonly Offset[];
   radii?: readonly number[];
@@ -151,31 +163,45 @@ function leaderLine(g: CanvasRenderingContext2D, x: number, y: number, r: Rect, 
   g.stroke();
 }
 
-export function paintIcon(
-  g: CanvasRenderingContext2D,
-  kind: 'cross' | 'triangle',
-  x: number,
-  y: number,
-  colour: string,
-): void {
+export function paintIcon(g: CanvasRenderingContext2D, kind: PillIcon, x: number, y: number, colour: string): void {
   g.beginPath();
-  if (kind === 'cross') {
-    g.moveTo(x - 3.2, y - 3.2);
-    g.lineTo(x + 3.2, y + 3.2);
-    g.moveTo(x + 3.2, y - 3.2);
-    g.lineTo(x - 3.2, y + 3.2);
-    g.strokeStyle = colour;
-    g.lineWidth = 1.9;
-    g.lineCap = 'round';
-    g.stroke();
-    return;
+  g.strokeStyle = g.fillStyle = colour;
+  g.lineCap = 'round';
+  g.lineWidth = 1.9;
+  switch (kind) {
+    case 'cross':
+      g.moveTo(x - 3.2, y - 3.2);
+      g.lineTo(x + 3.2, y + 3.2);
+      g.moveTo(x + 3.2, y - 3.2);
+      g.lineTo(x - 3.2, y + 3.2);
+      g.stroke();
+      return;
+    case 'bar':
+      g.lineWidth = 1.7;
+      g.arc(x, y, 4.2, 0, Math.PI * 2);
+      g.moveTo(x - 2.9, y + 2.9);
+      g.lineTo(x + 2.9, y - 2.9);
+      g.stroke();
+      return;
+    case 'flag':
+      g.lineWidth = 1.5;
+      g.setLineDash([2.2, 1.8]);
+      g.moveTo(x - 3, y + 4.5);
+      g.lineTo(x - 3, y - 4.5);
+      g.lineTo(x + 4.5, y - 2.8);
+      g.lineTo(x + 2.5, y - 0.8);
+      g.lineTo(x + 4.5, y + 1.2);
+      g.lineTo(x - 3, y + 1);
+      g.stroke();
+      g.setLineDash([]);
+      return;
+    case 'triangle':
+      g.moveTo(x, y - 4.4);
+      g.lineTo(x + 4.6, y + 3.6);
+      g.lineTo(x - 4.6, y + 3.6);
+      g.closePath();
+      g.fill();
   }
-  g.moveTo(x, y - 4.4);
-  g.lineTo(x + 4.6, y + 3.6);
-  g.lineTo(x - 4.6, y + 3.6);
-  g.closePath();
-  g.fillStyle = colour;
-  g.fill();
 }
 
 /** A pill at a place given as a pair. */

@@ -29,6 +29,12 @@ export interface Away {
   readonly waiting: number;
 }
 
+/** A sentence about one road user. */
+export interface Remark {
+  readonly id: string;
+  readonly words: string;
+}
+
 export interface LiveReach {
   readonly id: string;
   readonly reach: Reach;
@@ -38,7 +44,9 @@ export class Answers {
   readonly #motion = signal<MotionSet>(emptyMotion(''));
   readonly #draft = signal<Draft | null>(null);
   readonly #changes = signal<readonly Change[]>([]);
+  readonly #foreseen = signal<readonly Change[] | null>(null);
   readonly #liveReach = signal<LiveReach | null>(null);
+  readonly #remark = signal<Remark | null>(null);
   readonly #status = signal<Status>({ kind: 'loading' });
   readonly #away = signal<Away | null>(null);
   readonly #cache = new MotionCache();
@@ -48,8 +56,12 @@ export class Answers {
   readonly draft: ReadonlySignal<Draft | null> = this.#draft;
   /** Who else does something else since the last change. */
   readonly changes: ReadonlySignal<readonly Change[]> = this.#changes;
+  /** Who else would change if one let go now; null where nobody has asked, or nobody has answered yet. */
+  readonly foreseen: ReadonlySignal<readonly Change[] | null> = this.#foreseen;
   /** The generator's verdict on the goal as it is being dragged. */
   readonly liveReach: ReadonlySignal<LiveReach | null> = this.#liveReach;
+  /** Why another future is shown than the one that was bold in the drag. */
+  readonly remark: ReadonlySignal<Remark | null> = this.#remark;
   readonly status: ReadonlySignal<Status> = this.#status;
   /** Null while the generator answers. */
   readonly away: ReadonlySignal<Away | null> = this.#away;
@@ -59,7 +71,9 @@ export class Answers {
       this.#cache.clear();
       this.#draft.value = null;
       this.#changes.value = [];
+      this.#foreseen.value = null;
       this.#liveReach.value = null;
+      this.#remark.value = null;
       this.#motion.value = saved ?? emptyMotion(sceneKey(scene));
       if (saved) this.#cache.put(saved);
       this.#status.value = { kind: 'ready' };
@@ -71,12 +85,17 @@ export class Answers {
     batch(() => {
       this.#draft.value = null;
       this.#liveReach.value = null;
+      this.#remark.value = null;
     });
   }
 
   /** A drag begins: who changed the last time is no longer of interest. */
   dragBegan(): void {
-    this.#changes.value = [];
+    batch(() => {
+      this.#changes.value = [];
+      this.#remark.value = null;
+      this.#foreseen.value = null;
+    });
   }
 
   dragMoved(): void {
@@ -86,6 +105,7 @@ export class Answers {
   dragPutBack(): void {
     batch(() => {
       this.forgetLook();
+      this.#foreseen.value = null;
       this.#status.value = { kind: 'ready' };
     });
   }
@@ -104,9 +124,11 @@ export class Answers {
     const known = this.#cache.get(key);
     batch(() => {
       this.#changes.value = [];
+      this.#remark.value = null;
       if (known) {
         this.#motion.value = known;
         this.#draft.value = null;
+        this.#foreseen.value = null;
         return;
       }
       const m = this.#motion.peek();
@@ -123,8 +145,14 @@ export class Answers {
       this.#cache.put(set);
       this.#motion.value = set;
       this.#draft.value = null;
+      this.#foreseen.value = null;
       if (except) this.#changes.value = findChanges(scene, before, set, except);
     });
+  }
+
+  /** What the others would do; null when it is not known any more. */
+  foresee(changes: readonly Change[] | null): void {
+    this.#foreseen.value = changes;
   }
 
   showDraft(id: string, futures: Futures, earlier: readonly Futures[] = []): void {
@@ -157,6 +185,10 @@ export class Answers {
   /** The verdict of the whole answer takes the place of the one during the drag. */
   dropLiveReach(): void {
     this.#liveReach.value = null;
+  }
+
+  explain(remark: Remark | null): void {
+    this.#remark.value = remark;
   }
 
   scored(score: Score | null): void {

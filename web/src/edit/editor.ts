@@ -6,7 +6,7 @@ import type { Command } from '../model/commands';
 import { canChange, startPose, touched, type Agent, type Scene } from '../model/scene';
 import type { Futures, MotionSet } from '../model/futures';
 import { motionOf } from '../model/changes';
-import { readEvents, type TrafficEvent } from '../model/events';
+import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
@@ -60,6 +60,8 @@ export interface Step {
   readonly undo: boolean;
 }
 
+const NO_EVENTS: readonly TrafficEvent[] = [];
+
 export class Editor {
   readonly answers = new Answers();
   readonly playhead = new Playhead();
@@ -76,6 +78,7 @@ export class Editor {
   readonly #tool = signal<ToolName>('select');
   readonly #measure = signal<MeasuredLine | null>(null);
   readonly #showBefore = signal(true);
+  readonly #showForeseen = signal(true);
   readonly #drag = signal<DragInfo | null>(null);
   readonly #selectedEvent = signal<TrafficEvent | null>(null);
   readonly #speedUnit = signal<SpeedUnit>(recall<SpeedUnit>('speed-unit') ?? 'km/h');
@@ -100,6 +103,8 @@ export class Editor {
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
   /** Are the paths before the last change shown beside the new ones? */
   readonly showBefore: ReadonlySignal<boolean> = this.#showBefore;
+  /** Are the others' answers shown on the picture while a handle is dragged? */
+  readonly showForeseen: ReadonlySignal<boolean> = this.#showForeseen;
   readonly drag: ReadonlySignal<DragInfo | null> = this.#drag;
   readonly selectedEvent: ReadonlySignal<TrafficEvent | null> = this.#selectedEvent;
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
@@ -110,6 +115,7 @@ export class Editor {
   readonly motion = this.answers.motion;
   readonly draft = this.answers.draft;
   readonly changes = this.answers.changes;
+  readonly foreseen = this.answers.foreseen;
   readonly liveReach = this.answers.liveReach;
   readonly status = this.answers.status;
   readonly away = this.answers.away;
@@ -145,16 +151,22 @@ export class Editor {
     if (!f || !a) return 0;
     return Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
   });
+  /** Changes only when a drag begins or ends. */
+  readonly dragging = computed(() => this.drag.value !== null);
   readonly events = computed<readonly TrafficEvent[]>(() => {
     const s = this.scene.value;
-    return s && !this.drag.value ? readEvents(s, this.motion.value) : [];
+    return s && !this.dragging.value ? readEvents(s, this.motion.value) : NO_EVENTS;
+  });
+  /** What the timeline shows: the events, and while a hand moves what is wrong with the future that is shown. */
+  readonly shownEvents = computed<readonly TrafficEvent[]>(() => {
+    const s = this.scene.value;
+    const d = this.dragging.value ? this.draft.value : null;
+    return s && d ? eventsOf(s, this.motion.value, d.id, d.futures, this.chosen.value) : this.events.value;
   });
   /** Are the futures of the selected road user from before the last change? */
   readonly outdated = computed(
     () => this.motion.value.stale && !this.draft.value && this.motion.value.fresh !== this.selection.value,
   );
-  /** Changes only when a drag begins or ends. */
-  readonly dragging = computed(() => this.drag.value !== null);
 
   unitOf(a: Agent): SpeedUnit {
     return a.type === 'pedestrian' ? 'm/s' : this.speedUnit.value;
@@ -323,6 +335,10 @@ export class Editor {
 
   toggleBefore(): void {
     this.#showBefore.value = !this.#showBefore.peek();
+  }
+
+  toggleForeseen(): void {
+    this.#showForeseen.value = !this.#showForeseen.peek();
   }
 
   chooseTool(tool: ToolName): void {

@@ -3,13 +3,15 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
 import type { MotionSet } from '../model/futures';
-import { canChange, GOAL_TIME, sceneKey, touched, type Scene } from '../model/scene';
+import { canChange, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { trackJson } from '../model/write';
 import { Away } from '../net/client';
-import type { Generator, Handlers, SceneRef } from '../net/generator';
+import type { Generator, Handlers, Question, SceneRef } from '../net/generator';
 import { Absence } from './absence';
+import { askedAfter } from './after-change';
 import type { Editor, Step } from './editor';
+import { Foresight, type Known } from './foresight';
 import type { Previews } from './gestures/chart';
 import { Questions, type Wanted } from './question';
 import { readScore } from './read-answer';
@@ -25,6 +27,9 @@ export class Generation implements Previews {
   readonly #questions: Questions;
   readonly #reception: Reception;
   readonly #absence: Absence;
+  readonly #foresight: Foresight;
+  /** Counts the poses of drags. */
+  #pose = 0;
   readonly #busy = signal(false);
   /** What is asked and not answered yet, and a change that rests before it is asked about. */
   readonly #open = new Set<object>();
@@ -40,6 +45,8 @@ export class Generation implements Previews {
     private readonly file: SceneFile,
     private readonly saving: Saving,
     private readonly generator: Generator,
+    /** A line of its own for what the others would do. */
+    others: Generator,
   ) {
     this.#questions = new Questions(editor, file);
     this.#absence = new Absence(
@@ -53,6 +60,14 @@ export class Generation implements Previews {
       askAgain: (w) => this.#ask(w),
       look: (id) => this.#look(id),
       score: (step) => void this.score(step, true),
+    });
+    this.#foresight = new Foresight(others, {
+      question: (scene, on) => this.#foreseeing(scene, on),
+      foresee: (scene, e) => {
+        const asked = this.#onRelease(scene);
+        if (asked) this.#reception.foresee(scene, e, asked);
+      },
+      begin: () => this.#begin(),
     });
     editor.onCommit = (scene, step) => this.#committed(scene, step);
     editor.onSelect = (id) => this.#selected(id);
@@ -84,12 +99,52 @@ export class Generation implements Previews {
 
   /** A drag frame: the newest pose, one request on the way and one waiting. */
   preview(id: string): void {
-    if (this.#absence.now) this.#sketch(id);
-    else this.#ask({ agents: [id], react: false, step: null }, true);
+    if (this.#absence.now) {
+      this.#sketch(id);
+      return;
+    }
+    const scene = this.editor.scene.peek();
+    const pose = ++this.#pose;
+    if (scene?.others === 'react') this.#foresight.moved(scene);
+    this.#ask({ agents: [id], react: false, step: null }, true, (shown) => {
+      if (shown || pose === this.#pose) this.#foresight.yielded();
+    });
+  }
+
+  // -------------------------------------------------------------- what the others would do
+
+  /** What a release would ask of a document that is being dragged. */
+  #onRelease(scene: Scene): Wanted | null {
+    const agent = this.editor.selection.peek();
+    const asked = agent && askedAfter(this.editor, scene, { name: '', agent, undo: false });
+    return asked && typeof asked !== 'string' ? { ...asked, drafts: 'chosen' } : null;
+  }
+
+  #foreseeing(scene: Scene, on: Handlers): Question | null {
+    const asked = this.#absence.now ? null : this.#onRelease(scene);
+    return asked && this.#questions.make(scene, asked, true, on);
+  }
+
+  /** The release takes over what was foreseen of exactly this document; false when nothing was. */
+  #takeOver(scene: Scene, step: Step): boolean {
+    const asked = askedAfter(this.editor, scene, step);
+    if (typeof asked === 'string') return false;
+    const end = this.#begin();
+    const take = (known: Known | null): void => {
+      if (known) {
+        this.generator.cancel();
+        this.#reception.takeOver(scene, known.final, asked, step, known.ms);
+      } else this.#workOut(step);
+      end();
+    };
+    const taken = this.#foresight.release(scene, take);
+    if (!taken) end();
+    return taken;
   }
 
   /** Drops the previews of a drag that was put back. */
   cancelPreviews(): void {
+    this.#foresight.drop();
     this.generator.cancel();
     if (!this.editor.motion.peek().stale || this.#absence.now) return;
     // A drag that began while a change was being worked out has pushed that aside; it is asked for again.
@@ -101,6 +156,8 @@ export class Generation implements Previews {
     this.saving.changed(scene);
     clearTimeout(this.#rest);
     this.#rested();
+    if (editor.motion.peek().stale && !this.#absence.now && this.#takeOver(scene, step)) return;
+    this.#foresight.drop();
     if (!editor.motion.peek().stale) {
       this.generator.cancel();
       editor.answers.report({ kind: 'ready' });
@@ -134,33 +191,12 @@ export class Generation implements Previews {
 
   /** Release, typed value, undo to an unknown state: the others are asked too. */
   #workOut(step: Step): void {
-    const { editor } = this;
-    const scene = editor.scene.peek();
+    const scene = this.editor.scene.peek();
     if (!scene) return;
-    const mine = editor.touchedIds(scene);
-    if (!mine.length) return this.#pristine(scene, step);
-    if (scene.others !== 'react') return this.#workOutAlone(scene, mine, step);
-    const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
-    const rest = [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
-    const subject = step.agent ? scene.agents.get(step.agent) : undefined;
-    if (subject && subject.chosen !== null && editor.motion.peek().futures.has(subject.id)) {
-      // A picked future is kept as it is; everybody else answers it.
-      if (rest.length) this.#ask({ agents: rest, react: false, step, kept: new Set(picked) });
-      else void this.score(step);
-      return;
-    }
-    const first = subject && touched(subject) ? subject.id : mine[0];
-    const react = picked.length ? rest.filter((id) => id !== first) : true;
-    this.#ask({ agents: [first], react, step, kept: new Set(picked.filter((id) => id !== first)) });
-  }
-
-  /** The others keep to the log or stand: only those that were asked something are worked out. */
-  #workOutAlone(scene: Scene, mine: string[], step: Step): void {
-    const known = this.editor.motion.peek().futures;
-    const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
-    const kept = new Set(mine.filter((id) => !open.includes(id)));
-    if (open.length) this.#ask({ agents: open, react: false, step, kept });
-    else void this.score(step);
+    const asked = askedAfter(this.editor, scene, step);
+    if (asked === 'nothing') this.#pristine(scene, step);
+    else if (asked === 'known') void this.score(step);
+    else this.#ask(asked);
   }
 
   /** Nobody is asked anything: everybody follows the log again, or, past its end, makes a way of their own. */
@@ -177,11 +213,12 @@ export class Generation implements Previews {
     if (selected) this.#look(selected);
   }
 
-  #ask(w: Wanted, preview = false): void {
+  /** `came` is called when something came of it, and when it ends, with whether there was something to be seen. */
+  #ask(w: Wanted, preview = false, came?: (shown: boolean) => void): void {
     const { editor } = this;
     const scene = editor.scene.peek();
     if (!scene || this.#absence.now) return;
-    const handlers = this.#untilAnswered(this.#reception.of(scene, w));
+    const handlers = this.#untilAnswered(this.#reception.of(scene, w), came);
     this.generator.ask(this.#questions.make(scene, w, preview, handlers));
     if (!preview) editor.answers.report({ kind: 'refining', step: 0, steps: DEFAULTS.steps, ms: 0 });
   }
@@ -198,20 +235,25 @@ export class Generation implements Previews {
   }
 
   /** The same handlers, with the question open until one of its endings. */
-  #untilAnswered(on: Handlers): Handlers {
+  #untilAnswered(on: Handlers, came?: (shown: boolean) => void): Handlers {
     const end = this.#begin();
     const ending =
-      <A extends unknown[]>(handle?: (...a: A) => void) =>
+      <A extends unknown[]>(shown: boolean, handle?: (...a: A) => void) =>
       (...a: A): void => {
         handle?.(...a);
+        came?.(shown);
         end();
       };
     return {
       ...on,
-      final: ending(on.final),
-      refused: ending(on.refused),
-      away: ending(on.away),
-      dropped: ending(on.dropped),
+      draft: (...a) => {
+        on.draft(...a);
+        came?.(true);
+      },
+      final: ending(true, on.final),
+      refused: ending(true, on.refused),
+      away: ending(false, on.away),
+      dropped: ending(false, on.dropped),
     };
   }
 

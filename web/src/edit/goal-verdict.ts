@@ -2,6 +2,7 @@
 import type { Point } from '../model/geometry';
 import { reachWords, type Reach } from '../model/futures';
 import type { Agent } from '../model/scene';
+import { metres } from '../model/units';
 import type { Editor } from './editor';
 
 /** Why a goal cannot be reached, and the nearest place that can. */
@@ -19,6 +20,10 @@ export function knownReach(e: Editor, a: Agent): Reach | null {
   return e.dragging.value || m.stale ? null : (m.reach.get(a.id) ?? null);
 }
 
+/** Are the futures on screen an answer to the document as it is? In a drag those from before it are none. */
+export const verdictsHold = (e: Editor): boolean =>
+  !e.outdated.value && !e.futures.value?.sketch && (!e.dragging.value || e.draft.value !== null);
+
 /** Null when the goal can be reached, as far as anybody knows. */
 export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
   const known = knownReach(e, a);
@@ -26,4 +31,20 @@ export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
     return known.status === 'unreachable' ? { ...reachWords(known, a.goal.time), nearest: known.nearest } : null;
   const local = e.localReach.value;
   return local && local.kind !== 'ok' ? local : null;
+}
+
+/** The nearest goal by the road, and where it lies from the one that is set. */
+export interface RoadGoal extends Point {
+  readonly heading: number;
+  readonly words: string;
+}
+
+export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
+  const to = knownReach(e, a)?.byRoad;
+  if (!to || !a.goal.pos) return null;
+  const dx = to.x - a.goal.pos[0],
+    dy = to.y - a.goal.pos[1];
+  const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
+  const where = ahead > to.distance / 2 ? 'further on' : ahead < -to.distance / 2 ? 'before it' : 'beside it';
+  return { x: to.x, y: to.y, heading: to.heading, words: `By the road: ${metres(to.distance, 0)} ${where}` };
 }

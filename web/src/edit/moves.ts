@@ -8,6 +8,7 @@ import { localReach, shortfall } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
 import { metres, toUnit } from '../model/units';
 import type { Editor, Field, Part } from './editor';
+import { roadGoal } from './goal-verdict';
 import { lanesFor } from './snap';
 
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
@@ -142,6 +143,32 @@ export interface Remedy {
   readonly icon: string;
   readonly primary: boolean;
   readonly command: Command;
+}
+
+/** The way by the road out of a goal that is reached against the rules: the nearest such goal, else a future. */
+export function byRoad(e: Editor, a: Agent): Remedy | null {
+  const to = roadGoal(e, a);
+  if (to)
+    return {
+      label: to.words,
+      note: '',
+      icon: 'road',
+      primary: true,
+      command: {
+        ...setGoal(a, {
+          ...a.goal,
+          pos: freeze([to.x, to.y]),
+          heading: a.goal.heading === null ? null : to.heading,
+        }),
+        name: `Goal of ${a.name} moved to where the road leads`,
+      },
+    };
+  const modes = e.futures.value?.modes ?? [];
+  const good = modes.findIndex((m) => m.about && !m.about.faults.length);
+  const command = a.goal.pos && good >= 0 ? pickFuture(e, a, good) : null;
+  return (
+    command && { label: `By the road: ${LETTERS[good]}`, note: modes[good].name, icon: 'road', primary: true, command }
+  );
 }
 
 export function remedies(e: Editor, a: Agent): Remedy[] {

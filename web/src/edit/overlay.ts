@@ -2,6 +2,7 @@
 import type { Pose } from '../model/geometry';
 import { endPose, endsBefore, poseAt } from '../model/motion';
 import { comparedWithLog } from '../model/changes';
+import type { Futures } from '../model/futures';
 import { canChange, startPose, touched, type Agent } from '../model/scene';
 import { metres, num, seconds, speedLabel } from '../model/units';
 import { Labels, pill, tag } from '../draw/labels';
@@ -11,9 +12,12 @@ import { paintChips, paintFutures, polyline, trail, type Chip } from '../draw/st
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-import { outOfReach } from './goal-verdict';
+import { outOfReach, verdictsHold } from './goal-verdict';
 import { ChangesOverlay } from './overlay-changes';
+import { EventsOverlay } from './overlay-events';
+import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
+import { VerdictOverlay } from './overlay-verdicts';
 
 type G = CanvasRenderingContext2D;
 
@@ -26,18 +30,29 @@ export class Overlay {
   private readonly labels = new Labels();
   private readonly goal: GoalOverlay;
   private readonly changes: ChangesOverlay;
+  private readonly verdicts: VerdictOverlay;
+  private readonly events: EventsOverlay;
+  private readonly ghosts: GhostOverlay;
 
   constructor(
     private readonly editor: Editor,
     private readonly poseNow: (a: Agent) => Pose | null,
   ) {
     this.goal = new GoalOverlay(editor, this.labels);
+    this.events = new EventsOverlay(editor, this.labels, poseNow);
+    this.verdicts = new VerdictOverlay(editor, this.labels);
     this.changes = new ChangesOverlay(editor, this.labels, poseNow);
+    this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
   }
 
   /** Where the time tag was painted, for the pointer. */
   get timeTag(): GoalOverlay['timeTag'] {
     return this.goal.timeTag;
+  }
+
+  /** Is something still fading? It is to be painted again then. */
+  get fading(): boolean {
+    return this.ghosts.fading;
   }
 
   paint(g: G, v: View): void {
@@ -57,8 +72,10 @@ export class Overlay {
     this.paintHover(g, v);
     const a = e.agent.value;
     if (e.showBefore.value) this.changes.paintBefore(g, v);
+    this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
-    this.changes.paintEvents(g, v);
+    this.ghosts.paintLabels(g, v);
+    this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);
     this.paintMeasure(g, v);
   }
@@ -151,6 +168,7 @@ export class Overlay {
       tag(g, this.labels, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
     if (bad?.nearest) this.goal.labelNearest(g, v, a, bad.nearest);
+    this.paintWords(g, v, a);
     this.paintLetters(g, v, a);
     this.goal.dragLabels(g, v, a, goal);
   }
@@ -165,6 +183,8 @@ export class Overlay {
     if (d && d.id === a.id)
       d.earlier.forEach((old, i) => paintFutures(g, v, old, { chosen, alpha: TRAIL_ALPHA[i] ?? 0.1 }));
     const committed = this.committed(a);
+    const judged = this.judged(a, f);
+    this.verdicts.paintGround(g, v, a, f, judged);
     paintFutures(g, v, f, {
       chosen,
       only: e.hoverFuture.value,
@@ -172,6 +192,7 @@ export class Overlay {
       alpha: outdated ? 0.6 : 1,
       onlyChosen: committed,
     });
+    this.verdicts.paintStretches(g, v, f, judged);
     if (f.sketch) {
       const m = f.modes[0].motion,
         i = m.x.length >> 1;
@@ -180,10 +201,26 @@ export class Overlay {
     }
   }
 
+  /** Those whose verdicts are shown: of futures from before a change nothing is said. */
+  private judged(a: Agent, f: Futures): readonly number[] {
+    const { editor: e } = this;
+    if (!verdictsHold(e)) return [];
+    const only = e.hoverFuture.value ?? (this.committed(a) ? e.chosen.value : null);
+    if (only !== null) return only < f.modes.length ? [only] : [];
+    return f.modes.map((_, i) => i);
+  }
+
   /** Away from the start only the future in force is shown: it is what happens. */
   private committed(a: Agent): boolean {
     const { editor: e } = this;
     return touched(a) && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
+  }
+
+  private paintWords(g: G, v: View, a: Agent): void {
+    const f = this.editor.futures.value;
+    if (!f || !this.editor.layers.value.futures) return;
+    this.verdicts.paintByRoad(g, v, a);
+    this.verdicts.paintWords(g, v, f, this.judged(a, f));
   }
 
   private paintLetters(g: G, v: View, a: Agent): void {

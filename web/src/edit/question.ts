@@ -2,13 +2,14 @@
 // whom, and the options.
 import { DEFAULTS } from '../model/domain';
 import type { ConditionJson, MapJson, MapRef, SceneJson } from '../model/json';
-import type { MotionSet } from '../model/futures';
+import type { Futures, MotionSet } from '../model/futures';
 import { GOAL_TIME, type Scene } from '../model/scene';
 import { conditionOf, generatedJson, isEmptyCondition, stillAgents } from '../model/write';
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Editor, Step } from './editor';
 import type { SceneFile } from './scene-file';
+import { shownFuture } from './shown';
 
 /** What is wanted of the generator. */
 export interface Wanted {
@@ -21,11 +22,13 @@ export interface Wanted {
   /** Those whose futures are kept as they are and count as what the scene does. */
   readonly kept?: ReadonlySet<string>;
   readonly unscored?: boolean;
+  /** What is to be seen on the way to the answer; all six unless only the answer counts. */
+  readonly drafts?: 'all' | 'chosen';
 }
 
 export class Questions {
-  /** The scene as the last previews asked about it. */
-  #last: { set: MotionSet; others: string; scene: SceneJson } | null = null;
+  /** The scene as the last questions of a drag asked about it: the hero's own, and what the others would do. */
+  readonly #last = new Map<boolean, { set: MotionSet; rest: string; scene: SceneJson }>();
 
   constructor(
     private readonly editor: Editor,
@@ -38,7 +41,7 @@ export class Questions {
       preview,
       on,
       options: this.#options(scene, w),
-      scene: () => this.#reference(scene, set, w),
+      scene: () => this.#reference(scene, set, w, preview),
       whole: () => this.#written(scene, set, w, this.file.map!),
     };
   }
@@ -56,8 +59,9 @@ export class Questions {
       seed: scene.seed,
       diversity: scene.diversity,
       steps: DEFAULTS.steps,
-      stream_modes: 'all',
+      stream_modes: w.drafts ?? 'all',
       score: w.step !== null && !w.unscored,
+      ...shownOf(this.editor, w),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME
         ? { horizon_s: scene.length, replan_interval_s: scene.replan }
@@ -65,17 +69,18 @@ export class Questions {
     };
   }
 
-  #reference(scene: Scene, set: MotionSet, w: Wanted): SceneRef {
+  #reference(scene: Scene, set: MotionSet, w: Wanted, preview: boolean): SceneRef {
     const { file } = this;
     const asStored = file.stored && !set.driving.size && !w.kept?.size && scene.others !== 'still';
     if (asStored) return { id: scene.id };
     const map = file.mapRef ? { ref: file.mapRef } : file.map!;
-    if (w.step) return { scene: this.#written(scene, set, w, map) };
+    if (!preview) return { scene: this.#written(scene, set, w, map) };
     // A drag asks sixty times a second about the same surroundings.
-    const last = this.#last;
-    if (last && last.set === set && last.others === scene.others) return { scene: last.scene };
+    const rest = JSON.stringify([scene.others, [...(w.kept ?? [])]]);
+    const last = this.#last.get(w.step !== null);
+    if (last && last.set === set && last.rest === rest) return { scene: last.scene };
     const written = this.#written(scene, set, w, map);
-    this.#last = { set, others: scene.others, scene: written };
+    this.#last.set(w.step !== null, { set, rest, scene: written });
     return { scene: written };
   }
 
@@ -84,6 +89,27 @@ export class Questions {
     const kept = [...set.futures].filter(([id]) => set.driving.has(id) || w.kept?.has(id));
     const moving = new Set(this.editor.touchedIds(scene));
     const agents = scene.others === 'still' ? stillAgents(raw, scene, moving) : raw.agents;
-    return { ...raw, map, agents, generated: generatedJson(scene, kept) };
+    return {
+      ...raw,
+      map,
+      agents,
+      generated: generatedJson(
+        scene,
+        kept.map(([id, f]) => [id, inForce(scene, id, f)]),
+      ),
+    };
   }
+}
+
+/** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
+function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
+  const drags = editor.dragging.peek() || (w.step !== null && editor.draft.peek()?.id === editor.selection.peek());
+  const shown = drags ? shownFuture(editor, w.agents) : undefined;
+  return shown ? { shown } : {};
+}
+
+/** The one future that is followed: it is all that others are worked out against, and a sixth of the text. */
+function inForce(scene: Scene, id: string, f: Futures): Futures {
+  const chosen = f.modes[Math.min(f.modes.length - 1, scene.agents.get(id)?.chosen ?? f.chosen)];
+  return { ...f, modes: chosen ? [chosen] : [], chosen: 0 };
 }

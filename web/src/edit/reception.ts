@@ -1,15 +1,28 @@
 // What becomes of the generator's answers: drafts on their way, the futures of a look, the motion after a change.
-import { batch } from '@preact/signals-core';
+import { batch, effect } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
-import type { AgentFuturesJson } from '../model/json';
-import { readFutures, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
+import type { AgentFuturesJson, ReactionJson } from '../model/json';
+import {
+  ideas,
+  percents,
+  readFutures,
+  withNames,
+  type Futures,
+  type KeepOrder,
+  type MotionSet,
+} from '../model/futures';
 import { motionFrom } from '../model/motion';
+import type { Naming } from '../model/names';
+import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
-import { sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { whyAnother, whyNot } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
+import { FrozenNames } from './frozen-names';
 import type { Wanted } from './question';
+import { Steady } from './steady';
 import { readReach, readScore, readWarnings } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome } from './report';
 
@@ -27,14 +40,25 @@ const TRAILS = 3;
 
 type Keep = (a: Agent) => KeepOrder;
 
+const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
+
 export class Reception {
   readonly #calm =
     typeof matchMedia === 'undefined' ? { matches: false } : matchMedia('(prefers-reduced-motion: reduce)');
+  readonly #names = new FrozenNames();
+
+  readonly #steady: Steady;
 
   constructor(
     private readonly editor: Editor,
     private readonly hooks: Hooks,
-  ) {}
+  ) {
+    this.#steady = new Steady((changes) => editor.answers.foresee(changes));
+    // What was said of a drag ends with it.
+    effect(() => {
+      if (editor.foreseen.value === null) this.#steady.forget();
+    });
+  }
 
   /** Handlers for the answer to one question. */
   of(scene: Scene, w: Wanted): Handlers {
@@ -42,7 +66,9 @@ export class Reception {
     const subject = w.step ? (w.step.agent ?? editor.selection.peek()) : w.agents[0];
     let began = false;
     let slow = false;
-    const keep: Keep = (a) => this.#lettersOf(a, began && a.id === subject);
+    const bold = w.step && subject ? this.#boldOf(subject) : null;
+    const keep: Keep = (a) => this.#lettersOf(a, (began || w.step !== null) && a.id === subject);
+    const atRest: Keep = (a) => this.#lettersAtRest(a);
     return {
       draft: (e, step, steps, ms) => {
         hooks.answered();
@@ -50,8 +76,10 @@ export class Reception {
       },
       final: (e, ms) => {
         hooks.answered();
-        if (w.step) this.#finalOfChange(scene, e, w, w.step, ms, keep);
-        else this.#finalOfLook(scene, e, w.agents[0], ms, keep);
+        if (w.step) {
+          this.#finalOfChange(scene, e, w, w.step, ms, atRest);
+          this.#sayWhyAnother(scene, subject, bold);
+        } else this.#finalOfLook(scene, e, w.agents[0], ms, editor.dragging.peek() ? keep : atRest);
       },
       refused: (p) => {
         // Futures matter more than their score: when working out both fails, they are asked for alone.
@@ -63,7 +91,10 @@ export class Reception {
         if (!slow) editor.notices.say('This takes longer than usual.');
         slow = true;
       },
-      away: () => hooks.away(w),
+      away: () => {
+        editor.answers.foresee(null);
+        hooks.away(w);
+      },
     };
   }
 
@@ -73,6 +104,31 @@ export class Reception {
     const d = editor.draft.peek();
     const like = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
     return { like, always: editor.dragging.peek() || a.chosen !== null || began };
+  }
+
+  /** At rest A is the likeliest; only where somebody picked a letter do they stay. */
+  #lettersAtRest(a: Agent): KeepOrder {
+    return a.chosen === null ? 'rank' : this.#lettersOf(a, true);
+  }
+
+  /** Which idea is bold as the hand lets go; null where no drag left one. */
+  #boldOf(id: string): string | null {
+    const { editor } = this;
+    const d = editor.draft.peek();
+    const a = editor.scene.peek()?.agents.get(id);
+    if (d?.id !== id || d.futures.sketch || !a || a.chosen !== null) return null;
+    return ideas(d.futures.modes)[d.futures.chosen];
+  }
+
+  /** The bold one is another than in the drag, or not the likeliest: one sentence says why. */
+  #sayWhyAnother(scene: Scene, id: string | null, bold: string | null): void {
+    const { editor } = this;
+    const f = id !== null && editor.motion.peek().futures.get(id);
+    if (!f || editor.motion.peek().stale || scene.agents.get(id)!.chosen !== null) return;
+    const was = bold === null ? 0 : ideas(f.modes).indexOf(bold);
+    const why = (bold === null ? whyNot : whyAnother)(f, was, f.chosen, nameIn(scene));
+    editor.answers.explain(why === null ? null : { id, words: `${why}.` });
+    if (why) editor.notices.say(`${why}.`);
   }
 
   // -------------------------------------------------------------- drafts
@@ -107,20 +163,59 @@ export class Reception {
     const last = shown?.id === id && !shown.futures.sketch ? shown : null;
     // The answer to a release starts rough again; what the drag has settled already stays until it is better.
     if (last && !editor.dragging.peek() && step < last.futures.step) return false;
-    const f = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
+    const read = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
+    const f = this.#withFrozenNames(a, read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
     editor.answers.showDraft(id, f, trails);
     return true;
+  }
+
+  /** What is on screen keeps its names as far as they hold. */
+  #withFrozenNames(a: Agent, read: Futures): Futures {
+    const { editor } = this;
+    const d = editor.draft.peek();
+    const before = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
+    const who = naming(editor.scene.peek()!, a);
+    return before ? this.#names.keep(before, read, who, performance.now()) : withNames(read, who);
+  }
+
+  // -------------------------------------------------------------- what the others would do
+
+  /** What a release would be answered, while the hand still moves. */
+  foresee(scene: Scene, e: FinalEvent, w: Wanted): void {
+    const { editor } = this;
+    if (!editor.dragging.peek()) return;
+    this.hooks.answered();
+    const set = this.#motionAfter(scene, e, w, (a) => this.#lettersOf(a, true));
+    this.#steady.hear(findChanges(scene, editor.motion.peek(), set, this.#subjects(scene, w.step)));
+  }
+
+  /** The release is answered by what was foreseen of it. */
+  takeOver(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number): void {
+    this.hooks.answered();
+    const bold = step.agent ? this.#boldOf(step.agent) : null;
+    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersAtRest(a));
+    this.#sayWhyAnother(scene, step.agent, bold);
+  }
+
+  /** Those that were asked something are no others, also when only the mode of the others was changed. */
+  #subjects(scene: Scene, step: Step | null): Set<string> {
+    const { editor } = this;
+    const subjects = new Set(step?.agent ? [step.agent] : editor.touchedIds(scene));
+    const selected = editor.selection.peek();
+    if (selected) subjects.add(selected);
+    return subjects;
   }
 
   // -------------------------------------------------------------- final answers
 
   #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
     const { editor } = this;
-    const f = this.#futuresOf(scene, e, keep).get(id);
-    if (!f) return;
+    const settled = this.#futuresOf(scene, e, keep).get(id);
+    if (!settled) return;
     const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
+    const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, settled) : settled;
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
       if (reach) editor.answers.judge(id, reach);
@@ -129,19 +224,19 @@ export class Reception {
     });
     const best = f.modes[f.chosen];
     if (!best || dragging) return;
-    editor.notices.say(`Six futures. Most likely: ${best.name}, ${Math.round(best.probability * 100)} percent.`);
+    this.#names.rest();
+    const likely = percents(f.modes)[f.chosen];
+    editor.notices.say(`Six futures. Most likely: ${best.name}, ${likely} percent.`);
   }
 
   #finalOfChange(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number, keep: Keep): void {
     const { editor, hooks } = this;
     if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
     const set = this.#motionAfter(scene, e, w, keep);
-    // Those that were asked something are no others, also when only the mode of the others was changed.
-    const subjects = new Set(step.agent ? [step.agent] : editor.touchedIds(scene));
     const selected = editor.selection.peek();
-    if (selected) subjects.add(selected);
+    this.#names.rest();
     editor.answers.dropLiveReach();
-    editor.answers.settle(scene, set, subjects);
+    editor.answers.settle(scene, set, this.#subjects(scene, step));
     this.settled(step, ms);
     if (selected && !set.futures.has(selected)) hooks.look(selected);
     if (!set.score) hooks.score(step);
@@ -171,6 +266,7 @@ export class Reception {
       reach,
       stale: false,
       head: e.generated,
+      reactions: reactionsAfter(before, e),
       warnings: readWarnings(e),
     };
   }
@@ -182,9 +278,10 @@ export class Reception {
     editor.answers.report({ kind: 'settled', ms, adapted: step.agent ? changes.length : null });
     if (step.undo) return;
     const scene = editor.scene.peek()!;
-    editor.notices.show({ text: outcome(step, scene, changes), undo: true });
-    editor.notices.say(spokenOutcome(step, scene, changes));
-    const collision = spokenCollision(editor.events.peek());
+    const events = editor.events.peek();
+    editor.notices.show({ text: outcome(step, scene, changes, events), undo: true });
+    editor.notices.say(spokenOutcome(step, scene, changes, events));
+    const collision = spokenCollision(events);
     if (collision) editor.notices.say(collision, true);
   }
 
@@ -192,20 +289,21 @@ export class Reception {
     const out = new Map<string, Futures>();
     for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
       const a = scene.agents.get(id);
-      const f = a && this.#futures(a, json, keep);
+      const f = a && this.#futures(scene, a, json, keep);
       if (f) out.set(id, f);
     }
     return out;
   }
 
-  #futures(a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
+  #futures(scene: Scene, a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
     const start = firstPose(a, json);
     if (!start || !json.modes?.length) return null;
     const known = this.editor.motion.peek().futures.get(a.id);
     const picked = a.chosen !== null && json.modes.length === 1 ? known?.modes[a.chosen] : undefined;
     if (!known || !picked) {
       const { steps } = DEFAULTS;
-      return readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
+      const f = readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
+      return withNames(f, naming(scene, a));
     }
     // A picked future comes back longer than it was; the other five stand as they are.
     const longer = { ...picked, motion: motionFrom(json.modes[0], start) };
@@ -216,6 +314,7 @@ export class Reception {
     const first = p.errors?.[0];
     const range = first?.min !== undefined ? `A value is outside ${first.min} to ${first.max}.` : null;
     const words = first?.detail ?? range ?? p.detail ?? p.title;
+    this.editor.answers.foresee(null);
     this.editor.answers.report({ kind: 'refused', words });
     this.editor.notices.say(words);
   }
@@ -224,3 +323,14 @@ export class Reception {
 /** Which seconds a later window is about. */
 const secondsOf = (s: Scene, window: number): string =>
   `${window * s.replan} to ${Math.min(s.length, (window + 1) * s.replan)} s`;
+
+/** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
+function reactionsAfter(before: MotionSet, e: FinalEvent): Map<string, ReactionJson> {
+  const out = new Map(before.reactions);
+  const agents: Record<string, AgentFuturesJson> = e.samples[0]?.agents ?? {};
+  for (const [id, { reaction }] of Object.entries(agents)) {
+    if (reaction) out.set(id, reaction);
+    else out.delete(id);
+  }
+  return out;
+}

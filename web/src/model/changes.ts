@@ -1,20 +1,37 @@
-// Who changed when somebody else was given a goal, and how to say it in one sentence.
+// Who does something else than before, how much, and why.
 import { distances, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
 import type { MotionSet } from './futures';
+import type { Pose } from './geometry';
+import type { ReactionJson } from './json';
+import { answersAhead, guessReaction, reactionWords, type Answered, type Reaction } from './reaction';
 import type { Agent, Scene } from './scene';
 import { GOAL_TIME, startPose, staysAway } from './scene';
 import { heldStill, nowhere, straightOn } from './motion';
-import { num, speedText } from './units';
+import { num } from './units';
 
+/** A road user that does something else, and where it waits or is slowest. */
 export interface Change {
   readonly id: string;
   readonly name: string;
+  /** What it does and for whom; null when everybody was worked out anew and nobody in particular is the cause. */
+  readonly reaction: Reaction | null;
+  /** `waits 2 s for Car 7` */
   readonly words: string;
-  readonly short: string;
+  /** Metres between both motions where they are furthest apart. */
   readonly size: number;
+  /** Seconds that it comes later than before; negative when earlier. */
+  readonly lost: number;
   readonly before: Motion;
+  readonly after: Motion;
+  /** Scene time at which it waits or is slowest. */
   readonly at: number;
+  /** Where that is. */
+  readonly place: Pose;
 }
+
+/** Less than this, in metres and in seconds, is no change. */
+const LEAST_M = 0.5;
+const LEAST_S = 0.5;
 
 /**
  * The motion a road user follows in playback. Past 9 s it goes on where nobody says more, as the generator takes it
@@ -36,26 +53,61 @@ function knownMotion(scene: Scene, set: MotionSet, a: Agent): Motion {
   return a.log;
 }
 
-/** Everybody but `except` whose motion differs by more than a metre somewhere (a footstep for people on foot). */
+interface Moved {
+  readonly agent: Agent;
+  readonly before: Motion;
+  readonly after: Motion;
+}
+
+/** Everybody but `except`, the ones asked something, whose motion is another; who loses most time comes first. */
 export function findChanges(scene: Scene, before: MotionSet, after: MotionSet, except: ReadonlySet<string>): Change[] {
-  const out: Change[] = [];
-  for (const a of scene.agents.values()) {
-    if (except.has(a.id) || !after.driving.has(a.id)) continue;
-    const m0 = motionOf(scene, before, a),
-      m1 = motionOf(scene, after, a);
-    if (m0 === m1) continue;
-    const apart = furthest(m0, m1, scene.duration);
-    if (apart.d < (a.type === 'pedestrian' ? 0.6 : 1.2)) continue;
-    out.push({
-      id: a.id,
-      name: a.name,
-      size: apart.d,
-      at: apart.t,
-      before: m0,
-      ...sentence(a, m0, m1, scene.duration),
-    });
+  const moved: Moved[] = [];
+  for (const agent of scene.agents.values()) {
+    const m0 = motionOf(scene, before, agent),
+      m1 = motionOf(scene, after, agent);
+    if (m0 !== m1) moved.push({ agent, before: m0, after: m1 });
   }
-  return out.sort((x, y) => y.size - x.size);
+  const causes: Answered[] = moved.map(({ agent, after: motion }) => ({
+    id: agent.id,
+    name: agent.name,
+    motion,
+    asked: except.has(agent.id),
+  }));
+  return moved
+    .filter(({ agent: { id } }) => !except.has(id) && after.driving.has(id))
+    .flatMap((m) => changeOf(scene, after, m, causes) ?? [])
+    .sort((x, y) => y.lost - x.lost || y.size - x.size);
+}
+
+function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answered[]): Change | null {
+  const { agent: a, before, after } = m;
+  const { d: size } = furthest(before, after, scene.duration);
+  const lost = secondsLost(before, after);
+  if (size <= LEAST_M && Math.abs(lost) <= LEAST_S) return null;
+  const said = set.reactions?.get(a.id);
+  const reaction = said
+    ? readReaction(scene, set, after, said)
+    : guessReaction(a, before, after, scene.duration, causes, lost);
+  const at = reaction?.time ?? furthest(before, after, scene.duration).t;
+  const place = reaction?.place ?? poseAt(after, at);
+  if (!place) return null;
+  const words = reaction ? reactionWords(a, reaction) : 'worked out anew';
+  const { id, name } = a;
+  return { id, name, reaction, words, size, lost: reaction?.delay ?? lost, before, after, at, place };
+}
+
+/** What the generator said of it. */
+function readReaction(scene: Scene, set: MotionSet, after: Motion, r: ReactionJson): Reaction | null {
+  const cause = scene.agents.get(r.cause);
+  const time = r.time_s ?? 0;
+  const seen = poseAt(after, time);
+  const x = r.x_m ?? seen?.x,
+    y = r.y_m ?? seen?.y;
+  if (!cause || x === undefined || y === undefined) return null;
+  const speed = r.speed_mps ?? Math.abs(seen?.speed ?? 0);
+  const place = { x, y, heading: seen?.heading ?? 0, speed };
+  const ahead = answersAhead(after, motionOf(scene, set, cause), time);
+  return { kind: r.kind, cause: { id: cause.id, name: cause.name }, delay: r.delay_s ?? null, time, place, ahead };
 }
 
 function furthest(a: Motion, b: Motion, duration: number): { d: number; t: number } {
@@ -74,63 +126,22 @@ function furthest(a: Motion, b: Motion, duration: number): { d: number; t: numbe
   return { d, t: at };
 }
 
-function sentence(a: Agent, before: Motion, after: Motion, duration: number): { words: string; short: string } {
-  const ped = a.type === 'pedestrian';
-  const unit = ped ? 'm/s' : 'km/h';
+/** How much later the second motion comes as far as the first; negative when earlier. */
+function secondsLost(before: Motion, after: Motion): number {
   const s0 = distances(before),
     s1 = distances(after);
-  const end0 = s0[s0.length - 1] ?? 0,
-    end1 = s1[s1.length - 1] ?? 0;
-  const stopped = longestStop(after, ped ? 0.2 : 0.6),
-    stoppedBefore = longestStop(before, ped ? 0.2 : 0.6);
-  const low = slowest(after);
-  if (stopped.seconds > stoppedBefore.seconds + 0.8 && stopped.seconds >= 1) {
-    const ends = stopped.until >= duration - 0.3;
-    const words = ends
-      ? `stops after ${num(stopped.from, 1)} s`
-      : `waits ${num(stopped.seconds, 1)} s, then ${ped ? 'walks on' : 'goes'}`;
-    return { words, short: ends ? 'stops' : `waits ${num(stopped.seconds, 1)} s` };
-  }
-  if (end1 < end0 - 1) {
-    const late = delay(s0, s1, duration);
-    const tail = late !== null ? `, passes ${num(late, 1)} s later` : '';
-    const slows = low < (ped ? 0.2 : 0.6) ? 'stops briefly' : `slows to ${speedText(low, unit)} ${unit}`;
-    return { words: `${slows}${tail}`, short: late !== null ? `gives way, ${num(late, 1)} s later` : 'slows' };
-  }
-  if (end1 > end0 + 1) {
-    const early = delay(s1, s0, duration);
-    return early !== null
-      ? { words: `goes on, ${num(early, 1)} s earlier`, short: `${num(early, 1)} s earlier` }
-      : { words: `gets ${num(end1 - end0, 0)} m further`, short: 'goes faster' };
-  }
-  return { words: 'takes another line', short: 'takes another line' };
+  const end0 = s0.at(-1) ?? 0,
+    end1 = s1.at(-1) ?? 0;
+  return end1 < end0 ? timeBetween(s0, end1) : -timeBetween(s1, end0);
 }
 
-/** How much later the second motion covers the distance that the first covers by the end of the second. */
-function delay(s0: Float64Array, s1: Float64Array, duration: number): number | null {
-  const reach = s1[s1.length - 1] ?? 0;
-  if (reach < 2) return null;
-  const i = s0.findIndex((v) => v >= reach - 0.05);
-  if (i < 0) return null;
-  const late = duration - i * STEP_S;
-  return late > 0.2 && late < duration ? late : null;
-}
-
-const slowest = (m: Motion): number => m.speed.reduce((lo, v) => Math.min(lo, Math.abs(v)), Infinity);
-
-function longestStop(m: Motion, below: number): { seconds: number; from: number; until: number } {
-  let best = { seconds: 0, from: 0, until: 0 },
-    since = -1;
-  for (let i = 0; i <= m.speed.length; i++) {
-    const still = i < m.speed.length && Math.abs(m.speed[i]) < below;
-    if (still && since < 0) since = i;
-    if (!still && since >= 0) {
-      const s = (i - since) * STEP_S;
-      if (s > best.seconds) best = { seconds: s, from: (m.first + since) * STEP_S, until: (m.first + i) * STEP_S };
-      since = -1;
-    }
-  }
-  return best;
+/** Seconds from where a motion has covered a distance to its end; standing at the end counts as not being there yet. */
+function timeBetween(s: Float64Array, distance: number): number {
+  const total = s.at(-1) ?? 0;
+  if (total - distance < 0.2) return 0;
+  const i = s.findIndex((v) => v >= distance - 0.05);
+  const arrived = s.findIndex((v) => v >= total - 0.05);
+  return i < 0 ? 0 : (Math.max(i, arrived) - i) * STEP_S;
 }
 
 /** Words for the ghost of the log: how far the edited road user gets from what was recorded. */

@@ -1,7 +1,9 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
-import type { AgentFuturesJson } from './json';
-import { distances, endPose, motionFrom, pathLength, poseAtStep, type Motion } from './motion';
-import { wrapAngle, type Pose } from './geometry';
+import type { AgentFuturesJson, ReactionJson } from './json';
+import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './about';
+import type { Point, Pose } from './geometry';
+import { motionFrom, type Motion } from './motion';
+import { nameAll, type Naming } from './names';
 
 export const LETTERS = 'ABCDEF';
 
@@ -9,6 +11,12 @@ export interface Future {
   readonly probability: number;
   readonly motion: Motion;
   readonly name: string;
+  /** What the name rests on: a relation, or a manner. */
+  readonly basis?: string;
+  /** What the generator says about it; null where it says nothing. */
+  readonly about?: About | null;
+  /** The same as it was sent. */
+  readonly sent?: SentAbout;
   /** Which of the generator's ideas this one follows; null for staying at rest, and where nobody says. */
   readonly anchor?: number | null;
 }
@@ -35,29 +43,40 @@ export function readFutures(
   keep?: KeepOrder,
 ): Futures {
   const sent = json.modes.slice(0, 6);
-  const order = keep?.like ? placesLike(keep.like.modes, sent, keep.always) : sent.map((_, i) => i);
+  const order = placesOf(sent, keep);
   const modes = order.map((i) => {
-    const m = sent[i],
-      motion = motionFrom(m, start);
+    const m = sent[i];
     return {
       probability: m.probability,
-      motion,
-      name: m.name ?? describe(motion, isPedestrian),
+      motion: motionFrom(m, start),
+      about: readAbout(m),
+      sent: sentAbout(m),
       anchor: m.anchor ?? null,
     };
   });
+  // What is nothing is not sent; of a list that was judged nothing is wrong with the rest.
+  if (modes.some((m) => m.about)) for (const m of modes) m.about ??= NOTHING_SAID;
+  const names = nameAll(modes, { onFoot: isPedestrian, nameOf: () => null });
   return {
-    modes: step >= steps ? distinct(modes) : modes,
+    modes: modes.map((m, i) => ({ ...m, ...names[i], name: sent[order[i]].name ?? names[i].name })),
     chosen: Math.max(0, order.indexOf(json.chosen ?? 0)),
     step,
     steps,
   };
 }
 
-/** The futures on screen, whose letters the new ones take over: always, or only while the ideas are the same. */
-export interface KeepOrder {
-  readonly like: Futures | null | undefined;
-  readonly always: boolean;
+/**
+ * Which letter each gets: `rank` makes the likeliest A; else the letters of the futures on screen are taken over,
+ * always, or only while the ideas are the same. Without it they stand as they were sent.
+ */
+export type KeepOrder = 'rank' | { readonly like: Futures | null | undefined; readonly always: boolean };
+
+type Sent = HasAnchor & { readonly probability: number };
+
+function placesOf(sent: readonly Sent[], keep: KeepOrder | undefined): number[] {
+  const asSent = sent.map((_, i) => i);
+  if (keep === 'rank') return asSent.sort((a, b) => sent[b].probability - sent[a].probability || a - b);
+  return keep?.like ? placesLike(keep.like.modes, sent, keep.always) : asSent;
 }
 
 interface HasAnchor {
@@ -65,7 +84,7 @@ interface HasAnchor {
 }
 
 /** Names for the ideas in a list. Two of the same, or several without a number, are told apart by their turn. */
-function ideas(modes: readonly HasAnchor[]): string[] {
+export function ideas(modes: readonly HasAnchor[]): string[] {
   const count = new Map<number | null, number>();
   return modes.map(({ anchor = null }) => {
     const n = count.get(anchor) ?? 0;
@@ -93,107 +112,53 @@ export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor
   return [...order, ...now.map((_, i) => i).filter((i) => !order.includes(i))];
 }
 
-/** A short plain name from the shape of the motion, for generators that send none. */
-function describe(m: Motion, isPedestrian: boolean): string {
-  const n = m.x.length - 1;
-  const a = poseAtStep(m, m.first),
-    b = endPose(m);
-  if (!a || n < 2) return 'Unknown';
-  const length = pathLength(m);
-  if (length < 1.5) return isPedestrian ? 'Stays' : 'Stands still';
-  const turn = totalTurn(m);
-  const side = turn > 0 ? 'left' : 'right';
-  const where =
-    Math.abs(turn) > 2.5
-      ? 'Turns round'
-      : Math.abs(turn) > 0.6
-        ? `Turns ${side}`
-        : (shift(m, isPedestrian) ?? (isPedestrian ? 'Straight' : 'Straight on'));
-  return `${where}${pace(m, a, b, length, isPedestrian)}`;
+/** The same futures, called by how they stand to others. */
+export function withNames(f: Futures, who: Naming): Futures {
+  const names = nameAll(f.modes, who);
+  return { ...f, modes: f.modes.map((m, i) => ({ ...m, ...names[i] })) };
 }
 
-function totalTurn(m: Motion): number {
-  let t = 0;
-  for (let i = 1; i < m.heading.length; i++) t += wrapAngle(m.heading[i] - m.heading[i - 1]);
-  return t;
-}
+/** Does the generator say of these futures what is wrong with them? */
+export const isJudged = (f: Futures): boolean => f.modes.some((m) => m.about);
 
-/** Sideways move without a turn, as in a lane change; a long road that bends a little is still straight on. */
-function shift(m: Motion, isPedestrian: boolean): string | null {
-  const n = m.x.length - 1;
-  const h = m.heading[0] + wrapAngle(m.heading[n] - m.heading[0]) / 2,
-    dx = m.x[n] - m.x[0],
-    dy = m.y[n] - m.y[0];
-  const left = -dx * Math.sin(h) + dy * Math.cos(h);
-  const limit = isPedestrian ? Math.max(1, 0.18 * Math.hypot(dx, dy)) : Math.max(2.2, 0.07 * Math.hypot(dx, dy));
-  return Math.abs(left) > limit ? `${isPedestrian ? 'Bears' : 'Moves'} ${left > 0 ? 'left' : 'right'}` : null;
-}
-
-function pace(m: Motion, a: Pose, b: Pose, length: number, ped: boolean): string {
-  const slow = ped ? 0.25 : 0.8;
-  let low = Infinity,
-    lowAt = 0;
-  m.speed.forEach((v, i) => {
-    if (Math.abs(v) < low) {
-      low = Math.abs(v);
-      lowAt = i;
-    }
-  });
-  const ends = Math.abs(b.speed);
-  if (ends < slow) return ', stops';
-  if (low < slow && lowAt > 3 && a.speed > slow * 2) return ', waits first';
-  if (a.speed < slow && lowAt > 5) return ', sets off late';
-  const mean = length / (m.x.length * 0.1);
-  if (mean > a.speed * 1.2 + 0.5) return ', faster';
-  if (mean < a.speed * 0.8 - 0.3) return ', slower';
-  return '';
-}
-
-/** Two futures may look alike; the second then says how it differs, so that a list can be read. */
-function distinct(modes: Future[]): Future[] {
-  const seen = new Map<string, number>();
-  return modes.map((m, i) => {
-    const first = seen.get(m.name);
-    if (first === undefined) {
-      seen.set(m.name, i);
-      return m;
-    }
-    return {
-      ...m,
-      name: `${m.name.split(',')[0]}, ${difference(modes[first].motion, m.motion) ?? `almost as ${LETTERS[first]}`}`,
-    };
-  });
-}
-
-function difference(a: Motion, b: Motion): string | null {
-  const sa = distances(a),
-    sb = distances(b);
-  const n = Math.min(sa.length, sb.length) - 1;
-  const end = sb[n] - sa[n];
-  if (Math.abs(end) > 1) return `${Math.abs(end).toFixed(0)} m ${end > 0 ? 'further' : 'less'}`;
-  const mid = n >> 1,
-    early = sb[mid] - sa[mid];
-  if (Math.abs(early) > 0.8) return early > 0 ? 'earlier' : 'later';
-  let side = 0;
-  for (let i = 1; i <= n; i++) {
-    const left = -(b.x[i] - a.x[i]) * Math.sin(a.heading[i]) + (b.y[i] - a.y[i]) * Math.cos(a.heading[i]);
-    if (Math.abs(left) > Math.abs(side)) side = left;
-  }
-  return Math.abs(side) > 0.4 ? `further ${side > 0 ? 'left' : 'right'}` : null;
+/** How likely each is of those that are shown, in whole per cent; together 100. */
+export function percents(modes: readonly Pick<Future, 'probability'>[]): number[] {
+  const sum = modes.reduce((s, m) => s + m.probability, 0);
+  if (!(sum > 0)) return modes.map(() => 0);
+  const exact = modes.map((m) => (m.probability / sum) * 100);
+  const out = exact.map(Math.floor);
+  const byRest = exact.map((v, i) => ({ i, rest: v - out[i] })).sort((a, b) => b.rest - a.rest || a.i - b.i);
+  const left = Math.round(100 - out.reduce((s, v) => s + v, 0));
+  for (const { i } of byRest.slice(0, left)) out[i]++;
+  return out;
 }
 
 export interface Collision {
   a: string;
   b: string;
   time: number;
+  /** m/s. */
+  closing?: number | null;
+  /** Absent where the generator does not tell. */
+  inLog?: boolean;
 }
 export interface NearMiss extends Collision {
   distance: number | null;
   ttc: number | null;
 }
+/** One road user does something that it should not for a while. */
+export interface Stretch {
+  readonly what: Exclude<FaultKind, 'collision' | 'near_miss'>;
+  readonly agent: string;
+  readonly time: number;
+  readonly until: number;
+  readonly extent: number | null;
+  readonly inLog?: boolean;
+}
 export interface Score {
   readonly collisions: readonly Collision[];
   readonly nearMisses: readonly NearMiss[];
+  readonly stretches?: readonly Stretch[];
   readonly minTtc: number | null;
   readonly offroadShare: number | null;
 }
@@ -204,6 +169,14 @@ export interface Reach {
   readonly limiting: string | null;
   readonly needs: unknown;
   readonly words: string | null;
+  /** The nearest goal that the road reaches in the time, and how far it is from the one that was set. */
+  readonly byRoad?: ByRoad | null;
+}
+
+export interface ByRoad extends Point {
+  readonly heading: number;
+  /** Metres. */
+  readonly distance: number;
 }
 
 /** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
@@ -229,6 +202,8 @@ export interface MotionSet {
   readonly stale: boolean;
   /** The one road user whose futures still hold while the rest is out of date: another of its six was picked. */
   readonly fresh?: string | null;
+  /** Why those that answer others do so. */
+  readonly reactions?: ReadonlyMap<string, ReactionJson>;
   /** Unlikely things that were done anyway, by road user. */
   readonly warnings?: ReadonlyMap<string, readonly string[]>;
   /** What the server wants kept beside the futures when they are saved: hashes, seed, options. */

@@ -77,15 +77,77 @@ export interface AgentJson {
   track: TrackJson;
   conditions?: ConditionJson | null;
 }
+export type FaultKind =
+  | 'collision'
+  | 'red_light'
+  | 'wrong_way'
+  | 'over_median'
+  | 'off_road'
+  | 'harsh_braking'
+  | 'harsh_steering'
+  | 'near_miss'
+  | 'goal_missed';
+export interface FaultJson {
+  kind: FaultKind;
+  time_s: number;
+  until_s: number;
+  x_m: number;
+  y_m: number;
+  extent?: number | null;
+  with?: string | null;
+}
+export type RelationKind = 'before' | 'after' | 'follows' | 'gives_way_to';
+export interface RelationJson {
+  kind: RelationKind;
+  with: string;
+  time_s: number;
+  x_m: number;
+  y_m: number;
+  gap_s?: number | null;
+}
+export type Manoeuvre = 'straight' | 'left' | 'right' | 'turn_round' | 'lane_left' | 'lane_right' | 'stays' | 'reverse';
 /** `anchor`: which of the generator's ideas the future follows; absent for staying at rest. */
 export interface ModeJson extends TrackJson {
   probability: number;
   name?: string;
   anchor?: number | null;
+  faults?: FaultJson[];
+  relations?: RelationJson[];
+  manoeuvre?: Manoeuvre | null;
 }
+/** The nearest goal that the road reaches in the time; `distance_m` from the one that was set. */
+export interface ByRoadJson {
+  x_m: number;
+  y_m: number;
+  heading_rad: number;
+  distance_m: number;
+}
+/** Of what a score counts: it happens in the log or in the example itself. */
+export interface MayBeInLog {
+  in_log?: boolean;
+}
+/** A future as it was shown last: box centres every 0.5 s, the first 0.5 s after the start. */
+export interface ShownJson {
+  anchor?: number;
+  x_m: number[];
+  y_m: number[];
+}
+export type ReactionKind = 'waits' | 'slows' | 'speeds_up' | 'keeps_clear';
+/** Why a road user gave up the motion it had: whom it answers, and where it waits or is slowest. */
+export interface ReactionJson {
+  kind: ReactionKind;
+  cause: string;
+  delay_s?: number | null;
+  time_s?: number;
+  x_m?: number;
+  y_m?: number;
+  speed_mps?: number;
+}
+/** `reaction`: absent for whoever was asked for or does as before. */
 export interface AgentFuturesJson {
   chosen: number;
   modes: ModeJson[];
+  reaction?: ReactionJson | null;
 }
 export interface SampleJson {
   agents: Record<string, AgentFuturesJson>;

@@ -9,13 +9,14 @@ import {
   type SceneJson,
 } from './json';
 import { DEFAULTS } from './domain';
-import { isStill, motionFrom, poseAtStep } from './motion';
-import { emptyMotion, readFutures, type Futures, type MotionSet } from './futures';
+import { isStill, motionFrom, poseAtStep, type Motion } from './motion';
+import { emptyMotion, readFutures, withNames, type Futures, type MotionSet } from './futures';
 import {
   durationOf,
   freeGoal,
   GOAL_TIME,
   logStartSpec,
+  nameIn,
   readLength,
   readReplan,
   sceneKey,
@@ -89,7 +90,7 @@ function readAgent(json: AgentJson, map: LaneMap, name: string, scene: SceneJson
     logSize: [json.length_m, json.width_m] as const,
     log,
     logStart,
-    parked: type === 'vehicle' && isStill(log) && offLanes(map, logStart),
+    parked: type === 'vehicle' && isStill(log) && offLanes(map, firstSeen(log)),
     ego: json.role === 'ego',
     start: readStart(c, logStart),
     goal: readGoal(c),
@@ -110,7 +111,10 @@ export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   for (const [id, f] of Object.entries(agents)) {
     const a = scene.agents.get(id),
       start = a && firstPose(a, f);
-    if (a && start && f.modes?.length) futures.set(id, readFutures(f, start, 1, 1, a.type === 'pedestrian'));
+    if (a && start && f.modes?.length) {
+      const onFoot = a.type === 'pedestrian';
+      futures.set(id, withNames(readFutures(f, start, 1, 1, onFoot), { onFoot, nameOf: nameIn(scene) }));
+    }
   }
   if (!futures.size) return null;
   const head = Object.fromEntries(Object.entries(g).filter(([k]) => k !== 'samples'));
@@ -142,7 +146,12 @@ function readGoal(c: ConditionJson): GoalSpec {
   });
 }
 
-/** Parked means still for the whole scene and off every lane centre: a queue at a red light keeps its colour. */
+const firstSeen = (log: Motion): Pose | null => (log.valid.length ? poseAtStep(log, log.valid[0][0]) : null);
+
+/**
+ * Parked means still for as long as it is seen and off every lane centre, also where it is seen later: a queue at a
+ * red light keeps its colour.
+ */
 function offLanes(map: LaneMap, p: Pose | null): boolean {
   return !p || nearestLanes(map, p.x, p.y, null, 1.6, (l) => l.kind === 'road').length === 0;
 }

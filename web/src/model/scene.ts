@@ -132,4 +132,10 @@ export const isRecorded = (source: string): boolean => !MADE.includes(source);
 export const staysAway = (s: Scene, a: Agent): boolean =>
   s.others === 'still' && a.type !== 'other' && a.logStart === null;
 
+/** What road users are called, by id; null for one that is not there. */
+export const nameIn =
+  (s: Scene) =>
+  (id: string): string | null =>
+    s.agents.get(id)?.name ?? null;
+
 export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;

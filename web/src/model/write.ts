@@ -78,6 +78,7 @@ function futuresJson(f: Futures, chosen: number): AgentFuturesJson {
     modes: f.modes.map((m) => ({
       probability: m.probability,
       ...(m.anchor == null ? {} : { anchor: m.anchor }),
+      ...m.sent,
       ...trackJson(m.motion, 1),
     })),
   };

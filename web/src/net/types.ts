@@ -1,7 +1,7 @@
 // The API as the editor uses it: names for parts of the generated document. What the editor does, a script can do:
 // nothing here is private.
 import type { components } from './api';
-import type { SceneJson } from '../model/json';
+import type { ByRoadJson, SceneJson, ShownJson } from '../model/json';
 
 type Schemas = components['schemas'];
 
@@ -22,13 +22,16 @@ export type GenerateOptions = Pick<Schemas['GenerateRequest'], 'horizon_s' | 're
       Schemas['GenerateRequest'],
       'agents' | 'react' | 'conditions' | 'seed' | 'diversity' | 'steps' | 'stream_modes' | 'score'
     >
-  >;
+  > & {
+    /** What was shown last, by road user. */
+    readonly shown?: Readonly<Record<string, ShownJson>>;
+  };
 
 export type GenerateEvent = Schemas['Event'];
 export type DraftEvent = Schemas['DraftEvent'];
 export type FinalEvent = Schemas['FinalEvent'];
 
-export type Resolved = Schemas['Resolved'];
+export type Resolved = Schemas['Resolved'] & { readonly by_road?: ByRoadJson | null };
 export type ScoreReply = Schemas['ScoreReply'];
 
 export type { SceneJson };

@@ -33,10 +33,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.drag([x + 8, y - 26], [x + 8, y - 120]);
     const previews = () => d.server.log.filter((l) => l.react === false && l.conditions['1']?.goal);
     await expect.poll(() => previews().length).toBeGreaterThan(2);
-    expect(await d.text('.helpbar')).toContain('Others react when you let go');
+    expect(await d.text('.helpbar')).toContain('where they would wait');
     await d.release();
-    expect(d.last().react).toBe(true);
-    expect(d.last().agents).toEqual(['1']);
+    // Whether it was asked while the hand still moved or on release: about the same goal.
+    const last = d.server.log.filter((l) => l.react).at(-1)!;
+    expect(last).toMatchObject({ react: true, agents: ['1'] });
+    expect(last.conditions['1'].goal).toEqual(previews().at(-1)!.conditions['1'].goal);
     expect(await d.text('.toast')).toMatch(/Goal of Car 1 moved\. \d others changed\./);
     expect(await d.page.locator('.ch').count()).toBeGreaterThan(0);
     const moved = await d.goal();
@@ -49,6 +51,26 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.goal()).toEqual(moved);
     // Undo and redo show what was worked out before; nobody is asked again.
     expect(d.server.log.slice(asked).filter((l) => l.react)).toEqual([]);
+  });
+
+  it('shows who would change while the hand moves, and takes that over on release', async () => {
+    d = await (await Driver.open(browser)).ready();
+    await d.select('1');
+    const [x, y] = await d.at(...(await d.goal()));
+    await d.drag([x + 8, y - 26], [x + 8, y - 120]);
+    await d.settled();
+    expect(await d.text('.foreseen h3')).toMatch(/^\d others would change\s+if you let go now$/);
+    const causes = await d.page.locator('.foreseen .ch').allInnerTexts();
+    for (const c of causes) expect(c).toMatch(/^\w+ \d+\s+\S.* Car 1$/);
+    await d.key('h');
+    await expect.poll(() => d.text('.helpbar')).toContain('show the others’ answers');
+    await d.key('h');
+    await expect.poll(() => d.text('.helpbar')).toContain('hide the others’ answers');
+    const asked = d.server.log.filter((l) => l.react).length;
+    await d.release();
+    expect(d.server.log.filter((l) => l.react).length).toBe(asked);
+    expect(await d.page.locator('.foreseen').count()).toBe(0);
+    expect(await d.page.locator('.ch').allInnerTexts()).toEqual(causes);
   });
 
   it('puts everything back on Esc, without an undo step', async () => {

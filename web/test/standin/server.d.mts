@@ -7,6 +7,7 @@ export interface StandInOptions {
   hang?: boolean;
   busy?: number;
   collision?: boolean;
+  judged?: boolean;
   scenes?: string[];
 }
 export interface StandIn {

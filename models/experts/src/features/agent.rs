@@ -7,8 +7,16 @@ use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
+use crate::planning::lights::{Gate, gates};
 use crate::planning::world::{AgentAtStart, World};
+use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
+use scene::score::Drivable;
+use scene::{AgentType, Vec2, wrap_angle};
+use std::sync::Arc;
+
+/// So far beyond the road's edge a corner still counts as on the road, metres.
+pub const BEYOND_M: f64 = 0.1;
 
 /// A road user ready for its expert.
 #[derive(Clone, Debug)]
@@ -21,6 +29,15 @@ pub struct AgentPlan {
     pub target: Target,
     /// [`MODES`] of them.
     pub anchors: Vec<Anchor>,
+    /// Red lights on each anchor's path.
+    pub lights: [Vec<Gate>; MODES],
+    /// Heading of the lane that each anchor brings to the goal, where the goal lies on a lane and leaves its
+    /// heading free, radians.
+    pub lane_headings: [Option<f64>; MODES],
+    /// How those who stand set off towards a goal, m/s2.
+    pub easy_mps2: f64,
+    /// Where vehicles may drive; `None` for who does not start there or is no vehicle.
+    pub ground: Option<Arc<Drivable>>,
     /// For the networks.
     pub features: AgentFeatures,
     /// Motions are projected onto the goal: see [`Planning::projection`](crate::planning::world::Planning).
@@ -40,23 +57,85 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let frame = Frame::of(who);
     let mut encoded = Box::new([[0.0; ANCHOR]; MODES]);
     let obstacles = world.obstacles(who.index);
+    let mut lights: [Vec<Gate>; MODES] = Default::default();
     let mut last: Option<(u64, PathFacts)> = None;
     for (slot, anchor) in anchors.iter().enumerate() {
         let path_identity = anchor.path_identity();
         // Slots of one path share what can be said of the path.
         let facts = match last.take() {
-            Some((identity, facts)) if identity == path_identity => facts,
-            _ => PathFacts::of(world, who, anchor, &obstacles),
+            Some((identity, facts)) if identity == path_identity => {
+                lights[slot] = lights[slot - 1].clone();
+                facts
+            }
+            _ => {
+                lights[slot] = gates(world, who, &anchor.path);
+                PathFacts::of(world, who, anchor, &obstacles)
+            }
         };
         encoded[slot] = encode::anchor(&frame, anchor, &facts, slot);
         last = Some((path_identity, facts));
     }
+    let lane_headings = lane_headings(world, who, &target, &anchors);
     let features = AgentFeatures {
         own: encode::own(world, who, &model, &target, &frame),
         neighbours: encode::neighbours(world, who, &frame),
         anchors: encoded,
-        tangent: Box::new(tangent(&target)),
+        // What is learned leaves an end along the lane alone too.
+        tangent: Box::new(tangent(&Target {
+            heading_rad: target.heading_rad.or(lane_headings[0]),
+            ..target
+        })),
     };
     let projected = world.planning.projection;
-    AgentPlan { present: who.clone(), model, target, anchors, features, projected }
+    let easy_mps2 = world.tuning.anchors.setting_off_mps2;
+    let present = who.clone();
+    let ground = ground(world, who);
+    AgentPlan {
+        present,
+        model,
+        target,
+        anchors,
+        lights,
+        lane_headings,
+        easy_mps2,
+        ground,
+        features,
+        projected,
+    }
+}
+
+/// See [`AgentPlan::ground`].
+fn ground(world: &World<'_>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
+    let outline = OrientedBox::of_state(&who.start, &who.size);
+    let ground = world.graph.ground();
+    let starts_there = ground.box_outside_m(&outline).is_some_and(|outside_m| outside_m <= BEYOND_M);
+    (who.agent_type == AgentType::Vehicle && starts_there).then(|| ground.clone())
+}
+
+/// See [`AgentPlan::lane_headings`].
+fn lane_headings(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    target: &Target,
+    anchors: &[Anchor],
+) -> [Option<f64>; MODES] {
+    // Riders go on and off lanes as they like.
+    let (Some(goal), None, AgentType::Vehicle) = (target.position, target.heading_rad, who.agent_type) else {
+        return [None; MODES];
+    };
+    let under = lanes_under(world, who, goal);
+    std::array::from_fn(|slot| {
+        let path = &anchors.get(slot)?.path;
+        let arriving_rad = path.sample(path.project(goal).s_m).heading_rad;
+        let turn = |heading_rad: &f64| wrap_angle(heading_rad - arriving_rad).abs();
+        let nearest = under.iter().copied().min_by(|a, b| turn(a).total_cmp(&turn(b)))?;
+        (turn(&nearest) < world.tuning.anchors.along_lane_rad).then_some(nearest)
+    })
+}
+
+/// Headings of the lanes that a place lies on.
+fn lanes_under(world: &World<'_>, who: &AgentAtStart, place: Vec2) -> Vec<f64> {
+    let lanes = world.graph.lanes();
+    let near = world.graph.nearest_for(place, 4.0, who.agent_type);
+    near.iter().filter(|h| h.distance_m <= 0.5 * lanes[h.lane].width_m).map(|h| h.heading_rad).collect()
 }

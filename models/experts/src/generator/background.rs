@@ -5,7 +5,7 @@ use super::repulsion::Outline;
 use crate::planning::world::{AgentAtStart, World};
 use crate::tuning::OverlapTuning;
 use scene::score::SweptBoxes;
-use scene::{Agent, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, State};
+use scene::{Agent, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, State};
 
 /// Everybody in the background of a window, as obstacles.
 pub(super) struct Background {
@@ -30,29 +30,43 @@ impl Background {
     }
 }
 
-/// Where a road user in the background is at a step of the window (0 is the start): by its chosen future, else its
-/// log; one whose future has ended, or that was only drawn, goes straight on.
-pub(super) fn background_state(
-    scene: &Scene,
-    agent: &Agent,
+/// What a road user in the background does: its chosen future, else its log; one whose future has ended, or that was
+/// only drawn, goes straight on.
+pub(super) struct Known<'a> {
+    agent: &'a Agent,
+    future: Option<&'a Future>,
     start_step: usize,
-    step: usize,
-) -> Option<State> {
-    let at = start_step + step;
-    if let Some(generated) = scene.generated.as_ref()
-        && let Some(future) = generated.chosen_future(&agent.id)
-        && let Some(i) = at.checked_sub(future.first_step)
-        && let Some(last) = future.states.last()
-    {
-        let since = (i + 1).saturating_sub(future.states.len());
-        return Some(future.states.get(i).copied().unwrap_or(straight_on(last, since)));
+    /// All that is known of one that was only drawn.
+    drawn: Option<(usize, State)>,
+}
+
+impl<'a> Known<'a> {
+    pub(super) fn of(scene: &'a Scene, agent: &'a Agent, start_step: usize) -> Self {
+        let future = scene.generated.as_ref().and_then(|generated| generated.chosen_future(&agent.id));
+        let mut known = agent.track.valid_steps();
+        let drawn = match (known.next(), known.next()) {
+            (Some(first), None) => agent.state_at(first).map(|state| (first, state)),
+            _ => None,
+        };
+        Self { agent, future, start_step, drawn }
     }
-    if let Some(state) = agent.state_at(at) {
-        return Some(state);
+
+    /// Where it is at a step of the window; 0 is the start.
+    pub(super) fn at(&self, step: usize) -> Option<State> {
+        let at = self.start_step + step;
+        if let Some(future) = self.future
+            && let Some(i) = at.checked_sub(future.first_step)
+            && let Some(last) = future.states.last()
+        {
+            let since = (i + 1).saturating_sub(future.states.len());
+            return Some(future.states.get(i).copied().unwrap_or_else(|| straight_on(last, since)));
+        }
+        if let Some(state) = self.agent.state_at(at) {
+            return Some(state);
+        }
+        let (first, state) = self.drawn?;
+        Some(straight_on(&state, at.saturating_sub(first)))
     }
-    let mut known = agent.track.valid_steps();
-    let (Some(first), None) = (known.next(), known.next()) else { return None };
-    Some(straight_on(&agent.state_at(first)?, at.saturating_sub(first)))
 }
 
 /// So many steps on; what stands stays.
@@ -66,6 +80,6 @@ fn straight_on(state: &State, steps: usize) -> State {
 
 /// Its states over the window, one a step from the first after the start, as far as known.
 pub(super) fn background_states(world: &World<'_>, who: &AgentAtStart) -> Vec<State> {
-    let at = |step| background_state(&world.scene, world.agent(who), world.step, step);
-    (1..=HORIZON_STEPS).map_while(at).collect()
+    let known = Known::of(&world.scene, world.agent(who), world.step);
+    (1..=HORIZON_STEPS).map_while(|step| known.at(step)).collect()
 }

@@ -7,33 +7,46 @@ use super::choice::{Choosable, medoid_costs, swept};
 use super::slot::Slot;
 use super::trajectory::PER_INSTANT;
 use crate::planning::INSTANTS;
+use crate::request::ShownLast;
 use crate::tuning::ChoiceTuning;
+use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
+use scene::judge::Judge;
 use scene::motion::{MotionState, Trajectory};
-use scene::{AgentType, State};
+use scene::score::Actor as ScoreActor;
+use scene::{Agent, AgentType, Future, STANDING_MPS, State};
 
-/// What the joint choice weighs: one entry a candidate, in their order. `around` is the mode that the scene is
-/// built around.
-pub(super) fn options(
-    actor: &Actor,
-    candidates: &[Candidate],
-    around: Option<Slot>,
-    map: &KnownMap,
-    tuning: &ChoiceTuning,
-) -> Vec<Choosable> {
+/// What an actor's candidates are held against.
+pub(super) struct Yardstick<'a> {
+    /// The mode that the scene is built around.
+    pub(super) around: Option<Slot>,
+    /// What a person has seen last.
+    pub(super) shown: Option<&'a ShownLast>,
+    pub(super) map: &'a KnownMap,
+    pub(super) judge: &'a Judge<'a>,
+    /// The road user in the scene, and the window's first step.
+    pub(super) agent: &'a Agent,
+    pub(super) start_step: usize,
+    pub(super) tuning: &'a ChoiceTuning,
+}
+
+/// What the joint choice weighs: one entry a candidate, in their order.
+pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_>) -> Vec<Choosable> {
+    let tuning = by.tuning;
     let size = &actor.plan.present.size;
     let costs = match &actor.kept {
         Some(kept) => candidates
             .iter()
             .map(|c| tuning.deviating + deviation_m(&c.motion.states, kept) / tuning.deviation_m)
             .collect(),
-        None => central(candidates, around, tuning),
+        None => central(candidates, by.around, tuning),
     };
     let option = |(c, cost): (&Candidate, f64)| {
         let boxes = swept(&c.motion.states, size);
         // What is given costs nothing by itself.
         let given = c.origin.is_given();
-        let cost = if given { 0.0 } else { cost + off_road(actor, &c.motion.states, map, tuning) };
+        let against = || broken_rules(actor, &c.motion.states, by) + leaving(c, by);
+        let cost = if given { 0.0 } else { cost + against() };
         Choosable { boxes, cost, kept: c.origin == Origin::Kept }
     };
     candidates.iter().zip(costs).map(option).collect()
@@ -60,8 +73,37 @@ pub(super) fn starts_on_the_road(actor: &Actor, map: &KnownMap, tuning: &ChoiceT
         && map.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
 }
 
+/// What it costs to run a red light, and a vehicle to leave the road or drive against the traffic.
+fn broken_rules(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
+    let mut cost = off_road(actor, states, by.map, by.tuning);
+    if by.judge.has_lights() {
+        let moved = states.iter().skip(1).map(State::from).collect();
+        let future = Future::bare(1.0, by.start_step + 1, moved);
+        let runs = by.judge.runs_red(&ScoreActor::of_future(by.agent, &future, &[]));
+        cost += if runs { by.tuning.red_light } else { 0.0 };
+    }
+    cost
+}
+
+/// What it costs to show something else than a person has seen last.
+fn leaving(candidate: &Candidate, by: &Yardstick<'_>) -> f64 {
+    let Some(shown) = by.shown else { return 0.0 };
+    let mut apart: Vec<f64> = Vec::with_capacity(INSTANTS);
+    for (i, place) in shown.places.iter().take(INSTANTS).enumerate() {
+        let state = &candidate.motion.states[(i + 1) * PER_INSTANT];
+        apart.push((state.position - place).norm());
+    }
+    if apart.is_empty() {
+        return 0.0;
+    }
+    let mean_m = apart.iter().sum::<f64>() / apart.len() as f64;
+    let other = shown.anchor.is_some() && candidate.origin.slot().map(Slot::number) != shown.anchor;
+    let (tuning, other) = (by.tuning, f64::from(u8::from(other)));
+    tuning.leaving * (mean_m / tuning.leaving_m).min(1.0) + tuning.other_mode * other
+}
+
 /// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the
-/// road's edges to have a corner beyond them.
+/// road's edges to have a corner beyond them, or to drive against the traffic.
 fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceTuning) -> f64 {
     let present = &actor.plan.present;
     let Some(start) = states.first().filter(|_| present.agent_type == AgentType::Vehicle) else {
@@ -82,7 +124,11 @@ fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceT
             looked_at.filter(|s| off(s)).count() as f64 / (INSTANTS + 1) as f64
         }
     };
-    tuning.off_lanes * share(&away) + tuning.past_edges * share(&beyond)
+    let against = |s: &MotionState| {
+        let moves = s.speed_mps() > STANDING_MPS;
+        moves && map.drivable.is_wrong_way(s.position, direction(s.heading_rad)) == Some(true)
+    };
+    tuning.off_lanes * share(&away) + tuning.past_edges * share(&beyond) + tuning.wrong_way * share(&against)
 }
 
 /// Mean distance of a motion from the one that the actor keeps, metres.

@@ -2,15 +2,15 @@
 
 use super::candidates::{Candidate, Origin, own, shown};
 use super::choice::{Choice, Choosable};
-use super::costs::options;
+use super::costs::{Yardstick, options};
 use super::guidance::guided;
 use super::reacting::{Answered, Changed, Moving, caused, reaction_of};
 use super::repulsion::{Outline, poses_of_states};
 use super::trajectory::Motion;
 use super::window::Window;
 use crate::request::Shown;
-use scene::judge::Reaction;
-use scene::{AgentId, STEP_S};
+use scene::judge::{Judge, Reaction};
+use scene::{AgentId, HORIZON_STEPS, STEP_S};
 
 /// What a window decided for one actor.
 pub(super) struct Decided {
@@ -58,7 +58,10 @@ impl Window<'_> {
             self.workers().map(&self.indices(), |&i| self.material(i).candidates());
         let mut choice =
             Choice { agents: Vec::new(), fixed: &self.background.boxes, tuning: &self.tuning().choice };
-        choice.agents = candidates.iter().enumerate().map(|(i, all)| self.options(i, all)).collect();
+        let (scene, step) = (&self.world.scene, self.world.step);
+        let steps = step..step + HORIZON_STEPS + 1;
+        let judge = Judge::new(&scene.map, &scene.signals, &self.map.drivable, steps);
+        choice.agents = self.workers().map(&self.indices(), |&i| self.options(&judge, i, &candidates[i]));
         let mut chosen = match self.request.stages.shown {
             Shown::Chosen => choice.solve(),
             Shown::Likeliest | Shown::Drawn => {
@@ -67,7 +70,7 @@ impl Window<'_> {
             }
         };
         if self.request.stages.guidance {
-            self.guide(&mut choice, &mut candidates, &mut chosen);
+            self.guide(&judge, &mut choice, &mut candidates, &mut chosen);
         }
         let causes = self.put_back(&choice, &mut chosen);
         let changed: Vec<Changed> = self
@@ -119,7 +122,13 @@ impl Window<'_> {
 
     /// Where the chosen scene still has conflicts, drafts guided out of them become further candidates; the choice
     /// takes them only where that costs less.
-    fn guide(&self, choice: &mut Choice<'_>, candidates: &mut [Vec<Candidate>], chosen: &mut Vec<usize>) {
+    fn guide(
+        &self,
+        judge: &Judge<'_>,
+        choice: &mut Choice<'_>,
+        candidates: &mut [Vec<Candidate>],
+        chosen: &mut Vec<usize>,
+    ) {
         let mut conflict = choice.in_conflict(chosen);
         for (i, conflict) in conflict.iter_mut().enumerate() {
             *conflict |= self.burden(i, &candidates[i][chosen[i]]) >= self.tuning().choice.close;
@@ -144,14 +153,24 @@ impl Window<'_> {
         });
         for (i, found) in concerned.into_iter().zip(found) {
             candidates[i].extend(found);
-            choice.agents[i] = self.options(i, &candidates[i]);
+            choice.agents[i] = self.options(judge, i, &candidates[i]);
         }
         *chosen = choice.solve();
     }
 
-    fn options(&self, i: usize, candidates: &[Candidate]) -> Vec<Choosable> {
-        let around = self.material(i).around(self.sample);
-        let mut options = options(&self.actors[i], candidates, around, &self.map, &self.tuning().choice);
+    fn options(&self, judge: &Judge<'_>, i: usize, candidates: &[Candidate]) -> Vec<Choosable> {
+        let actor = &self.actors[i];
+        let first = self.sample == 0 && self.world.step == self.request.start_step;
+        let yardstick = Yardstick {
+            around: self.material(i).around(self.sample),
+            shown: self.request.shown.get(&actor.id).filter(|_| first),
+            map: &self.map,
+            judge,
+            agent: self.world.agent(&actor.plan.present),
+            start_step: self.world.step,
+            tuning: &self.tuning().choice,
+        };
+        let mut options = options(actor, candidates, &yardstick);
         let all: Vec<usize> = (0..candidates.len()).collect();
         let burdens = self.workers().map(&all, |&o| {
             if self.answerers.are_met_by(&options[o].boxes) { self.burden(i, &candidates[o]) } else { 0.0 }

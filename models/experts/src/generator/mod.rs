@@ -5,11 +5,13 @@ mod background;
 mod candidates;
 mod choice;
 mod costs;
+mod covering;
 mod decide;
 mod duplicate_modes;
 mod extrapolation;
 mod generation;
 mod guidance;
+mod ideas;
 mod kerb;
 mod noise;
 mod overlaps;
@@ -19,8 +21,10 @@ mod repulsion;
 #[cfg(test)]
 mod samples;
 mod slot;
+mod standing;
 mod subgoal;
 mod trajectory;
+mod widening;
 mod window;
 mod workers;
 

@@ -2,9 +2,12 @@
 //! rollout that meets the goal and the limits.
 
 use super::slot::Slot;
-use crate::features::agent::AgentPlan;
+use crate::features::agent::{AgentPlan, BEYOND_M};
+use crate::planning::lights::Waiting;
+use crate::planning::profile::{Caps, Progress};
 use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, Residual, STAYS_WITHIN_M};
 use scene::geometry::direction;
+use scene::geometry::obb::OrientedBox;
 use scene::motion::{
     Gear, GoalError, Kind, Knots, MotionState, Projection, Reach, Sampled, Target, Trajectory, fit, project,
 };
@@ -29,6 +32,11 @@ impl From<Projection> for Motion {
     }
 }
 
+/// Shares of an offset that are tried where the whole of it leaves the road.
+const OFFSET_SHARES: [f64; 4] = [0.8, 0.6, 0.4, 0.2];
+/// Ending along a lane may change a motion by so much, metres.
+const ALONG_LANE_M: f64 = 1.5;
+
 /// Progress and offset of a draft at the instants.
 pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residual) -> [(f64, f64); INSTANTS] {
     let anchor = &plan.anchors[slot.index()];
@@ -44,7 +52,39 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
         last = along.max(last);
         *place = (last, across);
     }
-    out
+    at_lights(plan, slot, out)
+}
+
+/// Progress and offset at the instants, waiting at red lights. Whoever waits is beside the path where it would
+/// have been at that progress.
+fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(f64, f64); INSTANTS] {
+    let gates = &plan.lights[slot.index()];
+    if gates.is_empty() || plan.model.gear == Gear::Reverse {
+        return wanted;
+    }
+    let anchor = &plan.anchors[slot.index()];
+    let before = |i: usize| if i == 0 { (0.0, 0.0) } else { wanted[i - 1] };
+    let progress: Progress = std::array::from_fn(|step| {
+        let (i, part) = (step / PER_INSTANT, (step % PER_INSTANT) as f64 / PER_INSTANT as f64);
+        let (from, to) = (before(i).0, before((i + 1).min(INSTANTS)).0);
+        from + part * (to - from)
+    });
+    let waiting = Waiting {
+        gates,
+        v0: plan.model.start_speed_mps(),
+        limits: &plan.model.limits,
+        target: &plan.target,
+        caps: Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
+        easy_mps2: plan.easy_mps2,
+    };
+    let Some(held) = waiting.obeying(&progress) else { return wanted };
+    std::array::from_fn(|i| {
+        let along = held[(i + 1) * PER_INSTANT];
+        let next = (0..INSTANTS).find(|k| wanted[*k].0 >= along).unwrap_or(INSTANTS - 1);
+        let (from, to) = (before(next), wanted[next]);
+        let part = if to.0 - from.0 > 1e-6 { ((along - from.0) / (to.0 - from.0)).min(1.0) } else { 1.0 };
+        (along, from.1 + part * (to.1 - from.1))
+    })
 }
 
 /// Box centres and headings of a draft at the instants, before any motion model has its say.
@@ -58,7 +98,7 @@ pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
     }
-    through(plan, places(plan, slot, residual))
+    on_the_road(plan, slot, route_coordinates(plan, slot, residual))
 }
 
 /// The motion between drafts on one path: the mean of their progress and offset by probability. They lie on the
@@ -73,8 +113,28 @@ pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot
             mean.1 += probability / total * own.1;
         }
     }
-    let anchor = &plan.anchors[path.index()];
-    through(plan, mean.map(|(along, across)| anchor.place(along, across)))
+    on_the_road(plan, path, mean)
+}
+
+/// The motion at these progresses and offsets. Where an offset takes a corner beyond the road's edge and the path
+/// itself stays within, the offset shrinks.
+fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Motion {
+    let anchor = &plan.anchors[slot.index()];
+    let size = &plan.present.size;
+    let places = coordinates.map(|(along, across)| {
+        let wanted = anchor.place(along, across);
+        let Some(ground) = &plan.ground else { return wanted };
+        let outside_m = |(position, heading_rad): (Vec2, f64)| {
+            let outline = OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, heading_rad);
+            ground.box_outside_m(&outline).unwrap_or(0.0)
+        };
+        if across == 0.0 || outside_m(wanted) <= BEYOND_M || outside_m(anchor.place(along, 0.0)) > BEYOND_M {
+            return wanted;
+        }
+        let inside = OFFSET_SHARES.into_iter().map(|share| anchor.place(along, share * across));
+        inside.into_iter().find(|place| outside_m(*place) <= BEYOND_M).unwrap_or(anchor.place(along, 0.0))
+    });
+    through(plan, slot, places)
 }
 
 /// What motions are projected onto: the goal, or nothing but the limits.
@@ -83,8 +143,9 @@ fn projected_onto(plan: &AgentPlan) -> Target {
     if plan.projected { target } else { Target { step: target.step, ..Target::default() } }
 }
 
-/// The motion that passes near these places (box centres and the path's headings) at the instants.
-fn through(plan: &AgentPlan, places: [(Vec2, f64); INSTANTS]) -> Motion {
+/// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
+/// this slot.
+fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Motion {
     let mut samples = Vec::with_capacity(INSTANTS);
     let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
     for (i, (position, path_heading)) in places.into_iter().enumerate() {
@@ -97,7 +158,20 @@ fn through(plan: &AgentPlan, places: [(Vec2, f64); INSTANTS]) -> Motion {
         last = (position, heading_rad);
     }
     let knots = fit(&plan.model, &samples);
-    let motion = project(&plan.model, &knots, &projected_onto(plan), None);
+    let target = projected_onto(plan);
+    if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
+        let along = Target { heading_rad: Some(heading_rad), ..target };
+        let motion = project(&plan.model, &knots, &along, None);
+        let off = |(i, (place, _)): (usize, &(Vec2, f64))| {
+            (motion.trajectory[(i + 1) * PER_INSTANT].position - place).norm()
+        };
+        let due = target.step / PER_INSTANT;
+        let off_m = places.iter().enumerate().take(due).map(off).fold(0.0, f64::max);
+        if motion.reach.is_reached() && off_m < ALONG_LANE_M {
+            return motion.into();
+        }
+    }
+    let motion = project(&plan.model, &knots, &target, None);
     if motion.reach.is_reached() {
         return motion.into();
     }

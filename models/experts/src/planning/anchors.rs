@@ -1,18 +1,15 @@
 //! Anchors: where a road user may go, before any network speaks.
 //!
-//! With a goal position they are lane routes to it (or the least-effort motion where that is as good);
-//! without one, routes ahead, each with several timings. Pedestrians get straight lines beside routes.
+//! With a goal position they are ways to it ([`super::to_goal`]); without one, routes ahead, each with several timings. Pedestrians get straight lines beside routes.
 
 use super::MODES;
-use super::profile::{Caps, Progress, arriving, cruising, reaching_speed};
+use super::profile::{Caps, Progress, cruising, reaching_speed};
+use super::to_goal::anchors_to_goal;
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
 use scene::geometry::direction;
-use scene::motion::{Kind, MotionModel, Target, Tension, project};
-use scene::routes::{
-    EndPose, GoalQuery, Polyline, Route, RouteKind, SpeedRules, base_path, route_length_m, routes_ahead,
-    routes_to_goal, speed,
-};
+use scene::motion::{Kind, MotionModel, Target};
+use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
 /// What kind of path an anchor follows.
@@ -59,19 +56,17 @@ const SLOTS: [[usize; MODES]; MODES] = [
     [2, 1, 1, 1, 1, 0],
     [1, 1, 1, 1, 1, 1],
 ];
-/// The first path to a goal gets more of the slots than the others.
-const GOAL_SLOTS: [[usize; 3]; 3] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
 
 /// A path before it has timings.
-struct Way {
-    path: Polyline,
-    caps_mps: Vec<f64>,
-    limit_mps: f64,
-    kind: PathKind,
-    route: Option<Route>,
-    identity: u64,
+pub(super) struct Way {
+    pub(super) path: Polyline,
+    pub(super) caps_mps: Vec<f64>,
+    pub(super) limit_mps: f64,
+    pub(super) kind: PathKind,
+    pub(super) route: Option<Route>,
+    pub(super) identity: u64,
     /// Base progress that comes with the path.
-    pace: Option<Progress>,
+    pub(super) pace: Option<Progress>,
 }
 
 /// The six anchors of a road user.
@@ -80,181 +75,6 @@ pub fn anchors(world: &World<'_>, who: &AgentAtStart, model: &MotionModel, targe
         Some(goal) => anchors_to_goal(world, who, model, target, goal),
         None => anchors_ahead(world, who, model, target),
     }
-}
-
-fn anchors_to_goal(
-    world: &World<'_>,
-    who: &AgentAtStart,
-    model: &MotionModel,
-    target: &Target,
-    goal: Vec2,
-) -> Vec<Anchor> {
-    let candidates = paths_to_goal(world, who, model, target, goal);
-    let seconds = target.step as f64 * STEP_S;
-    let v0 = model.start_speed_mps();
-    let mut out = Vec::with_capacity(MODES);
-    let slots = GOAL_SLOTS[candidates.len().clamp(1, 3) - 1];
-    for (candidate, count) in candidates.into_iter().zip(slots) {
-        // Whoever must be there in time takes bends as fast as that asks.
-        let base = candidate.pace.unwrap_or_else(|| {
-            arriving(
-                v0,
-                goal_progress(&candidate.path, goal),
-                seconds,
-                target.speed_mps,
-                world.tuning.anchors.setting_off_mps2,
-            )
-        });
-        for timing in 0..count {
-            out.push(candidate.anchor(base, (timing, count)));
-        }
-    }
-    out
-}
-
-/// Progress of the goal along a path that ends at it (or goes on beyond it).
-fn goal_progress(path: &Polyline, goal: Vec2) -> f64 {
-    let foot = path.project(goal);
-    let beyond = (goal - path.last().position).dot(&path.last().direction());
-    if foot.s_m >= path.length_m() - 1e-6 && beyond > 0.0 { path.length_m() + beyond } else { foot.s_m }
-}
-
-fn paths_to_goal(
-    world: &World<'_>,
-    who: &AgentAtStart,
-    model: &MotionModel,
-    target: &Target,
-    goal: Vec2,
-) -> Vec<Way> {
-    let v0 = model.start_speed_mps();
-    let end = EndPose { position: goal, heading_rad: target.heading_rad };
-    if model.kind == Kind::Walk {
-        return vec![walk_to(who, model, target, goal, &world.tuning.anchors)];
-    }
-    let least = project(model, &model.coasting(), target, None);
-    let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));
-    let query = GoalQuery {
-        pose: who.pose(),
-        speed_mps: v0,
-        agent_type: who.agent_type,
-        goal,
-        goal_heading_rad: target.heading_rad,
-        least_effort_m: Some(least_path.length_m()),
-    };
-    let mut out: Vec<Way> = Vec::new();
-    let routes = if world.planning.routes { routes_to_goal(&world.graph, &query) } else { Vec::new() };
-    for found in routes {
-        let path = base_path(&found.route.path, who.pose(), v0, who.agent_type, Some(end));
-        let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
-        let identity = identity_of(&found.route);
-        out.push(Way::new(
-            path,
-            3.5,
-            f64::INFINITY,
-            kind,
-            Some(found.route),
-            identity,
-            &world.tuning.anchors,
-        ));
-    }
-    // Riders keep to no lane's middle and use pavements: the smooth way serves unless a route with the traffic
-    // goes elsewhere.
-    if who.agent_type == AgentType::Cyclist
-        && let Some(mut smooth) = smooth_to(who, model, target, goal, &world.tuning.anchors)
-        && out.first().is_none_or(|c| {
-            c.kind != PathKind::Route
-                || greatest_distance(&smooth.path, &c.path) < world.tuning.anchors.riders_berth_m
-        })
-    {
-        smooth.route = if out.is_empty() { None } else { out.remove(0).route };
-        out.insert(0, smooth);
-        out.truncate(3);
-        return out;
-    }
-    let near = out.first().is_some_and(|c| greatest_distance(&least_path, &c.path) < 1.0);
-    let joined = out.first().is_some_and(|c| c.kind == PathKind::Joined);
-    let direct = least.reach.is_reached() && is_direct(least_path.length_m(), who, goal);
-    if out.is_empty() || near || (joined && direct) {
-        let path = with_tail(least_path, who);
-        let route = if near { out.remove(0).route } else { None };
-        // Off the lanes a goal with a heading is met straight away; without one the lanes say how.
-        let place = usize::from(joined && !near && target.heading_rad.is_none());
-        out.insert(
-            place,
-            Way::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, route, 1, &world.tuning.anchors),
-        );
-    }
-    out.truncate(3);
-    out
-}
-
-/// On foot, a spline under tension: it leaves as the person walks now and arrives as the goal asks. Where that
-/// would wind, or there is hardly a way to go, the straight line.
-fn walk_to(
-    who: &AgentAtStart,
-    model: &MotionModel,
-    target: &Target,
-    goal: Vec2,
-    tuning: &AnchorTuning,
-) -> Way {
-    if let Some(smooth) = smooth_to(who, model, target, goal, tuning) {
-        return smooth;
-    }
-    let start = who.start.position();
-    let chord = goal - start;
-    let path = if chord.norm() > 0.3 {
-        let n = chord.norm().ceil().max(1.0) as usize;
-        Polyline::new((0..=n).map(|i| start + chord * (i as f64 / n as f64)))
-    } else {
-        Polyline::new([start, start + direction(who.start.heading_rad)])
-    };
-    Way::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2, tuning)
-}
-
-/// The spline under tension to the goal, as a path with its pace; `None` where it would wind or hardly move.
-fn smooth_to(
-    who: &AgentAtStart,
-    model: &MotionModel,
-    target: &Target,
-    goal: Vec2,
-    tuning: &AnchorTuning,
-) -> Option<Way> {
-    let from = (who.start.position(), who.start.velocity());
-    let relax_s = if model.kind == Kind::Walk { tuning.walkers_relax_s } else { tuning.riders_relax_s };
-    let curve = Tension::to_target(from, target, relax_s)?;
-    let mut pace = [0.0; HORIZON_STEPS + 1];
-    let mut points = vec![from.0];
-    for step in 1..=HORIZON_STEPS {
-        let (here, _) = curve.at(step as f64 * STEP_S);
-        pace[step] = pace[step - 1] + (here - points[step - 1]).norm();
-        points.push(here);
-    }
-    if (goal - from.0).norm() <= 1.0 || !is_direct(pace[target.step], who, goal) {
-        return None;
-    }
-    points.truncate(target.step + 1);
-    let path = Polyline::new(points);
-    let candidate = Way::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2, tuning);
-    Some(Way { pace: Some(pace), ..candidate })
-}
-
-/// Whether a way of this length to the goal does not wind.
-fn is_direct(length_m: f64, who: &AgentAtStart, goal: Vec2) -> bool {
-    length_m < 1.25 * (goal - who.start.position()).norm() + 0.3
-}
-
-/// A path long enough to have a direction: very short ones go on along the start heading.
-fn with_tail(path: Polyline, who: &AgentAtStart) -> Polyline {
-    if path.length_m() > 1.0 {
-        return path;
-    }
-    let start = who.start.position();
-    Polyline::new([start, start + direction(who.start.heading_rad) * 2.0])
-}
-
-/// Greatest distance of one path's points from another path, metres.
-fn greatest_distance(path: &Polyline, other: &Polyline) -> f64 {
-    path.points().iter().step_by(5).map(|p| other.project(*p).distance_m).fold(0.0, f64::max)
 }
 
 fn anchors_ahead(world: &World<'_>, who: &AgentAtStart, model: &MotionModel, target: &Target) -> Vec<Anchor> {
@@ -376,7 +196,7 @@ fn assumed_speed(agent_type: AgentType) -> f64 {
 }
 
 impl Way {
-    fn new(
+    pub(super) fn new(
         path: Polyline,
         lateral_mps2: f64,
         limit_mps: f64,
@@ -404,7 +224,7 @@ impl Way {
         Self { path, caps_mps, limit_mps, kind, route, identity, pace: None }
     }
 
-    fn anchor(&self, base: Progress, timing: (usize, usize)) -> Anchor {
+    pub(super) fn anchor(&self, base: Progress, timing: (usize, usize)) -> Anchor {
         Anchor {
             path: self.path.clone(),
             base,
@@ -418,7 +238,7 @@ impl Way {
 }
 
 /// Lanes of a route folded into one number.
-fn identity_of(route: &Route) -> u64 {
+pub(super) fn identity_of(route: &Route) -> u64 {
     route.legs.iter().fold(17, |h: u64, leg| h.wrapping_mul(1_000_003).wrapping_add(leg.lane as u64 + 11))
 }
 

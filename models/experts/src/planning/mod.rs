@@ -1,16 +1,21 @@
 //! The planning prior: what can be said of a road user's futures before any network speaks.
 //!
-//! [`world`] is the scene at one step, [`anchors`] are the ways on from there, [`profile`] the pace along
+//! [`world`] is the scene at one step, [`anchors`] are the ways on from there (legal ones first), [`profile`] the pace along
 //! them, [`coordinates`] how a future is written relative to its anchor, and [`pullback`] takes gradients
 //! in the plane back to those numbers.
 
 pub mod anchors;
 pub mod coordinates;
+mod legal;
+pub mod lights;
 pub mod profile;
 pub mod pullback;
+#[cfg(test)]
+mod road_tests;
 pub mod smooth;
 #[cfg(test)]
 mod tests;
+mod to_goal;
 pub mod world;
 
 pub use coordinates::{

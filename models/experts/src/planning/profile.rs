@@ -52,6 +52,16 @@ pub fn approaching(v0: f64, speed_mps: f64, rate_mps2: f64, caps: &Caps<'_>) -> 
     integrate(v0, caps, 4.0, wish)
 }
 
+/// As far as speeding up by `rate_mps2` to `top_mps` leads, under the caps.
+pub fn fastest(v0: f64, rate_mps2: f64, top_mps: f64, caps: &Caps<'_>) -> Progress {
+    integrate(v0, caps, 8.0, |t| (v0 + rate_mps2 * t).min(top_mps.max(v0)))
+}
+
+/// As far as braking by `rate_mps2` at once leads.
+pub fn slowest(v0: f64, rate_mps2: f64) -> Progress {
+    approaching(v0, 0.0, rate_mps2, &Caps::new(&[0.0], &[f64::INFINITY]))
+}
+
 /// Reaches `speed_mps` at `seconds` by constant acceleration; `sag` bends the way there (m/s at half time).
 pub fn reaching_speed(v0: f64, speed_mps: f64, seconds: f64, sag: f64, caps: &Caps<'_>) -> Progress {
     let wish = |t: f64| {

@@ -1,5 +1,6 @@
 //! One moment of a scene as the experts read it: who stands where at the start, on which lane graph.
 
+use super::lights::StopLine;
 use crate::tuning::{self, Tuning};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
@@ -76,7 +77,8 @@ impl From<Arc<Scene>> for SceneHandle<'_> {
     }
 }
 
-/// A scene at one step. Nothing later than this step enters, except what the user fixed.
+/// A scene at one step. Nothing later than this step enters, except what the user fixed and what lights will
+/// show: no input of the networks, but who would pass a light while it is red waits.
 pub struct World<'a> {
     /// The scene.
     pub scene: SceneHandle<'a>,
@@ -93,6 +95,8 @@ pub struct World<'a> {
     pub signals: Vec<LaneSignal>,
     /// Seconds each signal has been in its state.
     pub signal_ages_s: Vec<f64>,
+    /// Stop lines of all signals of lanes, with what they will show in this window.
+    pub stop_lines: Vec<StopLine>,
     /// How its road users' futures are planned.
     pub planning: Planning,
     /// The tuned numbers of planning.
@@ -124,13 +128,15 @@ impl<'a> World<'a> {
         let mut signal_ages_s = Vec::new();
         for signal in &scene.signals {
             if let Some(lane) = graph.lane_index(&signal.lane) {
-                signals.push(LaneSignal { lane, state: signal.at(step), stop: signal.stop });
-                signal_ages_s.push(signal.age_steps(step) as f64 * scene::STEP_S);
+                let (state, age) = signal.last_known(step);
+                signals.push(LaneSignal { lane, state, stop: signal.stop });
+                signal_ages_s.push(age as f64 * scene::STEP_S);
             }
         }
+        let stop_lines = scene.signals.iter().filter_map(|s| StopLine::of(s, &graph, step)).collect();
         let planning = Planning::default();
         let tuning = &tuning::SHIPPED;
-        Self { scene, graph, step, present, conditions, signals, signal_ages_s, planning, tuning }
+        Self { scene, graph, step, present, conditions, signals, signal_ages_s, stop_lines, planning, tuning }
     }
 
     /// The scene's agent behind a present road user.

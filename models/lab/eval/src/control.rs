@@ -68,11 +68,7 @@ pub(super) const TABLE: Table = Table {
 /// # Errors
 /// When a generator fails.
 fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
-    let mut picked: Vec<(usize, usize)> =
-        sites.iter().enumerate().flat_map(|(s, site)| (0..site.cases.len()).map(move |c| (s, c))).collect();
-    Key::default().number(seed).words(&["control"]).stream().shuffle(&mut picked);
-    picked.truncate(MOST_CASES);
-    picked.sort_unstable();
+    let picked = picked(sites, seed, MOST_CASES);
     let mut sheets = [reach_sheet(), limits_sheet()];
     for own in judged {
         let drags: Result<Vec<Vec<Drag>>> = picked
@@ -91,6 +87,24 @@ fn control(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
         }
     }
     Ok(sheets.into())
+}
+
+/// At most so many road users, drawn by the seed: indices of their sites and of the cases there.
+pub(super) fn picked(sites: &[Site<'_>], seed: u64, most: usize) -> Vec<(usize, usize)> {
+    let mut picked: Vec<(usize, usize)> =
+        sites.iter().enumerate().flat_map(|(s, site)| (0..site.cases.len()).map(move |c| (s, c))).collect();
+    Key::default().number(seed).words(&["control"]).stream().shuffle(&mut picked);
+    picked.truncate(most);
+    picked.sort_unstable();
+    picked
+}
+
+/// The logged goal's position moved so far along its lane or across it, everything else free; `None` without one.
+pub(super) fn dragged_goal(site: &Site<'_>, case: &Case, along: bool, metres: f64) -> Option<Goal> {
+    let logged = case.goal(site.scene, Subset::PosSpeedHeading);
+    let way = if along { DragDirection::Along } else { DragDirection::Across };
+    let (position, _) = moved(site, case, logged.position?, logged.heading_rad, way, metres);
+    Some(Goal { position: Some(position), time_s: logged.time_s, ..Goal::default() })
 }
 
 /// All drags of one road user.
@@ -158,7 +172,7 @@ fn moved(
     }
 }
 
-fn request(mut scene: Scene, case: &Case, goal: Goal, seed: u64) -> Request {
+pub(super) fn request(mut scene: Scene, case: &Case, goal: Goal, seed: u64) -> Request {
     let agent = &mut scene.agents[case.agent];
     agent.conditions.goal = goal;
     let ids = BTreeSet::from([agent.id.clone()]);

@@ -1,4 +1,4 @@
-//! Judging the experts on scenes: eight tables of figures with intervals, and pictures.
+//! Judging the experts on scenes: nine tables of figures with intervals, and pictures.
 //!
 //! [`run`] makes everything that `dragtraffic eval` writes. A table is a module; they share the cases, the
 //! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
@@ -26,6 +26,7 @@ pub mod stats;
 mod table;
 mod tables;
 pub mod together;
+mod trust;
 mod variety;
 
 pub use cases::{Case, Site, Subset, cases};

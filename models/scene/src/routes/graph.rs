@@ -5,8 +5,10 @@ use super::walks;
 use crate::geometry::polyline::Polyline;
 use crate::geometry::segments::{SegmentIndex, pieces};
 use crate::map::{Lane, LaneType};
+use crate::score::Drivable;
 use crate::{AgentType, LaneMap, Vec2};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// What a lane of the graph was made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,6 +135,7 @@ pub struct LaneGraph {
     lanes: Vec<GraphLane>,
     by_id: HashMap<String, usize>,
     index: SegmentIndex,
+    ground: Arc<Drivable>,
 }
 
 /// A lane near a point.
@@ -170,7 +173,8 @@ impl LaneGraph {
         let by_id = by_id.into_iter().map(|(id, i)| (id.to_owned(), i)).collect();
         let numbered = (0..).zip(&lanes);
         let index = SegmentIndex::new(numbered.flat_map(|(i, lane)| pieces(lane.path.points(), i)).collect());
-        let mut graph = Self { lanes, by_id, index };
+        let ground = Arc::new(Drivable::new(map));
+        let mut graph = Self { lanes, by_id, index, ground };
         links::sides(map, &mut graph);
         graph
     }
@@ -178,6 +182,11 @@ impl LaneGraph {
     /// All lanes; the first are [`LaneMap::lanes`] in order, then paths for people on foot.
     pub fn lanes(&self) -> &[GraphLane] {
         &self.lanes
+    }
+
+    /// Where vehicles may drive on the same map.
+    pub fn ground(&self) -> &Arc<Drivable> {
+        &self.ground
     }
 
     pub(super) fn lanes_mut(&mut self) -> &mut [GraphLane] {

@@ -22,7 +22,7 @@ pub use ahead::{MAX_ROUTES, route_length_m, routes_ahead};
 pub use blend::{EndPose, base_path};
 pub use graph::{Beside, GraphLane, LaneGraph, LaneHit, LaneSource};
 pub use speed::{LaneSignal, Leader, Obstacle, SignalAhead, SpeedRules};
-pub use to_goal::{GoalQuery, GoalRoute, MAX_GOAL_ROUTES, RouteKind, routes_to_goal};
+pub use to_goal::{GoalQuery, GoalRoute, MAX_GOAL_ROUTES, RouteKind, further_routes_to_goal, routes_to_goal};
 
 /// A stretch of one lane on a route.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,6 +20,8 @@ const CLOSE_M: f64 = 1.5;
 const NO_JOIN_M: f64 = 5.0;
 /// Most goal lanes looked at.
 const MAX_GOAL_LANES: usize = 6;
+/// The same where lanes on both sides of the goal are looked at.
+const MAX_NEAR_LANES: usize = 24;
 /// Metres of path that a metre of offset between lane and goal is worth (`lanes.py`: 1 to 0.05).
 const COST_PER_OFFSET: f64 = 20.0;
 
@@ -89,30 +91,45 @@ pub struct GoalRoute {
 pub fn routes_to_goal(graph: &LaneGraph, query: &GoalQuery) -> Vec<GoalRoute> {
     let starts = start_lanes(graph, query.pose, query.agent_type);
     let starts = with_lanes_beside(graph, starts, query.agent_type);
-    let goals = goal_lanes(graph, query, ON_LANE_M);
-    let mut routes = forward(graph, query, &starts, &goals);
+    let goals = goal_lanes(graph, query, ON_LANE_M, MAX_GOAL_LANES);
+    let mut routes = forward(graph, query, &starts, &goals, query.longest_m());
     let close = |r: &GoalRoute| r.goal_lateral_m.abs() < CLOSE_M;
     let wants_join = !routes.iter().any(close) && query.distance_m() >= NO_JOIN_M;
     if wants_join && let Some(joined) = join::joined(graph, query, &goals) {
         routes.insert(0, joined);
     }
     if routes.is_empty() && goals.is_empty() {
-        let near = goal_lanes(graph, query, OFF_LANE_M);
-        let lead_in = forward(graph, query, &starts, &near);
+        let near = goal_lanes(graph, query, OFF_LANE_M, MAX_GOAL_LANES);
+        let lead_in = forward(graph, query, &starts, &near, query.longest_m());
         routes = lead_in.into_iter().filter_map(|r| join::leaving(r, query)).collect();
     }
     routes.truncate(MAX_GOAL_ROUTES);
     routes
 }
 
+/// Further routes, for a goal to which none of [`routes_to_goal`] will do: long ways round along lanes of up to
+/// `longest_m`, and ways along lanes that the road user can drive to near the goal, left for it at the end.
+pub fn further_routes_to_goal(graph: &LaneGraph, query: &GoalQuery, longest_m: f64) -> Vec<GoalRoute> {
+    let starts = start_lanes(graph, query.pose, query.agent_type);
+    let starts = with_lanes_beside(graph, starts, query.agent_type);
+    let longest_m = longest_m.max(query.longest_m());
+    let near = goal_lanes(graph, query, OFF_LANE_M, MAX_NEAR_LANES);
+    let (under, beside): (Vec<LaneHit>, Vec<LaneHit>) =
+        near.into_iter().partition(|hit| hit.distance_m <= ON_LANE_M);
+    let mut routes = forward(graph, query, &starts, &under, longest_m);
+    let lead_in = forward(graph, query, &starts, &beside, longest_m);
+    routes.extend(lead_in.into_iter().filter_map(|r| join::leaving(r, query)));
+    routes
+}
+
 /// Lanes beside the goal, best first. A lane that only comes near with its end is passed over when the
 /// goal lies well beyond that end.
-fn goal_lanes(graph: &LaneGraph, query: &GoalQuery, radius_m: f64) -> Vec<LaneHit> {
+fn goal_lanes(graph: &LaneGraph, query: &GoalQuery, radius_m: f64, most: usize) -> Vec<LaneHit> {
     let mut hits = graph.nearest_for(query.goal, radius_m, query.agent_type);
     hits.retain(|hit| query.goal_turn_rad(hit.heading_rad) <= GOAL_TURN_RAD);
     let score = |hit: &LaneHit| hit.distance_m + METRES_PER_RAD * query.goal_turn_rad(hit.heading_rad);
     hits.sort_by(|a, b| score(a).total_cmp(&score(b)).then(a.lane.cmp(&b.lane)));
-    hits.truncate(MAX_GOAL_LANES);
+    hits.truncate(most);
     hits
 }
 
@@ -124,15 +141,20 @@ struct Candidate {
     trace: Vec<Vec2>,
 }
 
-/// Distinct forward routes from the starts to the goal lanes, best first.
-fn forward(graph: &LaneGraph, query: &GoalQuery, starts: &[StartLane], goals: &[LaneHit]) -> Vec<GoalRoute> {
+/// Distinct forward routes of up to `longest_m` from the starts to the goal lanes, best first.
+fn forward(
+    graph: &LaneGraph,
+    query: &GoalQuery,
+    starts: &[StartLane],
+    goals: &[LaneHit],
+    longest_m: f64,
+) -> Vec<GoalRoute> {
     if goals.is_empty() {
         return Vec::new();
     }
     let mut candidates = Vec::new();
     for start in starts {
-        let found =
-            search::shortest(graph, start, goals, query.speed_mps, query.agent_type, query.longest_m());
+        let found = search::shortest(graph, start, goals, query.speed_mps, query.agent_type, longest_m);
         candidates.extend(found.into_iter().map(|chain| {
             let goal = goals[chain.goal];
             let turn = METRES_PER_RAD * query.goal_turn_rad(goal.heading_rad);

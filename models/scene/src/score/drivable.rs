@@ -158,6 +158,15 @@ impl Drivable {
         if crossed { distance(&self.edges, point) } else { 0.0 }
     }
 
+    /// The straight line between two points leaves the road over an edge of it, be the ground behind a
+    /// median of no width. Edges across the mouth of a driveway do not count.
+    pub fn crosses_an_edge(&self, from: Vec2, to: Vec2) -> bool {
+        let middle = 0.5 * (from + to);
+        let radius_m = 0.5 * (to - from).norm();
+        self.edges.near(middle, radius_m).any(|edge| edge.crosses(from, to))
+            && !self.driveways.contain(middle)
+    }
+
     /// Against the traffic: there are vehicle lanes at `point`, and `forward` (a unit vector) is more
     /// than 120 degrees off the direction of every one of them. `None` off the lanes.
     pub fn is_wrong_way(&self, point: Vec2, forward: Vec2) -> Option<bool> {
@@ -304,6 +313,9 @@ mod tests {
         assert_eq!(index.outside_m(at(20.0, -8.0)), Some(2.0));
         assert_eq!(index.outside_m(at(45.0, -8.0)), Some(0.0));
         assert_eq!(index.outside_m(at(20.0, 5.0)), Some(3.0));
+        assert!(index.crosses_an_edge(at(20.0, 1.0), at(21.0, 3.0)));
+        assert!(!index.crosses_an_edge(at(20.0, -1.0), at(90.0, 1.0)));
+        assert!(!index.crosses_an_edge(at(45.0, -5.0), at(45.0, -7.0)), "into the driveway");
         assert!(!index.assumed_width());
     }
 }

@@ -4,7 +4,7 @@ use super::{SceneArgs, failed, print_json, scenes};
 use crate::cli::{Common, Exit, Failure, generator, output};
 use clap::Args;
 use experts::Tuning;
-use lab_eval::{Judged, Table};
+use lab_eval::{Judged, TABLES, Table};
 use lab_train::baselines::Baseline;
 use lab_train::scenes::Crop;
 use std::path::PathBuf;
@@ -28,10 +28,10 @@ pub struct EvalArgs {
     /// a folder with one for each type.
     #[arg(long, value_name = "NAME=PATH", value_parser = named_folder)]
     baseline: Vec<(String, PathBuf)>,
-    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations; and the long
-    /// 8, refinement (some ten minutes of a core for 40 scenes).
+    /// Tables to make: 1 quality, 2 coherence, 3 control, 4 realism, 5 variety, 6 cost, 7 ablations; the long
+    /// 8, refinement (some ten minutes of a core for 40 scenes); and 9, trust
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4, 5, 6, 7],
-          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=8))]
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=TABLES.len() as u64))]
     tables: Vec<usize>,
     /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
     #[arg(short, long, value_name = "DIR")]

@@ -113,5 +113,11 @@ function linesOf(group: Group): Line[] {
 
 /** The line of an action; the same one for all of a family. */
 function lineOf(a: Action): Line {
-  return FAMILIES.find((f) => f.ids.test(a.id)) ?? { label: a.label, keys: [a.keys![0]] };
+  return (
+    FAMILIES.find((f) => f.ids.test(a.id)) ?? {
+      label: a.label,
+      keys: [a.keys![0]],
+      ...(a.whileDragging ? { how: 'while dragging' } : {}),
+    }
+  );
 }

@@ -72,17 +72,27 @@ const TIPS = {
 function DragHelp() {
   const { editor } = useApp();
   const handle = useComputed(() => editor.drag.value?.grip.handle ?? 'body').value;
+  const shown = editor.showForeseen.value;
   const react = editor.scene.peek()?.others === 'react';
+  const answers = ['H', `${shown ? 'hide' : 'show'} the others’ answers`] as const;
   return (
     <div class="card helpbar">
-      <span class="mut">{react ? 'Others react when you let go' : 'Let go to work it out'}</span>
+      <span class="mut">
+        {!react
+          ? 'Let go to work it out'
+          : shown
+            ? 'Dashed boxes: where they would wait'
+            : 'Others react when you let go'}
+      </span>
       <div class="sep" />
-      {[...TIPS[handle], ['Esc', 'put back']].map(([key, text]) => (
-        <span key={key}>
-          <KeyCaps of={key} />
-          {text}
-        </span>
-      ))}
+      {[...(react ? TIPS[handle].slice(0, 1) : TIPS[handle]), ...(react ? [answers] : []), ['Esc', 'put back']].map(
+        ([key, text]) => (
+          <span key={key}>
+            <KeyCaps of={key} />
+            {text}
+          </span>
+        ),
+      )}
     </div>
   );
 }

@@ -1,22 +1,51 @@
-// Who else does something else since the last change.
+// Who else does something else since the last change; during a drag, who would if one let go now.
+import { useComputed } from '@preact/signals';
+import type { Change } from '../../model/changes';
 import { useApp } from '../parts/app-context';
 
 /** More than these are counted, not listed. */
 const LISTED = 8;
 
+const others = (n: number): string => `${n} other${n > 1 ? 's' : ''}`;
+
 export function Changes() {
   const { editor } = useApp();
+  const foreseen = useComputed(() => editor.foreseen.value).value;
+  if (foreseen) return <Foreseen list={foreseen} />;
   const list = editor.changes.value;
-  const scene = editor.scene.peek();
-  if (!list.length || !scene) return null;
+  if (!list.length) return null;
   return (
     <section class="sect" aria-label="Others that changed">
       <h3>
-        {`${list.length} other${list.length > 1 ? 's' : ''} changed`}
+        {`${others(list.length)} changed`}
         <button type="button" aria-pressed={editor.showBefore.value} onClick={() => editor.toggleBefore()}>
           show before / after
         </button>
       </h3>
+      <Lines list={list} />
+    </section>
+  );
+}
+
+/** Nothing of it has happened yet: the dots are hollow. */
+function Foreseen({ list }: { list: readonly Change[] }) {
+  if (!list.length) return null;
+  return (
+    <section class="sect foreseen" aria-label="Others that would change">
+      <h3>
+        {`${others(list.length)} would change`}
+        <small>if you let go now</small>
+      </h3>
+      <Lines list={list} />
+    </section>
+  );
+}
+
+function Lines({ list }: { list: readonly Change[] }) {
+  const { editor } = useApp();
+  const scene = editor.scene.peek();
+  return (
+    <>
       {list.slice(0, LISTED).map((change) => (
         <button
           key={change.id}
@@ -27,12 +56,12 @@ export function Changes() {
           onPointerEnter={() => editor.pointAt({ agent: change.id })}
           onPointerLeave={() => editor.pointAt({})}
         >
-          <i class={`b-${scene.agents.get(change.id)!.type}`} />
+          <i class={`b-${scene?.agents.get(change.id)?.type ?? 'other'}`} />
           <b>{change.name}</b>
           <span>{change.words}</span>
         </button>
       ))}
       {list.length > LISTED ? <p class="note">and {list.length - LISTED} more</p> : null}
-    </section>
+    </>
   );
 }

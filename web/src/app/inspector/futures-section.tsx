@@ -1,9 +1,14 @@
 // The six futures of a road user: names, shares, and which one it takes.
 import { useComputed } from '@preact/signals';
-import { isSettled, LETTERS } from '../../model/futures';
-import { hasGoal } from '../../model/scene';
+import { markOf, type Mark } from '../../model/about';
+import { isSettled, LETTERS, percents, type Future } from '../../model/futures';
+import { hasGoal, nameIn, type Scene } from '../../model/scene';
+import { seconds } from '../../model/units';
+import { placeWord } from '../../model/verdict-words';
+import { verdictsHold } from '../../edit/goal-verdict';
 import { pickFuture } from '../../edit/moves';
 import { useApp } from '../parts/app-context';
+import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
 
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
@@ -26,8 +31,19 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
         <small>{note}</small>
       </h3>
       <FutureList agent={agent} />
+      <Remark agent={agent} />
     </section>
   );
+}
+
+/** Why another future is shown than the one that was bold in the drag. */
+function Remark({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const words = useComputed(() => {
+    const r = editor.answers.remark.value;
+    return r?.id === agent.value.id ? r.words : '';
+  }).value;
+  return words ? <p class="note remark">{words}</p> : null;
 }
 
 function FutureList({ agent }: { agent: LiveAgent }) {
@@ -58,7 +74,8 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mode = useComputed(() => editor.futures.value?.modes[index]);
   const name = useComputed(() => mode.value?.name ?? '');
-  const percent = useComputed(() => `${Math.round((mode.value?.probability ?? 0) * 100)}%`);
+  const percent = useComputed(() => `${percents(editor.futures.value?.modes ?? [])[index] ?? 0}%`);
+  const title = useComputed(() => inWords(editor.scene.value, mode.value));
   const checked = useComputed(() => String(editor.chosen.value === index));
   const pick = () => {
     const command = agent.peek().chosen === index ? null : pickFuture(editor, agent.peek(), index);
@@ -73,7 +90,7 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
       role="radio"
       data-future={LETTERS[index]}
       aria-checked={checked as never}
-      title={name}
+      title={title}
       onClick={pick}
       onPointerEnter={point}
       onPointerLeave={leave}
@@ -82,12 +99,45 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
     >
       <span class={`l m${index}`}>{LETTERS[index]}</span>
       <span class="nm">{name}</span>
+      <MarkSign agent={agent} index={index} />
       <span class="bar">
         <Share index={index} />
       </span>
       <span class="pc">{percent}</span>
     </button>
   );
+}
+
+const MARK_WORDS: Readonly<Record<Mark, string>> = {
+  collision: 'Collision',
+  rule: 'Breaks a rule',
+  near: 'Near miss',
+  short: 'Goal not reached',
+  ok: 'Reached',
+};
+
+/** The worst of its verdicts. A tick belongs to a goal; where none is set, only what is wrong is marked. */
+function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
+  const { editor } = useApp();
+  const mark = useComputed(() => {
+    const about = verdictsHold(editor) ? editor.futures.value?.modes[index]?.about : null;
+    const m = about ? markOf(about) : null;
+    return m === 'ok' && !agent.value.goal.pos ? null : m;
+  }).value;
+  return mark ? (
+    <span class={`mk ${mark}`} role="img" aria-label={MARK_WORDS[mark]}>
+      <Icon name={`mark-${mark}`} size={15} />
+    </span>
+  ) : (
+    <span class="mk" />
+  );
+}
+
+/** `Before Car 12: over the median at 3.2 s`. */
+function inWords(scene: Scene | null, m: Future | undefined): string {
+  const [worst] = m?.about?.faults ?? [];
+  if (!scene || !m || !worst) return m?.name ?? '';
+  return `${m.name}: ${placeWord(worst, nameIn(scene))} at ${seconds(worst.time)}`;
 }
 
 /** A bar as long as the future is likely, beside the likeliest. */

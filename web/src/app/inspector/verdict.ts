@@ -1,18 +1,24 @@
 // What is to be said of the goal of a road user, in words: whether it can be reached, whether it was.
 import type { Context } from '../../actions/context';
+import type { Mark } from '../../model/about';
 import { comparedWithLog } from '../../model/changes';
-import { isSettled, LETTERS, type Futures } from '../../model/futures';
+import { isJudged, isSettled, LETTERS, type Futures } from '../../model/futures';
 import { nearestLanes } from '../../model/lanemap';
 import { endPose, endsBefore, poseAt } from '../../model/motion';
-import type { Agent } from '../../model/scene';
+import { nameIn, type Agent } from '../../model/scene';
 import { metres, seconds } from '../../model/units';
-import { outOfReach } from '../../edit/goal-verdict';
+import { headline } from '../../model/verdict-words';
+import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
 
 export interface Verdict {
-  readonly kind: 'ok' | 'near' | 'plain';
+  readonly kind: 'ok' | 'near' | 'collision' | 'plain';
   readonly icon: string;
   readonly title: string;
   readonly words: string;
+  /** Where the playhead goes on a click on the title, seconds. */
+  readonly at?: number | null;
+  /** Is the way by the road to be offered? */
+  readonly byRoad?: boolean;
   /** Are there ways out to offer? */
   readonly remedies?: boolean;
   /** Is "snap to the nearest lane" to be offered? */
@@ -29,9 +35,11 @@ export function verdictOn(c: Context, a: Agent): Verdict | null {
   if (e.away.value && e.motion.value.stale) return OUTDATED;
   const reach = onReach(c, a);
   if (reach) return reach;
-  if (e.dragging.value) return null;
+  const judged = onFaults(c, a);
+  if (judged && judged.kind !== 'ok') return judged;
+  if (e.dragging.value) return judged ?? onQuickReach(c, a);
   if (offLanes(c, a)) return NO_LANE;
-  return againstLog(c, a) ?? onFutures(c, a);
+  return againstLog(c, a) ?? judged ?? onFutures(c, a);
 }
 
 const OUTDATED: Verdict = {
@@ -49,13 +57,34 @@ const NO_LANE: Verdict = {
   snap: true,
 };
 
-/** Can the goal be reached? During a drag the quick answer stands even when it is yes. */
 function onReach({ editor: e }: Context, a: Agent): Verdict | null {
-  if (!a.goal.pos) return null;
-  const bad = outOfReach(e, a);
-  if (bad) return { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
-  const local = e.dragging.value ? e.localReach.value : null;
-  return local && { kind: 'ok', icon: 'check', title: local.title, words: local.words };
+  const bad = a.goal.pos ? outOfReach(e, a) : null;
+  return bad && { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
+}
+
+/** During a drag, until the generator has judged it, the quick answer stands even when it is yes. */
+function onQuickReach({ editor: e }: Context, a: Agent): Verdict | null {
+  const local = a.goal.pos ? e.localReach.value : null;
+  return local && { kind: 'plain', icon: 'flag', title: local.title, words: local.words };
+}
+
+const KINDS: Readonly<Record<Mark, Verdict['kind']>> = {
+  collision: 'collision',
+  rule: 'near',
+  near: 'near',
+  short: 'plain',
+  ok: 'ok',
+};
+
+/** What the generator says is wrong with the future that is shown. */
+function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
+  const f = e.futures.value;
+  if (!f || !verdictsHold(e)) return null;
+  const who = { type: a.type, nameOf: nameIn(e.scene.value!) };
+  const said = headline(f, e.chosen.value, a.goal.pos !== null, who);
+  if (!said) return null;
+  const { mark, title, words, at } = said;
+  return { kind: KINDS[mark], icon: `mark-${mark}`, title, words, at, byRoad: mark === 'rule' || mark === 'collision' };
 }
 
 function offLanes({ editor }: Context, a: Agent): boolean {
@@ -74,11 +103,11 @@ function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
 
 function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
   const f = e.futures.value;
-  if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.motion.value.stale) return null;
+  if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.motion.value.stale || isJudged(f)) return null;
   return goalReached(a, f, a.goal.pos);
 }
 
-/** Which of the futures reach the goal, and how closely. */
+/** Which of the futures reach the goal, and how closely: for futures that nobody has judged. */
 function goalReached(a: Agent, f: Futures, goal: readonly [number, number]): Verdict {
   const misses = f.modes.flatMap(({ motion }, i) => {
     const p = poseAt(motion, a.goal.time) ?? endPose(motion);

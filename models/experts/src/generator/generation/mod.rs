@@ -8,6 +8,7 @@
 mod ledger;
 mod roster;
 mod scenes;
+mod standing;
 mod targets;
 mod verdicts;
 
@@ -217,6 +218,7 @@ impl<'g> Generation<'g> {
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+            standing::relate(&self.request, &self.map, &self.generator.workers, &mut sample);
         }
         self.ledger.samples.push(sample);
         Ok(())
@@ -264,13 +266,13 @@ impl<'g> Generation<'g> {
                 self.begin(number)?;
                 let refines = steps(&self.request) > 0;
                 self.stage = if refines { Stage::Step(number, 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present()?.draft(0)))
+                Ok(Event::Draft(self.windows.present_mut()?.draft(0)))
             }
             Stage::Step(number, step) => {
                 self.refine(step)?;
                 let more = step < steps(&self.request);
                 self.stage = if more { Stage::Step(number, step + 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present()?.draft(step)))
+                Ok(Event::Draft(self.windows.present_mut()?.draft(step)))
             }
             Stage::Finish | Stage::Done => {
                 self.stage = Stage::Done;

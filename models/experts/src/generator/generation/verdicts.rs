@@ -53,7 +53,7 @@ pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample
 
 /// A road user with the motion that it is shown with: its future in the sample, the one that the scene keeps, or
 /// its log.
-fn as_shown<'a>(request: &'a Request, sample: &Sample, agent: &'a Agent) -> Actor<'a> {
+pub(super) fn as_shown<'a>(request: &'a Request, sample: &Sample, agent: &'a Agent) -> Actor<'a> {
     let new = sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen));
     let kept = || request.scene.generated.as_ref()?.chosen_future(&agent.id);
     match new.or_else(kept) {

@@ -16,7 +16,7 @@ pub(super) use course::{Moving, carry_on};
 pub(super) use reaction::reaction_of;
 
 use super::actor::Actor;
-use super::background::{background_state, background_states};
+use super::background::{Known, background_states};
 use super::trajectory::{rest, to_trajectory};
 use super::window::Cast;
 use super::workers::Workers;
@@ -102,9 +102,10 @@ impl<'g> Answerers<'g> {
             let resumed = cast.resumed.get(&index);
             let mut known: Vec<Option<State>> = match resumed {
                 Some(states) => (0..=HORIZON_STEPS).map(|step| states.get(step).copied()).collect(),
-                None => (0..=HORIZON_STEPS)
-                    .map(|step| background_state(&world.scene, agent, world.step, step))
-                    .collect(),
+                None => {
+                    let known = Known::of(&world.scene, agent, world.step);
+                    (0..=HORIZON_STEPS).map(|step| known.at(step)).collect()
+                }
             };
             if let Some(present) = present {
                 known[0] = Some(present.start);

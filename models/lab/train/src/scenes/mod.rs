@@ -7,7 +7,7 @@ pub use crop::{Crop, Cropped};
 pub use mirror::mirrored;
 
 use anyhow::{Context, Result};
-use scene::{Conditions, Scene, Track};
+use scene::{Conditions, Scene, SignalState, Track};
 use std::path::{Path, PathBuf};
 
 /// Scene files below the inputs, sorted.
@@ -42,7 +42,7 @@ pub fn read_scenes(path: &Path) -> Result<Vec<Scene>> {
 }
 
 /// A copy of a scene that knows nothing after its first step: one state for each road user, the lights as
-/// they are, no conditions, no futures. Neither features nor the choice can look ahead in it.
+/// they are then and unknown later, no conditions, no futures. Neither features nor the choice can look ahead in it.
 pub fn blind(scene: &Scene) -> Scene {
     let mut out = scene.clone();
     out.generated = None;
@@ -56,6 +56,9 @@ pub fn blind(scene: &Scene) -> Scene {
         signal.runs.retain(|(first, _)| *first == 0);
     }
     out.signals.retain(|signal| !signal.runs.is_empty());
+    for signal in &mut out.signals {
+        signal.runs.push((1, SignalState::Unknown));
+    }
     out
 }
 

@@ -1,0 +1,48 @@
+//! How much of a path breaks the rules of the road: beyond its edges, over a median, against the traffic.
+
+use super::world::AgentAtStart;
+use scene::geometry::direction;
+use scene::routes::Polyline;
+use scene::score::Drivable;
+use scene::{AgentType, Vec2};
+use std::f64::consts::FRAC_PI_2;
+
+/// Distance between the places that are looked at, metres.
+const STEP_M: f64 = 1.5;
+/// Metres that crossing an edge of the road counts as.
+const EDGE_M: f64 = 5.0;
+/// The box counts as this much narrower than it is, metres: a path is no motion yet.
+const NARROWER_M: f64 = 0.2;
+/// How far beyond an edge a side of the box may be, metres.
+const BEYOND_M: f64 = 0.3;
+
+/// Metres of the first `to_m` of a path on which a road user would break the rules. Riders use pavements, so
+/// only the edges that they cross and the traffic count for them; nothing does on foot or where the map does not
+/// say.
+pub(super) fn broken_m(ground: &Drivable, who: &AgentAtStart, path: &Polyline, to_m: f64) -> f64 {
+    if who.agent_type == AgentType::Pedestrian || ground.is_unknown() {
+        return 0.0;
+    }
+    let drives = who.agent_type != AgentType::Cyclist;
+    let half_width_m = (0.5 * who.size.width_m - NARROWER_M).max(0.0);
+    let pieces = (to_m / STEP_M).ceil().clamp(1.0, 400.0);
+    let step_m = to_m / pieces;
+    let mut broken = 0.0;
+    let mut last: Option<Vec2> = None;
+    for i in 0..=pieces as usize {
+        let pose = path.extrapolate(i as f64 * step_m);
+        if last.is_some_and(|last| ground.crosses_an_edge(last, pose.position)) {
+            broken += EDGE_M;
+        }
+        last = Some(pose.position);
+        let left = half_width_m * direction(pose.heading_rad + FRAC_PI_2);
+        let beyond = |point: Vec2, most_m: f64| ground.outside_m(point).is_some_and(|m| m > most_m);
+        let off = drives
+            && (beyond(pose.position, 0.0)
+                || [left, -left].iter().any(|side| beyond(pose.position + side, BEYOND_M)));
+        if off || ground.is_wrong_way(pose.position, pose.direction()) == Some(true) {
+            broken += step_m;
+        }
+    }
+    broken
+}

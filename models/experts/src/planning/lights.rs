@@ -1,0 +1,309 @@
+//! Red lights: the stop lines that a path crosses, and progress along it that waits at them.
+
+use super::profile::{Caps, Progress, arriving, speed_at};
+use super::world::{AgentAtStart, World};
+use scene::geometry::cross;
+use scene::limits::Limits;
+use scene::motion::Target;
+use scene::routes::{LaneGraph, Polyline, Pose};
+use scene::{AgentType, HORIZON_STEPS, STEP_S, Signal, SignalState, wrap_angle};
+use std::f64::consts::FRAC_PI_4;
+
+/// A lane is taken by a path that stays within this of its centre on average, metres.
+const ON_LANE_M: f64 = 2.2;
+/// Lanes this close to equally near cannot be told apart, metres.
+const SAME_LANE_M: f64 = 0.3;
+/// Length of path after (or before) a line that tells which lane is taken, metres.
+const TELLING_M: f64 = 20.0;
+/// Lines so near to each other along a path are of one junction, metres.
+const ONE_JUNCTION_M: f64 = 8.0;
+/// How far beyond its end a path is looked at, metres: motions go on after their goal.
+const BEYOND_M: f64 = 60.0;
+/// Somebody who stands so little past a line waits there, metres.
+const PASSED_M: f64 = 2.5;
+/// Slower than this counts as standing at a line, m/s.
+const STOPPED_MPS: f64 = 1.0;
+/// Where those who wait have their front, metres before the line, and how near to it others may come.
+const BEFORE_LINE_M: f64 = 1.0;
+const NEAR_LINE_M: f64 = 0.5;
+/// A turn at red shows this long after the line, steps, and takes this far, metres; who does not get there does
+/// not begin it.
+const TURN_STEPS: usize = 45;
+const TURN_M: f64 = 12.0;
+/// Braking for a light: as a rule, and at most, m/s2.
+const BRAKE_MPS2: f64 = 2.0;
+const HARDEST_MPS2: f64 = 4.0;
+/// How fast those who waited set off, m/s2, and to which speed at least, m/s.
+const SET_OFF_MPS2: f64 = 1.5;
+const SET_OFF_TO_MPS: f64 = 6.0;
+/// Speeding up and braking on the way to a goal beyond a light, shares of the limits.
+const PRESSED_SHARE: f64 = 0.85;
+/// Speeds at which a line may be passed as it turns green, so that a goal is still reached, m/s.
+const ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
+
+/// Steps of a window as bits, the start first.
+type Steps = u128;
+
+/// The stop line of a signal.
+#[derive(Clone, Debug)]
+pub struct StopLine {
+    at: Pose,
+    lane: usize,
+    half_width_m: f64,
+    /// The signal's lane goes on behind the line (it leads through the junction); else it ends there.
+    goes_on: bool,
+    /// Steps of the window at which it is red.
+    red: Steps,
+}
+
+impl StopLine {
+    /// The stop line of a signal in a window that starts at scene step `step`.
+    pub fn of(signal: &Signal, graph: &LaneGraph, step: usize) -> Option<Self> {
+        let lane = graph.lane_index(&signal.lane)?;
+        let lit = &graph.lanes()[lane];
+        // Without a stop point: lanes through a junction are controlled at their start, others at their end.
+        let default_m = if lit.interpolating { 0.0 } else { lit.path.length_m() };
+        let s_m = signal.stop.map_or(default_m, |p| lit.path.project(p).s_m);
+        let mut at = lit.path.sample(s_m);
+        at.position = signal.stop.unwrap_or(at.position);
+        let must_stop = |state: SignalState| state.is_stop() && state != SignalState::FlashingStop;
+        let red = (0..=HORIZON_STEPS).filter(|i| must_stop(signal.at(step + i)));
+        Some(Self {
+            at,
+            lane,
+            half_width_m: 0.5 * lit.width_m + 0.25,
+            goes_on: lit.path.length_m() - s_m > 5.0,
+            red: red.fold(0, |bits, i| bits | 1 << i),
+        })
+    }
+
+    /// Arc length at which a path crosses the line in the lane's direction.
+    fn crossed_by(&self, path: &Polyline) -> Option<f64> {
+        let foot = path.project(self.at.position);
+        let here = path.sample(foot.s_m);
+        let ahead = self.at.direction();
+        let inside = foot.distance_m <= self.half_width_m + 0.5
+            && cross(ahead, here.position - self.at.position).abs() <= self.half_width_m;
+        (inside && here.direction().dot(&ahead) > 0.5).then_some(foot.s_m)
+    }
+
+    /// Mean distance of a path that crosses the line at `s_m` from the signal's lane, metres.
+    fn off_lane_m(&self, path: &Polyline, s_m: f64, graph: &LaneGraph) -> f64 {
+        let lane = &graph.lanes()[self.lane].path;
+        let side = if self.goes_on { 1.0 } else { -1.0 };
+        let places = (0..=8).map(|i| s_m + side * TELLING_M * f64::from(i) / 8.0);
+        let places: Vec<f64> = places.filter(|s| (0.0..=path.length_m()).contains(s)).collect();
+        let off = |s: &f64| lane.project(path.sample(*s).position).lateral_m.abs();
+        places.iter().map(off).sum::<f64>() / places.len().max(1) as f64
+    }
+}
+
+/// A stop line that a path crosses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gate {
+    /// Progress of the box centre at which its front is at the line, metres.
+    line_m: f64,
+    /// Steps of the window at which whoever follows the path must not pass.
+    red: Steps,
+    /// The path turns right after it: allowed after a stop.
+    right: bool,
+}
+
+/// Stop lines that are red at some time in the window on a road user's path, nearest first.
+pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate> {
+    let drives = matches!(who.agent_type, AgentType::Vehicle | AgentType::Cyclist);
+    if !drives || world.stop_lines.iter().all(|line| line.red == 0) {
+        return Vec::new();
+    }
+    let end = path.extrapolate(path.length_m() + BEYOND_M).position;
+    let longer = Polyline::new(path.points().iter().copied().chain([end]));
+    let half_length_m = 0.5 * who.size.length_m;
+    let stands = who.start.speed_mps() < STOPPED_MPS;
+    let mut crossed: Vec<(f64, f64, &StopLine)> = Vec::new();
+    for line in &world.stop_lines {
+        let Some(s_m) = line.crossed_by(&longer) else { continue };
+        let line_m = s_m - half_length_m;
+        if line_m < 0.0 && !(stands && line_m > -PASSED_M) {
+            continue;
+        }
+        let off_m = line.off_lane_m(&longer, s_m, &world.graph);
+        if off_m < ON_LANE_M {
+            crossed.push((line_m, off_m, line));
+        }
+    }
+    crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let one_junction = crossed.chunk_by(|a, b| b.0 - a.0 < ONE_JUNCTION_M);
+    let gate = |lines: &[(f64, f64, &StopLine)]| {
+        // The nearest lane counts, and only if no lane that is as near lets go.
+        let least = lines.iter().map(|l| l.1).fold(f64::INFINITY, f64::min);
+        let taken = || lines.iter().filter(|l| l.1 <= least + SAME_LANE_M);
+        let red = taken().fold(Steps::MAX, |red, l| red & l.2.red);
+        let line_m = taken().map(|l| l.0).fold(f64::INFINITY, f64::min);
+        let heading = |m: f64| longer.sample(line_m + half_length_m + m).heading_rad;
+        let right = wrap_angle(heading(25.0) - heading(0.0)) < -FRAC_PI_4;
+        Gate { line_m, red, right }
+    };
+    one_junction.map(gate).filter(|gate| gate.red != 0).collect()
+}
+
+/// What is known of who waits.
+pub struct Waiting<'a> {
+    /// Stop lines on the path, nearest first.
+    pub gates: &'a [Gate],
+    /// Speed at the start, m/s.
+    pub v0: f64,
+    /// Of its kind.
+    pub limits: &'a Limits,
+    /// What it must meet.
+    pub target: &'a Target,
+    /// How fast the path can be driven.
+    pub caps: Caps<'a>,
+    /// How those who stand set off towards a goal, m/s2.
+    pub easy_mps2: f64,
+}
+
+impl Waiting<'_> {
+    /// Progress that waits at red lights; `None` where `wanted` passes none, or where nothing can be done: who
+    /// cannot stop goes on, and so does who would not get to a goal in time.
+    pub fn obeying(&self, wanted: &Progress) -> Option<Progress> {
+        let mut changed: Option<Progress> = None;
+        for gate in self.gates {
+            let now = changed.as_ref().unwrap_or(wanted);
+            if let Some(held) = self.held(gate, now) {
+                changed = Some(held);
+            }
+        }
+        changed
+    }
+
+    /// Progress that waits at one gate.
+    fn held(&self, gate: &Gate, wanted: &Progress) -> Option<Progress> {
+        let passes =
+            |p: &Progress| (1..=HORIZON_STEPS).find(|i| p[*i] > (gate.line_m - NEAR_LINE_M).max(0.05));
+        let is_red = |step: usize| gate.red >> step & 1 == 1;
+        let turns = |p: &Progress, step: usize| {
+            gate.right
+                && stood_before(p, step)
+                && p[(step + TURN_STEPS).min(HORIZON_STEPS)] > gate.line_m + TURN_M
+        };
+        let mut step = passes(wanted).filter(|step| is_red(*step))?;
+        if turns(wanted, step) {
+            return None;
+        }
+        let stop_m = (gate.line_m - BEFORE_LINE_M).max(0.0);
+        let brake = self.v0 * self.v0 / (2.0 * stop_m.max(0.3));
+        if brake > HARDEST_MPS2 && self.v0 > 0.5 {
+            return None;
+        }
+        let due = self.target.position.map(|_| self.target.step);
+        // Lights that are green for a moment and red again are looked at a few times.
+        for _ in 0..3 {
+            let green = (step..=HORIZON_STEPS).find(|i| !is_red(*i));
+            let held = match due {
+                Some(due) if due >= step => {
+                    self.to_goal(stop_m, green.filter(|green| *green < due)?, due, wanted)?
+                }
+                _ => self.free(gate, stop_m, green, wanted),
+            };
+            match passes(&held).filter(|step| is_red(*step) && !turns(&held, *step)) {
+                Some(again) if again > step => step = again,
+                _ => return Some(held),
+            }
+        }
+        None
+    }
+
+    /// Brakes for the line, stands there until green (where there is one), then sets off. A goal that is due
+    /// before keeps its progress up to then.
+    fn free(&self, gate: &Gate, stop_m: f64, green: Option<usize>, wanted: &Progress) -> Progress {
+        let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(0.3))).max(BRAKE_MPS2);
+        let due = self.target.position.map_or(0, |_| self.target.step);
+        let fastest = (1..=HORIZON_STEPS).map(|i| speed_at(wanted, i)).fold(SET_OFF_TO_MPS, f64::max);
+        let mut out = [0.0; HORIZON_STEPS + 1];
+        let (mut speed, mut stood, mut gone) = (self.v0, 0, false);
+        for i in 0..HORIZON_STEPS {
+            if i < due {
+                out[i + 1] = wanted[i + 1];
+                speed = speed_at(wanted, i + 1);
+                continue;
+            }
+            stood += usize::from(speed < 0.3);
+            let turns = gate.right && stood > 10 && i < TURN_STEPS;
+            gone |= turns || green.is_some_and(|green| i >= green);
+            let open = if gone {
+                let cap = self.caps.at(out[i]).min(fastest);
+                (speed + SET_OFF_MPS2 * STEP_S).min(cap.max(speed - BRAKE_MPS2 * STEP_S))
+            } else {
+                let left = (stop_m - out[i]).max(0.0);
+                speed_at(wanted, i + 1).min((2.0 * brake * left).sqrt()).min(left / STEP_S)
+            };
+            let hardest = self.limits.brake_mps2 * STEP_S;
+            let next = open.max(speed - hardest).max(0.0);
+            out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
+            speed = next;
+        }
+        out
+    }
+
+    /// At the line when it turns green, standing or, where that is too late, rolling; then on to the goal.
+    fn to_goal(&self, stop_m: f64, green: usize, due: usize, wanted: &Progress) -> Option<Progress> {
+        let seconds = |steps: usize| steps as f64 * STEP_S;
+        let end_mps = self.target.speed_mps;
+        ROLLING_MPS.iter().find_map(|rolling| {
+            let stands = *rolling == 0.0;
+            let before = if stands {
+                self.braking(stop_m, green, wanted)
+            } else {
+                arriving(self.v0, stop_m + BEFORE_LINE_M, seconds(green), Some(*rolling), self.easy_mps2)
+            };
+            let (from_m, from_mps) = (before[green], if stands { 0.0 } else { *rolling });
+            if from_m > stop_m + BEFORE_LINE_M + 0.1 {
+                return None;
+            }
+            let left_m = wanted[due] - from_m;
+            let after = arriving(from_mps, left_m, seconds(due - green), end_mps, self.easy_mps2);
+            let mut out = before;
+            for i in green + 1..=HORIZON_STEPS {
+                out[i] = from_m + after[i - green];
+            }
+            ((out[due] - wanted[due]).abs() < 0.3 && self.is_possible(&out, due)).then_some(out)
+        })
+    }
+
+    /// Along with what is wanted until the line must be braked for, standing by `green`.
+    fn braking(&self, stop_m: f64, green: usize, wanted: &Progress) -> Progress {
+        let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(0.3))).max(BRAKE_MPS2);
+        let mut out = [0.0; HORIZON_STEPS + 1];
+        let mut speed = self.v0;
+        for i in 0..HORIZON_STEPS {
+            let left = (stop_m - out[i]).max(0.0);
+            // Who has to stand in time does not dawdle.
+            let open = speed_at(wanted, i + 1).max(self.v0).min((2.0 * brake * left).sqrt());
+            let next = open.min(left / STEP_S).min(speed + SET_OFF_MPS2 * STEP_S);
+            out[i + 1] = out[i] + 0.5 * (speed + next) * STEP_S;
+            speed = next;
+            if i >= green {
+                break;
+            }
+        }
+        out
+    }
+
+    /// Within the limits up to a step.
+    fn is_possible(&self, progress: &Progress, until: usize) -> bool {
+        let limits = self.limits;
+        let (up, down) = (PRESSED_SHARE * limits.accel_mps2, PRESSED_SHARE * limits.brake_mps2);
+        (2..=until).all(|i| {
+            let (before, after) = (speed_at(progress, i - 1), speed_at(progress, i));
+            let change = (after - before) / STEP_S;
+            // What one step jumps is smoothed away later.
+            let smooth = i < 4 || (speed_at(progress, i) - speed_at(progress, i - 3)) / (3.0 * STEP_S) <= up;
+            smooth && change > -down - 4.0 && after <= limits.speed_mps
+        })
+    }
+}
+
+/// Stood in the two seconds before a step.
+fn stood_before(progress: &Progress, step: usize) -> bool {
+    (step.saturating_sub(20).max(1)..=step).any(|i| speed_at(progress, i) < STOPPED_MPS)
+}

@@ -1,0 +1,282 @@
+//! Ways to a goal position: along lanes where they lead there in time, off them where nothing else does.
+
+use super::MODES;
+use super::anchors::{Anchor, PathKind, Way, identity_of};
+use super::legal::broken_m;
+use super::profile::{Caps, arriving, fastest, slowest};
+use super::world::{AgentAtStart, World};
+use crate::tuning::AnchorTuning;
+use scene::geometry::direction;
+use scene::motion::{Kind, MotionModel, Projection, Target, Tension, project};
+use scene::routes::{
+    EndPose, GoalQuery, GoalRoute, Polyline, RouteKind, base_path, further_routes_to_goal, routes_to_goal,
+};
+use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
+
+/// Most ways that get anchors.
+const MOST_WAYS: usize = 3;
+/// The first path to a goal gets more of the slots than the others.
+const GOAL_SLOTS: [[usize; MOST_WAYS]; MOST_WAYS] = [[6, 0, 0], [4, 2, 0], [3, 2, 1]];
+/// Goals may be missed by this much along a way that counts as fast enough, metres.
+const ARRIVING_M: f64 = 0.5;
+/// A way may be driven faster through its bends than is comfortable, when time presses.
+const PRESSED: f64 = 1.15;
+/// Share of the limits of speeding up and braking that a way may need.
+const PRESSED_SHARE: f64 = 0.8;
+
+/// Anchors to a goal position, [`MODES`] of them.
+pub(super) fn anchors_to_goal(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    goal: Vec2,
+) -> Vec<Anchor> {
+    let candidates = paths_to_goal(world, who, model, target, goal);
+    let seconds = target.step as f64 * STEP_S;
+    let v0 = model.start_speed_mps();
+    let mut out = Vec::with_capacity(MODES);
+    let slots = GOAL_SLOTS[candidates.len().clamp(1, 3) - 1];
+    for (candidate, count) in candidates.into_iter().zip(slots) {
+        // Whoever must be there in time takes bends as fast as that asks.
+        let base = candidate.pace.unwrap_or_else(|| {
+            arriving(
+                v0,
+                goal_progress(&candidate.path, goal),
+                seconds,
+                target.speed_mps,
+                world.tuning.anchors.setting_off_mps2,
+            )
+        });
+        for timing in 0..count {
+            out.push(candidate.anchor(base, (timing, count)));
+        }
+    }
+    out
+}
+
+/// Progress of the goal along a path that ends at it (or goes on beyond it).
+fn goal_progress(path: &Polyline, goal: Vec2) -> f64 {
+    let foot = path.project(goal);
+    let beyond = (goal - path.last().position).dot(&path.last().direction());
+    if foot.s_m >= path.length_m() - 1e-6 && beyond > 0.0 { path.length_m() + beyond } else { foot.s_m }
+}
+
+/// A vehicle or rider on its way to a goal position.
+struct Trip<'a, 'w> {
+    world: &'a World<'w>,
+    who: &'a AgentAtStart,
+    model: &'a MotionModel,
+    target: &'a Target,
+    goal: Vec2,
+    query: GoalQuery,
+    /// The motion of least effort, and its path.
+    least: Projection,
+    least_path: Polyline,
+}
+
+fn paths_to_goal(
+    world: &World<'_>,
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    goal: Vec2,
+) -> Vec<Way> {
+    if model.kind == Kind::Walk {
+        return vec![walk_to(who, model, target, goal, &world.tuning.anchors)];
+    }
+    let least = project(model, &model.coasting(), target, None);
+    let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));
+    let v0 = model.start_speed_mps();
+    let pace_mps = (goal - who.start.position()).norm() / (target.step as f64 * STEP_S);
+    let query = GoalQuery {
+        pose: who.pose(),
+        // Who has time changes lanes over a shorter way than who goes on as fast.
+        speed_mps: v0.min(0.5 * (v0 + pace_mps)),
+        agent_type: who.agent_type,
+        goal,
+        goal_heading_rad: target.heading_rad,
+        least_effort_m: Some(least_path.length_m()),
+    };
+    let trip = Trip { world, who, model, target, goal, query, least, least_path };
+    let mut ways = trip.by_the_road(trip.usual());
+    ways.truncate(MOST_WAYS);
+    ways
+}
+
+impl Trip<'_, '_> {
+    /// Ways as drivers and riders mostly go, whatever the rules say: lane routes, and the smooth way where it is
+    /// as good.
+    fn usual(&self) -> Vec<Way> {
+        let Self { world, who, target, .. } = self;
+        let routes =
+            if world.planning.routes { routes_to_goal(&world.graph, &self.query) } else { Vec::new() };
+        let mut out: Vec<Way> = routes.into_iter().map(|found| self.along(found)).collect();
+        // Riders keep to no lane's middle and use pavements: the smooth way serves unless a route with the
+        // traffic goes elsewhere.
+        let tuning = &world.tuning.anchors;
+        if who.agent_type == AgentType::Cyclist
+            && let Some(mut smooth) = smooth_to(who, self.model, target, self.goal, tuning)
+            && out.first().is_none_or(|c| {
+                c.kind != PathKind::Route || greatest_distance(&smooth.path, &c.path) < tuning.riders_berth_m
+            })
+        {
+            smooth.route = if out.is_empty() { None } else { out.remove(0).route };
+            out.insert(0, smooth);
+            return out;
+        }
+        let near = out.first().is_some_and(|c| greatest_distance(&self.least_path, &c.path) < 1.0);
+        let joined = out.first().is_some_and(|c| c.kind == PathKind::Joined);
+        let direct = self.least.reach.is_reached() && is_direct(self.least_path.length_m(), who, self.goal);
+        if out.is_empty() || near || (joined && direct) {
+            let route = if near { out.remove(0).route } else { None };
+            // Off the lanes a goal with a heading is met straight away; without one the lanes say how.
+            let place = usize::from(joined && !near && target.heading_rad.is_none());
+            out.insert(place, Way { route, ..self.least_effort() });
+        }
+        out
+    }
+
+    fn along(&self, found: GoalRoute) -> Way {
+        let end = EndPose { position: self.goal, heading_rad: self.target.heading_rad };
+        let GoalQuery { pose, agent_type, .. } = self.query;
+        let v0 = self.model.start_speed_mps();
+        let path = base_path(&found.route.path, pose, v0, agent_type, Some(end));
+        let kind = if found.kind == RouteKind::Forward { PathKind::Route } else { PathKind::Joined };
+        let identity = identity_of(&found.route);
+        let tuning = &self.world.tuning.anchors;
+        Way::new(path, 3.5, f64::INFINITY, kind, Some(found.route), identity, tuning)
+    }
+
+    fn least_effort(&self) -> Way {
+        let path = with_tail(self.least_path.clone(), self.who);
+        let tuning = &self.world.tuning.anchors;
+        Way::new(path, 3.5, f64::INFINITY, PathKind::LeastEffort, None, 1, tuning)
+    }
+
+    /// The ways that keep to the rules and arrive in time, in their order. Where there are none, further ones are
+    /// looked for, and those that break the rules least serve; a long way round must be worth it.
+    fn by_the_road(&self, ways: Vec<Way>) -> Vec<Way> {
+        let tuning = &self.world.tuning.anchors;
+        let fine = |cost: f64| cost <= tuning.broken_m;
+        let mut judged: Vec<(f64, Way)> = ways.into_iter().map(|way| (self.cost(&way), way)).collect();
+        if !judged.iter().any(|(cost, _)| fine(*cost)) {
+            if judged.iter().all(|(_, way)| way.kind != PathKind::LeastEffort) {
+                let way = self.least_effort();
+                judged.push((self.cost(&way), way));
+            }
+            if self.world.planning.routes {
+                let longest_m = self.drivable_m();
+                let further = further_routes_to_goal(&self.world.graph, &self.query, longest_m);
+                let known: Vec<u64> = judged.iter().map(|(_, way)| way.identity).collect();
+                let further = further.into_iter().map(|found| self.along(found));
+                let further = further.filter(|way| !known.contains(&way.identity));
+                judged.extend(further.map(|way| (self.cost(&way), way)));
+            }
+            let shortest = judged.iter().map(|(_, way)| way.path.length_m()).fold(f64::INFINITY, f64::min);
+            for (cost, way) in &mut judged {
+                *cost += tuning.detour * (way.path.length_m() - shortest);
+            }
+            judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        let least = judged.iter().map(|(cost, _)| *cost).fold(f64::INFINITY, f64::min);
+        let bound = if fine(least) { tuning.broken_m } else { least + tuning.broken_m };
+        judged.into_iter().filter(|(cost, _)| *cost <= bound).map(|(_, way)| way).collect()
+    }
+
+    /// Metres on which a way breaks the rules, and much more where it does not arrive in time.
+    fn cost(&self, way: &Way) -> f64 {
+        let length_m = goal_progress(&way.path, self.goal);
+        let late = if self.arrives(way, length_m) { 0.0 } else { 1e3 };
+        late + broken_m(self.world.graph.ground(), self.who, &way.path, length_m)
+    }
+
+    /// The goal can be reached in time along a way, within the limits.
+    fn arrives(&self, way: &Way, length_m: f64) -> bool {
+        if way.kind == PathKind::LeastEffort {
+            return self.least.reach.is_reached();
+        }
+        let (v0, limits, step) = (self.model.start_speed_mps(), &self.model.limits, self.target.step);
+        let caps: Vec<f64> = way.caps_mps.iter().map(|cap| PRESSED * cap).collect();
+        let caps = Caps::new(way.path.arc_m(), &caps);
+        let soon = fastest(v0, PRESSED_SHARE * limits.accel_mps2, limits.speed_mps, &caps)[step];
+        let late = slowest(v0, PRESSED_SHARE * limits.brake_mps2)[step];
+        soon >= length_m - ARRIVING_M && late <= length_m + ARRIVING_M
+    }
+
+    /// How far drivers get in the time at an easy pace, metres.
+    fn drivable_m(&self) -> f64 {
+        let AnchorTuning { easy_mps, setting_off_mps2, .. } = self.world.tuning.anchors;
+        let caps = Caps::new(&[0.0], &[f64::INFINITY]);
+        fastest(self.model.start_speed_mps(), setting_off_mps2, easy_mps, &caps)[self.target.step]
+    }
+}
+
+/// On foot, a spline under tension: it leaves as the person walks now and arrives as the goal asks. Where that
+/// would wind, or there is hardly a way to go, the straight line.
+fn walk_to(
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    goal: Vec2,
+    tuning: &AnchorTuning,
+) -> Way {
+    if let Some(smooth) = smooth_to(who, model, target, goal, tuning) {
+        return smooth;
+    }
+    let start = who.start.position();
+    let chord = goal - start;
+    let path = if chord.norm() > 0.3 {
+        let n = chord.norm().ceil().max(1.0) as usize;
+        Polyline::new((0..=n).map(|i| start + chord * (i as f64 / n as f64)))
+    } else {
+        Polyline::new([start, start + direction(who.start.heading_rad)])
+    };
+    Way::new(path, 2.0, model.limits.speed_mps, PathKind::Straight, None, 2, tuning)
+}
+
+/// The spline under tension to the goal, as a path with its pace; `None` where it would wind or hardly move.
+fn smooth_to(
+    who: &AgentAtStart,
+    model: &MotionModel,
+    target: &Target,
+    goal: Vec2,
+    tuning: &AnchorTuning,
+) -> Option<Way> {
+    let from = (who.start.position(), who.start.velocity());
+    let relax_s = if model.kind == Kind::Walk { tuning.walkers_relax_s } else { tuning.riders_relax_s };
+    let curve = Tension::to_target(from, target, relax_s)?;
+    let mut pace = [0.0; HORIZON_STEPS + 1];
+    let mut points = vec![from.0];
+    for step in 1..=HORIZON_STEPS {
+        let (here, _) = curve.at(step as f64 * STEP_S);
+        pace[step] = pace[step - 1] + (here - points[step - 1]).norm();
+        points.push(here);
+    }
+    if (goal - from.0).norm() <= 1.0 || !is_direct(pace[target.step], who, goal) {
+        return None;
+    }
+    points.truncate(target.step + 1);
+    let path = Polyline::new(points);
+    let candidate = Way::new(path, 2.0, model.limits.speed_mps, PathKind::LeastEffort, None, 2, tuning);
+    Some(Way { pace: Some(pace), ..candidate })
+}
+
+/// Whether a way of this length to the goal does not wind.
+fn is_direct(length_m: f64, who: &AgentAtStart, goal: Vec2) -> bool {
+    length_m < 1.25 * (goal - who.start.position()).norm() + 0.3
+}
+
+/// A path long enough to have a direction: very short ones go on along the start heading.
+fn with_tail(path: Polyline, who: &AgentAtStart) -> Polyline {
+    if path.length_m() > 1.0 {
+        return path;
+    }
+    let start = who.start.position();
+    Polyline::new([start, start + direction(who.start.heading_rad) * 2.0])
+}
+
+/// Greatest distance of one path's points from another path, metres.
+fn greatest_distance(path: &Polyline, other: &Polyline) -> f64 {
+    path.points().iter().step_by(5).map(|p| other.project(*p).distance_m).fold(0.0, f64::max)
+}

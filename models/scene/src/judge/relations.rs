@@ -1,0 +1,606 @@
+//! How a motion stands to others': who is first where paths cross, who is followed, who is let go first.
+//!
+//! Boxes are compared at other times than their own: where the box of one at one moment meets the box of the
+//! other at another moment, the two share ground, and the shift between the moments says who was there first
+//! (compare the post-encroachment time of the score, which needs paths that cross at an angle; merging counts
+//! here too).
+
+use super::{Relation, RelationKind};
+use crate::geometry::obb::{OrientedBox, overlaps};
+use crate::geometry::{cross, direction};
+use crate::{AgentId, AgentType, STANDING_MPS, STEP_S, Size, State, Vec2, wrap_angle};
+
+/// Every second step is looked at.
+const STRIDE: usize = 2;
+/// Seconds between two moments that are looked at.
+const MOMENT_S: f64 = STRIDE as f64 * STEP_S;
+/// Whoever shares ground later than this has nothing to do with each other, seconds.
+const WINDOW_S: f64 = 6.0;
+/// Most that are told.
+const MOST: usize = 4;
+/// Ways whose headings differ by less are the same way, radians: 35 degrees.
+const SAME_WAY_RAD: f64 = 0.61;
+/// Behind another by more than this is not following it, seconds.
+const HEADWAY_S: f64 = 3.0;
+/// Standing bumper to bumper is following too, metres.
+const QUEUE_M: f64 = 6.0;
+/// Following lasts so long, seconds.
+const FOLLOWS_FOR_S: f64 = 1.2;
+/// Who moves less goes nowhere, metres.
+const GOES_M: f64 = 2.0;
+/// Slowing down so near to the shared ground is because of it, metres of way.
+const SLOWS_WITHIN_M: f64 = 30.0;
+/// Slower than this share of the speed before is giving way.
+const SLOWED: f64 = 0.6;
+/// Who ends slower than this is about to go on, so far, m/s and metres.
+const WAITING_MPS: f64 = 1.0;
+const GOES_ON_M: f64 = 7.0;
+/// Goes on, metres a moment.
+const GOES_ON_STEP_M: f64 = 1.0;
+
+/// A road user at one moment.
+#[derive(Clone, Copy, Debug)]
+struct Moment {
+    center: Vec2,
+    heading_rad: f64,
+    speed_mps: f64,
+    /// Way from the first moment, metres.
+    way_m: f64,
+}
+
+/// The motion of a road user as others see it. Made once, compared with many.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    id: AgentId,
+    agent_type: AgentType,
+    size: Size,
+    /// One each [`MOMENT_S`], the first at the start; `None` where it is not there.
+    moments: Vec<Option<Moment>>,
+    /// Where it would go on from its last moment, for one that waits at its end.
+    goes_on: Vec<Moment>,
+    low: Vec2,
+    high: Vec2,
+    radius_m: f64,
+    /// Farthest way between two moments, metres.
+    stride_m: f64,
+    way_m: f64,
+}
+
+impl Trace {
+    /// Of the states `at` steps 0 .. `steps`.
+    pub fn new(
+        id: &str,
+        agent_type: AgentType,
+        size: &Size,
+        steps: usize,
+        at: impl Fn(usize) -> Option<State>,
+    ) -> Self {
+        let mut trace = Self {
+            id: id.to_owned(),
+            agent_type,
+            size: *size,
+            moments: Vec::with_capacity(steps.div_ceil(STRIDE)),
+            goes_on: Vec::new(),
+            low: Vec2::repeat(f64::INFINITY),
+            high: Vec2::repeat(f64::NEG_INFINITY),
+            radius_m: 0.5 * size.length_m.hypot(size.width_m),
+            stride_m: 0.0,
+            way_m: 0.0,
+        };
+        let mut last: Option<Vec2> = None;
+        for step in (0..steps).step_by(STRIDE) {
+            let moment = at(step).map(|state| {
+                let position = state.position();
+                let moved = last.map_or(0.0, |last| (position - last).norm());
+                last = Some(position);
+                trace.stride_m = trace.stride_m.max(moved);
+                trace.way_m += moved;
+                (trace.low, trace.high) = (trace.low.inf(&position), trace.high.sup(&position));
+                Moment {
+                    center: position,
+                    heading_rad: state.heading_rad,
+                    speed_mps: state.speed_mps(),
+                    way_m: trace.way_m,
+                }
+            });
+            trace.moments.push(moment);
+        }
+        trace
+    }
+
+    /// The same for one that is looked at itself: where it would go on from its end counts too.
+    pub fn ahead(
+        id: &str,
+        agent_type: AgentType,
+        size: &Size,
+        steps: usize,
+        at: impl Fn(usize) -> Option<State>,
+    ) -> Self {
+        let mut trace = Self::new(id, agent_type, size, steps, at);
+        if let Some(last) = trace.moments.iter().rev().flatten().next().copied()
+            && last.speed_mps < WAITING_MPS
+        {
+            let ahead = direction(last.heading_rad);
+            let count = (GOES_ON_M / GOES_ON_STEP_M) as usize;
+            let on = |i: usize| Moment { center: last.center + ahead * (GOES_ON_STEP_M * i as f64), ..last };
+            trace.goes_on = (1..=count).map(on).collect();
+            let end = last.center + ahead * GOES_ON_M;
+            (trace.low, trace.high) = (trace.low.inf(&end), trace.high.sup(&end));
+        }
+        trace
+    }
+
+    /// Whose.
+    pub fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Its type.
+    pub fn agent_type(&self) -> AgentType {
+        self.agent_type
+    }
+
+    /// Its box.
+    pub fn size(&self) -> &Size {
+        &self.size
+    }
+
+    /// Seconds from the first moment to this one.
+    pub fn seconds(moment: usize) -> f64 {
+        moment as f64 * MOMENT_S
+    }
+
+    /// Both are somewhere near each other, at whatever time.
+    pub fn may_meet(&self, other: &Self) -> bool {
+        let reach = self.radius_m + other.radius_m + QUEUE_M;
+        self.low.x < other.high.x + reach
+            && other.low.x < self.high.x + reach
+            && self.low.y < other.high.y + reach
+            && other.low.y < self.high.y + reach
+    }
+
+    /// The boxes overlap at some moment after the first.
+    pub fn meets(&self, other: &Self) -> bool {
+        let reach = self.radius_m + other.radius_m;
+        let closing_m = (self.stride_m + other.stride_m).max(1e-6);
+        let count = self.moments.len().min(other.moments.len());
+        let mut i = 1;
+        while i < count {
+            if let (Some(a), Some(b)) = (&self.moments[i], &other.moments[i]) {
+                let apart = (a.center - b.center).norm() - reach;
+                if apart > 0.0 {
+                    i += 1 + (apart / closing_m) as usize;
+                    continue;
+                }
+                if self.overlaps(a, other, b) {
+                    return true;
+                }
+            }
+            i += 1;
+        }
+        false
+    }
+
+    /// The box at a moment. Made where it is looked at: most never are.
+    fn outline(&self, moment: &Moment) -> OrientedBox {
+        let (length, width) = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
+        OrientedBox::new(moment.center, length, width, moment.heading_rad)
+    }
+
+    /// The boxes of two at these moments overlap.
+    fn overlaps(&self, mine: &Moment, other: &Self, theirs: &Moment) -> bool {
+        let reach = self.radius_m + other.radius_m;
+        (mine.center - theirs.center).norm_squared() < reach * reach
+            && overlaps(&self.outline(mine), &other.outline(theirs), 0.0)
+    }
+
+    fn speed_at(&self, moment: usize) -> Option<f64> {
+        self.moments.get(moment)?.as_ref().map(|m| m.speed_mps)
+    }
+}
+
+/// How `me` stands to the others, at most [`MOST`]: where paths cross first, by the time at which it is there,
+/// then whom it follows. `start_step` is the scene step of all traces' first moments.
+pub fn relations<'a>(
+    me: &Trace,
+    others: impl IntoIterator<Item = &'a Trace>,
+    start_step: usize,
+) -> Vec<Relation> {
+    let mut found: Vec<Found<'_>> = Vec::new();
+    for other in others {
+        if other.id == me.id || !me.may_meet(other) {
+            continue;
+        }
+        found.extend(relation(me, other));
+    }
+    // The most telling stay, the rest is left out.
+    found.sort_by(|a, b| a.weight().total_cmp(&b.weight()).then_with(|| a.with.cmp(b.with)));
+    found.truncate(MOST);
+    let follows = |f: &Found<'_>| f.kind == RelationKind::Follows;
+    found.sort_by(|a, b| follows(a).cmp(&follows(b)).then(a.moment.cmp(&b.moment)));
+    let told = |f: Found<'_>| Relation {
+        kind: f.kind,
+        with: f.with.to_owned(),
+        time_s: (start_step + f.moment * STRIDE) as f64 * STEP_S,
+        x_m: f.place.x,
+        y_m: f.place.y,
+        gap_s: f.gap_s,
+    };
+    found.into_iter().map(told).collect()
+}
+
+struct Found<'a> {
+    kind: RelationKind,
+    with: &'a str,
+    moment: usize,
+    place: Vec2,
+    gap_s: Option<f64>,
+}
+
+impl Found<'_> {
+    /// Less tells more: who is given way to, then close calls, then who is followed.
+    fn weight(&self) -> f64 {
+        let gap_s = self.gap_s.unwrap_or(0.0);
+        match self.kind {
+            RelationKind::GivesWayTo => gap_s,
+            RelationKind::Before | RelationKind::After => WINDOW_S + gap_s,
+            RelationKind::Follows => 3.0 * WINDOW_S + gap_s,
+        }
+    }
+}
+
+/// Ground that two use within [`WINDOW_S`] of each other: moments of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ground {
+    /// The moment at which the first of the two comes there, and the other's that it meets first.
+    enters: (usize, usize),
+    /// The pair of moments with the least shift.
+    nearest: (usize, usize),
+    /// The first one's first and last moment there.
+    pub mine: (usize, usize),
+    /// The other's first and last moment there.
+    pub theirs: (usize, usize),
+    /// Least and greatest shift in moments: positive where the first one is there first.
+    shift: (i64, i64),
+    /// The first one only would come there, had it gone on.
+    beyond: bool,
+}
+
+impl Ground {
+    /// Who is first: 1 for the first one, -1 for the other, 0 where they meet.
+    pub fn order(&self) -> i64 {
+        match self.shift {
+            (least, _) if least > 0 => 1,
+            (_, most) if most < 0 => -1,
+            _ => 0,
+        }
+    }
+
+    /// Moments between the two, the fewer the closer; zero where they meet.
+    pub fn least_shift(&self) -> i64 {
+        if self.order() == 0 { 0 } else { self.shift.0.abs().min(self.shift.1.abs()) }
+    }
+}
+
+/// Ground where the paths of two cross or merge; `None` for those that are behind each other from the start on, and
+/// for two walkers.
+pub fn crossing(me: &Trace, other: &Trace) -> Option<Ground> {
+    let walkers = me.agent_type == AgentType::Pedestrian && other.agent_type == AgentType::Pedestrian;
+    if walkers || other.way_m < GOES_M || !me.may_meet(other) {
+        return None;
+    }
+    if came_the_same_way(me, other) { None } else { ground(me, other) }
+}
+
+fn relation<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
+    let crosses = crossing(me, other).and_then(|ground| of_ground(me, other, &ground));
+    crosses.or_else(|| follows(me, other))
+}
+
+fn of_ground<'a>(me: &Trace, other: &'a Trace, ground: &Ground) -> Option<Found<'a>> {
+    let there = me.moments.get(ground.enters.0).and_then(Option::as_ref);
+    let place = match there.filter(|_| !ground.beyond) {
+        Some(moment) => moment.center,
+        None => other.moments.get(ground.nearest.1)?.as_ref()?.center,
+    };
+    let gap = ground.shift.0.unsigned_abs().min(ground.shift.1.unsigned_abs());
+    let gap_s = (!ground.beyond).then_some(gap as f64 * MOMENT_S);
+    let found = |kind| Some(Found { kind, with: &other.id, moment: ground.enters.0, place, gap_s });
+    match ground.order() {
+        1 if !ground.beyond => found(RelationKind::Before),
+        -1 if gives_way(me, ground) => found(RelationKind::GivesWayTo),
+        -1 if !ground.beyond => found(RelationKind::After),
+        _ => None,
+    }
+}
+
+/// One of the two starts on the way of the other: behind each other from the start on, not merging.
+fn came_the_same_way(me: &Trace, other: &Trace) -> bool {
+    let starts_on = |a: &Trace, b: &Trace| {
+        let Some(start) = a.moments.iter().flatten().next() else { return false };
+        b.moments.iter().flatten().any(|m| {
+            b.overlaps(m, a, start) && wrap_angle(m.heading_rad - start.heading_rad).abs() < SAME_WAY_RAD
+        })
+    };
+    starts_on(other, me) || starts_on(me, other)
+}
+
+fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
+    let window = (WINDOW_S / MOMENT_S) as usize;
+    let reach = me.radius_m + other.radius_m;
+    let mut found: Option<Ground> = None;
+    let mine = me.moments.iter().enumerate().filter_map(|(i, m)| Some((i, m.as_ref()?, false)));
+    let last = me.moments.len().saturating_sub(1);
+    let beyond = me.goes_on.iter().map(|moment| (last, moment, true));
+    for (i, here, beyond) in mine.chain(beyond) {
+        if beyond && found.is_some_and(|f| !f.beyond) {
+            break;
+        }
+        // Far from all that the other does.
+        let low = other.low - here.center;
+        let high = here.center - other.high;
+        if low.x > reach || low.y > reach || high.x > reach || high.y > reach {
+            continue;
+        }
+        let from = if beyond { 0 } else { i.saturating_sub(window) };
+        let to = (i + window).min(other.moments.len().saturating_sub(1));
+        let mut j = from;
+        while j <= to {
+            let Some(Some(moment)) = other.moments.get(j) else {
+                j += 1;
+                continue;
+            };
+            let apart = (moment.center - here.center).norm() - reach;
+            if apart > 0.0 {
+                // It cannot be here before it has come so far.
+                j += 1 + if other.stride_m > 0.0 { (apart / other.stride_m) as usize } else { to };
+                continue;
+            }
+            if other.overlaps(moment, me, here) {
+                let shift = j as i64 - i as i64;
+                let now = Ground {
+                    enters: (i, j),
+                    nearest: (i, j),
+                    mine: (i, i),
+                    theirs: (j, j),
+                    shift: (shift, shift),
+                    beyond,
+                };
+                found = Some(found.map_or(now, |known| known.and(&now)));
+            }
+            j += 1;
+        }
+    }
+    found
+}
+
+impl Ground {
+    fn and(self, more: &Self) -> Self {
+        let span = |a: (usize, usize), b: (usize, usize)| (a.0.min(b.0), a.1.max(b.1));
+        let nearer = more.shift.0.abs() < (self.nearest.1 as i64 - self.nearest.0 as i64).abs();
+        Self {
+            nearest: if nearer { more.nearest } else { self.nearest },
+            mine: span(self.mine, more.mine),
+            theirs: span(self.theirs, more.theirs),
+            shift: (self.shift.0.min(more.shift.0), self.shift.1.max(more.shift.1)),
+            ..self
+        }
+    }
+}
+
+/// It slows down or waits before the shared ground until the other has been there.
+fn gives_way(me: &Trace, ground: &Ground) -> bool {
+    let enters = ground.enters.0;
+    let Some(at) = me.moments.get(enters).and_then(Option::as_ref) else { return false };
+    let until = enters.min(ground.theirs.1 + (1.0 / MOMENT_S) as usize);
+    let near = |moment: &Moment| at.way_m - moment.way_m < SLOWS_WITHIN_M;
+    let slowest = (0..=until)
+        .filter_map(|k| Some((k, me.moments.get(k)?.as_ref()?)))
+        .filter(|(_, m)| near(m))
+        .min_by(|a, b| a.1.speed_mps.total_cmp(&b.1.speed_mps));
+    let Some((when, slowest)) = slowest else { return false };
+    let before = (0..when).filter_map(|k| me.speed_at(k)).fold(slowest.speed_mps, f64::max);
+    let drop_mps = if me.agent_type == AgentType::Pedestrian { 0.4 } else { 1.0 };
+    let slowed = slowest.speed_mps < SLOWED * before && before - slowest.speed_mps > drop_mps;
+    let after = (when..me.moments.len()).filter_map(|k| me.speed_at(k)).fold(0.0, f64::max);
+    // Who stands still waits for it only if it goes once the other has passed, or has come here and stopped.
+    let waits = slowest.speed_mps < STANDING_MPS && (slowed || after > drop_mps);
+    slowed || waits
+}
+
+/// Behind the other on the same way, for long enough.
+fn follows<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
+    if me.way_m < GOES_M || me.agent_type == AgentType::Pedestrian {
+        return None;
+    }
+    let mut nearest: Option<(f64, usize, Vec2)> = None;
+    let mut count = 0;
+    for (i, moment) in me.moments.iter().enumerate() {
+        let Some(moment) = moment else { continue };
+        let Some(gap) = gap_behind(me, i, moment, other) else { continue };
+        count += 1;
+        if nearest.is_none_or(|n| gap < n.0) {
+            nearest = Some((gap, i, moment.center));
+        }
+    }
+    let (gap_s, moment, place) = nearest?;
+    let long = count as f64 * MOMENT_S >= FOLLOWS_FOR_S;
+    let gap_s = gap_s.is_finite().then_some(gap_s);
+    long.then_some(Found { kind: RelationKind::Follows, with: &other.id, moment, place, gap_s })
+}
+
+/// Seconds behind the other at a moment, if it is ahead on the same way and within [`HEADWAY_S`].
+fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f64> {
+    let now = other.moments.get(i)?.as_ref()?;
+    let speed = moment.speed_mps.max(0.5);
+    let between = now.center - moment.center;
+    let reach = HEADWAY_S * speed + QUEUE_M + me.radius_m + other.radius_m;
+    if between.norm_squared() > reach * reach {
+        return None;
+    }
+    let turned = wrap_angle(now.heading_rad - moment.heading_rad).abs();
+    if turned > 2.0 * SAME_WAY_RAD {
+        return None;
+    }
+    // Straight ahead of it, or where it will be within the headway.
+    let facing = direction(moment.heading_rad);
+    let (along, aside) = (between.dot(&facing), cross(facing, between));
+    let bumper = along - 0.5 * (me.size.length_m + other.size.length_m);
+    let beside = 0.5 * (me.size.width_m + other.size.width_m);
+    let ahead = bumper > 0.0 && aside.abs() < 0.7 * beside && turned < SAME_WAY_RAD;
+    let on_the_way = || {
+        let to = (i + (HEADWAY_S / MOMENT_S) as usize).min(me.moments.len().saturating_sub(1));
+        (i + 1..=to).find(|k| {
+            me.moments[*k].as_ref().is_some_and(|m| {
+                let way = wrap_angle(m.heading_rad - now.heading_rad).abs();
+                way < SAME_WAY_RAD && me.overlaps(m, other, now)
+            })
+        })
+    };
+    if ahead && (bumper < HEADWAY_S * moment.speed_mps || bumper < QUEUE_M) {
+        // Both stand: no time tells how far.
+        return Some(if moment.speed_mps > STANDING_MPS { bumper / moment.speed_mps } else { f64::INFINITY });
+    }
+    if along <= 0.0 {
+        return None;
+    }
+    on_the_way().map(|k| (k - i) as f64 * MOMENT_S)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Subtype;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn size(agent_type: AgentType) -> Size {
+        Size::default_for(agent_type, Subtype::Unknown)
+    }
+
+    /// Along a straight line, at the speed of each step.
+    fn ride(from: (f64, f64), heading_rad: f64, speed: impl Fn(f64) -> f64) -> Vec<State> {
+        let (mut at, ahead) = (Vec2::new(from.0, from.1), direction(heading_rad));
+        (0..90)
+            .map(|i| {
+                let v = ahead * speed(i as f64 * STEP_S);
+                let state = State { x_m: at.x, y_m: at.y, heading_rad, vx_mps: v.x, vy_mps: v.y };
+                at += v * STEP_S;
+                state
+            })
+            .collect()
+    }
+
+    fn trace(id: &str, agent_type: AgentType, states: &[State]) -> Trace {
+        let at = |step: usize| states.get(step).copied();
+        Trace::ahead(id, agent_type, &size(agent_type), states.len(), at)
+    }
+
+    fn car(id: &str, states: &[State]) -> Trace {
+        trace(id, AgentType::Vehicle, states)
+    }
+
+    fn walker(id: &str, states: &[State]) -> Trace {
+        trace(id, AgentType::Pedestrian, states)
+    }
+
+    /// Eastwards through x = 40 at 10 m/s: there at 4 s.
+    fn east() -> Vec<State> {
+        ride((0.0, 0.0), 0.0, |_| 10.0)
+    }
+
+    fn kinds(me: &Trace, others: &[Trace]) -> Vec<(RelationKind, String)> {
+        relations(me, others, 0).into_iter().map(|r| (r.kind, r.with)).collect()
+    }
+
+    #[test]
+    fn who_is_first_where_paths_cross() {
+        let north = |passes_s: f64| ride((40.0, -10.0 * passes_s), FRAC_PI_2, |_| 10.0);
+        let me = car("me", &east());
+        let later = relations(&me, &[car("late", &north(6.0))], 10);
+        assert_eq!(later[0].kind, RelationKind::Before);
+        // 2 s between the centres; the boxes take 0.67 s of it.
+        let gap_s = later[0].gap_s.unwrap();
+        assert!((gap_s - 1.4).abs() < 0.21, "{gap_s}");
+        assert!((later[0].time_s - 4.7).abs() < 0.4 && (later[0].x_m - 37.0).abs() < 3.0, "{later:?}");
+        assert_eq!(kinds(&me, &[car("early", &north(2.0))]), [(RelationKind::After, "early".into())]);
+        // Nobody is first where they meet, nor where ten seconds lie between them.
+        assert!(kinds(&me, &[car("meets", &north(4.0))]).is_empty());
+        assert!(kinds(&me, &[car("never", &north(12.0))]).is_empty());
+    }
+
+    #[test]
+    fn slowing_down_for_somebody_is_giving_way() {
+        let braking = |t: f64| if t < 3.0 { 10.0 - 3.0 * t } else { 1.0 + 2.0 * (t - 3.0) };
+        let me = car("me", &ride((0.0, 0.0), 0.0, braking));
+        // At 26 m when it crosses at 5 s, ahead of the braking car.
+        let crossing = car("x", &ride((26.0, -40.0), FRAC_PI_2, |_| 10.0));
+        assert_eq!(kinds(&me, &[crossing]), [(RelationKind::GivesWayTo, "x".into())]);
+    }
+
+    #[test]
+    fn waiting_for_a_walker_until_the_end_is_giving_way() {
+        // Stops at x = 20 after 4 s and stays there; somebody walks over at x = 26.
+        let stopping = |t: f64| (10.0 - 2.5 * t).max(0.0);
+        let me = car("me", &ride((0.0, 0.0), 0.0, stopping));
+        let over = walker("7", &ride((26.0, -8.0), FRAC_PI_2, |_| 1.4));
+        let found = relations(&me, &[over], 0);
+        assert_eq!((found[0].kind, found[0].gap_s), (RelationKind::GivesWayTo, None));
+        let away = walker("8", &ride((60.0, -8.0), FRAC_PI_2, |_| 1.4));
+        assert!(relations(&me, &[away], 0).is_empty());
+    }
+
+    #[test]
+    fn walkers_cross_before_and_after_cars_but_not_each_other() {
+        // Over the lane at 1.4 m/s: on it from about 1.2 to 3.4 s.
+        let me = walker("me", &ride((30.0, -3.2), FRAC_PI_2, |_| 1.4));
+        let from = |x: f64| car("c", &ride((x, 0.0), 0.0, |_| 10.0));
+        assert_eq!(kinds(&me, &[from(-25.0)]), [(RelationKind::Before, "c".into())]);
+        assert_eq!(kinds(&me, &[from(22.0)]), [(RelationKind::After, "c".into())]);
+        let other = walker("w", &ride((30.0, 5.0), -FRAC_PI_2, |_| 1.4));
+        assert!(kinds(&me, &[other]).is_empty());
+    }
+
+    #[test]
+    fn behind_on_the_same_way_is_following() {
+        let me = car("me", &east());
+        let ahead = |x: f64| car("a", &ride((x, 0.3), 0.0, |_| 10.0));
+        assert_eq!(kinds(&me, &[ahead(20.0)]), [(RelationKind::Follows, "a".into())]);
+        assert!(kinds(&me, &[ahead(60.0)]).is_empty());
+        // Behind, beside and oncoming.
+        assert!(kinds(&me, &[ahead(-20.0)]).is_empty());
+        assert!(kinds(&me, &[car("b", &ride((15.0, 3.5), 0.0, |_| 10.0))]).is_empty());
+        assert!(kinds(&me, &[car("o", &ride((90.0, 3.5), PI, |_| 10.0))]).is_empty());
+        // In the queue behind one that stands.
+        let queue = car("me", &ride((0.0, 0.0), 0.0, |t| (6.0 - 1.5 * t).max(0.0)));
+        let stands = car("s", &ride((18.5, 0.0), 0.0, |_| 0.0));
+        assert_eq!(kinds(&queue, &[stands]), [(RelationKind::Follows, "s".into())]);
+    }
+
+    #[test]
+    fn merging_has_an_order() {
+        let me = car("me", &east());
+        // From the side onto the same lane, there 3 s after.
+        let mut merging = ride((10.0, -30.0), FRAC_PI_2, |_| 5.0);
+        for (i, state) in merging.iter_mut().enumerate().skip(60) {
+            let x = 10.0 + 0.5 * (i as f64 - 60.0);
+            *state = State { x_m: x, y_m: 0.0, heading_rad: 0.0, vx_mps: 5.0, vy_mps: 0.0 };
+        }
+        assert_eq!(kinds(&me, &[car("m", &merging)]), [(RelationKind::Before, "m".into())]);
+    }
+
+    #[test]
+    fn the_most_telling_four_are_told_in_order_of_time() {
+        let me = car("me", &east());
+        let cross =
+            |id: &str, x: f64, passes_s: f64| car(id, &ride((x, -10.0 * passes_s), FRAC_PI_2, |_| 10.0));
+        let others = [
+            cross("far", 70.0, 2.0),
+            cross("b", 50.0, 7.0),
+            cross("c", 60.0, 8.0),
+            cross("d", 30.0, 5.0),
+            cross("e", 20.0, 4.0),
+        ];
+        let told: Vec<String> = kinds(&me, &others).into_iter().map(|r| r.1).collect();
+        assert_eq!(told, ["e", "d", "b", "c"]);
+    }
+}

@@ -1,0 +1,114 @@
+// What is wrong on a line itself: the stretch in red under white dashes, and the ground it crosses hatched.
+import { isValidAt, STEP_S, type Motion } from '../model/motion';
+import { colours, paletteStamp } from './theme';
+import type { View } from './view';
+
+/** A stretch of a motion, in seconds of the scene. */
+export interface Stretch {
+  readonly motion: Motion;
+  readonly from: number;
+  readonly to: number;
+}
+
+/** So long is a stretch on screen at least, in pixels, as far as the path goes. */
+const SHORTEST_PX = 12;
+/** It grows by this many steps on each side at most. */
+const MOST_STEPS = 8;
+
+/** Corner points of a stretch on screen. */
+function pointsOf(v: View, s: Stretch): [number, number][] {
+  const m = s.motion;
+  const at = (i: number): [number, number] => [v.x(m.x[i]), v.y(m.y[i])];
+  const inside = (i: number): boolean => i >= 0 && i < m.x.length && isValidAt(m, m.first + i);
+  let i0 = Math.round(s.from / STEP_S) - m.first,
+    i1 = Math.round(s.to / STEP_S) - m.first;
+  i0 = Math.max(0, Math.min(i0, m.x.length - 1));
+  i1 = Math.max(i0, Math.min(i1, m.x.length - 1));
+  for (let k = 0; k < MOST_STEPS && length(at, i0, i1) < SHORTEST_PX; k++) {
+    if (inside(i0 - 1)) i0--;
+    if (inside(i1 + 1)) i1++;
+  }
+  const out: [number, number][] = [];
+  for (let i = i0; i <= i1; i++) if (inside(i)) out.push(at(i));
+  return out;
+}
+
+function length(at: (i: number) => [number, number], i0: number, i1: number): number {
+  let s = 0;
+  for (let i = i0 + 1; i <= i1; i++) s += Math.hypot(at(i)[0] - at(i - 1)[0], at(i)[1] - at(i - 1)[1]);
+  return s;
+}
+
+function trace(g: CanvasRenderingContext2D, pts: readonly (readonly [number, number])[]): void {
+  pts.forEach(([x, y], i) => (i ? g.lineTo(x, y) : g.moveTo(x, y)));
+}
+
+export interface BrokenStyle {
+  /** Of the path it lies on, in pixels. */
+  readonly width: number;
+  readonly colour: string;
+  readonly alpha: number;
+}
+
+export function paintBroken(g: CanvasRenderingContext2D, v: View, s: Stretch, style: BrokenStyle): void {
+  const { halo } = colours();
+  const pts = pointsOf(v, s);
+  if (pts.length < 2) return;
+  g.beginPath();
+  trace(g, pts);
+  g.lineCap = 'butt';
+  g.lineJoin = 'round';
+  g.globalAlpha = style.alpha;
+  g.setLineDash([]);
+  g.strokeStyle = halo;
+  g.lineWidth = style.width + 4;
+  g.stroke();
+  g.strokeStyle = style.colour;
+  g.lineWidth = style.width + 2;
+  g.stroke();
+  g.setLineDash([2.5, 3.5]);
+  g.strokeStyle = halo;
+  g.lineWidth = Math.max(1.6, style.width * 0.55);
+  g.stroke();
+  g.setLineDash([]);
+  g.globalAlpha = 1;
+}
+
+/** The ground under stretches, as wide as the road user; where several cross it, it is hatched once. */
+export function paintGround(g: CanvasRenderingContext2D, v: View, stretches: readonly Stretch[], width: number): void {
+  if (!stretches.length) return;
+  g.beginPath();
+  for (const s of stretches) trace(g, pointsOf(v, s));
+  g.lineCap = 'butt';
+  g.lineJoin = 'round';
+  g.lineWidth = Math.max(10, width * v.z);
+  g.strokeStyle = hatching(g, v.dpr) ?? colours().collision;
+  g.stroke();
+}
+
+let made: { key: string; pattern: CanvasPattern | null } | null = null;
+
+/** Diagonal lines on a pale ground, six pixels apart. */
+function hatching(g: CanvasRenderingContext2D, dpr: number): CanvasPattern | null {
+  const key = `${paletteStamp()}:${dpr}`;
+  if (made?.key === key) return made.pattern;
+  const n = Math.max(4, Math.round(6 * dpr));
+  const tile = document.createElement('canvas');
+  tile.width = tile.height = n;
+  const t = tile.getContext('2d')!;
+  t.fillStyle = t.strokeStyle = colours().collision;
+  t.globalAlpha = 0.16;
+  t.fillRect(0, 0, n, n);
+  t.globalAlpha = 0.7;
+  t.lineWidth = 1.3 * dpr;
+  t.beginPath();
+  for (const x of [-n, 0, n]) {
+    t.moveTo(x - 1, n + 1);
+    t.lineTo(x + n + 1, -1);
+  }
+  t.stroke();
+  const pattern = g.createPattern(tile, 'repeat');
+  pattern?.setTransform(new DOMMatrix().scale(1 / dpr));
+  made = { key, pattern };
+  return pattern;
+}

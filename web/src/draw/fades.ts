@@ -1,0 +1,68 @@
+// Ghosts that come and go: each fades in, and one that would jump fades out at the old place and in at the new one.
+import type { Pose } from '../model/geometry';
+
+/** How long a ghost takes to come or to go, in milliseconds. */
+const FADE_MS = 90;
+/** A ghost slides up to this far between two pictures, in metres. */
+const SLIDE_M = 2;
+
+export interface Placed {
+  readonly id: string;
+  readonly place: Pose;
+}
+
+export interface Faded<T> {
+  readonly ghost: T;
+  readonly alpha: number;
+  /** False for one that is going. */
+  readonly here: boolean;
+}
+
+interface Kept<T> {
+  ghost: T;
+  since: number;
+  /** How strong it was when it began to go. */
+  from: number;
+}
+
+export class Fades<T extends Placed> {
+  #here = new Map<string, Kept<T>>();
+  #going: Kept<T>[] = [];
+  #fading = false;
+
+  /** Is any of them on its way? */
+  get fading(): boolean {
+    return this.#fading;
+  }
+
+  /** What to paint now; `calm` for people who asked for little motion. */
+  next(ghosts: readonly T[], now: number, calm: boolean): Faded<T>[] {
+    const before = this.#here;
+    this.#here = new Map(ghosts.map((ghost) => [ghost.id, this.#kept(before.get(ghost.id), ghost, now)]));
+    for (const [id, k] of before) if (!this.#here.has(id)) this.#leave(k, now);
+    this.#going = calm ? [] : this.#going.filter((k) => now - k.since < FADE_MS);
+    const here = [...this.#here.values()].map(({ ghost, since }): Faded<T> => ({
+      ghost,
+      alpha: calm ? 1 : share(since, now),
+      here: true,
+    }));
+    this.#fading = this.#going.length > 0 || here.some((g) => g.alpha < 1);
+    return [
+      ...this.#going.map(({ ghost, since, from }) => ({ ghost, alpha: from * (1 - share(since, now)), here: false })),
+      ...here,
+    ];
+  }
+
+  #kept(was: Kept<T> | undefined, ghost: T, now: number): Kept<T> {
+    if (was && apart(was.ghost.place, ghost.place) <= SLIDE_M) return { ...was, ghost };
+    if (was) this.#leave(was, now);
+    return { ghost, since: now, from: 1 };
+  }
+
+  #leave(k: Kept<T>, now: number): void {
+    this.#going.push({ ghost: k.ghost, since: now, from: share(k.since, now) });
+  }
+}
+
+const share = (since: number, now: number): number => Math.min(1, Math.max(0, (now - since) / FADE_MS));
+const apart = (a: Pose, b: Pose): number => Math.hypot(a.x - b.x, a.y - b.y);

@@ -1,0 +1,233 @@
+// What is wrong with futures, in words: one at the place, one in a headline, and who does what.
+import {
+  compareMarks,
+  faultMark,
+  leavesRoad,
+  markOf,
+  type About,
+  type Fault,
+  type FaultKind,
+  type Mark,
+} from './about';
+import { LETTERS, type Futures } from './futures';
+import { endPose } from './motion';
+import type { AgentType } from './scene';
+import { metres, num, seconds } from './units';
+
+export type NameOf = (id: string) => string | null;
+
+const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || 'somebody';
+/** A gap below this is a near miss by itself, metres. */
+const GAP_M = 1;
+
+const hard = (f: Fault): string => (f.extent === null ? ' hard' : ` ${num(f.extent, 0)} m/s²`);
+
+/** The word on the picture where it happens. */
+export function placeWord(f: Fault, nameOf: NameOf): string {
+  switch (f.kind) {
+    case 'collision':
+      return `hits ${somebody(f, nameOf)}`;
+    case 'red_light':
+      return 'red light';
+    case 'wrong_way':
+      return 'wrong way';
+    case 'over_median':
+      return 'over the median';
+    case 'off_road':
+      return 'off the road';
+    case 'harsh_braking':
+      return `brakes${hard(f)}`;
+    case 'harsh_steering':
+      return `steers${hard(f)}`;
+    case 'near_miss':
+      // Far apart, but so fast towards each other that the time is what was near.
+      return f.extent === null || f.extent > GAP_M
+        ? `close call with ${somebody(f, nameOf)}`
+        : `${metres(f.extent, 1)} to ${somebody(f, nameOf)}`;
+    case 'goal_missed':
+      return f.extent === null ? 'short' : `${metres(f.extent)} short`;
+  }
+}
+
+/** The same in a sentence: `hits Car 12 at 1.3 s`. */
+const headlineWord = (f: Fault, nameOf: NameOf): string =>
+  f.kind === 'red_light' ? 'through red' : f.kind === 'wrong_way' ? 'the wrong way' : placeWord(f, nameOf);
+
+export interface Headline {
+  readonly mark: Mark;
+  readonly title: string;
+  /** Who does and who does not. */
+  readonly words: string;
+  /** Scene time of what the title names, seconds; null where it names none. */
+  readonly at: number | null;
+}
+
+const SIX = ['', 'one', 'two', 'three', 'four', 'five', 'six'];
+
+const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
+
+/** What is to be said of the futures of one, of which `chosen` is shown; null where nothing is worth it. */
+export function headline(f: Futures, chosen: number, hasGoal: boolean, who: Walker): Headline | null {
+  const about = f.modes[chosen]?.about;
+  if (!about) return null;
+  const mark = markOf(about);
+  const words = whoDoesWhat(f, chosen, hasGoal, who);
+  if (mark === 'ok') return hasGoal ? { mark, title: reachedBy(f), words, at: null } : null;
+  const [worst] = about.faults;
+  const word = headlineWord(worst, who.nameOf);
+  const at = ` at ${seconds(worst.time)}`;
+  const missed = about.faults.find((x) => x.kind === 'goal_missed');
+  const toGoal = hasGoal && !missed;
+  if (worst.kind === 'goal_missed') return { mark, title: `${upper(word)} of the goal`, words, at: worst.time };
+  const all = f.modes.length > 1 && f.modes.every((m) => m.about?.faults[0]?.kind === worst.kind);
+  const title =
+    toGoal && all && leavesRoad(worst)
+      ? `Only ${word}${worst.kind === 'over_median' ? '' : ','}${at}`
+      : toGoal
+        ? `Reached, ${word}${at}`
+        : `${upper(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
+  return { mark, title, words, at: worst.time };
+}
+
+/** How it gets about, and what others are called. */
+export interface Walker {
+  readonly type: AgentType;
+  readonly nameOf: NameOf;
+}
+
+/** Those that reach the goal with nothing wrong. */
+function reachedBy(f: Futures): string {
+  const good = f.modes.flatMap((m, i) => (m.about && markOf(m.about) === 'ok' ? [LETTERS[i]] : []));
+  if (good.length === f.modes.length && good.length > 1) return `Reached in all ${SIX[good.length]}`;
+  return `Reached in ${good.join(', ')}`;
+}
+
+// -------------------------------------------------------------- who does what
+
+const and = (list: readonly string[]): string =>
+  list.length < 2 ? list.join('') : `${list.slice(0, -1).join(', ')} and ${list.at(-1)}`;
+
+interface Group {
+  readonly key: string;
+  readonly letters: string[];
+  /** `drive over it` and `drives over it`. */
+  readonly many: string;
+  readonly one: string;
+}
+
+/** `A, B, C and D drive over it. E gets there by the road. F stops.` */
+function whoDoesWhat(f: Futures, chosen: number, hasGoal: boolean, who: Walker): string {
+  const named = f.modes[chosen].about?.faults[0]?.kind ?? null;
+  const offRoad = f.modes.some((m) => m.about?.faults.some(leavesRoad));
+  const groups = new Map<string, Group>();
+  f.modes.forEach((m, i) => {
+    const g = groupOf(f, i, m.about ?? null, { named, offRoad, hasGoal, who });
+    if (!g) return;
+    const known = groups.get(g.key) ?? g;
+    groups.set(g.key, known);
+    known.letters.push(LETTERS[i]);
+  });
+  const list = [...groups.values()];
+  if (list.length === 1 && list[0].letters.length === f.modes.length) {
+    const [{ key, many, letters }] = list;
+    return key === 'ok' || letters.length < 2 ? '' : `All ${SIX[letters.length]} ${many}.`;
+  }
+  return list.map((g) => `${and(g.letters)} ${g.letters.length > 1 ? g.many : g.one}.`).join(' ');
+}
+
+interface Said {
+  /** What the headline names already. */
+  readonly named: FaultKind | null;
+  readonly offRoad: boolean;
+  readonly hasGoal: boolean;
+  readonly who: Walker;
+}
+
+const group = (key: string, many: string, one: string): Group => ({ key, letters: [], many, one });
+
+function groupOf(f: Futures, i: number, about: About | null, said: Said): Group | null {
+  if (!about) return null;
+  const [worst] = about.faults;
+  if (!worst) {
+    if (!said.hasGoal) return group('ok', 'do not', 'does not');
+    return said.offRoad
+      ? group('ok', 'get there by the road', 'gets there by the road')
+      : group('ok', 'get there', 'gets there');
+  }
+  const it = said.named === worst.kind;
+  const [drive, drives] = GOES[said.who.type];
+  switch (worst.kind) {
+    case 'collision': {
+      const whom = somebody(worst, said.who.nameOf);
+      return group(`hit:${worst.with}`, `hit ${whom}`, `hits ${whom}`);
+    }
+    case 'red_light':
+      return group(worst.kind, `${drive} through red`, `${drives} through red`);
+    case 'wrong_way':
+      return group(worst.kind, `${drive} the wrong way`, `${drives} the wrong way`);
+    case 'over_median': {
+      const over = it ? 'over it' : 'over the median';
+      return group(worst.kind, `${drive} ${over}`, `${drives} ${over}`);
+    }
+    case 'off_road':
+      return group(worst.kind, 'leave the road', 'leaves the road');
+    case 'harsh_braking':
+      return group(worst.kind, 'brake hard', 'brakes hard');
+    case 'harsh_steering':
+      return group(worst.kind, 'steer hard', 'steers hard');
+    case 'near_miss': {
+      const whom = somebody(worst, said.who.nameOf);
+      return group(`near:${worst.with}`, `nearly hit ${whom}`, `nearly hits ${whom}`);
+    }
+    case 'goal_missed': {
+      if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', 'stop', 'stops');
+      return group('short', 'do not get there', 'does not get there');
+    }
+  }
+}
+
+/** Slower than this is standing, m/s. */
+const STANDING = 0.5;
+
+const GOES: Readonly<Record<AgentType, readonly [many: string, one: string]>> = {
+  vehicle: ['drive', 'drives'],
+  cyclist: ['ride', 'rides'],
+  pedestrian: ['walk', 'walks'],
+  other: ['go', 'goes'],
+};
+
+// -------------------------------------------------------------- why another is shown
+
+/** Why the future at `shown` is shown and not the one at `was`: what is worse about that one; null for nothing. */
+export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
+  const [old, now] = [f.modes[was]?.about, f.modes[shown]?.about];
+  if (!old || !now || compareMarks(markOf(old), markOf(now)) >= 0) return null;
+  const [worst] = old.faults;
+  return `${LETTERS[shown]} is shown: ${LETTERS[was]} ${WHY[faultMark(worst)](worst, nameOf)}`;
+}
+
+/** The same where the bold one before was another, and something is to be said of it whatever the reason. */
+export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
+  const [old, now] = [f.modes[was], f.modes[shown]];
+  if (!now || was === shown) return null;
+  const is = `${LETTERS[shown]} is shown`;
+  if (!old) return `${is}: the one before is not among these`;
+  const likelier = now.probability > old.probability;
+  const plain = likelier ? `${is}: it is likelier than ${LETTERS[was]}` : `${is}; it was ${LETTERS[was]} in the drag`;
+  return whyNot(f, was, shown, nameOf) ?? plain;
+}
+
+const WHY: Readonly<Record<Mark, (f: Fault, nameOf: NameOf) => string>> = {
+  collision: placeWord,
+  rule: (f, nameOf) => RULE_VERBS[f.kind] ?? placeWord(f, nameOf),
+  near: (f, nameOf) => `nearly hits ${somebody(f, nameOf)}`,
+  short: (f, nameOf) => `ends ${placeWord(f, nameOf)}`,
+  ok: () => '',
+};
+
+const RULE_VERBS: Partial<Record<FaultKind, string>> = {
+  red_light: 'runs a red light',
+  wrong_way: 'goes the wrong way',
+  over_median: 'goes over the median',
+  off_road: 'leaves the road',
+};
