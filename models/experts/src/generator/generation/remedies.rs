@@ -40,7 +40,7 @@ pub(super) fn by_road(
         let nearest_m = v0 * v0 / (2.0 * STOPPING_MPS2);
         let place = |route: scene::routes::Route| {
             let foot = route.path.project(goal);
-            let at = route.path.sample(foot.s_m.clamp(nearest_m, farthest_m));
+            let at = route.path.sample(foot.s_m.clamp(nearest_m.min(farthest_m), farthest_m));
             let distance_m = (at.position - goal).norm();
             let (x_m, y_m, heading_rad) = (at.position.x, at.position.y, at.heading_rad);
             ByRoad { x_m, y_m, heading_rad, distance_m }
