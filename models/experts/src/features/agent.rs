@@ -7,12 +7,12 @@ use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
-use crate::planning::lights::{Gate, gates};
+use crate::planning::lights::{Gate, gates, sets_off};
 use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
 use scene::score::Drivable;
-use scene::{AgentType, Vec2, wrap_angle};
+use scene::{AgentType, STANDING_MPS, Vec2, wrap_angle};
 use std::sync::Arc;
 
 /// So far beyond the road's edge a corner still counts as on the road, metres.
@@ -101,6 +101,15 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         ground,
         features,
         projected,
+    }
+}
+
+impl AgentPlan {
+    /// It stands before a red light that is known to turn green, and nothing else is asked of it.
+    pub fn sets_off(&self) -> bool {
+        self.target.is_free()
+            && self.model.start_speed_mps() < STANDING_MPS
+            && self.lights.iter().any(|gates| sets_off(gates))
     }
 }
 
