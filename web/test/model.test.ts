@@ -144,6 +144,11 @@ describe('scene', () => {
     expect([...s.agents.values()].filter((a) => a.kind === 'bus')).toHaveLength(1);
     // A queue at a red light stands still for the whole scene and is not parked.
     expect(s.agents.get('7')!.parked).toBe(false);
+    // Nor is somebody of that queue who is only seen later.
+    const json = crossingJson();
+    const later = json.agents.find((a) => a.id === '7')!;
+    later.track.valid = [[30, later.track.x_m.length]];
+    expect(readScene(json).agents.get('7')).toMatchObject({ logStart: null, parked: false });
   });
 
   it('writes only what was changed, and reads it back', () => {
@@ -434,7 +439,8 @@ describe('futures', () => {
     };
     const changes = findChanges(s, before, after, new Set(['1']));
     expect(changes.map((c) => c.id)).toEqual(['2']);
-    expect(changes[0].words).toMatch(/later|waits|slows|stops/);
+    expect(changes[0].words).toMatch(/^(waits|slows|stops) .*Car 1$/);
+    expect(changes[0].lost).toBeGreaterThan(0.5);
   });
 
   it('become events with facts', () => {
@@ -455,7 +461,13 @@ describe('futures', () => {
       },
     };
     const ev = readEvents(s, set);
-    expect(ev.map((e) => e.kind)).toEqual(['near', 'collision']);
-    expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed']);
+    expect(ev.map((e) => [e.kind, e.inLog])).toEqual([
+      ['near', true],
+      ['collision', true],
+    ]);
+    expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed', 'Where from']);
+    // As soon as one of the two does something of its own, it counts.
+    const own = readEvents(s, { ...set, driving: new Set(['1']) });
+    expect(own.map((e) => e.inLog)).toEqual([true, false]);
   });
 });

@@ -125,6 +125,29 @@ tuning! {
         cyclist_rate_mps2 = 1.0;
         /// The pace of a rider who goes, where caps allow, m/s.
         cyclist_going_mps = 7.0;
+        /// Mean distance below which two modes are copies of each other, metres, without a goal position: one of
+        /// them goes before or after somebody else, or takes another pace or line. Set by hand. 2026-11-22.
+        copy_m = 1.1, off 0.0;
+        /// The same with a goal position. Set by hand. 2026-11-22.
+        copy_with_goal_m = 0.55, off 0.0;
+    }
+    /// How much wider futures are drawn at the greatest diversity, mean metres in a window; less with the square of
+    /// the setting. Spread of six at diversity 2 over that at 0.5. 2026-11-22.
+    diversity: DiversityTuning {
+        /// Along the way of a vehicle without a goal.
+        driving_m = 20.0, off 0.0;
+        /// Along the way of a rider without a goal.
+        riding_m = 9.0, off 0.0;
+        /// Along the way on foot without a goal.
+        on_foot_m = 2.0, off 0.0;
+        /// Along the way to a goal 9 s away on wheels.
+        goal_m = 4.0, off 0.0;
+        /// Along the way to a goal 9 s away on foot.
+        goal_on_foot_m = 1.5, off 0.0;
+        /// Aside on wheels.
+        aside_m = 0.3, off 0.0;
+        /// Aside on foot.
+        aside_on_foot_m = 0.8, off 0.0;
     }
     /// What the mode in the middle of what may happen is made of.
     middle: MiddleTuning {

@@ -1,4 +1,5 @@
 // Time: playback, events, how much is worked out.
+import { counted } from '../model/events';
 import { LENGTHS, REPLANS } from '../model/scene';
 import { setLength, setReplan } from '../model/commands';
 import { STEP_S } from '../model/motion';
@@ -17,7 +18,9 @@ function goTo(c: Context, seconds: number): void {
 
 function nextEvent({ editor, ui }: Context): void {
   const now = editor.time.value;
-  const events = editor.events.value;
+  // What is in the log is no news; it is walked only where there is nothing else.
+  const own = counted(editor.events.value);
+  const events = own.length ? own : editor.events.value;
   const later = events.find((e) => e.time > now + 0.05 || (e.time >= now && e !== editor.selectedEvent.value));
   const next = later ?? events[0];
   if (!next) return;
@@ -124,7 +127,7 @@ export const time = inGroup('Time', [
     label: 'Next event',
     keys: ['E'],
     icon: 'warn',
-    help: 'Collision or near miss after the playhead',
+    help: 'Collision, near miss or broken rule after the playhead',
     when: (c) => (c.editor.events.value.length ? true : 'There are no events.'),
     run: nextEvent,
   },

@@ -61,7 +61,7 @@ export function paintBroken(g: CanvasRenderingContext2D, v: View, s: Stretch, st
   g.globalAlpha = style.alpha;
   g.setLineDash([]);
   g.strokeStyle = halo;
-  g.lineWidth = style.width + 5;
+  g.lineWidth = style.width + 4;
   g.stroke();
   g.strokeStyle = style.colour;
   g.lineWidth = style.width + 2;

@@ -61,9 +61,15 @@ export class MapPicture {
     else {
       // A lane that ends at the rim of the map is cut square; where lanes meet, round ends close the gap.
       const open = !lane.next.length || !lane.prev.length;
-      layerOf(open ? this.openRoads : this.roads, this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2)).add(pts);
+      layerOf(open ? this.openRoads : this.roads, this.bandOf(lane)).add(pts);
       this.outlines.add(pts);
     }
+  }
+
+  /** Where the map knows its surface a lane adds no more than its own width, so that kerbs run smooth. */
+  private bandOf(lane: Lane): number {
+    if (this.map.drivable.length) return lane.width;
+    return this.recorded ? BAND_M : Math.max(lane.width + 0.5, 3.2);
   }
 
   /** Across a junction a bike lane has no paint of its own; beside other lanes it keeps it. */

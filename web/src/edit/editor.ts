@@ -6,7 +6,7 @@ import type { Command } from '../model/commands';
 import { canChange, startPose, touched, type Agent, type Scene } from '../model/scene';
 import type { Futures, MotionSet } from '../model/futures';
 import { motionOf } from '../model/changes';
-import { readEvents, type TrafficEvent } from '../model/events';
+import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
 import { endPose, poseAtStep } from '../model/motion';
 import { wrapAngle, type OnLine, type Pose, type Vec } from '../model/geometry';
 import { localReach, type LocalReach } from '../model/reach';
@@ -59,6 +59,8 @@ export interface Step {
   readonly agent: string | null;
   readonly undo: boolean;
 }
+
+const NO_EVENTS: readonly TrafficEvent[] = [];
 
 export class Editor {
   readonly answers = new Answers();
@@ -149,16 +151,22 @@ export class Editor {
     if (!f || !a) return 0;
     return Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
   });
+  /** Changes only when a drag begins or ends. */
+  readonly dragging = computed(() => this.drag.value !== null);
   readonly events = computed<readonly TrafficEvent[]>(() => {
     const s = this.scene.value;
-    return s && !this.drag.value ? readEvents(s, this.motion.value) : [];
+    return s && !this.dragging.value ? readEvents(s, this.motion.value) : NO_EVENTS;
+  });
+  /** What the timeline shows: the events, and while a hand moves what is wrong with the future that is shown. */
+  readonly shownEvents = computed<readonly TrafficEvent[]>(() => {
+    const s = this.scene.value;
+    const d = this.dragging.value ? this.draft.value : null;
+    return s && d ? eventsOf(s, this.motion.value, d.id, d.futures, this.chosen.value) : this.events.value;
   });
   /** Are the futures of the selected road user from before the last change? */
   readonly outdated = computed(
     () => this.motion.value.stale && !this.draft.value && this.motion.value.fresh !== this.selection.value,
   );
-  /** Changes only when a drag begins or ends. */
-  readonly dragging = computed(() => this.drag.value !== null);
 
   unitOf(a: Agent): SpeedUnit {
     return a.type === 'pedestrian' ? 'm/s' : this.speedUnit.value;

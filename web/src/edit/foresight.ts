@@ -4,9 +4,12 @@ import { sceneKey, type Scene } from '../model/scene';
 import type { Generator, Handlers, Question } from '../net/generator';
 import type { FinalEvent } from '../net/types';
 
-/** Time between two questions, and how old one may get before a newer pose drops it. */
-const GAP_MS = 100;
-const OLDEST_MS = 250;
+/** Time between two questions. */
+const GAP_MS = 150;
+/** A hand that is still for so long rests: a question about an older pose is dropped for the one it rests at. */
+const REST_MS = 120;
+/** How old a question may get while the hand moves on. */
+const OLDEST_MS = 500;
 
 export interface Asking {
   /** The question that a release would ask of a document; null when none would be asked. */
@@ -37,10 +40,11 @@ export class Foresight {
   /** The newest pose, until it has been asked about. */
   #wanted: Scene | null = null;
   #endWait: (() => void) | null = null;
-  /** Has the drag's own question about the newest pose been answered so far that this one is not in its way? */
+  /** Has a question of the drag's own shown something since the last one of these? The hand's own futures go first. */
   #free = false;
   #running: Running | null = null;
   #gap: ReturnType<typeof setTimeout> | undefined;
+  #rest: ReturnType<typeof setTimeout> | undefined;
   #known: Known | null = null;
 
   constructor(
@@ -48,17 +52,18 @@ export class Foresight {
     private readonly asking: Asking,
   ) {}
 
-  /** The hand is at another pose; its own question goes first. */
+  /** The hand is at another pose. */
   moved(scene: Scene): void {
     this.#wanted = scene;
-    this.#free = false;
+    clearTimeout(this.#rest);
+    this.#rest = setTimeout(() => this.#drop(), REST_MS);
     this.#endWait ??= this.asking.begin();
   }
 
-  /** The drag's own question has shown something, or has ended. */
+  /** A question of the drag's own has shown something. The one that waits behind it is put before this one. */
   yielded(): void {
     this.#free = true;
-    this.#next();
+    if (this.#wanted) queueMicrotask(() => this.#next());
   }
 
   /** Nobody wants to know any more. */
@@ -91,6 +96,7 @@ export class Foresight {
   }
 
   #forget(): void {
+    clearTimeout(this.#rest);
     this.#wanted = null;
     this.#endWait?.();
     this.#endWait = null;
@@ -99,6 +105,7 @@ export class Foresight {
   #stop(): void {
     const was = this.#running;
     if (!was) return;
+    this.#free = true;
     this.#over(was);
     this.generator.cancel();
     was.awaited?.(null);
@@ -123,9 +130,10 @@ export class Foresight {
       dropped: () => this.#failed(running),
     });
     if (!question) return;
-    const old = setTimeout(() => this.#aged(running), OLDEST_MS);
+    const old = setTimeout(() => this.#drop(), OLDEST_MS);
     const running: Running = { scene, key, old, end: this.asking.begin(), awaited: null };
     this.#running = running;
+    this.#free = false;
     this.#gap = setTimeout(() => {
       this.#gap = undefined;
       this.#next();
@@ -152,9 +160,9 @@ export class Foresight {
     this.#next();
   }
 
-  /** It has taken long. Where the hand has moved on meanwhile, the newer pose is asked about instead. */
-  #aged(running: Running): void {
-    if (this.#running !== running || !this.#wanted) return;
+  /** What is under way makes place for a newer pose, where there is one. */
+  #drop(): void {
+    if (!this.#wanted) return;
     this.#stop();
     this.#next();
   }

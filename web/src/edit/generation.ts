@@ -28,7 +28,7 @@ export class Generation implements Previews {
   readonly #reception: Reception;
   readonly #absence: Absence;
   readonly #foresight: Foresight;
-  /** Counts the poses of drags: only the newest one's question makes way for what the others do. */
+  /** Counts the poses of drags. */
   #pose = 0;
   readonly #busy = signal(false);
   /** What is asked and not answered yet, and a change that rests before it is asked about. */
@@ -106,8 +106,8 @@ export class Generation implements Previews {
     const scene = this.editor.scene.peek();
     const pose = ++this.#pose;
     if (scene?.others === 'react') this.#foresight.moved(scene);
-    this.#ask({ agents: [id], react: false, step: null }, true, () => {
-      if (pose === this.#pose) this.#foresight.yielded();
+    this.#ask({ agents: [id], react: false, step: null }, true, (shown) => {
+      if (shown || pose === this.#pose) this.#foresight.yielded();
     });
   }
 
@@ -213,12 +213,12 @@ export class Generation implements Previews {
     if (selected) this.#look(selected);
   }
 
-  /** `drawn` is called when it has shown something, and when it ends. */
-  #ask(w: Wanted, preview = false, drawn?: () => void): void {
+  /** `came` is called when something came of it, and when it ends, with whether there was something to be seen. */
+  #ask(w: Wanted, preview = false, came?: (shown: boolean) => void): void {
     const { editor } = this;
     const scene = editor.scene.peek();
     if (!scene || this.#absence.now) return;
-    const handlers = this.#untilAnswered(this.#reception.of(scene, w), drawn);
+    const handlers = this.#untilAnswered(this.#reception.of(scene, w), came);
     this.generator.ask(this.#questions.make(scene, w, preview, handlers));
     if (!preview) editor.answers.report({ kind: 'refining', step: 0, steps: DEFAULTS.steps, ms: 0 });
   }
@@ -235,25 +235,25 @@ export class Generation implements Previews {
   }
 
   /** The same handlers, with the question open until one of its endings. */
-  #untilAnswered(on: Handlers, drawn?: () => void): Handlers {
+  #untilAnswered(on: Handlers, came?: (shown: boolean) => void): Handlers {
     const end = this.#begin();
     const ending =
-      <A extends unknown[]>(handle?: (...a: A) => void) =>
+      <A extends unknown[]>(shown: boolean, handle?: (...a: A) => void) =>
       (...a: A): void => {
         handle?.(...a);
-        drawn?.();
+        came?.(shown);
         end();
       };
     return {
       ...on,
       draft: (...a) => {
         on.draft(...a);
-        drawn?.();
+        came?.(true);
       },
-      final: ending(on.final),
-      refused: ending(on.refused),
-      away: ending(on.away),
-      dropped: ending(on.dropped),
+      final: ending(true, on.final),
+      refused: ending(true, on.refused),
+      away: ending(false, on.away),
+      dropped: ending(false, on.dropped),
     };
   }
 

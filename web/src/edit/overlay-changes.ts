@@ -1,9 +1,8 @@
-// What the overlay shows of everybody: who changed since the last change, and collisions and near misses.
+// What the overlay shows of everybody: who changed since the last change.
 import type { Pose } from '../model/geometry';
 import { poseAt } from '../model/motion';
 import type { Agent } from '../model/scene';
-import { seconds } from '../model/units';
-import { paintIcon, tag, type Labels } from '../draw/labels';
+import { tag, type Labels } from '../draw/labels';
 import { paintGhost, paintRing } from '../draw/handles';
 import { colourKey, stamp } from '../draw/sprites';
 import { trail } from '../draw/strokes';
@@ -67,43 +66,6 @@ export class ChangesOverlay {
           radii: [44, 60, 84, 110],
           must: false,
         });
-    }
-  }
-
-  paintEvents(g: G, v: View): void {
-    const { editor: e } = this;
-    const c = colours();
-    const picked = e.selectedEvent.value;
-    const t = e.time.value;
-    for (const ev of e.events.value) {
-      if (ev !== picked && Math.abs(ev.time - t) > 0.45) continue;
-      const hit = ev.kind === 'collision';
-      for (const a of [ev.a, ev.b]) {
-        const p = this.poseNow(e.scene.value!.agents.get(a.id) ?? a);
-        if (p && Math.abs(ev.time - t) < 0.5) paintRing(g, v, a, p, hit ? c.collision : c['near-edge'], 2, 3);
-      }
-      const x = v.x(ev.at[0]),
-        y = v.y(ev.at[1]);
-      if (hit) {
-        g.beginPath();
-        g.arc(x, y, 10, 0, Math.PI * 2);
-        g.fillStyle = c.collision;
-        g.strokeStyle = c.halo;
-        g.lineWidth = 2.5;
-        g.stroke();
-        g.fill();
-        paintIcon(g, 'cross', x, y, c['on-collision']);
-        this.labels.block(x - 12, y - 12, 24, 24);
-      }
-      const text = hit ? `Collision · ${ev.title}` : `${seconds(ev.time)} · ${ev.short}`;
-      tag(g, this.labels, [x, y], text, {
-        leader: hit ? c.collision : c['near-text'],
-        radii: [44, 60, 84],
-        bg: hit ? c.collision : c.near,
-        fg: hit ? c['on-collision'] : c['on-near'],
-        height: 22,
-        icon: hit ? 'cross' : 'triangle',
-      });
     }
   }
 }

@@ -25,10 +25,11 @@ export class VerdictOverlay {
     private readonly labels: Labels,
   ) {}
 
-  /** Under the paths: the ground that is crossed and should not be. */
+  /** Under the paths: the ground that the shown one crosses and should not. */
   paintGround(g: G, v: View, a: Agent, f: Futures, visible: readonly number[]): void {
     const crossed = (fault: Fault): boolean => fault.kind === 'over_median' || fault.kind === 'off_road';
-    paintGround(g, v, stretchesOf(f, visible, crossed), a.width);
+    const shown = visible.length === 1 ? visible : visible.filter((i) => i === this.editor.chosen.value);
+    paintGround(g, v, stretchesOf(f, shown, crossed), a.width);
   }
 
   /** On the paths: the stretches themselves. */
@@ -44,7 +45,7 @@ export class VerdictOverlay {
         if (fault.kind === 'goal_missed') continue;
         paintBroken(g, v, stretchOf(f, i, fault), {
           width: i === chosen ? Math.max(width, 3.2) : width,
-          alpha: i === chosen ? 1 : Math.max(0.6, alpha),
+          alpha: i === chosen ? 1 : Math.max(0.45, 0.85 * alpha),
           colour: fault.kind === 'near_miss' ? c['near-edge'] : c.collision,
         });
       }

@@ -12,8 +12,9 @@ import { paintChips, paintFutures, polyline, trail, type Chip } from '../draw/st
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-import { outOfReach } from './goal-verdict';
+import { outOfReach, verdictsHold } from './goal-verdict';
 import { ChangesOverlay } from './overlay-changes';
+import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
 import { VerdictOverlay } from './overlay-verdicts';
@@ -30,6 +31,7 @@ export class Overlay {
   private readonly goal: GoalOverlay;
   private readonly changes: ChangesOverlay;
   private readonly verdicts: VerdictOverlay;
+  private readonly events: EventsOverlay;
   private readonly ghosts: GhostOverlay;
 
   constructor(
@@ -37,6 +39,7 @@ export class Overlay {
     private readonly poseNow: (a: Agent) => Pose | null,
   ) {
     this.goal = new GoalOverlay(editor, this.labels);
+    this.events = new EventsOverlay(editor, this.labels, poseNow);
     this.verdicts = new VerdictOverlay(editor, this.labels);
     this.changes = new ChangesOverlay(editor, this.labels, poseNow);
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
@@ -72,7 +75,7 @@ export class Overlay {
     this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
     this.ghosts.paintLabels(g, v);
-    this.changes.paintEvents(g, v);
+    this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);
     this.paintMeasure(g, v);
   }
@@ -201,7 +204,7 @@ export class Overlay {
   /** Those whose verdicts are shown: of futures from before a change nothing is said. */
   private judged(a: Agent, f: Futures): readonly number[] {
     const { editor: e } = this;
-    if (f.sketch || e.outdated.value) return [];
+    if (!verdictsHold(e)) return [];
     const only = e.hoverFuture.value ?? (this.committed(a) ? e.chosen.value : null);
     if (only !== null) return only < f.modes.length ? [only] : [];
     return f.modes.map((_, i) => i);

@@ -1,7 +1,7 @@
 // What is on the canvases for the present state of the editor. A drag frame paints the overlay alone.
 import { effect } from '@preact/signals-core';
 import { mixPose, type Pose } from '../model/geometry';
-import { poseAt } from '../model/motion';
+import { isStill, poseAt } from '../model/motion';
 import { motionOf } from '../model/changes';
 import { isRecorded, startPose, type Agent } from '../model/scene';
 import { speedLabel } from '../model/units';
@@ -134,10 +134,16 @@ export class Picture {
     if (e.layers.value.futures && !e.selection.value && !e.playing.value)
       for (const [a] of shown) this.softTrail(g, v, a);
     g.globalAlpha = dragging ? 0.62 : 1;
-    for (const [a, p] of shown) stamp(g, v, a, p);
+    for (const [a, p] of shown) stamp(g, v, a, p, a.parked && this.drives(a));
     g.globalAlpha = 1;
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
     if (e.layers.value.labels || v.z > 16) this.nameLabels(g, v, shown);
+  }
+
+  /** One that was parked in the log, and drives now. */
+  private drives(a: Agent): boolean {
+    const m = this.editor.motionFor(a);
+    return m !== a.log && !isStill(m);
   }
 
   private softTrail(g: G, v: View, a: Agent): void {
@@ -180,7 +186,7 @@ export class Picture {
     const p = a && this.poseNow(a);
     if (!a || !p || e.drag.value) return null;
     const where = a.parked ? 'parked' : laneWords(e.scene.value!.map, a, p.x, p.y, p.heading);
-    const next = e.events.value.find((v) => (v.a.id === a.id || v.b.id === a.id) && v.time >= e.time.value);
+    const next = e.events.value.find((v) => (v.a.id === a.id || v.b?.id === a.id) && v.time >= e.time.value);
     const todo =
       a.type === 'other'
         ? 'Shown only'

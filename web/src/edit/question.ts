@@ -2,7 +2,7 @@
 // whom, and the options.
 import { DEFAULTS } from '../model/domain';
 import type { ConditionJson, MapJson, MapRef, SceneJson } from '../model/json';
-import type { MotionSet } from '../model/futures';
+import type { Futures, MotionSet } from '../model/futures';
 import { GOAL_TIME, type Scene } from '../model/scene';
 import { conditionOf, generatedJson, isEmptyCondition, stillAgents } from '../model/write';
 import type { Handlers, Question, SceneRef } from '../net/generator';
@@ -89,12 +89,27 @@ export class Questions {
     const kept = [...set.futures].filter(([id]) => set.driving.has(id) || w.kept?.has(id));
     const moving = new Set(this.editor.touchedIds(scene));
     const agents = scene.others === 'still' ? stillAgents(raw, scene, moving) : raw.agents;
-    return { ...raw, map, agents, generated: generatedJson(scene, kept) };
+    return {
+      ...raw,
+      map,
+      agents,
+      generated: generatedJson(
+        scene,
+        kept.map(([id, f]) => [id, inForce(scene, id, f)]),
+      ),
+    };
   }
 }
 
-/** Only a drag and its release go on from what is shown; a look at somebody new starts afresh. */
+/** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
 function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
-  const shown = w.step || editor.dragging.peek() ? shownFuture(editor, w.agents) : undefined;
+  const drags = editor.dragging.peek() || (w.step !== null && editor.draft.peek()?.id === editor.selection.peek());
+  const shown = drags ? shownFuture(editor, w.agents) : undefined;
   return shown ? { shown } : {};
+}
+
+/** The one future that is followed: it is all that others are worked out against, and a sixth of the text. */
+function inForce(scene: Scene, id: string, f: Futures): Futures {
+  const chosen = f.modes[Math.min(f.modes.length - 1, scene.agents.get(id)?.chosen ?? f.chosen)];
+  return { ...f, modes: chosen ? [chosen] : [], chosen: 0 };
 }

@@ -1,6 +1,7 @@
 // Verdicts, scores and warnings of an answer, in the editor's own terms.
+import type { MayBeInLog } from '../model/json';
 import type { FinalEvent, Resolved, ScoreReply } from '../net/types';
-import type { Reach, Score } from '../model/futures';
+import type { Reach, Score, Stretch } from '../model/futures';
 
 export function readReach(r: Resolved | undefined): Reach | null {
   if (!r) return null;
@@ -33,9 +34,52 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
   if (!reply) return null;
   const s = reply.scene;
   return {
-    collisions: s.collisions.map((c) => ({ a: c.a, b: c.b, time: c.time_s })),
-    nearMisses: s.near_misses.map((c) => ({ a: c.a, b: c.b, time: c.time_s, distance: c.distance_m, ttc: c.ttc_s })),
+    collisions: s.collisions.map((c) => ({
+      a: c.a,
+      b: c.b,
+      time: c.time_s,
+      closing: c.closing_speed_mps,
+      ...inLog(c),
+    })),
+    nearMisses: s.near_misses.map((c) => ({
+      a: c.a,
+      b: c.b,
+      time: c.time_s,
+      distance: c.distance_m,
+      ttc: c.ttc_s,
+      ...inLog(c),
+    })),
+    stretches: [
+      ...stretches('off_road', s.off_road),
+      ...stretches('wrong_way', s.wrong_way),
+      ...stretches('harsh_braking', s.harsh_braking),
+      ...(s.red_lights ?? []).map((r) => ({
+        what: 'red_light' as const,
+        agent: r.agent,
+        time: r.time_s,
+        until: r.time_s,
+        extent: r.speed_mps,
+        ...inLog(r),
+      })),
+    ],
     minTtc: s.min_ttc_s,
     offroadShare: s.offroad_share,
   };
 }
+
+function inLog(of: object): { inLog?: boolean } {
+  const { in_log } = of as MayBeInLog;
+  return in_log === undefined ? {} : { inLog: in_log };
+}
+
+type SentStretch = ScoreReply['scene']['off_road'][number];
+
+const stretches = (what: Stretch['what'], sent: readonly SentStretch[] | undefined): Stretch[] =>
+  (sent ?? []).map((s) => ({
+    what,
+    agent: s.agent,
+    time: s.time_s,
+    until: s.until_s,
+    extent: s.worst,
+    ...inLog(s),
+  }));

@@ -16,7 +16,7 @@ import type { Naming } from '../model/names';
 import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
 import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
-import { whyAnother } from '../model/verdict-words';
+import { whyAnother, whyNot } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
@@ -39,12 +39,6 @@ export interface Hooks {
 const TRAILS = 3;
 
 type Keep = (a: Agent) => KeepOrder;
-
-/** A road user and the idea that was bold. */
-interface Bold {
-  readonly id: string;
-  readonly idea: string;
-}
 
 const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
 
@@ -84,7 +78,7 @@ export class Reception {
         hooks.answered();
         if (w.step) {
           this.#finalOfChange(scene, e, w, w.step, ms, atRest);
-          this.#sayWhyAnother(scene, bold);
+          this.#sayWhyAnother(scene, subject, bold);
         } else this.#finalOfLook(scene, e, w.agents[0], ms, editor.dragging.peek() ? keep : atRest);
       },
       refused: (p) => {
@@ -118,21 +112,22 @@ export class Reception {
   }
 
   /** Which idea is bold as the hand lets go; null where no drag left one. */
-  #boldOf(id: string): Bold | null {
+  #boldOf(id: string): string | null {
     const { editor } = this;
     const d = editor.draft.peek();
     const a = editor.scene.peek()?.agents.get(id);
     if (d?.id !== id || d.futures.sketch || !a || a.chosen !== null) return null;
-    return { id, idea: ideas(d.futures.modes)[d.futures.chosen] };
+    return ideas(d.futures.modes)[d.futures.chosen];
   }
 
-  /** The bold one is another than in the drag: one sentence says why. */
-  #sayWhyAnother(scene: Scene, bold: Bold | null): void {
+  /** The bold one is another than in the drag, or not the likeliest: one sentence says why. */
+  #sayWhyAnother(scene: Scene, id: string | null, bold: string | null): void {
     const { editor } = this;
-    const f = bold && editor.motion.peek().futures.get(bold.id);
-    if (!bold || !f || editor.motion.peek().stale) return;
-    const why = whyAnother(f, ideas(f.modes).indexOf(bold.idea), f.chosen, nameIn(scene));
-    editor.answers.explain(why === null ? null : { id: bold.id, words: `${why}.` });
+    const f = id !== null && editor.motion.peek().futures.get(id);
+    if (!f || editor.motion.peek().stale || scene.agents.get(id)!.chosen !== null) return;
+    const was = bold === null ? 0 : ideas(f.modes).indexOf(bold);
+    const why = (bold === null ? whyNot : whyAnother)(f, was, f.chosen, nameIn(scene));
+    editor.answers.explain(why === null ? null : { id, words: `${why}.` });
     if (why) editor.notices.say(`${why}.`);
   }
 
@@ -169,12 +164,19 @@ export class Reception {
     // The answer to a release starts rough again; what the drag has settled already stays until it is better.
     if (last && !editor.dragging.peek() && step < last.futures.step) return false;
     const read = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
-    const before = last?.futures ?? editor.motion.peek().futures.get(id);
-    const who = naming(editor.scene.peek()!, a);
-    const f = before ? this.#names.keep(before, read, who, performance.now()) : withNames(read, who);
+    const f = this.#withFrozenNames(a, read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
     editor.answers.showDraft(id, f, trails);
     return true;
+  }
+
+  /** What is on screen keeps its names as far as they hold. */
+  #withFrozenNames(a: Agent, read: Futures): Futures {
+    const { editor } = this;
+    const d = editor.draft.peek();
+    const before = d?.id === a.id && !d.futures.sketch ? d.futures : editor.motion.peek().futures.get(a.id);
+    const who = naming(editor.scene.peek()!, a);
+    return before ? this.#names.keep(before, read, who, performance.now()) : withNames(read, who);
   }
 
   // -------------------------------------------------------------- what the others would do
@@ -191,7 +193,9 @@ export class Reception {
   /** The release is answered by what was foreseen of it. */
   takeOver(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number): void {
     this.hooks.answered();
-    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersOf(a, true));
+    const bold = step.agent ? this.#boldOf(step.agent) : null;
+    this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersAtRest(a));
+    this.#sayWhyAnother(scene, step.agent, bold);
   }
 
   /** Those that were asked something are no others, also when only the mode of the others was changed. */
@@ -207,10 +211,11 @@ export class Reception {
 
   #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
     const { editor } = this;
-    const f = this.#futuresOf(scene, e, keep).get(id);
-    if (!f) return;
+    const settled = this.#futuresOf(scene, e, keep).get(id);
+    if (!settled) return;
     const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
+    const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, settled) : settled;
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
       if (reach) editor.answers.judge(id, reach);
@@ -273,9 +278,10 @@ export class Reception {
     editor.answers.report({ kind: 'settled', ms, adapted: step.agent ? changes.length : null });
     if (step.undo) return;
     const scene = editor.scene.peek()!;
-    editor.notices.show({ text: outcome(step, scene, changes), undo: true });
-    editor.notices.say(spokenOutcome(step, scene, changes));
-    const collision = spokenCollision(editor.events.peek());
+    const events = editor.events.peek();
+    editor.notices.show({ text: outcome(step, scene, changes, events), undo: true });
+    editor.notices.say(spokenOutcome(step, scene, changes, events));
+    const collision = spokenCollision(events);
     if (collision) editor.notices.say(collision, true);
   }
 

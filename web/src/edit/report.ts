@@ -1,24 +1,39 @@
 // What a change led to, in sentences for the toast and for screen readers.
 import type { Change } from '../model/changes';
-import type { TrafficEvent } from '../model/events';
+import { counted, type TrafficEvent } from '../model/events';
 import type { Scene } from '../model/scene';
+import { seconds } from '../model/units';
 import type { Step } from './editor';
 
-/** `Goal of Car 4 moved. 2 others changed.` */
-export function outcome(step: Step, scene: Scene, changes: readonly Change[]): string {
+/** `Goal of Car 4 moved. 2 others changed.` That nobody had to change is not said beside a collision. */
+export function outcome(
+  step: Step,
+  scene: Scene,
+  changes: readonly Change[],
+  events: readonly TrafficEvent[] = [],
+): string {
   const n = changes.length;
-  if (!step.agent || scene.others !== 'react') return `${step.name}.`;
-  if (n === 0) return `${step.name}. Nobody else had to change.`;
-  return `${step.name}. ${n} other${n === 1 ? '' : 's'} changed.`;
+  const hits = counted(events).filter((e) => e.kind === 'collision');
+  const own = hits.find((e) => e.a.id === step.agent || e.b?.id === step.agent);
+  const other = own?.a.id === step.agent ? own?.b : own?.a;
+  const hit = own && other ? ` It hits ${other.name} at ${seconds(own.time)}.` : '';
+  if (!step.agent || scene.others !== 'react') return `${step.name}.${hit}`;
+  if (n === 0) return `${step.name}.${hit || (hits.length ? '' : ' Nobody else had to change.')}`;
+  return `${step.name}. ${n} other${n === 1 ? '' : 's'} changed.${hit}`;
 }
 
 /** The same with who changed first and how. */
-export function spokenOutcome(step: Step, scene: Scene, changes: readonly Change[]): string {
+export function spokenOutcome(
+  step: Step,
+  scene: Scene,
+  changes: readonly Change[],
+  events: readonly TrafficEvent[] = [],
+): string {
   const first = changes[0];
-  return `${outcome(step, scene, changes)}${first ? ` ${first.name} ${first.words}.` : ''}`;
+  return `${outcome(step, scene, changes, events)}${first ? ` ${first.name} ${first.words}.` : ''}`;
 }
 
 export function spokenCollision(events: readonly TrafficEvent[]): string | null {
-  const hit = events.find((e) => e.kind === 'collision');
-  return hit ? `Collision, ${hit.a.name} and ${hit.b.name}, ${hit.time.toFixed(1)} seconds.` : null;
+  const hit = counted(events).find((e) => e.kind === 'collision');
+  return hit?.b ? `Collision, ${hit.a.name} and ${hit.b.name}, ${hit.time.toFixed(1)} seconds.` : null;
 }

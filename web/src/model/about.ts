@@ -30,6 +30,8 @@ export interface About {
   readonly manoeuvre: Manoeuvre | null;
 }
 
+export const NOTHING_SAID: About = { faults: [], relations: [], manoeuvre: null };
+
 /** All kinds, the worst first. */
 export const FAULT_KINDS: readonly FaultKind[] = [
   'collision',

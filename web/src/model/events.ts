@@ -1,96 +1,260 @@
-// Events as the timeline and the list show them: facts from the score, plus speeds read off the motions.
+// Events as the timeline and the list show them: what is wrong with the futures that are followed, and the facts of
+// the score about everybody else. What the log does by itself is marked so and does not count.
+import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from './about';
 import { motionOf } from './changes';
-import type { MotionSet } from './futures';
+import type { Futures, MotionSet, Score, Stretch } from './futures';
 import { poseAt } from './motion';
-import type { Agent, Scene } from './scene';
-import { num, speedLabel } from './units';
-import { wrapAngle, type Vec } from './geometry';
+import { nameIn, type Agent, type Scene } from './scene';
+import { metres, num, seconds, speedLabel } from './units';
+import { placeWord } from './verdict-words';
+import { wrapAngle, type Pose, type Vec } from './geometry';
 
 export interface TrafficEvent {
-  readonly kind: 'collision' | 'near';
+  readonly kind: Exclude<Mark, 'ok'>;
+  readonly what: FaultKind;
   readonly time: number;
+  readonly until: number;
   readonly a: Agent;
-  readonly b: Agent;
+  /** The other one, where there is one. */
+  readonly b: Agent | null;
+  /** It happens in the log or in the example itself; nobody was asked for it. */
+  readonly inLog: boolean;
+  /** Who. */
   readonly title: string;
+  /** What and when, for the timeline. */
   readonly label: string;
-  /** The closest of it, for a label on the map. */ readonly short: string;
+  /** What and how bad, for the list: `Near miss, 0.6 m`. */
+  readonly words: string;
+  /** The closest of it, for a label on the map. */
+  readonly short: string;
   readonly at: Vec;
   readonly facts: readonly (readonly [string, string])[];
 }
 
-/** Near misses closer together than this are one event: the same pair passing once. */
+/** Meetings of the same two closer together than this are one event: the same pair passing once. */
 const SAME_PASS_S = 1.5;
+/** Faults of one road user and kind closer together than this are one event. */
+const SAME_STRETCH_S = 1;
 
-export function readEvents(scene: Scene, set: MotionSet): TrafficEvent[] {
-  const score = set.score;
-  if (!score) return [];
-  const out: TrafficEvent[] = [];
-  const pair = (a: string, b: string) => (a < b ? `${a}|${b}` : `${b}|${a}`);
-  const hit = new Set<string>();
-  for (const c of score.collisions) {
-    if (hit.has(pair(c.a, c.b))) continue;
-    hit.add(pair(c.a, c.b));
-    const e = event(scene, set, 'collision', c.a, c.b, c.time, null, null);
-    if (e) out.push(e);
-  }
-  const last = new Map<string, number>();
-  for (const n of [...score.nearMisses].sort((x, y) => x.time - y.time)) {
-    const key = pair(n.a, n.b);
-    if (hit.has(key) || n.time - (last.get(key) ?? -Infinity) < SAME_PASS_S) continue;
-    last.set(key, n.time);
-    const e = event(scene, set, 'near', n.a, n.b, n.time, n.distance, n.ttc);
-    if (e) out.push(e);
-  }
-  return out.sort((x, y) => x.time - y.time);
+/** What is known of an event before it is put into words. */
+interface Raw {
+  readonly what: FaultKind;
+  readonly time: number;
+  readonly until: number;
+  readonly a: string;
+  readonly b: string | null;
+  readonly extent: number | null;
+  readonly ttc: number | null;
+  readonly at: Vec | null;
+  readonly inLog: boolean;
 }
 
-function event(
-  scene: Scene,
-  set: MotionSet,
-  kind: 'collision' | 'near',
-  ida: string,
-  idb: string,
-  time: number,
-  gap: number | null,
-  ttc: number | null,
-): TrafficEvent | null {
-  const a = scene.agents.get(ida),
-    b = scene.agents.get(idb);
-  if (!a || !b) return null;
-  const pa = poseAt(motionOf(scene, set, a), time),
-    pb = poseAt(motionOf(scene, set, b), time);
-  if (!pa || !pb) return null;
-  const closing = Math.hypot(
-    pa.speed * Math.cos(pa.heading) - pb.speed * Math.cos(pb.heading),
-    pa.speed * Math.sin(pa.heading) - pb.speed * Math.sin(pb.heading),
+/** Everything that happens in the scene as it is followed. */
+export function readEvents(scene: Scene, set: MotionSet): TrafficEvent[] {
+  const said: Raw[] = [];
+  for (const id of set.driving) {
+    const a = scene.agents.get(id);
+    const f = set.futures.get(id);
+    const m = a && f?.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)];
+    for (const fault of m?.about?.faults ?? []) said.push(ofFault(id, fault));
+  }
+  return inWords(scene, set, [...said, ...(set.score ? ofScore(scene, set, set.score) : [])]);
+}
+
+/** What is wrong with one future on its way, while nobody follows it yet. */
+export function eventsOf(scene: Scene, set: MotionSet, id: string, f: Futures, chosen: number): TrafficEvent[] {
+  return inWords(
+    scene,
+    set,
+    (f.modes[chosen]?.about?.faults ?? []).map((fault) => ofFault(id, fault)),
   );
-  const speed = (x: Agent, v: number) => (x.type === 'pedestrian' ? speedLabel(v, 'm/s') : speedLabel(v, 'km/h'));
-  const facts: [string, string][] = [
-    [a.name, `${speed(a, pa.speed)}, ${doing(scene, set, a, time)}`],
-    [b.name, `${speed(b, pb.speed)}, ${doing(scene, set, b, time)}`],
-  ];
-  if (kind === 'collision') facts.push(['Closing speed', speedLabel(closing, 'km/h')]);
-  if (gap !== null) facts.push(['Closest gap', `${num(gap, 1)} m`]);
-  if (ttc !== null) facts.push(['Time to collision', `${num(ttc, 1)} s`]);
-  const title = kind === 'collision' ? `${a.name} × ${b.name}` : `${a.name}, ${b.name}`;
-  const short =
-    gap !== null && (gap <= 1 || ttc === null)
-      ? `${num(gap, 1)} m to ${b.name}`
-      : ttc !== null
-        ? `${num(ttc, 1)} s to collision with ${b.name}`
-        : b.name;
+}
+
+const ofFault = (id: string, f: Fault): Raw => ({
+  what: f.kind,
+  time: f.time,
+  until: f.until,
+  a: id,
+  b: f.with,
+  extent: f.extent,
+  ttc: null,
+  at: f.at,
+  inLog: false,
+});
+
+function ofScore(scene: Scene, set: MotionSet, score: Score): Raw[] {
+  const replays = (id: string, time: number): boolean => replaysLog(scene, set, id, time);
+  const none = { extent: null, ttc: null, at: null };
+  const two = score.collisions.map((c): Raw => ({
+    ...none,
+    ...c,
+    what: 'collision',
+    until: c.time,
+    extent: c.closing ?? null,
+    inLog: c.inLog ?? (replays(c.a, c.time) && replays(c.b, c.time)),
+  }));
+  const near = score.nearMisses.map((c): Raw => ({
+    ...none,
+    ...c,
+    what: 'near_miss',
+    until: c.time,
+    extent: c.distance,
+    inLog: c.inLog ?? (replays(c.a, c.time) && replays(c.b, c.time)),
+  }));
+  const one = (score.stretches ?? []).map((s: Stretch): Raw => ({
+    ...none,
+    what: s.what,
+    time: s.time,
+    until: s.until,
+    a: s.agent,
+    b: null,
+    extent: s.extent,
+    inLog: s.inLog ?? replays(s.agent, s.time),
+  }));
+  return [...two, ...near, ...one];
+}
+
+/** Does it do what was recorded, or what the example says? */
+function replaysLog(scene: Scene, set: MotionSet, id: string, time: number): boolean {
+  const a = scene.agents.get(id);
+  if (!a || set.driving.has(id) || (scene.others === 'still' && a.type !== 'other')) return false;
+  return poseAt(a.log, time) !== null;
+}
+
+/** One event a meeting and a stretch, by time. */
+function inWords(scene: Scene, set: MotionSet, all: readonly Raw[]): TrafficEvent[] {
+  const kept: Raw[] = [];
+  const pairOf = (r: Raw): string => (r.b === null ? '' : r.a < r.b ? `${r.a}|${r.b}` : `${r.b}|${r.a}`);
+  const hit = new Set(all.filter((r) => r.what === 'collision').map(pairOf));
+  const byTime = [...all].sort((p, q) => p.time - q.time);
+  // Faults name the place and the extent, so they stand before what the score says of the same.
+  for (const r of [...byTime.filter((x) => x.at), ...byTime.filter((x) => !x.at)]) {
+    const known = r.b === null ? kept.some((k) => sameStretch(k, r)) : false;
+    const meets = (k: Raw): boolean =>
+      k.what === r.what && pairOf(k) === pairOf(r) && (r.what === 'collision' || near(k, r) < SAME_PASS_S);
+    if (known || (r.b !== null && ((r.what !== 'collision' && hit.has(pairOf(r))) || kept.some(meets)))) continue;
+    kept.push(r);
+  }
+  return kept
+    .flatMap((r) => event(scene, set, r) ?? [])
+    .sort((x, y) => x.time - y.time || compareMarks(x.kind, y.kind));
+}
+
+const near = (a: Raw, b: Raw): number => Math.abs(a.time - b.time);
+
+/** To the score a median is off the road like any other. */
+const sameKind = (a: FaultKind, b: FaultKind): boolean =>
+  a === b || (a === 'over_median' && b === 'off_road') || (a === 'off_road' && b === 'over_median');
+
+const sameStretch = (a: Raw, b: Raw): boolean =>
+  a.a === b.a && sameKind(a.what, b.what) && a.time <= b.until + SAME_STRETCH_S && b.time <= a.until + SAME_STRETCH_S;
+
+const WORDS: Readonly<Record<FaultKind, string>> = {
+  collision: 'Collision',
+  red_light: 'Red light',
+  wrong_way: 'Wrong way',
+  over_median: 'Over the median',
+  off_road: 'Off the road',
+  harsh_braking: 'Hard braking',
+  harsh_steering: 'Hard steering',
+  near_miss: 'Near miss',
+  goal_missed: 'Goal missed',
+};
+
+/** How bad it is, in the unit of its kind. */
+function extentWords(r: Raw): string | null {
+  if (r.extent === null) return r.ttc === null ? null : `${num(r.ttc, 1)} s to collision`;
+  switch (r.what) {
+    case 'collision':
+      return `closing at ${speedLabel(r.extent, 'km/h')}`;
+    case 'red_light':
+      return `at ${speedLabel(r.extent, 'km/h')}`;
+    case 'harsh_braking':
+    case 'harsh_steering':
+      return `${num(r.extent, 1)} m/s²`;
+    case 'wrong_way':
+    case 'goal_missed':
+      return metres(r.extent);
+    default:
+      return metres(r.extent, 1);
+  }
+}
+
+function event(scene: Scene, set: MotionSet, r: Raw): TrafficEvent | null {
+  const a = scene.agents.get(r.a),
+    b = r.b === null ? null : scene.agents.get(r.b);
+  if (!a || b === undefined) return null;
+  const pa = poseAt(motionOf(scene, set, a), r.time),
+    pb = b && poseAt(motionOf(scene, set, b), r.time);
+  const at = placeOf(r, pa, pb);
+  if (!at || (b && !r.at && !pb)) return null;
+  const kind = faultMark({ kind: r.what }) as TrafficEvent['kind'];
+  const extent = extentWords(r);
+  const words = extent ? `${WORDS[r.what]}, ${extent}` : WORDS[r.what];
   return {
     kind,
-    time,
+    what: r.what,
+    time: r.time,
+    until: r.until,
     a,
     b,
-    title,
-    short,
-    label: `${kind === 'collision' ? 'Collision' : 'Near miss'} ${num(time, 1)} s`,
-    at: [(pa.x + pb.x) / 2, (pa.y + pb.y) / 2],
-    facts,
+    inLog: r.inLog,
+    title: !b ? a.name : kind === 'collision' ? `${a.name} × ${b.name}` : `${a.name}, ${b.name}`,
+    short: shortOf(scene, r),
+    label: `${WORDS[r.what]} ${num(r.time, 1)} s`,
+    words: r.inLog ? `${words} · in the log` : words,
+    at,
+    facts: factsOf(scene, set, r, [a, pa], [b, pb]),
   };
 }
+
+function placeOf(r: Raw, pa: Pose | null, pb: Pose | null): Vec | null {
+  const own: Vec | null = r.at ?? (pa && [pa.x, pa.y]);
+  return own && pb ? [(own[0] + pb.x) / 2, (own[1] + pb.y) / 2] : own;
+}
+
+function shortOf(scene: Scene, r: Raw): string {
+  const other = (r.b !== null && nameIn(scene)(r.b)) || '';
+  if (r.what === 'near_miss' && r.ttc !== null && (r.extent === null || r.extent > 1))
+    return `${num(r.ttc, 1)} s to collision with ${other}`;
+  const fault = { kind: r.what, time: r.time, until: r.until, at: [0, 0] as const, extent: r.extent, with: r.b };
+  return placeWord(fault, nameIn(scene));
+}
+
+type Part = readonly [Agent | null, Pose | null];
+
+function factsOf(scene: Scene, set: MotionSet, r: Raw, ...who: readonly Part[]): [string, string][] {
+  const speed = (x: Agent, v: number) => (x.type === 'pedestrian' ? speedLabel(v, 'm/s') : speedLabel(v, 'km/h'));
+  const facts = who.flatMap(([x, p]): [string, string][] =>
+    x && p ? [[x.name, `${speed(x, p.speed)}, ${doing(scene, set, x, r.time)}`]] : [],
+  );
+  const [[, pa], [, pb]] = who;
+  const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
+  if (r.what === 'collision' && closing !== null) facts.push(['Closing speed', speedLabel(closing, 'km/h')]);
+  if (r.what === 'near_miss' && r.extent !== null) facts.push(['Closest gap', `${num(r.extent, 1)} m`]);
+  if (r.ttc !== null) facts.push(['Time to collision', `${num(r.ttc, 1)} s`]);
+  const fact = FACTS[r.what];
+  if (fact && r.extent !== null) facts.push([fact, extentWords(r)!.replace(/^at /, '')]);
+  if (r.until > r.time + 0.15) facts.push(['From, to', `${num(r.time, 1)} to ${seconds(r.until)}`]);
+  if (r.inLog) facts.push(['Where from', 'in the log, not counted']);
+  return facts;
+}
+
+const FACTS: Partial<Record<FaultKind, string>> = {
+  red_light: 'Speed over the line',
+  wrong_way: 'Way so driven',
+  over_median: 'Past the edge',
+  off_road: 'Past the edge',
+  harsh_braking: 'Braking',
+  harsh_steering: 'Sideways',
+  goal_missed: 'Left to the goal',
+};
+
+const relativeSpeed = (p: Pose, q: Pose): number =>
+  Math.hypot(
+    p.speed * Math.cos(p.heading) - q.speed * Math.cos(q.heading),
+    p.speed * Math.sin(p.heading) - q.speed * Math.sin(q.heading),
+  );
 
 function doing(scene: Scene, set: MotionSet, a: Agent, t: number): string {
   const m = motionOf(scene, set, a);
@@ -104,11 +268,24 @@ function doing(scene: Scene, set: MotionSet, a: Agent, t: number): string {
   return q.speed < p.speed - 2 ? 'braking' : 'straight on';
 }
 
+/** Those that count: what is in the log does not. */
+export const counted = (events: readonly TrafficEvent[]): TrafficEvent[] => events.filter((e) => !e.inLog);
+
+/** The worst of those that count; null where nothing does. */
+export function worstOf(events: readonly TrafficEvent[]): TrafficEvent['kind'] | null {
+  const kinds = counted(events).map((e) => e.kind);
+  return kinds.length ? kinds.reduce((a, b) => (compareMarks(b, a) < 0 ? b : a)) : null;
+}
+
+const many = (n: number, one: string, more: string): string => (n ? `${n} ${n > 1 ? more : one}` : '');
+
 export function summary(events: readonly TrafficEvent[]): string {
-  const c = events.filter((e) => e.kind === 'collision').length,
-    n = events.length - c;
-  const parts = [c ? `${c} collision${c > 1 ? 's' : ''}` : '', n ? `${n} near miss${n > 1 ? 'es' : ''}` : ''].filter(
-    Boolean,
-  );
+  const of = (kind: TrafficEvent['kind']): number => counted(events).filter((e) => e.kind === kind).length;
+  const parts = [
+    many(of('collision'), 'collision', 'collisions'),
+    many(of('rule'), 'rule broken', 'rules broken'),
+    many(of('near'), 'near miss', 'near misses'),
+    many(of('short'), 'goal missed', 'goals missed'),
+  ].filter(Boolean);
   return parts.length ? parts.join(' · ') : 'No collisions, no near misses';
 }

@@ -1,6 +1,8 @@
 // Where on the picture something is wrong with the futures of one: a word for each place, not one for each future.
 import { compareMarks, faultMark, type Fault, type Mark } from './about';
 import type { Futures } from './futures';
+import type { Vec } from './geometry';
+import { STEP_S, type Motion } from './motion';
 
 /** Futures that break the same rule nearer to each other than this share a word, metres. */
 const TOGETHER_M = 8;
@@ -16,6 +18,19 @@ export interface FaultPlace {
 interface Found {
   readonly index: number;
   readonly fault: Fault;
+  /** Places along the stretch, in metres. */
+  readonly along: readonly Vec[];
+}
+
+/** Steps between two of them. */
+const EVERY = 4;
+
+function placesAlong(m: Motion, fault: Fault): Vec[] {
+  const out: Vec[] = [fault.at];
+  const last = Math.min(m.x.length - 1, Math.round(fault.until / STEP_S) - m.first);
+  for (let i = Math.max(0, Math.round(fault.time / STEP_S) - m.first); i <= last; i += EVERY)
+    out.push([m.x[i], m.y[i]]);
+  return out;
 }
 
 /**
@@ -27,8 +42,8 @@ export function faultPlaces(f: Futures, visible: readonly number[], chosen: numb
   for (const index of visible)
     for (const fault of f.modes[index]?.about?.faults ?? []) {
       if (fault.kind === 'goal_missed' && index !== chosen) continue;
-      const found = { index, fault };
-      const near = clusters.filter((c) => c.some((o) => together(o.fault, fault)));
+      const found = { index, fault, along: placesAlong(f.modes[index].motion, fault) };
+      const near = clusters.filter((c) => c.some((o) => together(o, found)));
       const merged = [...near.flat(), found];
       for (const c of near) clusters.splice(clusters.indexOf(c), 1);
       clusters.push(merged);
@@ -39,8 +54,10 @@ export function faultPlaces(f: Futures, visible: readonly number[], chosen: numb
     .sort((a, b) => shows(b) - shows(a) || compareMarks(a.mark, b.mark) || b.futures.length - a.futures.length);
 }
 
-const together = (a: Fault, b: Fault): boolean =>
-  a.kind === b.kind && a.with === b.with && Math.hypot(a.at[0] - b.at[0], a.at[1] - b.at[1]) <= TOGETHER_M;
+const together = (a: Found, b: Found): boolean =>
+  a.fault.kind === b.fault.kind &&
+  a.fault.with === b.fault.with &&
+  a.along.some(([x, y]) => b.along.some((p) => Math.hypot(p[0] - x, p[1] - y) <= TOGETHER_M));
 
 function placeOf(found: readonly Found[], chosen: number): FaultPlace {
   const worst = found.map((o) => o.fault).reduce((a, b) => (worse(b, a) ? b : a));

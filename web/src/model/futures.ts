@@ -1,6 +1,6 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
 import type { AgentFuturesJson, ReactionJson } from './json';
-import { readAbout, sentAbout, type About, type SentAbout } from './about';
+import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './about';
 import type { Point, Pose } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
@@ -54,6 +54,8 @@ export function readFutures(
       anchor: m.anchor ?? null,
     };
   });
+  // What is nothing is not sent; of a list that was judged nothing is wrong with the rest.
+  if (modes.some((m) => m.about)) for (const m of modes) m.about ??= NOTHING_SAID;
   const names = nameAll(modes, { onFoot: isPedestrian, nameOf: () => null });
   return {
     modes: modes.map((m, i) => ({ ...m, ...names[i], name: sent[order[i]].name ?? names[i].name })),
@@ -135,14 +137,28 @@ export interface Collision {
   a: string;
   b: string;
   time: number;
+  /** m/s. */
+  closing?: number | null;
+  /** Absent where the generator does not tell. */
+  inLog?: boolean;
 }
 export interface NearMiss extends Collision {
   distance: number | null;
   ttc: number | null;
 }
+/** One road user does something that it should not for a while. */
+export interface Stretch {
+  readonly what: Exclude<FaultKind, 'collision' | 'near_miss'>;
+  readonly agent: string;
+  readonly time: number;
+  readonly until: number;
+  readonly extent: number | null;
+  readonly inLog?: boolean;
+}
 export interface Score {
   readonly collisions: readonly Collision[];
   readonly nearMisses: readonly NearMiss[];
+  readonly stretches?: readonly Stretch[];
   readonly minTtc: number | null;
   readonly offroadShare: number | null;
 }

@@ -122,6 +122,10 @@ export interface ByRoadJson {
   heading_rad: number;
   distance_m: number;
 }
+/** Of what a score counts: it happens in the log or in the example itself. */
+export interface MayBeInLog {
+  in_log?: boolean;
+}
 /** A future as it was shown last: box centres every 0.5 s, the first 0.5 s after the start. */
 export interface ShownJson {
   anchor?: number;

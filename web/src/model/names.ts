@@ -68,13 +68,19 @@ function nameOne(
   const plain = first.forms.find((f) => f.length <= LONGEST)!;
   if (!taken.has(plain)) return { name: plain, basis: first.basis };
   const alike = others.findIndex((o) => o?.name === plain);
-  const words = [...differences(modes[alike].motion, modes[i].motion, modes[alike].about, modes[i].about), ...ORDINALS];
-  for (const c of said)
-    for (const word of words) {
-      const name = c.forms.map((f) => `${f}, ${word}`).find((n) => n.length <= LONGEST && !taken.has(n));
-      if (name) return { name, basis: c.basis };
-    }
-  return { name: plain, basis: first.basis };
+  const words = differences(modes[alike].motion, modes[i].motion, modes[alike].about, modes[i].about);
+  const free = (c: Candidate, ends: readonly string[]): Named | undefined => {
+    // `Straight on, straight` would say the same twice.
+    const fits = (f: string, end: string): boolean => !end || !f.toLowerCase().includes(end.split(' ')[0]);
+    const names = ends.flatMap((end) => c.forms.filter((f) => fits(f, end)).map((f) => (end ? `${f}, ${end}` : f)));
+    const name = names.find((n) => n.length <= LONGEST && !taken.has(n));
+    return name === undefined ? undefined : { name, basis: c.basis };
+  };
+  // First what tells the two apart, then something else to say of this one.
+  const rest = said.slice(1);
+  const other = (ends: readonly string[]): Named | undefined =>
+    rest.reduce<Named | undefined>((known, c) => known ?? free(c, ends), undefined);
+  return free(first, words) ?? other(['']) ?? other(words) ?? free(first, ORDINALS) ?? other(ORDINALS)!;
 }
 
 /** For those that nothing tells apart. */
@@ -117,8 +123,10 @@ function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
     const basis = `${r.kind}:${r.with}`;
     if (!name || out.has(basis)) continue;
     const word = RELATION_WORDS[r.kind];
-    const forms = [`${word} ${name}`, `${word} ${shortName(name)}`];
-    if (forms[1].length <= LONGEST) out.set(basis, { basis, forms, other: r.with });
+    const short = shortName(name);
+    const forms = [`${word} ${name}`, `${word} ${short}`];
+    if (r.kind === 'gives_way_to') forms.push(`Lets ${short} go`);
+    if (forms.some((f) => f.length <= LONGEST)) out.set(basis, { basis, forms, other: r.with });
   }
   return [...out.values()];
 }
@@ -221,12 +229,13 @@ export function differences(a: Motion, b: Motion, sa?: About | null, sb?: About 
   const say = (value: number, least: number, more: string, less: string): void => {
     if (Math.abs(value) >= least) found.push([Math.abs(value) / least, value > 0 ? more : less]);
   };
-  const mid = n >> 1;
-  const end = db[n] - da[n];
-  // Progress tells pace only beyond what a longer way explains.
-  say(end, Math.max(1, 0.06 * da[n]), 'faster', 'slower');
-  if (Math.abs(end) < Math.max(1, 0.06 * da[n]))
-    say(db[mid] - da[mid], Math.max(0.8, 0.05 * da[n]), 'earlier', 'later');
+  // With a goal all get as far in the end; then it is told on the way who is ahead.
+  const ahead = (i: number): number => db[i] - da[i];
+  const far = Math.max(1, 0.03 * da[n]);
+  if (Math.abs(ahead(n)) >= far) say(ahead(n), far, 'faster', 'slower');
+  else say(ahead(n >> 1), 0.8, 'earlier', 'later');
+  say(ahead(n >> 2), 0.8, 'early start', 'late start');
+  say(ahead(n) - ahead((3 * n) >> 2), 0.8, 'faster end', 'slower end');
   const side = sideOf(a, b, n);
   const turn = totalTurn(a);
   if (Math.abs(turn) > 0.4) say(turn > 0 ? -side : side, 0.4, 'wider', 'tighter');

@@ -9,7 +9,7 @@ import {
   type SceneJson,
 } from './json';
 import { DEFAULTS } from './domain';
-import { isStill, motionFrom, poseAtStep } from './motion';
+import { isStill, motionFrom, poseAtStep, type Motion } from './motion';
 import { emptyMotion, readFutures, withNames, type Futures, type MotionSet } from './futures';
 import {
   durationOf,
@@ -90,7 +90,7 @@ function readAgent(json: AgentJson, map: LaneMap, name: string, scene: SceneJson
     logSize: [json.length_m, json.width_m] as const,
     log,
     logStart,
-    parked: type === 'vehicle' && isStill(log) && offLanes(map, logStart),
+    parked: type === 'vehicle' && isStill(log) && offLanes(map, firstSeen(log)),
     ego: json.role === 'ego',
     start: readStart(c, logStart),
     goal: readGoal(c),
@@ -146,7 +146,12 @@ function readGoal(c: ConditionJson): GoalSpec {
   });
 }
 
-/** Parked means still for the whole scene and off every lane centre: a queue at a red light keeps its colour. */
+const firstSeen = (log: Motion): Pose | null => (log.valid.length ? poseAtStep(log, log.valid[0][0]) : null);
+
+/**
+ * Parked means still for as long as it is seen and off every lane centre, also where it is seen later: a queue at a
+ * red light keeps its colour.
+ */
 function offLanes(map: LaneMap, p: Pose | null): boolean {
   return !p || nearestLanes(map, p.x, p.y, null, 1.6, (l) => l.kind === 'road').length === 0;
 }

@@ -17,6 +17,9 @@ import { metres, num, seconds } from './units';
 export type NameOf = (id: string) => string | null;
 
 const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || 'somebody';
+/** A gap below this is a near miss by itself, metres. */
+const GAP_M = 1;
+
 const hard = (f: Fault): string => (f.extent === null ? ' hard' : ` ${num(f.extent, 0)} m/s²`);
 
 /** The word on the picture where it happens. */
@@ -37,7 +40,10 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
     case 'harsh_steering':
       return `steers${hard(f)}`;
     case 'near_miss':
-      return f.extent === null ? `close to ${somebody(f, nameOf)}` : `${metres(f.extent, 1)} to ${somebody(f, nameOf)}`;
+      // Far apart, but so fast towards each other that the time is what was near.
+      return f.extent === null || f.extent > GAP_M
+        ? `close call with ${somebody(f, nameOf)}`
+        : `${metres(f.extent, 1)} to ${somebody(f, nameOf)}`;
     case 'goal_missed':
       return f.extent === null ? 'short' : `${metres(f.extent)} short`;
   }
@@ -76,7 +82,7 @@ export function headline(f: Futures, chosen: number, hasGoal: boolean, who: Walk
   const all = f.modes.length > 1 && f.modes.every((m) => m.about?.faults[0]?.kind === worst.kind);
   const title =
     toGoal && all && leavesRoad(worst)
-      ? `Only ${word}${worst.kind === 'over_median' ? '' : ','}${at}`
+      ? `Only ${word}${at}`
       : toGoal
         ? `Reached, ${word}${at}`
         : `${upper(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
@@ -143,6 +149,8 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
   if (!about) return null;
   const [worst] = about.faults;
   if (!worst) {
+    // The headline lists those that get there, unless it names what is wrong.
+    if (said.named === null) return null;
     if (!said.hasGoal) return group('ok', 'do not', 'does not');
     return said.offRoad
       ? group('ok', 'get there by the road', 'gets there by the road')
@@ -171,7 +179,7 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
       return group(worst.kind, 'steer hard', 'steers hard');
     case 'near_miss': {
       const whom = somebody(worst, said.who.nameOf);
-      return group(`near:${worst.with}`, `come close to ${whom}`, `comes close to ${whom}`);
+      return group(`near:${worst.with}`, `nearly hit ${whom}`, `nearly hits ${whom}`);
     }
     case 'goal_missed': {
       if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', 'stop', 'stops');
@@ -192,28 +200,29 @@ const GOES: Readonly<Record<AgentType, readonly [many: string, one: string]>> = 
 
 // -------------------------------------------------------------- why another is shown
 
-/**
- * Why the future at `shown` is shown and not the one at `was`, which was the bold one before: null where nobody need
- * be told.
- */
+/** Why the future at `shown` is shown and not the one at `was`: what is worse about that one; null for nothing. */
+export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
+  const [old, now] = [f.modes[was]?.about, f.modes[shown]?.about];
+  if (!old || !now || compareMarks(markOf(old), markOf(now)) >= 0) return null;
+  const [worst] = old.faults;
+  return `${LETTERS[shown]} is shown: ${LETTERS[was]} ${WHY[faultMark(worst)](worst, nameOf)}`;
+}
+
+/** The same where the bold one before was another, and something is to be said of it whatever the reason. */
 export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was], f.modes[shown]];
   if (!now || was === shown) return null;
   const is = `${LETTERS[shown]} is shown`;
   if (!old) return `${is}: the one before is not among these`;
-  if (old.about && now.about && compareMarks(markOf(old.about), markOf(now.about)) < 0) {
-    const [worst] = old.about.faults;
-    return `${is}: ${LETTERS[was]} ${WHY[faultMark(worst)](worst, nameOf)}`;
-  }
-  return now.probability > old.probability
-    ? `${is}: it is likelier than ${LETTERS[was]} now`
-    : `${is}, not ${LETTERS[was]}`;
+  const likelier = now.probability > old.probability;
+  const plain = likelier ? `${is}: it is likelier than ${LETTERS[was]}` : `${is}; it was ${LETTERS[was]} in the drag`;
+  return whyNot(f, was, shown, nameOf) ?? plain;
 }
 
 const WHY: Readonly<Record<Mark, (f: Fault, nameOf: NameOf) => string>> = {
   collision: placeWord,
   rule: (f, nameOf) => RULE_VERBS[f.kind] ?? placeWord(f, nameOf),
-  near: (f, nameOf) => `comes close to ${somebody(f, nameOf)}`,
+  near: (f, nameOf) => `nearly hits ${somebody(f, nameOf)}`,
   short: (f, nameOf) => `ends ${placeWord(f, nameOf)}`,
   ok: () => '',
 };

@@ -1,73 +1,12 @@
 // What is asked of a generator and what becomes of its answers, with a generator that lives in the test.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { clearGoal, setGoal, setOthers } from '../../src/model/commands';
-import { Editor } from '../../src/edit/editor';
-import { Generation } from '../../src/edit/generation';
-import { SceneFile } from '../../src/edit/scene-file';
-import { SceneList } from '../../src/edit/scene-list';
-import { Saving } from '../../src/edit/saving';
-import { Client } from '../../src/net/client';
-import type { Generator, Question, SceneRef, Trajectories } from '../../src/net/generator';
-import type { DraftEvent, FinalEvent, ScoreReply } from '../../src/net/types';
-import { isMapRef, type MapJson } from '../../src/model/json';
-import { readScene } from '../../src/model/read';
-import { crossingJson } from '../helpers';
-import { sixFutures } from '../standin/futures.mjs';
-
-/** A score in which nothing happens; of the rest the editor reads nothing. */
-const uneventful = {
-  scene: { collisions: [], near_misses: [], min_ttc_s: null, offroad_share: null },
-} as unknown as ScoreReply;
-
-/** Keeps the questions; the test answers them when it likes. */
-class InMemoryGenerator implements Generator {
-  readonly asked: Question[] = [];
-  readonly scored: { scene: SceneRef; ids: string[] }[] = [];
-  cancelled = 0;
-  there = true;
-
-  ask(q: Question): void {
-    this.asked.push(q);
-  }
-
-  cancel(): void {
-    this.cancelled++;
-  }
-
-  async score(scene: SceneRef, trajectories: Trajectories): Promise<ScoreReply> {
-    this.scored.push({ scene, ids: Object.keys(trajectories) });
-    return uneventful;
-  }
-
-  answers(): Promise<boolean> {
-    return Promise.resolve(this.there);
-  }
-
-  get last(): Question {
-    return this.asked.at(-1)!;
-  }
-}
-
-const json = crossingJson();
-const modes = (id: string) => ({
-  chosen: 0,
-  modes: sixFutures(
-    json.agents.find((a) => a.id === id)!,
-    undefined,
-    5,
-    5,
-  ),
-});
-const draftOf = (...ids: string[]) =>
-  ({ event: 'step', window: 0, agents: Object.fromEntries(ids.map((id) => [id, modes(id)])) }) as unknown as DraftEvent;
-const finalOf = (...ids: string[]) =>
-  ({
-    event: 'final',
-    samples: [{ agents: Object.fromEntries(ids.map((id) => [id, modes(id)])) }],
-    resolved: {},
-    scores: [uneventful],
-    warnings: [],
-  }) as unknown as FinalEvent;
+import type { Editor } from '../../src/edit/editor';
+import type { Generation } from '../../src/edit/generation';
+import type { DraftEvent, FinalEvent } from '../../src/net/types';
+import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
+import { judged } from '../standin/judged.mjs';
+import { draftOf, finalOf, json, Session, six as modes, type InMemoryGenerator } from './session';
 
 let editor: Editor;
 let generator: InMemoryGenerator;
@@ -76,15 +15,7 @@ let generation: Generation;
 
 beforeEach(() => {
   vi.useFakeTimers();
-  editor = new Editor();
-  generator = new InMemoryGenerator();
-  const file = new SceneFile(editor);
-  const client = new Client('', () => Promise.reject(new Error('nothing is fetched here')));
-  const saving = new Saving(editor, file, new SceneList(client), client);
-  others = new InMemoryGenerator();
-  generation = new Generation(editor, file, saving, generator, others);
-  file.adopt(json, isMapRef(json.map) ? ({} as MapJson) : json.map, true);
-  editor.open(readScene(json));
+  ({ editor, generator, others, generation } = new Session());
 });
 
 const rest = () => vi.advanceTimersByTime(100);
@@ -191,5 +122,104 @@ describe('a drag', () => {
     generation.preview('2');
     expect(generator.last.scene()).toEqual(first);
     expect((generator.last.scene() as { scene: unknown }).scene).toBe((first as { scene: unknown }).scene);
+    // Of those that go another way than recorded it says the one way they go.
+    const { generated } = (first as { scene: SceneJson }).scene;
+    expect(generated?.samples[0].agents['1']).toMatchObject({ chosen: 0, modes: [{ probability: 0.41 }] });
+  });
+});
+
+describe('what is shown of a drag', () => {
+  const six = judged(modes('1').modes as ModeJson[], ['2', '17']);
+  /** The six in another order of likelihood, as sent: the likeliest first. */
+  const sent = (order: string, chosen: number): AgentFuturesJson => ({
+    chosen,
+    modes: [...order].map((letter, i) => ({ ...six['ABCDEF'.indexOf(letter)], probability: 0.3 - 0.04 * i })),
+  });
+  const draft = (a: AgentFuturesJson) => ({ event: 'step', window: 0, agents: { '1': a } }) as unknown as DraftEvent;
+  const final = (a: AgentFuturesJson) => ({ ...finalOf(), samples: [{ agents: { '1': a } }] }) as unknown as FinalEvent;
+  const names = () => editor.futures.peek()!.modes.map((m) => m.name);
+  const anchors = () => editor.futures.peek()!.modes.map((m) => m.anchor);
+  const goal = (x: number) => {
+    const a = editor.scene.peek()!.agents.get('1')!;
+    return setGoal(a, { ...a.goal, pos: [x, 10] });
+  };
+
+  beforeEach(() => {
+    editor.run(setOthers('log'));
+    rest();
+    editor.select('1');
+    generator.last.on.final(final(sent('ABCDEF', 0)), 5);
+  });
+
+  const dragTo = (x: number) => {
+    if (!editor.dragging.peek()) editor.beginDrag({ part: 'goal', handle: 'body' });
+    editor.previewDrag(goal(x));
+    generation.preview('1');
+  };
+
+  it('goes with the next question and with the release, and with nothing else', () => {
+    expect(generator.last.options.shown).toBeUndefined();
+    dragTo(10);
+    const { x_m, y_m, anchor } = generator.last.options.shown!['1'];
+    expect([anchor, x_m.length, y_m.length]).toEqual([0, 18, 18]);
+    expect(x_m[0]).toBeCloseTo(six[0].x_m[4], 3);
+    generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
+    editor.endDrag(goal(10));
+    rest();
+    expect(generator.last.options).toMatchObject({ score: true, shown: { '1': { anchor: 1 } } });
+    generator.last.on.final(final(sent('BACDEF', 0)), 5);
+    editor.run(goal(20));
+    rest();
+    expect(generator.last.options.shown).toBeUndefined();
+  });
+
+  it('keeps letters and names with their ideas until rest, and then ranks them', () => {
+    const before = names();
+    dragTo(10);
+    const swapped = sent('FEDCBA', 5);
+    generator.last.on.draft(draft(swapped), 1, 5, 10);
+    expect([anchors(), names()]).toEqual([[0, 1, 2, 3, 4, 5], before]);
+    generator.last.on.final(final(swapped), 12);
+    expect([anchors(), names()]).toEqual([[0, 1, 2, 3, 4, 5], before]);
+    expect(editor.chosen.peek()).toBe(0);
+    editor.endDrag(goal(10));
+    rest();
+    generator.last.on.draft(draft(swapped), 5, 5, 10);
+    expect(anchors()).toEqual([0, 1, 2, 3, 4, 5]);
+    generator.last.on.final(final(swapped), 12);
+    expect(anchors()).toEqual([5, 4, 3, 2, 1, 0]);
+    const chances = editor.futures.peek()!.modes.map((m) => m.probability);
+    expect(chances).toEqual([...chances].sort((a, b) => b - a));
+    // The bold one is the same, under its new letter.
+    expect(editor.futures.peek()!.modes[editor.chosen.peek()].anchor).toBe(0);
+    expect(editor.answers.remark.peek()).toBeNull();
+  });
+
+  it('says why another is shown than in the drag, until the next one', () => {
+    dragTo(10);
+    generator.last.on.draft(draft(sent('ABCDEF', 0)), 5, 5, 10);
+    editor.endDrag(goal(10));
+    rest();
+    const hits = judged(modes('1').modes as ModeJson[], ['2', '17'], true);
+    generator.last.on.final(final({ chosen: 2, modes: hits }), 12);
+    expect(editor.answers.remark.peek()).toEqual({ id: '1', words: 'C is shown: A hits Car 2.' });
+    expect(editor.notices.toast.peek()?.text).toBe('Goal of Car 1 moved.');
+    dragTo(20);
+    expect(editor.answers.remark.peek()).toBeNull();
+  });
+
+  it('is taken over from what was foreseen, ranked and explained', async () => {
+    editor.run(setOthers('react'));
+    rest();
+    dragTo(10);
+    generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
+    generator.last.on.final(final(sent('BACDEF', 0)), 12);
+    await Promise.resolve();
+    expect(others.last.options).toMatchObject({ react: true, shown: { '1': { anchor: 1 } } });
+    others.last.on.final(final(sent('FBACDE', 2)), 20);
+    editor.endDrag(goal(10));
+    rest();
+    expect(anchors()).toEqual([5, 1, 0, 2, 3, 4]);
+    expect(editor.answers.remark.peek()?.words).toBe('C is shown; it was B in the drag.');
   });
 });

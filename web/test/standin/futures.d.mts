@@ -1,4 +1,4 @@
-import type { AgentJson, ConditionJson, ModeJson } from '../../src/model/json';
+import type { AgentJson, ConditionJson, ModeJson, ReactionJson } from '../../src/model/json';
 export function sixFutures(
   agent: AgentJson,
   condition: ConditionJson | undefined,
@@ -6,4 +6,5 @@ export function sixFutures(
   steps: number,
 ): ModeJson[];
 export function giveWay(agent: AgentJson, seconds: number): ModeJson;
+export function reactionTo(cause: string, mode: ModeJson, delay_s: number): ReactionJson;
 export function goOn(mode: ModeJson, steps: number): void;

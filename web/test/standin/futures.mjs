@@ -80,6 +80,22 @@ export function giveWay(agent, seconds) {
   return mode;
 }
 
+/** What is said of somebody that gives way: for whom, and where it is slowest. */
+export function reactionTo(cause, mode, delay_s) {
+  const speed = (i) => Math.hypot(mode.vx_mps[i], mode.vy_mps[i]);
+  let low = 5;
+  for (let i = 5; i < mode.x_m.length - 10; i++) if (speed(i) < speed(low) - 0.01) low = i;
+  return {
+    kind: speed(low) < 0.6 ? 'waits' : 'slows',
+    cause,
+    delay_s,
+    time_s: (low + mode.first_step) / 10,
+    x_m: mode.x_m[low],
+    y_m: mode.y_m[low],
+    speed_mps: speed(low),
+  };
+}
+
 /** Makes a future longer: on as it moved last. */
 export function goOn(mode, steps) {
   const end = mode.x_m.length - 1;

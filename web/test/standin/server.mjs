@@ -8,10 +8,12 @@ import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { buildCrossing } from './crossing.mjs';
-import { giveWay, goOn, sixFutures } from './futures.mjs';
+import { giveWay, goOn, reactionTo, sixFutures } from './futures.mjs';
 import { byRoad, judged } from './judged.mjs';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
+/** Seconds that every fifth of the others loses. */
+const LATE_S = 2.2;
 const CSP = [
   "default-src 'none'",
   "script-src 'self'",
@@ -170,9 +172,14 @@ export function startStandIn(options = {}) {
       }
     const agents = drafts(b.steps);
     reacting.forEach((a, i) => {
-      agents[a.id] = b.conditions?.[a.id]?.goal
-        ? { chosen: 0, modes: sixFutures(a, b.conditions[a.id], b.steps, b.steps) }
-        : { chosen: 0, modes: [giveWay(a, i % 5 === 0 ? 2.2 : 0)] };
+      if (b.conditions?.[a.id]?.goal) {
+        agents[a.id] = { chosen: 0, modes: sixFutures(a, b.conditions[a.id], b.steps, b.steps) };
+        return;
+      }
+      const late = i % 5 === 0 ? LATE_S : 0;
+      const mode = giveWay(a, late);
+      agents[a.id] = { chosen: 0, modes: [mode] };
+      if (late && wanted.length) agents[a.id].reaction = reactionTo(wanted[0].id, mode, late);
     });
     if (horizon > 9) for (const f of Object.values(agents)) goOn(f.modes[f.chosen], Math.round(horizon * 10));
     const resolved = {};
@@ -212,10 +219,24 @@ export function startStandIn(options = {}) {
     res.end();
   }
 
+  // Close together, and at the very end.
+  const crowd = {
+    harsh_braking: [
+      { agent: '3', time_s: 1.6, until_s: 2, worst: 5.1 },
+      { agent: '6', time_s: 1.7, until_s: 1.9, worst: 4.4 },
+      { agent: '9', time_s: 9, until_s: 9, worst: 6 },
+    ],
+    red_lights: [{ agent: '5', lane: 'x_in21_out01', time_s: 1.9, speed_mps: 8.6 }],
+  };
+
   const score = () => ({
     scene: {
       collisions: o.collision ? [{ a: '1', b: '2', time_s: 5.4, iou: 0.1 }] : [],
-      near_misses: [{ a: '11', b: '14', time_s: 3.2, distance_m: 0.6, ttc_s: 1.1 }],
+      near_misses: [
+        { a: '11', b: '14', time_s: 3.2, distance_m: 0.6, ttc_s: 1.1 },
+        ...(o.judged ? [{ a: '19', b: '20', time_s: 1.4, distance_m: 0.4, ttc_s: null, in_log: true }] : []),
+      ],
+      ...(o.judged ? crowd : {}),
       min_ttc_s: 1.1,
       offroad_share: null,
     },

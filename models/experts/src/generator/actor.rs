@@ -1,5 +1,6 @@
 //! Road users that get new futures in a window.
 
+use super::covering::Cover;
 use super::retimed::retimed_anchors;
 use super::slot::Slot;
 use crate::features::agent::{AgentPlan, plan, plan_with};
@@ -27,6 +28,8 @@ pub(super) struct Actor {
     pub(super) probability: [f64; MODES],
     /// Modes by falling probability.
     pub(super) order: [Slot; MODES],
+    /// What is added to its modes so that they differ.
+    pub(super) cover: Option<Cover>,
     /// Stays where it is.
     pub(super) rests: bool,
     /// It was parked when the call began and has not been asked to go anywhere.
@@ -36,10 +39,61 @@ pub(super) struct Actor {
     pub(super) keeps_to_the_road: bool,
 }
 
+/// Modes by falling probability.
+pub(super) fn by_probability(probability: &[f64; MODES]) -> [Slot; MODES] {
+    let mut order: [Slot; MODES] = std::array::from_fn(Slot::new);
+    order.sort_by(|a, b| {
+        let falling = probability[b.index()].total_cmp(&probability[a.index()]);
+        falling.then(a.cmp(b))
+    });
+    order
+}
+
+impl Drafts {
+    /// The first drafts of an actor.
+    pub(super) fn of(actor: &Actor, leading: Slot) -> Self {
+        let offset = [[0.0; RESIDUAL]; MODES];
+        let (modes, probability, order) = (actor.modes, actor.probability, actor.order);
+        Self { modes, offset, probability, order, leading, settled: None }
+    }
+
+    /// Adds what the networks do not see.
+    pub(super) fn add(&mut self, offset: &Modes) {
+        for (mode, more) in [&mut self.modes, &mut self.offset].into_iter().map(|m| (m, offset)) {
+            for (value, more) in mode.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
+                *value += more;
+            }
+        }
+    }
+
+    /// The modes as the networks know them.
+    pub(super) fn plain(&self) -> Modes {
+        let mut plain = self.modes;
+        for (value, offset) in plain.as_flattened_mut().iter_mut().zip(self.offset.as_flattened()) {
+            *value -= offset;
+        }
+        plain
+    }
+
+    /// Takes up the modes as the networks left them.
+    pub(super) fn refined(&mut self, plain: Modes) {
+        self.modes = plain;
+        for (value, offset) in self.modes.as_flattened_mut().iter_mut().zip(self.offset.as_flattened()) {
+            *value += offset;
+        }
+    }
+}
+
 /// The drafts of an actor in one sample.
 #[derive(Clone)]
 pub(super) struct Drafts {
     pub(super) modes: Modes,
+    /// What of them the networks do not see: see [`Cover`], and the draw.
+    pub(super) offset: Modes,
+    /// By mode, summing to one.
+    pub(super) probability: [f64; MODES],
+    /// Modes by falling probability.
+    pub(super) order: [Slot; MODES],
     /// The mode that the others see of this actor while they refine.
     pub(super) leading: Slot,
     /// Where resolving overlaps led the leading draft, if it moved it.
@@ -57,6 +111,7 @@ impl Actor {
             modes: [[0.0; RESIDUAL]; MODES],
             probability: [1.0 / MODES as f64; MODES],
             order: std::array::from_fn(Slot::new),
+            cover: None,
             rests: false,
             stays_parked: false,
             stays_probability: 0.0,
@@ -93,10 +148,7 @@ impl Actor {
     /// Sets what the initializer says of its modes.
     pub(super) fn set_modes(&mut self, modes: Modes, probability: [f64; MODES]) {
         (self.modes, self.probability) = (modes, probability);
-        self.order.sort_by(|a, b| {
-            let falling = probability[b.index()].total_cmp(&probability[a.index()]);
-            falling.then(a.cmp(b))
-        });
+        self.order = by_probability(&probability);
     }
 
     /// Most probable mode.

@@ -7,7 +7,7 @@ use super::trajectory::PER_INSTANT;
 use crate::planning::world::{AgentAtStart, World};
 use crate::tuning::OverlapTuning;
 use scene::score::SweptBoxes;
-use scene::{Agent, HORIZON_STEPS, STEP_S, Scene, State};
+use scene::{Agent, Future, HORIZON_STEPS, STEP_S, Scene, State};
 use std::collections::BTreeSet;
 
 /// Everybody in the background of a window, as obstacles.
@@ -29,7 +29,8 @@ impl Background {
         let acting: BTreeSet<usize> = actors.iter().map(|a| a.plan.present.index).collect();
         let mut found = Self::none();
         for who in world.present.iter().filter(|p| !acting.contains(&p.index)) {
-            let at = |step| background_state(&world.scene, world.agent(who), world.step, step);
+            let known = Known::of(&world.scene, world.agent(who), world.step);
+            let at = |step| known.at(step);
             let pose = |i: usize| {
                 let state = at((i + 1) * PER_INSTANT);
                 state.map_or(ABSENT, |s| pose_of(s.position(), s.heading_rad))
@@ -41,33 +42,42 @@ impl Background {
     }
 }
 
-/// Where a road user in the background is at a step of the window (0 is the start): by its chosen future, else its
-/// log; one that was only drawn goes straight on.
-pub(super) fn background_state(
-    scene: &Scene,
-    agent: &Agent,
+/// What a road user in the background does: its chosen future, else its log; one that was only drawn goes straight
+/// on.
+pub(super) struct Known<'a> {
+    agent: &'a Agent,
+    future: Option<&'a Future>,
     start_step: usize,
-    step: usize,
-) -> Option<State> {
-    let at = start_step + step;
-    if let Some(generated) = scene.generated.as_ref()
-        && let Some(future) = generated.chosen_future(&agent.id)
-        && let Some(state) = at.checked_sub(future.first_step).and_then(|i| future.states.get(i))
-    {
-        return Some(*state);
+    /// All that is known of one that was only drawn.
+    drawn: Option<(usize, State)>,
+}
+
+impl<'a> Known<'a> {
+    pub(super) fn of(scene: &'a Scene, agent: &'a Agent, start_step: usize) -> Self {
+        let future = scene.generated.as_ref().and_then(|generated| generated.chosen_future(&agent.id));
+        let mut known = agent.track.valid_steps();
+        let drawn = match (known.next(), known.next()) {
+            (Some(first), None) => agent.state_at(first).map(|state| (first, state)),
+            _ => None,
+        };
+        Self { agent, future, start_step, drawn }
     }
-    if let Some(state) = agent.state_at(at) {
-        return Some(state);
+
+    /// Where it is at a step of the window; 0 is the start.
+    pub(super) fn at(&self, step: usize) -> Option<State> {
+        let at = self.start_step + step;
+        let in_future = |f: &Future| f.states.get(at.checked_sub(f.first_step)?).copied();
+        if let Some(state) = self.future.and_then(in_future).or_else(|| self.agent.state_at(at)) {
+            return Some(state);
+        }
+        let (first, state) = self.drawn?;
+        let moved = state.position() + state.velocity() * (at.saturating_sub(first) as f64 * STEP_S);
+        Some(State { x_m: moved.x, y_m: moved.y, ..state })
     }
-    let mut known = agent.track.valid_steps();
-    let (Some(first), None) = (known.next(), known.next()) else { return None };
-    let state = agent.state_at(first)?;
-    let moved = state.position() + state.velocity() * (at.saturating_sub(first) as f64 * STEP_S);
-    Some(State { x_m: moved.x, y_m: moved.y, ..state })
 }
 
 /// Its states over the window, one a step from the first after the start, as far as known.
 pub(super) fn background_states(world: &World<'_>, who: &AgentAtStart) -> Vec<State> {
-    let at = |step| background_state(&world.scene, world.agent(who), world.step, step);
-    (1..=HORIZON_STEPS).map_while(at).collect()
+    let known = Known::of(&world.scene, world.agent(who), world.step);
+    (1..=HORIZON_STEPS).map_while(|step| known.at(step)).collect()
 }

@@ -106,11 +106,11 @@ impl Material<'_> {
             }
             share = 1.0 - probability;
         }
-        for &slot in actor.order.iter().take(count.saturating_sub(out.len())) {
+        for &slot in self.drafts.order.iter().take(count.saturating_sub(out.len())) {
             let learned = if middle(actor) == Some(slot) { self.learned_share() } else { 1.0 };
             let residual = slot.of(&self.drafts.modes).map(|r| learned * r);
             let motion = self.without_creep(to_trajectory(&actor.plan, slot, &residual));
-            let probability = share * actor.probability[slot.index()];
+            let probability = share * self.drafts.probability[slot.index()];
             out.push(Candidate { probability, origin: Origin::Mode(slot), motion });
         }
         out
@@ -149,11 +149,7 @@ impl Material<'_> {
 
     /// Share of what was learned in the mode in the middle.
     fn learned_share(&self) -> f32 {
-        let share = match self.actor.plan.present.agent_type {
-            AgentType::Pedestrian => self.tuning.learned_on_foot,
-            _ => self.tuning.learned,
-        };
-        share as f32
+        learned_share(self.actor, self.tuning)
     }
 
     /// The mode that the scene is built around: in the first sample the middle of what may happen, where a mode
@@ -164,6 +160,15 @@ impl Material<'_> {
             _ => (!self.actor.rests && !self.actor.keeps_its_path()).then_some(self.drafts.leading),
         }
     }
+}
+
+/// Share of what was learned in the mode in the middle.
+pub(super) fn learned_share(actor: &Actor, tuning: &MiddleTuning) -> f32 {
+    let share = match actor.plan.present.agent_type {
+        AgentType::Pedestrian => tuning.learned_on_foot,
+        _ => tuning.learned,
+    };
+    share as f32
 }
 
 /// The mode that is the middle of what may happen, where there is a place to go.

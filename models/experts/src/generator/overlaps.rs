@@ -28,7 +28,7 @@ pub(super) fn resolve_overlaps(
                 continue;
             }
             let actor = &actors[i];
-            let Drafts { leading, modes, settled } = &drafts[i];
+            let Drafts { leading, modes, settled, .. } = &drafts[i];
             let others = outlines.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, o)| o);
             let others: Vec<&Outline> = others.chain(background).collect();
             let from = settled.as_ref().unwrap_or(leading.of(modes));
@@ -68,8 +68,8 @@ fn step_downhill(
 mod tests {
     use super::*;
     use crate::generator::samples::car_on_a_street;
+    use crate::planning::RESIDUAL;
     use crate::planning::pullback::Pullback;
-    use crate::planning::{MODES, RESIDUAL};
     use crate::tuning::SHIPPED;
     use scene::score::Drivable;
     use scene::{Goal, Vec2};
@@ -87,8 +87,7 @@ mod tests {
             Actor::new(id.into(), plan, None)
         };
         let actors = [ride("a", 0.0), ride("b", 1.2), ride("c", 40.0)];
-        let drafts = Drafts { modes: [[0.0; RESIDUAL]; MODES], leading: Slot::FIRST, settled: None };
-        let mut drafts = vec![drafts; 3];
+        let mut drafts = vec![Drafts::of(&actors[0], Slot::FIRST); 3];
         resolve_overlaps(&energy, &actors, &mut drafts, &[]);
         assert!(drafts[0].settled.is_some() && drafts[2].settled.is_none());
         let across = |i: usize| {

@@ -1,16 +1,17 @@
 //! How drafts stand to the others, and what they do: the names of futures while they are refined.
 
 use super::actor::Actor;
-use super::background::background_state;
-use super::candidates::Candidate;
+use super::background::Known;
+use super::candidates::{Candidate, Origin};
+use super::slot::Slot;
 use super::trajectory::{PER_INSTANT, places};
 use super::window::Window;
-use crate::planning::INSTANTS;
 use crate::planning::world::World;
+use crate::planning::{INSTANTS, Modes};
 use scene::geometry::direction;
-use scene::judge::{About, Trace, manoeuvre, relations};
+use scene::judge::{About, Manoeuvre, Trace, manoeuvre, relations};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, State, Vec2, wrap_angle};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// More road users than these are refined at once without names; the answer has them.
 const NAMED: usize = 8;
@@ -22,7 +23,8 @@ pub(super) fn background_traces(world: &World<'_>, actors: &[Actor]) -> Vec<Trac
     agents
         .filter(|(i, _)| !acting.contains(i))
         .map(|(_, (agent, conditions))| {
-            let at = |step: usize| background_state(&world.scene, agent, world.step, step + 1);
+            let known = Known::of(&world.scene, agent, world.step);
+            let at = |step: usize| known.at(step + 1);
             let size = scene::Size {
                 length_m: conditions.length_m.unwrap_or(agent.size.length_m),
                 width_m: conditions.width_m.unwrap_or(agent.size.width_m),
@@ -54,34 +56,39 @@ pub(super) fn trace_of(actor: &Actor, places: &[(Vec2, f64); INSTANTS]) -> Trace
     Trace::new(&actor.id, present.agent_type, &present.size, HORIZON_STEPS, at)
 }
 
+/// A mode that an actor leads with, as others see it.
+pub(super) fn leading(actor: &Actor, slot: Slot, modes: &Modes) -> Trace {
+    let start = &actor.plan.present.start;
+    if actor.rests {
+        return trace_of(actor, &[(start.position(), start.heading_rad); INSTANTS]);
+    }
+    trace_of(actor, &places(&actor.plan, slot, slot.of(modes)))
+}
+
 impl Window<'_> {
-    /// What every actor leads with.
-    pub(super) fn leading_traces(&self) -> Vec<Trace> {
-        let each = self.actors.iter().zip(&self.drafts);
-        each.map(|(actor, drafts)| {
-            let start = &actor.plan.present.start;
-            let places = if actor.rests {
-                [(start.position(), start.heading_rad); INSTANTS]
-            } else {
-                places(&actor.plan, drafts.leading, drafts.leading.of(&drafts.modes))
-            };
-            trace_of(actor, &places)
-        })
-        .collect()
-    }
-
-    /// Whom drafts are named by; nobody where there are too many.
-    pub(super) fn named_by(&self) -> Option<Vec<Trace>> {
+    /// Names of first drafts, by actor and slot: refinement changes what a draft does by little, so that later ones
+    /// are called the same until the answer says it anew.
+    pub(super) fn names(&self, shown: &[Vec<Candidate>]) -> Names {
         let asked = self.actors.iter().filter(|a| a.kept.is_none()).count();
-        (self.request.stages.judged && asked <= NAMED).then(|| self.leading_traces())
+        if !self.request.stages.judged || asked > NAMED {
+            return Names::default();
+        }
+        let each = self.actors.iter().zip(&self.drafts);
+        let leading: Vec<Trace> =
+            each.map(|(actor, drafts)| leading(actor, drafts.leading, &drafts.modes)).collect();
+        let mut names = Names::default();
+        for (i, drafts) in shown.iter().enumerate().filter(|(i, _)| self.actors[*i].kept.is_none()) {
+            for draft in drafts {
+                let Some(slot) = draft.origin.slot() else { continue };
+                names.0.insert((i, slot), self.name(i, draft, &leading));
+            }
+        }
+        names
     }
 
-    /// What can be said of a draft of one that was asked for.
-    pub(super) fn named(&self, i: usize, draft: &Candidate, leading: Option<&[Trace]>) -> About {
-        let (actor, Some(leading)) = (&self.actors[i], leading) else { return About::default() };
-        if actor.kept.is_some() {
-            return About::default();
-        }
+    /// What can be said of a draft.
+    fn name(&self, i: usize, draft: &Candidate, leading: &[Trace]) -> About {
+        let actor = &self.actors[i];
         let present = &actor.plan.present;
         let states = self.cut(&draft.motion.states);
         let at = |step: usize| states.get(step).copied();
@@ -92,5 +99,20 @@ impl Window<'_> {
             manoeuvre: manoeuvre(&states, present.agent_type, lanes),
             ..About::default()
         }
+    }
+}
+
+/// What is said of first drafts.
+#[derive(Default)]
+pub(super) struct Names(BTreeMap<(usize, Slot), About>);
+
+impl Names {
+    /// Of a draft of an actor.
+    pub(super) fn of(&self, actor: usize, draft: &Candidate) -> About {
+        if draft.origin == Origin::Rest {
+            return About { manoeuvre: Some(Manoeuvre::Stays), ..About::default() };
+        }
+        let slot = draft.origin.slot();
+        slot.and_then(|slot| self.0.get(&(actor, slot))).cloned().unwrap_or_default()
     }
 }

@@ -1,16 +1,18 @@
 //! One planning window: first drafts of everybody concerned and refinement steps. What is chosen of them is
 //! [`super::decide`]'s matter, what happens before and after a window [`super::generation`]'s.
 
-use super::actor::{Actor, Drafts};
+use super::actor::{Actor, Drafts, by_probability};
 use super::background::Background;
-use super::candidates::{Candidate, Material, leads_by_probability, middle};
+use super::candidates::{Candidate, Material, leads_by_probability, learned_share, middle};
+use super::covering::Cover;
 use super::noise::Key;
 use super::overlaps::resolve_overlaps;
 use super::reacting::reacting;
 use super::repulsion::{SceneEnergy, repulsions};
 use super::slot::Slot;
-use super::standing::background_traces;
+use super::standing::{self, Names, background_traces};
 use super::trajectory::may_rest;
+use super::widening::widen;
 use super::workers::Workers;
 use super::{Generator, KnownMap, costs, duplicate_modes};
 use crate::features::stays_in_the_world;
@@ -76,6 +78,8 @@ pub(super) struct Window<'g> {
     pub(super) background: Background,
     /// The same as motions that drafts are named by.
     pub(super) traces: Vec<Trace>,
+    /// What is said of the sample's first drafts.
+    names: Names,
     pullback: Pullback,
     /// The present sample, from 0.
     pub(super) sample: usize,
@@ -104,6 +108,7 @@ impl<'g> Window<'g> {
             subgoals: BTreeMap::new(),
             background: Background::none(),
             traces: Vec::new(),
+            names: Names::default(),
             pullback: Pullback::default(),
             sample: 0,
             drafts: Vec::new(),
@@ -117,6 +122,9 @@ impl<'g> Window<'g> {
         if window.request.stages.background_in_the_way {
             window.background = Background::of(&window.world, &window.actors, &tuning.overlaps);
             window.traces = background_traces(&window.world, &window.actors);
+        }
+        if window.request.stages.parted && number == 0 {
+            window.cover();
         }
         Ok(window)
     }
@@ -151,6 +159,28 @@ impl<'g> Window<'g> {
         self.batches.extend(batches);
         self.actors.extend(found);
         Ok(())
+    }
+
+    /// Makes six futures of the modes of those that were asked for.
+    fn cover(&mut self) {
+        let tuning = self.tuning();
+        let leading: Vec<Trace> = self.workers().map(&self.indices(), |&i| {
+            let actor = &self.actors[i];
+            standing::leading(actor, actor.likeliest(), &actor.modes)
+        });
+        // Whose motions are withheld must not be told by how others go round them.
+        let known = self.request.stages.background_in_the_way;
+        let others: Vec<&Trace> = self.traces.iter().chain(leading.iter().filter(|_| known)).collect();
+        let covers = self.workers().map(&self.indices(), |&i| {
+            let actor = &self.actors[i];
+            let asked = actor.kept.is_none() && !actor.keeps_still() && !actor.keeps_its_path();
+            asked.then(|| Cover::of(actor, &others, learned_share(actor, &tuning.middle), &tuning.duplicates))
+        });
+        for (actor, cover) in self.actors.iter_mut().zip(covers) {
+            let Some(cover) = cover else { continue };
+            actor.set_modes(actor.modes, cover.probability);
+            actor.cover = Some(cover);
+        }
     }
 
     pub(super) fn workers(&self) -> &'g Workers {
@@ -236,19 +266,37 @@ impl<'g> Window<'g> {
         self.sample = sample;
         let (seed, window) = (self.request.seed, self.number);
         let key = Key { seed, sample, agent: "", window, step: 0 };
-        let by_probability = leads_by_probability(self.request.stages.shown, sample);
+        let likeliest_leads = leads_by_probability(self.request.stages.shown, sample);
         let fresh = |actor: &Actor| {
-            let leading = if by_probability {
+            let leading = if likeliest_leads {
                 actor.likeliest()
             } else {
                 pick(&actor.probability, Key { agent: &actor.id, step: usize::MAX, ..key }.unit())
             };
-            Drafts { modes: actor.modes, leading, settled: None }
+            Drafts::of(actor, leading)
         };
         self.drafts = self.actors.iter().map(fresh).collect();
-        let Some(&(level, _)) = levels(&self.request).first() else {
-            return Ok(());
-        };
+        if let Some(&(level, _)) = levels(&self.request).first() {
+            self.add_noise(key, level)?;
+        }
+        let (diversity, tuning) = (self.request.diversity, &self.generator.tuning.diversity);
+        let widened = self.workers().map(&self.indices(), |&i| {
+            let actor = &self.actors[i];
+            let cover = actor.cover.as_ref()?;
+            Some((cover.offset, widen(actor, cover, diversity, Key { agent: &actor.id, ..key }, tuning)))
+        });
+        for (drafts, widened) in self.drafts.iter_mut().zip(widened) {
+            let Some((offset, (added, probability))) = widened else { continue };
+            drafts.add(&offset);
+            drafts.add(&added);
+            drafts.probability = probability;
+            drafts.order = by_probability(&probability);
+        }
+        Ok(())
+    }
+
+    /// The draw's noise, which refinement takes out again but for a trace.
+    fn add_noise(&mut self, key: Key<'_>, level: usize) -> Result<(), GenerateError> {
         for batch in &self.batches {
             let modes: Vec<Modes> = batch.actors.iter().map(|i| self.drafts[*i].modes).collect();
             let noise = |i: &usize| Key { agent: &self.actors[*i].id, ..key }.normals(self.request.diversity);
@@ -274,7 +322,7 @@ impl<'g> Window<'g> {
             vec![[[0.0; RESIDUAL]; MODES]; actors.len()]
         };
         let results = self.workers().map(&self.batches, |batch| {
-            let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].modes).collect();
+            let modes: Vec<Modes> = batch.actors.iter().map(|i| drafts[*i].plain()).collect();
             let repulsion: Vec<Modes> = batch.actors.iter().map(|i| repulsions[*i]).collect();
             let expert = self.generator.expert(batch.agent_type)?;
             Ok::<_, GenerateError>(expert.refine_step(&batch.prepared, &modes, &repulsion, level, None)?)
@@ -282,7 +330,7 @@ impl<'g> Window<'g> {
         for (batch, result) in self.batches.iter().zip(results) {
             for (i, modes) in batch.actors.iter().zip(result?) {
                 finite(&modes, step, &self.actors[*i].id)?;
-                self.drafts[*i].modes = modes;
+                self.drafts[*i].refined(modes);
             }
         }
         // A first sample that is chosen does without: choice and guidance clear it, and its user waits.
@@ -296,28 +344,32 @@ impl<'g> Window<'g> {
     }
 
     /// The present drafts as futures that can be shown.
-    pub(super) fn draft(&self, step: usize) -> Draft {
+    pub(super) fn draft(&mut self, step: usize) -> Draft {
         let all = self.request.stream_all || self.actors.len() < SHOW_ALL_BELOW;
         let count = if all { self.request.modes } else { 1 };
-        let leading = self.named_by();
-        let shown = self.workers().map(&self.indices(), |&i| {
+        let shown: Vec<Vec<Candidate>> =
+            self.workers().map(&self.indices(), |&i| self.material(i).alternatives(count));
+        if step == 0 {
+            self.names = self.names(&shown);
+        }
+        let futures = shown.iter().enumerate().map(|(i, alternatives)| {
             let actor = &self.actors[i];
-            let alternatives = self.material(i).alternatives(count);
             let middle = middle(actor);
             let is_middle = |c: &Candidate| middle.is_some() && c.origin.slot() == middle;
-            let shown = alternatives.iter().position(is_middle).unwrap_or(0);
-            let mut futures = self.futures(shown, &alternatives);
-            for (future, draft) in futures.modes.iter_mut().zip(&alternatives) {
-                future.about = self.named(i, draft, leading.as_deref());
+            let chosen = alternatives.iter().position(is_middle).unwrap_or(0);
+            let mut futures = self.futures(chosen, alternatives);
+            for (future, draft) in futures.modes.iter_mut().zip(alternatives) {
+                future.about = self.names.of(i, draft);
             }
             (actor.id.clone(), futures)
         });
+        let futures = futures.collect();
         Draft {
             window: self.number,
             sample: self.sample,
             step,
             steps: self.request.steps,
-            futures: Sample { agents: shown.into_iter().collect(), score: serde_json::Value::Null },
+            futures: Sample { agents: futures, score: serde_json::Value::Null },
         }
     }
 

@@ -1,6 +1,7 @@
 //! A SUMO network as a lane map.
 
 use super::kerb::{self, Borders, JunctionArea};
+use super::medians;
 use super::net::{EdgeFunction, LaneKind, Net};
 use super::polyline::{length, offset_right, resample, simplify};
 use scene::Vec2;
@@ -72,6 +73,7 @@ pub fn lane_map(net: &Net, options: MapOptions) -> NetMap {
         builder.sidewalk_corners(&junctions);
     }
     builder.drivable(&all, &junctions);
+    medians::close(&mut builder.out.map, |_| false);
     builder.out
 }
 

@@ -11,6 +11,7 @@ mod import_net;
 pub mod kerb;
 mod kinds;
 pub mod map;
+pub mod medians;
 pub mod net;
 mod paint;
 pub mod polyline;

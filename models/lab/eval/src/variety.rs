@@ -37,9 +37,11 @@ fn variety(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
     let mut spread = Sheet::new(
         "5a Variety against the diversity setting",
         &["Metres. Spread: mean distance between the ends of two of the six futures; without a goal at the \
-           log's last frame, with a goal half way there. One road user at a time."],
+           log's last frame, with a goal half way there. Copies: share of the six within a mean distance of 1 m (0.5 m \
+           with a goal) of a likelier one. Seeds: mean distance between the same future of two seeds. One road user \
+           at a time."],
         &["ours", "type", "condition", "diversity"],
-        &["spread", "minADE6", "first ADE"],
+        &["spread", "copies", "seeds", "minADE6", "first ADE"],
     );
     let mut exits = Sheet::new(
         "5b Exits found at crossings",
@@ -64,12 +66,20 @@ fn variety(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -
                     })
                     .collect();
                 let found: Vec<Spread> = found?.into_iter().flatten().collect();
+                let mine = |agent_type| found.iter().filter(move |s| s.agent_type == agent_type);
                 for agent_type in [AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist] {
                     let mean = |value: fn(&Spread) -> f64| {
-                        let mine = found.iter().filter(|s| s.agent_type == agent_type);
-                        Cell::of(boot.estimate(mine.map(|s| Value::new(s.site, value(s)))), Form::Plain)
+                        let values = mine(agent_type).map(|s| Value::new(s.site, value(s)));
+                        Cell::of(boot.estimate(values), Form::Plain)
                     };
-                    let cells = vec![mean(|s| s.apart), mean(|s| s.min_ade), mean(|s| s.first_ade)];
+                    let copies = mine(agent_type).map(|s| Value::new(s.site, s.copies));
+                    let cells = vec![
+                        mean(|s| s.apart),
+                        Cell::of(boot.estimate(copies), Form::Percent),
+                        mean(|s| s.seeds),
+                        mean(|s| s.min_ade),
+                        mean(|s| s.first_ade),
+                    ];
                     if cells[0] != Cell::Nothing {
                         let keys =
                             [&own.name, type_name(agent_type), subset.name(), &format!("{diversity:.1}")];
@@ -106,6 +116,8 @@ struct Spread {
     site: usize,
     agent_type: AgentType,
     apart: f64,
+    copies: f64,
+    seeds: f64,
     min_ade: f64,
     first_ade: f64,
 }
@@ -125,13 +137,47 @@ fn of_case(
     let log = site.log(case);
     let mut request = ask(site, case, subset, seed);
     request.diversity = diversity;
-    let answer = answer(generator, request)?;
-    let Some(futures) = answer.samples.first().and_then(|s| s.agents.get(&log.id)) else { return Ok(None) };
+    let again = Request { seed: seed + 1, ..request.clone() };
+    let (answer, again) = (answer(generator, request)?, answer(generator, again)?);
+    let of = |answer: &experts::Answer| answer.samples.first().and_then(|s| s.agents.get(&log.id)).cloned();
+    let (Some(futures), Some(again)) = (of(&answer), of(&again)) else { return Ok(None) };
+    let futures = &futures;
     let m = measure(log, case, subset, &futures.modes, futures.chosen);
     let end = if subset.has_position() { case.goal_step.div_ceil(2) } else { case.goal_step };
     let (min_ade, first_ade) = (m.min_ade, m.first_ade);
     let apart = pairwise(futures, end);
-    Ok(Some(Spread { site: site.index, agent_type: case.agent_type, apart, min_ade, first_ade }))
+    let copies = copies(futures, if subset.has_position() { 0.5 } else { 1.0 });
+    let seeds = moved(futures, &again);
+    Ok(Some(Spread {
+        site: site.index,
+        agent_type: case.agent_type,
+        apart,
+        copies,
+        seeds,
+        min_ade,
+        first_ade,
+    }))
+}
+
+/// Mean distance of two futures, metres.
+fn distance(a: &Future, b: &Future) -> f64 {
+    let pairs = a.states.iter().zip(&b.states);
+    let sum: f64 = pairs.map(|(a, b)| (a.position() - b.position()).norm()).sum();
+    sum / a.states.len().min(b.states.len()).max(1) as f64
+}
+
+/// Share of futures nearer than this to one before them.
+fn copies(futures: &AgentFutures, same_m: f64) -> f64 {
+    let modes = &futures.modes;
+    let copy = |i: &usize| modes[..*i].iter().any(|other| distance(&modes[*i], other) < same_m);
+    (0..modes.len()).filter(copy).count() as f64 / modes.len().max(1) as f64
+}
+
+/// Mean distance between the futures of two answers on the same anchor, metres.
+fn moved(a: &AgentFutures, b: &AgentFutures) -> f64 {
+    let same = |f: &Future| b.modes.iter().find(|g| g.anchor == f.anchor).map(|g| distance(f, g));
+    let each: Vec<f64> = a.modes.iter().filter_map(same).collect();
+    each.iter().sum::<f64>() / each.len().max(1) as f64
 }
 
 /// Mean distance between two futures at a step; zero for fewer than two.

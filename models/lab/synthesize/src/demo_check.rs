@@ -1,11 +1,68 @@
-//! What must hold in a demo scene: nobody overlaps, nobody is off the road, nobody jumps.
+//! What must hold in a demo scene: nobody overlaps, nobody is off the road, nobody jumps, nothing happens
+//! that the editor would report, and the first frame looks right.
 
 use formats::sumo::polyline::{contains, distance_to};
 use scene::geometry::obb::{OrientedBox, signed_gap};
-use scene::{Agent, AgentType, STEP_S, Scene, Vec2};
+use scene::score::report::NearMiss;
+use scene::score::{Drivable, ScoreInput, score};
+use scene::{Agent, AgentType, STEP_S, Scene, Vec2, wrap_angle};
 
 /// How far a corner of a vehicle may stick out over the kerb, metres.
 const OVERHANG_M: f64 = 0.35;
+
+/// Slower than this, a vehicle stands in the first frame, m/s.
+const STANDS_MPS: f64 = 1.0;
+/// Vehicles that stand are no farther off their lane's direction than this, radians.
+const ASKEW_RAD: f64 = 0.13;
+
+/// Takes out one of each two who nearly collide: a person, a cyclist, or a parked car rather than a moving
+/// one. Vehicles that move stay.
+pub fn without_troublemakers(mut scene: Scene) -> Scene {
+    let drivable = Drivable::new(&scene.map);
+    let found = score(&ScoreInput::of_sample(&scene, None, &drivable)).scene;
+    let weight = |id: &str| match scene.agent(id) {
+        Some(a) if a.agent_type == AgentType::Pedestrian => 0,
+        Some(a) if a.agent_type == AgentType::Cyclist => 1,
+        Some(a) if a.role.as_deref() == Some("parked") => 2,
+        _ => 3,
+    };
+    let lesser = |n: &NearMiss| {
+        let (a, b) = (n.a.clone(), n.b.clone());
+        if weight(&a) < weight(&b) { a } else { b }
+    };
+    let gone: Vec<String> = found.near_misses.iter().map(lesser).filter(|id| weight(id) < 3).collect();
+    scene.agents.retain(|a| !gone.contains(&a.id));
+    scene
+}
+
+/// A corner or the middle of the agent's box is on a crosswalk at a step.
+pub fn is_on_crosswalk(scene: &Scene, agent: &Agent, step: usize) -> bool {
+    let Some(state) = agent.track.at(step).filter(|_| agent.agent_type == AgentType::Vehicle) else {
+        return false;
+    };
+    let outline = OrientedBox::of_state(state, &agent.size);
+    let nose = outline.center() + outline.forward() * outline.half_length_m();
+    let places = outline.corners().into_iter().chain([outline.center(), nose]);
+    places.into_iter().any(|p| scene.map.crosswalks.iter().any(|c| contains(&c.polygon.xy, p)))
+}
+
+/// A vehicle that is not parked stands at an angle to every lane near it at a step.
+pub fn is_askew(scene: &Scene, agent: &Agent, step: usize) -> bool {
+    let Some(state) = agent.track.at(step).filter(|_| agent.agent_type == AgentType::Vehicle) else {
+        return false;
+    };
+    if state.speed_mps() >= STANDS_MPS || agent.role.as_deref() == Some("parked") {
+        return false;
+    }
+    let lanes = scene.map.lanes.iter().filter(|l| l.lane_type.carries_vehicles());
+    let pieces = lanes.flat_map(|l| l.points.xy.windows(2));
+    let near = pieces.filter(|w| distance_to(w, state.position()) < 2.0);
+    let off = near.map(|w| {
+        let way = w[1] - w[0];
+        wrap_angle(way.y.atan2(way.x) - state.heading_rad).abs()
+    });
+    off.fold(f64::INFINITY, f64::min) > ASKEW_RAD
+}
 
 /// Takes people and cyclists out who touch others, or stand where the picture's checks would fail.
 pub fn without_overlaps(mut scene: Scene) -> Scene {
@@ -54,11 +111,41 @@ pub fn faults(scene: &Scene) -> Vec<String> {
     if let Some((i, j)) = overlapping(scene) {
         faults.push(format!("{} and {} overlap", scene.agents[i].id, scene.agents[j].id));
     }
+    faults.extend(events(scene));
     for agent in &scene.agents {
+        let stands = agent.track.at(0).is_some_and(|s| s.speed_mps() < STANDS_MPS);
+        if stands && is_on_crosswalk(scene, agent, 0) {
+            faults.push(format!("{} starts on a crosswalk", agent.id));
+        }
+        if is_askew(scene, agent, 0) {
+            faults.push(format!("{} stands askew", agent.id));
+        }
         faults.extend(off_road(scene, agent));
         faults.extend(jump(agent));
     }
     faults
+}
+
+/// What the editor would list for the untouched scene.
+fn events(scene: &Scene) -> Vec<String> {
+    let drivable = Drivable::new(&scene.map);
+    let found = score(&ScoreInput::of_sample(scene, None, &drivable)).scene;
+    let mut events = Vec::new();
+    events.extend(found.collisions.iter().map(|e| format!("{} and {} collide at {} s", e.a, e.b, e.time_s)));
+    let near = |e: &NearMiss| format!("{} and {} nearly collide at {} s", e.a, e.b, e.time_s);
+    events.extend(found.near_misses.iter().map(near));
+    events.extend(found.red_lights.iter().map(|e| format!("{} runs a red light at {} s", e.agent, e.time_s)));
+    let kinds = [
+        ("is off the road", &found.off_road),
+        ("is over a median", &found.over_median),
+        ("drives against the traffic", &found.wrong_way),
+        ("brakes hard", &found.harsh_braking),
+        ("steers hard", &found.harsh_steering),
+    ];
+    for (what, list) in kinds {
+        events.extend(list.iter().map(|e| format!("{} {what} at {} s: {:?}", e.agent, e.time_s, e.worst)));
+    }
+    events
 }
 
 /// Distance of a point from everything paved; zero inside.
@@ -97,7 +184,7 @@ fn jump(agent: &Agent) -> Option<String> {
     for (step, pair) in pairs {
         let [Some(a), Some(b)] = pair else { continue };
         let moved = (b.position() - a.position()).norm();
-        let turned = scene::wrap_angle(b.heading_rad - a.heading_rad).abs();
+        let turned = wrap_angle(b.heading_rad - a.heading_rad).abs();
         let wheels = agent.agent_type != AgentType::Pedestrian;
         if moved > a.speed_mps().max(b.speed_mps()) * STEP_S + 0.15 || wheels && turned > 0.12 {
             return Some(format!("{} jumps at step {step}: {moved:.2} m, {turned:.2} rad", agent.id));

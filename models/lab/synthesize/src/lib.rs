@@ -7,6 +7,7 @@ mod demand;
 pub mod demo;
 mod demo_check;
 mod demo_clip;
+mod demo_mend;
 mod demo_networks;
 mod filters;
 mod fleet;

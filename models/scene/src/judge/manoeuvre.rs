@@ -1,7 +1,7 @@
 //! What a motion does, by its shape and the lanes that it takes.
 
 use super::Manoeuvre;
-use crate::geometry::direction;
+use crate::geometry::{cross, direction};
 use crate::routes::{LaneGraph, LaneHit};
 use crate::{AgentType, State, wrap_angle};
 use std::collections::VecDeque;
@@ -14,6 +14,9 @@ const STAYS_M: f64 = 1.0;
 const TURN_RAD: f64 = 0.6;
 /// Turning by more is turning round, radians: 150 degrees.
 const ROUND_RAD: f64 = 2.6;
+/// Straight on whatever the lanes, radians and metres.
+const AHEAD_RAD: f64 = 0.1;
+const AHEAD_M: f64 = 1.2;
 /// A lane is driven on within this, metres.
 const ON_LANE_M: f64 = 2.5;
 /// A lane that leads elsewhere is not driven on, radians.
@@ -42,6 +45,9 @@ pub fn manoeuvre(states: &[State], agent_type: AgentType, lanes: Option<&LaneGra
         t if t < -TURN_RAD => Some(Manoeuvre::Right),
         _ => None,
     };
+    if shape.turn_rad.abs() < AHEAD_RAD && shape.aside_m.abs() < AHEAD_M {
+        return Some(Manoeuvre::Straight);
+    }
     let walks = agent_type == AgentType::Pedestrian;
     let taken = lanes.filter(|_| !walks).and_then(|lanes| taken(lanes, agent_type, first, last));
     let Some(taken) = taken else { return Some(turned.unwrap_or(Manoeuvre::Straight)) };
@@ -59,11 +65,13 @@ struct Shape {
     backwards_m: f64,
     /// Left is positive.
     turn_rad: f64,
+    /// The end, left of the start's heading, metres.
+    aside_m: f64,
 }
 
 impl Shape {
     fn of(states: &[State]) -> Self {
-        let mut shape = Self { way_m: 0.0, backwards_m: 0.0, turn_rad: 0.0 };
+        let mut shape = Self { way_m: 0.0, backwards_m: 0.0, turn_rad: 0.0, aside_m: 0.0 };
         let end = states.len().saturating_sub(1);
         let mut last = states[0];
         for i in (STRIDE..end).step_by(STRIDE).chain([end]) {
@@ -76,6 +84,8 @@ impl Shape {
             shape.turn_rad += wrap_angle(state.heading_rad - last.heading_rad);
             last = *state;
         }
+        let first = &states[0];
+        shape.aside_m = cross(direction(first.heading_rad), last.position() - first.position());
         shape
     }
 }

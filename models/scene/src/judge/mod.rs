@@ -12,11 +12,12 @@ pub use relations::{Ground, Trace, crossing, relations};
 use crate::score::goal::goal_error;
 use crate::score::kinematic::{harsh_braking, harsh_steering};
 use crate::score::pairs::{Meeting, Mover};
+use crate::score::recorded;
 use crate::score::report::{RedLight, Stretch};
-use crate::score::road::score_road;
+use crate::score::road::{RoadScore, score_road};
 use crate::score::signals::{StopLine, crossed_at_red, stop_lines};
 use crate::score::{Actor, Drivable, Exclude, PairChoice, ScoreInput, Thresholds};
-use crate::{LaneMap, STEP_S, Signal, State};
+use crate::{AgentType, LaneMap, STEP_S, Signal, State};
 use std::ops::Range;
 
 /// A wheel that touches the kerb is no event: metres past the edge.
@@ -63,12 +64,18 @@ impl<'a> Judge<'a> {
         Other { actor, mover }
     }
 
-    /// What is wrong with a motion whoever else is there: road, lights, brakes, steering, goal.
+    /// What is wrong with a motion whoever else is there, and not in its log too: road, lights, brakes, steering,
+    /// goal.
     pub fn alone(&self, actor: &Actor<'_>) -> Vec<Fault> {
         let mut found = Vec::new();
-        let road = score_road(&self.input, actor);
+        let mut road = self.road(actor);
+        recorded::mark_road(&self.input, actor, &mut road);
+        let mut braking = harsh_braking(actor, &self.input);
+        recorded::mark_braking(&self.input, actor, &mut braking);
+        let mut steering = harsh_steering(actor, &self.input);
+        recorded::mark_steering(&self.input, actor, &mut steering);
         let mut add = |kind, stretches: Vec<Stretch>, keeps: &dyn Fn(&Stretch) -> bool| {
-            found.extend(stretches.into_iter().filter(|s| keeps(s)).map(|s| fault(kind, s)));
+            found.extend(stretches.into_iter().filter(|s| !s.in_log && keeps(s)).map(|s| fault(kind, s)));
         };
         // Who starts off the road or against the traffic was put there.
         let first_s = self.input.steps.start as f64 * STEP_S;
@@ -79,9 +86,11 @@ impl<'a> Judge<'a> {
         let against = |s: &Stretch| entered(s) && s.worst.unwrap_or(0.0) >= WRONG_WAY_M;
         add(FaultKind::WrongWay, road.wrong_way, &against);
         let lasting = |s: &Stretch| s.until_s - s.time_s >= HARSH_S - 1e-6;
-        add(FaultKind::HarshBraking, harsh_braking(actor, &self.input), &lasting);
-        add(FaultKind::HarshSteering, harsh_steering(actor, &self.input), &lasting);
-        found.extend(crossed_at_red(&self.input, actor, &self.lines).into_iter().map(|r| at_red(actor, r)));
+        add(FaultKind::HarshBraking, braking, &lasting);
+        add(FaultKind::HarshSteering, steering, &lasting);
+        let red = crossed_at_red(&self.input, actor, &self.lines);
+        let red = recorded::beyond_log(&self.input, actor, &self.lines, red);
+        found.extend(red.into_iter().map(|r| at_red(actor, r)));
         found.extend(self.goal_missed(actor));
         found
     }
@@ -123,6 +132,18 @@ impl<'a> Judge<'a> {
     fn driven_m(&self, actor: &Actor<'_>, stretch: &Stretch) -> f64 {
         let steps = step(stretch.time_s).saturating_sub(1)..step(stretch.until_s);
         steps.filter_map(|i| actor.state(i)).map(|s| s.speed_mps() * STEP_S).sum()
+    }
+
+    /// Riders use pavements and ride both ways, yet nobody rides over a median.
+    fn road(&self, actor: &Actor<'_>) -> RoadScore {
+        if actor.agent_type != AgentType::Cyclist {
+            return score_road(&self.input, actor);
+        }
+        let as_driver = Actor { agent_type: AgentType::Vehicle, ..actor.clone() };
+        let mut road = score_road(&self.input, &as_driver);
+        road.off_road.clear();
+        road.wrong_way.clear();
+        road
     }
 
     fn goal_missed(&self, actor: &Actor<'_>) -> Option<Fault> {

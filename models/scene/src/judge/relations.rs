@@ -6,8 +6,8 @@
 //! here too).
 
 use super::{Relation, RelationKind};
-use crate::geometry::direction;
 use crate::geometry::obb::{OrientedBox, overlaps};
+use crate::geometry::{cross, direction};
 use crate::{AgentId, AgentType, STANDING_MPS, STEP_S, Size, State, Vec2, wrap_angle};
 
 /// Every second step is looked at.
@@ -41,7 +41,8 @@ const GOES_ON_STEP_M: f64 = 1.0;
 /// A road user at one moment.
 #[derive(Clone, Copy, Debug)]
 struct Moment {
-    outline: OrientedBox,
+    center: Vec2,
+    heading_rad: f64,
     speed_mps: f64,
     /// Way from the first moment, metres.
     way_m: f64,
@@ -56,7 +57,7 @@ pub struct Trace {
     /// One each [`MOMENT_S`], the first at the start; `None` where it is not there.
     moments: Vec<Option<Moment>>,
     /// Where it would go on from its last moment, for one that waits at its end.
-    goes_on: Vec<OrientedBox>,
+    goes_on: Vec<Moment>,
     low: Vec2,
     high: Vec2,
     radius_m: f64,
@@ -95,8 +96,12 @@ impl Trace {
                 trace.stride_m = trace.stride_m.max(moved);
                 trace.way_m += moved;
                 (trace.low, trace.high) = (trace.low.inf(&position), trace.high.sup(&position));
-                let outline = OrientedBox::of_state(&state, size);
-                Moment { outline, speed_mps: state.speed_mps(), way_m: trace.way_m }
+                Moment {
+                    center: position,
+                    heading_rad: state.heading_rad,
+                    speed_mps: state.speed_mps(),
+                    way_m: trace.way_m,
+                }
             });
             trace.moments.push(moment);
         }
@@ -115,16 +120,11 @@ impl Trace {
         if let Some(last) = trace.moments.iter().rev().flatten().next().copied()
             && last.speed_mps < WAITING_MPS
         {
-            let ahead = last.outline.forward();
+            let ahead = direction(last.heading_rad);
             let count = (GOES_ON_M / GOES_ON_STEP_M) as usize;
-            trace.goes_on = (1..=count)
-                .map(|i| {
-                    let centre = last.outline.center() + ahead * (GOES_ON_STEP_M * i as f64);
-                    let (length, width) = (last.outline.half_length_m(), last.outline.half_width_m());
-                    OrientedBox::new(centre, length, width, last.outline.heading_rad())
-                })
-                .collect();
-            let end = last.outline.center() + ahead * GOES_ON_M;
+            let on = |i: usize| Moment { center: last.center + ahead * (GOES_ON_STEP_M * i as f64), ..last };
+            trace.goes_on = (1..=count).map(on).collect();
+            let end = last.center + ahead * GOES_ON_M;
             (trace.low, trace.high) = (trace.low.inf(&end), trace.high.sup(&end));
         }
         trace
@@ -167,18 +167,31 @@ impl Trace {
         let mut i = 1;
         while i < count {
             if let (Some(a), Some(b)) = (&self.moments[i], &other.moments[i]) {
-                let apart = (a.outline.center() - b.outline.center()).norm() - reach;
+                let apart = (a.center - b.center).norm() - reach;
                 if apart > 0.0 {
                     i += 1 + (apart / closing_m) as usize;
                     continue;
                 }
-                if overlaps(&a.outline, &b.outline, 0.0) {
+                if self.overlaps(a, other, b) {
                     return true;
                 }
             }
             i += 1;
         }
         false
+    }
+
+    /// The box at a moment. Made where it is looked at: most never are.
+    fn outline(&self, moment: &Moment) -> OrientedBox {
+        let (length, width) = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
+        OrientedBox::new(moment.center, length, width, moment.heading_rad)
+    }
+
+    /// The boxes of two at these moments overlap.
+    fn overlaps(&self, mine: &Moment, other: &Self, theirs: &Moment) -> bool {
+        let reach = self.radius_m + other.radius_m;
+        (mine.center - theirs.center).norm_squared() < reach * reach
+            && overlaps(&self.outline(mine), &other.outline(theirs), 0.0)
     }
 
     fn speed_at(&self, moment: usize) -> Option<f64> {
@@ -262,6 +275,11 @@ impl Ground {
             _ => 0,
         }
     }
+
+    /// Moments between the two, the fewer the closer; zero where they meet.
+    pub fn least_shift(&self) -> i64 {
+        if self.order() == 0 { 0 } else { self.shift.0.abs().min(self.shift.1.abs()) }
+    }
 }
 
 /// Ground where the paths of two cross or merge; `None` for those that are behind each other from the start on, and
@@ -271,14 +289,7 @@ pub fn crossing(me: &Trace, other: &Trace) -> Option<Ground> {
     if walkers || other.way_m < GOES_M || !me.may_meet(other) {
         return None;
     }
-    let ground = ground(me, other)?;
-    let heading = |trace: &Trace, moment: usize| {
-        trace.moments.get(moment).and_then(Option::as_ref).map(|m| m.outline.heading_rad())
-    };
-    let (mine, theirs) = ground.nearest;
-    let along = wrap_angle(heading(me, mine)? - heading(other, theirs)?).abs() < SAME_WAY_RAD;
-    let same_way = !ground.beyond && along && came_the_same_way(me, other);
-    (!same_way).then_some(ground)
+    if came_the_same_way(me, other) { None } else { ground(me, other) }
 }
 
 fn relation<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
@@ -289,8 +300,8 @@ fn relation<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
 fn of_ground<'a>(me: &Trace, other: &'a Trace, ground: &Ground) -> Option<Found<'a>> {
     let there = me.moments.get(ground.enters.0).and_then(Option::as_ref);
     let place = match there.filter(|_| !ground.beyond) {
-        Some(moment) => moment.outline.center(),
-        None => other.moments.get(ground.nearest.1)?.as_ref()?.outline.center(),
+        Some(moment) => moment.center,
+        None => other.moments.get(ground.nearest.1)?.as_ref()?.center,
     };
     let gap = ground.shift.0.unsigned_abs().min(ground.shift.1.unsigned_abs());
     let gap_s = (!ground.beyond).then_some(gap as f64 * MOMENT_S);
@@ -308,8 +319,7 @@ fn came_the_same_way(me: &Trace, other: &Trace) -> bool {
     let starts_on = |a: &Trace, b: &Trace| {
         let Some(start) = a.moments.iter().flatten().next() else { return false };
         b.moments.iter().flatten().any(|m| {
-            wrap_angle(m.outline.heading_rad() - start.outline.heading_rad()).abs() < SAME_WAY_RAD
-                && overlaps(&m.outline, &start.outline, 0.0)
+            b.overlaps(m, a, start) && wrap_angle(m.heading_rad - start.heading_rad).abs() < SAME_WAY_RAD
         })
     };
     starts_on(other, me) || starts_on(me, other)
@@ -319,12 +329,18 @@ fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
     let window = (WINDOW_S / MOMENT_S) as usize;
     let reach = me.radius_m + other.radius_m;
     let mut found: Option<Ground> = None;
-    let mine = me.moments.iter().enumerate().filter_map(|(i, m)| Some((i, m.as_ref()?.outline, false)));
+    let mine = me.moments.iter().enumerate().filter_map(|(i, m)| Some((i, m.as_ref()?, false)));
     let last = me.moments.len().saturating_sub(1);
-    let beyond = me.goes_on.iter().map(|outline| (last, *outline, true));
-    for (i, outline, beyond) in mine.chain(beyond) {
+    let beyond = me.goes_on.iter().map(|moment| (last, moment, true));
+    for (i, here, beyond) in mine.chain(beyond) {
         if beyond && found.is_some_and(|f| !f.beyond) {
             break;
+        }
+        // Far from all that the other does.
+        let low = other.low - here.center;
+        let high = here.center - other.high;
+        if low.x > reach || low.y > reach || high.x > reach || high.y > reach {
+            continue;
         }
         let from = if beyond { 0 } else { i.saturating_sub(window) };
         let to = (i + window).min(other.moments.len().saturating_sub(1));
@@ -334,13 +350,13 @@ fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
                 j += 1;
                 continue;
             };
-            let apart = (moment.outline.center() - outline.center()).norm() - reach;
+            let apart = (moment.center - here.center).norm() - reach;
             if apart > 0.0 {
                 // It cannot be here before it has come so far.
                 j += 1 + if other.stride_m > 0.0 { (apart / other.stride_m) as usize } else { to };
                 continue;
             }
-            if overlaps(&moment.outline, &outline, 0.0) {
+            if other.overlaps(moment, me, here) {
                 let shift = j as i64 - i as i64;
                 let now = Ground {
                     enters: (i, j),
@@ -404,7 +420,7 @@ fn follows<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
         let Some(gap) = gap_behind(me, i, moment, other) else { continue };
         count += 1;
         if nearest.is_none_or(|n| gap < n.0) {
-            nearest = Some((gap, i, moment.outline.center()));
+            nearest = Some((gap, i, moment.center));
         }
     }
     let (gap_s, moment, place) = nearest?;
@@ -416,27 +432,28 @@ fn follows<'a>(me: &Trace, other: &'a Trace) -> Option<Found<'a>> {
 /// Seconds behind the other at a moment, if it is ahead on the same way and within [`HEADWAY_S`].
 fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f64> {
     let now = other.moments.get(i)?.as_ref()?;
-    let turned = wrap_angle(now.outline.heading_rad() - moment.outline.heading_rad()).abs();
+    let speed = moment.speed_mps.max(0.5);
+    let between = now.center - moment.center;
+    let reach = HEADWAY_S * speed + QUEUE_M + me.radius_m + other.radius_m;
+    if between.norm_squared() > reach * reach {
+        return None;
+    }
+    let turned = wrap_angle(now.heading_rad - moment.heading_rad).abs();
     if turned > 2.0 * SAME_WAY_RAD {
         return None;
     }
-    let speed = moment.speed_mps.max(0.5);
-    let between = now.outline.center() - moment.outline.center();
-    let reach = HEADWAY_S * speed + QUEUE_M + me.radius_m + other.radius_m;
-    if between.norm() > reach {
-        return None;
-    }
     // Straight ahead of it, or where it will be within the headway.
-    let local = moment.outline.local(now.outline.center());
-    let bumper = local.x - moment.outline.half_length_m() - now.outline.half_length_m();
-    let beside = moment.outline.half_width_m() + now.outline.half_width_m();
-    let ahead = bumper > 0.0 && local.y.abs() < 0.7 * beside && turned < SAME_WAY_RAD;
+    let facing = direction(moment.heading_rad);
+    let (along, aside) = (between.dot(&facing), cross(facing, between));
+    let bumper = along - 0.5 * (me.size.length_m + other.size.length_m);
+    let beside = 0.5 * (me.size.width_m + other.size.width_m);
+    let ahead = bumper > 0.0 && aside.abs() < 0.7 * beside && turned < SAME_WAY_RAD;
     let on_the_way = || {
         let to = (i + (HEADWAY_S / MOMENT_S) as usize).min(me.moments.len().saturating_sub(1));
         (i + 1..=to).find(|k| {
             me.moments[*k].as_ref().is_some_and(|m| {
-                let way = wrap_angle(m.outline.heading_rad() - now.outline.heading_rad()).abs();
-                way < SAME_WAY_RAD && overlaps(&m.outline, &now.outline, 0.0)
+                let way = wrap_angle(m.heading_rad - now.heading_rad).abs();
+                way < SAME_WAY_RAD && me.overlaps(m, other, now)
             })
         })
     };
@@ -444,7 +461,7 @@ fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f6
         // Both stand: no time tells how far.
         return Some(if moment.speed_mps > STANDING_MPS { bumper / moment.speed_mps } else { f64::INFINITY });
     }
-    if between.dot(&direction(moment.outline.heading_rad())) <= 0.0 {
+    if along <= 0.0 {
         return None;
     }
     on_the_way().map(|k| (k - i) as f64 * MOMENT_S)

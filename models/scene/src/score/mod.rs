@@ -14,6 +14,7 @@ pub mod kinematic;
 pub mod overlap;
 pub mod pairs;
 pub mod pet;
+pub(crate) mod recorded;
 pub mod report;
 pub mod road;
 pub mod signals;
@@ -30,12 +31,17 @@ pub fn score(input: &ScoreInput<'_>) -> Score {
     let mut scene = SceneScore::default();
     for (i, actor) in input.actors.iter().enumerate() {
         let pair = &pairs.agents[i];
-        let road = road::score_road(input, actor);
+        let mut road = road::score_road(input, actor);
+        recorded::mark_road(input, actor, &mut road);
         let kinematic = actor.generated.then(|| kinematic::score_kinematic(actor, input.steps.clone()));
         let (kinematic, turns) = kinematic.unzip();
         scene.implausible_turns.extend(turns.into_iter().flatten());
-        scene.harsh_braking.extend(kinematic::harsh_braking(actor, input));
-        scene.harsh_steering.extend(kinematic::harsh_steering(actor, input));
+        let mut braking = kinematic::harsh_braking(actor, input);
+        recorded::mark_braking(input, actor, &mut braking);
+        scene.harsh_braking.extend(braking);
+        let mut steering = kinematic::harsh_steering(actor, input);
+        recorded::mark_steering(input, actor, &mut steering);
+        scene.harsh_steering.extend(steering);
         scene.off_road.extend(road.off_road);
         scene.over_median.extend(road.over_median);
         scene.wrong_way.extend(road.wrong_way);
@@ -58,6 +64,7 @@ pub fn score(input: &ScoreInput<'_>) -> Score {
         scene.moving_steps += road.moving_steps;
     }
     scene.red_lights = signals::red_lights(input);
+    recorded::mark_red_lights(input, &mut scene.red_lights);
     scene.finish(input, pairs, &agents);
     let ids = input.actors.iter().map(|a| a.id.to_owned());
     Score { scene, agents: ids.zip(agents).collect(), thresholds: input.thresholds }

@@ -4,7 +4,7 @@ use super::accuracy::Accuracy;
 use super::goal::GoalError;
 use super::input::{Actor, ScoreInput, Thresholds};
 use super::kinematic::Kinematic;
-use super::pairs::PairScores;
+use super::pairs::{PairScores, PairTotals};
 use crate::{AgentId, State};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -36,6 +36,9 @@ pub struct Collision {
     /// Speed at which the two closed in at the first moment, m/s (their relative speed when they
     /// already overlap).
     pub closing_speed_mps: f64,
+    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
+    /// the same time, no less hard. It does not count.
+    pub in_log: bool,
 }
 
 /// Two moving road users nearly collide. One entry a pair, at its worst moment.
@@ -53,6 +56,9 @@ pub struct NearMiss {
     pub ttc_s: Option<f64>,
     /// Rate at which the gap shrank then, m/s.
     pub closing_speed_mps: f64,
+    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
+    /// the same time, no less hard. It does not count.
+    pub in_log: bool,
 }
 
 /// Something one road user does over a stretch of time.
@@ -71,6 +77,9 @@ pub struct Stretch {
     pub x_m: f64,
     /// Box centre where it is worst, metres.
     pub y_m: f64,
+    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
+    /// the same time, no less bad.
+    pub in_log: bool,
 }
 
 /// A stop line is crossed while its signal says stop.
@@ -84,15 +93,25 @@ pub struct RedLight {
     pub time_s: f64,
     /// Speed then, m/s.
     pub speed_mps: f64,
+    /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
+    /// the same time, no less bad.
+    pub in_log: bool,
 }
 
 /// Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+///
+/// Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
+/// `collision_rate` nor with the road users; distances, times and the other shares are measured over all
+/// motion, the recorded too.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct SceneScore {
     /// By time, then by pair.
     pub collisions: Vec<Collision>,
-    /// Share of road users in any collision (the paper's scenario collision rate).
+    /// Share of road users in any collision that the log does not show.
     pub collision_rate: f64,
+    /// Share of road users in any collision, those of the log counted (the paper's scenario collision
+    /// rate).
+    pub collision_rate_with_log: f64,
     /// Share of road users whose box overlaps another's at all, however little.
     pub overlap_rate: f64,
     /// By time, then by pair.
@@ -149,9 +168,9 @@ pub struct SceneScore {
 /// Score of one road user.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct AgentScore {
-    /// Collisions it is part of.
+    /// Collisions it is part of and the log does not show.
     pub collisions: usize,
-    /// Near misses it is part of.
+    /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
     /// As in [`SceneScore`].
     pub min_ttc_s: Option<f64>,
@@ -182,6 +201,8 @@ impl SceneScore {
         self.pet_s = minimum(agents.iter().map(|a| a.pet_s));
         let of_all = |count: usize| count as f64 / agents.len().max(1) as f64;
         self.collision_rate = of_all(agents.iter().filter(|a| a.collisions > 0).count());
+        let any = |a: &PairTotals| a.collisions + a.logged_collisions > 0;
+        self.collision_rate_with_log = of_all(pairs.agents.iter().filter(|a| any(a)).count());
         self.overlap_rate = of_all(pairs.agents.iter().filter(|a| a.overlaps).count());
         self.collisions = pairs.collisions;
         self.near_misses = pairs.near_misses;
@@ -262,6 +283,7 @@ pub(super) fn stretches(actor: &Actor<'_>, flagged: &[(usize, f64)]) -> Vec<Stre
             worst: Some(value),
             x_m: place.x,
             y_m: place.y,
+            in_log: false,
         }
     };
     found.into_iter().map(to_stretch).collect()

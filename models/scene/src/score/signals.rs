@@ -104,6 +104,7 @@ pub(crate) fn crossed_at_red(
                 lane: c.line.signal.lane.clone(),
                 time_s: time_of(c.step as f64 + c.part),
                 speed_mps: state.speed_mps(),
+                in_log: false,
             });
         }
     }

@@ -39,7 +39,9 @@ function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string 
   const c = useApp();
   const { editor } = c;
   const agent = useAgent(id);
-  const event = useComputed(() => editor.events.value.find((e) => e.a.id === id || e.b.id === id)?.label ?? '');
+  const event = useComputed(
+    () => editor.events.value.find((e) => !e.inLog && (e.a.id === id || e.b?.id === id))?.label ?? '',
+  );
   const words = useComputed(() => wordsFor(c, agent.value, event.value));
   const pressed = useComputed(() => String(editor.selection.value === id));
   const tabindex = useComputed(() => (tabStop.value === id ? 0 : -1));

@@ -1,5 +1,5 @@
 // The status line: what the generator is doing, or what happens in the scene.
-import { summary } from '../../model/events';
+import { summary, worstOf, type TrafficEvent } from '../../model/events';
 import { touched } from '../../model/scene';
 import type { Context } from '../../actions/context';
 import type { Status as GeneratorStatus } from '../../edit/answers';
@@ -88,14 +88,19 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
     ms ? `${ms.toFixed(0)} ms` : '',
     adapted ? `${adapted} other${adapted > 1 ? 's' : ''} adapted` : '',
   ];
-  return { dot: '', text: parts.filter(Boolean).join(' · ') };
+  // Beside a collision nothing is green.
+  return { dot: dotOf(editor.events.value), text: parts.filter(Boolean).join(' · ') };
+}
+
+function dotOf(events: readonly TrafficEvent[]): Line['dot'] {
+  const worst = worstOf(events);
+  return worst === 'collision' ? 'collision' : worst && worst !== 'short' ? 'near' : '';
 }
 
 /** What happens in the scene. */
 function sceneLine({ editor }: Context): Line {
   const events = editor.events.value;
-  if (events.length)
-    return { dot: events.some((e) => e.kind === 'collision') ? 'collision' : 'near', text: summary(events) };
+  if (worstOf(events)) return { dot: dotOf(events), text: summary(events) };
   const scene = editor.scene.value;
   if (!scene) return { dot: '', text: 'Ready' };
   const { size } = scene.agents;

@@ -11,6 +11,7 @@ import { FuturesSection } from './futures-section';
 import { Hint } from './hint';
 import { GoalSection, StartSection } from './part-sections';
 import { useAgent, type LiveAgent } from './use-agent';
+import { verdictOn } from './verdict';
 
 export function AgentPanel({ id }: { id: string }) {
   const agent = useAgent(id);
@@ -21,7 +22,7 @@ export function AgentPanel({ id }: { id: string }) {
       {canChange(first) ? (
         <>
           <Hint agent={agent} />
-          <Warnings id={id} />
+          <Warnings agent={agent} />
           <StartSection agent={agent} />
           <GoalSection agent={agent} />
           <FuturesSection agent={agent} />
@@ -73,9 +74,13 @@ function Head({ agent }: { agent: LiveAgent }) {
   );
 }
 
-function Warnings({ id }: { id: string }) {
-  const { editor } = useApp();
-  const list = useComputed(() => editor.motion.value.warnings?.get(id)).value;
+function Warnings({ agent }: { agent: LiveAgent }) {
+  const c = useApp();
+  const list = useComputed(() => {
+    const all = c.editor.motion.value.warnings?.get(agent.value.id);
+    // That there is no lane is said once.
+    return verdictOn(c, agent.value)?.snap ? all?.filter((w) => !w.startsWith('There is no lane')) : all;
+  }).value;
   if (!list?.length) return null;
   return (
     <div class="sect">

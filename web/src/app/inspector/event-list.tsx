@@ -1,9 +1,10 @@
-// Collisions and near misses as a list, and the way to one of them.
+// What happens as a list, and the way to one of them.
 import { useComputed } from '@preact/signals';
 import type { Context } from '../../actions/context';
-import type { TrafficEvent } from '../../model/events';
+import { counted, type TrafficEvent } from '../../model/events';
 import { seconds } from '../../model/units';
 import { useApp } from '../parts/app-context';
+import { Icon } from '../parts/icons';
 
 /** An event nearer to the edge of the picture than this is brought to the middle, in pixels. */
 const EDGE_PX = 60;
@@ -23,26 +24,40 @@ export function goToEvent(c: Context, e: TrafficEvent): void {
 }
 
 export function EventList({ most = Infinity }: { most?: number }) {
-  const c = useApp();
-  const { editor } = c;
-  const events = editor.events.value.slice(0, most);
-  if (!events.length) return <NoEvents />;
+  const { editor } = useApp();
+  const all = editor.events.value;
+  const own = counted(all);
+  // Those that count come first.
+  const events = [...own, ...all.filter((e) => e.inLog)].slice(0, most);
   return (
     <div>
+      {own.length ? null : <NoEvents />}
       {events.map((e) => (
-        <button
-          key={`${e.kind}:${e.a.id}:${e.b.id}:${e.time}`}
-          type="button"
-          class="evrow"
-          aria-current={editor.selectedEvent.value === e}
-          onClick={() => goToEvent(c, e)}
-        >
-          <span class={`tag ${e.kind}`}>{e.kind === 'collision' ? 'Collision' : 'Near miss'}</span>
-          <b>{e.title}</b>
-          <span class="t">{seconds(e.time)}</span>
-        </button>
+        <Row key={`${e.what}:${e.a.id}:${e.b?.id ?? ''}:${e.time}`} event={e} />
       ))}
     </div>
+  );
+}
+
+function Row({ event: e }: { event: TrafficEvent }) {
+  const c = useApp();
+  return (
+    <button
+      type="button"
+      class={`evrow ${e.inLog ? 'log' : ''}`}
+      aria-current={c.editor.selectedEvent.value === e}
+      title={`${e.title}: ${e.words}`}
+      onClick={() => goToEvent(c, e)}
+    >
+      <span class={`mk ${e.kind}`}>
+        <Icon name={`mark-${e.kind}`} size={15} />
+      </span>
+      <span class="who">
+        <b>{e.title}</b>
+        <small>{e.words}</small>
+      </span>
+      <span class="t">{seconds(e.time)}</span>
+    </button>
   );
 }
 

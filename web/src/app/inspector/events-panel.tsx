@@ -1,5 +1,6 @@
 // The list of events, and the facts of the one that is picked.
-import type { TrafficEvent } from '../../model/events';
+import { counted, worstOf, type TrafficEvent } from '../../model/events';
+import type { Agent } from '../../model/scene';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
@@ -10,16 +11,19 @@ export function EventsPanel() {
   const { editor } = useApp();
   const events = editor.events.value;
   const picked = editor.selectedEvent.value;
-  const worst = events.some((e) => e.kind === 'collision') ? 'collision' : 'near';
+  const worst = worstOf(events);
+  const own = counted(events).length;
+  const length = `in these ${num(editor.scene.peek()?.duration ?? 9, 0)} s`;
+  const inLog = events.length - own;
   return (
     <>
       <div class="ih">
-        <div class={`ag t-${worst}`}>
+        <div class={`ag t-${worst === 'collision' ? 'collision' : worst && worst !== 'short' ? 'near' : 'ink'}`}>
           <Icon name="warn" size={20} />
         </div>
         <div class="grow">
           <h2>Events</h2>
-          <p>{`${events.length} in these ${num(editor.scene.peek()?.duration ?? 9, 0)} s`}</p>
+          <p>{`${own} ${length}${inLog ? ` · ${inLog} in the log` : ''}`}</p>
         </div>
         <IconButton id="deselect" icon="x" size={16} />
       </div>
@@ -51,7 +55,7 @@ function Facts({ event: e }: { event: TrafficEvent }) {
         <h3>What you can do</h3>
         <div class="stack">
           {[e.a, e.b]
-            .filter((a) => a.type !== 'other' && a.logStart)
+            .filter((a): a is Agent => a !== null && a.type !== 'other' && a.logStart !== null)
             .map((a) => (
               <button key={a.id} type="button" class="opt" onClick={() => change(a.id)}>
                 <Icon name="select" size={15} />

@@ -5,6 +5,7 @@ import { isSettled, LETTERS, percents, type Future } from '../../model/futures';
 import { hasGoal, nameIn, type Scene } from '../../model/scene';
 import { seconds } from '../../model/units';
 import { placeWord } from '../../model/verdict-words';
+import { verdictsHold } from '../../edit/goal-verdict';
 import { pickFuture } from '../../edit/moves';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
@@ -119,7 +120,7 @@ const MARK_WORDS: Readonly<Record<Mark, string>> = {
 function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
   const { editor } = useApp();
   const mark = useComputed(() => {
-    const about = editor.futures.value?.modes[index]?.about;
+    const about = verdictsHold(editor) ? editor.futures.value?.modes[index]?.about : null;
     const m = about ? markOf(about) : null;
     return m === 'ok' && !agent.value.goal.pos ? null : m;
   }).value;

@@ -8,7 +8,7 @@ import { endPose, endsBefore, poseAt } from '../../model/motion';
 import { nameIn, type Agent } from '../../model/scene';
 import { metres, seconds } from '../../model/units';
 import { headline } from '../../model/verdict-words';
-import { outOfReach } from '../../edit/goal-verdict';
+import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
 
 export interface Verdict {
   readonly kind: 'ok' | 'near' | 'collision' | 'plain';
@@ -79,7 +79,7 @@ const KINDS: Readonly<Record<Mark, Verdict['kind']>> = {
 /** What the generator says is wrong with the future that is shown. */
 function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
   const f = e.futures.value;
-  if (!f || f.sketch || e.outdated.value) return null;
+  if (!f || !verdictsHold(e)) return null;
   const who = { type: a.type, nameOf: nameIn(e.scene.value!) };
   const said = headline(f, e.chosen.value, a.goal.pos !== null, who);
   if (!said) return null;

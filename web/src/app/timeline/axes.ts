@@ -60,16 +60,53 @@ function topSpeedShown(c: Context, unit: SpeedUnit): number {
   return steps.find((s) => s >= max * 1.02) ?? steps[steps.length - 1];
 }
 
-/** Left edges of badges near their places, none on top of another: pushed right first, then back from the end. */
-export function sideBySide(items: readonly { at: number; w: number }[], from: number, to: number): number[] {
-  const x: number[] = [];
-  items.forEach(({ at, w }, i) => {
-    x[i] = Math.max(at - w / 2, i ? x[i - 1] + items[i - 1].w + 3 : from);
+/** Half of a sign without words, and the space kept between two things in the lane, in pixels. */
+export const SIGN = 10;
+const APART = 3;
+
+/** A sign in the lane of events. It stands at its time; its words stand where there is room for them. */
+export interface Placed {
+  /** Index of the item that is shown, and of all that happen so close together that they share its sign. */
+  readonly item: number;
+  readonly items: readonly number[];
+  readonly x: number;
+  readonly words: 'right' | 'left' | null;
+}
+
+export interface Sign {
+  /** Where its time is, in pixels. */
+  readonly at: number;
+  /** Width of its words. */
+  readonly w: number;
+  /** The lower, the worse. */
+  readonly rank: number;
+}
+
+/** Signs at their times, by time; those that would cover each other share one, which is that of the worst. */
+export function placeSigns(items: readonly Sign[], from: number, to: number): Placed[] {
+  const groups: { item: number; items: number[] }[] = [];
+  items.forEach(({ at, rank }, i) => {
+    const last = groups.at(-1);
+    if (!last || at - items[last.item].at >= 2 * SIGN + APART) groups.push({ item: i, items: [i] });
+    else {
+      last.items.push(i);
+      if (rank < items[last.item].rank) last.item = i;
+    }
   });
-  let limit = to;
-  for (let i = items.length - 1; i >= 0; i--) {
-    x[i] = Math.max(from, Math.min(x[i], limit - items[i].w));
-    limit = x[i] - 3;
-  }
-  return x;
+  let taken = from;
+  return groups.map(({ item, items: all }, k) => {
+    const { at, w } = items[item];
+    const next = k + 1 < groups.length ? items[groups[k + 1].item].at - SIGN - APART : to;
+    const right = at + SIGN + w <= next;
+    const left = !right && at - SIGN - w >= taken;
+    taken = at + SIGN + APART + (right ? w : 0);
+    return { item, items: all, x: at, words: right ? 'right' : left ? 'left' : null };
+  });
+}
+
+/** Seconds marked behind the curves for something from `time` to `until`: wide enough to be seen, within the plot. */
+export function markedSpan(time: number, until: number, least: number, duration: number): [number, number] {
+  const extra = Math.max(0, least - (until - time)) / 2;
+  const from = Math.max(0, time - extra);
+  return [Math.min(from, duration), Math.min(duration, until + extra)];
 }

@@ -1,66 +1,118 @@
-// Collisions and near misses above the plot; where they crowd, as signs without words.
-import type { TrafficEvent } from '../../model/events';
+// What happens above the plot, each sign at its time. What is in the log is a small grey one and takes no room.
+import { counted, type TrafficEvent } from '../../model/events';
 import { goToEvent } from '../inspector/event-list';
 import { useApp } from '../parts/app-context';
-import { sideBySide, X0, type Axes } from './axes';
+import { placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
 
-const SIGN_PX = 20;
-/** Estimated width of a badge: its letters and the sign before them. */
-const fullWidth = (e: TrafficEvent): number => e.label.length * 5.9 + 26;
-/** Beyond this share of the lane the words are left out. */
-const CROWDED = 0.8;
+const RANK = { collision: 0, rule: 1, near: 2, short: 3 } as const;
+const FILL = { collision: '--collision', rule: '--near', near: '--near', short: '--surface-3' } as const;
+const INK = { collision: '--on-collision', rule: '--on-near', near: '--on-near', short: '--ink-2' } as const;
+
+/** Estimated width of the words of a sign, with the space after them. */
+const wordsWidth = (text: string): number => text.length * 5.9 + 8;
 
 export function EventBadges({ axes: a }: { axes: Axes }) {
   const { editor } = useApp();
-  const events = editor.events.peek();
-  const crowded = events.reduce((sum, e) => sum + fullWidth(e) + 3, 0) > (a.x1 - X0) * CROWDED;
-  const widths = events.map((e) => (crowded ? SIGN_PX : fullWidth(e)));
-  const places = sideBySide(
-    events.map((e, i) => ({ at: a.x(e.time), w: widths[i] })),
-    X0 + 2,
-    a.x1 - 2,
-  );
+  const all = editor.shownEvents.peek();
+  const events = counted(all);
+  const signs = events.map((e) => ({ at: a.x(e.time), w: wordsWidth(e.label), rank: RANK[e.kind] }));
+  const placed = placeSigns(signs, X0 + 2, a.x1 + SIGN);
   return (
     <>
-      {events.map((e, i) => (
-        <Badge key={i} event={e} x={places[i]} width={widths[i]} words={!crowded} />
+      {all
+        .filter((e) => e.inLog)
+        .map((e, i) => (
+          <LogSign key={`log${i}`} event={e} x={a.x(e.time)} />
+        ))}
+      {placed.map((p, i) => (
+        <Badge key={i} events={p.items.map((k) => events[k])} shown={events[p.item]} placed={p} />
       ))}
     </>
   );
 }
 
-function Badge({ event: e, x, width, words }: { event: TrafficEvent; x: number; width: number; words: boolean }) {
+function LogSign({ event: e, x }: { event: TrafficEvent; x: number }) {
   const c = useApp();
-  const picked = c.editor.selectedEvent.peek() === e;
-  const label = `${e.label}: ${e.title}`;
+  const label = `${e.label}, in the log: ${e.title}`;
   return (
-    <g class="badge" role="button" aria-label={label} onClick={() => goToEvent(c, e)}>
+    <g class="badge log" role="button" aria-label={label} onClick={() => goToEvent(c, e)}>
+      <title>{label}</title>
+      <circle cx={x} cy={12} r={4.5} fill="var(--surface)" stroke="var(--line-strong)" stroke-width={1.5} />
+    </g>
+  );
+}
+
+interface BadgeProps {
+  /** All that share the place, by time. */
+  events: readonly TrafficEvent[];
+  shown: TrafficEvent;
+  placed: Placed;
+}
+
+function Badge({ events, shown: e, placed: p }: BadgeProps) {
+  const c = useApp();
+  const picked = c.editor.selectedEvent.peek();
+  const more = events.length - 1;
+  const label = `${e.label}: ${e.title}${more ? `, and ${more} more` : ''}`;
+  // A second click goes on to the next one that shares the place.
+  const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
+  const go = () => goToEvent(c, events[turn % events.length]);
+  const w = p.words ? wordsWidth(e.label) : 0;
+  const x = p.x - SIGN - (p.words === 'left' ? w : 0);
+  const ink = `var(${INK[e.kind]})`;
+  return (
+    <g class="badge" role="button" aria-label={label} onClick={go}>
       <title>{label}</title>
       <rect
         x={x}
         y={3}
-        width={width}
+        width={2 * SIGN + w}
         height={18}
         rx={9}
-        fill={`var(--${e.kind})`}
-        stroke={picked ? 'var(--ink)' : 'none'}
+        fill={`var(${FILL[e.kind]})`}
+        stroke={picked && events.includes(picked) ? 'var(--ink)' : 'none'}
         stroke-width={2}
       />
-      {e.kind === 'collision' ? (
-        <path
-          d={`M${x + 7} 9l6 6M${x + 13} 9l-6 6`}
-          stroke="var(--on-collision)"
-          stroke-width={2}
-          stroke-linecap="round"
-        />
-      ) : (
-        <path d={`M${x + 10} 7.500l4.200 8h-8.400z`} fill="var(--on-near)" />
-      )}
-      {words ? (
-        <text x={x + 20} y={15.5} style={{ fill: `var(--on-${e.kind})` }}>
+      <g transform={`translate(${p.x} 12)`}>
+        <SignPath kind={e.kind} ink={ink} />
+      </g>
+      {p.words ? (
+        <text
+          x={p.words === 'right' ? p.x + SIGN - 1 : p.x - SIGN + 1}
+          y={15.5}
+          text-anchor={p.words === 'right' ? 'start' : 'end'}
+          style={{ fill: ink }}
+        >
           {e.label}
         </text>
       ) : null}
+      {more ? <More x={p.x + (p.words === 'left' ? SIGN - 1 : 1 - SIGN)} count={more + 1} /> : null}
     </g>
   );
+}
+
+/** How many share the place, at the outer edge of the sign. */
+function More({ x, count }: { x: number; count: number }) {
+  return (
+    <>
+      <circle cx={x} cy={5} r={5.5} fill="var(--ink)" stroke="var(--surface)" stroke-width={1} />
+      <text class="more" x={x} y={8} text-anchor="middle">
+        {count}
+      </text>
+    </>
+  );
+}
+
+function SignPath({ kind, ink }: { kind: TrafficEvent['kind']; ink: string }) {
+  const line = { fill: 'none', stroke: ink, 'stroke-width': 1.7, 'stroke-linecap': 'round' } as const;
+  switch (kind) {
+    case 'collision':
+      return <path d="M-3 -3l6 6M3 -3l-6 6" {...line} stroke-width={2} />;
+    case 'rule':
+      return <path d="M0 -4.200a4.200 4.200 0 1 0 .01 0zM-2.900 2.900l5.800 -5.800" {...line} />;
+    case 'near':
+      return <path d="M0 -4.500l4.200 8h-8.400z" fill={ink} />;
+    case 'short':
+      return <path d="M-3 4.500v-9l7.500 1.700 -2 2 2 2 -7.500 -.2" {...line} stroke-dasharray="2.200 2.400" />;
+  }
 }

@@ -1,11 +1,13 @@
 // The grid of the plot with its figures, and the lane of events.
 import { Fragment } from 'preact';
+import { counted } from '../../model/events';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
-import { LANE, X0, type Axes } from './axes';
+import { LANE, markedSpan, X0, type Axes } from './axes';
 
-/** Seconds marked behind the curves around a collision and a near miss. */
-const MARKED_S = { collision: 0.3, near: 0.8 } as const;
+/** Seconds marked behind the curves at least. */
+const MARKED_S = { collision: 0.3, rule: 0.3, near: 0.8 } as const;
+const COLOURS = { collision: '--collision', rule: '--near', near: '--near' } as const;
 
 export function Grid({ axes: a }: { axes: Axes }) {
   return (
@@ -58,21 +60,23 @@ function SecondLines({ axes: a }: { axes: Axes }) {
   );
 }
 
-/** The times at which something happens, marked behind the curves. */
+/** The times at which something happens to whose curves they are, marked behind them; else to anybody. */
 export function EventTimes({ axes: a }: { axes: Axes }) {
   const { editor } = useApp();
+  const id = editor.selection.peek();
   return (
     <>
-      {editor.events.peek().map((e, i) => {
-        const w = MARKED_S[e.kind];
+      {counted(editor.shownEvents.peek()).map((e, i) => {
+        if (e.kind === 'short' || (id !== null && e.a.id !== id && e.b?.id !== id)) return null;
+        const [from, to] = markedSpan(e.time, e.until, MARKED_S[e.kind], a.duration);
         return (
           <rect
             key={i}
-            x={a.x(Math.max(0, e.time - w / 2))}
+            x={a.x(from)}
             y={a.y0}
-            width={a.x(w) - a.x(0)}
+            width={Math.max(0, a.x(to) - a.x(from))}
             height={a.y1 - a.y0}
-            fill={`var(--${e.kind})`}
+            fill={`var(${COLOURS[e.kind]})`}
             opacity={0.16}
           />
         );

@@ -16,7 +16,7 @@ const shown = ({ editor }: Context): unknown => [
   editor.futures.value,
   editor.chosen.value,
   editor.motion.value,
-  editor.events.value,
+  editor.shownEvents.value,
   editor.layers.value.log,
   editor.scene.value,
   editor.speedUnit.value,

@@ -6,6 +6,7 @@
 //! straight on where it has ended). Nothing of an earlier window is planned again.
 
 mod ledger;
+mod remedies;
 mod roster;
 mod scenes;
 mod standing;
@@ -214,6 +215,10 @@ impl<'g> Generation<'g> {
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+            if self.ledger.samples.is_empty() {
+                let ways = remedies::by_road(&self.request, world, &self.map, &sample);
+                self.ledger.remedy(ways);
+            }
             standing::relate(&self.request, &self.map, &self.generator.workers, &mut sample);
         }
         self.ledger.samples.push(sample);
@@ -262,13 +267,13 @@ impl<'g> Generation<'g> {
                 self.begin(number)?;
                 let refines = steps(&self.request) > 0;
                 self.stage = if refines { Stage::Step(number, 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present()?.draft(0)))
+                Ok(Event::Draft(self.windows.present_mut()?.draft(0)))
             }
             Stage::Step(number, step) => {
                 self.refine(step)?;
                 let more = step < steps(&self.request);
                 self.stage = if more { Stage::Step(number, step + 1) } else { self.after(number) };
-                Ok(Event::Draft(self.windows.present()?.draft(step)))
+                Ok(Event::Draft(self.windows.present_mut()?.draft(step)))
             }
             Stage::Finish | Stage::Done => {
                 self.stage = Stage::Done;

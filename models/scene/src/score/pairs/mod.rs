@@ -1,28 +1,32 @@
 //! What happens between two road users: collisions, near misses, least gap, least time to collision.
 
+mod company;
+mod log;
+mod mover;
+mod near;
+
 use super::input::{Actor, Exclude, PairChoice, ScoreInput};
 use super::pet::post_encroachment_s;
 use super::report::{Collision, NearMiss, time_of};
-use crate::AgentType;
+use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
-use crate::geometry::{Vec2, wrap_angle};
-use std::f64::consts::FRAC_PI_6;
-use std::ops::Range;
+pub(super) use mover::Rectangle;
+pub(crate) use mover::{Moment, Mover};
+use near::{Gap, Nearest, PARKED_M, Side, near_miss};
 
 /// Moments looked at between two steps, the step itself counted.
 pub const SUBSTEPS: usize = 4;
 
-/// A road user that stays within this of its first place all the time is parked, metres.
-const PARKED_M: f64 = 1.0;
-
 /// What the pairs of one road user come to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairTotals {
-    /// Collisions it is part of.
+    /// Collisions it is part of and the log does not show.
     pub collisions: usize,
-    /// Near misses it is part of.
+    /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
+    /// Collisions it is part of and the log shows too.
+    pub logged_collisions: usize,
     /// Its box overlaps another's at a step, however little.
     pub overlaps: bool,
     /// Least time to collision, seconds.
@@ -44,105 +48,26 @@ pub struct PairScores {
     pub agents: Vec<PairTotals>,
 }
 
-/// One road user made ready for many pairs: its boxes and velocities over the scored steps.
-#[derive(Debug)]
-pub(crate) struct Mover {
-    /// Box and velocity a scored step.
-    pub moments: Vec<Option<Moment>>,
-    /// Greatest distance from its first place, metres.
-    pub travel_m: f64,
-    /// Farthest any point of its box moves from one seen step to the next, metres.
-    max_displacement_m: f64,
-    /// Greatest speed, m/s.
-    top_mps: f64,
-    /// Holds its boxes at all steps.
-    pub places: Option<Rectangle>,
-    /// Holds all it can touch within the look-ahead at constant velocity.
-    reach: Option<Rectangle>,
-    pub agent_type: AgentType,
-}
-
-/// Centre and half extents of an upright rectangle, metres.
-pub(crate) type Rectangle = (Vec2, Vec2);
-
-/// Box and velocity (m/s) at one step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Moment {
-    pub outline: OrientedBox,
-    pub velocity: Vec2,
-    pub speed_mps: f64,
-    /// Bound on how far any point of the box moves to the next step, metres; none without one.
-    displacement_m: Option<f64>,
-}
-
-impl Mover {
-    pub(crate) fn new(actor: &Actor<'_>, steps: Range<usize>) -> Self {
-        let moment = |step| {
-            let state = actor.state(step)?;
-            let outline = OrientedBox::of_state(state, &actor.size);
-            Some(Moment {
-                outline,
-                velocity: state.velocity(),
-                speed_mps: state.speed_mps(),
-                displacement_m: None,
-            })
-        };
-        let mut moments: Vec<Option<Moment>> = steps.clone().map(moment).collect();
-        for step in 1..moments.len() {
-            if let [Some(from), Some(to)] = &mut moments[step - 1..=step] {
-                from.displacement_m = Some(displacement(from, to));
-            }
-        }
-        let seen: Vec<&Moment> = moments.iter().flatten().collect();
-        let max_displacement_m = seen.windows(2).map(|w| displacement(w[0], w[1])).fold(0.0, f64::max);
-        let top_mps = seen.iter().map(|m| m.speed_mps).fold(0.0, f64::max);
-        let places = rectangle(moments.iter().flatten().map(|m| (m.outline, Vec2::zeros())));
-        let reach = rectangle(moments.iter().flatten().map(|m| (m.outline, m.velocity * LOOK_AHEAD_S)));
-        let travel_m = actor.travel_m(steps);
-        Self { moments, travel_m, max_displacement_m, top_mps, places, reach, agent_type: actor.agent_type }
-    }
-
-    /// Box between two steps, `part` from 0 to 1 of the way; places and headings change evenly.
-    fn between(&self, step: usize, part: f64) -> Option<OrientedBox> {
-        let from = self.moments.get(step)?.as_ref()?.outline;
-        if part == 0.0 {
-            return Some(from);
-        }
-        let to = self.moments.get(step + 1)?.as_ref()?.outline;
-        let center = from.center() + (to.center() - from.center()) * part;
-        let heading = from.heading_rad() + wrap_angle(to.heading_rad() - from.heading_rad()) * part;
-        Some(OrientedBox::new(center, from.half_length_m(), from.half_width_m(), heading))
-    }
-}
-
-/// Bound on how far any point of the box moves from the first moment to the second, metres.
-fn displacement(from: &Moment, to: &Moment) -> f64 {
-    let turn = wrap_angle(to.outline.heading_rad() - from.outline.heading_rad()).abs();
-    (to.outline.center() - from.outline.center()).norm() + turn * from.outline.radius_m()
-}
-
-/// Upright rectangle about boxes, each with its bounding circle moved from here to there.
-fn rectangle(moved: impl Iterator<Item = (OrientedBox, Vec2)>) -> Option<Rectangle> {
-    let mut low = Vec2::repeat(f64::INFINITY);
-    let mut high = -low;
-    for (outline, shift) in moved {
-        let (p, r) = (outline.center(), Vec2::repeat(outline.radius_m()));
-        low = low.inf(&(p.inf(&(p + shift)) - r));
-        high = high.sup(&(p.sup(&(p + shift)) + r));
-    }
-    (low.x <= high.x).then(|| (0.5 * (low + high), 0.5 * (high - low)))
-}
-
 /// What one pair comes to.
 #[derive(Debug, Default)]
 struct Pair {
     min_ttc_s: Option<f64>,
     min_distance_m: Option<f64>,
     overlaps: bool,
-    /// First moment of a collision in steps, closing speed there, greatest IoU.
-    collision: Option<(f64, f64, f64)>,
-    /// Worst qualifying moment: step, gap, time to collision, closing speed.
-    near: Option<(usize, f64, Option<f64>, f64)>,
+    collision: Option<Contact>,
+    near: Option<Nearest>,
+}
+
+/// A collision. Times are in steps from the first scored one.
+#[derive(Debug)]
+struct Contact {
+    /// First and last moment over the threshold.
+    first: f64,
+    last: f64,
+    /// Relative speed at the first, m/s.
+    closing_mps: f64,
+    /// Greatest intersection over union.
+    iou: f64,
 }
 
 /// What cannot change a score of a pair any more: gaps and times above both road users' least ones.
@@ -153,6 +78,9 @@ struct Known {
 }
 
 impl Known {
+    /// Everything may change it.
+    const NOTHING: Self = Self { gap_m: f64::INFINITY, ttc_s: LOOK_AHEAD_S };
+
     fn of(a: &PairTotals, b: &PairTotals) -> Self {
         let larger = |p: Option<f64>, q: Option<f64>, most: f64| p.unwrap_or(most).max(q.unwrap_or(most));
         Self {
@@ -179,11 +107,14 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
         }
         let pair = look_at(input, &movers[i], &movers[j], known);
         let pet_s = post_encroachment_s(&movers[i], &movers[j]);
+        let happens = pair.collision.is_some() || pair.near.is_some();
+        let in_log = happens && log::is_in_log(input, a, b, &pair);
         let ids = (a.id.to_owned(), b.id.to_owned());
         for k in [i, j] {
             let totals = &mut scores.agents[k];
-            totals.collisions += usize::from(pair.collision.is_some());
-            totals.near_misses += usize::from(pair.near.is_some());
+            totals.collisions += usize::from(pair.collision.is_some() && !in_log);
+            totals.logged_collisions += usize::from(pair.collision.is_some() && in_log);
+            totals.near_misses += usize::from(pair.near.is_some() && !in_log);
             totals.overlaps |= pair.overlaps;
             totals.min_ttc_s = least(totals.min_ttc_s, pair.min_ttc_s);
             totals.min_distance_m = least(totals.min_distance_m, pair.min_distance_m);
@@ -192,10 +123,11 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
         let (a, b) = ids;
         match Meeting::of(&pair, input.steps.start) {
             Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
-                scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps });
+                scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
             }
             Some(Meeting::Near { time_s, distance_m, ttc_s, closing_speed_mps }) => {
-                scores.near_misses.push(NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps });
+                let miss = NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps, in_log };
+                scores.near_misses.push(miss);
             }
             None => {}
         }
@@ -215,14 +147,16 @@ pub(crate) enum Meeting {
 impl Meeting {
     fn of(pair: &Pair, first_step: usize) -> Option<Self> {
         let scene_time = |step: f64| time_of(first_step as f64 + step);
-        if let Some((at, closing_speed_mps, iou)) = pair.collision {
-            return Some(Self::Collision { time_s: scene_time(at), iou, closing_speed_mps });
+        if let Some(Contact { first, iou, closing_mps: closing_speed_mps, .. }) = pair.collision {
+            return Some(Self::Collision { time_s: scene_time(first), iou, closing_speed_mps });
         }
-        let (step, distance_m, ttc_s, closing_speed_mps) = pair.near?;
-        Some(Self::Near { time_s: scene_time(step as f64), distance_m, ttc_s, closing_speed_mps })
+        let Nearest { step, gap, .. } = pair.near.as_ref()?;
+        let (distance_m, ttc_s, closing_speed_mps) = (gap.gap_m, gap.ttc_s, gap.closing_mps);
+        Some(Self::Near { time_s: scene_time(*step as f64), distance_m, ttc_s, closing_speed_mps })
     }
 
-    /// Of two motions by themselves, whoever made them. `input` gives thresholds and what to leave out.
+    /// Of two motions by themselves, whoever made them, but for what the log shows too. `input` gives thresholds
+    /// and what to leave out.
     pub(crate) fn between(
         input: &ScoreInput<'_>,
         (a, mover_a): (&Actor<'_>, &Mover),
@@ -233,7 +167,9 @@ impl Meeting {
         if stay_apart(mover_a, mover_b, known.gap_m) || is_excluded(input, a, b) {
             return None;
         }
-        Self::of(&look_at(input, mover_a, mover_b, known), input.steps.start)
+        let pair = look_at(input, mover_a, mover_b, known);
+        let met = Self::of(&pair, input.steps.start)?;
+        (!log::is_in_log(input, a, b, &pair)).then_some(met)
     }
 }
 
@@ -250,17 +186,18 @@ fn stay_apart(a: &Mover, b: &Mover, known_m: f64) -> bool {
     clear(a.reach, b.reach) > 0.0 && clear(a.places, b.places) > known_m
 }
 
-/// The log itself shows this pair overlapping.
+/// The log itself shows this pair overlapping, or a truck and its trailer.
 fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
     let (Some(log_a), Some(log_b)) = (a.log, b.log) else { return false };
     let mut logged = input.steps.clone().filter_map(|step| {
         let boxes = (log_a.at(step)?, log_b.at(step)?);
         Some((OrientedBox::of_state(boxes.0, &a.size), OrientedBox::of_state(boxes.1, &b.size)))
     });
+    let hitched = || log::logged(input, a, b).is_some_and(|(p, q)| company::are_hitched(&p, &q));
     match input.exclude {
         Exclude::Nothing => false,
-        Exclude::OverlapAtStart => logged.next().is_some_and(|(p, q)| overlaps(&p, &q, 0.0)),
-        Exclude::OverlapInLog => logged.any(|(p, q)| overlaps(&p, &q, 0.0)),
+        Exclude::OverlapAtStart => logged.next().is_some_and(|(p, q)| overlaps(&p, &q, 0.0)) || hitched(),
+        Exclude::OverlapInLog => logged.any(|(p, q)| overlaps(&p, &q, 0.0)) || hitched(),
     }
 }
 
@@ -305,11 +242,14 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
                 if matters { (gap, towards) } else { gap_and_direction(&p.outline, &q.outline) };
             let closing = (p.velocity - q.velocity).dot(&towards);
             let ttc_s = if moving { ttc(p, q, LOOK_AHEAD_S) } else { None };
-            if is_near_miss(input, (a, p), (b, q), (gap, towards), ttc_s, closing) {
-                keep_worst(&mut pair, step, gap, ttc_s, closing);
+            let gap = Gap { gap_m: gap, towards, ttc_s, closing_mps: closing };
+            let side = |mover, moment| Side { mover, moment, step };
+            if let Some(kind) = near_miss(limits, side(a, p), side(b, q), &gap) {
+                Nearest::keep(&mut pair.near, step, gap, kind);
             }
         }
     }
+    pair.near = pair.near.filter(Nearest::lasts);
     pair
 }
 
@@ -337,12 +277,22 @@ fn collide(pair: &mut Pair, input: &ScoreInput<'_>, (a, b): (&Mover, &Mover), st
         }
         let share = iou(&p, &q);
         let covered = shared / p.area_m2().min(q.area_m2()).max(1e-9);
-        if let Some((_, _, worst)) = &mut pair.collision {
-            *worst = worst.max(share);
-        } else if share > input.thresholds.iou || covered > input.thresholds.covered_share {
-            pair.collision = Some((step as f64 + part, impact_mps(a, b, step), share));
+        let collides = share > input.thresholds.iou || covered > input.thresholds.covered_share;
+        let moment = step as f64 + part;
+        if let Some(contact) = &mut pair.collision {
+            contact.iou = contact.iou.max(share);
+            contact.last = if collides { moment } else { contact.last };
+        } else if collides && !belong_together(a, b, step) {
+            let closing_mps = impact_mps(a, b, step);
+            pair.collision = Some(Contact { first: moment, last: moment, closing_mps, iou: share });
         }
     }
+}
+
+/// That these two touch says nothing: people in company, or recorded cars that both stay parked.
+fn belong_together(a: &Mover, b: &Mover, step: usize) -> bool {
+    let parked = |m: &Mover| !m.generated && m.travel_m < PARKED_M;
+    parked(a) && parked(b) || company::walk_together(a, b, step)
 }
 
 /// Relative speed at a step, m/s.
@@ -350,43 +300,6 @@ fn impact_mps(a: &Mover, b: &Mover, step: usize) -> f64 {
     match (a.moments.get(step), b.moments.get(step)) {
         (Some(Some(p)), Some(Some(q))) => (p.velocity - q.velocity).norm(),
         _ => 0.0,
-    }
-}
-
-/// Both move (or one stands in the way for a while), the gap shrinks fast, and it is neither two
-/// walkers passing nor one that brakes normally behind another.
-fn is_near_miss(
-    input: &ScoreInput<'_>,
-    (a, p): (&Mover, &Moment),
-    (b, q): (&Mover, &Moment),
-    (gap, towards): (f64, Vec2),
-    ttc_s: Option<f64>,
-    closing: f64,
-) -> bool {
-    let limits = &input.thresholds;
-    let parked = a.travel_m < PARKED_M || b.travel_m < PARKED_M;
-    let walkers = a.agent_type == AgentType::Pedestrian && b.agent_type == AgentType::Pedestrian;
-    if parked || walkers || closing <= limits.closing_speed_mps {
-        return false;
-    }
-    let by_time = ttc_s.is_some_and(|t| t < limits.ttc_s);
-    let both_move = p.speed_mps > limits.moving_mps && q.speed_mps > limits.moving_mps;
-    let by_gap = gap < limits.gap_m && both_move;
-    if !by_time && !by_gap {
-        return false;
-    }
-    let turn = wrap_angle(p.outline.heading_rad() - q.outline.heading_rad()).abs();
-    let needed_mps2 = closing * closing / (2.0 * gap.max(0.05));
-    let follows = turn < FRAC_PI_6 && towards.dot(&p.outline.forward()).abs() > 0.7;
-    !follows || needed_mps2 > limits.follow_brake_mps2
-}
-
-/// Keeps the moment with the least time to collision, then the least gap.
-fn keep_worst(pair: &mut Pair, step: usize, gap: f64, ttc_s: Option<f64>, closing: f64) {
-    let key = |ttc: Option<f64>, gap: f64| (ttc.unwrap_or(f64::INFINITY), gap);
-    let worse = pair.near.is_none_or(|(_, g, t, _)| key(ttc_s, gap) < key(t, g));
-    if worse {
-        pair.near = Some((step, gap, ttc_s, closing));
     }
 }
 

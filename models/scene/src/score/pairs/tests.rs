@@ -79,9 +79,157 @@ fn log_overlaps_are_left_out() {
     assert_eq!(count(apart, Exclude::OverlapInLog), 0);
 }
 
+/// Moves as recorded.
+fn recorded<'a>(actor: &'a Actor<'a>) -> Actor<'a> {
+    Actor { generated: false, log: Some(&actor.track), ..actor.clone() }
+}
+
+/// Made motion over a recording.
+fn made<'a>(actor: &Actor<'a>, log: &'a Actor<'a>) -> Actor<'a> {
+    Actor { log: Some(&log.track), ..actor.clone() }
+}
+
+#[test]
+fn what_both_do_as_recorded_is_in_the_log() {
+    let (a, b) = (car("a", 0.0, 0.0, 0.0, 15.0), car("b", 24.0, 0.0, 0.0, 5.0));
+    let found = plain(vec![recorded(&a), recorded(&b)]);
+    assert!(found.collisions[0].in_log);
+    assert_eq!((found.agents[0].collisions, found.agents[0].logged_collisions), (0, 1));
+    let (a, b) = (car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, -46.6, FRAC_PI_2, 10.0));
+    let found = plain(vec![recorded(&a), recorded(&b)]);
+    assert!(found.near_misses[0].in_log);
+    assert_eq!(found.agents[1].near_misses, 0);
+}
+
+#[test]
+fn made_motion_is_in_the_log_only_where_the_recording_meets_so_too() {
+    let (a, b) = (car("a", 0.0, 0.0, 0.0, 15.0), car("b", 24.0, 0.0, 0.0, 5.0));
+    let in_log = |log: &Actor<'_>| plain(vec![made(&a, log), recorded(&b)]).collisions[0].in_log;
+    // Nearly the same drive; one that stays behind; one that meets it four seconds later; one that only
+    // rolls into it.
+    assert!(in_log(&car("a", -0.5, 0.0, 0.0, 15.0)));
+    assert!(!in_log(&car("a", 0.0, 0.0, 0.0, 5.0)));
+    assert!(!in_log(&car("a", -45.0, 0.0, 0.0, 15.0)));
+    assert!(!in_log(&car("a", 15.0, 0.0, 0.0, 7.5)));
+}
+
+#[test]
+fn people_who_walk_in_company_do_not_collide() {
+    let walk = |id, x, y, h, v| straight(id, Pedestrian, (x, y), h, v);
+    let hits = |actors| plain(actors).collisions.len();
+    // Side by side, behind each other, a group of three, two who stand and talk: their boxes touch.
+    assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 0.0, 0.6, 0.0, 1.4)]), 0);
+    assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", -1.0, 0.0, 0.0, 1.45)]), 0);
+    let third = walk("c", -0.5, 0.4, 0.0, 1.4);
+    assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 0.0, 0.6, 0.0, 1.4), third]), 0);
+    assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 0.0), walk("b", 0.0, 0.6, PI, 0.0)]), 0);
+    // Two who walk into each other, and one who walks into another's back.
+    assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 1.4), walk("b", 8.0, 0.0, PI, 1.4)]), 1);
+    assert_eq!(hits(vec![walk("a", 0.0, 0.0, 0.0, 2.4), walk("b", 5.0, 0.0, 0.0, 1.0)]), 1);
+}
+
+#[test]
+fn a_truck_and_its_trailer_do_not_collide() {
+    // The boxes part at the start by 0.2 m, and overlap later, in a bend of 30 m radius.
+    let bend = |behind: f64, heading_lag: f64| {
+        track_of(move |i| {
+            let h = 8.0 / 30.0 * i as f64 * STEP_S - behind / 30.0;
+            let (s, c) = h.sin_cos();
+            let (x_m, y_m) = (30.0 * s, 30.0 * (1.0 - c));
+            let heading_rad = crate::wrap_angle(h - heading_lag * i as f64 / 90.0);
+            State { x_m, y_m, heading_rad, vx_mps: 8.0 * c, vy_mps: 8.0 * s }
+        })
+    };
+    let (mut truck, mut trailer) = (car("a", 0.0, 0.0, 0.0, 8.0), car("b", 0.0, 0.0, 0.0, 8.0));
+    (truck.size.length_m, trailer.size.length_m) = (6.0, 6.0);
+    (truck.track, trailer.track) = (Cow::Owned(bend(0.0, 0.0)), Cow::Owned(bend(6.15, 0.5)));
+    let hits = |a: &Actor<'_>, b: &Actor<'_>| {
+        scored(vec![a.clone(), b.clone()], |input| input.exclude = Exclude::OverlapAtStart).collisions.len()
+    };
+    let (mut a, mut b) = (recorded(&truck), recorded(&trailer));
+    assert_eq!(hits(&a, &b), 0);
+    // In made motion they are still a truck and its trailer.
+    (a.generated, b.generated) = (true, true);
+    assert_eq!(hits(&a, &b), 0);
+    // Two cars of a queue that stands are not: made to drive on, one hits the other.
+    let (front, back) = (parked("a", 4.3, 0.0), parked("b", 0.0, 0.0));
+    assert_eq!(hits(&recorded(&front), &made(&car("b", 0.0, 0.0, 0.0, 3.0), &back)), 1);
+}
+
+#[test]
+fn recorded_cars_that_stay_parked_do_not_collide() {
+    // The box of one grows into the other's for a while.
+    let shaken = |i: usize| State { y_m: 2.1 - 0.3 * f64::from(u8::from(i > 40)), ..State::default() };
+    let (a, mut b) = (parked("a", 0.0, 0.0), parked("b", 0.0, 2.1));
+    b.track = Cow::Owned(track_of(shaken));
+    b.size.width_m = 2.0;
+    assert!(plain(vec![recorded(&a), recorded(&b)]).collisions.is_empty());
+    assert_eq!(plain(vec![a, b]).collisions.len(), 1);
+}
+
+#[test]
+fn a_bus_that_stands_or_crawls_beside_a_walker_is_no_near_miss() {
+    let misses = |speed: f64| {
+        // It stands for three seconds, then rolls off at that speed; the walker comes up to its side.
+        let roll = |i: usize| {
+            let rolled = (i as f64 - 30.0).max(0.0) * STEP_S;
+            State { x_m: speed * rolled, vx_mps: if rolled > 0.0 { speed } else { 0.0 }, ..State::default() }
+        };
+        let mut bus = car("a", 0.0, 0.0, 0.0, 0.0);
+        (bus.size.length_m, bus.size.width_m) = (12.0, 2.6);
+        bus.track = Cow::Owned(track_of(roll));
+        let walk = |i: usize| {
+            let t = (i as f64 * STEP_S).min(3.5);
+            State {
+                x_m: 8.0,
+                y_m: -6.5 + 1.4 * t,
+                vy_mps: if t < 3.5 { 1.4 } else { 0.0 },
+                ..State::default()
+            }
+        };
+        let mut walker = straight("b", Pedestrian, (0.0, 0.0), FRAC_PI_2, 0.0);
+        walker.track = Cow::Owned(track_of(walk));
+        plain(vec![bus, walker]).near_misses.len()
+    };
+    assert_eq!((misses(0.6), misses(1.3)), (0, 0));
+    // Rolling past at 4 m/s, a walker in its way is one.
+    assert_eq!(misses(4.0), 1);
+}
+
+#[test]
+fn a_car_that_turns_goes_round_those_ahead_of_it() {
+    // East at 6 m/s, a quarter turn to the left, then north, past the nose of one that waits to go on.
+    let turning = |i: usize| {
+        let way = 6.0 * STEP_S * i as f64 - 12.0;
+        let h = (way / 10.0).clamp(0.0, FRAC_PI_2);
+        let (s, c) = h.sin_cos();
+        let (straight, after) = (way.min(0.0), (way - 10.0 * FRAC_PI_2).max(0.0));
+        let (x_m, y_m) = (straight + 10.0 * s, 10.0 - 10.0 * c + after);
+        State { x_m, y_m, heading_rad: h, vx_mps: 6.0 * c, vy_mps: 6.0 * s }
+    };
+    let waiting = |i: usize| {
+        let rolled = 0.1 * (i as f64 - 60.0).clamp(0.0, 20.0);
+        let vx_mps = if (60..80).contains(&i) { -1.0 } else { 0.0 };
+        State { x_m: 12.0 - rolled, y_m: 1.0, heading_rad: -PI, vx_mps, vy_mps: 0.0 }
+    };
+    let (mut a, mut b) = (car("a", 0.0, 0.0, 0.0, 0.0), car("b", 0.0, 0.0, 0.0, 0.0));
+    (a.track, b.track) = (Cow::Owned(track_of(turning)), Cow::Owned(track_of(waiting)));
+    let found = plain(vec![a.clone(), b.clone()]);
+    assert_eq!(found.near_misses, []);
+    assert!(found.agents[0].min_ttc_s.unwrap() < 1.5);
+    // Without the turn it is one.
+    let straight = |i: usize| {
+        let t = (i as f64 * STEP_S).min(2.0);
+        State { x_m: 6.0 * t - 1.5 * t * t - 0.5, vx_mps: 6.0 - 3.0 * t, ..State::default() }
+    };
+    a.track = Cow::Owned(track_of(straight));
+    assert_eq!(plain(vec![a, b]).near_misses.len(), 1);
+}
+
 #[test]
 fn only_regenerated_pairs() {
-    let mut actors = vec![car("a", 0.0, 0.0, 0.0, 15.0), parked("b", 24.0, 0.0), parked("c", 24.0, 0.5)];
+    let rolls = car("b", 24.0, 0.0, 0.0, 1.0);
+    let mut actors = vec![car("a", 0.0, 0.0, 0.0, 15.0), rolls, parked("c", 24.0, 0.5)];
     for actor in &mut actors {
         actor.generated = actor.id == "a";
     }

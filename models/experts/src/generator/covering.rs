@@ -1,0 +1,291 @@
+//! Six futures that differ by what people can name.
+//!
+//! Modes are told apart by their anchors, yet with a goal, before a junction or in a queue they often do the same.
+//! Of two that coincide one adds nothing. Where the paths of others cross it goes before or after whom the others
+//! do not; else it takes another pace or line. What was made so is unlikely, and keeps what was made of it through
+//! refinement: an offset that the networks do not see.
+
+use super::actor::Actor;
+use super::candidates::middle;
+use super::ideas::{HURRY, Sketch, ladder};
+use super::slot::Slot;
+use crate::planning::{MODES, Modes, RESIDUAL, Residual};
+use crate::tuning::DuplicateTuning;
+use scene::judge::{Trace, crossing};
+
+/// Others whose paths are crossed by the best guess, at most so many count: the closest calls.
+const MOST_STREAMS: usize = 3;
+/// Modes that are no copies and make room for an order nobody else has.
+const MOST_GIVEN_UP: usize = 2;
+
+/// What is done to the modes of an actor so that they are six.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cover {
+    /// Added to each mode.
+    pub(super) offset: Modes,
+    /// By mode, summing to one.
+    pub(super) probability: [f64; MODES],
+    /// Modes that stay as they are whatever the draw: the best guess, and orders.
+    pub(super) steady: [bool; MODES],
+}
+
+impl Cover {
+    /// Nothing is done.
+    pub(super) fn none(actor: &Actor) -> Self {
+        let mut steady = [false; MODES];
+        steady[best(actor).index()] = true;
+        Self { offset: [[0.0; RESIDUAL]; MODES], probability: actor.probability, steady }
+    }
+
+    /// Of an actor among others. `share` is what counts of the residual of the mode in the middle.
+    pub(super) fn of(actor: &Actor, others: &[&Trace], share: f32, tuning: &DuplicateTuning) -> Self {
+        let sketches: Vec<Sketch<'_>> = Slot::all()
+            .map(|slot| {
+                let share = if middle(actor) == Some(slot) { share } else { 1.0 };
+                Sketch::of(actor, slot, &slot.of(&actor.modes).map(|r| share * r))
+            })
+            .collect();
+        let near: Vec<&Trace> = others
+            .iter()
+            .copied()
+            .filter(|o| o.id() != actor.id && sketches.iter().any(|s| s.trace().may_meet(o)))
+            .collect();
+        let mut found =
+            Covering { cover: Self::none(actor), actor, near, sketches, accepted: Vec::new(), tuning };
+        found.run();
+        found.cover
+    }
+}
+
+/// The mode that is the best guess: it is never changed.
+pub(super) fn best(actor: &Actor) -> Slot {
+    middle(actor).unwrap_or(actor.likeliest())
+}
+
+/// Mean distance below which two modes are copies, metres.
+pub(super) fn copy_m(actor: &Actor, tuning: &DuplicateTuning) -> f64 {
+    if actor.plan.target.position.is_some() { tuning.copy_with_goal_m } else { tuning.copy_m }
+}
+
+struct Covering<'a> {
+    cover: Cover,
+    actor: &'a Actor,
+    near: Vec<&'a Trace>,
+    /// By slot, as they are shown.
+    sketches: Vec<Sketch<'a>>,
+    /// Slots that are no copies.
+    accepted: Vec<usize>,
+    tuning: &'a DuplicateTuning,
+}
+
+impl<'a> Covering<'a> {
+    fn run(&mut self) {
+        let copy_m = copy_m(self.actor, self.tuning);
+        let first = best(self.actor).index();
+        // By slot and not by probability: a slot keeps its idea while a goal is dragged.
+        let order = std::iter::once(first).chain((0..MODES).filter(|i| *i != first));
+        let mut copies: Vec<(usize, usize)> = Vec::new();
+        for i in order {
+            let twin = self.accepted.iter().find(|j| self.sketches[i].apart_m(&self.sketches[**j]) < copy_m);
+            match twin {
+                Some(j) => copies.push((i, *j)),
+                None => self.accepted.push(i),
+            }
+        }
+        let missing = self.missing_orders(first);
+        if copies.is_empty() && missing.is_empty() {
+            return;
+        }
+        let mut free: Vec<usize> = copies.iter().map(|c| c.0).collect();
+        free.sort_unstable();
+        for (stream, before) in missing {
+            self.order(stream, before, first, &mut free);
+        }
+        for i in free {
+            if let Some(made) = self.another(i, copy_m) {
+                self.take(i, made);
+            }
+        }
+        self.share_out(&copies);
+    }
+
+    /// Orders that no accepted mode has, with those whose path the best guess crosses.
+    fn missing_orders(&self, first: usize) -> Vec<(&'a Trace, bool)> {
+        let me = self.sketches[first].trace();
+        let mut streams: Vec<(i64, &'a Trace)> =
+            self.near.iter().filter_map(|other| Some((crossing(me, other)?.least_shift(), *other))).collect();
+        streams.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| a.1.id().cmp(b.1.id())));
+        streams.truncate(MOST_STREAMS);
+        let has = |other: &Trace, wanted: i64| {
+            self.accepted
+                .iter()
+                .any(|i| crossing(self.sketches[*i].trace(), other).is_some_and(|g| g.order() == wanted))
+        };
+        let each = |(_, other): (i64, &'a Trace)| [(other, true), (other, false)];
+        let wants = streams.into_iter().flat_map(each);
+        wants.filter(|(other, before)| !has(other, if *before { 1 } else { -1 })).collect()
+    }
+
+    /// Gives an order to a copy, or to an unlikely mode on a path that another one has too.
+    fn order(&mut self, other: &Trace, before: bool, first: usize, free: &mut Vec<usize>) {
+        let made = |covering: &Self, i: usize| {
+            let made = covering.sketches[i].ordered(other, before)?;
+            covering.is_free(&covering.sketches[i], &made).then_some(made)
+        };
+        if let Some((at, found)) = free.iter().enumerate().find_map(|(at, i)| Some((at, made(self, *i)?))) {
+            let i = free.remove(at);
+            self.cover.steady[i] = true;
+            self.take(i, found);
+            return;
+        }
+        let given_up = (0..MODES).filter(|i| self.cover.steady[*i] && *i != first).count();
+        if !free.is_empty() || given_up >= MOST_GIVEN_UP {
+            return;
+        }
+        let path = |i: usize| self.actor.plan.anchors[i].path_identity();
+        let mut unlikely: Vec<usize> = (0..MODES)
+            .filter(|i| *i != first && !self.cover.steady[*i])
+            .filter(|i| (0..MODES).any(|j| j != *i && path(j) == path(*i)))
+            .collect();
+        unlikely.sort_by(|a, b| self.actor.probability[*a].total_cmp(&self.actor.probability[*b]));
+        if let Some((i, found)) = unlikely.into_iter().find_map(|i| Some((i, made(self, i)?))) {
+            self.accepted.retain(|j| *j != i);
+            self.cover.steady[i] = true;
+            self.take(i, found);
+        }
+    }
+
+    /// Another pace or line for a copy, apart from all that there is.
+    fn another(&self, i: usize, copy_m: f64) -> Option<Sketch<'a>> {
+        let from = &self.sketches[i];
+        let free_target = self.actor.plan.target.position.is_none();
+        // Who waits without being asked to go on has a reason to.
+        let waits = free_target && from.ends_at_rest();
+        let tries = ladder(&self.actor.plan, i % 2 == 1).into_iter().map(|offset| from.with(&offset));
+        tries
+            .filter(|made| !waits || made.way_m() <= from.way_m())
+            .filter(|made| self.accepted.iter().all(|j| made.apart_m(&self.sketches[*j]) > 1.05 * copy_m))
+            .find(|made| made.is_usual(from, HURRY) && self.is_free(from, made))
+    }
+
+    /// It meets nobody that the draft it was made from does not meet.
+    fn is_free(&self, from: &Sketch<'_>, made: &Sketch<'_>) -> bool {
+        self.near.iter().all(|other| !made.trace().meets(other) || from.trace().meets(other))
+    }
+
+    fn take(&mut self, i: usize, made: Sketch<'a>) {
+        let before: &Residual = &self.sketches[i].residual;
+        self.cover.offset[i] = std::array::from_fn(|k| made.residual[k] - before[k]);
+        self.sketches[i] = made;
+        self.accepted.push(i);
+    }
+
+    /// A copy's probability is that of the mode it is a copy of; what was made of it is unlikely.
+    fn share_out(&mut self, copies: &[(usize, usize)]) {
+        let made = |i: usize| self.cover.offset[i] != [0.0; RESIDUAL];
+        let mut probability = self.cover.probability;
+        for (i, twin) in copies.iter().filter(|(i, _)| made(*i)) {
+            probability[*twin] += probability[*i];
+            probability[*i] = 0.0;
+        }
+        let count = (0..MODES).filter(|i| made(*i)).count() as f64;
+        let rest: f64 = (0..MODES).filter(|i| !made(*i)).map(|i| probability[i]).sum();
+        let left = 1.0 - count * self.tuning.probability;
+        for (i, p) in probability.iter_mut().enumerate() {
+            *p = if made(i) { self.tuning.probability } else { *p * left / rest.max(1e-12) };
+        }
+        self.cover.probability = probability;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use crate::planning::INSTANTS;
+    use crate::tuning::SHIPPED;
+    use scene::geometry::direction;
+    use scene::{AgentType, Goal, Size, State, Subtype, Vec2};
+
+    fn driver(speed_mps: f64, goal_m: Option<f64>) -> Actor {
+        let position = goal_m.map(|x| Vec2::new(x, 0.0));
+        let mut actor =
+            Actor::new("1".into(), car_on_a_street(speed_mps, Goal { position, ..Goal::default() }), None);
+        // All do what the first does.
+        let first = actor.plan.anchors[0].clone();
+        actor.plan.anchors.iter_mut().for_each(|anchor| *anchor = first.clone());
+        actor
+    }
+
+    /// Over the street at x = 40, there after so many seconds.
+    fn crossing_at(passes_s: f64) -> Trace {
+        let size = Size::default_for(AgentType::Vehicle, Subtype::Car);
+        let at = |step: usize| {
+            let v = direction(std::f64::consts::FRAC_PI_2) * 9.0;
+            let y_m = 9.0 * (0.1 * (step + 1) as f64 - passes_s);
+            let heading_rad = std::f64::consts::FRAC_PI_2;
+            Some(State { x_m: 40.0, y_m, heading_rad, vx_mps: v.x, vy_mps: v.y })
+        };
+        Trace::new("7", AgentType::Vehicle, &size, 90, at)
+    }
+
+    fn shown<'a>(actor: &'a Actor, cover: &Cover) -> Vec<Sketch<'a>> {
+        let offset = |slot: Slot| *slot.of(&cover.offset);
+        Slot::all().map(|slot| Sketch::of(actor, slot, &offset(slot))).collect()
+    }
+
+    fn nearest_m(all: &[Sketch<'_>]) -> f64 {
+        let pairs = (0..all.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.map(|(a, b)| all[a].apart_m(&all[b])).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn six_alike_become_six_that_keep_the_goal() {
+        let actor = driver(9.0, Some(80.0));
+        let cover = Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates);
+        let all = shown(&actor, &cover);
+        assert!(nearest_m(&all) > SHIPPED.duplicates.copy_with_goal_m, "{}", nearest_m(&all));
+        assert_eq!(cover.offset[0], [0.0; RESIDUAL], "the best guess stays");
+        for sketch in &all {
+            assert!((sketch.way_m() - all[0].way_m()).abs() < 0.05, "{}", sketch.way_m());
+        }
+        assert!((cover.probability.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{:?}", cover.probability);
+        assert!(cover.probability[0] > 0.85, "what is made up is unlikely: {:?}", cover.probability);
+    }
+
+    #[test]
+    fn one_goes_before_and_one_after_whoever_crosses() {
+        let actor = driver(9.0, Some(80.0));
+        for passes_s in [3.6, 4.4, 5.2] {
+            let other = crossing_at(passes_s);
+            let cover = Cover::of(&actor, &[&other], 1.0, &SHIPPED.duplicates);
+            let all = shown(&actor, &cover);
+            let orders: Vec<i64> =
+                all.iter().filter_map(|s| Some(crossing(s.trace(), &other)?.order())).collect();
+            assert!(orders.contains(&1) && orders.contains(&-1), "{passes_s}: {orders:?}");
+            assert!(nearest_m(&all) > 0.5, "{}", nearest_m(&all));
+        }
+    }
+
+    #[test]
+    fn without_a_goal_copies_part_and_who_waits_waits() {
+        let actor = driver(9.0, None);
+        let all = shown(&actor, &Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates));
+        assert!(nearest_m(&all) > SHIPPED.duplicates.copy_m, "{}", nearest_m(&all));
+        let mut waiting = driver(0.0, None);
+        waiting.plan.anchors.iter_mut().for_each(|anchor| anchor.base.fill(0.0));
+        let cover = Cover::of(&waiting, &[], 1.0, &SHIPPED.duplicates);
+        assert!(shown(&waiting, &cover).iter().all(|s| s.way_m() < 1e-6));
+    }
+
+    #[test]
+    fn six_of_their_own_are_left_alone() {
+        let mut actor = driver(9.0, Some(80.0));
+        for (i, anchor) in actor.plan.anchors.iter_mut().enumerate() {
+            for step in 0..anchor.base.len() {
+                anchor.base[step] += 0.5 * i as f64 * (step as f64 / 30.0).min(1.0) * INSTANTS as f64 / 6.0;
+            }
+        }
+        assert_eq!(Cover::of(&actor, &[], 1.0, &SHIPPED.duplicates), Cover::none(&actor));
+    }
+}

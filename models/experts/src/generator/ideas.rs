@@ -1,0 +1,253 @@
+//! What else a draft could do on its own path: another pace, another line, another order where paths cross. What is
+//! asked of it is kept: goals are linear in the knots (see [`crate::planning::coordinates`]).
+
+use super::actor::Actor;
+use super::slot::Slot;
+use super::standing::trace_of;
+use super::trajectory::{BASIS, route_coordinates};
+use crate::features::agent::AgentPlan;
+use crate::planning::profile::Caps;
+use crate::planning::{
+    ACROSS_SCALE, ALONG_SCALE, INSTANT_S, INSTANTS, RESIDUAL, Residual, integrated_hat, twice_integrated_hat,
+};
+use nalgebra::{DMatrix, DVector};
+use scene::judge::{Trace, crossing};
+use scene::motion::Kind;
+use scene::{AgentType, KNOT_S, KNOTS, STEP_S, Vec2};
+use std::cell::OnceCell;
+
+/// The end of a window, seconds.
+const END_S: f64 = INSTANTS as f64 * INSTANT_S;
+/// Time kept from the other at shared ground: what is tried, seconds.
+const GAPS_S: [f64; 2] = [0.9, 0.4];
+/// Over the caps of a path by so much is usual.
+pub(super) const HURRY: f64 = 1.1;
+/// Way kept from shared ground, metres.
+const CLEAR_M: f64 = 0.6;
+
+/// A draft with its progress, as ideas are made from and measured.
+pub(super) struct Sketch<'a> {
+    actor: &'a Actor,
+    pub(super) slot: Slot,
+    pub(super) residual: Residual,
+    /// Progress and offset at the instants, metres.
+    route: [(f64, f64); INSTANTS],
+    places: [(Vec2, f64); INSTANTS],
+    trace: OnceCell<Trace>,
+}
+
+impl<'a> Sketch<'a> {
+    pub(super) fn of(actor: &'a Actor, slot: Slot, residual: &Residual) -> Self {
+        let route = route_coordinates(&actor.plan, slot, residual);
+        let anchor = &actor.plan.anchors[slot.index()];
+        let places = route.map(|(along, across)| anchor.place(along, across));
+        Self { actor, slot, residual: *residual, route, places, trace: OnceCell::new() }
+    }
+
+    /// The same draft with something added.
+    pub(super) fn with(&self, offset: &Residual) -> Self {
+        let residual = std::array::from_fn(|k| self.residual[k] + offset[k]);
+        Self::of(self.actor, self.slot, &residual)
+    }
+
+    /// As others see it.
+    pub(super) fn trace(&self) -> &Trace {
+        self.trace.get_or_init(|| trace_of(self.actor, &self.places))
+    }
+
+    /// Mean distance from another draft, metres.
+    pub(super) fn apart_m(&self, other: &Self) -> f64 {
+        let each = self.places.iter().zip(&other.places);
+        each.map(|(a, b)| (a.0 - b.0).norm()).sum::<f64>() / INSTANTS as f64
+    }
+
+    /// Way in the window, metres.
+    pub(super) fn way_m(&self) -> f64 {
+        self.route[INSTANTS - 1].0
+    }
+
+    /// It has come to rest by the window's end.
+    pub(super) fn ends_at_rest(&self) -> bool {
+        self.route[INSTANTS - 1].0 - self.route[INSTANTS - 2].0 < scene::STANDING_MPS * INSTANT_S
+    }
+
+    fn along_at(&self, seconds: f64) -> f64 {
+        let at = (seconds / INSTANT_S).clamp(0.0, INSTANTS as f64);
+        let (i, share) = (at.floor() as usize, at.fract());
+        let knot = |i: usize| if i == 0 { 0.0 } else { self.route[i.min(INSTANTS) - 1].0 };
+        knot(i) + share * (knot(i + 1) - knot(i))
+    }
+
+    /// Speeds between the instants, m/s.
+    fn speeds(&self) -> [f64; INSTANTS] {
+        std::array::from_fn(|i| {
+            let before = if i == 0 { 0.0 } else { self.route[i - 1].0 };
+            (self.route[i].0 - before) / INSTANT_S
+        })
+    }
+
+    /// Braking, speeding up and pace stay usual, or as they are in `from`; `hurry` is how far over the caps of its path
+    /// it may be.
+    pub(super) fn is_usual(&self, from: &Self, hurry: f64) -> bool {
+        let plan = &self.actor.plan;
+        let (brakes, speeds_up) = match plan.present.agent_type {
+            AgentType::Pedestrian => (1.3, 1.3),
+            AgentType::Cyclist => (2.5, 1.5),
+            _ => (3.3, 2.3),
+        };
+        let anchor = &plan.anchors[self.slot.index()];
+        let caps = match plan.model.kind {
+            Kind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
+            Kind::Walk => Caps::new(&[0.0], &[2.2]),
+        };
+        let v0 = plan.model.start_speed_mps();
+        let (mine, theirs) = (self.speeds(), from.speeds());
+        let fastest = theirs.iter().copied().fold(v0, f64::max);
+        let rates = |v: &[f64; INSTANTS]| -> [f64; INSTANTS] {
+            // The first speed is that of the middle of the first interval.
+            std::array::from_fn(|i| {
+                if i == 0 { (v[0] - v0) / (0.5 * INSTANT_S) } else { (v[i] - v[i - 1]) / INSTANT_S }
+            })
+        };
+        let own = rates(&theirs);
+        let least = own.iter().copied().fold(-brakes, f64::min);
+        let most = own.iter().copied().fold(speeds_up, f64::max);
+        let each = rates(&mine).into_iter().zip(mine).zip(&self.route);
+        each.into_iter().all(|((rate, speed), (along, _))| {
+            let cap = (hurry * caps.at(*along)).max(fastest);
+            rate >= least - 0.3 && rate <= most + 0.3 && speed <= cap + 0.3
+        })
+    }
+
+    /// Going before or after another where their paths cross, as a change of pace; `None` where there is no such
+    /// crossing or no usual way to do it.
+    pub(super) fn ordered(&self, other: &Trace, before: bool) -> Option<Self> {
+        let ground = crossing(self.trace(), other)?;
+        let seconds = |moment: usize| Trace::seconds(moment) + STEP_S;
+        let made = GAPS_S.iter().find_map(|gap_s| {
+            let (when_s, wanted_m) = if before {
+                (seconds(ground.theirs.0) - gap_s, self.along_at(seconds(ground.mine.1)) + CLEAR_M)
+            } else {
+                (seconds(ground.theirs.1) + gap_s, self.along_at(seconds(ground.mine.0)) - CLEAR_M)
+            };
+            if !(0.8..END_S).contains(&when_s) {
+                return None;
+            }
+            let shift_m = wanted_m - self.along_at(when_s);
+            let made = self.with(&pace(&self.actor.plan, &[(when_s, shift_m)])?);
+            made.is_usual(self, HURRY).then_some(made)
+        })?;
+        let order = crossing(made.trace(), other).map(|g| g.order());
+        (order == Some(if before { 1 } else { -1 })).then_some(made)
+    }
+}
+
+/// Along knots of the gentlest change of pace that is ahead by so many metres at these times, with the goal kept.
+/// `None` where the goal leaves no room for it.
+pub(super) fn pace(plan: &AgentPlan, shifts: &[(f64, f64)]) -> Option<Residual> {
+    let goal_s = plan.target.step as f64 * STEP_S;
+    let row = |f: fn(usize, f64) -> f64, t: f64| -> [f64; KNOTS] { std::array::from_fn(|k| f(k, t)) };
+    let mut rows: Vec<([f64; KNOTS], f64)> = Vec::with_capacity(shifts.len() + 2);
+    if plan.target.position.is_some() {
+        rows.push((row(twice_integrated_hat, goal_s), 0.0));
+        if shifts.iter().any(|(t, _)| (t - goal_s).abs() < 0.4) {
+            return None;
+        }
+    }
+    // What comes after the goal leaves the arrival as it is.
+    let after_goal = plan.target.position.is_some() && shifts.iter().any(|(t, _)| *t > goal_s);
+    if plan.target.speed_mps.is_some() || after_goal {
+        rows.push((row(integrated_hat, goal_s), 0.0));
+    }
+    rows.extend(shifts.iter().map(|(t, metres)| (row(twice_integrated_hat, *t), *metres)));
+    let a = DMatrix::from_fn(rows.len(), KNOTS, |i, k| rows[i].0[k]);
+    let wanted = DVector::from_fn(rows.len(), |i, _| rows[i].1);
+    let gram = &a * a.transpose() + DMatrix::identity(rows.len(), rows.len()) * 1e-9;
+    let knots = a.transpose() * gram.cholesky()?.solve(&wanted);
+    let mut offset = [0.0; RESIDUAL];
+    for (knot, value) in offset.iter_mut().zip(knots.iter()) {
+        *knot = *value as f32 / ALONG_SCALE;
+    }
+    offset.iter().all(|v| v.is_finite()).then_some(offset)
+}
+
+/// Across knots of a line that is this far aside half way to the goal, or at the end where there is none.
+pub(super) fn line(plan: &AgentPlan, aside_m: f64) -> Residual {
+    let goal_s = plan.target.step as f64 * STEP_S;
+    let share = |t: f64| match plan.target.position {
+        Some(_) if t < goal_s => (std::f64::consts::PI * t / goal_s).sin().powi(2),
+        Some(_) => 0.0,
+        None => (t / END_S).powi(2) * (3.0 - 2.0 * t / END_S),
+    };
+    let mut offset = [0.0; RESIDUAL];
+    for k in 1..KNOTS {
+        offset[KNOTS + k] = (aside_m * share(k as f64 * KNOT_S)) as f32 / ACROSS_SCALE;
+    }
+    tangent(plan, &offset)
+}
+
+/// An offset with what would change the goal taken out.
+pub(super) fn tangent(plan: &AgentPlan, offset: &Residual) -> Residual {
+    let mut out = [0.0; RESIDUAL];
+    for (half, projection) in plan.features.tangent.iter().enumerate() {
+        for (i, row) in projection.iter().enumerate() {
+            let from = &offset[half * KNOTS..(half + 1) * KNOTS];
+            out[half * KNOTS + i] = row.iter().zip(from).map(|(p, v)| p * v).sum();
+        }
+    }
+    out
+}
+
+/// Mean metres along and across that an offset moves a draft.
+pub(super) fn moves_m(offset: &Residual) -> (f64, f64) {
+    let (mut along, mut across) = (0.0, 0.0);
+    for i in 0..INSTANTS {
+        let sum = |basis: &[f32; KNOTS], knots: &[f32]| -> f64 {
+            f64::from(basis.iter().zip(knots).map(|(b, k)| b * k).sum::<f32>())
+        };
+        along += sum(&BASIS.along[i], &offset[..KNOTS]).abs();
+        across += sum(&BASIS.across[i], &offset[KNOTS..]).abs();
+    }
+    let count = INSTANTS as f64;
+    (f64::from(ALONG_SCALE) * along / count, f64::from(ACROSS_SCALE) * across / count)
+}
+
+/// Other paces and lines to try, the most telling first: metres ahead, when, and metres aside.
+pub(super) fn ladder(plan: &AgentPlan, late_first: bool) -> Vec<Residual> {
+    let goal_s = plan.target.step as f64 * STEP_S;
+    let agent_type = plan.present.agent_type;
+    let (paces, aside_m): (&[f64], f64) = match (agent_type, plan.target.position.is_some()) {
+        (AgentType::Pedestrian, true) => (&[1.3, 2.2, 0.8], 1.1),
+        (AgentType::Pedestrian, false) => (&[3.0, 5.0, 2.0], 3.0),
+        (AgentType::Cyclist, true) => (&[1.3, 2.6, 4.5], 0.8),
+        (AgentType::Cyclist, false) => (&[6.0, 12.0, 3.5], 0.8),
+        (_, true) => (&[1.3, 2.6, 4.0, 6.0], 0.7),
+        (_, false) => (&[8.0, 14.0, 5.0, 22.0], 0.7),
+    };
+    let sign = if late_first { -1.0 } else { 1.0 };
+    let middle_s = if plan.target.position.is_some() { 0.5 * goal_s } else { END_S };
+    let mut out = Vec::with_capacity(4 * paces.len() + 4);
+    let lines = |out: &mut Vec<Residual>| out.extend([1.0, -1.0].map(|s| line(plan, s * sign * aside_m)));
+    for (i, metres) in paces.iter().enumerate() {
+        out.extend([1.0, -1.0].iter().filter_map(|s| pace(plan, &[(middle_s, s * sign * metres)])));
+        if i == 0 {
+            lines(&mut out);
+        }
+    }
+    let both = |metres: f64, aside: f64| -> Option<Residual> {
+        let (along, across) = (pace(plan, &[(middle_s, metres)])?, line(plan, aside));
+        Some(std::array::from_fn(|k| along[k] + across[k]))
+    };
+    let small = paces.last().copied().unwrap_or(1.0);
+    out.extend(
+        [(1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0)]
+            .into_iter()
+            .filter_map(|(a, b)| both(a * sign * small, b * aside_m)),
+    );
+    // On from a goal that is met early: slower or faster.
+    if plan.target.position.is_some() && goal_s < END_S - 1.5 {
+        let later = [-5.0, 5.0, -10.0].map(|metres| pace(plan, &[(END_S, sign * metres)]));
+        out.extend(later.into_iter().flatten());
+    }
+    out
+}

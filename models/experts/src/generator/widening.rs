@@ -1,0 +1,191 @@
+//! Diversity: drafts that are drawn wider about what they do, and of those the ones that cover most.
+
+use super::actor::Actor;
+use super::covering::{Cover, best};
+use super::ideas::{HURRY, Sketch, moves_m, tangent};
+use super::noise::Key;
+use super::slot::Slot;
+use crate::planning::{MODES, Modes, RESIDUAL, Residual};
+use crate::tuning::DiversityTuning;
+use scene::{AgentType, HORIZON_STEPS, KNOT_S, KNOTS, STEP_S};
+
+/// Draws of each mode; the one farthest from the others is taken.
+const DRAWS: usize = 4;
+/// Steps of the key that are no refinement steps.
+const FIRST_KEY: usize = 1 << 32;
+/// Waves of a drawn pace, and of a drawn line.
+const WAVES: usize = 3;
+
+/// What a draw adds to the modes of an actor, and how likely they are after it.
+pub(super) fn widen(
+    actor: &Actor,
+    cover: &Cover,
+    diversity: f64,
+    key: Key<'_>,
+    tuning: &DiversityTuning,
+) -> (Modes, [f64; MODES]) {
+    let (mut added, mut probability) = ([[0.0; RESIDUAL]; MODES], cover.probability);
+    let share = 0.5 * diversity;
+    let reach = Reach::of(actor, share, tuning);
+    if reach.along_m < 1e-3 && reach.across_m < 1e-3 {
+        return (added, probability);
+    }
+    let shown = |slot: Slot| -> Residual {
+        std::array::from_fn(|k| slot.of(&actor.modes)[k] + slot.of(&cover.offset)[k])
+    };
+    let best = best(actor);
+    let steady = |slot: &Slot| cover.steady[slot.index()];
+    let mut taken: Vec<Sketch<'_>> =
+        Slot::all().filter(steady).map(|slot| Sketch::of(actor, slot, &shown(slot))).collect();
+    let draws: [Modes; DRAWS] =
+        std::array::from_fn(|draw| Key { step: FIRST_KEY + draw, ..key }.normals(1.0));
+    for slot in Slot::all().filter(|slot| !steady(slot) && *slot != best) {
+        let from = Sketch::of(actor, slot, &shown(slot));
+        let drawn = draws.iter().map(|normals| {
+            let (offset, far, made) = reach.offset(actor, &from, slot.of(normals));
+            let apart = taken.iter().map(|t| t.apart_m(&made)).fold(f64::INFINITY, f64::min);
+            (apart, offset, far, made)
+        });
+        let Some((_, offset, far, made)) = drawn.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+        added[slot.index()] = offset;
+        probability[slot.index()] *= (-0.5 * far * far * share * share).exp();
+        taken.push(made);
+    }
+    let sum: f64 = probability.iter().sum();
+    (added, probability.map(|p| p / sum.max(1e-12)))
+}
+
+/// How far a draw reaches, mean metres in a window.
+struct Reach {
+    along_m: f64,
+    across_m: f64,
+    /// The way over which it reaches so far: who hardly moves is hardly moved.
+    way_m: f64,
+    /// How far over the caps of its path it may be.
+    hurry: f64,
+}
+
+impl Reach {
+    fn of(actor: &Actor, share: f64, t: &DiversityTuning) -> Self {
+        let goal = actor.plan.target.position.is_some();
+        // A small setting stays near what is likely; the ends part with its square.
+        let along = share * share;
+        let (along_m, across_m, way_m) = match actor.plan.present.agent_type {
+            AgentType::Pedestrian => {
+                (if goal { t.goal_on_foot_m } else { t.on_foot_m }, t.aside_on_foot_m, 8.0)
+            }
+            AgentType::Cyclist => (if goal { t.goal_m } else { t.riding_m }, t.aside_m, 25.0),
+            _ => (if goal { t.goal_m } else { t.driving_m }, t.aside_m, 40.0),
+        };
+        // A goal that is due early leaves less room.
+        let room = if goal {
+            let seconds = actor.plan.target.step as f64 * STEP_S;
+            (seconds / (HORIZON_STEPS as f64 * STEP_S)).powi(2)
+        } else {
+            1.0
+        };
+        Self {
+            along_m: along * along_m * room,
+            across_m: along * across_m,
+            way_m,
+            hurry: HURRY + 0.15 * share,
+        }
+    }
+
+    /// A drawn offset that keeps the goal, and how far it goes of what it may.
+    fn offset<'a>(
+        &self,
+        actor: &Actor,
+        from: &Sketch<'a>,
+        normals: &Residual,
+    ) -> (Residual, f64, Sketch<'a>) {
+        let waits = actor.plan.target.position.is_none() && from.ends_at_rest();
+        let moving = if waits { 0.0 } else { (from.way_m() / self.way_m).min(1.0) };
+        let mut waves = [0.0; RESIDUAL];
+        for k in 0..KNOTS {
+            let at = std::f64::consts::PI * k as f64 * KNOT_S / (HORIZON_STEPS as f64 * STEP_S);
+            for wave in 0..WAVES {
+                let value = (wave as f64 * at).cos() as f32;
+                waves[k] += normals[wave] * value;
+                waves[KNOTS + k] += normals[WAVES + wave] * (value - 1.0 + (at * 0.5).sin() as f32);
+            }
+        }
+        let shape = tangent(&actor.plan, &waves);
+        let (along, across) = moves_m(&shape);
+        // Between half of the reach and one and a half of it.
+        let far = |z: f32| 0.5 + 1.0 / (1.0 + f64::from(-z).exp());
+        let far_along = far(normals[2 * WAVES]);
+        let scale = [
+            self.along_m * moving * far_along / along.max(1e-6),
+            self.across_m * moving * far(normals[2 * WAVES + 1]) / across.max(1e-6),
+        ];
+        let scaled = |along: f64| -> Residual {
+            std::array::from_fn(|k| {
+                let scale = if k < KNOTS { along * scale[0] } else { scale[1] };
+                (scale * f64::from(shape[k])) as f32
+            })
+        };
+        for share in [1.0, 0.7, 0.45, 0.2] {
+            let offset = scaled(share);
+            let made = from.with(&offset);
+            if made.is_usual(from, self.hurry) {
+                return (offset, share * far_along, made);
+            }
+        }
+        let offset = scaled(0.0);
+        (offset, 0.0, from.with(&offset))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generator::samples::car_on_a_street;
+    use crate::tuning::SHIPPED;
+    use scene::{Goal, Vec2};
+
+    fn driver(goal_m: Option<f64>) -> Actor {
+        let position = goal_m.map(|x| Vec2::new(x, 0.0));
+        Actor::new("1".into(), car_on_a_street(9.0, Goal { position, ..Goal::default() }), None)
+    }
+
+    fn drawn(actor: &Actor, diversity: f64, seed: u64) -> Vec<Sketch<'_>> {
+        let cover = Cover::of(actor, &[], 1.0, &SHIPPED.duplicates);
+        let key = Key { seed, sample: 0, agent: "1", window: 0, step: 0 };
+        let (added, probability) = widen(actor, &cover, diversity, key, &SHIPPED.diversity);
+        assert!((probability.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        let offset = |i: usize| std::array::from_fn(|k| cover.offset[i][k] + added[i][k]);
+        (0..MODES).map(|i| Sketch::of(actor, Slot::new(i), &offset(i))).collect()
+    }
+
+    fn spread_m(all: &[Sketch<'_>]) -> f64 {
+        let pairs = (0..MODES).flat_map(|a| (0..a).map(move |b| (a, b)));
+        pairs.map(|(a, b)| all[a].apart_m(&all[b])).sum::<f64>()
+    }
+
+    #[test]
+    fn zero_repeats_and_more_parts_modes_and_seeds() {
+        for goal_m in [None, Some(80.0)] {
+            let actor = driver(goal_m);
+            let of = |diversity: f64, seed: u64| drawn(&actor, diversity, seed);
+            let moved = |a: &[Sketch<'_>], b: &[Sketch<'_>]| -> f64 {
+                a.iter().zip(b).map(|(a, b)| a.apart_m(b)).sum()
+            };
+            assert_eq!(moved(&of(0.0, 1), &of(0.0, 2)), 0.0);
+            let apart = [0.5, 1.0, 2.0].map(|d| moved(&of(d, 1), &of(d, 2)));
+            assert!(0.0 < apart[0] && apart[0] < apart[1] && apart[1] < apart[2], "{apart:?}");
+            let mean = |d: f64| (0..8).map(|seed| spread_m(&of(d, seed))).sum::<f64>();
+            assert!(mean(2.0) > 1.15 * mean(0.5), "{goal_m:?}: {} {}", mean(2.0), mean(0.5));
+        }
+    }
+
+    #[test]
+    fn the_best_guess_and_the_goal_stay() {
+        let actor = driver(Some(80.0));
+        let (zero, wide) = (drawn(&actor, 0.0, 3), drawn(&actor, 2.0, 3));
+        assert_eq!(zero[0].apart_m(&wide[0]), 0.0);
+        for sketch in &wide {
+            assert!((sketch.way_m() - zero[0].way_m()).abs() < 0.05, "{}", sketch.way_m());
+        }
+    }
+}

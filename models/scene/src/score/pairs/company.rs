@@ -1,0 +1,58 @@
+//! Pairs that belong together: people who walk in company, a truck and its trailer. That they touch says
+//! nothing, because their boxes are larger than they are or because they are made fast to each other.
+
+use super::mover::Mover;
+use crate::geometry::obb::signed_gap;
+use crate::{AgentType, STEP_S};
+
+/// People in company keep their centres within this, metres.
+const COMPANY_M: f64 = 1.5;
+/// People in company walk alike: their velocities differ by less than this, m/s.
+const COMPANY_MPS: f64 = 0.7;
+/// Seconds before and after a moment in which company shows.
+const COMPANY_S: f64 = 2.0;
+/// Company of less than this is an encounter, seconds.
+const LEAST_COMPANY_S: f64 = 1.0;
+/// A truck and its trailer never come farther apart than this, metres.
+const HITCH_M: f64 = 0.5;
+/// In bends the distance of their centres changes by less than this, metres.
+const HITCH_PLAY_M: f64 = 1.0;
+/// They drive at least this far together, metres: cars of a queue that does not move are no trailers.
+const HITCH_TRAVEL_M: f64 = 2.0;
+
+/// Two walkers keep together about this step: near each other and as fast, side by side, behind each other
+/// or standing, for most of two seconds before and after.
+pub(super) fn walk_together(a: &Mover, b: &Mover, step: usize) -> bool {
+    if a.agent_type != AgentType::Pedestrian || b.agent_type != AgentType::Pedestrian {
+        return false;
+    }
+    let around = (COMPANY_S / STEP_S) as usize;
+    let (first, end) = (step.saturating_sub(around), (step + around + 1).min(a.moments.len()));
+    let (mut seen, mut together) = (0usize, 0usize);
+    for (p, q) in a.moments[first..end].iter().zip(&b.moments[first..end]) {
+        let (Some(p), Some(q)) = (p, q) else { continue };
+        seen += 1;
+        let near = (p.outline.center() - q.outline.center()).norm() <= COMPANY_M;
+        together += usize::from(near && (p.velocity - q.velocity).norm() <= COMPANY_MPS);
+    }
+    together as f64 * STEP_S >= LEAST_COMPANY_S && 2 * together > seen
+}
+
+/// A truck and its trailer: two vehicle boxes that drive and stay at each other all the time.
+pub(super) fn are_hitched(a: &Mover, b: &Mover) -> bool {
+    let vehicles = a.agent_type == AgentType::Vehicle && b.agent_type == AgentType::Vehicle;
+    if !vehicles || a.travel_m < HITCH_TRAVEL_M || b.travel_m < HITCH_TRAVEL_M {
+        return false;
+    }
+    let (mut seen, mut least_m, mut most_m) = (0usize, f64::INFINITY, 0f64);
+    for (p, q) in a.moments.iter().zip(&b.moments) {
+        let (Some(p), Some(q)) = (p, q) else { continue };
+        let apart_m = (p.outline.center() - q.outline.center()).norm();
+        (least_m, most_m) = (least_m.min(apart_m), most_m.max(apart_m));
+        if most_m - least_m > HITCH_PLAY_M || signed_gap(&p.outline, &q.outline) > HITCH_M {
+            return false;
+        }
+        seen += 1;
+    }
+    seen as f64 * STEP_S >= LEAST_COMPANY_S
+}

@@ -1,0 +1,51 @@
+//! Whether the log itself shows an event of a pair.
+
+use super::mover::Mover;
+use super::{Known, Pair, look_at};
+use crate::STEP_S;
+use crate::score::input::{Actor, ScoreInput};
+use std::borrow::Cow;
+
+/// An event this much before or after that of the log is the same one, seconds.
+const SAME_S: f64 = 1.0;
+/// A collision that much faster than the log's is another one, m/s.
+const SAME_IMPACT_MPS: f64 = 2.0;
+/// A near miss that much closer than the log's is another one, metres.
+const SAME_GAP_M: f64 = 0.5;
+
+/// The pair as it was recorded; `None` without a recording of both.
+pub(super) fn logged(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> Option<(Mover, Mover)> {
+    let of_log = |actor: &Actor<'_>| {
+        let log = actor.log.filter(|log| log.states.iter().any(Option::is_some))?;
+        let track = Cow::Borrowed(log);
+        Some(Mover::new(&Actor { track, generated: false, ..actor.clone() }, input.steps.clone()))
+    };
+    Some((of_log(a)?, of_log(b)?))
+}
+
+/// The collision, else the near miss, of this pair is the log's own: both move as recorded, or the log
+/// shows them meet so at about the same time, no less hard.
+pub(super) fn is_in_log(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>, pair: &Pair) -> bool {
+    if !a.generated && !b.generated {
+        return true;
+    }
+    let Some((p, q)) = logged(input, a, b) else { return false };
+    let log = look_at(input, &p, &q, Known::NOTHING);
+    let near = |at: f64, first: f64, last: f64| {
+        let same = SAME_S / STEP_S;
+        (first - same..=last + same).contains(&at)
+    };
+    let hit = log.collision.as_ref();
+    if let Some(found) = &pair.collision {
+        let same = |l: &super::Contact| {
+            near(found.first, l.first, l.last) && found.closing_mps <= l.closing_mps + SAME_IMPACT_MPS
+        };
+        return hit.is_some_and(same);
+    }
+    let Some(found) = &pair.near else { return false };
+    let at = found.step as f64;
+    let same = |l: &super::near::Nearest| {
+        near(at, l.first as f64, l.last as f64) && found.gap.gap_m >= l.gap.gap_m - SAME_GAP_M
+    };
+    hit.is_some_and(|l| near(at, l.first, l.last)) || log.near.as_ref().is_some_and(same)
+}

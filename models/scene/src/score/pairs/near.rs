@@ -1,0 +1,133 @@
+//! What makes a moment of two road users a near miss.
+
+use super::mover::{Moment, Mover};
+use crate::geometry::obb::{OrientedBox, overlaps};
+use crate::geometry::{Vec2, direction, rotate, wrap_angle};
+use crate::score::input::Thresholds;
+use crate::{AgentType, STEP_S};
+use std::f64::consts::FRAC_PI_6;
+
+/// A road user that stays within this of its first place all the time is parked, metres.
+pub(super) const PARKED_M: f64 = 1.0;
+/// Beside people, wheels slower than this crawl: who walks there keeps clear of them without haste, m/s.
+const CRAWL_MPS: f64 = 1.5;
+
+/// A course towards each other that lasts less than this many steps is that of one who just begins to
+/// turn away.
+const LEAST_COURSE: usize = 3;
+
+/// What makes a moment a near miss.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// The gap: one crosses close to the other.
+    Gap,
+    /// The course: they meet if both go on.
+    Course,
+}
+
+/// The worst moment of a near miss, and the steps of its first and last.
+#[derive(Debug)]
+pub(super) struct Nearest {
+    pub step: usize,
+    pub gap: Gap,
+    pub first: usize,
+    pub last: usize,
+    steps: usize,
+    crosses: bool,
+}
+
+impl Nearest {
+    /// Keeps the moment with the least time to collision, then the least gap.
+    pub(super) fn keep(near: &mut Option<Self>, step: usize, gap: Gap, kind: Kind) {
+        let key = |gap: &Gap| (gap.ttc_s.unwrap_or(f64::INFINITY), gap.gap_m);
+        let new = || Self { step, gap, first: step, last: step, steps: 0, crosses: false };
+        let near = near.get_or_insert_with(new);
+        (near.last, near.steps) = (step, near.steps + 1);
+        near.crosses |= kind == Kind::Gap;
+        if key(&gap) < key(&near.gap) {
+            (near.step, near.gap) = (step, gap);
+        }
+    }
+
+    /// It is more than a moment of somebody's turn.
+    pub(super) fn lasts(&self) -> bool {
+        self.crosses || self.steps >= LEAST_COURSE
+    }
+}
+
+/// One of the two at a step.
+#[derive(Clone, Copy)]
+pub(super) struct Side<'a> {
+    pub mover: &'a Mover,
+    pub moment: &'a Moment,
+    pub step: usize,
+}
+
+impl Side<'_> {
+    fn walks(&self) -> bool {
+        self.mover.agent_type == AgentType::Pedestrian
+    }
+
+    /// Where it is in `time_s` if it keeps its speed and goes on turning as it does.
+    fn later(&self, turn_rate_radps: f64, time_s: f64) -> OrientedBox {
+        let outline = &self.moment.outline;
+        let turned = turn_rate_radps * time_s;
+        // Along an arc the way is that of the chord, which lies half the turn off.
+        let half = 0.5 * turned;
+        let chord = if half.abs() < 1e-6 { 1.0 } else { half.sin() / half };
+        let center = outline.center() + rotate(self.moment.velocity * (time_s * chord), half);
+        let heading = outline.heading_rad() + turned;
+        OrientedBox::new(center, outline.half_length_m(), outline.half_width_m(), heading)
+    }
+}
+
+/// The gap of two boxes at a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    pub gap_m: f64,
+    /// From the first to the second, a unit vector.
+    pub towards: Vec2,
+    /// Time to collision at constant velocity, seconds, if there is one.
+    pub ttc_s: Option<f64>,
+    /// How fast the gap shrinks, m/s.
+    pub closing_mps: f64,
+}
+
+/// A near miss: both move (or one stands in the way for a while), the gap shrinks fast, and either they
+/// meet within the time threshold if both go on as they do, round their bends too, or one crosses close
+/// to the other. Not so: two walkers, parked cars, wheels that stand or crawl beside people, one that
+/// passes beside another on its own line, and one that brakes normally behind another.
+pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap) -> Option<Kind> {
+    let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
+    if parked || a.walks() && b.walks() || gap.closing_mps <= limits.closing_speed_mps {
+        return None;
+    }
+    let crawls = |wheels: Side<'_>, walker: Side<'_>| walker.walks() && wheels.moment.speed_mps <= CRAWL_MPS;
+    if crawls(a, b) || crawls(b, a) {
+        return None;
+    }
+    let turn = wrap_angle(a.moment.outline.heading_rad() - b.moment.outline.heading_rad()).abs();
+    let needed_mps2 = gap.closing_mps.powi(2) / (2.0 * gap.gap_m.max(0.05));
+    let forward = direction(a.moment.outline.heading_rad());
+    let follows = turn < FRAC_PI_6 && gap.towards.dot(&forward).abs() > 0.7;
+    if follows && needed_mps2 <= limits.follow_brake_mps2 {
+        return None;
+    }
+    let moves = |side: Side<'_>| side.moment.speed_mps > limits.moving_mps;
+    let crosses = (FRAC_PI_6..=5.0 * FRAC_PI_6).contains(&turn);
+    let by_gap = gap.gap_m < limits.gap_m && moves(a) && moves(b);
+    let by_time = gap.ttc_s.is_some_and(|t| t < limits.ttc_s);
+    if by_gap && crosses {
+        return Some(Kind::Gap);
+    }
+    ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(Kind::Course)
+}
+
+/// The two touch within this time if both keep their speeds and turns.
+fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
+    let (of_a, of_b) = (a.mover.turn_rate_radps(a.step), b.mover.turn_rate_radps(b.step));
+    let steps = (time_s / STEP_S).ceil() as usize;
+    (0..=steps)
+        .map(|i| (i as f64 * STEP_S).min(time_s))
+        .any(|t| overlaps(&a.later(of_a, t), &b.later(of_b, t), 0.0))
+}

@@ -1,0 +1,130 @@
+//! Marks what a single road user does already in the log: off the road, against the traffic, braking
+//! hard, through red.
+
+use super::input::{Actor, ScoreInput};
+use super::report::{RedLight, Stretch};
+use super::{kinematic, road, signals};
+use std::borrow::Cow;
+
+/// An event this much before or after that of the log is the same one, seconds.
+const SAME_S: f64 = 1.0;
+/// A stretch that much worse than the log's is another one: metres off the road.
+const SAME_OFF_ROAD_M: f64 = 0.3;
+/// ... m/s2 of braking or sideways ...
+const SAME_HARSH_MPS2: f64 = 1.0;
+/// ... metres driven against the traffic.
+const SAME_WRONG_WAY_M: f64 = 5.0;
+
+/// The road user as it was recorded, if it was.
+fn as_recorded<'a>(actor: &Actor<'a>) -> Option<Actor<'a>> {
+    let log = actor.log.filter(|log| log.states.iter().any(Option::is_some))?;
+    Some(Actor { track: Cow::Borrowed(log), generated: false, ..actor.clone() })
+}
+
+/// Marks stretches of `actor` that the same look at its recording finds too.
+fn mark(actor: &Actor<'_>, found: &mut [Stretch], worse: f64, look: impl Fn(&Actor<'_>) -> Vec<Stretch>) {
+    if found.is_empty() {
+        return;
+    }
+    let log =
+        if actor.generated { as_recorded(actor).map(|a| look(&a)).unwrap_or_default() } else { Vec::new() };
+    for stretch in found {
+        let same = |l: &Stretch| {
+            let at_once = stretch.time_s <= l.until_s + SAME_S && stretch.until_s >= l.time_s - SAME_S;
+            let excess = stretch.worst.unwrap_or(0.0) - l.worst.unwrap_or(0.0);
+            at_once && stretch.until_s - stretch.time_s <= l.until_s - l.time_s + SAME_S && excess <= worse
+        };
+        stretch.in_log = !actor.generated || log.iter().any(same);
+    }
+}
+
+/// Marks stretches off the road and against the traffic.
+pub(crate) fn mark_road(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut road::RoadScore) {
+    mark(actor, &mut found.off_road, SAME_OFF_ROAD_M, |a| road::score_road(input, a).off_road);
+    mark(actor, &mut found.over_median, SAME_OFF_ROAD_M, |a| road::score_road(input, a).over_median);
+    mark(actor, &mut found.wrong_way, SAME_WRONG_WAY_M, |a| road::score_road(input, a).wrong_way);
+}
+
+/// Marks stretches of hard braking.
+pub(crate) fn mark_braking(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
+    mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_braking(a, input));
+}
+
+/// Marks stretches of hard turning.
+pub(crate) fn mark_steering(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &mut [Stretch]) {
+    mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_steering(a, input));
+}
+
+/// Marks red lights that are run in the log.
+pub(super) fn mark_red_lights(input: &ScoreInput<'_>, found: &mut [RedLight]) {
+    let of = |id: &str| input.actors.iter().find(|a| a.id == id);
+    let runners: Vec<Actor<'_>> =
+        found.iter().filter_map(|r| of(&r.agent).filter(|a| a.generated).and_then(as_recorded)).collect();
+    let log = if runners.is_empty() {
+        Vec::new()
+    } else {
+        signals::red_lights(&ScoreInput { actors: runners, ..input.clone() })
+    };
+    for red in found {
+        red.in_log = of(&red.agent).is_some_and(|a| !a.generated) || log.iter().any(|l| is_same(l, red));
+    }
+}
+
+fn is_same(logged: &RedLight, red: &RedLight) -> bool {
+    logged.agent == red.agent && logged.lane == red.lane && (logged.time_s - red.time_s).abs() <= SAME_S
+}
+
+/// Leaves out the red lights that one road user runs in the log too.
+pub(crate) fn beyond_log(
+    input: &ScoreInput<'_>,
+    actor: &Actor<'_>,
+    lines: &[signals::StopLine<'_>],
+    mut found: Vec<RedLight>,
+) -> Vec<RedLight> {
+    if !found.is_empty()
+        && let Some(recorded) = as_recorded(actor)
+    {
+        let log = signals::crossed_at_red(input, &recorded, lines);
+        found.retain(|red| !log.iter().any(|l| is_same(l, red)));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{area, input_of, straight, track_of};
+    use super::super::{Drivable, score};
+    use crate::{AgentType, LaneMap, STEP_S, State, Track};
+
+    fn road() -> Drivable {
+        let road = area(&[(-10.0, -4.0), (45.0, -4.0), (45.0, 4.0), (-10.0, 4.0)]);
+        Drivable::new(&LaneMap { drivable: vec![road], ..LaneMap::default() })
+    }
+
+    fn at_speed(speed_mps: f64) -> Track {
+        track_of(|i| State { x_m: speed_mps * STEP_S * i as f64, vx_mps: speed_mps, ..State::default() })
+    }
+
+    #[test]
+    fn what_the_recording_does_is_in_the_log() {
+        let drivable = road();
+        let mut car = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+        car.generated = false;
+        assert!(score(&input_of(vec![car], &drivable)).scene.off_road[0].in_log);
+    }
+
+    #[test]
+    fn made_motion_counts_unless_the_recording_does_the_same() {
+        let drivable = road();
+        let off_road = |log: &Track| {
+            let mut car = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+            car.log = Some(log);
+            score(&input_of(vec![car], &drivable)).scene.off_road[0].in_log
+        };
+        // The recording leaves the road as well, nearly as far; or stays on it.
+        assert!(off_road(&at_speed(9.98)));
+        assert!(!off_road(&at_speed(4.0)));
+        // It goes a metre off, the made motion 47 m.
+        assert!(!off_road(&at_speed(4.9)));
+    }
+}

@@ -1,0 +1,98 @@
+// Events on the overlay: rings around those in one at the playhead, and a label at the one that is picked.
+import type { TrafficEvent } from '../model/events';
+import type { Pose } from '../model/geometry';
+import type { Agent } from '../model/scene';
+import { seconds } from '../model/units';
+import { paintIcon, tag, type Labels, type PillStyle } from '../draw/labels';
+import { paintRing } from '../draw/handles';
+import { colours } from '../draw/theme';
+import type { View } from '../draw/view';
+import type { Editor } from './editor';
+
+type G = CanvasRenderingContext2D;
+
+/** An event is shown this long before and after it. */
+const NEAR_S = 0.45;
+
+export class EventsOverlay {
+  constructor(
+    private readonly editor: Editor,
+    private readonly labels: Labels,
+    private readonly poseNow: (a: Agent) => Pose | null,
+  ) {}
+
+  paint(g: G, v: View): void {
+    const { editor: e } = this;
+    const picked = e.selectedEvent.value;
+    const t = e.time.value;
+    const isNow = (ev: TrafficEvent): boolean => t >= ev.time - NEAR_S && t <= Math.max(ev.time, ev.until) + NEAR_S;
+    for (const ev of e.events.value) {
+      // What is in the log shows itself only when somebody asks.
+      if (ev !== picked && (ev.inLog || !isNow(ev))) continue;
+      if (isNow(ev)) this.rings(g, v, ev);
+      if (ev.kind === 'collision' && !ev.inLog) this.cross(g, v, ev);
+      if (!this.saidOnLine(ev)) this.label(g, v, ev);
+    }
+  }
+
+  private rings(g: G, v: View, ev: TrafficEvent): void {
+    for (const a of ev.b ? [ev.a, ev.b] : [ev.a]) {
+      const p = this.poseNow(this.editor.scene.value!.agents.get(a.id) ?? a);
+      if (p) paintRing(g, v, a, p, colourOf(ev), 2, 3);
+    }
+  }
+
+  private cross(g: G, v: View, ev: TrafficEvent): void {
+    const c = colours();
+    const [x, y] = v.to(ev.at[0], ev.at[1]);
+    g.beginPath();
+    g.arc(x, y, 10, 0, Math.PI * 2);
+    g.fillStyle = c.collision;
+    g.strokeStyle = c.halo;
+    g.lineWidth = 2.5;
+    g.stroke();
+    g.fill();
+    paintIcon(g, 'cross', x, y, c['on-collision']);
+    this.labels.block(x - 12, y - 12, 24, 24);
+  }
+
+  /** The words stand on the line of the selected road user already. */
+  private saidOnLine(ev: TrafficEvent): boolean {
+    const { editor: e } = this;
+    if (!e.layers.value.futures || (ev.a.id !== e.selection.value && ev.b?.id !== e.selection.value)) return false;
+    const faults = e.futures.value?.modes[e.chosen.value]?.about?.faults ?? [];
+    return faults.some((f) => f.kind === ev.what && Math.abs(f.time - ev.time) < NEAR_S);
+  }
+
+  private label(g: G, v: View, ev: TrafficEvent): void {
+    const text =
+      ev.kind === 'collision'
+        ? `Collision · ${ev.title}`
+        : ev.b
+          ? `${seconds(ev.time)} · ${ev.short}`
+          : `${seconds(ev.time)} · ${ev.title}, ${ev.short}`;
+    const style = styleOf(ev);
+    tag(g, this.labels, [v.x(ev.at[0]), v.y(ev.at[1])], ev.inLog ? `${text} · in the log` : text, {
+      ...style,
+      radii: [44, 60, 84],
+      height: 22,
+    });
+  }
+}
+
+function colourOf(ev: TrafficEvent): string {
+  const c = colours();
+  if (ev.inLog || ev.kind === 'short') return c.log;
+  return ev.kind === 'collision' ? c.collision : c['near-edge'];
+}
+
+const ICONS = { collision: 'cross', near: 'triangle', rule: 'bar', short: 'flag' } as const;
+
+function styleOf(ev: TrafficEvent): PillStyle {
+  const c = colours();
+  const icon = ICONS[ev.kind];
+  if (ev.inLog || ev.kind === 'short') return { fg: c['ink-2'], leader: c.log, icon };
+  return ev.kind === 'collision'
+    ? { bg: c.collision, fg: c['on-collision'], leader: c.collision, icon }
+    : { bg: c.near, fg: c['on-near'], leader: c['near-text'], icon };
+}

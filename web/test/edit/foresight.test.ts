@@ -1,0 +1,201 @@
+// What the others would do, asked while a handle is dragged and taken over by the release.
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { setGoal, setOthers, type Command } from '../../src/model/commands';
+import { answered, draftOf, finalOf, late, Session } from './session';
+
+let s: Session;
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  s = new Session();
+});
+
+const goalAt = (x: number): Command => {
+  const a = s.editor.scene.peek()!.agents.get('1')!;
+  return setGoal(a, { ...a.goal, pos: [x, 10] });
+};
+
+/** A frame of the drag; the drag's own question shows its first guess unless it is to wait. */
+async function frame(x: number, { shown = true } = {}): Promise<void> {
+  s.editor.previewDrag(goalAt(x));
+  s.generation.preview('1');
+  if (shown) s.generator.last.on.draft(draftOf('1'), 0, 5, 8);
+  await Promise.resolve();
+}
+
+function begin(): void {
+  s.editor.select('1');
+  s.editor.beginDrag({ part: 'goal', handle: 'body' });
+}
+
+const goalOf = (q: { options: { conditions: object } }): number =>
+  (q.options.conditions as Record<string, { goal: { x_m: number } }>)['1'].goal.x_m;
+const releaseAt = (x: number) => s.editor.endDrag(goalAt(x));
+const answer = (others: Parameters<typeof answered>[1], ms = 30) => s.others.last.on.final(answered('1', others), ms);
+const names = () => s.editor.foreseen.peek()?.map((c) => `${c.name} ${c.words}`);
+
+describe('while a handle is dragged', () => {
+  it('asks on a line of its own what a release would ask', async () => {
+    begin();
+    await frame(10);
+    expect(s.generator.last.options).toMatchObject({ agents: ['1'], react: false });
+    const foreseen = s.others.last;
+    releaseAt(10);
+    s.others.last.on.dropped!();
+    const asked = s.generator.last;
+    expect(asked.preview).toBe(false);
+    expect({ ...foreseen.options, stream_modes: 'all' }).toEqual(asked.options);
+    expect(foreseen.scene()).toEqual(asked.scene());
+  });
+
+  it('lets the own futures go first', async () => {
+    begin();
+    await frame(10, { shown: false });
+    expect(s.others.asked).toHaveLength(0);
+    s.generator.last.on.draft(draftOf('1'), 0, 5, 8);
+    await Promise.resolve();
+    expect(s.others.asked).toHaveLength(1);
+  });
+
+  it('has one question under way at most, and asks about the newest pose next', async () => {
+    begin();
+    for (let x = 10; x < 30; x++) await frame(x);
+    expect(s.others.asked.map(goalOf)).toEqual([10]);
+    answer({});
+    expect(s.others.asked).toHaveLength(1);
+    vi.advanceTimersByTime(150);
+    expect(s.others.asked.map(goalOf)).toEqual([10, 29]);
+    answer({});
+    vi.advanceTimersByTime(2000);
+    expect(s.others.asked).toHaveLength(2);
+    expect(s.generation.busy.peek()).toBe(true);
+    for (const q of s.generator.asked) q.on.dropped!();
+    expect(s.generation.busy.peek()).toBe(false);
+  });
+
+  it('asks at least five times a second while the hand moves', async () => {
+    begin();
+    for (let ms = 0; ms < 2000; ms += 16) {
+      await frame(10 + ms / 100);
+      vi.advanceTimersByTime(16);
+      if (ms % 48 === 0) s.others.last.on.final(answered('1', {}), 40);
+    }
+    expect(s.others.asked.length).toBeGreaterThanOrEqual(10);
+  });
+
+  it('drops a question about an older pose once the hand rests at another', async () => {
+    begin();
+    await frame(10);
+    await frame(20);
+    expect(s.others.cancelled).toBe(0);
+    vi.advanceTimersByTime(200);
+    expect(s.others.cancelled).toBe(1);
+    expect(s.others.asked.map(goalOf)).toEqual([10, 20]);
+    // The hand still rests there: this one is waited for, however long it takes.
+    vi.advanceTimersByTime(5000);
+    expect(s.others.asked).toHaveLength(2);
+    expect(s.others.cancelled).toBe(1);
+  });
+
+  it('says who would change and why, most affected first, and leaves the picture as it is', async () => {
+    begin();
+    await frame(10);
+    const before = s.editor.motion.peek();
+    answer({ '2': late('2', 1, '1'), '3': late('3', 3, '1'), '4': late('4', 0) });
+    expect(names()).toEqual([expect.stringMatching(/^Car 3 .* Car 1$/), expect.stringMatching(/^Car 2 .* Car 1$/)]);
+    expect(s.editor.motion.peek()).toBe(before);
+  });
+
+  it('changes a verb only after it has been agreed upon for a while', async () => {
+    begin();
+    await frame(10);
+    answer({ '2': late('2', 3, '1') });
+    const first = names();
+    await frame(11);
+    vi.advanceTimersByTime(150);
+    answer({ '2': late('2', 3, '3') });
+    expect(names()).toEqual(first);
+    vi.advanceTimersByTime(400);
+    expect(names()).toEqual([expect.stringMatching(/Car 3$/)]);
+  });
+
+  it('asks nothing where the others do not react', async () => {
+    for (const others of ['log', 'still'] as const) {
+      s = new Session();
+      s.editor.run(setOthers(others));
+      begin();
+      await frame(10);
+      vi.advanceTimersByTime(500);
+      expect(s.others.asked).toHaveLength(0);
+      expect(s.editor.foreseen.peek()).toBeNull();
+    }
+  });
+
+  it('forgets everything on Esc', async () => {
+    begin();
+    await frame(10);
+    answer({ '2': late('2', 3, '1') });
+    vi.advanceTimersByTime(150);
+    await frame(20);
+    s.editor.cancelDrag();
+    s.generation.cancelPreviews();
+    for (const q of s.generator.asked) q.on.dropped!();
+    expect([s.editor.foreseen.peek(), s.others.cancelled, s.generation.busy.peek()]).toEqual([null, 1, false]);
+    answer({ '2': late('2', 3, '1') });
+    expect(s.editor.foreseen.peek()).toBeNull();
+  });
+});
+
+describe('a release', () => {
+  it('takes over what was foreseen of exactly this pose, without asking', async () => {
+    begin();
+    await frame(10);
+    answer({ '2': late('2', 3, '1'), '3': late('3', 1, '2') });
+    const foreseen = s.editor.foreseen.peek()!;
+    const asked = s.generator.asked.length;
+    releaseAt(10);
+    expect(s.editor.motion.peek().stale).toBe(false);
+    expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
+    expect(s.editor.foreseen.peek()).toBeNull();
+    const changes = s.editor.changes.peek();
+    expect(changes.map((c) => c.words)).toEqual(foreseen.map((c) => c.words));
+    expect(changes.map((c) => c.place)).toEqual(foreseen.map((c) => c.place));
+    expect(s.editor.notices.toast.peek()?.text).toMatch(/2 others changed\.$/);
+    vi.advanceTimersByTime(1000);
+    expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
+  });
+
+  it('waits for the answer to exactly this pose when it is under way', async () => {
+    begin();
+    await frame(10);
+    const asked = s.generator.asked.length;
+    releaseAt(10);
+    expect([s.editor.motion.peek().stale, s.generation.busy.peek()]).toEqual([true, true]);
+    answer({ '2': late('2', 3, '1') });
+    expect(s.editor.changes.peek().map((c) => c.id)).toEqual(['2']);
+    expect(s.editor.motion.peek().stale).toBe(false);
+    expect(s.generator.asked.slice(asked).filter((q) => !q.preview)).toEqual([]);
+  });
+
+  it('at another pose is asked for as any change', async () => {
+    begin();
+    await frame(10);
+    answer({ '2': late('2', 3, '1') });
+    releaseAt(12);
+    vi.advanceTimersByTime(100);
+    expect(s.generator.last).toMatchObject({ preview: false, options: { react: true } });
+    expect(goalOf(s.generator.last)).toBe(12);
+    // What was foreseen stays on screen until the answer is there.
+    expect(s.editor.foreseen.peek()).toHaveLength(1);
+    s.generator.last.on.final(finalOf('1'), 20);
+    expect([s.editor.foreseen.peek(), s.editor.changes.peek()]).toEqual([null, []]);
+  });
+
+  it('asks itself when what it waited for does not come', async () => {
+    begin();
+    await frame(10);
+    releaseAt(10);
+    s.others.last.on.refused({ code: 'busy', title: 'busy' });
+    expect(s.generator.last).toMatchObject({ preview: false, options: { agents: ['1'], react: true } });
+  });
+});

@@ -1,0 +1,93 @@
+// An editing session without a page or a server: its generators live in the test.
+import { Editor } from '../../src/edit/editor';
+import { Generation } from '../../src/edit/generation';
+import { SceneFile } from '../../src/edit/scene-file';
+import { SceneList } from '../../src/edit/scene-list';
+import { Saving } from '../../src/edit/saving';
+import { Client } from '../../src/net/client';
+import type { Generator, Question, SceneRef, Trajectories } from '../../src/net/generator';
+import type { DraftEvent, FinalEvent, ScoreReply } from '../../src/net/types';
+import { isMapRef, type AgentFuturesJson, type MapJson } from '../../src/model/json';
+import { readScene } from '../../src/model/read';
+import { crossingJson } from '../helpers';
+import { giveWay, reactionTo, sixFutures } from '../standin/futures.mjs';
+
+/** A score in which nothing happens; of the rest the editor reads nothing. */
+export const uneventful = {
+  scene: { collisions: [], near_misses: [], min_ttc_s: null, offroad_share: null },
+} as unknown as ScoreReply;
+
+/** Keeps the questions; the test answers them when it likes. */
+export class InMemoryGenerator implements Generator {
+  readonly asked: Question[] = [];
+  readonly scored: { scene: SceneRef; ids: string[] }[] = [];
+  cancelled = 0;
+  there = true;
+
+  ask(q: Question): void {
+    this.asked.push(q);
+  }
+
+  cancel(): void {
+    this.cancelled++;
+  }
+
+  async score(scene: SceneRef, trajectories: Trajectories): Promise<ScoreReply> {
+    this.scored.push({ scene, ids: Object.keys(trajectories) });
+    return uneventful;
+  }
+
+  answers(): Promise<boolean> {
+    return Promise.resolve(this.there);
+  }
+
+  get last(): Question {
+    return this.asked.at(-1)!;
+  }
+}
+
+export const json = crossingJson();
+const agentOf = (id: string) => json.agents.find((a) => a.id === id)!;
+export const six = (id: string): AgentFuturesJson => ({ chosen: 0, modes: sixFutures(agentOf(id), undefined, 5, 5) });
+
+/** Somebody comes so many seconds later, for `cause` where one is named. */
+export function late(id: string, seconds: number, cause?: string): AgentFuturesJson {
+  const mode = giveWay(agentOf(id), seconds);
+  return { chosen: 0, modes: [mode], ...(cause ? { reaction: reactionTo(cause, mode, seconds) } : {}) };
+}
+
+export const draftOf = (...ids: string[]) =>
+  ({ event: 'step', window: 0, agents: Object.fromEntries(ids.map((id) => [id, six(id)])) }) as unknown as DraftEvent;
+
+export const finalWith = (agents: Record<string, AgentFuturesJson>) =>
+  ({
+    event: 'final',
+    samples: [{ agents }],
+    resolved: {},
+    scores: [uneventful],
+    warnings: [],
+  }) as unknown as FinalEvent;
+
+export const finalOf = (...ids: string[]) => finalWith(Object.fromEntries(ids.map((id) => [id, six(id)])));
+
+/** The selected one has its six, and others answer it. */
+export const answered = (id: string, others: Record<string, AgentFuturesJson>) =>
+  finalWith({ [id]: six(id), ...others });
+
+export class Session {
+  readonly editor = new Editor();
+  readonly generator = new InMemoryGenerator();
+  /** Asked what the others would do. */
+  readonly others = new InMemoryGenerator();
+  readonly generation: Generation;
+
+  constructor() {
+    const { editor } = this;
+    const file = new SceneFile(editor);
+    const client = new Client('', () => Promise.reject(new Error('nothing is fetched here')));
+    const saving = new Saving(editor, file, new SceneList(client), client);
+    this.generation = new Generation(editor, file, saving, this.generator, this.others);
+    file.adopt(json, isMapRef(json.map) ? ({} as MapJson) : json.map, true);
+    editor.open(readScene(json));
+  }
+}

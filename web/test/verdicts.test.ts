@@ -1,0 +1,392 @@
+// What is said of futures: marks, words, names, letters, places on the picture, events.
+import { describe, expect, it } from 'vitest';
+import type { FaultJson, ModeJson, RelationJson } from '../src/model/json';
+import { markOf, readAbout } from '../src/model/about';
+import { counted, eventsOf, readEvents, summary } from '../src/model/events';
+import { faultPlaces } from '../src/model/fault-places';
+import { emptyMotion, percents, readFutures, withNames, type Futures, type MotionSet } from '../src/model/futures';
+import { nameBeside, type Naming } from '../src/model/names';
+import { readGenerated, readScene } from '../src/model/read';
+import { nameIn, startPose } from '../src/model/scene';
+import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/verdict-words';
+import { generatedJson, writeScene } from '../src/model/write';
+import { FrozenNames } from '../src/edit/frozen-names';
+import { outcome } from '../src/edit/report';
+import { markedSpan, placeSigns, SIGN } from '../src/app/timeline/axes';
+import { car, crossing, crossingJson } from './helpers';
+import { sixFutures } from './standin/futures.mjs';
+import { judged } from './standin/judged.mjs';
+
+const scene = crossing();
+const nameOf = nameIn(scene);
+const who: Walker = { type: 'vehicle', nameOf };
+const naming: Naming = { onFoot: false, nameOf };
+const start = startPose(car(scene))!;
+
+const fault = (kind: FaultJson['kind'], more: Partial<FaultJson> = {}): FaultJson => ({
+  kind,
+  time_s: 3.2,
+  until_s: 3.9,
+  x_m: 0,
+  y_m: 0,
+  ...more,
+});
+const relation = (kind: RelationJson['kind'], other: string): RelationJson => ({
+  kind,
+  with: other,
+  time_s: 2,
+  x_m: 0,
+  y_m: 0,
+});
+
+/** Straight ahead from the start at a speed, a metre to the side for each `side`. */
+function mode(more: Partial<ModeJson> & { speed?: number; side?: number; stopAt?: number } = {}): ModeJson {
+  const { speed = 9, side = 0, stopAt = Infinity, ...rest } = more;
+  const m: ModeJson = { probability: 1, x_m: [], y_m: [], heading_rad: [], vx_mps: [], vy_mps: [], ...rest };
+  for (let i = 1; i <= 90; i++) {
+    const t = Math.min(i * 0.1, stopAt);
+    m.x_m.push(start.x + speed * t);
+    m.y_m.push(start.y + side * Math.sin((Math.PI * i) / 90));
+    m.heading_rad.push(0);
+    m.vx_mps!.push(i * 0.1 < stopAt ? speed : 0);
+    m.vy_mps!.push(0);
+  }
+  return m;
+}
+
+const futures = (modes: ModeJson[], chosen = 0): Futures =>
+  withNames(readFutures({ chosen, modes }, start, 5, 5, false), naming);
+const six = (hit = false): Futures => {
+  const json = crossingJson().agents[0];
+  return futures(judged(sixFutures(json, { goal: { x_m: 5, y_m: 26, heading_rad: 1.57 } }, 5, 5), ['2', '17'], hit));
+};
+
+describe('verdicts', () => {
+  it('give a future one mark, the worst', () => {
+    const of = (...kinds: FaultJson['kind'][]) => markOf(readAbout({ faults: kinds.map((k) => fault(k)) })!);
+    expect(of('goal_missed', 'near_miss', 'over_median', 'collision')).toBe('collision');
+    expect(of('goal_missed', 'near_miss', 'harsh_braking')).toBe('rule');
+    expect(of('goal_missed', 'near_miss')).toBe('near');
+    expect(of('goal_missed')).toBe('short');
+    expect(markOf(readAbout({ manoeuvre: 'left' })!)).toBe('ok');
+    expect(readAbout({})).toBeNull();
+  });
+
+  it('have one word at the place', () => {
+    const word = (f: FaultJson) => placeWord(readAbout({ faults: [f] })!.faults[0], nameOf);
+    expect(word(fault('collision', { with: '2' }))).toBe('hits Car 2');
+    expect(word(fault('near_miss', { with: '14', extent: 0.5 }))).toBe('0.5 m to Cyclist 14');
+    expect(word(fault('near_miss', { with: '14', extent: 15.5 }))).toBe('close call with Cyclist 14');
+    expect(word(fault('harsh_braking', { extent: 6.2 }))).toBe('brakes 6 m/s²');
+    expect(word(fault('goal_missed', { extent: 14.2 }))).toBe('14 m short');
+    expect(['over_median', 'off_road', 'wrong_way', 'red_light'].map((k) => word(fault(k as never)))).toEqual([
+      'over the median',
+      'off the road',
+      'wrong way',
+      'red light',
+    ]);
+  });
+
+  it('are summed up by the worst of the one shown, and by who does what', () => {
+    expect(headline(six(), 0, true, who)).toEqual({
+      mark: 'rule',
+      title: 'Reached, over the median at 3.2 s',
+      words: 'A, B, C and D drive over it. E gets there by the road. F does not get there.',
+      at: 3.2,
+    });
+    expect(headline(six(true), 0, true, who)).toMatchObject({
+      mark: 'collision',
+      title: 'Reached, hits Car 2 at 5.4 s',
+      words: 'A hits Car 2. B, C and D drive over the median. E gets there by the road. F does not get there.',
+    });
+    expect(headline(six(), 4, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in E', at: null });
+    expect(headline(six(), 5, true, who)).toMatchObject({ mark: 'short', title: '14 m short of the goal' });
+  });
+
+  it('are green only where nothing is wrong', () => {
+    const good = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight' })]);
+    expect(headline(good, 0, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two', words: '' });
+    const stops = futures([
+      mode({ manoeuvre: 'straight' }),
+      mode({ manoeuvre: 'straight' }),
+      mode({ stopAt: 4, faults: [fault('goal_missed', { extent: 20 })] }),
+    ]);
+    expect(headline(stops, 0, true, who)).toMatchObject({
+      title: 'Reached in A, B',
+      words: 'C stops.',
+    });
+    // Nothing is said of futures that nobody has judged.
+    expect(headline(futures([mode()]), 0, true, who)).toBeNull();
+    expect(headline(good, 0, false, who)).toBeNull();
+  });
+
+  it('say "only" where all six break the rule', () => {
+    const all = futures([1, 2, 3].map(() => mode({ faults: [fault('over_median')] })));
+    expect(headline(all, 0, true, who)).toMatchObject({
+      title: 'Only over the median at 3.2 s',
+      words: 'All three drive over it.',
+    });
+  });
+
+  it('keep their sentence beside a collision', () => {
+    const set: MotionSet = { ...emptyMotion(''), futures: new Map([['1', six(true)]]), driving: new Set(['1']) };
+    const step = { name: 'Goal of Car 1 moved', agent: '1', undo: false };
+    expect(outcome(step, scene, [], readEvents(scene, set))).toBe('Goal of Car 1 moved. It hits Car 2 at 5.4 s.');
+    expect(outcome(step, scene, [], [])).toBe('Goal of Car 1 moved. Nobody else had to change.');
+  });
+
+  it('are kept with the scene', () => {
+    const f = six(true);
+    const raw = writeScene(crossingJson(), scene, generatedJson(scene, [['1', f]]));
+    const back = readGenerated(raw, readScene(raw))!.futures.get('1')!;
+    expect(back.modes.map((m) => m.about)).toEqual(f.modes.map((m) => m.about));
+    expect(back.modes.map((m) => m.name)).toEqual(f.modes.map((m) => m.name));
+  });
+});
+
+describe('places', () => {
+  it('share a word where futures break the same rule within 8 m', () => {
+    const at = (x: number, time = 0) =>
+      mode({
+        speed: 0,
+        faults: [
+          fault('over_median', { x_m: start.x + x, y_m: start.y, extent: 0.1 * x, time_s: time, until_s: time }),
+        ],
+        x_m: Array.from({ length: 90 }, () => start.x + x),
+      });
+    const f = futures([at(0), at(6), at(12), at(40)]);
+    const places = faultPlaces(f, [0, 1, 2, 3], 1);
+    expect(places.map((p) => p.futures)).toEqual([[0, 1, 2], [3]]);
+    // The place of the shown one, the figure of the worst.
+    expect(places[0].fault).toMatchObject({ at: [start.x + 6, start.y], extent: expect.closeTo(1.2) });
+  });
+
+  it('are one for each rule and each other, the shown future first', () => {
+    const f = futures([
+      mode({ faults: [fault('near_miss', { with: '2', extent: 0.7 }), fault('goal_missed')] }),
+      mode({ faults: [fault('collision', { with: '3' }), fault('goal_missed')] }),
+      mode({ faults: [fault('near_miss', { with: '2', extent: 0.4 })] }),
+    ]);
+    const places = faultPlaces(f, [0, 1, 2], 0);
+    expect(places.map((p) => [p.fault.kind, p.futures])).toEqual([
+      ['near_miss', [0, 2]],
+      ['goal_missed', [0]],
+      ['collision', [1]],
+    ]);
+    expect(places[0].fault.extent).toBe(0.4);
+  });
+});
+
+describe('names', () => {
+  const names = (...modes: ModeJson[]) => futures(modes).modes.map((m) => m.name);
+
+  it('say whom they concern, else what is done', () => {
+    expect(six().modes.map((m) => m.name)).toEqual([
+      'Before Car 2',
+      'After Car 2',
+      'Waits for Pedestrian 17',
+      expect.stringMatching(/^After Car 2, /),
+      'By the road',
+      'Straight on',
+    ]);
+    expect(
+      names(
+        mode({ manoeuvre: 'left', relations: [relation('follows', '4')] }),
+        mode({ manoeuvre: 'lane_left' }),
+        mode({ manoeuvre: 'straight', stopAt: 3 }),
+      ),
+    ).toEqual(['Behind Bus 4', 'To the left lane', 'Stops']);
+  });
+
+  it('leave out what all have in common', () => {
+    const before = relation('before', '2');
+    expect(
+      names(
+        mode({ manoeuvre: 'left', relations: [before, relation('before', '3')] }),
+        mode({ manoeuvre: 'left', relations: [before, relation('after', '3')] }),
+      ),
+    ).toEqual(['Before Car 3', 'After Car 3']);
+  });
+
+  it('prefer somebody whom some are before and others after', () => {
+    const [met] = names(
+      mode({ relations: [relation('follows', '6'), relation('before', '3')] }),
+      mode({ relations: [relation('after', '3')] }),
+    );
+    expect(met).toBe('Before Car 3');
+  });
+
+  it('differ within a list, are short and never numbers of metres', () => {
+    const same = () => ({ manoeuvre: 'straight' as const, relations: [relation('gives_way_to', '17')] });
+    const list = names(
+      mode(same()),
+      mode({ ...same(), speed: 6 }),
+      mode({ ...same(), speed: 12 }),
+      mode({ ...same(), side: 3 }),
+      mode(same()),
+      mode({ manoeuvre: 'straight' }),
+    );
+    expect(new Set(list).size).toBe(6);
+    expect(list[0]).toBe('Waits for Pedestrian 17');
+    // Where the difference has no room beside the other's name, something else is said.
+    expect(list.slice(1, 4)).toEqual(['Lets Ped. 17 go, slower', 'Lets Ped. 17 go, faster', 'Straight on']);
+    for (const n of list) {
+      expect(n.length).toBeLessThanOrEqual(24);
+      expect(n).not.toMatch(/\d m\b|almost/);
+    }
+  });
+
+  it('do not say the same twice', () => {
+    const left = mode({ manoeuvre: 'left' });
+    const straight = mode({ manoeuvre: 'straight', speed: 5 });
+    const shown = [{ name: 'Straight on', basis: 'Straight on' }, null];
+    const modes = futures([left, straight]).modes;
+    expect(nameBeside(1, modes, naming, shown).name).toBe('Straight on, slower');
+  });
+
+  it('tell a lane change before a turn', () => {
+    const m = mode({ manoeuvre: 'left' });
+    // Over to the next lane, then round the corner.
+    m.x_m.forEach((_, i) => {
+      m.heading_rad[i] = i < 60 ? 0.1 : Math.min(1.57, 0.1 + (i - 60) * 0.08);
+      m.y_m[i] = start.y + Math.min(3.4, i * 0.1);
+    });
+    expect(names(m, mode({ manoeuvre: 'straight' }))[0]).toBe('Other lane, then left');
+  });
+});
+
+describe('names under a moving hand', () => {
+  const list = (kind: RelationJson['kind']) =>
+    futures([
+      mode({ anchor: 0, manoeuvre: 'left', relations: [relation(kind, '2')] }),
+      mode({ anchor: 1, manoeuvre: 'straight' }),
+    ]);
+
+  it('stay with their idea until another relation has held for 0.4 s', () => {
+    const frozen = new FrozenNames();
+    let shown = list('before');
+    const next = (f: Futures, now: number) => (shown = frozen.keep(shown, f, naming, now)).modes.map((m) => m.name);
+    expect(next(list('after'), 1000)).toEqual(['Before Car 2', 'Straight on']);
+    expect(next(list('before'), 1100)[0]).toBe('Before Car 2');
+    // It came and went: the time begins anew.
+    expect(next(list('after'), 1300)[0]).toBe('Before Car 2');
+    expect(next(list('after'), 1600)[0]).toBe('Before Car 2');
+    expect(next(list('after'), 1700)[0]).toBe('After Car 2');
+  });
+
+  it('go with the idea, and new ideas are told apart from those that stay', () => {
+    const frozen = new FrozenNames();
+    const shown = futures([mode({ anchor: 4, manoeuvre: 'straight' }), mode({ anchor: 5, manoeuvre: 'left' })]);
+    const next = futures([
+      mode({ anchor: 5, manoeuvre: 'left' }),
+      mode({ anchor: 7, manoeuvre: 'straight', speed: 5 }),
+      mode({ anchor: 4, manoeuvre: 'straight' }),
+    ]);
+    expect(frozen.keep(shown, next, naming, 0).modes.map((m) => m.name)).toEqual([
+      'Turns left',
+      'Straight on, slower',
+      'Straight on',
+    ]);
+  });
+});
+
+describe('letters and shares', () => {
+  it('rank by probability at rest', () => {
+    const json = { chosen: 1, modes: [0.2, 0.5, 0.3].map((probability, anchor) => mode({ probability, anchor })) };
+    const f = readFutures(json, start, 5, 5, false, 'rank');
+    expect(f.modes.map((m) => m.anchor)).toEqual([1, 2, 0]);
+    expect(f.chosen).toBe(0);
+  });
+
+  it('sum to a hundred', () => {
+    const of = (...p: number[]) => percents(p.map((probability) => ({ probability })));
+    expect(of(1 / 3, 1 / 3, 1 / 3)).toEqual([34, 33, 33]);
+    expect(of(0.2, 0.2, 0.1)).toEqual([40, 40, 20]);
+    expect(of(0.996, 0.002, 0.002).reduce((s, v) => s + v, 0)).toBe(100);
+    expect(of()).toEqual([]);
+  });
+
+  it('say why another is shown than the one before', () => {
+    const f = six(true);
+    expect([whyNot(f, 0, 2, nameOf), whyNot(f, 1, 2, nameOf)]).toEqual(['C is shown: A hits Car 2', null]);
+    expect(whyAnother(f, 0, 2, nameOf)).toBe('C is shown: A hits Car 2');
+    expect(whyAnother(f, 1, 4, nameOf)).toBe('E is shown: B goes over the median');
+    expect(whyAnother(f, 2, 1, nameOf)).toBe('B is shown: it is likelier than C');
+    expect(whyAnother(f, -1, 0, nameOf)).toBe('A is shown: the one before is not among these');
+    expect(whyAnother(f, 3, 3, nameOf)).toBeNull();
+  });
+});
+
+describe('events', () => {
+  const set = (more: Partial<MotionSet> = {}): MotionSet => ({
+    ...emptyMotion(''),
+    futures: new Map([['1', six(true)]]),
+    driving: new Set(['1']),
+    ...more,
+  });
+  const score = { collisions: [], nearMisses: [], minTtc: null, offroadShare: null };
+
+  it('are all that is wrong with what is followed, with time and extent', () => {
+    const events = readEvents(scene, set());
+    expect(events.map((e) => [e.kind, e.label, e.title, e.words])).toEqual([
+      ['rule', 'Over the median 3.2 s', 'Car 1', 'Over the median, 0.6 m'],
+      ['collision', 'Collision 5.4 s', 'Car 1 × Car 2', 'Collision, closing at 14 km/h'],
+    ]);
+    expect(readEvents(scene, set({ driving: new Set() }))).toEqual([]);
+    expect(eventsOf(scene, set(), '1', six(), 3).map((e) => e.words)).toEqual([
+      'Over the median, 0.6 m',
+      'Hard braking, 6.2 m/s²',
+    ]);
+  });
+
+  it('say the same once, whoever says it', () => {
+    const events = readEvents(
+      scene,
+      set({
+        score: {
+          ...score,
+          collisions: [{ a: '2', b: '1', time: 5.5 }],
+          nearMisses: [{ a: '1', b: '2', time: 5.2, distance: 0.1, ttc: null }],
+          stretches: [
+            { what: 'off_road', agent: '1', time: 3.3, until: 4.1, extent: 0.5 },
+            { what: 'harsh_braking', agent: '3', time: 2, until: 2.4, extent: 5 },
+          ],
+        },
+      }),
+    );
+    expect(events.map((e) => e.what)).toEqual(['harsh_braking', 'over_median', 'collision']);
+    expect(events.map((e) => e.inLog)).toEqual([true, false, false]);
+  });
+
+  it('of the log are marked and not counted', () => {
+    const near = { a: '11', b: '14', time: 3.2, distance: 0.6, ttc: null };
+    const driving = new Set(['11', '14']);
+    const events = (inLog?: boolean) =>
+      readEvents(scene, set({ futures: new Map(), driving, score: { ...score, nearMisses: [{ ...near, inLog }] } }));
+    expect(events()[0]).toMatchObject({ inLog: false });
+    expect(summary(events())).toBe('1 near miss');
+    expect(events(true)[0]).toMatchObject({ inLog: true, words: 'Near miss, 0.6 m · in the log' });
+    expect([counted(events(true)), summary(events(true))]).toEqual([[], 'No collisions, no near misses']);
+  });
+});
+
+describe('signs on the timeline', () => {
+  it('stand at their times, with words where there is room', () => {
+    const at = [100, 110, 160, 300, 880].map((x, i) => ({ at: x, w: 80, rank: i === 1 ? 0 : 1 }));
+    const placed = placeSigns(at, 50, 900);
+    expect(placed.map((p) => [p.x, p.items])).toEqual([
+      [110, [0, 1]],
+      [160, [2]],
+      [300, [3]],
+      [880, [4]],
+    ]);
+    expect(placed.map((p) => p.words)).toEqual([null, 'right', 'right', 'left']);
+    for (const [i, p] of placed.entries()) if (i) expect(p.x - placed[i - 1].x).toBeGreaterThanOrEqual(2 * SIGN);
+  });
+
+  it('are shaded within the plot', () => {
+    expect(markedSpan(9, 9, 0.8, 9)).toEqual([8.6, 9]);
+    expect(markedSpan(0.1, 0.1, 0.8, 9)[0]).toBe(0);
+    expect(markedSpan(3, 5, 0.8, 9)).toEqual([3, 5]);
+  });
+});
