@@ -118,7 +118,7 @@ fn ground(world: &World<'_>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
     let outline = OrientedBox::of_state(&who.start, &who.size);
     let ground = world.graph.ground();
     let starts_there = ground.box_outside_m(&outline).is_some_and(|outside_m| outside_m <= BEYOND_M);
-    (who.agent_type == AgentType::Vehicle && starts_there).then(|| ground.clone())
+    (who.agent_type == AgentType::Vehicle && ground.is_bounded() && starts_there).then(|| ground.clone())
 }
 
 /// See [`AgentPlan::lane_headings`].

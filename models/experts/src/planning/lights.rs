@@ -316,10 +316,10 @@ impl Waiting<'_> {
             let before = if stands {
                 self.braking(stop_m, green, wanted)
             } else {
-                arriving(self.v0, stop_m + BEFORE_LINE_M, seconds(green), Some(*rolling), self.easy_mps2)
+                arriving(self.v0, stop_m + NEAR_LINE_M, seconds(green), Some(*rolling), self.easy_mps2)
             };
             let (from_m, from_mps) = (before[green], if stands { 0.0 } else { *rolling });
-            if from_m > stop_m + BEFORE_LINE_M + 0.1 {
+            if from_m > stop_m + BEFORE_LINE_M - 0.1 {
                 return None;
             }
             let left_m = wanted[due] - from_m;
