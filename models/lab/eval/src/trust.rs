@@ -186,9 +186,8 @@ fn has_route(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
     let Some(position) = goal.position else { return false };
     let size = site.log(case).size;
     let lane = site.graph.nearest_for(position, 3.0, case.agent_type).into_iter().next();
-    let place = lane.map(|lane| {
-        OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, lane.heading_rad)
-    });
+    let place = lane
+        .map(|lane| OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, lane.heading_rad));
     if place.and_then(|place| site.drivable.box_outside_m(&place)).is_none_or(|outside| outside > 0.15) {
         return false;
     }
