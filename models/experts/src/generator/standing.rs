@@ -2,14 +2,14 @@
 
 use super::actor::Actor;
 use super::background::Known;
-use super::candidates::Candidate;
+use super::candidates::{Candidate, Origin};
 use super::slot::Slot;
 use super::trajectory::{PER_INSTANT, places};
 use super::window::Window;
 use crate::planning::world::World;
 use crate::planning::{INSTANTS, Modes};
 use scene::geometry::direction;
-use scene::judge::{About, Trace, manoeuvre, relations};
+use scene::judge::{About, Manoeuvre, Trace, manoeuvre, relations};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, State, Vec2, wrap_angle};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -109,6 +109,9 @@ pub(super) struct Names(BTreeMap<(usize, Slot), About>);
 impl Names {
     /// Of a draft of an actor.
     pub(super) fn of(&self, actor: usize, draft: &Candidate) -> About {
+        if draft.origin == Origin::Rest {
+            return About { manoeuvre: Some(Manoeuvre::Stays), ..About::default() };
+        }
         let slot = draft.origin.slot();
         slot.and_then(|slot| self.0.get(&(actor, slot))).cloned().unwrap_or_default()
     }

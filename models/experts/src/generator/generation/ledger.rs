@@ -8,7 +8,9 @@ use crate::generator::extrapolation::Guessed;
 use crate::generator::report::{self, Outcome};
 use crate::generator::window::Window;
 use crate::planning::world::World;
-use crate::request::{Answer, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode};
+use crate::request::{
+    Answer, ByRoad, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode,
+};
 use scene::{AgentFutures, AgentId, Future, STEP_S, Sample, Scene, State};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -130,6 +132,15 @@ impl Ledger {
                 intermediate: progress.intermediate.clone(),
             };
             self.resolved.insert(agents[*i].id.clone(), report::resolved(world, outcome));
+        }
+    }
+
+    /// Writes down the ways out of goals that are reached off the road.
+    pub(super) fn remedy(&mut self, ways: BTreeMap<AgentId, ByRoad>) {
+        for (id, way) in ways {
+            if let Some(resolved) = self.resolved.get_mut(&id) {
+                resolved.by_road = Some(way);
+            }
         }
     }
 

@@ -6,6 +6,7 @@
 //! straight on where it has ended). Nothing of an earlier window is planned again.
 
 mod ledger;
+mod remedies;
 mod roster;
 mod scenes;
 mod standing;
@@ -214,6 +215,10 @@ impl<'g> Generation<'g> {
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+            if self.ledger.samples.is_empty() {
+                let ways = remedies::by_road(&self.request, world, &self.map, &sample);
+                self.ledger.remedy(ways);
+            }
             standing::relate(&self.request, &self.map, &self.generator.workers, &mut sample);
         }
         self.ledger.samples.push(sample);

@@ -7,8 +7,10 @@ use crate::request::Request;
 use scene::judge::{Manoeuvre, Relation, Trace, manoeuvre, relations};
 use scene::{AgentType, Future, Sample};
 
-/// Writes down relations and manoeuvres of the futures of those that were asked for, and of everybody's that is
-/// shown.
+/// In larger answers only the shown futures of those that were not asked for get relations.
+const FEW: usize = 60;
+
+/// Writes down relations and manoeuvres of the futures of a sample.
 pub(super) fn relate(request: &Request, map: &KnownMap, workers: &Workers, sample: &mut Sample) {
     let scene = &request.scene;
     let first_step = request.start_step + 1;
@@ -28,13 +30,22 @@ pub(super) fn relate(request: &Request, map: &KnownMap, workers: &Workers, sampl
         .filter_map(|(i, agent)| Some((i, sample.agents.get(&agent.id)?)))
         .flat_map(|(i, futures)| futures.modes.iter().map(move |future| (i, future)))
         .collect();
+    let few = futures.len() <= FEW;
+    let asked = |id: &str| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
+    let is_shown = |id: &str, future: &Future| {
+        sample.agents.get(id).and_then(|f| f.modes.get(f.chosen)).is_some_and(|shown| std::ptr::eq(shown, future))
+    };
     let found: Vec<(Vec<Relation>, Option<Manoeuvre>)> = workers.map(&futures, |&(i, future)| {
         let (agent, shown) = (&scene.agents[i], &others[i]);
+        let lanes = (agent.kind() != AgentType::Pedestrian).then_some(&*map.graph);
+        let manoeuvre = manoeuvre(&future.states, agent.kind(), lanes);
+        if !few && !asked(&agent.id) && !is_shown(&agent.id, future) {
+            return (Vec::new(), manoeuvre);
+        }
         let late = future.first_step.saturating_sub(first_step);
         let at = |step: usize| future.states.get(step.checked_sub(late)?).copied();
         let me = Trace::ahead(shown.id(), shown.agent_type(), shown.size(), late + future.states.len(), at);
-        let lanes = (agent.kind() != AgentType::Pedestrian).then_some(&*map.graph);
-        (relations(&me, &others, first_step), manoeuvre(&future.states, agent.kind(), lanes))
+        (relations(&me, &others, first_step), manoeuvre)
     });
     let mut found = found.into_iter();
     for agent in &scene.agents {
