@@ -49,7 +49,7 @@ export class Reception {
   readonly #names = new FrozenNames();
 
   readonly #steady: Steady;
-  /** The document of the last answer foreseen, and what was bold before that answer took the place of the drag's own. */
+  /** The document of the last answer foreseen, and what was bold before it took the place of the drag's own. */
   #foreseen: { readonly key: string; readonly bold: string | null } | null = null;
 
   constructor(
