@@ -120,7 +120,7 @@ impl Material<'_> {
     /// them than any one is.
     fn path_means(&self, alternatives: &[Candidate]) -> Vec<Candidate> {
         let actor = self.actor;
-        if middle(actor).is_some() || actor.keeps_its_path() || actor.only_rests() {
+        if middle(actor).is_some() || actor.only_rests() {
             return Vec::new();
         }
         let path = |slot: Slot| actor.plan.anchors[slot.index()].path_identity();
@@ -157,7 +157,7 @@ impl Material<'_> {
     pub(super) fn around(&self, sample: usize) -> Option<Slot> {
         match sample {
             0 => middle(self.actor),
-            _ => (!self.actor.rests && !self.actor.keeps_its_path()).then_some(self.drafts.leading),
+            _ => (!self.actor.rests).then_some(self.drafts.leading),
         }
     }
 }
@@ -173,7 +173,7 @@ pub(super) fn learned_share(actor: &Actor, tuning: &MiddleTuning) -> f32 {
 
 /// The mode that is the middle of what may happen, where there is a place to go.
 pub(super) fn middle(actor: &Actor) -> Option<Slot> {
-    let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
+    let moves = actor.pinned.is_none() && !actor.rests;
     (moves && actor.plan.target.position.is_some()).then_some(Slot::FIRST)
 }
 
