@@ -52,6 +52,7 @@ pub(super) fn reaction(own: &Answerer, way: &Way, cause: AgentId, start_step: us
         y_m: state.y_m,
         speed_mps: speed[at],
     }
+    .rounded()
 }
 
 /// Off the way that it had by more than this, somebody keeps clear, metres.
@@ -95,4 +96,5 @@ pub(in crate::generator) fn reaction_of(
         y_m: state.y_m,
         speed_mps: state.speed_mps(),
     }
+    .rounded()
 }
