@@ -157,6 +157,9 @@ tuning! {
         learned = 0.5, off 1.0;
         /// The same on foot.
         learned_on_foot = 0.4, off 1.0;
+        /// What was shown last stays a candidate while its end is this near to the goal, metres. Set by hand.
+        /// 2026-11-22.
+        same_goal_m = 0.75, off 0.0;
     }
     /// What a candidate costs in the joint choice; distances to the other modes cost about 1.
     choice: ChoiceTuning {

@@ -160,10 +160,9 @@ impl Window<'_> {
 
     fn options(&self, judge: &Judge<'_>, i: usize, candidates: &[Candidate]) -> Vec<Choosable> {
         let actor = &self.actors[i];
-        let first = self.sample == 0 && self.world.step == self.request.start_step;
         let yardstick = Yardstick {
             around: self.material(i).around(self.sample),
-            shown: self.request.shown.get(&actor.id).filter(|_| first),
+            shown: self.shown_last(actor),
             map: &self.map,
             judge,
             agent: self.world.agent(&actor.plan.present),

@@ -168,6 +168,29 @@ fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]
     through(plan, slot, places)
 }
 
+/// The motion that passes near these box centres at the instants, facing where it goes.
+pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Motion {
+    if plan.model.gear == Gear::Reverse {
+        return backing(plan);
+    }
+    let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
+    let facing = centres.map(|centre| {
+        let chord = centre - last.0;
+        let heading_rad = if chord.norm() > LEAST_CHORD_M { chord.y.atan2(chord.x) } else { last.1 };
+        last = (centre, heading_rad);
+        last
+    });
+    // A chord says the heading half way along it.
+    let mut places = facing;
+    for i in 0..INSTANTS - 1 {
+        places[i].1 += 0.5 * wrap_angle(facing[i + 1].1 - facing[i].1);
+    }
+    through(plan, slot, places)
+}
+
+/// Shorter chords say nothing of the heading, metres.
+const LEAST_CHORD_M: f64 = 0.2;
+
 /// What motions are projected onto: the goal, or nothing but the limits.
 fn projected_onto(plan: &AgentPlan) -> Target {
     let target = plan.target;

@@ -20,7 +20,7 @@ use crate::net::{Context, InitialOutput, NetError, Prepared, schedule};
 use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
 use crate::planning::{MODES, Modes, RESIDUAL};
-use crate::request::{Draft, GenerateError, Intermediate, Request, Shown};
+use crate::request::{Draft, GenerateError, Intermediate, Request, Shown, ShownLast};
 use crate::tuning::Tuning;
 use crate::weights::EXPERTS;
 use scene::judge::{About, Trace};
@@ -209,10 +209,17 @@ impl<'g> Window<'g> {
         SceneEnergy { pullback, drivable, tuning: &self.tuning().overlaps }
     }
 
+    /// What a person has seen last of an actor: it binds the first sample of the first window.
+    pub(super) fn shown_last(&self, actor: &Actor) -> Option<&ShownLast> {
+        self.request.shown.get(&actor.id).filter(|_| self.sample == 0 && self.number == 0)
+    }
+
     /// What an actor's candidates are made from.
     pub(super) fn material(&self, i: usize) -> Material<'_> {
         let tuning = &self.tuning().middle;
-        Material { actor: &self.actors[i], drafts: &self.drafts[i], window: self.number, tuning }
+        let (actor, drafts) = (&self.actors[i], &self.drafts[i]);
+        let shown = self.shown_last(actor);
+        Material { actor, drafts, window: self.number, tuning, shown }
     }
 
     /// Runs encoder and initializer on road users that will be numbered after the actors there are.
