@@ -33,8 +33,8 @@ impl From<Projection> for Motion {
 }
 
 /// A front this near to a red line is over it, and how much farther from it the next try halts, metres.
-const AT_LINE_M: f64 = 0.15;
-const SHORT_OF_LINE_M: f64 = 0.6;
+const AT_LINE_M: f64 = 0.25;
+const SHORT_OF_LINE_M: f64 = 1.2;
 /// Shares of an offset that are tried where the whole of it leaves the road.
 const OFFSET_SHARES: [f64; 4] = [0.8, 0.6, 0.4, 0.2];
 /// Ending along a lane may change a motion by so much, metres.
