@@ -150,7 +150,7 @@ fn what_was_answered_before_is_kept_unless_something_new_is_in_the_way() {
 fn who_comes_in_later_brakes_for_what_stands_in_its_way() {
     let mut scene = demo("motorway");
     // One that drives on, and is first seen a good way behind where another comes to stand.
-    let (id, end) = moving(&scene).into_iter().find(|(_, end)| end.speed_mps() > 15.0).unwrap();
+    let (id, _) = moving(&scene).into_iter().find(|(_, end)| end.speed_mps() > 15.0).unwrap();
     let log = scene.agent(&id).unwrap().track.clone();
     let size = scene.agent(&id).unwrap().size;
     let mut late = scene.agent(&id).unwrap().clone();
@@ -159,7 +159,9 @@ fn who_comes_in_later_brakes_for_what_stands_in_its_way() {
     late.track.first_step = 30;
     late.size = size;
     scene.agents.push(late);
-    let stops = Goal { position: Some(end.position()), speed_mps: Some(0.0), ..Goal::default() };
+    // Half of its way: as far as braking evenly to a halt takes it.
+    let half_way = scene.agent(&id).unwrap().state_at(45).unwrap();
+    let stops = Goal { position: Some(half_way.position()), speed_mps: Some(0.0), ..Goal::default() };
     let answer = answer(dragged(scene.clone(), &id, stops));
     let sample = &answer.samples[0];
     have_causes(&scene, &id, sample, "late");

@@ -6,10 +6,12 @@
 //! 2. The answer for regenerated road users does not change with their own log after the start.
 //! 3. When all are regenerated it does not change with any other's log either, in one window or several.
 //!
-//! Not claimed: road users that are *kept* are obstacles with the motion that is kept, and signals keep
+//! Not claimed: what is said of futures (a fault that the log shows too is none); road users that are *kept*
+//! are obstacles with the motion that is kept, and signals keep
 //! the program that the scene gives them.
 
 use super::*;
+use ::scene::judge::About;
 use ::scene::routes::LaneGraph;
 use experts::features::agent::plan;
 use experts::planning::world::World;
@@ -68,6 +70,15 @@ fn features_know_nothing_after_the_start() {
     }
 }
 
+/// An answer's motions, without what is said of them.
+fn answered(request: Request) -> Answer {
+    let mut answer = run(&GENERATOR, request);
+    let futures = answer.samples.iter_mut().flat_map(|s| s.agents.values_mut());
+    futures.flat_map(|f| &mut f.modes).for_each(|future| future.about = About::default());
+    answer.resolved.values_mut().for_each(|resolved| resolved.by_road = None);
+    answer
+}
+
 #[test]
 fn nothing_after_the_start_leaks_into_an_answer() {
     for id in ["1", "4", "5"] {
@@ -76,8 +87,8 @@ fn nothing_after_the_start_leaks_into_an_answer() {
             for start in [0, goal, 7 - goal] {
                 let honest = with_start(with_goal(crossing(), id, goal), id, start);
                 let changed = other_future(honest.clone(), |a| a.id == id);
-                let a = run(&GENERATOR, quick(honest, Some(&[id])));
-                let b = run(&GENERATOR, quick(changed, Some(&[id])));
+                let a = answered(quick(honest, Some(&[id])));
+                let b = answered(quick(changed, Some(&[id])));
                 assert!(a.samples == b.samples, "{id}: goal {goal:03b}, start {start:03b}");
                 assert!(a.resolved == b.resolved, "{id}: goal {goal:03b}, start {start:03b}");
             }
@@ -90,15 +101,15 @@ fn futures_of_others_do_not_leak_when_all_are_generated() {
     for goal in 0..8 {
         for start in [0, 7 - goal] {
             let honest = with_start(with_goal(crossing(), "1", goal), "1", start);
-            let answer = run(&GENERATOR, quick(honest.clone(), None));
+            let answer = answered(quick(honest.clone(), None));
             // One by one, so that two changes cannot make up for each other; then all at once.
             for other in ["2", "3", "6"] {
                 let changed = other_future(honest.clone(), |a| a.id == other);
-                let changed = run(&GENERATOR, quick(changed, None));
+                let changed = answered(quick(changed, None));
                 assert!(answer.samples == changed.samples, "{other}: goal {goal:03b}, start {start:03b}");
             }
             let changed = other_future(honest, |_| true);
-            let changed = run(&GENERATOR, quick(changed, None));
+            let changed = answered(quick(changed, None));
             assert!(answer.samples == changed.samples, "all: goal {goal:03b}, start {start:03b}");
         }
     }
@@ -111,7 +122,7 @@ fn later_windows_know_no_more_of_the_log() {
         let mut honest = with_start(with_goal(crossing(), "1", goal), "1", goal);
         honest.agents[0].conditions.goal.time_s = Some(14.0);
         let changed = other_future(honest.clone(), |_| true);
-        let (a, b) = (run(&GENERATOR, ask(honest)), run(&GENERATOR, ask(changed)));
+        let (a, b) = (answered(ask(honest)), answered(ask(changed)));
         assert!(a.samples == b.samples, "goal {goal:03b}");
         assert!(a.resolved == b.resolved, "goal {goal:03b}");
     }

@@ -206,7 +206,7 @@ mod tests {
             agent("a", AgentType::Vehicle, 0, 91),
             agent("aa", AgentType::Vehicle, 0, 91),
             agent("aaa", AgentType::Other, 0, 91),
-            agent("aaaa", AgentType::Vehicle, 40, 30),
+            agent("aaaa", AgentType::Vehicle, 40, 51),
         ];
         let scene = Arc::new(Scene::bare("", LaneMap::default(), all));
         let mut request = Request { react, horizon_steps, ..Request::new(scene.clone()) };
