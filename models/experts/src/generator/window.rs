@@ -121,7 +121,9 @@ impl<'g> Window<'g> {
         }
         if window.request.stages.background_in_the_way {
             window.background = Background::of(&window.world, &window.actors, &tuning.overlaps);
-            window.traces = background_traces(&window.world, &window.actors);
+            // A call about everybody knows nobody's log after the start.
+            let late = window.request.agents.is_some();
+            window.traces = background_traces(&window.world, &window.actors, late);
         }
         if window.request.stages.parted && number == 0 {
             window.cover();
