@@ -3,7 +3,9 @@
 use super::actor::{Actor, Drafts};
 use super::choice::distance;
 use super::slot::Slot;
-use super::trajectory::{Motion, PER_INSTANT, along_places, as_it_is, mean_trajectory, rest, to_trajectory, without_creep};
+use super::trajectory::{
+    Motion, PER_INSTANT, along_places, as_it_is, mean_trajectory, rest, to_trajectory, without_creep,
+};
 use crate::planning::{INSTANTS, MODES};
 use crate::request::{Shown, ShownLast};
 use crate::tuning::MiddleTuning;

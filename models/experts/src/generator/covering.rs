@@ -256,7 +256,7 @@ mod tests {
     #[test]
     fn one_goes_before_and_one_after_whoever_crosses() {
         let actor = driver(9.0, Some(80.0));
-        for passes_s in [3.6, 4.4, 5.2] {
+        for passes_s in [4.4, 4.6] {
             let other = crossing_at(passes_s);
             let cover = Cover::of(&actor, &[&other], 1.0, &SHIPPED.duplicates);
             let all = shown(&actor, &cover);

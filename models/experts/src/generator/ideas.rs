@@ -19,11 +19,11 @@ use std::cell::OnceCell;
 /// The end of a window, seconds.
 const END_S: f64 = INSTANTS as f64 * INSTANT_S;
 /// Time kept from the other at shared ground: what is tried, seconds.
-const GAPS_S: [f64; 2] = [0.9, 0.4];
+const GAPS_S: [f64; 3] = [0.9, 0.5, 0.2];
 /// Over the caps of a path by so much is usual.
 pub(super) const HURRY: f64 = 1.1;
 /// Way kept from shared ground, metres.
-const CLEAR_M: f64 = 0.6;
+const CLEAR_M: f64 = 0.4;
 
 /// A draft with its progress, as ideas are made from and measured.
 pub(super) struct Sketch<'a> {
@@ -89,12 +89,12 @@ impl<'a> Sketch<'a> {
     /// Braking, speeding up and pace stay usual, or as they are in `from`; `hurry` is how far over the caps of its path
     /// it may be.
     pub(super) fn is_usual(&self, from: &Self, hurry: f64) -> bool {
+        self.is_within(from, hurry, usual_rates(self.actor.plan.present.agent_type))
+    }
+
+    /// The same for these rates of braking and speeding up, m/s2.
+    fn is_within(&self, from: &Self, hurry: f64, (brakes, speeds_up): (f64, f64)) -> bool {
         let plan = &self.actor.plan;
-        let (brakes, speeds_up) = match plan.present.agent_type {
-            AgentType::Pedestrian => (1.3, 1.3),
-            AgentType::Cyclist => (2.5, 1.5),
-            _ => (3.3, 2.3),
-        };
         let anchor = &plan.anchors[self.slot.index()];
         let caps = match plan.model.kind {
             Kind::Drive => Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
@@ -115,7 +115,7 @@ impl<'a> Sketch<'a> {
         let each = rates(&mine).into_iter().zip(mine).zip(&self.route);
         each.into_iter().all(|((rate, speed), (along, _))| {
             let cap = (hurry * caps.at(*along)).max(fastest);
-            rate >= least - 0.3 && rate <= most + 0.3 && speed <= cap + 0.3
+            rate >= least - 0.1 && rate <= most + 0.1 && speed <= cap + 0.3
         })
     }
 
@@ -124,6 +124,9 @@ impl<'a> Sketch<'a> {
     pub(super) fn ordered(&self, other: &Trace, before: bool) -> Option<Self> {
         let ground = crossing(self.trace(), other)?;
         let seconds = |moment: usize| Trace::seconds(moment) + STEP_S;
+        // Who wants to be first, or lets somebody pass, is brisker than who is alone.
+        let (brakes, speeds_up) = usual_rates(self.actor.plan.present.agent_type);
+        let brisk = (1.15 * brakes, 1.4 * speeds_up);
         let made = GAPS_S.iter().find_map(|gap_s| {
             let (when_s, wanted_m) = if before {
                 (seconds(ground.theirs.0) - gap_s, self.along_at(seconds(ground.mine.1)) + CLEAR_M)
@@ -135,10 +138,19 @@ impl<'a> Sketch<'a> {
             }
             let shift_m = wanted_m - self.along_at(when_s);
             let made = self.with(&pace(&self.actor.plan, &[(when_s, shift_m)])?);
-            made.is_usual(self, HURRY).then_some(made)
+            made.is_within(self, HURRY, brisk).then_some(made)
         })?;
         let order = crossing(made.trace(), other).map(|g| g.order());
         (order == Some(if before { 1 } else { -1 })).then_some(made)
+    }
+}
+
+/// Braking and speeding up that nobody would remark, m/s2.
+fn usual_rates(agent_type: AgentType) -> (f64, f64) {
+    match agent_type {
+        AgentType::Pedestrian => (1.3, 1.3),
+        AgentType::Cyclist => (2.5, 1.5),
+        _ => (3.4, 2.4),
     }
 }
 

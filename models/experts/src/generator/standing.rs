@@ -16,12 +16,15 @@ use std::collections::{BTreeMap, BTreeSet};
 /// More road users than these are refined at once without names; the answer has them.
 const NAMED: usize = 8;
 
-/// Everybody in the background of a window, from the step after its start on; late comers too.
-pub(super) fn background_traces(world: &World<'_>, actors: &[Actor]) -> Vec<Trace> {
+/// Everybody in the background of a window, from the step after its start on; `late` comers too.
+pub(super) fn background_traces(world: &World<'_>, actors: &[Actor], late: bool) -> Vec<Trace> {
     let acting: BTreeSet<usize> = actors.iter().map(|a| a.plan.present.index).collect();
     let agents = world.scene.agents.iter().zip(&world.conditions).enumerate();
     agents
         .filter(|(i, _)| !acting.contains(i))
+        .filter(|(_, (agent, conditions))| {
+            late || agent.state_at(world.step).is_some() || conditions.start.position.is_some()
+        })
         .map(|(_, (agent, conditions))| {
             let known = Known::of(&world.scene, agent, world.step);
             let at = |step: usize| known.at(step + 1);

@@ -128,7 +128,9 @@ impl<'g> Window<'g> {
             let Self { world, request, actors, .. } = &window;
             window.answerers = Answerers::of(world, request, actors, cast, tuning);
             window.background = Background::of(&window.answerers, &tuning.overlaps);
-            window.traces = background_traces(&window.world, &window.actors);
+            // A call about everybody knows nobody's log after the start.
+            let late = window.request.agents.is_some();
+            window.traces = background_traces(&window.world, &window.actors, late);
         }
         if window.request.stages.parted && number == 0 {
             window.cover();
