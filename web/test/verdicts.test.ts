@@ -5,7 +5,7 @@ import { markOf, readAbout } from '../src/model/about';
 import { counted, eventsOf, readEvents, summary } from '../src/model/events';
 import { faultPlaces } from '../src/model/fault-places';
 import { emptyMotion, percents, readFutures, withNames, type Futures, type MotionSet } from '../src/model/futures';
-import type { Naming } from '../src/model/names';
+import { nameBeside, type Naming } from '../src/model/names';
 import { readGenerated, readScene } from '../src/model/read';
 import { nameIn, startPose } from '../src/model/scene';
 import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/verdict-words';
@@ -113,7 +113,7 @@ describe('verdicts', () => {
     ]);
     expect(headline(stops, 0, true, who)).toMatchObject({
       title: 'Reached in A, B',
-      words: 'A and B get there. C stops.',
+      words: 'C stops.',
     });
     // Nothing is said of futures that nobody has judged.
     expect(headline(futures([mode()]), 0, true, who)).toBeNull();
@@ -234,6 +234,14 @@ describe('names', () => {
       expect(n.length).toBeLessThanOrEqual(24);
       expect(n).not.toMatch(/\d m\b|almost/);
     }
+  });
+
+  it('do not say the same twice', () => {
+    const left = mode({ manoeuvre: 'left' });
+    const straight = mode({ manoeuvre: 'straight', speed: 5 });
+    const shown = [{ name: 'Straight on', basis: 'Straight on' }, null];
+    const modes = futures([left, straight]).modes;
+    expect(nameBeside(1, modes, naming, shown).name).toBe('Straight on, slower');
   });
 
   it('tell a lane change before a turn', () => {

@@ -314,6 +314,19 @@ pub struct ResolvedGoal {
     pub time_s: Field,
 }
 
+/// A place on a lane that can be had instead of a goal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct ByRoad {
+    /// On the lane's middle, metres.
+    pub x_m: f64,
+    /// On the lane's middle, metres.
+    pub y_m: f64,
+    /// Of the lane, radians.
+    pub heading_rad: f64,
+    /// From the goal, metres.
+    pub distance_m: f64,
+}
+
 /// Every condition field of one road user as it was used.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolved {
@@ -330,6 +343,10 @@ pub struct Resolved {
     pub goal: ResolvedGoal,
     /// Verdict on the goal.
     pub reach: ReachReport,
+    /// Where its shown future leaves the road or drives against the traffic: the nearest place to the goal that the
+    /// road leads to in the same time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by_road: Option<ByRoad>,
     /// One entry for each window that ended its plan before the goal was due.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub intermediate: Vec<Intermediate>,

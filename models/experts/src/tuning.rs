@@ -157,6 +157,9 @@ tuning! {
         learned = 0.5, off 1.0;
         /// The same on foot.
         learned_on_foot = 0.4, off 1.0;
+        /// What was shown last stays a candidate while its end is this near to the goal, metres. Set by hand.
+        /// 2026-11-22.
+        same_goal_m = 0.75, off 0.0;
     }
     /// What a candidate costs in the joint choice; distances to the other modes cost about 1.
     choice: ChoiceTuning {
@@ -220,11 +223,16 @@ tuning! {
     }
     /// Who may answer those that were asked for.
     reacting: ReactingTuning {
-        /// A start within this of theirs may at all, metres. Set by hand. 2026-11-21.
-        within_m = 120.0;
-        /// Motions closer than this between their boxes, within three seconds, are looked at, metres. Set by
-        /// hand. 2026-11-21.
+        /// Of those that were asked something before: motions closer than this between their boxes, within three
+        /// seconds, are looked at, metres. Set by hand. 2026-11-21.
         near_m = 5.0;
+        /// What it costs that somebody is a second later, or earlier, than without the others. Set by hand.
+        /// 2026-11-22.
+        late = 0.08, off 0.0;
+        /// Braking harder than this costs more, m/s2. Set by hand. 2026-11-22.
+        easily_mps2 = 3.0;
+        /// What each m/s2 beyond costs. Set by hand. 2026-11-22.
+        hard = 0.15, off 0.0;
     }
 }
 

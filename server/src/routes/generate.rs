@@ -107,6 +107,10 @@ pub struct GenerateRequest {
     /// Who else answers to them.
     #[serde(default = "nobody")]
     react: Reacting,
+    /// Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
+    /// the others answer it.
+    #[serde(default)]
+    pinned: Vec<String>,
     /// Scene time of the start, seconds.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 59.9))]
@@ -353,9 +357,14 @@ impl GenerateRequest {
         most_agents: u64,
         most_points: u64,
     ) -> Result<experts::Request, Problem> {
+        let pinned = self.pinned(scene)?;
         let agents = match &self.agents {
             Who::All(_) => None,
-            Who::Ids(ids) => Some(self.known(scene, "/agents", ids)?),
+            Who::Ids(ids) => {
+                let mut ids = self.known(scene, "/agents", ids)?;
+                ids.extend(pinned.keys().cloned());
+                Some(ids)
+            }
         };
         if agents.as_ref().is_some_and(BTreeSet::is_empty) {
             return Err(Problem::field("/agents", Code::InvalidField, "\"all\" or at least one id expected"));
@@ -390,6 +399,7 @@ impl GenerateRequest {
             start_step: self.start_step(),
             horizon_steps,
             replan_steps,
+            pinned,
             seed: self.seed,
             samples: self.samples as usize,
             modes: self.modes as usize,
@@ -398,6 +408,30 @@ impl GenerateRequest {
             stream_all: self.stream_modes == StreamModes::All,
             ..experts::Request::new(Arc::clone(scene))
         })
+    }
+
+    /// The futures that are kept as they are, from the start on.
+    fn pinned(&self, scene: &Scene) -> Result<BTreeMap<String, Vec<scene::State>>, Problem> {
+        self.known(scene, "/pinned", &self.pinned)?;
+        let mut out = BTreeMap::new();
+        let mut faults = Vec::new();
+        for (i, id) in self.pinned.iter().enumerate() {
+            let future = scene.generated.as_ref().and_then(|g| g.chosen_future(id));
+            let passed = future.and_then(|f| (self.start_step() + 1).checked_sub(f.first_step));
+            let states = future.zip(passed).and_then(|(f, passed)| f.states.get(passed..));
+            match states.filter(|s| !s.is_empty()) {
+                Some(states) => {
+                    out.insert(id.clone(), states.to_vec());
+                }
+                None => faults.push(FieldProblem::new(
+                    format!("/pinned/{i}"),
+                    "invalid-field",
+                    "the scene keeps no future of this road user from the start on",
+                )),
+            }
+        }
+        refuse(faults)?;
+        Ok(out)
     }
 
     fn shown(&self, scene: &Scene) -> Result<BTreeMap<String, ShownLast>, Problem> {
@@ -425,11 +459,15 @@ impl GenerateRequest {
 
     /// The options as sent, for `generated.request`.
     fn options(&self) -> serde_json::Value {
-        json!({
+        let mut options = json!({
             "agents": self.agents, "react": self.react, "start_s": self.start_s, "horizon_s": self.horizon_s,
             "replan_interval_s": self.replan_interval_s, "samples": self.samples, "modes": self.modes,
             "diversity": self.diversity, "steps": self.steps,
-        })
+        });
+        if !self.pinned.is_empty() {
+            options["pinned"] = json!(self.pinned);
+        }
+        options
     }
 }
 

@@ -24,13 +24,14 @@ journeys('figures', (stage) => {
     const flag = (k) => [car.to[0] + (car.from[0] - car.to[0]) * k + 9, car.to[1] + (car.from[1] - car.to[1]) * k - 26];
 
     const load = loadavg()[0];
-    let mark = e.wire.asked.length;
+    const mark = e.wire.asked.length;
     const drag = await traced(stage.browser, e.page, async () => {
       await e.drag(flag(0), flag(0.4), { moves: MOVES });
     });
     await e.settled();
     const asked = e.wire
       .since(mark)
+      .filter((a) => a.body.react === false)
       .map((a) => ({ sent: a.sent * 1000, draft: a.event('initial')?.at * 1000 || null }));
     const moves = drag.moves.slice(-MOVES).map((at) => {
       const draft = asked.find((a) => a.sent >= at && a.draft)?.draft ?? null;
@@ -42,14 +43,12 @@ journeys('figures', (stage) => {
     const releases = [];
     for (let i = 0; i < RELEASES; i++) {
       if (i) await e.drag(flag(0.4 - 0.05 * (i - 1)), flag(0.4 - 0.05 * i), { moves: 4 });
-      mark = e.wire.asked.length;
       const trace = await traced(stage.browser, e.page, () => e.release());
-      const answer =
-        e.wire
-          .since(mark)
-          .find((a) => a.body.react === true)
-          ?.event('final')?.at * 1000;
-      releases.push({ answered: answer - trace.releases[0], shown: trace.shownAfter(answer) - trace.releases[0] });
+      const [released] = trace.releases;
+      // What was foreseen of exactly this pose was there before.
+      const last = e.wire.asked.findLast((a) => a.body.react === true).event('final').at * 1000;
+      const answer = Math.max(last, released);
+      releases.push({ answered: answer - released, shown: trace.shownAfter(answer) - released });
     }
 
     const figures = {

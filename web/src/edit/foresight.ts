@@ -6,6 +6,7 @@ import type { FinalEvent } from '../net/types';
 
 /** Time between two questions. */
 const GAP_MS = 150;
+const LONGEST_GAP_MS = 250;
 /** A hand that is still for so long rests: a question about an older pose is dropped for the one it rests at. */
 const REST_MS = 120;
 /** How old a question may get while the hand moves on. */
@@ -134,16 +135,23 @@ export class Foresight {
     const running: Running = { scene, key, old, end: this.asking.begin(), awaited: null };
     this.#running = running;
     this.#free = false;
+    this.#pause(GAP_MS);
+    this.generator.ask(question);
+  }
+
+  #pause(ms: number): void {
+    clearTimeout(this.#gap);
     this.#gap = setTimeout(() => {
       this.#gap = undefined;
       this.#next();
-    }, GAP_MS);
-    this.generator.ask(question);
+    }, ms);
   }
 
   #answered(running: Running, known: Known): void {
     if (this.#running !== running) return;
     this.#over(running);
+    // Where these take long, at least half of the time is the hand's own.
+    if (known.ms > GAP_MS / 2) this.#pause(Math.min(known.ms, LONGEST_GAP_MS));
     if (running.awaited) {
       running.awaited(known);
       return;

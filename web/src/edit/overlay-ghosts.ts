@@ -1,6 +1,7 @@
 // What the overlay shows of the others while a handle is dragged: where each would wait or be slowest if one let go.
 import type { Change } from '../model/changes';
 import type { Pose } from '../model/geometry';
+import { STEP_S } from '../model/motion';
 import type { Agent } from '../model/scene';
 import { Fades, type Faded } from '../draw/fades';
 import { paintWaiting, paintWay, type GhostStyle } from '../draw/ghosts';
@@ -53,7 +54,8 @@ export class GhostOverlay {
         brakes: c.reaction?.kind === 'waits' || c.reaction?.kind === 'slows',
         filled: away > OVER_ITSELF * a.length,
       };
-      paintWay(g, v, c.after, t, c.at, style);
+      // Who comes in later goes from where it is first seen.
+      paintWay(g, v, c.after, Math.max(t, (c.after.valid[0]?.[0] ?? 0) * STEP_S), c.at, style);
       if (now && here) {
         // The real box stays where it is, at full strength.
         stamp(g, v, a, now);

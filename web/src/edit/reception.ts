@@ -13,6 +13,7 @@ import {
 } from '../model/futures';
 import { motionFrom } from '../model/motion';
 import type { Naming } from '../model/names';
+import type { Fault } from '../model/about';
 import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
 import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
@@ -48,6 +49,8 @@ export class Reception {
   readonly #names = new FrozenNames();
 
   readonly #steady: Steady;
+  /** The document of the last answer foreseen, and what was bold before it took the place of the drag's own. */
+  #foreseen: { readonly key: string; readonly bold: string | null } | null = null;
 
   constructor(
     private readonly editor: Editor,
@@ -56,7 +59,9 @@ export class Reception {
     this.#steady = new Steady((changes) => editor.answers.foresee(changes));
     // What was said of a drag ends with it.
     effect(() => {
-      if (editor.foreseen.value === null) this.#steady.forget();
+      if (editor.foreseen.value !== null) return;
+      this.#steady.forget();
+      this.#foreseen = null;
     });
   }
 
@@ -148,7 +153,7 @@ export class Reception {
         return false;
       }
       const id = subject && e.agents[subject] && editor.selection.peek() === subject ? subject : null;
-      const drawn = id !== null && this.#draw(id, e.agents[id], step, steps, at.keep);
+      const drawn = id !== null && !this.#knownBetter(scene) && this.#draw(id, e.agents[id], step, steps, at.keep);
       editor.answers.report({ kind: 'refining', step, steps, ms });
       return drawn;
     });
@@ -164,7 +169,7 @@ export class Reception {
     // The answer to a release starts rough again; what the drag has settled already stays until it is better.
     if (last && !editor.dragging.peek() && step < last.futures.step) return false;
     const read = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
-    const f = this.#withFrozenNames(a, read);
+    const f = this.#withFrozenNames(a, editor.dragging.peek() ? this.#withoutThoseWhoAnswer(read) : read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
     editor.answers.showDraft(id, f, trails);
     return true;
@@ -188,12 +193,38 @@ export class Reception {
     this.hooks.answered();
     const set = this.#motionAfter(scene, e, w, (a) => this.#lettersOf(a, true));
     this.#steady.hear(findChanges(scene, editor.motion.peek(), set, this.#subjects(scene, w.step)));
+    const key = sceneKey(scene);
+    const id = w.step?.agent;
+    const f = id && set.futures.get(id);
+    if (!f || editor.selection.peek() !== id || sceneKey(editor.scene.peek()!) !== key) return;
+    // The hand rests here: its six are those that the others answer, judged with what these do.
+    this.#foreseen = { key, bold: this.#boldOf(id) };
+    editor.answers.showDraft(id, this.#withFrozenNames(scene.agents.get(id)!, f));
+  }
+
+  /** Is what a drag's own question says of this document known better? */
+  #knownBetter(scene: Scene): boolean {
+    return this.#foreseen !== null && this.editor.dragging.peek() && this.#foreseen.key === sceneKey(scene);
+  }
+
+  /** While the hand moves nobody is told to be hit who would give way. */
+  #withoutThoseWhoAnswer(f: Futures): Futures {
+    const answering = new Set(this.editor.foreseen.peek()?.map((c) => c.id));
+    const met = (x: Fault): boolean => x.with !== null && answering.has(x.with);
+    if (!answering.size || !f.modes.some((m) => m.about?.faults.some(met))) return f;
+    return {
+      ...f,
+      modes: f.modes.map((m) =>
+        m.about ? { ...m, about: { ...m.about, faults: m.about.faults.filter((x) => !met(x)) } } : m,
+      ),
+    };
   }
 
   /** The release is answered by what was foreseen of it. */
   takeOver(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number): void {
     this.hooks.answered();
-    const bold = step.agent ? this.#boldOf(step.agent) : null;
+    const own = this.#foreseen?.key === sceneKey(scene) ? this.#foreseen.bold : null;
+    const bold = own ?? (step.agent ? this.#boldOf(step.agent) : null);
     this.#finalOfChange(scene, e, w, step, ms, (a) => this.#lettersAtRest(a));
     this.#sayWhyAnother(scene, step.agent, bold);
   }
@@ -215,12 +246,12 @@ export class Reception {
     if (!settled) return;
     const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
-    const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, settled) : settled;
+    const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, this.#withoutThoseWhoAnswer(settled)) : settled;
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
       if (reach) editor.answers.judge(id, reach);
       if (!dragging && !editor.motion.peek().stale) editor.answers.look(id, f, reach);
-      else if (editor.selection.peek() === id) editor.answers.showDraft(id, f);
+      else if (editor.selection.peek() === id && !this.#knownBetter(scene)) editor.answers.showDraft(id, f);
     });
     const best = f.modes[f.chosen];
     if (!best || dragging) return;

@@ -70,7 +70,9 @@ function nameOne(
   const alike = others.findIndex((o) => o?.name === plain);
   const words = differences(modes[alike].motion, modes[i].motion, modes[alike].about, modes[i].about);
   const free = (c: Candidate, ends: readonly string[]): Named | undefined => {
-    const names = ends.flatMap((end) => c.forms.map((f) => (end ? `${f}, ${end}` : f)));
+    // `Straight on, straight` would say the same twice.
+    const fits = (f: string, end: string): boolean => !end || !f.toLowerCase().includes(end.split(' ')[0]);
+    const names = ends.flatMap((end) => c.forms.filter((f) => fits(f, end)).map((f) => (end ? `${f}, ${end}` : f)));
     const name = names.find((n) => n.length <= LONGEST && !taken.has(n));
     return name === undefined ? undefined : { name, basis: c.basis };
   };

@@ -82,7 +82,7 @@ export function headline(f: Futures, chosen: number, hasGoal: boolean, who: Walk
   const all = f.modes.length > 1 && f.modes.every((m) => m.about?.faults[0]?.kind === worst.kind);
   const title =
     toGoal && all && leavesRoad(worst)
-      ? `Only ${word}${worst.kind === 'over_median' ? '' : ','}${at}`
+      ? `Only ${word}${at}`
       : toGoal
         ? `Reached, ${word}${at}`
         : `${upper(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
@@ -149,6 +149,8 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
   if (!about) return null;
   const [worst] = about.faults;
   if (!worst) {
+    // The headline lists those that get there, unless it names what is wrong.
+    if (said.named === null) return null;
     if (!said.hasGoal) return group('ok', 'do not', 'does not');
     return said.offRoad
       ? group('ok', 'get there by the road', 'gets there by the road')

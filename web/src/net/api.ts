@@ -416,6 +416,8 @@ export interface components {
             chosen: number;
             /** @description By falling probability. */
             modes: components["schemas"]["FutureDoc"][];
+            /** @description Why it gave up the motion that it had. */
+            reaction?: components["schemas"]["Reaction"] | null;
         };
         /**
          * AgentScore
@@ -429,7 +431,7 @@ export interface components {
             ade_m?: number | null;
             /**
              * Format: uint
-             * @description Collisions it is part of.
+             * @description Collisions it is part of and the log does not show.
              */
             collisions: number;
             /** @description Which step counted as the end. */
@@ -470,7 +472,7 @@ export interface components {
             min_ttc_s: number | null;
             /**
              * Format: uint
-             * @description Near misses it is part of.
+             * @description Near misses it is part of and the log does not show.
              */
             near_misses: number;
             /**
@@ -566,6 +568,32 @@ export interface components {
             target: string;
         };
         /**
+         * ByRoad
+         * @description A place on a lane that can be had instead of a goal.
+         */
+        ByRoad: {
+            /**
+             * Format: double
+             * @description From the goal, metres.
+             */
+            distance_m: number;
+            /**
+             * Format: double
+             * @description Of the lane, radians.
+             */
+            heading_rad: number;
+            /**
+             * Format: double
+             * @description On the lane's middle, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description On the lane's middle, metres.
+             */
+            y_m: number;
+        };
+        /**
          * CircleDoc
          * @description A circle.
          */
@@ -601,6 +629,11 @@ export interface components {
              *     already overlap).
              */
             closing_speed_mps: number;
+            /**
+             * @description The log itself shows it: both move as recorded, or the recording has the same meeting at about
+             *     the same time, no less hard. It does not count.
+             */
+            in_log: boolean;
             /**
              * Format: double
              * @description Greatest intersection over union of the whole encounter, 0 to 1.
@@ -864,6 +897,46 @@ export interface components {
          */
         Event: components["schemas"]["AcceptedEvent"] | components["schemas"]["DraftEvent"] | components["schemas"]["FinalEvent"] | components["schemas"]["ErrorEvent"] | components["schemas"]["SupersededEvent"] | components["schemas"]["HeartbeatEvent"];
         /**
+         * Fault
+         * @description One thing that is wrong with a motion.
+         */
+        Fault: {
+            /**
+             * Format: double
+             * @description How bad, in the unit of its kind.
+             */
+            extent?: number | null;
+            /** @description What. */
+            kind: components["schemas"]["FaultKind"];
+            /**
+             * Format: double
+             * @description Scene time at which it begins, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Scene time at which it ends, seconds.
+             */
+            until_s: number;
+            /** @description The other road user. */
+            with?: string | null;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * FaultKind
+         * @description What can be wrong with a motion, the worst first.
+         */
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "goal_missed";
+        /**
          * Field
          * @description A value and where it came from.
          */
@@ -985,6 +1058,8 @@ export interface components {
              *     idea.
              */
             anchor?: number | null;
+            /** @description What is wrong with it, the worst first. */
+            faults?: components["schemas"]["Fault"][];
             /**
              * Format: uint64
              * @description Scene step of the first value: one after the start.
@@ -992,11 +1067,15 @@ export interface components {
             first_step: number;
             /** @description Radians. */
             heading_rad: number[];
+            /** @description What it does. */
+            manoeuvre?: components["schemas"]["Manoeuvre"] | null;
             /**
              * Format: double
              * @description Share of belief among the road user's futures.
              */
             probability: number;
+            /** @description How it stands to others. */
+            relations?: components["schemas"]["Relation"][];
             /** @description m/s. */
             vx_mps: number[];
             /** @description m/s. */
@@ -1062,6 +1141,12 @@ export interface components {
              */
             modes?: number;
             /**
+             * @description Road users that go on with the chosen future that the scene keeps for them: it is as good as asked for, and
+             *     the others answer it.
+             * @default []
+             */
+            pinned?: string[];
+            /**
              * @description Who else answers to them.
              * @default false
              */
@@ -1110,6 +1195,13 @@ export interface components {
              * @default 0
              */
             seed?: number;
+            /**
+             * @description What a person has seen last of these road users, while dragging: the answer leaves it only for a gain worth
+             *     the jump.
+             */
+            shown?: {
+                [key: string]: components["schemas"]["ShownDoc"];
+            };
             /**
              * Format: double
              * @description Scene time of the start, seconds.
@@ -1522,6 +1614,12 @@ export interface components {
          * @description The word `log`.
          */
         Log: "log";
+        /**
+         * Manoeuvre
+         * @description What a motion does, by its shape and the lanes that it takes.
+         * @enum {string}
+         */
+        Manoeuvre: "straight" | "left" | "right" | "turn_round" | "lane_left" | "lane_right" | "stays" | "reverse";
         Map: components["schemas"]["MapDoc"];
         /**
          * MapDoc
@@ -1729,6 +1827,11 @@ export interface components {
              * @description Gap between the boxes then, metres.
              */
             distance_m: number;
+            /**
+             * @description The log itself shows it: both move as recorded, or the recording has the same meeting at about
+             *     the same time, no less hard. It does not count.
+             */
+            in_log: boolean;
             /**
              * Format: double
              * @description Scene time, seconds.
@@ -2024,12 +2127,57 @@ export interface components {
          */
         Reacting: boolean | string[];
         /**
+         * Reaction
+         * @description Why a road user gave up the motion that it had.
+         */
+        Reaction: {
+            /** @description Whom it answers: the road user that its own motion would have met. */
+            cause: string;
+            /**
+             * Format: double
+             * @description How much later than without it, seconds; negative for earlier.
+             */
+            delay_s: number;
+            /** @description How it answers. */
+            kind: components["schemas"]["ReactionKind"];
+            /**
+             * Format: double
+             * @description Speed then, m/s.
+             */
+            speed_mps: number;
+            /**
+             * Format: double
+             * @description Scene time at which it waits or is slowest, seconds.
+             */
+            time_s: number;
+            /**
+             * Format: double
+             * @description Where then, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Where then, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * ReactionKind
+         * @description How a road user answers another.
+         */
+        ReactionKind: "waits" | "slows" | "speeds_up" | "keeps_clear";
+        /**
          * RedLight
          * @description A stop line is crossed while its signal says stop.
          */
         RedLight: {
             /** @description Who. */
             agent: string;
+            /**
+             * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
+             *     the same time, no less bad.
+             */
+            in_log: boolean;
             /** @description Lane whose signal says stop. */
             lane: string;
             /**
@@ -2064,10 +2212,50 @@ export interface components {
             polygon_m?: number[][] | null;
         };
         /**
+         * Relation
+         * @description A motion and another's.
+         */
+        Relation: {
+            /**
+             * Format: double
+             * @description Time between the two at that place, seconds.
+             */
+            gap_s?: number | null;
+            /** @description Which. */
+            kind: components["schemas"]["RelationKind"];
+            /**
+             * Format: double
+             * @description Scene time at which this one is there, seconds.
+             */
+            time_s: number;
+            /** @description The other road user. */
+            with: string;
+            /**
+             * Format: double
+             * @description Where, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Where, metres.
+             */
+            y_m: number;
+        };
+        /**
+         * RelationKind
+         * @description How a motion stands to another's.
+         */
+        RelationKind: "before" | "after" | "follows" | "gives_way_to";
+        /**
          * Resolved
          * @description Every condition field of one road user as it was used.
          */
         Resolved: {
+            /**
+             * @description Where its shown future leaves the road or drives against the traffic: the nearest place to the goal that the
+             *     road leads to in the same time.
+             */
+            by_road?: components["schemas"]["ByRoad"] | null;
             /** @description Where it goes. */
             goal: components["schemas"]["ResolvedGoal"];
             /** @description One entry for each window that ended its plan before the goal was due. */
@@ -2308,6 +2496,10 @@ export interface components {
         /**
          * SceneScore
          * @description Score of the scene. Shares are 0 to 1 and `None` where nobody could do the thing.
+         *
+         *     Lists hold what the log itself shows too, marked `in_log`. Such events are not counted in
+         *     `collision_rate` nor with the road users; distances, times and the other shares are measured over all
+         *     motion, the recorded too.
          */
         SceneScore: {
             /**
@@ -2319,9 +2511,15 @@ export interface components {
             assumed_width: boolean;
             /**
              * Format: double
-             * @description Share of road users in any collision (the paper's scenario collision rate).
+             * @description Share of road users in any collision that the log does not show.
              */
             collision_rate: number;
+            /**
+             * Format: double
+             * @description Share of road users in any collision, those of the log counted (the paper's scenario collision
+             *     rate).
+             */
+            collision_rate_with_log: number;
             /** @description By time, then by pair. */
             collisions: components["schemas"]["Collision"][];
             /** @description Which step counted as the end. */
@@ -2335,6 +2533,8 @@ export interface components {
             goals_reached: number | null;
             /** @description Braking harder than the threshold; `worst` in m/s2. */
             harsh_braking: components["schemas"]["Stretch"][];
+            /** @description Turning harder than the threshold; `worst` in m/s2 sideways. */
+            harsh_steering: components["schemas"]["Stretch"][];
             /**
              * Format: double
              * @description Mean absolute heading error of the future that ends closest, radians.
@@ -2371,7 +2571,7 @@ export interface components {
             min_ttc_s: number | null;
             /** @description By time, then by pair. */
             near_misses: components["schemas"]["NearMiss"][];
-            /** @description Vehicles off the road. */
+            /** @description Vehicles off the road, but for those over a median. */
             off_road: components["schemas"]["Stretch"][];
             /**
              * Format: double
@@ -2383,6 +2583,8 @@ export interface components {
              * @description Share of vehicle steps with a corner off the road.
              */
             offroad_share: number | null;
+            /** @description Vehicles over what divides two roads. */
+            over_median: components["schemas"]["Stretch"][];
             /**
              * Format: double
              * @description Share of road users whose box overlaps another's at all, however little.
@@ -2465,6 +2667,7 @@ export interface components {
              *       "goal_position_m": 0.05,
              *       "goal_speed_mps": 0.05,
              *       "harsh_brake_mps2": 4,
+             *       "harsh_lateral_mps2": 4,
              *       "iou": 0.02,
              *       "moving_mps": 0.5,
              *       "offroad_m": 0.1,
@@ -2477,6 +2680,22 @@ export interface components {
             trajectories?: {
                 [key: string]: components["schemas"]["TrajectoryDoc"];
             };
+        };
+        /**
+         * ShownDoc
+         * @description The future that was shown last.
+         */
+        ShownDoc: {
+            /**
+             * Format: uint32
+             * @description Its `anchor`.
+             * @default null
+             */
+            anchor?: number | null;
+            /** @description Box centres at every half second after the start, metres; at most 18 count. */
+            x_m: number[];
+            /** @description As many as `x_m`. */
+            y_m: number[];
         };
         /**
          * SignalDoc
@@ -2575,6 +2794,11 @@ export interface components {
             /** @description Who. */
             agent: string;
             /**
+             * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
+             *     the same time, no less bad.
+             */
+            in_log: boolean;
+            /**
              * Format: double
              * @description Scene time of the first step, seconds.
              */
@@ -2586,10 +2810,20 @@ export interface components {
             until_s: number;
             /**
              * Format: double
-             * @description The worst of it: metres off the road, m/s2 of braking, share of the limit for turns; none for
-             *     wrong-way driving.
+             * @description The worst of it: metres off the road, m/s2 of braking or sideways, share of the limit for turns,
+             *     metres driven against the traffic.
              */
             worst: number | null;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            x_m: number;
+            /**
+             * Format: double
+             * @description Box centre where it is worst, metres.
+             */
+            y_m: number;
         };
         /**
          * SupersededEvent
@@ -2679,6 +2913,12 @@ export interface components {
              * @default 4
              */
             harsh_brake_mps2?: number;
+            /**
+             * Format: double
+             * @description Sideways acceleration above this is harsh, m/s2.
+             * @default 4
+             */
+            harsh_lateral_mps2?: number;
             /**
              * Format: double
              * @description Boxes collide when their intersection over union is above this.

@@ -367,6 +367,37 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.tm')).toContain('5.4 s');
   });
 
+  it('says what is wrong with futures, row by row and in one line, and offers the way by the road', async () => {
+    d = await (await Driver.open(browser, { judged: true })).ready();
+    await d.select('1');
+    const [x, y] = await d.at(...(await d.goal()));
+    await d.drag([x + 8, y - 26], [x + 40, y - 60]);
+    await d.page.waitForSelector('.hint.near');
+    expect(await d.text('.hint')).toBe(
+      'Reached, over the median at 3.2 s\nA, B, C and D drive over it. E gets there by the road. F does not get there.',
+    );
+    const marks = () =>
+      d.page.locator('.fu .mk').evaluateAll((all) => all.map((e) => e.className.replace('mk', '').trim()));
+    expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);
+    await d.page.waitForSelector('.badge[aria-label^="Over the median 3.2 s"]');
+    await d.release();
+    expect(await d.text('.fu[data-future="E"] .nm')).toBe('By the road');
+    await d.page.locator('.hint .to').click();
+    expect(await d.text('.tm')).toContain('3.2 s');
+    const goal = await d.goal();
+    await d.page.locator('.opt.pri').click();
+    await d.settled();
+    const moved = await d.goal();
+    expect(Math.hypot(moved[0] - goal[0], moved[1] - goal[1])).toBeCloseTo(14, 0);
+    await d.key('Control+z');
+    await d.settled();
+    expect(await d.goal()).toEqual(goal);
+    // What is in the log is there, and does not count.
+    expect(await d.page.locator('.badge.log').count()).toBe(1);
+    await d.key('e');
+    expect(await d.text('.insp')).toMatch(/6 in these 9 s · 1 in the log/);
+  });
+
   it('works out 20 s: the timeline stretches, the picked length travels, playback runs to the end', async () => {
     d = await (await Driver.open(browser)).ready();
     expect(await d.text('.tm')).toContain('/ 9.0 s');

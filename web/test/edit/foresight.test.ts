@@ -1,7 +1,8 @@
 // What the others would do, asked while a handle is dragged and taken over by the release.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { setGoal, setOthers, type Command } from '../../src/model/commands';
-import { answered, draftOf, finalOf, late, Session } from './session';
+import type { DraftEvent } from '../../src/net/types';
+import { answered, draftOf, finalOf, finalWith, late, Session, six } from './session';
 
 let s: Session;
 
@@ -104,6 +105,38 @@ describe('while a handle is dragged', () => {
     answer({ '2': late('2', 1, '1'), '3': late('3', 3, '1'), '4': late('4', 0) });
     expect(names()).toEqual([expect.stringMatching(/^Car 3 .* Car 1$/), expect.stringMatching(/^Car 2 .* Car 1$/)]);
     expect(s.editor.motion.peek()).toBe(before);
+  });
+
+  it('shows where the hand rests the six that the others answer, whatever comes later of the own ones', async () => {
+    begin();
+    await frame(10);
+    s.others.last.on.final(finalWith({ '1': { ...six('1'), chosen: 3 } }), 30);
+    expect(s.editor.chosen.peek()).toBe(3);
+    s.generator.last.on.draft(draftOf('1'), 4, 5, 12);
+    s.generator.last.on.final(finalOf('1'), 14);
+    expect(s.editor.chosen.peek()).toBe(3);
+    await frame(11);
+    expect(s.editor.chosen.peek()).toBe(0);
+    // An answer about a pose that the hand has left changes nothing of the six.
+    vi.advanceTimersByTime(150);
+    await frame(12);
+    s.others.last.on.final(finalWith({ '1': { ...six('1'), chosen: 3 } }), 30);
+    expect(s.editor.chosen.peek()).toBe(0);
+  });
+
+  it('tells nobody hit who would give way', async () => {
+    const hits = (id: string) => ({ kind: 'collision', time_s: 3, until_s: 3, x_m: 0, y_m: 0, extent: 5, with: id });
+    const modes = six('1').modes.map((m) => ({ ...m, faults: [hits('2'), hits('3')] }));
+    const draft = { event: 'step', window: 0, agents: { '1': { chosen: 0, modes } } } as unknown as DraftEvent;
+    const hit = () => s.editor.draft.peek()!.futures.modes[0].about!.faults.map((f) => f.with);
+    begin();
+    await frame(10);
+    s.generator.last.on.draft(draft, 1, 5, 8);
+    expect(hit()).toEqual(['2', '3']);
+    answer({ '2': late('2', 3, '1') });
+    await frame(11, { shown: false });
+    s.generator.last.on.draft(draft, 1, 5, 8);
+    expect(hit()).toEqual(['3']);
   });
 
   it('changes a verb only after it has been agreed upon for a while', async () => {

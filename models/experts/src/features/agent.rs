@@ -7,12 +7,12 @@ use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
-use crate::planning::lights::{Gate, gates};
+use crate::planning::lights::{Gate, gates, sets_off};
 use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
 use scene::score::Drivable;
-use scene::{AgentType, Vec2, wrap_angle};
+use scene::{AgentType, STANDING_MPS, Vec2, wrap_angle};
 use std::sync::Arc;
 
 /// So far beyond the road's edge a corner still counts as on the road, metres.
@@ -104,12 +104,21 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     }
 }
 
+impl AgentPlan {
+    /// It stands before a red light that is known to turn green, and nothing else is asked of it.
+    pub fn sets_off(&self) -> bool {
+        self.target.is_free()
+            && self.model.start_speed_mps() < STANDING_MPS
+            && self.lights.iter().any(|gates| sets_off(gates))
+    }
+}
+
 /// See [`AgentPlan::ground`].
 fn ground(world: &World<'_>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
     let outline = OrientedBox::of_state(&who.start, &who.size);
     let ground = world.graph.ground();
     let starts_there = ground.box_outside_m(&outline).is_some_and(|outside_m| outside_m <= BEYOND_M);
-    (who.agent_type == AgentType::Vehicle && starts_there).then(|| ground.clone())
+    (who.agent_type == AgentType::Vehicle && ground.is_bounded() && starts_there).then(|| ground.clone())
 }
 
 /// See [`AgentPlan::lane_headings`].

@@ -1,10 +1,9 @@
 //! Road users that get new futures in a window.
 
 use super::covering::Cover;
-use super::retimed::retimed_anchors;
 use super::slot::Slot;
-use crate::features::agent::{AgentPlan, plan, plan_with};
-use crate::planning::anchors::{Anchor, PathKind};
+use crate::features::agent::{AgentPlan, plan};
+use crate::planning::anchors::Anchor;
 use crate::planning::world::{AgentAtStart, World};
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use scene::geometry::direction;
@@ -124,14 +123,9 @@ impl Actor {
         Self::new(world.agent(who).id.clone(), plan(world, who), None)
     }
 
-    /// One that may give up the motion it has: its anchors are its own path at other paces.
+    /// One that may give up the motion it has for others to what it was asked before.
     pub(super) fn reacting(world: &World<'_>, who: &AgentAtStart, kept: Vec<State>) -> Self {
-        let goal_free = world.conditions[who.index].goal.is_free();
-        let plan = match retimed_anchors(who, &kept) {
-            Some(anchors) if goal_free => plan_with(world, who, anchors),
-            _ => plan(world, who),
-        };
-        Self::new(world.agent(who).id.clone(), plan, Some(kept))
+        Self::new(world.agent(who).id.clone(), plan(world, who), Some(kept))
     }
 
     /// Goes on from a state that an earlier window reached: what rolls backwards does so until it stands.
@@ -154,11 +148,6 @@ impl Actor {
     /// Most probable mode.
     pub(super) fn likeliest(&self) -> Slot {
         self.order[0]
-    }
-
-    /// Anchors are its own path: the networks' residuals, made for routes, do not apply.
-    pub(super) fn keeps_its_path(&self) -> bool {
-        self.kept.is_some() && self.plan.anchors.iter().all(|a| a.kind == PathKind::LeastEffort)
     }
 
     /// A vehicle that stands beside or off every lane: nothing but its driver can make it go.

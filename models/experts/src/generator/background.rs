@@ -1,14 +1,11 @@
 //! Background motion: what road users do that get no new futures.
 
-use super::actor::Actor;
-use super::choice::swept_background;
-use super::repulsion::{ABSENT, Outline, pose_of};
-use super::trajectory::PER_INSTANT;
+use super::reacting::Answerers;
+use super::repulsion::Outline;
 use crate::planning::world::{AgentAtStart, World};
 use crate::tuning::OverlapTuning;
 use scene::score::SweptBoxes;
-use scene::{Agent, Future, HORIZON_STEPS, STEP_S, Scene, State};
-use std::collections::BTreeSet;
+use scene::{Agent, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, Scene, State};
 
 /// Everybody in the background of a window, as obstacles.
 pub(super) struct Background {
@@ -24,26 +21,17 @@ impl Background {
         Self { outlines: Vec::new(), boxes: Vec::new() }
     }
 
-    /// All who are there and do not act.
-    pub(super) fn of(world: &World<'_>, actors: &[Actor], tuning: &OverlapTuning) -> Self {
-        let acting: BTreeSet<usize> = actors.iter().map(|a| a.plan.present.index).collect();
-        let mut found = Self::none();
-        for who in world.present.iter().filter(|p| !acting.contains(&p.index)) {
-            let known = Known::of(&world.scene, world.agent(who), world.step);
-            let at = |step| known.at(step);
-            let pose = |i: usize| {
-                let state = at((i + 1) * PER_INSTANT);
-                state.map_or(ABSENT, |s| pose_of(s.position(), s.heading_rad))
-            };
-            found.outlines.push(Outline::new(std::array::from_fn(pose), who, tuning));
-            found.boxes.push(swept_background(at, &who.size));
-        }
-        found
+    /// Everybody but the actors. Those that may answer repel like the others; what the choice weighs against them is
+    /// what their answers cost.
+    pub(super) fn of(answerers: &Answerers<'_>, tuning: &OverlapTuning) -> Self {
+        let outlines = answerers.movings().map(|moving| Outline::of_boxes(&moving.boxes, tuning)).collect();
+        let boxes = answerers.fixed.iter().map(|f| f.moving.swept.clone()).collect();
+        Self { outlines, boxes }
     }
 }
 
-/// What a road user in the background does: its chosen future, else its log; one that was only drawn goes straight
-/// on.
+/// What a road user in the background does: its chosen future, else its log; one whose future has ended, or that was
+/// only drawn, goes straight on.
 pub(super) struct Known<'a> {
     agent: &'a Agent,
     future: Option<&'a Future>,
@@ -66,14 +54,28 @@ impl<'a> Known<'a> {
     /// Where it is at a step of the window; 0 is the start.
     pub(super) fn at(&self, step: usize) -> Option<State> {
         let at = self.start_step + step;
-        let in_future = |f: &Future| f.states.get(at.checked_sub(f.first_step)?).copied();
-        if let Some(state) = self.future.and_then(in_future).or_else(|| self.agent.state_at(at)) {
+        if let Some(future) = self.future
+            && let Some(i) = at.checked_sub(future.first_step)
+            && let Some(last) = future.states.last()
+        {
+            let since = (i + 1).saturating_sub(future.states.len());
+            return Some(future.states.get(i).copied().unwrap_or_else(|| straight_on(last, since)));
+        }
+        if let Some(state) = self.agent.state_at(at) {
             return Some(state);
         }
         let (first, state) = self.drawn?;
-        let moved = state.position() + state.velocity() * (at.saturating_sub(first) as f64 * STEP_S);
-        Some(State { x_m: moved.x, y_m: moved.y, ..state })
+        Some(straight_on(&state, at.saturating_sub(first)))
     }
+}
+
+/// So many steps on; what stands stays.
+fn straight_on(state: &State, steps: usize) -> State {
+    if state.speed_mps() < STANDING_MPS {
+        return State { vx_mps: 0.0, vy_mps: 0.0, ..*state };
+    }
+    let moved = state.position() + state.velocity() * (steps as f64 * STEP_S);
+    State { x_m: moved.x, y_m: moved.y, ..*state }
 }
 
 /// Its states over the window, one a step from the first after the start, as far as known.

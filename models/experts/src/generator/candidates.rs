@@ -3,11 +3,11 @@
 use super::actor::{Actor, Drafts};
 use super::choice::distance;
 use super::slot::Slot;
-use super::trajectory::{Motion, as_it_is, mean_trajectory, rest, to_trajectory, without_creep};
-use crate::planning::MODES;
-use crate::request::Shown;
+use super::trajectory::{Motion, PER_INSTANT, along_places, as_it_is, mean_trajectory, rest, to_trajectory, without_creep};
+use crate::planning::{INSTANTS, MODES};
+use crate::request::{Shown, ShownLast};
 use crate::tuning::MiddleTuning;
-use scene::AgentType;
+use scene::{AgentType, Vec2};
 
 /// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
 /// only candidate that its actor has ([`Origin::Pinned`]). A rejected one belongs here as well: the modes
@@ -24,6 +24,8 @@ pub(super) enum Origin {
     Mode(Slot),
     /// The mean of all modes of one path, nearest to this one.
     PathMean(Slot),
+    /// What a person has seen last of this mode, brought to the goal as it is now.
+    Shown(Slot),
     /// The draft of this mode after overlaps were resolved.
     Settled(Slot),
     /// The draft of this mode, guided out of a conflict of the chosen scene.
@@ -35,7 +37,11 @@ impl Origin {
     pub(super) fn slot(self) -> Option<Slot> {
         match self {
             Self::Kept | Self::Pinned | Self::Rest => None,
-            Self::Mode(slot) | Self::PathMean(slot) | Self::Settled(slot) | Self::Guided(slot) => Some(slot),
+            Self::Mode(slot)
+            | Self::PathMean(slot)
+            | Self::Shown(slot)
+            | Self::Settled(slot)
+            | Self::Guided(slot) => Some(slot),
         }
     }
 
@@ -69,6 +75,8 @@ pub(super) struct Material<'a> {
     /// Planning window, from 0.
     pub(super) window: usize,
     pub(super) tuning: &'a MiddleTuning,
+    /// What a person has seen last, in the sample and window that follow it.
+    pub(super) shown: Option<&'a ShownLast>,
 }
 
 impl Material<'_> {
@@ -84,12 +92,30 @@ impl Material<'_> {
         let means = self.path_means(&alternatives);
         out.extend(alternatives);
         out.extend(means);
+        out.extend(self.shown_last());
         if let Some(residual) = &self.drafts.settled {
             let slot = self.drafts.leading;
             let motion = self.without_creep(to_trajectory(plan, slot, residual));
             out.push(Candidate { probability: 0.0, origin: Origin::Settled(slot), motion });
         }
         out
+    }
+
+    /// What was shown last, where it led next to the goal of now: so a hand that moves by little sees a motion that
+    /// moves by little, whatever the modes make of it.
+    fn shown_last(&self) -> Option<Candidate> {
+        let shown = self.shown.filter(|_| !self.actor.only_rests() && self.actor.kept.is_none())?;
+        let slot = Slot::all().find(|slot| Some(slot.number()) == shown.anchor)?;
+        let plan = &self.actor.plan;
+        let goal = plan.target.position?;
+        let led = shown.places.get((plan.target.step / PER_INSTANT).checked_sub(1)?)?;
+        let near = plan.target.step % PER_INSTANT == 0 && (led - goal).norm() <= self.tuning.same_goal_m;
+        let places: [Vec2; INSTANTS] = shown.places.get(..INSTANTS)?.try_into().ok()?;
+        near.then(|| Candidate {
+            probability: 0.0,
+            origin: Origin::Shown(slot),
+            motion: along_places(plan, slot, &places),
+        })
     }
 
     /// Rest where the actor may rest, then modes by falling probability, `count` in all.
@@ -120,7 +146,7 @@ impl Material<'_> {
     /// them than any one is.
     fn path_means(&self, alternatives: &[Candidate]) -> Vec<Candidate> {
         let actor = self.actor;
-        if middle(actor).is_some() || actor.keeps_its_path() || actor.only_rests() {
+        if middle(actor).is_some() || actor.only_rests() {
             return Vec::new();
         }
         let path = |slot: Slot| actor.plan.anchors[slot.index()].path_identity();
@@ -157,7 +183,7 @@ impl Material<'_> {
     pub(super) fn around(&self, sample: usize) -> Option<Slot> {
         match sample {
             0 => middle(self.actor),
-            _ => (!self.actor.rests && !self.actor.keeps_its_path()).then_some(self.drafts.leading),
+            _ => (!self.actor.rests).then_some(self.drafts.leading),
         }
     }
 }
@@ -173,7 +199,7 @@ pub(super) fn learned_share(actor: &Actor, tuning: &MiddleTuning) -> f32 {
 
 /// The mode that is the middle of what may happen, where there is a place to go.
 pub(super) fn middle(actor: &Actor) -> Option<Slot> {
-    let moves = actor.pinned.is_none() && !actor.keeps_its_path() && !actor.rests;
+    let moves = actor.pinned.is_none() && !actor.rests;
     (moves && actor.plan.target.position.is_some()).then_some(Slot::FIRST)
 }
 

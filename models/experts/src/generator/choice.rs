@@ -17,18 +17,14 @@ pub(super) struct Choosable {
     pub(super) boxes: SweptBoxes,
     /// What it costs by itself.
     pub(super) cost: f64,
+    /// The motion that the road user has anyway: how near it comes to others that keep theirs is how it was.
+    pub(super) kept: bool,
 }
 
 /// Boxes of a rollout at the looked-at steps.
 pub(super) fn swept(states: &Trajectory, size: &Size) -> SweptBoxes {
     let states: Vec<State> = states.iter().skip(STRIDE).step_by(STRIDE).map(State::from).collect();
     SweptBoxes::of_states(states.iter().map(Some), size)
-}
-
-/// Boxes of somebody in the background; `at` gives its state at a step of the window.
-pub(super) fn swept_background(at: impl Fn(usize) -> Option<State>, size: &Size) -> SweptBoxes {
-    let states: Vec<Option<State>> = (STRIDE..=scene::HORIZON_STEPS).step_by(STRIDE).map(at).collect();
-    SweptBoxes::of_states(states.iter().map(Option::as_ref), size)
 }
 
 /// Mean distance of two motions, metres.
@@ -143,13 +139,11 @@ impl Choice<'_> {
 
     /// Each option by itself and against what is fixed.
     fn own_costs(&self) -> Vec<Vec<f64>> {
-        let against = |boxes: &SweptBoxes| {
-            self.fixed.iter().map(|f| price(overlap(boxes, f), self.tuning)).sum::<f64>()
+        let against = |option: &Choosable| -> f64 {
+            let fixed = self.fixed.iter().filter(|_| !option.kept);
+            fixed.map(|f| price(overlap(&option.boxes, f), self.tuning)).sum()
         };
-        self.agents
-            .iter()
-            .map(|options| options.iter().map(|o| o.cost + against(&o.boxes)).collect())
-            .collect()
+        self.agents.iter().map(|options| options.iter().map(|o| o.cost + against(o)).collect()).collect()
     }
 
     /// For each road user, those whose options could ever meet one of its own.
@@ -183,7 +177,11 @@ impl Pairs<'_> {
         let key = if i < j { (i, a, j, b) } else { (j, b, i, a) };
         let (agents, tuning) = (self.agents, self.tuning);
         *self.known.entry(key).or_insert_with(|| {
-            price(overlap(&agents[key.0][key.1].boxes, &agents[key.2][key.3].boxes), tuning)
+            let (one, other) = (&agents[key.0][key.1], &agents[key.2][key.3]);
+            if one.kept && other.kept {
+                return 0.0;
+            }
+            price(overlap(&one.boxes, &other.boxes), tuning)
         })
     }
 }
@@ -217,7 +215,7 @@ mod tests {
 
     fn ride(y: f64, speed: f64, cost: f64) -> Choosable {
         let at = |i: usize| Some(OrientedBox::new(Vec2::new(0.3 * speed * i as f64, y), 2.3, 1.0, 0.0));
-        Choosable { boxes: SweptBoxes::new((0..30).map(at).collect()), cost }
+        Choosable { boxes: SweptBoxes::new((0..30).map(at).collect()), cost, kept: false }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::KnownMap;
 use super::actor::Actor;
-use super::candidates::Candidate;
+use super::candidates::{Candidate, Origin};
 use super::choice::{Choosable, medoid_costs, swept};
 use super::slot::Slot;
 use super::trajectory::PER_INSTANT;
@@ -47,7 +47,7 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
         let given = c.origin.is_given();
         let against = || broken_rules(actor, &c.motion.states, by) + leaving(c, by);
         let cost = if given { 0.0 } else { cost + against() };
-        Choosable { boxes, cost }
+        Choosable { boxes, cost, kept: c.origin == Origin::Kept }
     };
     candidates.iter().zip(costs).map(option).collect()
 }
@@ -142,7 +142,6 @@ fn deviation_m(states: &Trajectory, kept: &[State]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generator::candidates::Origin;
     use crate::generator::samples::car_on_a_street;
     use crate::generator::trajectory::rest;
     use crate::tuning::SHIPPED;

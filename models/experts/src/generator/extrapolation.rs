@@ -13,7 +13,8 @@ pub(super) struct Guessed {
 
 /// A road user's track as it is planned against up to scene step `last`: its pinned or chosen future after `start`,
 /// else its log, and where neither says more, straight on from where it was last seen. Also the first step of
-/// which nothing is known, where that comes before `last`.
+/// which nothing is known, where that comes before `last`. Who was seen to go away before the recording ends
+/// stays away.
 pub(super) fn extrapolated(
     scene: &Scene,
     agent: &Agent,
@@ -29,6 +30,7 @@ pub(super) fn extrapolated(
     };
     let logged = agent.track.last_valid_step().map_or(0, |l| l + 1);
     let ends = future.map_or(logged, |(first, states)| first + states.len());
+    let gone = future.is_none() && logged < scene.time.steps && agent.track.valid_steps().nth(1).is_some();
     let first_step = agent.track.first_step.min(start);
     let mut seen: Option<(usize, State)> = None;
     let mut guessed: Option<Guessed> = None;
@@ -37,7 +39,7 @@ pub(super) fn extrapolated(
             seen = Some((at, state));
             return Some(state);
         }
-        let (since, state) = seen.filter(|_| at > start)?;
+        let (since, state) = seen.filter(|_| at > start && !(gone && at >= ends))?;
         let moving = state.speed_mps() >= STANDING_MPS;
         if at >= ends {
             guessed = guessed.or(Some(Guessed { step: at, moving }));
@@ -57,25 +59,34 @@ mod tests {
     use super::*;
     use scene::{AgentType, LaneMap, Subtype};
 
-    fn track(speed_mps: f64) -> (Track, Option<Guessed>) {
+    /// Seen for 11 steps of a recording of so many.
+    fn track(speed_mps: f64, steps: usize) -> (Track, Option<Guessed>) {
         let at = |i: usize| State { x_m: speed_mps * 0.1 * i as f64, vx_mps: speed_mps, ..State::default() };
         let agent =
             Agent::bare("a", AgentType::Vehicle, Subtype::Car, (0..11).map(|i| Some(at(i))).collect());
-        let scene = Scene::bare("", LaneMap::default(), vec![agent]);
+        let mut scene = Scene::bare("", LaneMap::default(), vec![agent]);
+        scene.time.steps = steps;
         extrapolated(&scene, &scene.agents[0], None, 5, 30)
     }
 
     #[test]
     fn what_moves_goes_straight_on_after_its_log() {
-        let (track, guessed) = track(10.0);
+        let (track, guessed) = track(10.0, 11);
         assert_eq!(guessed, Some(Guessed { step: 11, moving: true }));
         assert_eq!(track.states.len(), 31);
         assert!((track.at(30).unwrap().x_m - 30.0).abs() < 1e-9);
     }
 
     #[test]
+    fn who_went_away_stays_away() {
+        let (track, guessed) = track(10.0, 91);
+        assert_eq!(guessed, None);
+        assert!(track.at(10).is_some() && track.at(11).is_none());
+    }
+
+    #[test]
     fn what_stands_stays() {
-        let (track, guessed) = track(0.0);
+        let (track, guessed) = track(0.0, 11);
         assert_eq!(guessed, Some(Guessed { step: 11, moving: false }));
         assert_eq!(track.at(30).unwrap().x_m, 0.0);
     }

@@ -18,7 +18,6 @@ mod overlaps;
 mod reacting;
 mod report;
 mod repulsion;
-mod retimed;
 #[cfg(test)]
 mod samples;
 mod slot;

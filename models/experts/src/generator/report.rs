@@ -80,6 +80,7 @@ pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
             time_s: Field { value: due_step as f64 * STEP_S, from: due_from },
         },
         reach,
+        by_road: None,
         intermediate,
     }
 }

@@ -4,7 +4,7 @@
 use super::actor::{Actor, Drafts};
 use super::kerb::kerb;
 use super::slot::Slot;
-use super::trajectory::{PER_INSTANT, places};
+use super::trajectory::{PER_INSTANT, as_it_is, places};
 use super::workers::Workers;
 use crate::planning::pullback::Pullback;
 use crate::planning::world::AgentAtStart;
@@ -12,6 +12,7 @@ use crate::planning::{INSTANTS, MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::OverlapTuning;
 use scene::Vec2;
 use scene::geometry::direction;
+use scene::geometry::obb::OrientedBox;
 use scene::geometry::overlap_energy::{Growth, MovingBox, absent, carried_back, carried_on, overlap_energy};
 use scene::motion::MotionState;
 use scene::score::Drivable;
@@ -39,6 +40,19 @@ impl Outline {
     pub(super) fn new(poses: Poses, who: &AgentAtStart, tuning: &OverlapTuning) -> Self {
         let soon = carried_on(&poses, tuning.soon_intervals as f32);
         Self { soon, poses, half: half_size(who) }
+    }
+
+    /// Of boxes at each step of a window, the start first; nobody is there where there is none.
+    pub(super) fn of_boxes(boxes: &[Option<OrientedBox>], tuning: &OverlapTuning) -> Self {
+        let at = |i: usize| boxes.get((i + 1) * PER_INSTANT)?.as_ref();
+        let pose = |i: usize| at(i).map_or(ABSENT, |b| pose_of(b.center(), b.heading_rad()));
+        let half = boxes
+            .iter()
+            .flatten()
+            .next()
+            .map_or([0.0; 2], |b| [b.half_length_m() as f32, b.half_width_m() as f32]);
+        let poses = std::array::from_fn(pose);
+        Self { soon: carried_on(&poses, tuning.soon_intervals as f32), poses, half }
     }
 
     /// Whether two come near each other, now or soon.
@@ -158,7 +172,10 @@ pub(super) fn repulsions(
 pub(super) fn leading_outlines(actors: &[Actor], drafts: &[Drafts], tuning: &OverlapTuning) -> Vec<Outline> {
     let outline = |(actor, drafts): (&Actor, &Drafts)| {
         let start = &actor.plan.present.start;
-        let poses = if actor.rests {
+        let poses = if let Some(pinned) = &actor.pinned {
+            // A picked future is where it is, whatever its drafts say.
+            poses_of_states(&as_it_is(&actor.plan, pinned).states)
+        } else if actor.rests {
             [pose_of(start.position(), start.heading_rad); INSTANTS]
         } else {
             poses_of(&places(&actor.plan, drafts.leading, drafts.leading.of(&drafts.modes)))

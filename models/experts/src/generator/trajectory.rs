@@ -32,6 +32,9 @@ impl From<Projection> for Motion {
     }
 }
 
+/// A front this near to a red line is over it, and how much farther from it the next try halts, metres.
+const AT_LINE_M: f64 = 0.25;
+const SHORT_OF_LINE_M: f64 = 1.2;
 /// Shares of an offset that are tried where the whole of it leaves the road.
 const OFFSET_SHARES: [f64; 4] = [0.8, 0.6, 0.4, 0.2];
 /// Ending along a lane may change a motion by so much, metres.
@@ -77,7 +80,11 @@ fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(
         caps: Caps::new(anchor.path.arc_m(), &anchor.caps_mps),
         easy_mps2: plan.easy_mps2,
     };
-    let Some(held) = waiting.obeying(&progress) else { return wanted };
+    let held = waiting.obeying(&progress);
+    // One mode may still not see the green.
+    let leaves = plan.target.is_free() && slot != Slot::FIRST;
+    let left = leaves.then(|| waiting.setting_off(held.as_ref().unwrap_or(&progress))).flatten();
+    let Some(held) = left.or(held) else { return wanted };
     std::array::from_fn(|i| {
         let along = held[(i + 1) * PER_INSTANT];
         let next = (0..INSTANTS).find(|k| wanted[*k].0 >= along).unwrap_or(INSTANTS - 1);
@@ -98,7 +105,7 @@ pub(super) fn to_trajectory(plan: &AgentPlan, slot: Slot, residual: &Residual) -
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
     }
-    on_the_road(plan, slot, route_coordinates(plan, slot, residual))
+    waiting(plan, slot, route_coordinates(plan, slot, residual))
 }
 
 /// The motion between drafts on one path: the mean of their progress and offset by probability. They lie on the
@@ -113,7 +120,31 @@ pub(super) fn mean_trajectory(plan: &AgentPlan, path: Slot, drafts: &[(f64, Slot
             mean.1 += probability / total * own.1;
         }
     }
-    on_the_road(plan, path, mean)
+    waiting(plan, path, mean)
+}
+
+/// The motion at these progresses and offsets. Ten knots cannot follow every halt: where one that waits at a red
+/// light would roll over the line, it halts earlier.
+fn waiting(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]) -> Motion {
+    let motion = on_the_road(plan, slot, coordinates);
+    let anchor = &plan.anchors[slot.index()];
+    let mut earlier = coordinates;
+    for gate in &plan.lights[slot.index()] {
+        let line_m = gate.line_m().max(0.0);
+        let waits = |i: &usize| gate.is_red((i + 1) * PER_INSTANT) && coordinates[*i].0 <= line_m;
+        let over = |i: usize| {
+            let place = motion.states[(i + 1) * PER_INSTANT].position;
+            anchor.coordinates(place, coordinates[i].0).0 - line_m
+        };
+        let over_m = (0..INSTANTS).filter(waits).map(over).fold(f64::NEG_INFINITY, f64::max);
+        if over_m > -AT_LINE_M {
+            let share = ((line_m - over_m - SHORT_OF_LINE_M) / line_m.max(0.1)).clamp(0.0, 1.0);
+            for i in (0..INSTANTS).filter(waits) {
+                earlier[i].0 *= share;
+            }
+        }
+    }
+    if earlier == coordinates { motion } else { on_the_road(plan, slot, earlier) }
 }
 
 /// The motion at these progresses and offsets. Where an offset takes a corner beyond the road's edge and the path
@@ -136,6 +167,29 @@ fn on_the_road(plan: &AgentPlan, slot: Slot, coordinates: [(f64, f64); INSTANTS]
     });
     through(plan, slot, places)
 }
+
+/// The motion that passes near these box centres at the instants, facing where it goes.
+pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTANTS]) -> Motion {
+    if plan.model.gear == Gear::Reverse {
+        return backing(plan);
+    }
+    let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
+    let facing = centres.map(|centre| {
+        let chord = centre - last.0;
+        let heading_rad = if chord.norm() > LEAST_CHORD_M { chord.y.atan2(chord.x) } else { last.1 };
+        last = (centre, heading_rad);
+        last
+    });
+    // A chord says the heading half way along it.
+    let mut places = facing;
+    for i in 0..INSTANTS - 1 {
+        places[i].1 += 0.5 * wrap_angle(facing[i + 1].1 - facing[i].1);
+    }
+    through(plan, slot, places)
+}
+
+/// Shorter chords say nothing of the heading, metres.
+const LEAST_CHORD_M: f64 = 0.2;
 
 /// What motions are projected onto: the goal, or nothing but the limits.
 fn projected_onto(plan: &AgentPlan) -> Target {

@@ -7,7 +7,7 @@ use super::candidates::{Candidate, Material, leads_by_probability, learned_share
 use super::covering::Cover;
 use super::noise::Key;
 use super::overlaps::resolve_overlaps;
-use super::reacting::reacting;
+use super::reacting::{Answered, Answerers, reacting};
 use super::repulsion::{SceneEnergy, repulsions};
 use super::slot::Slot;
 use super::standing::{self, Names, background_traces};
@@ -20,7 +20,7 @@ use crate::net::{Context, InitialOutput, NetError, Prepared, schedule};
 use crate::planning::pullback::Pullback;
 use crate::planning::world::World;
 use crate::planning::{MODES, Modes, RESIDUAL};
-use crate::request::{Draft, GenerateError, Intermediate, Request, Shown};
+use crate::request::{Draft, GenerateError, Intermediate, Request, Shown, ShownLast};
 use crate::tuning::Tuning;
 use crate::weights::EXPERTS;
 use scene::judge::{About, Trace};
@@ -59,6 +59,8 @@ pub(super) struct Cast {
     pub(super) may_react: BTreeSet<usize>,
     /// Those among the acting that were parked when the call began: they stay.
     pub(super) parked: BTreeSet<usize>,
+    /// What those among the others do, from the window's start on, that gave up their motion in an earlier window.
+    pub(super) resumed: BTreeMap<usize, Vec<State>>,
 }
 
 /// One planning window of one call.
@@ -76,6 +78,8 @@ pub(super) struct Window<'g> {
     pub(super) subgoals: BTreeMap<usize, Intermediate>,
     /// Those who get no new futures; nobody where they do not count.
     pub(super) background: Background,
+    /// Those among them who may give up what they do.
+    pub(super) answerers: Answerers<'g>,
     /// The same as motions that drafts are named by.
     pub(super) traces: Vec<Trace>,
     /// What is said of the sample's first drafts.
@@ -107,6 +111,7 @@ impl<'g> Window<'g> {
             batches: Vec::new(),
             subgoals: BTreeMap::new(),
             background: Background::none(),
+            answerers: Answerers::none(&generator.tuning),
             traces: Vec::new(),
             names: Names::default(),
             pullback: Pullback::default(),
@@ -120,7 +125,9 @@ impl<'g> Window<'g> {
             actor.keeps_to_the_road = costs::starts_on_the_road(actor, &map, &tuning.choice);
         }
         if window.request.stages.background_in_the_way {
-            window.background = Background::of(&window.world, &window.actors, &tuning.overlaps);
+            let Self { world, request, actors, .. } = &window;
+            window.answerers = Answerers::of(world, request, actors, cast, tuning);
+            window.background = Background::of(&window.answerers, &tuning.overlaps);
             // A call about everybody knows nobody's log after the start.
             let late = window.request.agents.is_some();
             window.traces = background_traces(&window.world, &window.actors, late);
@@ -150,11 +157,11 @@ impl<'g> Window<'g> {
         Ok(())
     }
 
-    /// Plans those that answer them.
+    /// Plans those that may answer them and were asked something before.
     fn answer(&mut self, cast: &Cast) -> Result<(), GenerateError> {
-        let tuning = &self.tuning().reacting;
-        let found =
-            reacting(&self.world, self.workers(), &self.actors, &cast.may_react, &self.request.react, tuning);
+        let near_m = self.tuning().reacting.near_m;
+        let (world, react) = (&self.world, &self.request.react);
+        let found = reacting(world, self.workers(), &self.actors, &cast.may_react, react, near_m);
         let room = MOST_ACTORS.saturating_sub(self.actors.len());
         let mut found: Vec<Actor> = found.into_iter().take(room).collect();
         let batches = self.encode(&mut found)?;
@@ -175,7 +182,7 @@ impl<'g> Window<'g> {
         let others: Vec<&Trace> = self.traces.iter().chain(leading.iter().filter(|_| known)).collect();
         let covers = self.workers().map(&self.indices(), |&i| {
             let actor = &self.actors[i];
-            let asked = actor.kept.is_none() && !actor.keeps_still() && !actor.keeps_its_path();
+            let asked = actor.kept.is_none() && !actor.keeps_still();
             asked.then(|| Cover::of(actor, &others, learned_share(actor, &tuning.middle), &tuning.duplicates))
         });
         for (actor, cover) in self.actors.iter_mut().zip(covers) {
@@ -204,10 +211,17 @@ impl<'g> Window<'g> {
         SceneEnergy { pullback, drivable, tuning: &self.tuning().overlaps }
     }
 
+    /// What a person has seen last of an actor: it binds the first sample of the first window.
+    pub(super) fn shown_last(&self, actor: &Actor) -> Option<&ShownLast> {
+        self.request.shown.get(&actor.id).filter(|_| self.sample == 0 && self.number == 0)
+    }
+
     /// What an actor's candidates are made from.
     pub(super) fn material(&self, i: usize) -> Material<'_> {
         let tuning = &self.tuning().middle;
-        Material { actor: &self.actors[i], drafts: &self.drafts[i], window: self.number, tuning }
+        let (actor, drafts) = (&self.actors[i], &self.drafts[i]);
+        let shown = self.shown_last(actor);
+        Material { actor, drafts, window: self.number, tuning, shown }
     }
 
     /// Runs encoder and initializer on road users that will be numbered after the actors there are.
@@ -244,20 +258,19 @@ impl<'g> Window<'g> {
     /// Sets an actor's first modes, and whether it rests, from a row of the initializer's output.
     fn initialize(&self, actor: &mut Actor, output: &InitialOutput, row: usize) -> Result<(), GenerateError> {
         finite(&output.residual[row], 0, &actor.id)?;
-        if !actor.keeps_its_path() {
-            let sure = actor.plan.target.position.is_some();
-            let temperature = if sure { 1.0 } else { self.tuning().probability.temperature };
-            let mut modes = output.residual[row];
-            let mut probability = softmax(&output.log_prob[row], temperature);
-            if self.request.stages.parted {
-                let tuning = &self.tuning().duplicates;
-                duplicate_modes::replace(&actor.plan, &mut modes, &mut probability, tuning);
-            }
-            actor.set_modes(modes, probability);
+        let sure = actor.plan.target.position.is_some();
+        let temperature = if sure { 1.0 } else { self.tuning().probability.temperature };
+        let mut modes = output.residual[row];
+        let mut probability = softmax(&output.log_prob[row], temperature);
+        if self.request.stages.parted {
+            let tuning = &self.tuning().duplicates;
+            duplicate_modes::replace(&actor.plan, &mut modes, &mut probability, tuning);
         }
+        actor.set_modes(modes, probability);
         actor.stays_probability = stays_in_the_world(f64::from(output.stays[row]));
         let free = actor.plan.target.is_free();
-        let stays = !free || actor.stays_probability > STAYS_ABOVE || actor.is_parked();
+        let waits = actor.plan.sets_off();
+        let stays = !free || (actor.stays_probability > STAYS_ABOVE && !waits) || actor.is_parked();
         actor.rests = actor.stays_parked || (may_rest(&actor.plan, self.number) && stays);
         Ok(())
     }
@@ -387,9 +400,21 @@ impl<'g> Window<'g> {
         AgentFutures::of(chosen, modes.collect())
     }
 
+    /// The future of somebody who gave up what it did.
+    pub(super) fn answer_of(&self, answered: &Answered) -> AgentFutures {
+        let left = self.steps_left().saturating_sub(answered.enters);
+        let states = answered.states.iter().take(left).copied().collect();
+        let future = Future::bare(1.0, self.world.step + answered.enters + 1, states);
+        AgentFutures { reaction: answered.reaction.clone(), ..AgentFutures::of(0, vec![future]) }
+    }
+
+    fn steps_left(&self) -> usize {
+        self.request.start_step + self.request.horizon_steps - self.world.step
+    }
+
     /// The asked-for part of a trajectory, the start left out.
     pub(super) fn cut(&self, states: &Trajectory) -> Vec<State> {
-        let left = self.request.start_step + self.request.horizon_steps - self.world.step;
+        let left = self.steps_left();
         states.iter().skip(1).take(left.min(HORIZON_STEPS)).map(State::from).collect()
     }
 }

@@ -24,6 +24,8 @@ pub(super) fn broken_m(ground: &Drivable, who: &AgentAtStart, path: &Polyline, t
         return 0.0;
     }
     let drives = who.agent_type != AgentType::Cyclist;
+    // Lanes alone do not say how much room there is beside them.
+    let sides = ground.is_bounded();
     let half_width_m = (0.5 * who.size.width_m - NARROWER_M).max(0.0);
     let pieces = (to_m / STEP_M).ceil().clamp(1.0, 400.0);
     let step_m = to_m / pieces;
@@ -39,7 +41,7 @@ pub(super) fn broken_m(ground: &Drivable, who: &AgentAtStart, path: &Polyline, t
         let beyond = |point: Vec2, most_m: f64| ground.outside_m(point).is_some_and(|m| m > most_m);
         let off = drives
             && (beyond(pose.position, 0.0)
-                || [left, -left].iter().any(|side| beyond(pose.position + side, BEYOND_M)));
+                || sides && [left, -left].iter().any(|side| beyond(pose.position + side, BEYOND_M)));
         if off || ground.is_wrong_way(pose.position, pose.direction()) == Some(true) {
             broken += step_m;
         }

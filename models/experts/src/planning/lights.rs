@@ -36,6 +36,13 @@ const HARDEST_MPS2: f64 = 4.0;
 /// How fast those who waited set off, m/s2, and to which speed at least, m/s.
 const SET_OFF_MPS2: f64 = 1.5;
 const SET_OFF_TO_MPS: f64 = 6.0;
+/// Steps after green at which the first in a queue leaves, and each further one after the one before it.
+const FIRST_LEAVES_STEPS: usize = 10;
+const NEXT_LEAVES_STEPS: usize = 12;
+/// Who would leave later than this step stays in the window.
+const LATEST_LEAVING: usize = 75;
+/// A standing road user this near to a path is in the queue on it, metres.
+const IN_QUEUE_M: f64 = 1.6;
 /// Speeding up and braking on the way to a goal beyond a light, shares of the limits.
 const PRESSED_SHARE: f64 = 0.85;
 /// Speeds at which a line may be passed as it turns green, so that a goal is still reached, m/s.
@@ -107,6 +114,33 @@ pub struct Gate {
     red: Steps,
     /// The path turns right after it: allowed after a stop.
     right: bool,
+    /// Road users that stand before it, ahead of this one.
+    queue: usize,
+}
+
+impl Gate {
+    /// Progress of the box centre at which its front is at the line, metres.
+    pub fn line_m(&self) -> f64 {
+        self.line_m
+    }
+
+    /// Nobody may pass at this step of the window.
+    pub fn is_red(&self, step: usize) -> bool {
+        self.red >> step & 1 == 1
+    }
+
+    /// The step at which somebody who stands before it at the start, where it is red, sets off; `None` where it
+    /// stays red for too long.
+    fn leaves(&self) -> Option<usize> {
+        let green = (0..=HORIZON_STEPS).find(|i| self.red >> i & 1 == 0).filter(|green| *green > 0)?;
+        let leaves = green + FIRST_LEAVES_STEPS + self.queue * NEXT_LEAVES_STEPS;
+        (leaves <= LATEST_LEAVING).then_some(leaves)
+    }
+}
+
+/// Somebody who stands before these lights sets off in the window.
+pub fn sets_off(gates: &[Gate]) -> bool {
+    gates.first().is_some_and(|gate| gate.leaves().is_some())
 }
 
 /// Stop lines that are red at some time in the window on a road user's path, nearest first.
@@ -141,7 +175,13 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
         let line_m = taken().map(|l| l.0).fold(f64::INFINITY, f64::min);
         let heading = |m: f64| longer.sample(line_m + half_length_m + m).heading_rad;
         let right = wrap_angle(heading(25.0) - heading(0.0)) < -FRAC_PI_4;
-        Gate { line_m, red, right }
+        let waits_ahead = |other: &&AgentAtStart| {
+            let foot = longer.project(other.start.position());
+            let standing = other.index != who.index && other.start.speed_mps() < STOPPED_MPS;
+            standing && foot.distance_m < IN_QUEUE_M && foot.s_m > 2.0 && foot.s_m < line_m + half_length_m
+        };
+        let queue = if stands { world.present.iter().filter(waits_ahead).count() } else { 0 };
+        Gate { line_m, red, right, queue }
     };
     one_junction.map(gate).filter(|gate| gate.red != 0).collect()
 }
@@ -176,11 +216,29 @@ impl Waiting<'_> {
         changed
     }
 
+    /// Progress of somebody who stands before a light that turns green, and sets off then at the latest; `None`
+    /// where `wanted` does, or nobody knows of a green.
+    pub fn setting_off(&self, wanted: &Progress) -> Option<Progress> {
+        let gate = self.gates.first().filter(|_| self.v0 < STOPPED_MPS)?;
+        let leaves = gate.leaves()?;
+        let mut out = *wanted;
+        let (mut at_m, mut speed) = (0.0, 0.0);
+        let mut later = false;
+        for step in leaves..HORIZON_STEPS {
+            let next = (speed + SET_OFF_MPS2 * STEP_S).min(self.caps.at(at_m)).max(0.0);
+            at_m += 0.5 * (speed + next) * STEP_S;
+            speed = next;
+            later |= at_m > out[step + 1] + 0.05;
+            out[step + 1] = out[step + 1].max(at_m);
+        }
+        later.then_some(out)
+    }
+
     /// Progress that waits at one gate.
     fn held(&self, gate: &Gate, wanted: &Progress) -> Option<Progress> {
         let passes =
             |p: &Progress| (1..=HORIZON_STEPS).find(|i| p[*i] > (gate.line_m - NEAR_LINE_M).max(0.05));
-        let is_red = |step: usize| gate.red >> step & 1 == 1;
+        let is_red = |step: usize| gate.is_red(step);
         let turns = |p: &Progress, step: usize| {
             gate.right
                 && stood_before(p, step)
@@ -196,6 +254,7 @@ impl Waiting<'_> {
             return None;
         }
         let due = self.target.position.map(|_| self.target.step);
+        let passes_red = |p: &Progress| passes(p).filter(|step| is_red(*step) && !turns(p, *step));
         // Lights that are green for a moment and red again are looked at a few times.
         for _ in 0..3 {
             let green = (step..=HORIZON_STEPS).find(|i| !is_red(*i));
@@ -203,9 +262,13 @@ impl Waiting<'_> {
                 Some(due) if due >= step => {
                     self.to_goal(stop_m, green.filter(|green| *green < due)?, due, wanted)?
                 }
-                _ => self.free(gate, stop_m, green, wanted),
+                _ => {
+                    let turned = gate.right.then(|| self.free(true, stop_m, green, wanted));
+                    let turned = turned.filter(|held| passes_red(held).is_none());
+                    turned.unwrap_or_else(|| self.free(false, stop_m, green, wanted))
+                }
             };
-            match passes(&held).filter(|step| is_red(*step) && !turns(&held, *step)) {
+            match passes_red(&held) {
                 Some(again) if again > step => step = again,
                 _ => return Some(held),
             }
@@ -214,8 +277,8 @@ impl Waiting<'_> {
     }
 
     /// Brakes for the line, stands there until green (where there is one), then sets off. A goal that is due
-    /// before keeps its progress up to then.
-    fn free(&self, gate: &Gate, stop_m: f64, green: Option<usize>, wanted: &Progress) -> Progress {
+    /// before keeps its progress up to then. Who turns sets off after a stop.
+    fn free(&self, turns: bool, stop_m: f64, green: Option<usize>, wanted: &Progress) -> Progress {
         let brake = (self.v0 * self.v0 / (2.0 * stop_m.max(0.3))).max(BRAKE_MPS2);
         let due = self.target.position.map_or(0, |_| self.target.step);
         let fastest = (1..=HORIZON_STEPS).map(|i| speed_at(wanted, i)).fold(SET_OFF_TO_MPS, f64::max);
@@ -228,8 +291,7 @@ impl Waiting<'_> {
                 continue;
             }
             stood += usize::from(speed < 0.3);
-            let turns = gate.right && stood > 10 && i < TURN_STEPS;
-            gone |= turns || green.is_some_and(|green| i >= green);
+            gone |= (turns && stood > 10 && i < TURN_STEPS) || green.is_some_and(|green| i >= green);
             let open = if gone {
                 let cap = self.caps.at(out[i]).min(fastest);
                 (speed + SET_OFF_MPS2 * STEP_S).min(cap.max(speed - BRAKE_MPS2 * STEP_S))
@@ -254,10 +316,10 @@ impl Waiting<'_> {
             let before = if stands {
                 self.braking(stop_m, green, wanted)
             } else {
-                arriving(self.v0, stop_m + BEFORE_LINE_M, seconds(green), Some(*rolling), self.easy_mps2)
+                arriving(self.v0, stop_m + NEAR_LINE_M, seconds(green), Some(*rolling), self.easy_mps2)
             };
             let (from_m, from_mps) = (before[green], if stands { 0.0 } else { *rolling });
-            if from_m > stop_m + BEFORE_LINE_M + 0.1 {
+            if from_m > stop_m + BEFORE_LINE_M - 0.1 {
                 return None;
             }
             let left_m = wanted[due] - from_m;

@@ -165,3 +165,28 @@ fn a_goal_behind_a_red_light_is_waited_for_where_the_time_allows() {
     assert!((held[HORIZON_STEPS] - 70.0).abs() < 0.3, "{}", held[HORIZON_STEPS]);
     assert!(waiting(&lit(car(10.0, to(70.0, 0.0, 9.0)), 85)).is_none(), "half a second is too little");
 }
+
+#[test]
+fn who_stands_at_a_red_light_sets_off_when_it_turns_green() {
+    let mut first = car(0.0, Goal::default());
+    let mut second = first.clone();
+    second.id = "2".into();
+    for (agent, x_m) in [(&mut first, 36.5), (&mut second, 29.0)] {
+        agent.track.states[0].as_mut().unwrap().x_m = x_m;
+    }
+    let scene = Scene { agents: vec![first.clone(), second], ..lit(first, 30) };
+    let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), 0);
+    let leaves = world.present.iter().map(|who| {
+        let (model, target) = (world.model(who), world.target(who));
+        let anchor = anchors(&world, who, &model, &target).remove(0);
+        let gates = gates(&world, who, &anchor.path);
+        let caps = Caps::new(anchor.path.arc_m(), &anchor.caps_mps);
+        let waiting =
+            Waiting { gates: &gates, v0: 0.0, limits: &model.limits, target: &target, caps, easy_mps2: 1.1 };
+        let out = waiting.setting_off(&[0.0; HORIZON_STEPS + 1]).unwrap();
+        assert!(out[HORIZON_STEPS] > 10.0, "{}", out[HORIZON_STEPS]);
+        out.iter().position(|m| *m > 0.01).unwrap()
+    });
+    let leaves: Vec<usize> = leaves.collect();
+    assert!((40..45).contains(&leaves[0]) && (50..58).contains(&leaves[1]), "{leaves:?}");
+}

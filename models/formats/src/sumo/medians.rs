@@ -18,6 +18,8 @@ const GORE_M: f64 = 1.0;
 const NOSE_M: f64 = 0.8;
 /// Noses reach no farther than this beyond the ends they join, metres.
 const BULGE_M: f64 = 0.6;
+/// A painted line that ends this near to a median's point is drawn out to its nose, metres.
+const PAINT_M: f64 = 1.5;
 /// Spacing of points where a median narrows, metres.
 const STEP_M: f64 = 0.5;
 
@@ -175,15 +177,21 @@ fn blunt(map: &mut LaneMap, near: End, far: End) {
 
 /// Draws the painted line that ends at `from` out along `points`, which lead there.
 fn paint(map: &mut LaneMap, points: Vec<Vec2>, from: Vec2) {
-    let near = |p: Option<&Vec2>| p.is_some_and(|p| (p - from).norm() < NOSE_M);
+    let near = |p: Option<&Vec2>| p.is_some_and(|p| (p - from).norm() < PAINT_M);
+    let way = from - points[0];
+    // The line may reach back a little along the median.
+    let before = |end: Vec2| -> Vec<Vec2> {
+        points[..points.len() - 1].iter().copied().filter(|p| (end - p).dot(&way) > 0.0).collect()
+    };
     let yellow = |l: &&mut TypedLine| l.line_type.contains("yellow");
     for line in map.road_lines.iter_mut().filter(yellow) {
         let xy = &mut line.points.xy;
-        let more = &points[..points.len() - 1];
         if near(xy.first()) {
-            xy.splice(0..0, more.iter().copied());
+            let more = before(xy[0]);
+            xy.splice(0..0, more);
         } else if near(xy.last()) {
-            xy.extend(more.iter().rev());
+            let more = before(xy[xy.len() - 1]);
+            xy.extend(more.into_iter().rev());
         } else {
             continue;
         }

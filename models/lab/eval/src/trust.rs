@@ -181,9 +181,16 @@ fn last_shown(future: &Future) -> ShownLast {
     ShownLast { anchor: future.anchor, places: places.collect() }
 }
 
-/// A route with the traffic leads to the goal.
+/// A route with the traffic leads to the goal, and there is room for the vehicle on the road there.
 fn has_route(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
     let Some(position) = goal.position else { return false };
+    let size = site.log(case).size;
+    let lane = site.graph.nearest_for(position, 3.0, case.agent_type).into_iter().next();
+    let place = lane
+        .map(|lane| OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, lane.heading_rad));
+    if place.and_then(|place| site.drivable.box_outside_m(&place)).is_none_or(|outside| outside > 0.15) {
+        return false;
+    }
     let query = GoalQuery {
         pose: Pose::new(case.start.position(), case.start.heading_rad),
         speed_mps: case.start.speed_mps(),

@@ -14,7 +14,9 @@ use std::sync::Arc;
 const FRAGMENT_M: f64 = 30.0;
 /// How far inside the kerb a corner is brought, metres.
 const CLEAR_M: f64 = 0.05;
-/// Corners this far over the kerb stay as they are, metres.
+/// Who is farther over the kerb than this is brought back, metres ...
+const OVER_M: f64 = 0.08;
+/// ... until no corner is farther over it than this.
 const LET_M: f64 = 0.03;
 /// A driver keeps to the corrected line this long before and after, steps, and comes to it as smoothly.
 const HOLD: usize = 12;
@@ -114,6 +116,10 @@ fn keep_on_road(agent: &mut Agent, drivable: &Drivable) {
     let Some(first) = agent.track.states.iter().position(Option::is_some) else { return };
     let mut states: Vec<State> = agent.track.states.iter().flatten().copied().collect();
     let before = states.clone();
+    let over = |s: &State| drivable.box_outside_m(&OrientedBox::of_state(s, &agent.size));
+    if states.iter().filter_map(over).all(|m| m <= OVER_M) {
+        return;
+    }
     for _ in 0..ROUNDS {
         let needs: Vec<Vec2> = states.iter().map(|s| need(s, agent, drivable)).collect();
         if needs.iter().all(|n| n.norm() == 0.0) {

@@ -146,3 +146,13 @@ pub struct Reaction {
     /// Speed then, m/s.
     pub speed_mps: f64,
 }
+
+impl Reaction {
+    /// With figures as they are written: to a thousandth.
+    #[must_use]
+    pub fn rounded(self) -> Self {
+        let [delay_s, time_s, x_m, y_m, speed_mps] =
+            [self.delay_s, self.time_s, self.x_m, self.y_m, self.speed_mps].map(super::rounded);
+        Self { delay_s, time_s, x_m, y_m, speed_mps, ..self }
+    }
+}

@@ -14,10 +14,10 @@ use crate::score::kinematic::{harsh_braking, harsh_steering};
 use crate::score::pairs::{Meeting, Mover};
 use crate::score::recorded;
 use crate::score::report::{RedLight, Stretch};
-use crate::score::road::score_road;
+use crate::score::road::{RoadScore, score_road};
 use crate::score::signals::{StopLine, crossed_at_red, stop_lines};
 use crate::score::{Actor, Drivable, Exclude, PairChoice, ScoreInput, Thresholds};
-use crate::{LaneMap, STEP_S, Signal, State};
+use crate::{AgentType, LaneMap, STEP_S, Signal, State};
 use std::ops::Range;
 
 /// A wheel that touches the kerb is no event: metres past the edge.
@@ -68,7 +68,7 @@ impl<'a> Judge<'a> {
     /// goal.
     pub fn alone(&self, actor: &Actor<'_>) -> Vec<Fault> {
         let mut found = Vec::new();
-        let mut road = score_road(&self.input, actor);
+        let mut road = self.road(actor);
         recorded::mark_road(&self.input, actor, &mut road);
         let mut braking = harsh_braking(actor, &self.input);
         recorded::mark_braking(&self.input, actor, &mut braking);
@@ -132,6 +132,18 @@ impl<'a> Judge<'a> {
     fn driven_m(&self, actor: &Actor<'_>, stretch: &Stretch) -> f64 {
         let steps = step(stretch.time_s).saturating_sub(1)..step(stretch.until_s);
         steps.filter_map(|i| actor.state(i)).map(|s| s.speed_mps() * STEP_S).sum()
+    }
+
+    /// Riders use pavements and ride both ways, yet nobody rides over a median.
+    fn road(&self, actor: &Actor<'_>) -> RoadScore {
+        if actor.agent_type != AgentType::Cyclist {
+            return score_road(&self.input, actor);
+        }
+        let as_driver = Actor { agent_type: AgentType::Vehicle, ..actor.clone() };
+        let mut road = score_road(&self.input, &as_driver);
+        road.off_road.clear();
+        road.wrong_way.clear();
+        road
     }
 
     fn goal_missed(&self, actor: &Actor<'_>) -> Option<Fault> {

@@ -79,6 +79,11 @@ impl Drivable {
         self.area_sides.is_empty() && self.centers.is_empty()
     }
 
+    /// The map has areas or road edges: more than the widths of its lanes.
+    pub fn is_bounded(&self) -> bool {
+        !self.area_sides.is_empty() || !self.edges.is_empty()
+    }
+
     /// How far a point lies off the road, metres: zero on it, at most [`FAR_M`]; `None` when the map
     /// does not say.
     pub fn outside_m(&self, point: Vec2) -> Option<f64> {

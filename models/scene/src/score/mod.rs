@@ -21,7 +21,7 @@ pub mod signals;
 
 pub use drivable::Drivable;
 pub use input::{Actor, Exclude, PairChoice, ScoreInput, Thresholds};
-pub use overlap::{Overlap, SweptBoxes, overlap};
+pub use overlap::{CLOSE_M, Overlap, SweptBoxes, overlap};
 pub use report::{AgentScore, SceneScore, Score};
 
 /// Scores a scene. Costs a few milliseconds for 128 agents over 91 steps on one core.

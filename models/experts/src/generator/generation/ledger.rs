@@ -5,10 +5,13 @@ use crate::generator::actor::Actor;
 use crate::generator::candidates::Candidate;
 use crate::generator::decide::Decided;
 use crate::generator::extrapolation::Guessed;
+use crate::generator::reacting::Answered;
 use crate::generator::report::{self, Outcome};
 use crate::generator::window::Window;
 use crate::planning::world::World;
-use crate::request::{Answer, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode};
+use crate::request::{
+    Answer, ByRoad, Intermediate, ReachReport, Request, Resolved, Timings, Warning, WarningCode,
+};
 use scene::{AgentFutures, AgentId, Future, STEP_S, Sample, Scene, State};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -26,6 +29,19 @@ pub(super) struct Progress {
     parked: bool,
     reach: ReachReport,
     intermediate: Vec<Intermediate>,
+    /// It drives its own way at another pace, for somebody else.
+    answers: bool,
+    /// What the last window planned for it after what was executed.
+    ahead: Vec<State>,
+}
+
+impl Progress {
+    fn new(futures: AgentFutures, executed: Vec<State>, absent: usize) -> Self {
+        let reach = ReachReport::Reached { position_m: 0.0, heading_rad: 0.0, speed_mps: 0.0 };
+        let (parked, answers) = (false, false);
+        let (intermediate, ahead) = (Vec::new(), Vec::new());
+        Self { futures, executed, absent, parked, reach, intermediate, answers, ahead }
+    }
 }
 
 /// All that a call writes down on its way to the answer.
@@ -47,6 +63,14 @@ impl Ledger {
     /// Those that got futures in the present sample.
     pub(super) fn acted(&self) -> BTreeSet<usize> {
         self.progress.keys().copied().collect()
+    }
+
+    /// Those that drive their own way at another pace for somebody: where they are, and what they had planned from
+    /// there.
+    pub(super) fn answering(&self) -> BTreeMap<usize, Vec<State>> {
+        let answering = self.progress.iter().filter(|(_, p)| p.answers);
+        let ahead = |p: &Progress| p.executed.last().into_iter().chain(&p.ahead).copied().collect();
+        answering.map(|(i, p)| (*i, ahead(p))).collect()
     }
 
     /// Those among them that were parked at the start and have not moved.
@@ -75,7 +99,7 @@ impl Ledger {
         let since_s = later.then(|| (request.start_step + span.start) as f64 * STEP_S);
         let reach = report::reach_report(actor, decided.motion(), since_s);
         let mut progress = match self.progress.remove(&agent) {
-            Some(known) => Progress { parked: known.parked && decided.rests(), ..known },
+            Some(known) => Progress { parked: known.parked && decided.rests(), answers: false, ..known },
             None => first_of(window, actor, decided, later, before(base, request, agent, span.start), &reach),
         };
         progress.executed.extend(decided.motion().states.iter().skip(1).take(span.len()).map(State::from));
@@ -87,6 +111,32 @@ impl Ledger {
             }
             progress.reach = reach;
         }
+        self.progress.insert(agent, progress);
+    }
+
+    /// Writes down where somebody goes in these steps who gave up what it did for others.
+    pub(super) fn answer_of(
+        &mut self,
+        request: &Request,
+        base: &Scene,
+        window: &Window<'_>,
+        answered: &Answered,
+        span: Range<usize>,
+    ) {
+        // It comes in, or leaves what it did, after these steps: a later window sees to that.
+        let there = span.len().saturating_sub(answered.enters);
+        let agent = answered.index;
+        if there == 0 || there <= answered.own && !self.progress.contains_key(&agent) {
+            return;
+        }
+        let mut progress = self.progress.remove(&agent).unwrap_or_else(|| {
+            let executed = before(base, request, agent, span.start);
+            let absent = window.world.step + answered.enters - request.start_step - executed.len();
+            Progress::new(window.answer_of(answered), executed, absent)
+        });
+        progress.executed.extend(answered.states.iter().take(there));
+        progress.ahead = answered.states.iter().skip(there).copied().collect();
+        progress.answers = true;
         self.progress.insert(agent, progress);
     }
 
@@ -130,6 +180,15 @@ impl Ledger {
                 intermediate: progress.intermediate.clone(),
             };
             self.resolved.insert(agents[*i].id.clone(), report::resolved(world, outcome));
+        }
+    }
+
+    /// Writes down the ways out of goals that are reached off the road.
+    pub(super) fn remedy(&mut self, ways: BTreeMap<AgentId, ByRoad>) {
+        for (id, way) in ways {
+            if let Some(resolved) = self.resolved.get_mut(&id) {
+                resolved.by_road = Some(way);
+            }
         }
     }
 
@@ -183,14 +242,15 @@ fn first_of(
     executed: Vec<State>,
     reach: &ReachReport,
 ) -> Progress {
-    let futures = if later {
+    let mut futures = if later {
         window.futures(0, &[Candidate { probability: 1.0, ..decided.shown().clone() }])
     } else {
         window.futures(decided.chosen, &decided.alternatives)
     };
+    futures.reaction.clone_from(&decided.reaction);
     let absent = window.world.step - window.request.start_step - executed.len();
     let parked = actor.is_parked() && decided.rests();
-    Progress { futures, executed, absent, parked, reach: reach.clone(), intermediate: Vec::new() }
+    Progress { parked, reach: reach.clone(), ..Progress::new(futures, executed, absent) }
 }
 
 /// What a road user that keeps its motion did before a window in which it first gives it up. The first

@@ -6,6 +6,7 @@
 //! straight on where it has ended). Nothing of an earlier window is planned again.
 
 mod ledger;
+mod remedies;
 mod roster;
 mod scenes;
 mod standing;
@@ -108,7 +109,7 @@ impl<'g> Generation<'g> {
         let map = generator.maps.known(&request.scene.map);
         let start = world(generator, &map, &request, request.scene.clone(), request.start_step);
         let spans = Spans::of(&request);
-        let (roster, base) = Roster::of(&request, &start, &spans, &generator.tuning.reacting)?;
+        let (roster, base) = Roster::of(&request, &start, &spans)?;
         // All who are there at the start are there in both scenes alike.
         let start = World { scene: base.clone().into(), ..start };
         let windows = Windows { spans, base, start: Some(start), first: None, later: None };
@@ -151,8 +152,8 @@ impl<'g> Generation<'g> {
         for (agent, goal) in targets.goals {
             world.aim(agent, goal);
         }
-        let (end, tuning) = (self.request.start_step + span.end, &self.generator.tuning.reacting);
-        let mut cast = self.roster.in_window(number, &world, end, &self.ledger.acted(), tuning);
+        let end = self.request.start_step + span.end;
+        let mut cast = self.roster.in_window(number, &world, end, &self.ledger);
         cast.parked = self.ledger.parked();
         let (request, map) = (self.request.clone(), self.map.clone());
         let mut window = Window::plan(self.generator, request, map, world, number, &cast)?;
@@ -202,8 +203,12 @@ impl<'g> Generation<'g> {
         let started = (self.generator.clock)();
         let span = self.windows.spans.window(number);
         let window = self.windows.present()?;
-        for decided in &window.decide() {
-            self.ledger.follow(&self.request, &self.windows.base, window, decided, span.clone());
+        let (decisions, base) = (window.decide(), &self.windows.base);
+        for decided in &decisions.actors {
+            self.ledger.follow(&self.request, base, window, decided, span.clone());
+        }
+        for answered in &decisions.answered {
+            self.ledger.answer_of(&self.request, base, window, answered, span.clone());
         }
         self.ledger.timings.choice_ms += self.since(started);
         Ok(())
@@ -214,6 +219,10 @@ impl<'g> Generation<'g> {
         let mut sample = self.ledger.finish_sample(&self.request, world, self.roster.guesses());
         if self.request.stages.judged {
             verdicts::judge(&self.request, &self.map, &self.generator.workers, &mut sample);
+            if self.ledger.samples.is_empty() {
+                let ways = remedies::by_road(&self.request, world, &self.map, &sample);
+                self.ledger.remedy(ways);
+            }
             standing::relate(&self.request, &self.map, &self.generator.workers, &mut sample);
         }
         self.ledger.samples.push(sample);

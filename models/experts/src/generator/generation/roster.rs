@@ -1,13 +1,13 @@
 //! The roster of a call: one part for every road user of the scene, and who acts in each window.
 
 use super::Spans;
+use super::ledger::Ledger;
 use super::scenes::known_to_the_end;
 use crate::generator::extrapolation::Guessed;
-use crate::generator::reacting::within_reach;
+use crate::generator::reacting::carry_on;
 use crate::generator::window::{Cast, MOST_ACTORS};
 use crate::planning::world::World;
 use crate::request::{GenerateError, React, Request};
-use crate::tuning::ReactingTuning;
 use scene::{AgentId, AgentType, Scene};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -46,11 +46,11 @@ impl Part {
 
 /// Everybody's part, one entry an agent of the scene.
 pub(super) struct Roster {
+    /// The scene that windows are cut from.
+    base: Arc<Scene>,
     parts: Vec<Part>,
     /// From where on nothing is known of those that keep their motion, in calls of several windows.
     guessed: Vec<Option<Guessed>>,
-    /// Who may react is near those that act, whatever was known when the call began.
-    looks_again: bool,
 }
 
 impl Roster {
@@ -63,7 +63,6 @@ impl Roster {
         request: &Request,
         world: &World<'_>,
         spans: &Spans,
-        tuning: &ReactingTuning,
     ) -> Result<(Self, Arc<Scene>), GenerateError> {
         let scene = &request.scene;
         let movable: BTreeSet<usize> =
@@ -73,12 +72,16 @@ impl Roster {
             Some(ids) => find(scene, &movable, ids)?,
         };
         let several = spans.count() > 1;
-        let mut may_react = match &request.react {
+        let coming = |i: &usize| {
+            let agent = &scene.agents[*i];
+            let there = request.start_step + 1..=request.start_step + request.horizon_steps;
+            agent.kind() != AgentType::Other && there.into_iter().any(|step| agent.state_at(step).is_some())
+        };
+        let there = || movable.iter().copied().chain((0..scene.agents.len()).filter(coming)).collect();
+        let mut may_react: BTreeSet<usize> = match &request.react {
             React::Nobody => BTreeSet::new(),
-            // In several windows, who is near is looked at in each.
-            React::Everyone if several => movable.clone(),
-            React::Everyone => within_reach(world, &movable, &asked, tuning),
-            React::Only(ids) => find(scene, &movable, ids)?,
+            React::Everyone => there(),
+            React::Only(ids) => find(scene, &there(), ids)?,
         };
         may_react.retain(|i| !asked.contains(i));
         if asked.len() > MOST_ACTORS {
@@ -115,8 +118,7 @@ impl Roster {
             }
         };
         let parts = (0..scene.agents.len()).map(part).collect();
-        let looks_again = matches!(request.react, React::Everyone);
-        Ok((Self { parts, guessed, looks_again }, base))
+        Ok((Self { base: base.clone(), parts, guessed }, base))
     }
 
     /// A road user's part.
@@ -134,28 +136,28 @@ impl Roster {
         self.guessed.iter().enumerate().filter_map(|(i, guessed)| Some((i, (*guessed)?)))
     }
 
-    /// Who acts in window `number`, which begins at `world.step` and is executed up to scene step `end`. `acted`
-    /// are those that got futures in earlier windows of the sample; `parked` is left to the caller.
-    pub(super) fn in_window(
-        &self,
-        number: usize,
-        world: &World<'_>,
-        end: usize,
-        acted: &BTreeSet<usize>,
-        tuning: &ReactingTuning,
-    ) -> Cast {
+    /// Who acts in window `number`, which begins at `world.step` and is executed up to scene step `end`. `ledger`
+    /// knows who got futures in earlier windows of the sample; `parked` is left to the caller.
+    pub(super) fn in_window(&self, number: usize, world: &World<'_>, end: usize, ledger: &Ledger) -> Cast {
         let first = number == 0;
+        let acted = &ledger.acted();
         // A picked future is background after the first window, like any other motion that is kept.
         let asked = self.with(|part| part == Part::Asked || (part == Part::Picked && first));
         let mut acting: BTreeSet<usize> = asked.collect();
-        acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked()));
+        let known_until = |i: usize, step: usize| self.guessed[i].is_some_and(|g| g.step <= step);
+        // Who drives its own way at another pace does so as long as there is one.
+        let mut resumed = ledger.answering();
+        resumed.retain(|i, _| !known_until(*i, end));
+        for (i, ahead) in &mut resumed {
+            carry_on(ahead, &self.base.agents[*i].track.states);
+        }
+        acting.extend(acted.iter().filter(|i| !self.part(**i).is_asked() && !resumed.contains_key(i)));
         let new = |part: Part| self.with(move |p| p == part).filter(move |i| !acted.contains(i));
         let mut may_react: BTreeSet<usize> = new(Part::MayReact).collect();
         if !first {
-            let known_until = |i: usize, step: usize| self.guessed[i].is_some_and(|g| g.step <= step);
             // Nothing is left to keep for those whose log ends in what this window executes.
             let seen = |i: &usize| world.scene.agents[*i].track.at(world.step).is_some();
-            let ended = new(Part::MayReact).chain(new(Part::Arrives).filter(seen));
+            let ended = new(Part::MayReact).chain(new(Part::Arrives)).filter(seen);
             let ended = ended.filter(|i| known_until(*i, end));
             let ended: Vec<usize> = ended.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
             may_react.retain(|i| !ended.contains(i));
@@ -164,10 +166,7 @@ impl Roster {
             let over: Vec<usize> = over.take(MOST_ACTORS.saturating_sub(acting.len())).collect();
             acting.extend(over);
         }
-        if self.looks_again {
-            may_react = within_reach(world, &may_react, &acting, tuning);
-        }
-        Cast { acting, may_react, parked: BTreeSet::new() }
+        Cast { acting, may_react, parked: BTreeSet::new(), resumed }
     }
 }
 
@@ -190,7 +189,6 @@ fn find(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tuning::SHIPPED;
     use scene::routes::LaneGraph;
     use scene::{Agent, LaneMap, State, Subtype};
 
@@ -215,7 +213,7 @@ mod tests {
         request.agents = agents.map(|ids| ids.iter().map(|id| (*id).to_owned()).collect());
         let world = World::new(&scene, Arc::new(LaneGraph::new(&scene.map)), 0);
         let spans = Spans::of(&request);
-        let (roster, _) = Roster::of(&request, &world, &spans, &SHIPPED.reacting).unwrap();
+        let (roster, _) = Roster::of(&request, &world, &spans).unwrap();
         (0..4).map(|i| roster.part(i)).collect()
     }
 
@@ -223,7 +221,7 @@ mod tests {
     fn everybody_has_one_part() {
         use Part::*;
         assert_eq!(parts(React::Nobody, Some(&["a"]), 90), [Asked, Kept, Kept, Absent]);
-        assert_eq!(parts(React::Everyone, Some(&["a"]), 90), [Asked, MayReact, Kept, Absent]);
+        assert_eq!(parts(React::Everyone, Some(&["a"]), 90), [Asked, MayReact, Kept, MayReact]);
         // Only in a call of several windows somebody may come in.
         assert_eq!(parts(React::Nobody, None, 180), [Asked, Asked, Kept, Arrives]);
         assert_eq!(parts(React::Nobody, Some(&["a"]), 180), [Asked, Kept, Kept, Absent]);

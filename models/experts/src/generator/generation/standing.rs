@@ -33,7 +33,11 @@ pub(super) fn relate(request: &Request, map: &KnownMap, workers: &Workers, sampl
     let few = futures.len() <= FEW;
     let asked = |id: &str| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
     let is_shown = |id: &str, future: &Future| {
-        sample.agents.get(id).and_then(|f| f.modes.get(f.chosen)).is_some_and(|shown| std::ptr::eq(shown, future))
+        sample
+            .agents
+            .get(id)
+            .and_then(|f| f.modes.get(f.chosen))
+            .is_some_and(|shown| std::ptr::eq(shown, future))
     };
     let found: Vec<(Vec<Relation>, Option<Manoeuvre>)> = workers.map(&futures, |&(i, future)| {
         let (agent, shown) = (&scene.agents[i], &others[i]);

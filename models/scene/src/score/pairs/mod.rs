@@ -164,12 +164,13 @@ impl Meeting {
     ) -> Option<Self> {
         // Nothing but collisions and near misses is asked for: no least gap or time is still to be found.
         let known = Known { gap_m: input.thresholds.gap_m, ttc_s: input.thresholds.ttc_s };
-        if stay_apart(mover_a, mover_b, known.gap_m) || is_excluded(input, a, b) {
+        if stay_apart(mover_a, mover_b, known.gap_m) {
             return None;
         }
         let pair = look_at(input, mover_a, mover_b, known);
         let met = Self::of(&pair, input.steps.start)?;
-        (!log::is_in_log(input, a, b, &pair)).then_some(met)
+        let known = is_excluded(input, a, b) || log::is_in_log(input, a, b, &pair);
+        (!known).then_some(met)
     }
 }
 
@@ -193,12 +194,16 @@ fn is_excluded(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> bool {
         let boxes = (log_a.at(step)?, log_b.at(step)?);
         Some((OrientedBox::of_state(boxes.0, &a.size), OrientedBox::of_state(boxes.1, &b.size)))
     });
-    let hitched = || log::logged(input, a, b).is_some_and(|(p, q)| company::are_hitched(&p, &q));
-    match input.exclude {
-        Exclude::Nothing => false,
-        Exclude::OverlapAtStart => logged.next().is_some_and(|(p, q)| overlaps(&p, &q, 0.0)) || hitched(),
-        Exclude::OverlapInLog => logged.any(|(p, q)| overlaps(&p, &q, 0.0)) || hitched(),
+    if input.exclude == Exclude::Nothing {
+        return false;
     }
+    let Some((p, q)) = logged.next() else { return false };
+    let overlap = |(p, q): (OrientedBox, OrientedBox)| overlaps(&p, &q, 0.0);
+    // A truck and its trailer are beside each other all the time: few pairs need the long look.
+    let hitched = || log::logged(input, a, b).is_some_and(|(p, q)| company::are_hitched(&p, &q));
+    overlap((p, q))
+        || (input.exclude == Exclude::OverlapInLog && logged.any(overlap))
+        || (circle_gap(&p, &q) <= 0.0 && hitched())
 }
 
 /// Goes through the steps of a pair.

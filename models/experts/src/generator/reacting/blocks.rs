@@ -1,0 +1,193 @@
+//! What is in the way along a course, and when.
+
+use super::course::{Course, Moving};
+use scene::geometry::obb::{OrientedBox, overlaps};
+use scene::geometry::wrap_angle;
+use scene::score::CLOSE_M;
+use scene::{HORIZON_STEPS, Size, Vec2};
+
+/// Places of a course are looked at this far apart, metres.
+const SPACING_M: f64 = 0.5;
+/// Places between two bounding circles.
+const CHUNK: usize = 8;
+/// How far beyond its course somebody may get, metres.
+const BEYOND_M: f64 = 15.0;
+/// Boxes come no nearer than this, metres: a little more than what the choice calls close.
+const CLEAR_M: f64 = CLOSE_M + 0.05;
+/// Somebody who is out of the way for less than this, steps, has not left.
+const FLICKER: usize = 3;
+/// A stop line belongs to a course that passes it nearer than this, metres, in its lane's direction within this,
+/// radians.
+const LINE_BESIDE_M: f64 = 2.0;
+const LINE_TURNED_RAD: f64 = 0.6;
+/// Front bumper to stop line, metres.
+const LINE_GAP_M: f64 = 0.5;
+
+/// Somebody or something in the way for a while. Progress is that of the course's box centre.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    /// Step of the window at which it begins.
+    pub(super) from: usize,
+    /// First and last progress that is taken, one entry a step.
+    pub(super) taken: Vec<(f64, f64)>,
+}
+
+impl Block {
+    /// Who follows the course is past it when it begins.
+    pub(super) fn comes_behind(&self, along_m: f64) -> bool {
+        self.taken.first().is_some_and(|(_, last)| along_m > *last)
+    }
+}
+
+/// A course with its boxes.
+pub(super) struct Corridor {
+    enters: usize,
+    outlines: Vec<OrientedBox>,
+    /// Circles about the centres of each eight of them.
+    chunks: Vec<(Vec2, f64)>,
+}
+
+impl Corridor {
+    pub(super) fn of(course: &Course, size: &Size) -> Self {
+        let length = course.length_m() + if course.leaves() { 0.0 } else { BEYOND_M };
+        let count = (length / SPACING_M).ceil() as usize + 1;
+        let outlines: Vec<_> = (0..count).map(|i| course.outline(i as f64 * SPACING_M, size)).collect();
+        let circle = |boxes: &[OrientedBox]| {
+            let middle = boxes[boxes.len() / 2].center();
+            (middle, boxes.iter().map(|b| (b.center() - middle).norm()).fold(0.0, f64::max))
+        };
+        let chunks = outlines.chunks(CHUNK).map(circle).collect();
+        Self { enters: course.enters, outlines, chunks }
+    }
+
+    /// First and last progress, of the places in a row that this box takes first.
+    fn taken(&self, other: &OrientedBox) -> Option<(f64, f64)> {
+        let own = self.outlines.first()?.radius_m();
+        let mut found: Option<(usize, usize)> = None;
+        for (c, (middle, radius)) in self.chunks.iter().enumerate() {
+            let reach = radius + own + other.radius_m() + CLEAR_M;
+            if (middle - other.center()).norm_squared() > reach * reach {
+                if found.is_some() {
+                    break;
+                }
+                continue;
+            }
+            let from = c * CHUNK;
+            for (i, outline) in self.outlines[from..].iter().take(CHUNK).enumerate() {
+                match &mut found {
+                    _ if !overlaps(outline, other, CLEAR_M) => {
+                        if found.is_some() {
+                            return found.map(Self::progress);
+                        }
+                    }
+                    Some((_, last)) => *last = from + i,
+                    none => *none = Some((from + i, from + i)),
+                }
+            }
+        }
+        found.map(Self::progress)
+    }
+
+    fn progress((first, last): (usize, usize)) -> (f64, f64) {
+        (first as f64 * SPACING_M, last as f64 * SPACING_M)
+    }
+
+    /// When and where somebody is in the way.
+    pub(super) fn blocks(&self, other: &Moving) -> Vec<Block> {
+        let mut out: Vec<Block> = Vec::new();
+        let mut away = FLICKER;
+        for step in self.enters..=HORIZON_STEPS {
+            let Some(taken) = other.at(step).and_then(|other| self.taken(other)) else {
+                away += 1;
+                continue;
+            };
+            match out.last_mut().filter(|_| away < FLICKER) {
+                Some(block) => {
+                    let last = *block.taken.last().unwrap_or(&taken);
+                    block.taken.extend(std::iter::repeat_n(last, away));
+                    block.taken.push(taken);
+                }
+                None => out.push(Block { from: step, taken: vec![taken] }),
+            }
+            away = 0;
+        }
+        out
+    }
+
+    /// Where the course passes a stop line: progress at which its front is there. `heading_rad` is the lane's.
+    pub(super) fn line(&self, at: Vec2, heading_rad: f64) -> Option<f64> {
+        let distance = |b: &OrientedBox| (b.center() - at).norm();
+        let nearest = (0..self.outlines.len())
+            .min_by(|a, b| distance(&self.outlines[*a]).total_cmp(&distance(&self.outlines[*b])))?;
+        let outline = &self.outlines[nearest];
+        // Not passed at all, only come near to.
+        if nearest + 1 == self.outlines.len() {
+            return None;
+        }
+        let turned = wrap_angle(outline.heading_rad() - heading_rad).abs();
+        let beside = distance(outline) < LINE_BESIDE_M && turned < LINE_TURNED_RAD;
+        let front = nearest as f64 * SPACING_M - outline.half_length_m() - LINE_GAP_M;
+        (beside && front > 0.0).then_some(front)
+    }
+}
+
+/// Stretches of time in which a line is closed, as blocks.
+pub(super) fn closed(line_m: f64, is_closed: impl Fn(usize) -> bool) -> Vec<Block> {
+    let mut out: Vec<Block> = Vec::new();
+    let mut open = true;
+    for step in 0..=HORIZON_STEPS {
+        let closed = is_closed(step);
+        if closed && open {
+            out.push(Block { from: step, taken: Vec::new() });
+        }
+        if let Some(block) = out.last_mut().filter(|_| closed) {
+            block.taken.push((line_m, line_m));
+        }
+        open = !closed;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::State;
+
+    const CAR: Size = Size { length_m: 4.0, width_m: 2.0, height_m: None };
+
+    fn course(speed_mps: f64) -> Course {
+        let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
+        let known: Vec<_> = (0..=HORIZON_STEPS).map(|i| Some(at(i))).collect();
+        Course::of(&known, 0.5).unwrap()
+    }
+
+    #[test]
+    fn who_crosses_takes_the_places_of_its_width_for_a_while() {
+        let corridor = Corridor::of(&course(8.0), &CAR);
+        let north = |i: usize| State {
+            x_m: 40.0,
+            y_m: -20.0 + 0.5 * i as f64,
+            heading_rad: std::f64::consts::FRAC_PI_2,
+            ..State::default()
+        };
+        let crossing: Vec<State> = (0..=HORIZON_STEPS).map(north).collect();
+        let blocks = corridor.blocks(&Moving::of_states(0, &crossing, &CAR));
+        assert_eq!(blocks.len(), 1);
+        let (from, until) = (blocks[0].from, blocks[0].from + blocks[0].taken.len());
+        assert!((33..=34).contains(&from) && (47..=48).contains(&until), "{from} to {until}");
+        let (first, last) = blocks[0].taken[7];
+        assert!((36.5..=37.0).contains(&first) && (43.0..=43.5).contains(&last), "{first} to {last}");
+        assert!(blocks[0].comes_behind(44.0) && !blocks[0].comes_behind(40.0));
+    }
+
+    #[test]
+    fn a_line_is_closed_while_its_light_says_so() {
+        let corridor = Corridor::of(&course(8.0), &CAR);
+        let line = corridor.line(Vec2::new(30.2, 0.5), 0.1).unwrap();
+        assert!((27.0..=28.0).contains(&line), "{line}");
+        assert!(corridor.line(Vec2::new(30.2, 3.5), 0.1).is_none());
+        assert!(corridor.line(Vec2::new(30.2, 0.5), 3.0).is_none());
+        let blocks = closed(line, |step| (20..50).contains(&step));
+        assert_eq!((blocks.len(), blocks[0].from, blocks[0].taken.len()), (1, 20, 30));
+    }
+}

@@ -1,0 +1,298 @@
+//! The motion that a road user has without this call: a path, and how far along it it is at each step.
+
+use scene::geometry::obb::OrientedBox;
+use scene::geometry::{direction, wrap_angle};
+use scene::motion::Trajectory;
+use scene::score::SweptBoxes;
+use scene::{HORIZON_STEPS, STEP_S, Size, State, Vec2};
+
+/// States nearer to each other than this are one place of the path, metres: what stands and trembles stays.
+const GRAIN_M: f64 = 0.3;
+/// A gap in a recording that is bridged, steps.
+const MOST_BRIDGED: usize = 10;
+/// How far ahead the speed at a place is looked up where the road user stood or set off, metres.
+const LOOK_AHEAD_M: f64 = 6.0;
+/// Slower than this it stood or set off, m/s.
+const SETTING_OFF_MPS: f64 = 2.0;
+/// Every third step is looked at for meetings, as in the choice.
+pub(super) const STRIDE: usize = 3;
+
+/// Boxes of a motion at each step of a window, and what the choice looks at of them.
+#[derive(Clone, Debug)]
+pub(in crate::generator) struct Moving {
+    /// One entry a step from the window's start on.
+    pub(in crate::generator) boxes: Vec<Option<OrientedBox>>,
+    pub(in crate::generator) swept: SweptBoxes,
+}
+
+impl Moving {
+    /// Of a box a step, the window's start first.
+    pub(super) fn new(boxes: Vec<Option<OrientedBox>>) -> Self {
+        let swept = SweptBoxes::new(boxes.iter().skip(STRIDE).step_by(STRIDE).copied().collect());
+        Self { boxes, swept }
+    }
+
+    /// Of states, one a step from `first` steps after the window's start on; nobody is there before and after.
+    pub(super) fn of_states<'a>(
+        first: usize,
+        states: impl IntoIterator<Item = &'a State>,
+        size: &Size,
+    ) -> Self {
+        let boxes = std::iter::repeat_n(None, first);
+        let boxes = boxes.chain(states.into_iter().map(|s| Some(OrientedBox::of_state(s, size))));
+        Self::new(boxes.take(HORIZON_STEPS + 1).collect())
+    }
+
+    /// Of a rollout.
+    pub(in crate::generator) fn of_rollout(states: &Trajectory, size: &Size) -> Self {
+        let states: Vec<State> = states.iter().map(State::from).collect();
+        Self::of_states(0, &states, size)
+    }
+
+    /// Box at a step.
+    pub(super) fn at(&self, step: usize) -> Option<&OrientedBox> {
+        self.boxes.get(step)?.as_ref()
+    }
+
+    /// Speed between a step and the one before, m/s as a vector.
+    pub(super) fn velocity(&self, step: usize) -> Vec2 {
+        match (step.checked_sub(1).and_then(|before| self.at(before)), self.at(step)) {
+            (Some(a), Some(b)) => (b.center() - a.center()) / STEP_S,
+            _ => Vec2::zeros(),
+        }
+    }
+}
+
+/// A place of the path.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    along_m: f64,
+    position: Vec2,
+    /// Unwrapped along the path.
+    heading_rad: f64,
+    speed_mps: f64,
+}
+
+/// A motion as a path with a progress.
+#[derive(Clone, Debug)]
+pub(super) struct Course {
+    /// Steps after the window's start at which it is there first: 0 unless it comes in later.
+    pub(super) enters: usize,
+    /// From then on, one a step.
+    pub(super) states: Vec<State>,
+    /// Metres along the path, one a state.
+    pub(super) along_m: Vec<f64>,
+    places: Vec<Place>,
+}
+
+impl Course {
+    /// Of what is known of a road user at each step of a window, its start included; `None` for one that
+    /// never comes or hardly moves.
+    pub(super) fn of(known: &[Option<State>], shortest_m: f64) -> Option<Self> {
+        let enters = known.iter().position(Option::is_some)?;
+        let states = bridged(&known[enters..]);
+        let first = states.first()?;
+        let place = |s: &State, along_m: f64, heading_rad: f64| Place {
+            along_m,
+            position: s.position(),
+            heading_rad,
+            speed_mps: s.speed_mps(),
+        };
+        let mut places = vec![place(first, 0.0, first.heading_rad)];
+        let mut along_m = Vec::with_capacity(states.len());
+        let mut last = places[0];
+        let mut most = 0.0_f64;
+        for state in &states {
+            let moved = (state.position() - last.position).norm();
+            most = most.max(last.along_m + moved);
+            along_m.push(most);
+            if moved >= GRAIN_M {
+                let heading = last.heading_rad + wrap_angle(state.heading_rad - last.heading_rad);
+                last = place(state, last.along_m + moved, heading);
+                most = last.along_m;
+                places.push(last);
+                if let Some(end) = along_m.last_mut() {
+                    *end = most;
+                }
+            }
+        }
+        (last.along_m >= shortest_m).then_some(Self { enters, states, along_m, places })
+    }
+
+    /// Steps after the window's start at which it is there last.
+    pub(super) fn last_step(&self) -> usize {
+        self.enters + self.states.len() - 1
+    }
+
+    /// Progress at a step of the window, that of the ends outside them.
+    pub(super) fn along_at(&self, step: usize) -> f64 {
+        let i = step.saturating_sub(self.enters).min(self.along_m.len() - 1);
+        self.along_m[i]
+    }
+
+    /// Length of the path, metres.
+    pub(super) fn length_m(&self) -> f64 {
+        self.places.last().map_or(0.0, |p| p.along_m)
+    }
+
+    /// It goes away before the window ends.
+    pub(super) fn leaves(&self) -> bool {
+        self.last_step() < HORIZON_STEPS
+    }
+
+    fn index(&self, along_m: f64) -> usize {
+        self.places.partition_point(|p| p.along_m <= along_m).clamp(1, self.places.len().max(2) - 1)
+    }
+
+    /// Box centre and heading at a progress; straight on beyond the path's end.
+    fn place(&self, along_m: f64) -> (Vec2, f64) {
+        let i = self.index(along_m);
+        let (Some(from), Some(to)) = (self.places.get(i - 1), self.places.get(i)) else {
+            return self.places.first().map_or((Vec2::zeros(), 0.0), |p| (p.position, p.heading_rad));
+        };
+        let share = (along_m - from.along_m) / (to.along_m - from.along_m).max(1e-9);
+        let heading = from.heading_rad + share.min(1.0) * (to.heading_rad - from.heading_rad);
+        (from.position + share * (to.position - from.position), heading)
+    }
+
+    /// Its box at a progress.
+    pub(super) fn outline(&self, along_m: f64, size: &Size) -> OrientedBox {
+        let (position, heading) = self.place(along_m);
+        OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, heading)
+    }
+
+    /// State at a progress and speed.
+    pub(super) fn state(&self, along_m: f64, speed_mps: f64) -> State {
+        let (position, heading) = self.place(along_m);
+        let chord = self.place(along_m + GRAIN_M).0 - self.place((along_m - GRAIN_M).max(0.0)).0;
+        let ahead = if chord.norm() > 1e-6 { chord.normalize() } else { direction(heading) };
+        let velocity = ahead * speed_mps;
+        State {
+            x_m: position.x,
+            y_m: position.y,
+            heading_rad: wrap_angle(heading),
+            vx_mps: velocity.x,
+            vy_mps: velocity.y,
+        }
+    }
+
+    /// Speed that it has at a place of its path; where it stood, that with which it went on from there.
+    pub(super) fn speed_at_mps(&self, along_m: f64) -> f64 {
+        let i = self.places.partition_point(|p| p.along_m <= along_m).saturating_sub(1);
+        let own = self.places[i].speed_mps;
+        if own >= SETTING_OFF_MPS {
+            return own;
+        }
+        let near = self.places[i..].iter().take_while(|p| p.along_m <= along_m + LOOK_AHEAD_M);
+        near.map(|p| p.speed_mps).fold(own, f64::max)
+    }
+
+    /// The first step at which it is as far as this.
+    pub(super) fn step_at(&self, along_m: f64) -> Option<usize> {
+        let i = self.along_m.iter().position(|a| *a >= along_m - 1e-6)?;
+        Some(self.enters + i)
+    }
+}
+
+/// How somebody who is later than it was takes up its own speed again, m/s2.
+const TAKES_UP_MPS2: (f64, f64) = (-3.0, 1.5);
+
+/// Carries a plan on for a window: along the way that these states have, as fast as they are at each place.
+pub(in crate::generator) fn carry_on(plan: &mut Vec<State>, way: &[Option<State>]) {
+    let (Some(course), Some(last)) = (Course::of(way, 0.0), plan.last().copied()) else { return };
+    let apart = |p: &Place| (p.position - last.position()).norm();
+    let Some(nearest) = course.places.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
+    let ahead = direction(nearest.heading_rad).dot(&(last.position() - nearest.position));
+    let (mut along, mut speed) = (nearest.along_m + ahead, last.speed_mps());
+    while plan.len() <= HORIZON_STEPS {
+        let rate = (course.speed_at_mps(along) - speed) / STEP_S;
+        let then = (speed + rate.clamp(TAKES_UP_MPS2.0, TAKES_UP_MPS2.1) * STEP_S).max(0.0);
+        along += 0.5 * (speed + then) * STEP_S;
+        speed = then;
+        plan.push(course.state(along, speed));
+    }
+}
+
+/// States up to the first long gap, short ones bridged.
+fn bridged(known: &[Option<State>]) -> Vec<State> {
+    let mut out: Vec<State> = Vec::with_capacity(known.len());
+    let mut gap = 0;
+    for state in known {
+        let Some(state) = state else {
+            gap += 1;
+            if gap > MOST_BRIDGED {
+                break;
+            }
+            continue;
+        };
+        if let Some(last) = out.last().copied() {
+            for i in 1..=gap {
+                out.push(between(&last, state, i as f64 / (gap + 1) as f64));
+            }
+        }
+        gap = 0;
+        out.push(*state);
+    }
+    out
+}
+
+fn between(a: &State, b: &State, share: f64) -> State {
+    let mix = |p: f64, q: f64| p + share * (q - p);
+    State {
+        x_m: mix(a.x_m, b.x_m),
+        y_m: mix(a.y_m, b.y_m),
+        heading_rad: wrap_angle(a.heading_rad + share * wrap_angle(b.heading_rad - a.heading_rad)),
+        vx_mps: mix(a.vx_mps, b.vx_mps),
+        vy_mps: mix(a.vy_mps, b.vy_mps),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn going(speed_mps: f64, steps: usize) -> Vec<Option<State>> {
+        let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
+        (0..steps).map(|i| Some(at(i))).collect()
+    }
+
+    #[test]
+    fn a_course_is_its_motion() {
+        let course = Course::of(&going(8.0, 91), 0.5).unwrap();
+        assert!((course.length_m() - 72.0).abs() < 1e-9 && !course.leaves());
+        assert!((course.along_at(30) - 24.0).abs() < 1e-9);
+        let state = course.state(24.0, 3.0);
+        assert!((state.x_m - 24.0).abs() < 1e-9 && (state.vx_mps - 3.0).abs() < 1e-9);
+        assert_eq!(course.step_at(40.0), Some(50));
+    }
+
+    #[test]
+    fn who_comes_later_begins_there_and_gaps_are_bridged() {
+        let mut known = going(8.0, 91);
+        known[..20].fill(None);
+        known[50..55].fill(None);
+        let course = Course::of(&known, 0.5).unwrap();
+        assert_eq!((course.enters, course.last_step()), (20, 90));
+        known[70..85].fill(None);
+        let course = Course::of(&known, 0.5).unwrap();
+        assert!(course.leaves() && course.last_step() == 69);
+    }
+
+    #[test]
+    fn a_plan_is_carried_on_along_the_way_it_is_on() {
+        let way = going(8.0, 120);
+        let mut plan = vec![State { x_m: 20.0, vx_mps: 2.0, ..State::default() }];
+        carry_on(&mut plan, &way);
+        assert_eq!(plan.len(), 91);
+        assert!((plan[1].x_m - 20.2).abs() < 0.05 && (plan[90].vx_mps - 8.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_trembles_goes_nowhere() {
+        let mut known = going(0.0, 91);
+        for (i, state) in known.iter_mut().flatten().enumerate() {
+            state.x_m = 0.1 * (i % 2) as f64;
+        }
+        assert!(Course::of(&known, 0.5).is_none());
+    }
+}

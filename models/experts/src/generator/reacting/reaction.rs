@@ -1,0 +1,100 @@
+//! How somebody answers another, in the figures that words are made of.
+
+use super::Answerer;
+use super::giving_way::Way;
+use scene::judge::{Reaction, ReactionKind};
+use scene::motion::Trajectory;
+use scene::{AgentId, STANDING_MPS, STEP_S, State};
+
+/// Standing so many steps longer than it does anyway is waiting.
+const WAITS_STEPS: usize = 5;
+/// A place where it stood anyway, within this, metres.
+const SAME_PLACE_M: f64 = 1.0;
+
+/// What somebody does for `cause`; the window begins at `start_step`.
+pub(super) fn reaction(own: &Answerer, way: &Way, cause: AgentId, start_step: usize) -> Reaction {
+    let paced = &way.paced;
+    let (along, speed) = (&paced.along_m, &paced.speed_mps);
+    let from = paced.own.min(along.len() - 1);
+    let stood: Vec<f64> = own
+        .course
+        .states
+        .iter()
+        .zip(&own.course.along_m)
+        .filter(|(s, _)| s.speed_mps() < STANDING_MPS)
+        .map(|(_, along)| *along)
+        .collect();
+    let standing = (from..along.len()).filter(|i| speed[*i] < STANDING_MPS);
+    let elsewhere = |i: &usize| stood.iter().all(|s| (s - along[*i]).abs() > SAME_PLACE_M);
+    let waits = standing.clone().count() >= stood.len() + WAITS_STEPS
+        || standing.clone().filter(elsewhere).count() >= WAITS_STEPS;
+    let delay_s = own.late_s(paced);
+    // By how much it is slower than it would be at the same place.
+    let less = |i: usize| own.course.speed_at_mps(along[i]) - speed[i];
+    let greatest = |sign: f64| {
+        (from..along.len()).max_by(|a, b| (sign * less(*a)).total_cmp(&(sign * less(*b)))).unwrap_or(from)
+    };
+    let (kind, at) = if waits {
+        let first = standing.clone().find(elsewhere).or(standing.clone().next());
+        (ReactionKind::Waits, first.unwrap_or(from))
+    } else if delay_s < 0.0 {
+        (ReactionKind::SpeedsUp, greatest(-1.0))
+    } else {
+        (ReactionKind::Slows, greatest(1.0))
+    };
+    let state = &way.states[at];
+    Reaction {
+        kind,
+        cause,
+        delay_s,
+        time_s: (start_step + own.course.enters + at) as f64 * STEP_S,
+        x_m: state.x_m,
+        y_m: state.y_m,
+        speed_mps: speed[at],
+    }
+    .rounded()
+}
+
+/// Off the way that it had by more than this, somebody keeps clear, metres.
+const ASIDE_M: f64 = 1.0;
+
+/// What somebody does for `cause` who was planned anew: `kept` is what it did, from the first step after
+/// `start_s` on.
+pub(in crate::generator) fn reaction_of(
+    kept: &[State],
+    motion: &Trajectory,
+    cause: AgentId,
+    start_s: f64,
+) -> Reaction {
+    let states: Vec<State> = motion.iter().skip(1).map(State::from).collect();
+    let nearest = |s: &State| {
+        let apart = |k: &State| (k.position() - s.position()).norm();
+        let at = (0..kept.len()).min_by(|a, b| apart(&kept[*a]).total_cmp(&apart(&kept[*b])));
+        at.map_or((0, 0.0), |at| (at, apart(&kept[at])))
+    };
+    let last = states.len().saturating_sub(1);
+    let end = states.last().copied().unwrap_or_default();
+    let delay_s = (last as f64 - nearest(&end).0 as f64) * STEP_S;
+    let aside = (0..states.len()).map(|i| (i, nearest(&states[i]).1)).max_by(|a, b| a.1.total_cmp(&b.1));
+    let slowest = (0..states.len()).min_by(|a, b| states[*a].speed_mps().total_cmp(&states[*b].speed_mps()));
+    let slowest = slowest.unwrap_or(0);
+    let stands = states.get(slowest).is_some_and(|s| s.speed_mps() < STANDING_MPS);
+    let stood = kept.iter().any(|s| s.speed_mps() < STANDING_MPS);
+    let (kind, at) = match aside {
+        _ if stands && !stood => (ReactionKind::Waits, slowest),
+        Some((at, away)) if away > ASIDE_M && delay_s.abs() < 1.0 => (ReactionKind::KeepsClear, at),
+        _ if delay_s < 0.0 => (ReactionKind::SpeedsUp, last),
+        _ => (ReactionKind::Slows, slowest),
+    };
+    let state = states.get(at).copied().unwrap_or(end);
+    Reaction {
+        kind,
+        cause,
+        delay_s,
+        time_s: start_s + (at + 1) as f64 * STEP_S,
+        x_m: state.x_m,
+        y_m: state.y_m,
+        speed_mps: state.speed_mps(),
+    }
+    .rounded()
+}

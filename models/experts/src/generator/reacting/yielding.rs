@@ -1,0 +1,288 @@
+//! A course driven so that others go first: as it is as long as possible, then no harder on the brakes than need
+//! be, and on again once the way is free.
+
+use super::blocks::Block;
+use super::course::Course;
+use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S, State};
+
+/// Who stands does not set off for less than this, metres: nobody creeps.
+const WORTH_GOING_M: f64 = 1.0;
+/// How far ahead in time that is looked at, steps.
+const GOING_STEPS: usize = 15;
+/// Others are given this much time before and after, steps.
+const TIME_GAP: usize = 3;
+/// Steps of a second.
+const SECOND: usize = 10;
+/// Rounding of distances, metres.
+const HAIR_M: f64 = 0.02;
+/// Halvings of the span of accelerations.
+const HALVINGS: usize = 7;
+
+/// How somebody gives way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Manner {
+    /// Braking, m/s2.
+    pub(super) brake_mps2: f64,
+    /// Speeding up again, m/s2.
+    pub(super) accelerate_mps2: f64,
+    /// Distance kept from what is in the way, metres.
+    pub(super) gap_m: f64,
+    /// Share of the speed that the course has at a place.
+    pub(super) pace: f64,
+}
+
+/// A course at another pace: one entry a state of it, to the window's end or until it leaves.
+#[derive(Clone, Debug)]
+pub(super) struct Paced {
+    pub(super) along_m: Vec<f64>,
+    pub(super) speed_mps: Vec<f64>,
+    /// So many states are the course's own.
+    pub(super) own: usize,
+}
+
+/// Bounds of progress at each step of the window.
+struct Bounds {
+    at_m: Vec<f64>,
+    /// The least of this and all later ones.
+    from_m: Vec<f64>,
+    /// Bounds at the window's end that go on after it, and how fast they move on then, m/s.
+    after: Vec<(f64, f64)>,
+}
+
+impl Bounds {
+    fn new(at_m: Vec<f64>, after: Vec<(f64, f64)>) -> Self {
+        let mut from_m = at_m.clone();
+        for i in (0..from_m.len().saturating_sub(1)).rev() {
+            from_m[i] = from_m[i].min(from_m[i + 1]);
+        }
+        Self { at_m, from_m, after }
+    }
+
+    /// Braking from here on at this rate stays below them, and below those that go on though they brake as well.
+    fn hold(&self, step: usize, along_m: f64, speed_mps: f64, brake_mps2: f64) -> bool {
+        let stops_m = speed_mps * speed_mps / (2.0 * brake_mps2);
+        let behind = |(bound, speed): &(f64, f64)| {
+            along_m + stops_m <= bound + speed * speed / (2.0 * brake_mps2) + HAIR_M
+        };
+        if !self.after.iter().all(behind) {
+            return false;
+        }
+        if along_m + stops_m <= self.from_m[step] + HAIR_M {
+            return true;
+        }
+        let stops_s = speed_mps / brake_mps2;
+        self.at_m[step..].iter().enumerate().all(|(i, bound)| {
+            let t = i as f64 * STEP_S;
+            let moved = if t < stops_s { speed_mps * t - 0.5 * brake_mps2 * t * t } else { stops_m };
+            along_m + moved <= bound + HAIR_M
+        })
+    }
+}
+
+/// Where these blocks are when the window ends, for those that are there then, and how fast they move on.
+fn after(blocks: &[&Block], gap_m: f64) -> Vec<(f64, f64)> {
+    let there = blocks.iter().filter(|b| b.from + b.taken.len() > HORIZON_STEPS);
+    let bound = |b: &&Block| {
+        let (last, _) = *b.taken.last()?;
+        let earlier = b.taken.len().saturating_sub(1 + SECOND);
+        let (before, _) = *b.taken.get(earlier)?;
+        let seconds = (b.taken.len() - 1 - earlier).max(1) as f64 * STEP_S;
+        Some(((last - gap_m).max(0.0), ((last - before) / seconds).max(0.0)))
+    };
+    there.filter_map(bound).collect()
+}
+
+/// Bounds that keep somebody behind these blocks.
+fn behind(blocks: &[&Block], gap_m: f64) -> Vec<f64> {
+    let mut at_m = vec![f64::INFINITY; HORIZON_STEPS + 1];
+    for block in blocks {
+        for (i, (first, _)) in block.taken.iter().enumerate() {
+            let step = block.from + i;
+            let from = step.saturating_sub(TIME_GAP);
+            for bound in &mut at_m[from..=(step + TIME_GAP).min(HORIZON_STEPS)] {
+                *bound = bound.min((first - gap_m).max(0.0));
+            }
+        }
+    }
+    at_m
+}
+
+impl Paced {
+    /// A course behind these blocks. What cannot be helped is braked for as hard as the manner allows.
+    pub(super) fn behind(course: &Course, blocks: &[&Block], manner: Manner) -> Self {
+        let mut after_end = after(blocks, manner.gap_m);
+        let bounds = Bounds::new(behind(blocks, manner.gap_m), after_end.clone());
+        // Who has left its own timing does not pass where it stood while it stood: there was a reason.
+        let mut waiting = bounds.at_m.clone();
+        for (i, state) in course.states.iter().enumerate() {
+            if state.speed_mps() < STANDING_MPS {
+                let bound = &mut waiting[course.enters + i];
+                *bound = bound.min(course.along_m[i] + 0.1);
+            }
+        }
+        let stands = |s: &&State| s.speed_mps() < STANDING_MPS;
+        if !course.leaves() && course.states.last().filter(stands).is_some() {
+            after_end.push((course.length_m() + 0.1, 0.0));
+        }
+        let waiting = Bounds::new(waiting, after_end);
+        let brake = manner.brake_mps2;
+        let start_mps = course.states.first().map_or(0.0, State::speed_mps);
+        let mut out = Self { along_m: vec![0.0], speed_mps: vec![start_mps], own: 1 };
+        let (mut along, mut speed, mut own) = (0.0, start_mps, manner.pace == 1.0);
+        for step in course.enters..HORIZON_STEPS {
+            let next = step + 1;
+            if own {
+                let Some(state) = course.states.get(next - course.enters) else { break };
+                let (on_m, at_mps) = (course.along_m[next - course.enters], state.speed_mps());
+                if bounds.hold(next, on_m, at_mps, brake) {
+                    (along, speed) = (on_m, at_mps);
+                    out.push(along, speed);
+                    out.own += 1;
+                    continue;
+                }
+                own = false;
+            }
+            let wanted = manner.pace * course.speed_at_mps(along);
+            let most = ((wanted - speed) / STEP_S).clamp(-brake, manner.accelerate_mps2);
+            let after = |rate: f64| {
+                let then = (speed + rate * STEP_S).max(0.0);
+                (along + 0.5 * (speed + then) * STEP_S, then)
+            };
+            let holds = |rate: f64| {
+                let (along, speed) = after(rate);
+                waiting.hold(next, along, speed, brake)
+            };
+            let mut rate = greatest(-brake, most, holds);
+            let room = least_soon(&waiting.at_m, next) - along;
+            if speed < 1e-3 && room < WORTH_GOING_M {
+                rate = 0.0;
+            }
+            (along, speed) = if speed < 1e-3 && rate <= 0.0 { (along, 0.0) } else { after(rate) };
+            if speed < 0.02 && rate <= 0.0 {
+                speed = 0.0;
+            }
+            if course.leaves() && along > course.length_m() {
+                break;
+            }
+            out.push(along, speed);
+        }
+        out
+    }
+
+    fn push(&mut self, along_m: f64, speed_mps: f64) {
+        self.along_m.push(along_m);
+        self.speed_mps.push(speed_mps);
+    }
+
+    /// It is the course itself.
+    pub(super) fn is_own(&self, course: &Course) -> bool {
+        self.own == course.states.len()
+    }
+
+    /// Its states, one a step from where it comes in: the course's own as long as it keeps to it.
+    pub(super) fn states(&self, course: &Course) -> Vec<State> {
+        let own = course.states.iter().take(self.own).copied();
+        let paced = self.along_m.iter().zip(&self.speed_mps).skip(self.own);
+        own.chain(paced.map(|(along, speed)| course.state(*along, *speed))).collect()
+    }
+}
+
+/// The least bound of the next steps.
+fn least_soon(at_m: &[f64], step: usize) -> f64 {
+    at_m[step..].iter().take(GOING_STEPS).copied().fold(f64::INFINITY, f64::min)
+}
+
+/// The greatest rate in a span that holds; the least where none does.
+fn greatest(least: f64, most: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    if holds(most) {
+        return most;
+    }
+    if !holds(least) {
+        return least;
+    }
+    let (mut low, mut high) = (least, most);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if holds(middle) { low = middle } else { high = middle }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EASY: Manner = Manner { brake_mps2: 2.0, accelerate_mps2: 1.5, gap_m: 1.0, pace: 1.0 };
+
+    fn course(speed_mps: f64) -> Course {
+        let at = |i: usize| State { x_m: 0.1 * speed_mps * i as f64, vx_mps: speed_mps, ..State::default() };
+        let known: Vec<_> = (0..=HORIZON_STEPS).map(|i| Some(at(i))).collect();
+        Course::of(&known, 0.5).unwrap()
+    }
+
+    /// From 40 to 46 m, in these steps.
+    fn block(from: usize, until: usize) -> Block {
+        Block { from, taken: vec![(40.0, 46.0); until - from] }
+    }
+
+    #[test]
+    fn nobody_in_the_way_changes_nothing() {
+        let course = course(8.0);
+        let paced = Paced::behind(&course, &[], EASY);
+        assert!(paced.is_own(&course) && paced.states(&course) == course.states);
+    }
+
+    #[test]
+    fn it_stands_before_what_is_in_the_way_and_goes_on() {
+        let course = course(8.0);
+        let block = block(30, 65);
+        let paced = Paced::behind(&course, &[&block], EASY);
+        assert!(!paced.is_own(&course) && paced.along_m.len() == 91);
+        for step in 30..65 {
+            assert!(paced.along_m[step] <= 39.1, "{} at {step}", paced.along_m[step]);
+        }
+        assert!(paced.along_m[90] > 40.0, "{}", paced.along_m[90]);
+        for w in paced.speed_mps.windows(2) {
+            let rate = (w[1] - w[0]) / STEP_S;
+            assert!((-2.01..=1.51).contains(&rate), "{rate}");
+        }
+        // Its own motion as long as that does.
+        assert!(paced.own > 20, "{}", paced.own);
+    }
+
+    #[test]
+    fn who_must_stay_stays_without_creeping() {
+        let course = course(8.0);
+        let block = block(30, 91);
+        let paced = Paced::behind(&course, &[&block], EASY);
+        let rest = &paced.along_m[75..];
+        assert!(rest.iter().all(|a| *a == rest[0]), "{rest:?}");
+        assert_eq!(paced.speed_mps[80], 0.0);
+    }
+
+    #[test]
+    fn what_still_stands_there_when_the_window_ends_is_not_run_into_after_it() {
+        let course = course(20.0);
+        let stands = Block { from: 60, taken: vec![(182.0, 186.0); 31] };
+        let paced = Paced::behind(&course, &[&stands], EASY);
+        let (along, speed) = (paced.along_m[90], paced.speed_mps[90]);
+        assert!(along + speed * speed / 4.0 < 181.5, "{along} m at {speed} m/s");
+    }
+
+    #[test]
+    fn it_does_not_pass_where_it_stood_while_it_stood() {
+        // Stands at 24 m from 3 s to 6 s.
+        let progress = |i: usize| 0.8 * i.min(30).max(i.saturating_sub(30)) as f64;
+        let at = |i: usize| {
+            let vx_mps = if (30..60).contains(&i) { 0.0 } else { 8.0 };
+            State { x_m: progress(i), vx_mps, ..State::default() }
+        };
+        let known: Vec<_> = (0..=HORIZON_STEPS).map(|i| Some(at(i))).collect();
+        let course = Course::of(&known, 0.5).unwrap();
+        let early = Block { from: 5, taken: vec![(8.0, 10.0); 10] };
+        let paced = Paced::behind(&course, &[&early], EASY);
+        assert!(!paced.is_own(&course));
+        assert!(paced.along_m[59] <= 24.2, "{}", paced.along_m[59]);
+        assert!(paced.along_m[90] > 30.0, "{}", paced.along_m[90]);
+    }
+}
