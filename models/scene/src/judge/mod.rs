@@ -4,10 +4,12 @@
 mod about;
 mod manoeuvre;
 mod relations;
+mod trace;
 
 pub use about::{About, Fault, FaultKind, Manoeuvre, Reaction, ReactionKind, Relation, RelationKind};
 pub use manoeuvre::manoeuvre;
-pub use relations::{Ground, Trace, crossing, relations};
+pub use relations::relations;
+pub use trace::{Ground, Trace, crossing};
 
 use crate::score::goal::goal_error;
 use crate::score::kinematic::{harsh_braking, harsh_steering};

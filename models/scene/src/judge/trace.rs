@@ -1,0 +1,306 @@
+//! Motions as others see them, and the ground that two of them share.
+//!
+//! Boxes are compared at other times than their own: where the box of one at one moment meets the box of the
+//! other at another moment, the two share ground, and the shift between the moments says who was there first
+//! (compare the post-encroachment time of the score, which needs paths that cross at an angle; merging counts
+//! here too).
+
+use crate::geometry::direction;
+use crate::geometry::obb::{OrientedBox, overlaps};
+use crate::{AgentId, AgentType, STEP_S, Size, State, Vec2, wrap_angle};
+
+/// Every second step is looked at.
+pub(super) const STRIDE: usize = 2;
+/// Seconds between two moments that are looked at.
+pub(super) const MOMENT_S: f64 = STRIDE as f64 * STEP_S;
+/// Whoever shares ground later than this has nothing to do with each other, seconds.
+pub(super) const WINDOW_S: f64 = 6.0;
+/// Ways whose headings differ by less are the same way, radians: 35 degrees.
+pub(super) const SAME_WAY_RAD: f64 = 0.61;
+/// Standing bumper to bumper is following too, metres.
+pub(super) const QUEUE_M: f64 = 6.0;
+/// Who moves less goes nowhere, metres.
+pub(super) const GOES_M: f64 = 2.0;
+/// Who ends slower than this is about to go on, so far, m/s and metres.
+const WAITING_MPS: f64 = 1.0;
+const GOES_ON_M: f64 = 7.0;
+/// Goes on, metres a moment.
+const GOES_ON_STEP_M: f64 = 1.0;
+
+/// A road user at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
+    pub(super) center: Vec2,
+    pub(super) heading_rad: f64,
+    pub(super) speed_mps: f64,
+    /// Way from the first moment, metres.
+    pub(super) way_m: f64,
+}
+
+/// The motion of a road user as others see it. Made once, compared with many.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    pub(super) id: AgentId,
+    pub(super) agent_type: AgentType,
+    pub(super) size: Size,
+    /// One each [`MOMENT_S`], the first at the start; `None` where it is not there.
+    pub(super) moments: Vec<Option<Moment>>,
+    /// Where it would go on from its last moment, for one that waits at its end.
+    goes_on: Vec<Moment>,
+    low: Vec2,
+    high: Vec2,
+    pub(super) radius_m: f64,
+    /// Farthest way between two moments, metres.
+    stride_m: f64,
+    pub(super) way_m: f64,
+}
+
+impl Trace {
+    /// Of the states `at` steps 0 .. `steps`.
+    pub fn new(
+        id: &str,
+        agent_type: AgentType,
+        size: &Size,
+        steps: usize,
+        at: impl Fn(usize) -> Option<State>,
+    ) -> Self {
+        let mut trace = Self {
+            id: id.to_owned(),
+            agent_type,
+            size: *size,
+            moments: Vec::with_capacity(steps.div_ceil(STRIDE)),
+            goes_on: Vec::new(),
+            low: Vec2::repeat(f64::INFINITY),
+            high: Vec2::repeat(f64::NEG_INFINITY),
+            radius_m: 0.5 * size.length_m.hypot(size.width_m),
+            stride_m: 0.0,
+            way_m: 0.0,
+        };
+        let mut last: Option<Vec2> = None;
+        for step in (0..steps).step_by(STRIDE) {
+            let moment = at(step).map(|state| {
+                let position = state.position();
+                let moved = last.map_or(0.0, |last| (position - last).norm());
+                last = Some(position);
+                trace.stride_m = trace.stride_m.max(moved);
+                trace.way_m += moved;
+                (trace.low, trace.high) = (trace.low.inf(&position), trace.high.sup(&position));
+                Moment {
+                    center: position,
+                    heading_rad: state.heading_rad,
+                    speed_mps: state.speed_mps(),
+                    way_m: trace.way_m,
+                }
+            });
+            trace.moments.push(moment);
+        }
+        trace
+    }
+
+    /// The same for one that is looked at itself: where it would go on from its end counts too.
+    pub fn ahead(
+        id: &str,
+        agent_type: AgentType,
+        size: &Size,
+        steps: usize,
+        at: impl Fn(usize) -> Option<State>,
+    ) -> Self {
+        let mut trace = Self::new(id, agent_type, size, steps, at);
+        if let Some(last) = trace.moments.iter().rev().flatten().next().copied()
+            && last.speed_mps < WAITING_MPS
+        {
+            let ahead = direction(last.heading_rad);
+            let count = (GOES_ON_M / GOES_ON_STEP_M) as usize;
+            let on = |i: usize| Moment { center: last.center + ahead * (GOES_ON_STEP_M * i as f64), ..last };
+            trace.goes_on = (1..=count).map(on).collect();
+            let end = last.center + ahead * GOES_ON_M;
+            (trace.low, trace.high) = (trace.low.inf(&end), trace.high.sup(&end));
+        }
+        trace
+    }
+
+    /// Whose.
+    pub fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Its type.
+    pub fn agent_type(&self) -> AgentType {
+        self.agent_type
+    }
+
+    /// Its box.
+    pub fn size(&self) -> &Size {
+        &self.size
+    }
+
+    /// Seconds from the first moment to this one.
+    pub fn seconds(moment: usize) -> f64 {
+        moment as f64 * MOMENT_S
+    }
+
+    /// Both are somewhere near each other, at whatever time.
+    pub fn may_meet(&self, other: &Self) -> bool {
+        let reach = self.radius_m + other.radius_m + QUEUE_M;
+        self.low.x < other.high.x + reach
+            && other.low.x < self.high.x + reach
+            && self.low.y < other.high.y + reach
+            && other.low.y < self.high.y + reach
+    }
+
+    /// The boxes overlap at some moment after the first.
+    pub fn meets(&self, other: &Self) -> bool {
+        let reach = self.radius_m + other.radius_m;
+        let closing_m = (self.stride_m + other.stride_m).max(1e-6);
+        let count = self.moments.len().min(other.moments.len());
+        let mut i = 1;
+        while i < count {
+            if let (Some(a), Some(b)) = (&self.moments[i], &other.moments[i]) {
+                let apart = (a.center - b.center).norm() - reach;
+                if apart > 0.0 {
+                    i += 1 + (apart / closing_m) as usize;
+                    continue;
+                }
+                if self.overlaps(a, other, b) {
+                    return true;
+                }
+            }
+            i += 1;
+        }
+        false
+    }
+
+    /// The box at a moment. Made where it is looked at: most never are.
+    fn outline(&self, moment: &Moment) -> OrientedBox {
+        let (length, width) = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
+        OrientedBox::new(moment.center, length, width, moment.heading_rad)
+    }
+
+    /// The boxes of two at these moments overlap.
+    pub(super) fn overlaps(&self, mine: &Moment, other: &Self, theirs: &Moment) -> bool {
+        let reach = self.radius_m + other.radius_m;
+        (mine.center - theirs.center).norm_squared() < reach * reach
+            && overlaps(&self.outline(mine), &other.outline(theirs), 0.0)
+    }
+
+    pub(super) fn speed_at(&self, moment: usize) -> Option<f64> {
+        self.moments.get(moment)?.as_ref().map(|m| m.speed_mps)
+    }
+}
+
+/// Ground that two use within [`WINDOW_S`] of each other: moments of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ground {
+    /// The moment at which the first of the two comes there, and the other's that it meets first.
+    pub(super) enters: (usize, usize),
+    /// The pair of moments with the least shift.
+    pub(super) nearest: (usize, usize),
+    /// The first one's first and last moment there.
+    pub mine: (usize, usize),
+    /// The other's first and last moment there.
+    pub theirs: (usize, usize),
+    /// Least and greatest shift in moments: positive where the first one is there first.
+    pub(super) shift: (i64, i64),
+    /// The first one only would come there, had it gone on.
+    pub(super) beyond: bool,
+}
+
+impl Ground {
+    /// Who is first: 1 for the first one, -1 for the other, 0 where they meet.
+    pub fn order(&self) -> i64 {
+        match self.shift {
+            (least, _) if least > 0 => 1,
+            (_, most) if most < 0 => -1,
+            _ => 0,
+        }
+    }
+
+    /// Moments between the two, the fewer the closer; zero where they meet.
+    pub fn least_shift(&self) -> i64 {
+        if self.order() == 0 { 0 } else { self.shift.0.abs().min(self.shift.1.abs()) }
+    }
+}
+
+/// Ground where the paths of two cross or merge; `None` for those that are behind each other from the start on, and
+/// for two walkers.
+pub fn crossing(me: &Trace, other: &Trace) -> Option<Ground> {
+    let walkers = me.agent_type == AgentType::Pedestrian && other.agent_type == AgentType::Pedestrian;
+    if walkers || other.way_m < GOES_M || !me.may_meet(other) {
+        return None;
+    }
+    if came_the_same_way(me, other) { None } else { ground(me, other) }
+}
+
+/// One of the two starts on the way of the other: behind each other from the start on, not merging.
+fn came_the_same_way(me: &Trace, other: &Trace) -> bool {
+    let starts_on = |a: &Trace, b: &Trace| {
+        let Some(start) = a.moments.iter().flatten().next() else { return false };
+        b.moments.iter().flatten().any(|m| {
+            b.overlaps(m, a, start) && wrap_angle(m.heading_rad - start.heading_rad).abs() < SAME_WAY_RAD
+        })
+    };
+    starts_on(other, me) || starts_on(me, other)
+}
+
+fn ground(me: &Trace, other: &Trace) -> Option<Ground> {
+    let window = (WINDOW_S / MOMENT_S) as usize;
+    let reach = me.radius_m + other.radius_m;
+    let mut found: Option<Ground> = None;
+    let mine = me.moments.iter().enumerate().filter_map(|(i, m)| Some((i, m.as_ref()?, false)));
+    let last = me.moments.len().saturating_sub(1);
+    let beyond = me.goes_on.iter().map(|moment| (last, moment, true));
+    for (i, here, beyond) in mine.chain(beyond) {
+        if beyond && found.is_some_and(|f| !f.beyond) {
+            break;
+        }
+        // Far from all that the other does.
+        let low = other.low - here.center;
+        let high = here.center - other.high;
+        if low.x > reach || low.y > reach || high.x > reach || high.y > reach {
+            continue;
+        }
+        let from = if beyond { 0 } else { i.saturating_sub(window) };
+        let to = (i + window).min(other.moments.len().saturating_sub(1));
+        let mut j = from;
+        while j <= to {
+            let Some(Some(moment)) = other.moments.get(j) else {
+                j += 1;
+                continue;
+            };
+            let apart = (moment.center - here.center).norm() - reach;
+            if apart > 0.0 {
+                // It cannot be here before it has come so far.
+                j += 1 + if other.stride_m > 0.0 { (apart / other.stride_m) as usize } else { to };
+                continue;
+            }
+            if other.overlaps(moment, me, here) {
+                let shift = j as i64 - i as i64;
+                let now = Ground {
+                    enters: (i, j),
+                    nearest: (i, j),
+                    mine: (i, i),
+                    theirs: (j, j),
+                    shift: (shift, shift),
+                    beyond,
+                };
+                found = Some(found.map_or(now, |known| known.and(&now)));
+            }
+            j += 1;
+        }
+    }
+    found
+}
+
+impl Ground {
+    fn and(self, more: &Self) -> Self {
+        let span = |a: (usize, usize), b: (usize, usize)| (a.0.min(b.0), a.1.max(b.1));
+        let nearer = more.shift.0.abs() < (self.nearest.1 as i64 - self.nearest.0 as i64).abs();
+        Self {
+            nearest: if nearer { more.nearest } else { self.nearest },
+            mine: span(self.mine, more.mine),
+            theirs: span(self.theirs, more.theirs),
+            shift: (self.shift.0.min(more.shift.0), self.shift.1.max(more.shift.1)),
+            ..self
+        }
+    }
+}
