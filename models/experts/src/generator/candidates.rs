@@ -110,8 +110,15 @@ impl Material<'_> {
         let slot = Slot::all().find(|slot| Some(slot.number()) == shown.anchor)?;
         let plan = &self.actor.plan;
         let goal = plan.target.position?;
-        let led = shown.places.get((plan.target.step / PER_INSTANT).checked_sub(1)?)?;
-        let near = plan.target.step % PER_INSTANT == 0 && (led - goal).norm() <= self.tuning.same_goal_m;
+        let place = |i: usize| match i {
+            0 => Some(plan.present.start.position()),
+            i => shown.places.get(i - 1).copied(),
+        };
+        let (instant, past) = (plan.target.step / PER_INSTANT, plan.target.step % PER_INSTANT);
+        let from = place(instant)?;
+        let to = if past == 0 { from } else { place(instant + 1)? };
+        let led = from + (to - from) * (past as f64 / PER_INSTANT as f64);
+        let near = (led - goal).norm() <= self.tuning.same_goal_m;
         let places: [Vec2; INSTANTS] = shown.places.get(..INSTANTS)?.try_into().ok()?;
         near.then(|| Candidate {
             probability: 0.0,

@@ -13,6 +13,8 @@ const STEP_M: f64 = 1.5;
 const EDGE_M: f64 = 5.0;
 /// The box counts as this much narrower than it is, metres: a path is no motion yet.
 const NARROWER_M: f64 = 0.2;
+/// How far beside a lane's assumed width a path may cut a corner, metres.
+const BESIDE_LANES_M: f64 = 1.0;
 /// How far beyond an edge a side of the box may be, metres.
 const BEYOND_M: f64 = 0.3;
 
@@ -40,7 +42,7 @@ pub(super) fn broken_m(ground: &Drivable, who: &AgentAtStart, path: &Polyline, t
         let left = half_width_m * direction(pose.heading_rad + FRAC_PI_2);
         let beyond = |point: Vec2, most_m: f64| ground.outside_m(point).is_some_and(|m| m > most_m);
         let off = drives
-            && (beyond(pose.position, 0.0)
+            && (beyond(pose.position, if sides { 0.0 } else { BESIDE_LANES_M })
                 || sides && [left, -left].iter().any(|side| beyond(pose.position + side, BEYOND_M)));
         if off || ground.is_wrong_way(pose.position, pose.direction()) == Some(true) {
             broken += step_m;

@@ -114,7 +114,7 @@ fn without_a_goal_both_ways_of_a_fork_get_anchors_with_rising_timings() {
 
 #[test]
 fn a_goal_on_the_lanes_is_met_along_them_in_time() {
-    for (speed_mps, time_s) in [(None, 9.0), (Some(4.0), 7.5)] {
+    for (speed_mps, time_s) in [(None, 9.0), (Some(8.0), 8.8)] {
         let mut agent = east("1", AgentType::Vehicle, (0.0, 0.0), 9.0);
         agent.conditions.goal = to(70.0, 40.0, speed_mps, time_s);
         let found = anchors_of(agent);

@@ -88,6 +88,27 @@ impl OrientedBox {
         ]
     }
 
+    /// Some of the straight piece between two points lies in the box.
+    pub fn meets_segment(&self, from: Vec2, to: Vec2) -> bool {
+        let (from, to) = (self.local(from), self.local(to));
+        // The part of the piece that is left after each pair of sides has cut it.
+        let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+        for (start, way, half) in
+            [(from.x, to.x - from.x, self.half_length_m), (from.y, to.y - from.y, self.half_width_m)]
+        {
+            if way == 0.0 {
+                if start.abs() > half {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = ((-half - start) / way, (half - start) / way);
+            enters = enters.max(a.min(b));
+            leaves = leaves.min(a.max(b));
+        }
+        enters <= leaves
+    }
+
     /// `point` in the frame of the box: x ahead of the centre, y to its left, metres.
     pub fn local(&self, point: Vec2) -> Vec2 {
         self.local_vector(point - self.center)
@@ -283,6 +304,18 @@ mod tests {
     fn any_box() -> impl Strategy<Value = OrientedBox> {
         (-6.0..6.0, -6.0..6.0, 0.2..6.0, 0.2..2.0, -4.0..4.0)
             .prop_map(|(x, y, l, w, h)| OrientedBox::new(Vec2::new(x, y), l, w, h))
+    }
+
+    #[test]
+    fn pieces_that_pass_through_a_box_or_by_it() {
+        let tilted = OrientedBox::new(Vec2::new(3.0, 1.0), 2.0, 1.0, 0.5);
+        let at = |x: f64, y: f64| tilted.center() + tilted.forward() * x + tilted.left() * y;
+        assert!(tilted.meets_segment(at(-5.0, 0.9), at(5.0, 0.9)), "along it");
+        assert!(!tilted.meets_segment(at(-5.0, 1.1), at(5.0, 1.1)), "beside it");
+        assert!(tilted.meets_segment(at(0.5, 0.2), at(0.6, 0.3)), "inside it");
+        assert!(!tilted.meets_segment(at(2.1, -5.0), at(2.1, 5.0)), "before it");
+        assert!(!tilted.meets_segment(at(3.5, 0.0), at(2.5, 0.0)), "ends before it");
+        assert!(!tilted.meets_segment(at(3.0, 0.5), at(1.5, 1.6)), "past its corner");
     }
 
     #[test]

@@ -7,6 +7,8 @@ use crate::map::{Area, LaneMap, LaneType};
 
 /// Distances off the road are not told apart beyond this, metres.
 pub const FAR_M: f64 = 50.0;
+/// Whoever left the map by a lane's end is known to have for so far, metres.
+const BEYOND_MAP_M: f64 = 150.0;
 /// A lane farther away than this says nothing about a place, metres.
 const LANE_REACH_M: f64 = 30.0;
 /// Height of the rows that polygon sides are sorted into, metres.
@@ -17,6 +19,8 @@ const ROW_M: f64 = 4.0;
 struct Band {
     half_width_m: f64,
     carries_vehicles: bool,
+    /// Where it begins and ends, if nothing leads to it or follows it: the road may go on beyond the map.
+    open: [Option<Vec2>; 2],
 }
 
 /// Index of the ground that vehicles may use. Immutable, so any number of threads may read one, and a
@@ -55,6 +59,10 @@ impl Drivable {
         let band = |lane: &crate::map::Lane| Band {
             half_width_m: 0.5 * lane.width_or_assumed_m(),
             carries_vehicles: lane.lane_type.carries_vehicles(),
+            open: [
+                lane.points.xy.first().copied().filter(|_| lane.predecessors.is_empty()),
+                lane.points.xy.last().copied().filter(|_| lane.successors.is_empty()),
+            ],
         };
         let edges = SegmentIndex::new(edges);
         Self {
@@ -85,8 +93,23 @@ impl Drivable {
     }
 
     /// How far a point lies off the road, metres: zero on it, at most [`FAR_M`]; `None` when the map
-    /// does not say.
+    /// does not say, as it does not ahead of where a lane leaves it.
     pub fn outside_m(&self, point: Vec2) -> Option<f64> {
+        self.outside_known_m(point).filter(|m| *m == 0.0 || !self.is_beyond_map(point))
+    }
+
+    /// The nearest lane begins or ends there with nothing beyond, and the point lies further out.
+    fn is_beyond_map(&self, point: Vec2) -> bool {
+        let Some((piece, foot, away_m)) = self.centers.nearest(point, BEYOND_MAP_M) else { return false };
+        let Some(band) = self.bands.get(piece.owner as usize) else { return false };
+        let way = piece.to - piece.from;
+        [-way, way].into_iter().zip(band.open).any(|(out, end)| {
+            let is_end = end.is_some_and(|end| (end - foot).norm() < 1e-6);
+            is_end && out.dot(&(point - foot)) > 0.5 * way.norm() * away_m
+        })
+    }
+
+    fn outside_known_m(&self, point: Vec2) -> Option<f64> {
         if !self.area_sides.is_empty() {
             let inside = self.areas.contain(point);
             return Some(if inside { 0.0 } else { distance(&self.area_sides, point) });
@@ -104,8 +127,10 @@ impl Drivable {
     pub fn box_outside_m(&self, outline: &OrientedBox) -> Option<f64> {
         let center = self.outside_m(outline.center())?;
         let bounds = if self.area_sides.is_empty() { &self.edges } else { &self.area_sides };
-        let clear = !bounds.is_empty() && bounds.nearest(outline.center(), outline.radius_m()).is_none();
-        if center == 0.0 && clear {
+        // On the road with nothing that bounds it in the box: all of the box is.
+        let bounded = !bounds.is_empty();
+        let cut = |s: &Segment| outline.meets_segment(s.from, s.to);
+        if center == 0.0 && bounded && !bounds.near(outline.center(), outline.radius_m()).any(cut) {
             return Some(0.0);
         }
         let corners = outline.corners().map(|c| self.outside_m(c).unwrap_or(0.0));
@@ -293,6 +318,9 @@ mod tests {
         assert!((index.outside_m(at(50.0, -3.75)).unwrap() - 2.0).abs() < 1e-9);
         assert!((index.outside_m(at(50.0, 25.25)).unwrap() - 20.0).abs() < 1e-9);
         assert_eq!(index.outside_m(at(50.0, 500.0)), Some(FAR_M));
+        // Ahead of where a lane leaves the map nobody knows.
+        assert_eq!((index.outside_m(at(130.0, 3.0)), index.outside_m(at(190.0, 3.0))), (None, None));
+        assert!((index.outside_m(at(100.5, 25.25)).unwrap() - 20.0).abs() < 0.1, "beside its end");
         assert_eq!(index.is_wrong_way(at(20.0, 0.0), at(1.0, 0.0)), Some(false));
         assert_eq!(index.is_wrong_way(at(20.0, 0.0), at(-1.0, 0.0)), Some(true));
         assert_eq!(index.is_wrong_way(at(20.0, 3.5), at(-1.0, 0.0)), Some(false));
