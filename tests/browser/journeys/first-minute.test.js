@@ -86,7 +86,8 @@ journeys('the first minute', (stage) => {
       then: (i) => (i === 16 ? e.picture('mid-drag') : null),
     });
     assert.match(await e.text('.helpbar'), /where they would wait/);
-    await e.until(() => /Six futures/.test(document.querySelector('.status').textContent));
+    await e.settled();
+    assert.match(await e.text('.status'), /Six futures/);
     const [previews, foreseen] = [false, true].map((react) => e.wire.since(mark).filter((a) => a.body.react === react));
     assert.ok(previews.length > 3, `${previews.length} requests while moving`);
     assert.ok([...previews, ...foreseen].every((a) => a.body.conditions[car.id]?.goal));

@@ -61,6 +61,8 @@ pub struct StopLine {
     goes_on: bool,
     /// Steps of the window at which it is red.
     red: Steps,
+    /// Steps at which it is known not to be.
+    open: Steps,
 }
 
 impl StopLine {
@@ -74,13 +76,16 @@ impl StopLine {
         let mut at = lit.path.sample(s_m);
         at.position = signal.stop.unwrap_or(at.position);
         let must_stop = |state: SignalState| state.is_stop() && state != SignalState::FlashingStop;
-        let red = (0..=HORIZON_STEPS).filter(|i| must_stop(signal.at(step + i)));
+        let steps = |is: &dyn Fn(SignalState) -> bool| {
+            (0..=HORIZON_STEPS).filter(|i| is(signal.at(step + i))).fold(0, |bits, i| bits | 1 << i)
+        };
         Some(Self {
             at,
             lane,
             half_width_m: 0.5 * lit.width_m + 0.25,
             goes_on: lit.path.length_m() - s_m > 5.0,
-            red: red.fold(0, |bits, i| bits | 1 << i),
+            red: steps(&must_stop),
+            open: steps(&|state| state != SignalState::Unknown && !must_stop(state)),
         })
     }
 
@@ -112,6 +117,8 @@ pub struct Gate {
     line_m: f64,
     /// Steps of the window at which whoever follows the path must not pass.
     red: Steps,
+    /// Steps at which the light is known to let it pass.
+    open: Steps,
     /// The path turns right after it: allowed after a stop.
     right: bool,
     /// Road users that stand before it, ahead of this one.
@@ -133,6 +140,10 @@ impl Gate {
     /// stays red for too long.
     fn leaves(&self) -> Option<usize> {
         let green = (0..=HORIZON_STEPS).find(|i| self.red >> i & 1 == 0).filter(|green| *green > 0)?;
+        // What a light does after it was last seen is no sign to leave.
+        if self.open >> green & 1 == 0 {
+            return None;
+        }
         let leaves = green + FIRST_LEAVES_STEPS + self.queue * NEXT_LEAVES_STEPS;
         (leaves <= LATEST_LEAVING).then_some(leaves)
     }
@@ -181,7 +192,8 @@ pub fn gates(world: &World<'_>, who: &AgentAtStart, path: &Polyline) -> Vec<Gate
             standing && foot.distance_m < IN_QUEUE_M && foot.s_m > 2.0 && foot.s_m < line_m + half_length_m
         };
         let queue = if stands { world.present.iter().filter(waits_ahead).count() } else { 0 };
-        Gate { line_m, red, right, queue }
+        let open = taken().fold(0, |open, l| open | l.2.open);
+        Gate { line_m, red, open, right, queue }
     };
     one_junction.map(gate).filter(|gate| gate.red != 0).collect()
 }
