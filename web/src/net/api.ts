@@ -629,10 +629,7 @@ export interface components {
              *     already overlap).
              */
             closing_speed_mps: number;
-            /**
-             * @description The log itself shows it: both move as recorded, or the recording has the same meeting at about
-             *     the same time, no less hard. It does not count.
-             */
+            /** @description Both move as recorded. It does not count. */
             in_log: boolean;
             /**
              * Format: double

@@ -36,8 +36,7 @@ pub struct Collision {
     /// Speed at which the two closed in at the first moment, m/s (their relative speed when they
     /// already overlap).
     pub closing_speed_mps: f64,
-    /// The log itself shows it: both move as recorded, or the recording has the same meeting at about
-    /// the same time, no less hard. It does not count.
+    /// Both move as recorded. It does not count.
     pub in_log: bool,
 }
 

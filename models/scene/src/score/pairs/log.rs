@@ -8,8 +8,6 @@ use std::borrow::Cow;
 
 /// An event this much before or after that of the log is the same one, seconds.
 const SAME_S: f64 = 1.0;
-/// A collision that much faster than the log's is another one, m/s.
-const SAME_IMPACT_MPS: f64 = 2.0;
 /// A near miss that much closer than the log's is another one, metres.
 const SAME_GAP_M: f64 = 0.5;
 
@@ -23,29 +21,25 @@ pub(super) fn logged(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> Op
     Some((of_log(a)?, of_log(b)?))
 }
 
-/// The collision, else the near miss, of this pair is the log's own: both move as recorded, or the log
-/// shows them meet so at about the same time, no less hard.
+/// The collision, else the near miss, of this pair is the log's own: both move as recorded, or the log shows
+/// as near a miss at about the same time. A collision of motion that was made is never the log's.
 pub(super) fn is_in_log(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>, pair: &Pair) -> bool {
     if !a.generated && !b.generated {
         return true;
     }
-    let Some((p, q)) = logged(input, a, b) else { return false };
+    if pair.collision.is_some() {
+        return false;
+    }
+    let (Some(found), Some((p, q))) = (&pair.near, logged(input, a, b)) else { return false };
     let log = look_at(input, &p, &q, Known::NOTHING);
     let near = |at: f64, first: f64, last: f64| {
         let same = SAME_S / STEP_S;
         (first - same..=last + same).contains(&at)
     };
-    let hit = log.collision.as_ref();
-    if let Some(found) = &pair.collision {
-        let same = |l: &super::Contact| {
-            near(found.first, l.first, l.last) && found.closing_mps <= l.closing_mps + SAME_IMPACT_MPS
-        };
-        return hit.is_some_and(same);
-    }
-    let Some(found) = &pair.near else { return false };
     let at = found.step as f64;
     let same = |l: &super::near::Nearest| {
         near(at, l.first as f64, l.last as f64) && found.gap.gap_m >= l.gap.gap_m - SAME_GAP_M
     };
+    let hit = log.collision.as_ref();
     hit.is_some_and(|l| near(at, l.first, l.last)) || log.near.as_ref().is_some_and(same)
 }

@@ -102,15 +102,19 @@ fn what_both_do_as_recorded_is_in_the_log() {
 }
 
 #[test]
-fn made_motion_is_in_the_log_only_where_the_recording_meets_so_too() {
+fn made_motion_that_collides_is_never_the_logs() {
     let (a, b) = (car("a", 0.0, 0.0, 0.0, 15.0), car("b", 24.0, 0.0, 0.0, 5.0));
-    let in_log = |log: &Actor<'_>| plain(vec![made(&a, log), recorded(&b)]).collisions[0].in_log;
-    // Nearly the same drive; one that stays behind; one that meets it four seconds later; one that only
-    // rolls into it.
-    assert!(in_log(&car("a", -0.5, 0.0, 0.0, 15.0)));
-    assert!(!in_log(&car("a", 0.0, 0.0, 0.0, 5.0)));
-    assert!(!in_log(&car("a", -45.0, 0.0, 0.0, 15.0)));
-    assert!(!in_log(&car("a", 15.0, 0.0, 0.0, 7.5)));
+    let log = car("a", -0.5, 0.0, 0.0, 15.0);
+    let found = plain(vec![made(&a, &log), recorded(&b)]);
+    assert!(!found.collisions[0].in_log && found.agents[0].collisions == 1);
+}
+
+#[test]
+fn a_made_near_miss_is_in_the_log_only_where_the_recording_shows_it_too() {
+    let (a, b) = (car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, -46.6, FRAC_PI_2, 10.0));
+    let in_log = |log: &Actor<'_>| plain(vec![made(&a, log), recorded(&b)]).near_misses[0].in_log;
+    assert!(in_log(&car("a", 0.1, 0.0, 0.0, 10.0)), "nearly the same drive");
+    assert!(!in_log(&car("a", -60.0, 0.0, 0.0, 10.0)), "one that comes long after");
 }
 
 #[test]
