@@ -51,8 +51,10 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
     })),
     stretches: [
       ...stretches('off_road', s.off_road),
+      ...stretches('over_median', s.over_median),
       ...stretches('wrong_way', s.wrong_way),
       ...stretches('harsh_braking', s.harsh_braking),
+      ...stretches('harsh_steering', s.harsh_steering),
       ...(s.red_lights ?? []).map((r) => ({
         what: 'red_light' as const,
         agent: r.agent,

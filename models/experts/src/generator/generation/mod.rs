@@ -223,7 +223,6 @@ impl<'g> Generation<'g> {
                 let ways = remedies::by_road(&self.request, world, &self.map, &sample);
                 self.ledger.remedy(ways);
             }
-            standing::relate(&self.request, &self.map, &self.generator.workers, &mut sample);
         }
         self.ledger.samples.push(sample);
         Ok(())

@@ -1,62 +1,67 @@
 //! How the futures of a finished sample stand to what the others are shown to do, and what they do.
 
-use super::verdicts::as_shown;
 use crate::generator::KnownMap;
-use crate::generator::workers::Workers;
 use crate::request::Request;
 use scene::judge::{Manoeuvre, Relation, Trace, manoeuvre, relations};
+use scene::score::Actor;
 use scene::{AgentType, Future, Sample};
 
 /// In larger answers only the shown futures of those that were not asked for get relations.
 const FEW: usize = 60;
 
-/// Writes down relations and manoeuvres of the futures of a sample.
-pub(super) fn relate(request: &Request, map: &KnownMap, workers: &Workers, sample: &mut Sample) {
-    let scene = &request.scene;
-    let first_step = request.start_step + 1;
-    let others: Vec<Trace> = scene
-        .agents
-        .iter()
-        .map(|agent| {
-            let shown = as_shown(request, sample, agent);
-            let at = |step: usize| shown.state(first_step + step).copied();
+/// Everybody as they are shown, to hold futures against.
+pub(super) struct Standing<'a> {
+    request: &'a Request,
+    map: &'a KnownMap,
+    sample: &'a Sample,
+    /// One a road user of the scene, from the step after the start on.
+    traces: Vec<Trace>,
+    few: bool,
+}
+
+impl<'a> Standing<'a> {
+    /// `shown` are the scene's road users in their order; the sample has so many futures in all.
+    pub(super) fn new(
+        request: &'a Request,
+        map: &'a KnownMap,
+        sample: &'a Sample,
+        shown: &[Actor<'_>],
+        futures: usize,
+    ) -> Self {
+        let trace = |(agent, shown): (&scene::Agent, &Actor<'_>)| {
+            let at = |step: usize| shown.state(request.start_step + 1 + step).copied();
             Trace::new(&agent.id, agent.kind(), &shown.size, request.horizon_steps, at)
-        })
-        .collect();
-    let futures: Vec<(usize, &Future)> = scene
-        .agents
-        .iter()
-        .enumerate()
-        .filter_map(|(i, agent)| Some((i, sample.agents.get(&agent.id)?)))
-        .flat_map(|(i, futures)| futures.modes.iter().map(move |future| (i, future)))
-        .collect();
-    let few = futures.len() <= FEW;
-    let asked = |id: &str| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
-    let is_shown = |id: &str, future: &Future| {
-        sample
-            .agents
-            .get(id)
-            .and_then(|f| f.modes.get(f.chosen))
-            .is_some_and(|shown| std::ptr::eq(shown, future))
-    };
-    let found: Vec<(Vec<Relation>, Option<Manoeuvre>)> = workers.map(&futures, |&(i, future)| {
-        let (agent, shown) = (&scene.agents[i], &others[i]);
-        let lanes = (agent.kind() != AgentType::Pedestrian).then_some(&*map.graph);
-        let manoeuvre = manoeuvre(&future.states, agent.kind(), lanes);
-        if !few && !asked(&agent.id) && !is_shown(&agent.id, future) {
-            return (Vec::new(), manoeuvre);
+        };
+        let traces = request.scene.agents.iter().zip(shown).map(trace).collect();
+        Self { request, map, sample, traces, few: futures <= FEW }
+    }
+
+    /// What a future of a road user does.
+    pub(super) fn manoeuvre(&self, agent: usize, future: &Future) -> Option<Manoeuvre> {
+        let kind = self.request.scene.agents[agent].kind();
+        let lanes = (kind != AgentType::Pedestrian).then_some(&*self.map.graph);
+        manoeuvre(&future.states, kind, lanes)
+    }
+
+    /// How a future of a road user stands to the others.
+    pub(super) fn relations(&self, agent: usize, future: &Future) -> Vec<Relation> {
+        if !self.few && !self.is_asked(agent) && !self.is_shown(agent, future) {
+            return Vec::new();
         }
+        let (shown, first_step) = (&self.traces[agent], self.request.start_step + 1);
         let late = future.first_step.saturating_sub(first_step);
         let at = |step: usize| future.states.get(step.checked_sub(late)?).copied();
         let me = Trace::ahead(shown.id(), shown.agent_type(), shown.size(), late + future.states.len(), at);
-        (relations(&me, &others, first_step), manoeuvre)
-    });
-    let mut found = found.into_iter();
-    for agent in &scene.agents {
-        let Some(futures) = sample.agents.get_mut(&agent.id) else { continue };
-        for (future, (relations, manoeuvre)) in futures.modes.iter_mut().zip(found.by_ref()) {
-            future.about.relations = relations;
-            future.about.manoeuvre = manoeuvre;
-        }
+        relations(&me, &self.traces, first_step)
+    }
+
+    fn is_asked(&self, agent: usize) -> bool {
+        let id = &self.request.scene.agents[agent].id;
+        self.request.agents.as_ref().is_none_or(|asked| asked.contains(id))
+    }
+
+    fn is_shown(&self, agent: usize, future: &Future) -> bool {
+        let futures = self.sample.agents.get(&self.request.scene.agents[agent].id);
+        futures.and_then(|f| f.modes.get(f.chosen)).is_some_and(|shown| std::ptr::eq(shown, future))
     }
 }

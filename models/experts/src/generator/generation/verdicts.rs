@@ -1,11 +1,12 @@
 //! What is said about the futures of a finished sample: each is judged by the rules of a scene's score, against
 //! what the others are shown to do.
 
+use super::standing::Standing;
 use super::targets::due;
 use crate::generator::KnownMap;
 use crate::generator::workers::Workers;
 use crate::request::Request;
-use scene::judge::{Fault, Judge, Other, by_weight};
+use scene::judge::{About, Judge, Other, by_weight};
 use scene::score::Actor;
 use scene::{Agent, Future, STEP_S, Sample, Vec2};
 
@@ -13,25 +14,26 @@ use scene::{Agent, Future, STEP_S, Sample, Vec2};
 /// much for the near miss.
 const AWAY_M: f64 = 25.0;
 
-/// Writes down what is wrong with each future of a sample.
+/// Writes down what is said about each future of a sample: what is wrong with it, how it stands to the others, and
+/// what it does.
 pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample: &mut Sample) {
     let scene = &request.scene;
     let steps = request.start_step..request.start_step + request.horizon_steps + 1;
     let judge = Judge::new(&scene.map, &scene.signals, &map.drivable, steps);
-    let ground = Ground::of(sample);
-    let others: Vec<Other<'_>> = scene
-        .agents
-        .iter()
-        .map(|agent| as_shown(request, sample, agent))
-        .filter(|actor| actor.track.states.iter().flatten().any(|s| ground.holds(s.position())))
-        .map(|actor| judge.other(actor))
-        .collect();
+    let shown: Vec<Actor<'_>> = scene.agents.iter().map(|agent| as_shown(request, sample, agent)).collect();
     let futures: Vec<(usize, &Future)> = scene
         .agents
         .iter()
         .enumerate()
         .filter_map(|(i, agent)| Some((i, sample.agents.get(&agent.id)?)))
         .flat_map(|(i, futures)| futures.modes.iter().map(move |future| (i, future)))
+        .collect();
+    let standing = Standing::new(request, map, sample, &shown, futures.len());
+    let ground = Ground::of(sample);
+    let others: Vec<Other<'_>> = shown
+        .into_iter()
+        .filter(|actor| actor.track.states.iter().flatten().any(|s| ground.holds(s.position())))
+        .map(|actor| judge.other(actor))
         .collect();
     let found = workers.map(&futures, |&(i, future)| {
         let mut actor = Actor::of_future(&scene.agents[i], future, &[]);
@@ -40,20 +42,20 @@ pub(super) fn judge(request: &Request, map: &KnownMap, workers: &Workers, sample
         let mut faults = judge.alone(&actor);
         faults.extend(judge.among(&actor, others.iter()));
         by_weight(&mut faults);
-        faults
+        About { faults, relations: standing.relations(i, future), manoeuvre: standing.manoeuvre(i, future) }
     });
-    let mut found: std::vec::IntoIter<Vec<Fault>> = found.into_iter();
+    let mut found = found.into_iter();
     for agent in &scene.agents {
         let Some(futures) = sample.agents.get_mut(&agent.id) else { continue };
-        for (future, faults) in futures.modes.iter_mut().zip(found.by_ref()) {
-            future.about.faults = faults;
+        for (future, about) in futures.modes.iter_mut().zip(found.by_ref()) {
+            future.about = about;
         }
     }
 }
 
 /// A road user with the motion that it is shown with: its future in the sample, the one that the scene keeps, or
 /// its log.
-pub(super) fn as_shown<'a>(request: &'a Request, sample: &Sample, agent: &'a Agent) -> Actor<'a> {
+fn as_shown<'a>(request: &'a Request, sample: &Sample, agent: &'a Agent) -> Actor<'a> {
     let new = sample.agents.get(&agent.id).and_then(|f| f.modes.get(f.chosen));
     let kept = || request.scene.generated.as_ref()?.chosen_future(&agent.id);
     match new.or_else(kept) {
