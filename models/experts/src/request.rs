@@ -218,6 +218,8 @@ pub enum Limiting {
     Lateral,
     /// Tightness of a turn, 1/m.
     Curvature,
+    /// Somebody is in the way and does not get out of it.
+    Traffic,
 }
 
 impl From<scene::motion::Limiting> for Limiting {
@@ -228,6 +230,7 @@ impl From<scene::motion::Limiting> for Limiting {
             scene::motion::Limiting::Speed => Self::Speed,
             scene::motion::Limiting::Lateral => Self::Lateral,
             scene::motion::Limiting::Curvature => Self::Curvature,
+            scene::motion::Limiting::Traffic => Self::Traffic,
         }
     }
 }

@@ -4,11 +4,13 @@ use super::actor::{Actor, Drafts};
 use super::choice::distance;
 use super::slot::Slot;
 use super::trajectory::{
-    Motion, PER_INSTANT, along_places, as_it_is, mean_trajectory, rest, to_trajectory, without_creep,
+    Motion, PER_INSTANT, along_places, as_it_is, mean_trajectory, rest, short_along, to_trajectory,
+    without_creep,
 };
 use crate::planning::{INSTANTS, MODES};
 use crate::request::{Shown, ShownLast};
 use crate::tuning::MiddleTuning;
+use scene::motion::Reach;
 use scene::{AgentType, Vec2};
 
 /// Where a candidate came from. What a person decides about futures is an origin too: a picked future is the
@@ -32,6 +34,10 @@ pub(super) enum Origin {
     Settled(Slot),
     /// The draft of this mode, guided out of a conflict of the chosen scene.
     Guided(Slot),
+    /// What was chosen on the path of this mode, led round what is in its way.
+    Evading(Slot),
+    /// What was chosen on the path of this mode, halting before whoever is in its way.
+    Halting(Slot),
 }
 
 impl Origin {
@@ -43,7 +49,9 @@ impl Origin {
             | Self::PathMean(slot)
             | Self::Shown(slot)
             | Self::Settled(slot)
-            | Self::Guided(slot) => Some(slot),
+            | Self::Guided(slot)
+            | Self::Evading(slot)
+            | Self::Halting(slot) => Some(slot),
         }
     }
 
@@ -92,9 +100,11 @@ impl Material<'_> {
         let mut out: Vec<Candidate> = kept.iter().map(|kept| given(Origin::Kept, kept)).collect();
         let alternatives = self.alternatives(MODES);
         let means = self.path_means(&alternatives);
+        let missed = alternatives.iter().all(|c| !c.motion.reach.is_reached());
+        let missed = alternatives.first().filter(|_| missed).map(|c| c.motion.reach);
         out.extend(alternatives);
         out.extend(means);
-        out.extend(self.shown_last());
+        out.extend(self.shown_last(missed));
         if let Some(residual) = &self.drafts.settled {
             let slot = self.drafts.leading;
             let motion = self.without_creep(to_trajectory(plan, slot, residual));
@@ -105,7 +115,27 @@ impl Material<'_> {
 
     /// What was shown last, where it led next to the goal of now: so a hand that moves by little sees a motion that
     /// moves by little, whatever the modes make of it.
-    fn shown_last(&self) -> Option<Candidate> {
+    /// Where no draft gets to the goal, it need not either.
+    fn shown_last(&self, missed: Option<Reach>) -> Option<Candidate> {
+        let (slot, places, near) = self.seen()?;
+        let plan = &self.actor.plan;
+        let motion = match missed {
+            Some(reach) => short_along(plan, &places, false).for_want_of(reach),
+            None if near => along_places(plan, slot, &places),
+            None => return None,
+        };
+        Some(Candidate { probability: 0.0, origin: Origin::Shown(slot), motion })
+    }
+
+    /// The same where what was shown last halts before somebody.
+    pub(super) fn shown_halting(&self) -> Option<Candidate> {
+        let (slot, places, near) = self.seen()?;
+        let motion = || short_along(&self.actor.plan, &places, false);
+        (!near).then(|| Candidate { probability: 0.0, origin: Origin::Halting(slot), motion: motion() })
+    }
+
+    /// What was shown last: its mode, its places, and whether they lead next to the goal of now.
+    fn seen(&self) -> Option<(Slot, [Vec2; INSTANTS], bool)> {
         let shown = self.shown.filter(|_| !self.actor.only_rests() && self.actor.kept.is_none())?;
         let slot = Slot::all().find(|slot| Some(slot.number()) == shown.anchor)?;
         let plan = &self.actor.plan;
@@ -119,12 +149,7 @@ impl Material<'_> {
         let to = if past == 0 { from } else { place(instant + 1)? };
         let led = from + (to - from) * (past as f64 / PER_INSTANT as f64);
         let near = (led - goal).norm() <= self.tuning.same_goal_m;
-        let places: [Vec2; INSTANTS] = shown.places.get(..INSTANTS)?.try_into().ok()?;
-        near.then(|| Candidate {
-            probability: 0.0,
-            origin: Origin::Shown(slot),
-            motion: along_places(plan, slot, &places),
-        })
+        Some((slot, shown.places.get(..INSTANTS)?.try_into().ok()?, near))
     }
 
     /// Rest where the actor may rest, then modes by falling probability, `count` in all.

@@ -16,6 +16,14 @@ use scene::motion::{MotionState, Trajectory};
 use scene::score::Actor as ScoreActor;
 use scene::{Agent, AgentType, Future, STANDING_MPS, State};
 
+/// What was shown binds less, by this share, where it breaks the rules by so much more, in the choice's costs.
+const BOUND_TO_WRONG: f64 = 0.4;
+const LAWFUL: f64 = 0.6;
+/// Most that it costs a way round to be another than what was meant.
+const MOST_EVADING: f64 = 3.0;
+/// What it costs to halt before somebody, but for a goal that is missed so.
+const HALTING: f64 = 1.0;
+
 /// What an actor's candidates are held against.
 pub(super) struct Yardstick<'a> {
     /// The mode that the scene is built around.
@@ -41,15 +49,26 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             .collect(),
         None => central(candidates, by.around, tuning),
     };
-    let option = |(c, cost): (&Candidate, f64)| {
+    let broken: Vec<f64> = candidates.iter().map(|c| broken_rules(actor, &c.motion.states, by)).collect();
+    let is_shown = |c: &Candidate| matches!(c.origin, Origin::Shown(_));
+    let shown_breaks = candidates.iter().position(is_shown).map_or(0.0, |shown| broken[shown]);
+    let option = |((c, cost), broken): ((&Candidate, f64), &f64)| {
         let boxes = swept(&c.motion.states, size);
         // What is given costs nothing by itself.
         let given = c.origin.is_given();
-        let against = || broken_rules(actor, &c.motion.states, by) + leaving(c, by);
-        let cost = if given { 0.0 } else { cost + against() };
+        // Where the others are alike, a way round is far from all of them.
+        let cost = match c.origin {
+            Origin::Evading(_) | Origin::Shown(_) => cost.min(MOST_EVADING),
+            Origin::Halting(_) => {
+                HALTING + if c.motion.reach.is_reached() { 0.0 } else { tuning.goal_missed }
+            }
+            _ => cost,
+        };
+        let binds = if *broken < shown_breaks - LAWFUL { BOUND_TO_WRONG } else { 1.0 };
+        let cost = if given { 0.0 } else { cost + broken + binds * leaving(c, by) };
         Choosable { boxes, cost, kept: c.origin == Origin::Kept }
     };
-    candidates.iter().zip(costs).map(option).collect()
+    candidates.iter().zip(costs).zip(&broken).map(option).collect()
 }
 
 /// How far each candidate is from all alternatives by their probability, and whether it misses its goal.
@@ -97,9 +116,10 @@ fn leaving(candidate: &Candidate, by: &Yardstick<'_>) -> f64 {
         return 0.0;
     }
     let mean_m = apart.iter().sum::<f64>() / apart.len() as f64;
+    let most_m = apart.iter().copied().fold(0.0, f64::max);
     let other = shown.anchor.is_some() && candidate.origin.slot().map(Slot::number) != shown.anchor;
     let (tuning, other) = (by.tuning, f64::from(u8::from(other)));
-    tuning.leaving * (mean_m / tuning.leaving_m).min(1.0) + tuning.other_mode * other
+    tuning.leaving * ((mean_m + 0.5 * most_m) / tuning.leaving_m).min(1.0) + tuning.other_mode * other
 }
 
 /// What it costs a vehicle that starts on a lane to be away from every lane, and one that starts within the

@@ -1,16 +1,27 @@
 //! One future an actor, once the drafts are refined.
 
+use super::actor::Actor;
 use super::candidates::{Candidate, Origin, own, shown};
 use super::choice::{Choice, Choosable};
 use super::costs::{Yardstick, options};
+use super::evading::{short_of, way_round};
 use super::guidance::guided;
 use super::reacting::{Answered, Changed, Moving, caused, reaction_of};
 use super::repulsion::{Outline, poses_of_states};
-use super::trajectory::Motion;
+use super::trajectory::{Motion, PER_INSTANT};
 use super::window::Window;
+use crate::features::agent::BEYOND_M;
 use crate::request::Shown;
+use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::{Judge, Reaction};
-use scene::{AgentId, HORIZON_STEPS, STEP_S};
+use scene::motion::MotionState;
+use scene::score::overlap;
+use scene::{AgentId, HORIZON_STEPS, STEP_S, State};
+
+/// Motions of one road user that are led round what is in their way.
+const MOST_TRIED: usize = 2;
+/// How often that is done: who evades one may meet another.
+const MOST_ROUNDS: usize = 2;
 
 /// What a window decided for one actor.
 pub(super) struct Decided {
@@ -72,17 +83,19 @@ impl Window<'_> {
         if self.request.stages.guidance {
             self.guide(&judge, &mut choice, &mut candidates, &mut chosen);
         }
-        let causes = self.put_back(&choice, &mut chosen);
-        let changed: Vec<Changed> = self
-            .indices()
-            .into_iter()
-            .map(|i| {
-                let shown = &candidates[i][chosen[i]];
-                let moving = Moving::of_rollout(&shown.motion.states, &self.actors[i].plan.present.size);
-                Changed { id: self.actors[i].id.clone(), moving, kept: shown.origin == Origin::Kept }
-            })
-            .collect();
-        let answered = self.answerers.answers(&changed);
+        let mut causes = self.put_back(&choice, &mut chosen);
+        let mut changed = self.changed(&candidates, &chosen);
+        let mut answered = self.answerers.answers(&changed);
+        let rounds = if self.request.stages.guidance { MOST_ROUNDS } else { 0 };
+        for _ in 0..rounds {
+            let seen = (&changed[..], &answered[..]);
+            if !self.evade(&judge, &mut choice, &mut candidates, &mut chosen, seen) {
+                break;
+            }
+            causes = self.put_back(&choice, &mut chosen);
+            changed = self.changed(&candidates, &chosen);
+            answered = self.answerers.answers(&changed);
+        }
         let count = self.request.modes.max(1);
         let each = self.actors.iter().zip(candidates).zip(chosen).enumerate();
         let actors = each.filter_map(|(i, ((actor, candidates), chosen))| {
@@ -95,6 +108,72 @@ impl Window<'_> {
             Some(Decided { agent: actor.plan.present.index, actor: i, chosen, alternatives, reaction })
         });
         Decisions { actors: actors.collect(), answered }
+    }
+
+    /// What the actors do, as the others see it.
+    fn changed(&self, candidates: &[Vec<Candidate>], chosen: &[usize]) -> Vec<Changed> {
+        let of = |i: usize| {
+            let shown = &candidates[i][chosen[i]];
+            let moving = Moving::of_rollout(&shown.motion.states, &self.actors[i].plan.present.size);
+            Changed { id: self.actors[i].id.clone(), moving, kept: shown.origin == Origin::Kept }
+        };
+        self.indices().into_iter().map(of).collect()
+    }
+
+    /// Where somebody who was asked for still meets others, whatever they answer, or leaves the road for a goal on
+    /// it, ways round become further candidates. True where the choice takes another than before.
+    fn evade(
+        &self,
+        judge: &Judge<'_>,
+        choice: &mut Choice<'_>,
+        candidates: &mut [Vec<Candidate>],
+        chosen: &mut Vec<usize>,
+        (changed, answered): (&[Changed], &[Answered]),
+    ) -> bool {
+        let answering = self.answerers.movings_with(answered);
+        let found = self.workers().map(&self.indices(), |&i| {
+            let actor = &self.actors[i];
+            let shown = &candidates[i][chosen[i]];
+            if actor.kept.is_some() || actor.keeps_still() || shown.origin == Origin::Rest {
+                return Vec::new();
+            }
+            let actors = changed.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, c)| &c.moving);
+            let others: Vec<&Moving> = answering.iter().map(AsRef::as_ref).chain(actors).collect();
+            let own = &changed[i].moving;
+            let meets = others.iter().any(|o| own.starts_apart(o) && overlap(&own.swept, &o.swept).overlaps);
+            if !meets && !leaves_the_road(actor, &shown.motion) {
+                return Vec::new();
+            }
+            let costs = &choice.agents[i];
+            let mut order: Vec<usize> = (0..candidates[i].len()).collect();
+            order.sort_by(|a, b| costs[*a].cost.total_cmp(&costs[*b].cost));
+            order.retain(|o| *o != chosen[i]);
+            order.insert(0, chosen[i]);
+            let tried = order.into_iter().filter_map(|o| Some((o, candidates[i][o].origin.slot()?)));
+            let mut found: Vec<Candidate> = self.material(i).shown_halting().into_iter().collect();
+            for (o, slot) in tried.take(MOST_TRIED) {
+                let (plan, states) = (&actor.plan, &candidates[i][o].motion.states);
+                let mut add = |origin, motion: Option<Motion>| {
+                    found.extend(motion.map(|motion| Candidate { probability: 0.0, origin, motion }));
+                };
+                add(Origin::Evading(slot), way_round(plan, slot, states, &others));
+                if meets && !is_asked_to_meet(actor, &shown.motion, &others) {
+                    add(Origin::Halting(slot), short_of(plan, states, &others));
+                }
+            }
+            found
+        });
+        let mut changes = false;
+        for (i, found) in found.into_iter().enumerate().filter(|(_, found)| !found.is_empty()) {
+            candidates[i].extend(found);
+            choice.agents[i] = self.options(judge, i, &candidates[i]);
+            changes = true;
+        }
+        if !changes {
+            return false;
+        }
+        let before = std::mem::replace(chosen, choice.solve());
+        *chosen != before
     }
 
     /// Reacting actors that left what they do without a cause go back to it. Says what caused the others, one entry
@@ -188,4 +267,26 @@ impl Window<'_> {
         let size = &self.actors[i].plan.present.size;
         self.answerers.burden(&Moving::of_rollout(&candidate.motion.states, size))
     }
+}
+
+/// A vehicle on the road is led off it although its goal, if it has one, lies on it.
+fn leaves_the_road(actor: &Actor, motion: &Motion) -> bool {
+    let Some(ground) = &actor.plan.ground else { return false };
+    let is_off = |state: &MotionState| {
+        let outline = OrientedBox::of_state(&State::from(state), &actor.plan.present.size);
+        ground.box_outside_m(&outline).is_some_and(|m| m > BEYOND_M)
+    };
+    let goal = actor.plan.target.position.and_then(|_| motion.states.get(actor.plan.target.step));
+    !goal.is_some_and(is_off) && motion.states.iter().step_by(PER_INSTANT).any(is_off)
+}
+
+/// The goal lies where somebody is when it is due: to meet them there is what was asked.
+fn is_asked_to_meet(actor: &Actor, motion: &Motion, others: &[&Moving]) -> bool {
+    let target = &actor.plan.target;
+    let there = motion.states.get(target.step).filter(|_| target.position.is_some());
+    there.is_some_and(|state| {
+        let outline = OrientedBox::of_state(&State::from(state), &actor.plan.present.size);
+        let places = others.iter().filter_map(|other| other.boxes.get(target.step)?.as_ref());
+        places.into_iter().any(|place| overlaps(&outline, place, 0.0))
+    })
 }

@@ -8,6 +8,7 @@ mod costs;
 mod covering;
 mod decide;
 mod duplicate_modes;
+mod evading;
 mod extrapolation;
 mod generation;
 mod guidance;

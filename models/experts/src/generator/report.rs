@@ -141,6 +141,10 @@ fn words(actor: &Actor, nearest: &MotionState, limiting: Limiting, needs: Option
         }
         (Limiting::Lateral, _) => format!("Too tight at this speed.{}", needs("m/s² sideways")),
         (Limiting::Curvature, _) => format!("Too tight a turn for this {what}."),
+        (Limiting::Traffic, _) => {
+            let short = planned.target.position.map_or(0.0, |p| (p - nearest.position).norm());
+            format!("Somebody is in the way of this {what}. It halts {short:.0} m short of the goal.")
+        }
     }
 }
 

@@ -9,7 +9,8 @@ use crate::planning::{ACROSS_SCALE, ALONG_SCALE, Basis, INSTANTS, Residual, STAY
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::motion::{
-    Gear, GoalError, Kind, Knots, MotionState, Projection, Reach, Sampled, Target, Trajectory, fit, project,
+    Gear, GoalError, Kind, Knots, Limiting, MotionState, Projection, Reach, Sampled, Target, Trajectory, fit,
+    project,
 };
 use scene::{HORIZON_STEPS, KNOTS, State, Vec2, wrap_angle};
 use std::sync::LazyLock;
@@ -24,6 +25,20 @@ pub(super) static BASIS: LazyLock<Basis> = LazyLock::new(Basis::new);
 pub(super) struct Motion {
     pub(super) states: Trajectory,
     pub(super) reach: Reach,
+}
+
+impl Motion {
+    /// Where the goal is missed, it is for the reason that another motion misses it.
+    pub(super) fn for_want_of(mut self, other: Reach) -> Self {
+        if let (
+            Reach::Unreachable { limiting, needs, .. },
+            Reach::Unreachable { limiting: why, needs: what, .. },
+        ) = (&mut self.reach, other)
+        {
+            (*limiting, *needs) = (why, what);
+        }
+        self
+    }
 }
 
 impl From<Projection> for Motion {
@@ -173,6 +188,27 @@ pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     if plan.model.gear == Gear::Reverse {
         return backing(plan);
     }
+    through(plan, slot, facing_on(plan, centres))
+}
+
+/// The same for one that does not get to its goal, or no farther than that, because somebody is in the way.
+pub(super) fn short_along(plan: &AgentPlan, centres: &[Vec2; INSTANTS], gets_there: bool) -> Motion {
+    let knots = fit(&plan.model, &samples(plan, &facing_on(plan, centres)));
+    let free = Target { step: plan.target.step, ..Target::default() };
+    let target = if gets_there { projected_onto(plan) } else { free };
+    let motion = project(&plan.model, &knots, &target, None);
+    let nearest = motion.trajectory[plan.target.step];
+    let residuals = GoalError::of(&nearest, &plan.target);
+    let reach = if residuals.is_met() {
+        Reach::Reached(residuals)
+    } else {
+        Reach::Unreachable { nearest, residuals, limiting: Limiting::Traffic, needs: None }
+    };
+    Motion { states: motion.trajectory, reach }
+}
+
+/// Box centres with the headings of who drives from each to the next.
+fn facing_on(plan: &AgentPlan, centres: &[Vec2; INSTANTS]) -> [(Vec2, f64); INSTANTS] {
     let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
     let facing = centres.map(|centre| {
         let chord = centre - last.0;
@@ -185,7 +221,7 @@ pub(super) fn along_places(plan: &AgentPlan, slot: Slot, centres: &[Vec2; INSTAN
     for i in 0..INSTANTS - 1 {
         places[i].1 += 0.5 * wrap_angle(facing[i + 1].1 - facing[i].1);
     }
-    through(plan, slot, places)
+    places
 }
 
 /// Shorter chords say nothing of the heading, metres.
@@ -197,12 +233,11 @@ fn projected_onto(plan: &AgentPlan) -> Target {
     if plan.projected { target } else { Target { step: target.step, ..Target::default() } }
 }
 
-/// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
-/// this slot.
-fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Motion {
+/// Places (box centres and the path's headings) at the instants as samples of a motion.
+fn samples(plan: &AgentPlan, places: &[(Vec2, f64); INSTANTS]) -> Vec<Sampled> {
     let mut samples = Vec::with_capacity(INSTANTS);
     let mut last = (plan.present.start.position(), plan.present.start.heading_rad);
-    for (i, (position, path_heading)) in places.into_iter().enumerate() {
+    for (i, &(position, path_heading)) in places.iter().enumerate() {
         // Drifting across a path turns the body; at a crawl the path says it better.
         let chord = position - last.0;
         let chord_heading = if chord.norm() > 1.0 { chord.y.atan2(chord.x) } else { path_heading };
@@ -211,7 +246,13 @@ fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Mot
         samples.push(Sampled { step: (i + 1) * PER_INSTANT, position, heading_rad });
         last = (position, heading_rad);
     }
-    let knots = fit(&plan.model, &samples);
+    samples
+}
+
+/// The motion that passes near these places (box centres and the path's headings) at the instants, on the path in
+/// this slot.
+fn through(plan: &AgentPlan, slot: Slot, places: [(Vec2, f64); INSTANTS]) -> Motion {
+    let knots = fit(&plan.model, &samples(plan, &places));
     let target = projected_onto(plan);
     if let (Some(heading_rad), true) = (plan.lane_headings[slot.index()], plan.projected) {
         let along = Target { heading_rad: Some(heading_rad), ..target };

@@ -224,6 +224,14 @@ impl Way {
         Self { path, caps_mps, limit_mps, kind, route, identity, pace: None }
     }
 
+    /// Goes on along another path, which begins where this one ends, at ease and no faster than `limit_mps`.
+    pub(super) fn extend(&mut self, onward: &Polyline, limit_mps: f64) {
+        let caps = speed::speed_caps(onward, &[limit_mps], SpeedRules::default());
+        self.caps_mps.extend(caps.into_iter().skip(1));
+        let points = self.path.points().iter().chain(onward.points().iter().skip(1));
+        self.path = Polyline::new(points.copied());
+    }
+
     pub(super) fn anchor(&self, base: Progress, timing: (usize, usize)) -> Anchor {
         Anchor {
             path: self.path.clone(),

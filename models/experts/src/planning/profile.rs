@@ -2,6 +2,9 @@
 
 use scene::{HORIZON_STEPS, STANDING_MPS, STEP_S};
 
+/// Braking for a bend beyond the goal, m/s2.
+const EASING_MPS2: f64 = 3.0;
+
 /// Metres along a path at every step, the first zero.
 pub type Progress = [f64; HORIZON_STEPS + 1];
 
@@ -107,6 +110,17 @@ pub fn arriving(v0: f64, length_m: f64, seconds: f64, end_mps: Option<f64>, easy
         if integrate(v0, &free, 8.0, wish(middle))[step] < length_m { low = middle } else { high = middle }
     }
     integrate(v0, &free, 8.0, wish(high))
+}
+
+/// A progress that is free from a step on: it goes on as fast as it is then, under the caps.
+pub fn going_on(mut progress: Progress, step: usize, caps: &Caps<'_>) -> Progress {
+    let mut speed = speed_at(&progress, step);
+    for i in step.clamp(1, HORIZON_STEPS)..HORIZON_STEPS {
+        let next = speed.min(caps.at(progress[i])).max(speed - EASING_MPS2 * STEP_S);
+        progress[i + 1] = progress[i] + 0.5 * (speed + next) * STEP_S;
+        speed = next;
+    }
+    progress
 }
 
 /// Speed of a progress at a step, m/s.

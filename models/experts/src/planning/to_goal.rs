@@ -3,13 +3,14 @@
 use super::MODES;
 use super::anchors::{Anchor, PathKind, Way, identity_of};
 use super::legal::broken_m;
-use super::profile::{Caps, arriving, fastest, slowest};
+use super::profile::{Caps, arriving, fastest, going_on, slowest};
 use super::world::{AgentAtStart, World};
 use crate::tuning::AnchorTuning;
 use scene::geometry::direction;
 use scene::motion::{Kind, MotionModel, Projection, Target, Tension, project};
 use scene::routes::{
-    EndPose, GoalQuery, GoalRoute, Polyline, RouteKind, base_path, further_routes_to_goal, routes_to_goal,
+    EndPose, GoalQuery, GoalRoute, Polyline, RouteKind, base_path, further_routes_to_goal, routes_ahead,
+    routes_to_goal,
 };
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 
@@ -21,6 +22,8 @@ const GOAL_SLOTS: [[usize; MOST_WAYS]; MOST_WAYS] = [[6, 0, 0], [4, 2, 0], [3, 2
 const ARRIVING_M: f64 = 0.5;
 /// A way may be driven faster through its bends than is comfortable, when time presses.
 const PRESSED: f64 = 1.15;
+/// A way goes on beyond its goal for so much more than it takes, metres.
+const AFTER_GOAL_M: f64 = 10.0;
 /// Share of the limits of speeding up and braking that a way may need.
 const PRESSED_SHARE: f64 = 0.8;
 
@@ -48,6 +51,8 @@ pub(super) fn anchors_to_goal(
                 world.tuning.anchors.setting_off_mps2,
             )
         });
+        let caps = Caps::new(candidate.path.arc_m(), &candidate.caps_mps);
+        let base = going_on(base, target.step, &caps);
         for timing in 0..count {
             out.push(candidate.anchor(base, (timing, count)));
         }
@@ -101,6 +106,9 @@ fn paths_to_goal(
     let trip = Trip { world, who, model, target, goal, query, least, least_path };
     let mut ways = trip.by_the_road(trip.usual());
     ways.truncate(MOST_WAYS);
+    if target.step < HORIZON_STEPS {
+        ways.iter_mut().for_each(|way| trip.go_on(way));
+    }
     ways
 }
 
@@ -202,6 +210,25 @@ impl Trip<'_, '_> {
         let soon = fastest(v0, PRESSED_SHARE * limits.accel_mps2, limits.speed_mps, &caps)[step];
         let late = slowest(v0, PRESSED_SHARE * limits.brake_mps2)[step];
         soon >= length_m - ARRIVING_M && late <= length_m + ARRIVING_M
+    }
+
+    /// A way to a goal that is due before the window ends goes on along the lanes from there, where it is on one.
+    fn go_on(&self, way: &mut Way) {
+        let Self { world, who, target, model, .. } = self;
+        if !world.planning.routes || way.path.length_m() < 1.0 {
+            return;
+        }
+        let end = way.path.last();
+        let seconds = target.step as f64 * STEP_S;
+        let mean_mps = way.path.length_m() / seconds;
+        let speed_mps = target.speed_mps.unwrap_or((2.0 * mean_mps - model.start_speed_mps()).max(0.0));
+        let left_s = HORIZON_STEPS as f64 * STEP_S - seconds;
+        let length_m = speed_mps * left_s + AFTER_GOAL_M;
+        let Some(route) = routes_ahead(&world.graph, end, who.agent_type, length_m).into_iter().next() else {
+            return;
+        };
+        let limit_mps = route.limits_mps.first().copied().unwrap_or(f64::INFINITY);
+        way.extend(&base_path(&route.path, end, speed_mps, who.agent_type, None), limit_mps);
     }
 
     /// How far drivers get in the time at an easy pace, metres.

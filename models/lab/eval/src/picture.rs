@@ -5,9 +5,10 @@ use super::{Site, Subset, type_name};
 use anyhow::Result;
 use experts::Generator;
 use rayon::prelude::*;
+use scene::geometry::obb::OrientedBox;
 use scene::map::LaneType;
 use scene::random::Key;
-use scene::{AgentFutures, AgentType, Scene, Vec2};
+use scene::{AgentFutures, AgentType, Scene, Size, Vec2};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -73,17 +74,23 @@ fn drawn(
     let agent = &mut scene.agents[case.agent];
     agent.conditions.goal = case.goal(site.scene, outcome.subset);
     let id = agent.id.clone();
-    let plain: String = site.name().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
-    let who = format!("{}-{}", if plain.is_empty() { "scene" } else { &plain }, id.replace(':', "_"));
+    let who = who(site, &id);
     let futures = BTreeMap::from([(id, futures)]);
     Ok(Some((who, futures_svg(&scene, &futures, case.start.position()))))
+}
+
+/// Scene and road user as words for a file's name.
+pub(super) fn who(site: &Site<'_>, id: &str) -> String {
+    let plain: String = site.name().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
+    format!("{}-{}", if plain.is_empty() { "scene" } else { &plain }, id.replace(':', "_"))
 }
 
 /// Half the side of the square that is shown, metres.
 const HALF_M: f64 = 70.0;
 const SIDE_PX: f64 = 900.0;
 
-/// Lanes grey, edges dark, boxes at the start, log black, futures orange, the shown one red, goals as stars.
+/// Lanes grey, edges dark, boxes at the start, log black, futures orange, the shown one red with its box each second
+/// and what is wrong with it, goals as circles.
 pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, centre: Vec2) -> String {
     let mut out = format!(
         "<svg xmlns='http://www.w3.org/2000/svg' width='{SIDE_PX}' height='{SIDE_PX}' style='background:#fff'>\n"
@@ -121,16 +128,33 @@ pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, cent
             AgentType::Cyclist => "#c06a00",
             _ => "#3867d6",
         };
-        let outline = scene::geometry::obb::OrientedBox::of_state(&start, &agent.size);
+        let outline = OrientedBox::of_state(&start, &agent.size);
         let corners = outline.corners();
         let fill = format!("stroke='{colour}' stroke-width='1.5'");
         line(&mut out, &mut corners.iter().chain(&corners[..1]).copied(), &fill);
         if futures.contains_key(&agent.id) {
+            for (at_s, shown) in boxes_of(&futures[&agent.id], &agent.size) {
+                let corners = shown.corners();
+                let width = if at_s % 3 == 0 { 1.2 } else { 0.5 };
+                let style = format!("stroke='#d92d20' stroke-width='{width}'");
+                line(&mut out, &mut corners.iter().chain(&corners[..1]).copied(), &style);
+            }
             let mut logged = agent.track.states.iter().flatten().map(scene::State::position);
             line(&mut out, &mut logged, "stroke='#000' stroke-width='1.6' stroke-dasharray='5 3'");
         }
     }
     for (id, all) in futures {
+        for fault in all.modes.get(all.chosen).map_or(&[][..], |f| &f.about.faults) {
+            let (x, y) = at(Vec2::new(fault.x_m, fault.y_m));
+            let (kind, time_s) = (fault.kind, fault.time_s);
+            let with = fault.with.as_deref().unwrap_or_default();
+            let extent = fault.extent.map(|e| format!(" {e:.1}")).unwrap_or_default();
+            let _ = writeln!(
+                out,
+                "<text x='{x:.1}' y='{y:.1}' font-size='13' fill='#7a1009'>{id}: {kind:?}{extent} {with} \
+                 {time_s:.1} s</text>"
+            );
+        }
         for (i, future) in all.modes.iter().enumerate().rev() {
             let style = if i == all.chosen {
                 "stroke='#d92d20' stroke-width='2.4'".to_owned()
@@ -156,4 +180,11 @@ pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, cent
     }
     out.push_str("</svg>\n");
     out
+}
+
+/// Second and box of the shown future at each full second.
+fn boxes_of(futures: &AgentFutures, size: &Size) -> Vec<(usize, OrientedBox)> {
+    let shown = futures.modes.get(futures.chosen).map_or(&[][..], |f| &f.states);
+    let seconds = shown.iter().skip(9).step_by(10).enumerate();
+    seconds.map(|(i, state)| (i + 1, OrientedBox::of_state(state, size))).collect()
 }

@@ -3,9 +3,10 @@
 
 use super::control;
 use super::measure::{goal_error, is_met};
+use super::picture::{futures_svg, who};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::table::Table;
+use super::table::{Made, Table};
 use super::{Case, Judged, Site, answer};
 use anyhow::Result;
 use experts::request::ShownLast;
@@ -48,12 +49,20 @@ const KINDS: [(FaultKind, &str); 8] = [
 pub(super) const TABLE: Table = Table {
     number: 9,
     name: "trust",
-    make: |trial| Ok(trust(&trial.judged, &trial.sites, &trial.boot, trial.seed)?.into()),
+    make: |trial| trust(&trial.judged, &trial.sites, &trial.boot, trial.seed, trial.pictures),
 };
+
+/// Pictures of the worst drags of each kind.
+const WORST: usize = 20;
 
 /// One drag with what came of it.
 struct Drag {
     site: usize,
+    /// Index into the site's cases, and where the goal was put.
+    case: usize,
+    goal: Goal,
+    /// How bad the worst fault of the shown future is, in its unit.
+    extent: f64,
     vehicle: bool,
     met: bool,
     /// A route with the traffic leads to the goal.
@@ -78,14 +87,13 @@ struct Drag {
     letter_changed: bool,
 }
 
-fn trust(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> Result<Vec<Sheet>> {
+fn trust(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64, pictures: bool) -> Result<Made> {
+    let mut drawn = Vec::new();
     let picked = control::picked(sites, seed, MOST_CASES);
     let mut sheets = [faults_sheet(), steadiness_sheet(), lights_sheet()];
     for own in judged {
-        let drags: Result<Vec<Vec<Drag>>> = picked
-            .par_iter()
-            .map(|&(s, c)| drags(&own.generator, &sites[s], &sites[s].cases[c], seed))
-            .collect();
+        let drags: Result<Vec<Vec<Drag>>> =
+            picked.par_iter().map(|&(s, c)| drags(&own.generator, &sites[s], c, seed)).collect();
         let drags: Vec<Drag> = drags?.into_iter().flatten().collect();
         let met: Vec<&Drag> = drags.iter().filter(|d| d.met && d.vehicle).collect();
         for (name, by_road) in [("a road leads there", true), ("none does", false)] {
@@ -99,17 +107,68 @@ fn trust(judged: &[Judged], sites: &[Site<'_>], boot: &Bootstrap, seed: u64) -> 
         let all: Vec<&Drag> = drags.iter().collect();
         sheets[1].push([own.name.as_str()], steadiness_cells(boot, &all));
         sheets[2].push([own.name.as_str()], light_cells(boot, &before_red(&own.generator, sites, seed)?));
+        if pictures && drawn.is_empty() {
+            drawn = worst(&own.generator, sites, &drags, seed)?;
+        }
     }
-    Ok(sheets.into())
+    Ok(Made { sheets: sheets.into(), pictures: drawn, ..Made::default() })
 }
 
-fn drags(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> Result<Vec<Drag>> {
+/// The worst drags of each kind as pictures: what a person would see.
+fn worst(
+    generator: &Generator,
+    sites: &[Site<'_>],
+    drags: &[Drag],
+    seed: u64,
+) -> Result<Vec<(String, String)>> {
+    let road = [FaultKind::WrongWay, FaultKind::OverMedian, FaultKind::OffRoad];
+    let has = |d: &Drag, kinds: &[FaultKind]| kinds.iter().any(|k| d.shown.contains(k));
+    type Measure<'a> = &'a dyn Fn(&Drag) -> Option<f64>;
+    let kinds: [(&str, Measure<'_>); 6] = [
+        ("collision", &|d| (d.free && has(d, &[FaultKind::Collision])).then_some(d.extent)),
+        ("road", &|d| (d.met && d.vehicle && d.by_road && has(d, &road)).then_some(d.extent)),
+        ("near", &|d| (d.met && d.by_road && has(d, &[FaultKind::NearMiss])).then_some(-d.extent)),
+        ("steering", &|d| (d.met && d.by_road && has(d, &[FaultKind::HarshSteering])).then_some(d.extent)),
+        ("jump", &|d| (d.jump_m > 1.0).then_some(d.jump_m)),
+        ("copies", &|d| (d.copies > 1).then_some(d.copies as f64)),
+    ];
+    let mut wanted: Vec<(String, &Drag)> = Vec::new();
+    for (name, measure) in kinds {
+        let mut found: Vec<(f64, &Drag)> = drags.iter().filter_map(|d| Some((measure(d)?, d))).collect();
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let named = |(i, (_, d)): (usize, (f64, _))| (format!("trust-{name}-{:02}", i + 1), d);
+        wanted.extend(found.into_iter().take(WORST).enumerate().map(named));
+    }
+    wanted
+        .par_iter()
+        .map(|(name, drag)| {
+            let site = &sites[drag.site];
+            let case = &site.cases[drag.case];
+            let request = asked(site, case, drag.goal, seed);
+            let scene = request.scene.clone();
+            let answer = answer(generator, request)?;
+            let futures = answer.samples.into_iter().next().map(|s| s.agents).unwrap_or_default();
+            let name = format!("{name}-{}.svg", who(site, &site.log(case).id));
+            Ok((name, futures_svg(&scene, &futures, case.start.position())))
+        })
+        .collect()
+}
+
+/// The call of a drag: everybody may react.
+fn asked(site: &Site<'_>, case: &Case, goal: Goal, seed: u64) -> Request {
+    let mut request = control::request(site.scene.clone(), case, goal, seed);
+    request.react = React::Everyone;
+    request
+}
+
+fn drags(generator: &Generator, site: &Site<'_>, index: usize, seed: u64) -> Result<Vec<Drag>> {
+    let case = &site.cases[index];
     let mut draw = Key::default().number(seed).words(&["trust", site.name(), &site.log(case).id]).stream();
     let mut out = Vec::new();
     for (along, metres) in [true, false].into_iter().flat_map(|a| MOVES_M.map(|m| (a, m))) {
         let Some(goal) = control::dragged_goal(site, case, along, metres) else { continue };
         let nudge = direction(std::f64::consts::TAU * draw.unit()) * NUDGE_M;
-        out.push(drag(generator, site, case, goal, nudge, seed)?);
+        out.push(Drag { case: index, ..drag(generator, site, case, goal, nudge, seed)? });
     }
     Ok(out)
 }
@@ -123,16 +182,11 @@ fn drag(
     seed: u64,
 ) -> Result<Drag> {
     let log = site.log(case);
-    let asked = |goal: Goal| {
-        let mut request = control::request(site.scene.clone(), case, goal, seed);
-        request.react = React::Everyone;
-        request
-    };
-    let first = answer(generator, asked(goal))?;
+    let first = answer(generator, asked(site, case, goal, seed))?;
     let futures = futures(&first, &log.id);
     let shown = futures.and_then(|f| f.modes.get(f.chosen));
     let nudged = Goal { position: goal.position.map(|p| p + nudge), ..goal };
-    let mut again = asked(nudged);
+    let mut again = asked(site, case, nudged, seed);
     again.shown = shown.map(|s| (log.id.clone(), last_shown(s))).into_iter().collect();
     let again = answer(generator, again)?;
     let after = self::futures(&again, &log.id).and_then(|f| f.modes.get(f.chosen));
@@ -155,6 +209,9 @@ fn drag(
     let changed: Vec<bool> = reactions.map(|(_, f)| f.reaction.is_none()).collect();
     Ok(Drag {
         site: site.index,
+        case: 0,
+        goal,
+        extent: shown.and_then(|f| f.about.faults.first()?.extent).unwrap_or(0.0),
         vehicle,
         met: is_met(goal_error(&goal, &end)),
         by_road: has_route(site, case, &goal),
@@ -204,16 +261,16 @@ fn has_route(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
         .any(|r| r.kind == RouteKind::Forward && r.goal_lateral_m.abs() < 1.5)
 }
 
-/// Nobody's log is where the goal is when it is due.
+/// Nobody's log is where the goal is when it is due. With its heading free one comes along the lane there, else
+/// straight from the start.
 fn is_free(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
     let Some(position) = goal.position else { return false };
     let size = site.log(case).size;
-    let place = OrientedBox::new(
-        position,
-        0.5 * size.length_m,
-        0.5 * size.width_m,
-        goal.heading_rad.unwrap_or(case.start.heading_rad),
-    );
+    let lane = site.graph.nearest_for(position, 3.0, case.agent_type).into_iter().next();
+    let chord = position - case.start.position();
+    let heading_rad = lane.map_or(chord.y.atan2(chord.x), |lane| lane.heading_rad);
+    let heading_rad = goal.heading_rad.unwrap_or(heading_rad);
+    let place = OrientedBox::new(position, 0.5 * size.length_m, 0.5 * size.width_m, heading_rad);
     let there = |agent: &scene::Agent| {
         let state = agent.state_at(case.goal_step)?;
         Some(overlaps(&place, &OrientedBox::of_state(&state, &agent.size), 0.0))
@@ -346,7 +403,8 @@ fn steadiness_sheet() -> Sheet {
     Sheet::new(
         "9b Trust: others, copies, steadiness",
         &[
-            "The same drags of everybody. Collision on free ground: nobody's log is where the goal is when it is due. \
+            "The same drags of everybody. Goal missed: out of reach, or somebody is in the way. Collision on free ground: \
+             nobody's log is where the goal is when it is due. \
              Changed: others that got another motion. Copies: futures within 0.5 m of another on average. Alike: \
              lists in which two futures have the same relations and manoeuvre. Jump: farthest that the shown future \
              moves when its goal moves by 5 cm and the call carries what was shown, metres.",
@@ -354,6 +412,7 @@ fn steadiness_sheet() -> Sheet {
         &["ours"],
         &[
             "drags",
+            "goal missed",
             "collision on free ground",
             "with a late arrival",
             "others changed a drag",
@@ -374,6 +433,7 @@ fn steadiness_cells(boot: &Bootstrap, drags: &[&Drag]) -> Vec<Cell> {
     let changed = |i: usize| drags.iter().map(move |d| Value::new(d.site, d.changed[i] as f64));
     vec![
         Cell::Count(drags.len() as u64),
+        percent(drags.iter().map(|d| Value::flag(d.site, !d.met)).collect()),
         percent(free.iter().map(collides).collect()),
         percent(free.iter().map(|d| Value::flag(d.site, d.hits_late)).collect()),
         Cell::of(boot.estimate(changed(0)), Form::Plain),

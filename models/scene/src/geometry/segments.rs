@@ -1,8 +1,8 @@
 //! Straight pieces of lines in a uniform grid: the few that lie near a point, quickly. The one spatial index of
 //! lanes, road edges and areas.
 //!
-//! The grid is one sorted array of occupied cells: quick to build, small, without hashing, and a stray piece far
-//! from everything costs nothing.
+//! The grid is one sorted array of occupied cells, with a table of where each cell begins: quick to build, small,
+//! without hashing. Where stray pieces lie far from everything there is no table, and cells are searched for.
 
 use super::{Vec2, cross};
 
@@ -82,12 +82,75 @@ fn thinned(points: &[Vec2]) -> Vec<Vec2> {
     kept
 }
 
+/// Cells of a table for each entry of the array, and in any case.
+const CELLS_AN_ENTRY: usize = 16;
+const CELLS_ANYWAY: usize = 4_096;
+/// Within this the nearest piece mostly is, metres.
+const NEAREST_M: f64 = 2.0;
+
 /// Grid of pieces. Built once a map; read by any number of threads.
 #[derive(Clone, Debug, Default)]
 pub struct SegmentIndex {
     all: Vec<Segment>,
     /// Cells in rows from south to north, each with a piece that passes through it.
     cells: Vec<(u64, u32)>,
+    table: Option<Table>,
+}
+
+/// Where each cell of a rectangle of cells begins in the array.
+#[derive(Clone, Debug)]
+struct Table {
+    left: i32,
+    bottom: i32,
+    columns: usize,
+    rows: usize,
+    /// By row, then column; one more for the end.
+    first: Vec<u32>,
+}
+
+impl Table {
+    /// Of sorted cells; `None` where they are few for the ground that they lie on.
+    fn of(cells: &[(u64, u32)]) -> Option<Self> {
+        let (low, high) = (cells.first()?.0, cells.last()?.0);
+        let left = cells.iter().map(|c| column_of(c.0)).min()?;
+        let right = cells.iter().map(|c| column_of(c.0)).max()?;
+        let (bottom, top) = (row_of(low), row_of(high));
+        let count = |from: i32, to: i32| usize::try_from(i64::from(to) - i64::from(from) + 1).ok();
+        let (columns, rows) = (count(left, right)?, count(bottom, top)?);
+        let most = CELLS_AN_ENTRY * cells.len() + CELLS_ANYWAY;
+        let all = columns.checked_mul(rows).filter(|all| *all <= most)?;
+        let mut first = vec![0_u32; all + 1];
+        let place = |key: u64| {
+            let (row, column) = (i64::from(row_of(key)), i64::from(column_of(key)));
+            ((row - i64::from(bottom)) as usize) * columns + (column - i64::from(left)) as usize
+        };
+        for (cell, _) in cells {
+            first[place(*cell) + 1] += 1;
+        }
+        for i in 1..first.len() {
+            first[i] += first[i - 1];
+        }
+        Some(Self { left, bottom, columns, rows, first })
+    }
+
+    /// Entries of the columns `left` to `right` of a row.
+    fn entries(&self, row: i32, left: i32, right: i32) -> std::ops::Range<usize> {
+        let at = |i: i32, from: i32, count: usize| (i64::from(i) - i64::from(from)).clamp(-1, count as i64);
+        let row = at(row, self.bottom, self.rows);
+        let (left, right) = (at(left, self.left, self.columns), at(right, self.left, self.columns));
+        let (left, right) = (left.max(0), right.min(self.columns as i64 - 1));
+        if row < 0 || row >= self.rows as i64 || left > right {
+            return 0..0;
+        }
+        let base = row as usize * self.columns;
+        self.first[base + left as usize] as usize..self.first[base + right as usize + 1] as usize
+    }
+
+    /// The rows of the rectangle among these.
+    fn rows(&self, bottom: i32, top: i32) -> (i32, i32) {
+        let last = i64::from(self.bottom) + self.rows as i64 - 1;
+        (bottom.max(self.bottom), i64::from(top).min(last) as i32)
+    }
 }
 
 impl SegmentIndex {
@@ -99,7 +162,8 @@ impl SegmentIndex {
         }
         cells.sort_unstable();
         cells.dedup();
-        Self { all, cells }
+        let table = Table::of(&cells);
+        Self { all, cells, table }
     }
 
     /// No pieces.
@@ -119,14 +183,18 @@ impl SegmentIndex {
         let empty = low.x.is_nan() || low.y.is_nan() || !(low.x <= high.x && low.y <= high.y);
         let (left, right) = (cell(low.x), cell(high.x));
         let (bottom, top) = (cell(low.y), cell(high.y));
-        let at =
-            if empty { self.cells.len() } else { self.cells.partition_point(|c| c.0 < key(left, bottom)) };
-        Within { index: self, at, left, right, top }
+        let mut within = Within { index: self, entries: 0..0, left, right, row: bottom, top };
+        if empty {
+            (within.row, within.top) = (0, -1);
+        } else if let Some(table) = &self.table {
+            (within.row, within.top) = table.rows(bottom, top);
+        }
+        within
     }
 
     /// Nearest piece within `most_m`, with its foot and distance; of several the first.
     pub fn nearest(&self, point: Vec2, most_m: f64) -> Option<(&Segment, Vec2, f64)> {
-        let mut radius = CELL_M.min(most_m);
+        let mut radius = NEAREST_M.min(most_m);
         loop {
             let mut best: Option<(&Segment, Vec2, f64)> = None;
             for segment in self.near(point, radius) {
@@ -167,32 +235,52 @@ impl SegmentIndex {
 /// Pieces by the cells of a rectangle.
 struct Within<'a> {
     index: &'a SegmentIndex,
-    at: usize,
+    /// Of the row before `row`, those left.
+    entries: std::ops::Range<usize>,
     left: i32,
     right: i32,
+    row: i32,
     top: i32,
+}
+
+impl Within<'_> {
+    /// Takes up the next row; false where none is left.
+    fn next_row(&mut self) -> bool {
+        let Self { index, left, right, .. } = *self;
+        if self.row > self.top {
+            return false;
+        }
+        if let Some(table) = &index.table {
+            self.entries = table.entries(self.row, left, right);
+        } else {
+            let cells = &index.cells;
+            let from = cells.partition_point(|c| c.0 < key(left, self.row));
+            // Rows without cells are skipped.
+            match cells.get(from).map(|c| row_of(c.0)) {
+                Some(row) if row <= self.top => self.row = row,
+                _ => return false,
+            }
+            let from = from + cells[from..].partition_point(|c| c.0 < key(left, self.row));
+            self.entries = from..from + cells[from..].partition_point(|c| c.0 <= key(right, self.row));
+        }
+        match self.row.checked_add(1) {
+            Some(next) => self.row = next,
+            None => self.top = i32::MIN,
+        }
+        true
+    }
 }
 
 impl<'a> Iterator for Within<'a> {
     type Item = &'a Segment;
 
     fn next(&mut self) -> Option<&'a Segment> {
-        let cells = &self.index.cells;
         loop {
-            let (cell, number) = *cells.get(self.at)?;
-            // Rows without cells are skipped: the next one to look at is that of the next cell.
-            let row = row_of(cell);
-            if row > self.top {
-                return None;
+            if let Some(at) = self.entries.next() {
+                return self.index.all.get(self.index.cells[at].1 as usize);
             }
-            if cell < key(self.left, row) {
-                self.at += cells[self.at..].partition_point(|c| c.0 < key(self.left, row));
-            } else if cell > key(self.right, row) {
-                let next = row.checked_add(1)?;
-                self.at += cells[self.at..].partition_point(|c| c.0 < key(self.left, next));
-            } else {
-                self.at += 1;
-                return self.index.all.get(number as usize);
+            if !self.next_row() {
+                return None;
             }
         }
     }
@@ -211,6 +299,10 @@ fn key(column: i32, row: i32) -> u64 {
 
 fn row_of(key: u64) -> i32 {
     ((key >> 32) as u32 ^ 0x8000_0000) as i32
+}
+
+fn column_of(key: u64) -> i32 {
+    (key as u32 ^ 0x8000_0000) as i32
 }
 
 /// Calls `found` with the cells around a piece, stretch by stretch.

@@ -86,6 +86,8 @@ pub enum Limiting {
     Lateral,
     /// Steering lock.
     Curvature,
+    /// Somebody is in the way and does not get out of it.
+    Traffic,
 }
 
 /// Whether the target was met.

@@ -1,6 +1,6 @@
 //! The motion that a road user has without this call: a path, and how far along it it is at each step.
 
-use scene::geometry::obb::OrientedBox;
+use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::{direction, wrap_angle};
 use scene::motion::Trajectory;
 use scene::score::SweptBoxes;
@@ -47,6 +47,14 @@ impl Moving {
     pub(in crate::generator) fn of_rollout(states: &Trajectory, size: &Size) -> Self {
         let states: Vec<State> = states.iter().map(State::from).collect();
         Self::of_states(0, &states, size)
+    }
+
+    /// The boxes of two do not overlap from the start on.
+    pub(in crate::generator) fn starts_apart(&self, other: &Self) -> bool {
+        match (self.at(0), other.at(0)) {
+            (Some(a), Some(b)) => !overlaps(a, b, 0.0),
+            _ => true,
+        }
     }
 
     /// Box at a step.

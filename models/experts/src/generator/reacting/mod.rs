@@ -29,6 +29,7 @@ use course::Course;
 use scene::limits::Limits;
 use scene::score::{SweptBoxes, overlap};
 use scene::{AgentId, AgentType, HORIZON_STEPS, Size, Start, State, Vec2};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
@@ -162,6 +163,21 @@ impl<'g> Answerers<'g> {
     /// Everybody's kept motion.
     pub(super) fn movings(&self) -> impl Iterator<Item = &Moving> {
         self.all.iter().map(|a| &a.kept).chain(self.fixed.iter().map(|f| &f.moving))
+    }
+
+    /// Everybody's motion, those who gave up theirs with what they do instead.
+    pub(super) fn movings_with(&self, answered: &[Answered]) -> Vec<Cow<'_, Moving>> {
+        let of = |own: &'_ Answerer| answered.iter().find(|a| a.index == own.index && a.reaction.is_some());
+        let all = self.all.iter().map(|own| match of(own) {
+            Some(answer) => {
+                // From the step after it is there first.
+                let first = own.course.states.first().into_iter();
+                let states = first.chain(&answer.states);
+                Cow::Owned(Moving::of_states(answer.enters, states, &own.size))
+            }
+            None => Cow::Borrowed(&own.kept),
+        });
+        all.chain(self.fixed.iter().map(|f| Cow::Borrowed(&f.moving))).collect()
     }
 
     /// Somebody who may answer would have to answer this.

@@ -1,0 +1,314 @@
+//! A way round what is in the way. Where a chosen motion still meets somebody, or leaves the road on its way to a
+//! goal on it, the same motion is tried beside its path and earlier or later on it: the cheapest row of shifts, one an
+//! instant, by dynamic programming. It starts and meets its goal as before. Where that does not help either, it halts
+//! before whoever is in the way.
+
+use super::reacting::Moving;
+use super::slot::Slot;
+use super::trajectory::{Motion, PER_INSTANT, along_places, short_along};
+use crate::features::agent::{AgentPlan, BEYOND_M};
+use crate::planning::INSTANTS;
+use scene::geometry::direction;
+use scene::geometry::obb::{OrientedBox, overlaps};
+use scene::motion::{Gear, Kind, Trajectory};
+use scene::routes::{Polyline, Pose};
+use scene::{HORIZON_STEPS, STEP_S, Vec2};
+use std::f64::consts::FRAC_PI_2;
+
+/// Shifts to each side and their distance, metres.
+const ASIDES: i32 = 6;
+const ASIDE_M: f64 = 0.6;
+/// Shifts along the path each way and their distance, metres.
+const AHEADS: i32 = 7;
+const AHEAD_M: f64 = 1.0;
+/// All shifts of an instant.
+const ACROSS: usize = (2 * ASIDES + 1) as usize;
+const ALONG: usize = (2 * AHEADS + 1) as usize;
+const SHIFTS: usize = ACROSS * ALONG;
+/// Most shifts that are changed at once, aside and ahead.
+const MOST_ASIDE: i32 = 2;
+const MOST_AHEAD: i32 = 1;
+/// Metres aside that a metre on wheels allows.
+const SLOPE: f64 = 0.35;
+/// Steps about an instant at which boxes are looked at.
+const ABOUT: [isize; 3] = [-2, 0, 2];
+/// Room that is kept beside others, metres.
+const ROOM_M: f64 = 0.3;
+/// Room that is kept before others, metres: ten knots cannot follow every halt.
+const SHORT_M: f64 = 1.0;
+/// Goes on beyond the last place, metres.
+const TAIL_M: f64 = 20.0;
+/// Shorter ways have no sides, metres.
+const LEAST_WAY_M: f64 = 2.0;
+
+/// How hard one brakes who halts before somebody: shares of what is possible. Harder must bring so much, metres.
+const BRAKES: [f64; 3] = [0.3, 0.55, 0.9];
+const HARDER_M: f64 = 2.0;
+
+/// What an instant costs: somebody met, ground off the road, a lane against the traffic.
+const MET: f64 = 8.0;
+const OFF_ROAD: f64 = 2.0;
+const AGAINST: f64 = 1.0;
+/// What a shift costs at each instant, and its change: for a square metre.
+const ASIDE_COST: f64 = 0.01;
+const AHEAD_COST: f64 = 0.004;
+const DRIFT_COST: f64 = 0.25;
+const PACE_COST: f64 = 0.12;
+
+/// Some shift: along the path and to the left, metres.
+#[derive(Clone, Copy)]
+struct Shift {
+    ahead: i32,
+    aside: i32,
+}
+
+impl Shift {
+    fn all() -> impl Iterator<Item = Self> {
+        (-AHEADS..=AHEADS).flat_map(|ahead| (-ASIDES..=ASIDES).map(move |aside| Self { ahead, aside }))
+    }
+
+    fn index(self) -> usize {
+        (self.ahead + AHEADS) as usize * ACROSS + (self.aside + ASIDES) as usize
+    }
+
+    fn is_none(self) -> bool {
+        self.ahead == 0 && self.aside == 0
+    }
+
+    fn ahead_m(self) -> f64 {
+        f64::from(self.ahead) * AHEAD_M
+    }
+
+    fn aside_m(self) -> f64 {
+        f64::from(self.aside) * ASIDE_M
+    }
+
+    fn cost(self) -> f64 {
+        ASIDE_COST * self.aside_m().powi(2) + AHEAD_COST * self.ahead_m().powi(2)
+    }
+}
+
+/// A motion to be shifted.
+struct Course<'a> {
+    plan: &'a AgentPlan,
+    path: Polyline,
+    /// Metres along it, one a step.
+    along_m: Vec<f64>,
+    others: Vec<&'a Moving>,
+}
+
+/// The motion on the path of `slot` beside, before or behind which nobody of `others` is met; `None` where the motion
+/// as it is serves as well.
+pub(super) fn way_round(
+    plan: &AgentPlan,
+    slot: Slot,
+    motion: &Trajectory,
+    others: &[&Moving],
+) -> Option<Motion> {
+    if plan.model.gear == Gear::Reverse {
+        return None;
+    }
+    let course = Course::new(plan, motion, others)?;
+    let shifts = course.least()?;
+    let centres: [Vec2; INSTANTS] =
+        std::array::from_fn(|i| course.pose((i + 1) * PER_INSTANT, shifts[i]).position);
+    Some(along_places(plan, slot, &centres))
+}
+
+/// The motion on the same path that halts before whoever of `others` would be met; `None` where no braking is
+/// enough. The goal is missed, unless nothing was asked.
+pub(super) fn short_of(plan: &AgentPlan, motion: &Trajectory, others: &[&Moving]) -> Option<Motion> {
+    if plan.model.gear == Gear::Reverse {
+        return None;
+    }
+    let course = Course::new(plan, motion, others)?;
+    let mut best: Option<Vec<f64>> = None;
+    for share in BRAKES {
+        // The later, the farther.
+        let halts = (0..HORIZON_STEPS).step_by(PER_INSTANT).rev();
+        let along_m = halts
+            .map(|from| course.halting(from, share * plan.model.limits.brake_mps2))
+            .find(|along_m| course.is_free(along_m));
+        let farther =
+            |best: &Vec<f64>, now: &Vec<f64>| now.last() > best.last().map(|m| m + HARDER_M).as_ref();
+        if let Some(now) = along_m
+            && best.as_ref().is_none_or(|best| farther(best, &now))
+        {
+            best = Some(now);
+        }
+    }
+    let along_m = best?;
+    let centres: [Vec2; INSTANTS] =
+        std::array::from_fn(|i| course.path.extrapolate(along_m[(i + 1) * PER_INSTANT]).position);
+    let gets_there = along_m[plan.target.step] >= course.along_m[plan.target.step] - 0.1;
+    Some(short_along(plan, &centres, gets_there))
+}
+
+impl<'a> Course<'a> {
+    fn new(plan: &'a AgentPlan, motion: &Trajectory, others: &[&'a Moving]) -> Option<Self> {
+        let mut along_m = Vec::with_capacity(motion.len());
+        let mut way_m = 0.0;
+        for (i, state) in motion.iter().enumerate() {
+            way_m += if i == 0 { 0.0 } else { (state.position - motion[i - 1].position).norm() };
+            along_m.push(way_m);
+        }
+        if way_m < LEAST_WAY_M || along_m.len() <= HORIZON_STEPS {
+            return None;
+        }
+        let last = motion.last()?;
+        let tail = last.position + direction(last.heading_rad) * TAIL_M;
+        let path = Polyline::new(motion.iter().map(|s| s.position).chain([tail]));
+        let mut course = Self { plan, path, along_m, others: Vec::new() };
+        course.others = others.iter().copied().filter(|o| course.may_meet(o)).collect();
+        Some(course)
+    }
+
+    /// Somebody who is within reach of the shifts at some instant, and was not met at the start.
+    fn may_meet(&self, other: &Moving) -> bool {
+        let own = self.outline(self.pose(0, Shift { ahead: 0, aside: 0 }));
+        if other.boxes.first().is_some_and(|b| b.as_ref().is_some_and(|b| overlaps(&own, b, 0.0))) {
+            return false;
+        }
+        let shifted_m = f64::from(AHEADS) * AHEAD_M + f64::from(ASIDES) * ASIDE_M;
+        (1..=HORIZON_STEPS).step_by(2).any(|step| {
+            let Some(Some(outline)) = other.boxes.get(step) else { return false };
+            let reach = shifted_m + outline.radius_m() + own.radius_m();
+            let at = self.path.extrapolate(self.along_m[step]).position;
+            (at - outline.center()).norm() < reach
+        })
+    }
+
+    fn pose(&self, step: usize, shift: Shift) -> Pose {
+        let pose = self.path.extrapolate((self.along_m[step] + shift.ahead_m()).max(0.0));
+        let left = direction(pose.heading_rad + FRAC_PI_2);
+        Pose::new(pose.position + left * shift.aside_m(), pose.heading_rad)
+    }
+
+    fn outline(&self, pose: Pose) -> OrientedBox {
+        let size = &self.plan.present.size;
+        OrientedBox::new(pose.position, 0.5 * size.length_m, 0.5 * size.width_m, pose.heading_rad)
+    }
+
+    /// Shifts that an instant may have: none where the goal is due, hardly any between whose instants it is.
+    fn allows(&self, instant: usize, shift: Shift) -> bool {
+        let due = self.plan.target.position.is_some()
+            && (instant * PER_INSTANT).abs_diff(self.plan.target.step) < PER_INSTANT;
+        let between = instant * PER_INSTANT != self.plan.target.step;
+        let hardly = between && shift.ahead.abs() <= 1 && shift.aside.abs() <= 1;
+        !due || shift.is_none() || hardly
+    }
+
+    /// What each shift of an instant costs by itself.
+    fn costs(&self, instant: usize) -> Vec<f64> {
+        let mut costs = vec![f64::INFINITY; SHIFTS];
+        let step = instant * PER_INSTANT;
+        let steps = ABOUT.map(|about| step.saturating_add_signed(about).min(HORIZON_STEPS));
+        let ground: Vec<f64> = (-ASIDES..=ASIDES).map(|aside| self.on_ground(step, aside)).collect();
+        for shift in Shift::all().filter(|s| self.allows(instant, *s)) {
+            let at = |step: usize| self.outline(self.pose(step, shift)).grown(ROOM_M);
+            let met = steps.into_iter().any(|step| self.is_met(step, &at(step)));
+            let met = if met { MET } else { 0.0 };
+            costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost();
+        }
+        costs
+    }
+
+    /// What the ground so far aside costs.
+    fn on_ground(&self, step: usize, aside: i32) -> f64 {
+        let Some(ground) = &self.plan.ground else { return 0.0 };
+        let pose = self.pose(step, Shift { ahead: 0, aside });
+        let off = ground.box_outside_m(&self.outline(pose)).is_some_and(|m| m > BEYOND_M);
+        let against = ground.is_wrong_way(pose.position, pose.direction()) == Some(true);
+        f64::from(u8::from(off)) * OFF_ROAD + f64::from(u8::from(against)) * AGAINST
+    }
+
+    /// Metres along the path at each step for one that brakes from a step on until it stands.
+    fn halting(&self, from: usize, brake_mps2: f64) -> Vec<f64> {
+        let mut along_m = self.along_m[..=from].to_vec();
+        let last = |along_m: &Vec<f64>| along_m[along_m.len() - 1];
+        let mut speed_mps = match from.checked_sub(1) {
+            Some(before) => (self.along_m[from] - self.along_m[before]) / STEP_S,
+            None => self.plan.model.start_speed_mps(),
+        };
+        while along_m.len() <= HORIZON_STEPS {
+            let next_mps = (speed_mps - brake_mps2 * STEP_S).max(0.0);
+            along_m.push(last(&along_m) + 0.5 * (speed_mps + next_mps) * STEP_S);
+            speed_mps = next_mps;
+        }
+        along_m
+    }
+
+    /// Nobody is met at this progress.
+    fn is_free(&self, along_m: &[f64]) -> bool {
+        (1..along_m.len()).step_by(2).all(|step| {
+            let size = &self.plan.present.size;
+            let pose = self.path.extrapolate(along_m[step]);
+            let (length, width) = (0.5 * size.length_m + SHORT_M, 0.5 * size.width_m + ROOM_M);
+            !self.is_met(step, &OrientedBox::new(pose.position, length, width, pose.heading_rad))
+        })
+    }
+
+    /// Somebody is in a box at a step.
+    fn is_met(&self, step: usize, outline: &OrientedBox) -> bool {
+        let near = |b: &OrientedBox| {
+            let reach = b.radius_m() + outline.radius_m();
+            (b.center() - outline.center()).norm_squared() < reach * reach && overlaps(outline, b, 0.0)
+        };
+        self.others.iter().any(|o| o.boxes.get(step).is_some_and(|b| b.as_ref().is_some_and(near)))
+    }
+
+    /// The cheapest shifts, one an instant; `None` where none at all are.
+    fn least(&self) -> Option<[Shift; INSTANTS]> {
+        let none = Shift { ahead: 0, aside: 0 };
+        let mut total = vec![f64::INFINITY; SHIFTS];
+        total[none.index()] = 0.0;
+        let mut before: Vec<Vec<usize>> = Vec::with_capacity(INSTANTS);
+        let mut unshifted = 0.0;
+        let all: Vec<Shift> = Shift::all().collect();
+        for instant in 1..=INSTANTS {
+            let costs = self.costs(instant);
+            unshifted += costs[none.index()];
+            let way_m = self.along_m[instant * PER_INSTANT] - self.along_m[(instant - 1) * PER_INSTANT];
+            let mut next = vec![f64::INFINITY; SHIFTS];
+            let mut from = vec![none.index(); SHIFTS];
+            for shift in all.iter().filter(|s| costs[s.index()].is_finite()) {
+                for ahead in -MOST_AHEAD..=MOST_AHEAD {
+                    for aside in -MOST_ASIDE..=MOST_ASIDE {
+                        let last = Shift { ahead: shift.ahead - ahead, aside: shift.aside - aside };
+                        let known = last.ahead.abs() <= AHEADS && last.aside.abs() <= ASIDES;
+                        if !known || !self.can_drift(way_m, ahead, aside) {
+                            continue;
+                        }
+                        let drift = DRIFT_COST * (f64::from(aside) * ASIDE_M).powi(2)
+                            + PACE_COST * (f64::from(ahead) * AHEAD_M).powi(2);
+                        let cost = total[last.index()] + drift + costs[shift.index()];
+                        if cost < next[shift.index()] {
+                            next[shift.index()] = cost;
+                            from[shift.index()] = last.index();
+                        }
+                    }
+                }
+            }
+            total = next;
+            before.push(from);
+        }
+        let mut at = (0..SHIFTS).min_by(|a, b| total[*a].total_cmp(&total[*b]))?;
+        // What is spared must be worth another motion.
+        if !total[at].is_finite() || total[at] > unshifted - 0.5 * OFF_ROAD {
+            return None;
+        }
+        let mut shifts = [none; INSTANTS];
+        for instant in (0..INSTANTS).rev() {
+            shifts[instant] = all[at];
+            at = before[instant][at];
+        }
+        Some(shifts)
+    }
+
+    /// Nobody rolls back along the path, and wheels go aside only as they roll.
+    fn can_drift(&self, way_m: f64, ahead: i32, aside: i32) -> bool {
+        let way_m = way_m + f64::from(ahead) * AHEAD_M;
+        let rolls = self.plan.model.kind == Kind::Drive;
+        way_m >= 0.0 && (!rolls || f64::from(aside.abs()) * ASIDE_M <= SLOPE * way_m + 1e-9)
+    }
+}
