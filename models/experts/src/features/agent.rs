@@ -36,7 +36,9 @@ pub struct AgentPlan {
     pub lane_headings: [Option<f64>; MODES],
     /// How those who stand set off towards a goal, m/s2.
     pub easy_mps2: f64,
-    /// Where vehicles may drive; `None` for who does not start there or is no vehicle.
+    /// Where it may drive: [`World::ground`].
+    pub drivable: Arc<Drivable>,
+    /// The same; `None` for who does not start there or is no vehicle.
     pub ground: Option<Arc<Drivable>>,
     /// For the networks.
     pub features: AgentFeatures,
@@ -89,7 +91,8 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let projected = world.planning.projection;
     let easy_mps2 = world.tuning.anchors.setting_off_mps2;
     let present = who.clone();
-    let ground = ground(world, who);
+    let drivable = world.ground(who);
+    let ground = ground(&drivable, who);
     AgentPlan {
         present,
         model,
@@ -98,6 +101,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         lights,
         lane_headings,
         easy_mps2,
+        drivable,
         ground,
         features,
         projected,
@@ -114,9 +118,8 @@ impl AgentPlan {
 }
 
 /// See [`AgentPlan::ground`].
-fn ground(world: &World<'_>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
+fn ground(ground: &Arc<Drivable>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
     let outline = OrientedBox::of_state(&who.start, &who.size);
-    let ground = world.graph.ground();
     let starts_there = ground.box_outside_m(&outline).is_some_and(|outside_m| outside_m <= BEYOND_M);
     (who.agent_type == AgentType::Vehicle && ground.is_bounded() && starts_there).then(|| ground.clone())
 }

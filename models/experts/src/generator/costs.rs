@@ -66,11 +66,11 @@ fn central(candidates: &[Candidate], around: Option<Slot>, tuning: &ChoiceTuning
 }
 
 /// A vehicle whose box lies within the road's edges at the start.
-pub(super) fn starts_on_the_road(actor: &Actor, map: &KnownMap, tuning: &ChoiceTuning) -> bool {
+pub(super) fn starts_on_the_road(actor: &Actor, tuning: &ChoiceTuning) -> bool {
     let present = &actor.plan.present;
     let outline = OrientedBox::of_state(&present.start, &present.size);
     present.agent_type == AgentType::Vehicle
-        && map.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
+        && actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
 }
 
 /// What it costs to run a red light, and a vehicle to leave the road or drive against the traffic.
@@ -111,10 +111,11 @@ fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceT
     };
     let away = |s: &MotionState| {
         map.graph.nearest_for(s.position, tuning.off_lanes_m, present.agent_type).is_empty()
+            && !actor.plan.drivable.is_beside_allowed(s.position)
     };
     let beyond = |s: &MotionState| {
         let outline = OrientedBox::of_state(&State::from(s), &present.size);
-        map.drivable.box_outside_m(&outline).is_some_and(|outside| outside > tuning.past_edge_m)
+        actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside > tuning.past_edge_m)
     };
     let share = |off: &dyn Fn(&MotionState) -> bool| {
         if off(start) {
