@@ -19,6 +19,8 @@ mod planning;
 mod refining;
 #[path = "generator/rollouts.rs"]
 mod rollouts;
+#[path = "generator/walking.rs"]
+mod walking;
 
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::random(3).unwrap().with_threads(1));
 

@@ -7,6 +7,7 @@ use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
+use crate::planning::crossing::{Kerb, kerb};
 use crate::planning::lights::{Gate, gates, sets_off};
 use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::obb::OrientedBox;
@@ -31,6 +32,8 @@ pub struct AgentPlan {
     pub anchors: Vec<Anchor>,
     /// Red lights on each anchor's path.
     pub lights: [Vec<Gate>; MODES],
+    /// Where a walker steps onto the lanes on each anchor's path.
+    pub kerbs: [Option<Kerb>; MODES],
     /// Heading of the lane that each anchor brings to the goal, where the goal lies on a lane and leaves its
     /// heading free, radians.
     pub lane_headings: [Option<f64>; MODES],
@@ -60,6 +63,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let mut encoded = Box::new([[0.0; ANCHOR]; MODES]);
     let obstacles = world.obstacles(who.index);
     let mut lights: [Vec<Gate>; MODES] = Default::default();
+    let mut kerbs: [Option<Kerb>; MODES] = Default::default();
     let mut last: Option<(u64, PathFacts)> = None;
     for (slot, anchor) in anchors.iter().enumerate() {
         let path_identity = anchor.path_identity();
@@ -67,10 +71,12 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         let facts = match last.take() {
             Some((identity, facts)) if identity == path_identity => {
                 lights[slot] = lights[slot - 1].clone();
+                kerbs[slot] = kerbs[slot - 1].clone();
                 facts
             }
             _ => {
                 lights[slot] = gates(world, who, &anchor.path);
+                kerbs[slot] = kerb(world, who, &anchor.path);
                 PathFacts::of(world, who, anchor, &obstacles)
             }
         };
@@ -99,6 +105,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         target,
         anchors,
         lights,
+        kerbs,
         lane_headings,
         easy_mps2,
         drivable,

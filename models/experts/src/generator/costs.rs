@@ -5,16 +5,17 @@ use super::actor::Actor;
 use super::candidates::{Candidate, Origin};
 use super::choice::{Choosable, medoid_costs, swept};
 use super::slot::Slot;
+use super::stepping_out::steps_out;
 use super::trajectory::PER_INSTANT;
 use crate::planning::INSTANTS;
 use crate::request::ShownLast;
 use crate::tuning::ChoiceTuning;
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
-use scene::judge::Judge;
+use scene::judge::{Judge, Trace};
 use scene::motion::{MotionState, Trajectory};
 use scene::score::Actor as ScoreActor;
-use scene::{Agent, AgentType, Future, STANDING_MPS, State};
+use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, State};
 
 /// What an actor's candidates are held against.
 pub(super) struct Yardstick<'a> {
@@ -24,6 +25,8 @@ pub(super) struct Yardstick<'a> {
     pub(super) shown: Option<&'a ShownLast>,
     pub(super) map: &'a KnownMap,
     pub(super) judge: &'a Judge<'a>,
+    /// Those who go on with what they do.
+    pub(super) others: &'a [Trace],
     /// The road user in the scene, and the window's first step.
     pub(super) agent: &'a Agent,
     pub(super) start_step: usize,
@@ -45,7 +48,10 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
         let boxes = swept(&c.motion.states, size);
         // What is given costs nothing by itself.
         let given = c.origin.is_given();
-        let against = || broken_rules(actor, &c.motion.states, by) + leaving(c, by);
+        let against = || {
+            let states = &c.motion.states;
+            broken_rules(actor, states, by) + leaving(c, by) + stepping_out(actor, states, by)
+        };
         let cost = if given { 0.0 } else { cost + against() };
         Choosable { boxes, cost, kept: c.origin == Origin::Kept }
     };
@@ -83,6 +89,19 @@ fn broken_rules(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
         cost += if runs { by.tuning.red_light } else { 0.0 };
     }
     cost
+}
+
+/// What it costs a walker without a goal to step out before a vehicle that comes fast.
+fn stepping_out(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
+    let plan = &actor.plan;
+    let beside = plan.target.position.is_none() && plan.kerbs.iter().any(Option::is_some);
+    if !beside || by.others.is_empty() {
+        return 0.0;
+    }
+    let at = |step: usize| states.get(step + 1).map(State::from);
+    let me = Trace::new(&actor.id, plan.present.agent_type, &plan.present.size, HORIZON_STEPS, at);
+    let before_any = by.others.iter().any(|other| steps_out(&me, other).is_some());
+    if before_any { by.tuning.stepping_out } else { 0.0 }
 }
 
 /// What it costs to show something else than a person has seen last.

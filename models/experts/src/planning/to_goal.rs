@@ -2,6 +2,7 @@
 
 use super::MODES;
 use super::anchors::{Anchor, PathKind, Way, identity_of};
+use super::crossing::by_crosswalk;
 use super::legal::broken_m;
 use super::profile::{Caps, arriving, fastest, slowest};
 use super::world::{AgentAtStart, World};
@@ -87,7 +88,9 @@ fn paths_to_goal(
     goal: Vec2,
 ) -> Vec<Way> {
     if model.kind == Kind::Walk {
-        return vec![walk_to(who, model, target, goal, &world.tuning.anchors)];
+        let straight = walk_to(who, model, target, goal, &world.tuning.anchors);
+        let by_crosswalk = by_crosswalk(world, who, model, target, goal, &straight.path);
+        return by_crosswalk.into_iter().chain([straight]).collect();
     }
     let least = project(model, &model.coasting(), target, None);
     let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));

@@ -183,7 +183,8 @@ impl Trace {
             && overlaps(&self.outline(mine), &other.outline(theirs), 0.0)
     }
 
-    pub(super) fn speed_at(&self, moment: usize) -> Option<f64> {
+    /// Speed at a moment, m/s.
+    pub fn speed_at(&self, moment: usize) -> Option<f64> {
         self.moments.get(moment)?.as_ref().map(|m| m.speed_mps)
     }
 }
