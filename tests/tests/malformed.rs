@@ -112,6 +112,12 @@ fn condition_cases() -> Vec<Case> {
             "invalid-field",
         ),
         case("expert `other`", with("/conditions/0/type", json!("other")), 422, "invalid-field"),
+        case(
+            "no edge to cross",
+            with("/conditions/0/goal/may_cross", json!(["ghost"])),
+            422,
+            "invalid-field",
+        ),
         case("conditions of a stranger", with("/conditions/ghost", json!({})), 422, "unknown-agent"),
         case("stranger to regenerate", with("/agents/0", json!("ghost")), 422, "unknown-agent"),
         case("nobody to regenerate", with("/agents", json!([])), 422, "invalid-field"),

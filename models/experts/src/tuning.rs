@@ -183,6 +183,8 @@ tuning! {
         wrong_way = 8.0, off 0.0;
         /// A stop line that is crossed at red. Set by hand. 2026-11-22.
         red_light = 4.0, off 0.0;
+        /// A walker who steps out before a vehicle that would have to brake hard. Set by hand. 2026-11-23.
+        stepping_out = 1.5, off 0.0;
         /// Leaving the future that was shown last, while a goal is dragged: less than an overlap, more than what tells
         /// modes apart. Jumps over 1 m when a goal moves by 5 cm on drags of the 71 scenes: 2.7 % at 3, 2.3 % at 4.
         /// 2026-11-23.

@@ -11,6 +11,8 @@ use std::sync::{Arc, LazyLock};
 
 #[path = "generator/crossing.rs"]
 mod crossing;
+#[path = "generator/evading.rs"]
+mod evading;
 #[path = "generator/leaks.rs"]
 mod leaks;
 #[path = "generator/planning.rs"]
@@ -19,6 +21,8 @@ mod planning;
 mod refining;
 #[path = "generator/rollouts.rs"]
 mod rollouts;
+#[path = "generator/walking.rs"]
+mod walking;
 
 static GENERATOR: LazyLock<Generator> = LazyLock::new(|| Generator::random(3).unwrap().with_threads(1));
 

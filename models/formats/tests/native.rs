@@ -119,6 +119,19 @@ fn conditions_at_and_beyond_each_bound() {
 }
 
 #[test]
+fn edges_that_may_be_crossed_come_back_and_are_bounded() {
+    let list = |n: usize| (0..n).map(|i| format!("\"e{i}\"")).collect::<Vec<_>>().join(",");
+    let read = |list: &str| resolve(&format!("{{\"goal\":{{\"may_cross\":[{list}]}}}}"));
+    let found = read("\"b\",\"a\"").unwrap();
+    assert_eq!(found.may_cross, ["b", "a"]);
+    let written = serde_json::to_value(ConditionsDoc::from_conditions(&found)).unwrap();
+    assert_eq!(written, serde_json::json!({"goal": {"may_cross": ["b", "a"]}}));
+    assert_eq!(read(&list(32)).unwrap().may_cross.len(), 32);
+    let problem = read(&list(33)).unwrap_err().remove(0);
+    assert_eq!((problem.pointer.as_str(), problem.code), ("/conditions/1/goal/may_cross", "invalid-field"));
+}
+
+#[test]
 fn agent_frame_equals_scene_frame() {
     let (sin, cos) = 0.5_f64.sin_cos();
     let here = resolve(

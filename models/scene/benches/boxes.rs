@@ -87,6 +87,7 @@ fn traffic(count: usize) -> Vec<Actor<'static>> {
             track: Cow::Owned(Track { first_step: 0, states: (0..91).map(state).collect(), z_m: None }),
             log: None,
             generated: true,
+            may_cross: &[],
             goal: Goal::default(),
             reference: None,
             modes: &[],

@@ -1,7 +1,10 @@
 //! What a user fixes about a road user: start and goal, each field free (`None`) or fixed.
 
-use crate::{Agent, AgentType, HORIZON_STEPS, STEP_S, Vec2};
+use crate::{Agent, AgentType, HORIZON_STEPS, LaneMap, STEP_S, Vec2};
 use serde::Serialize;
+
+/// Most road edges that one road user may be allowed to drive over.
+pub const MAX_CROSSED_EDGES: usize = 32;
 
 /// Where a road user starts. A free field comes from the log, else from defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -56,12 +59,21 @@ pub struct Conditions {
     pub start: Start,
     /// Goal fields.
     pub goal: Goal,
+    /// Ids of the road edges that it may drive over on its way to the goal, at most [`MAX_CROSSED_EDGES`].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub may_cross: Vec<String>,
 }
 
 impl Conditions {
     /// True when nothing at all is fixed.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// Places in [`Conditions::may_cross`] of ids that are no road edge of this map.
+    pub fn unknown_edges(&self, map: &LaneMap) -> Vec<usize> {
+        let known = |id: &String| map.road_edges.iter().any(|edge| edge.id == *id);
+        (0..self.may_cross.len()).filter(|i| !known(&self.may_cross[*i])).collect()
     }
 
     /// What a road user counts as under these conditions.

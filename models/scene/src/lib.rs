@@ -23,7 +23,7 @@ pub mod score;
 pub mod signal;
 
 pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
-pub use condition::{Conditions, Goal, Start};
+pub use condition::{Conditions, Goal, MAX_CROSSED_EDGES, Start};
 pub use generated::{AgentFutures, Future, Generated, Sample};
 pub use geometry::{Vec2, wrap_angle};
 pub use hash::ContentHash;

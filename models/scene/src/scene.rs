@@ -263,6 +263,14 @@ impl Scene {
                 );
                 problems.push(SceneError::new(format!("/agents/{i}/track"), "invalid-field", reason));
             }
+            for k in agent.conditions.unknown_edges(&self.map) {
+                let at = format!("/agents/{i}/conditions/goal/may_cross/{k}");
+                problems.push(SceneError::new(
+                    at,
+                    "invalid-field",
+                    "the id of a road edge of the map expected",
+                ));
+            }
             if track.z_m.as_ref().is_some_and(|z| z.len() != track.states.len()) {
                 let reason = "z_m must be as long as x_m";
                 problems.push(SceneError::new(format!("/agents/{i}/track/z_m"), "invalid-field", reason));

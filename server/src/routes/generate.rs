@@ -333,7 +333,14 @@ impl GenerateRequest {
             };
             let context = Context { agent_type: agent.agent_type, start: agent.state_at(start_step), window };
             match doc.resolve(&pointer, &context) {
-                Ok(conditions) => agent.conditions = conditions,
+                Ok(conditions) => {
+                    for k in conditions.unknown_edges(&scene.map) {
+                        let at = format!("{pointer}/goal/may_cross/{k}");
+                        let detail = "the id of a road edge of the map expected";
+                        faults.push(FieldProblem::new(at, "invalid-field", detail));
+                    }
+                    agent.conditions = conditions;
+                }
                 Err(more) => faults.extend(more),
             }
         }

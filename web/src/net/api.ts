@@ -898,6 +898,8 @@ export interface components {
          * @description One thing that is wrong with a motion.
          */
         Fault: {
+            /** @description The road edge that is driven over, by its id in the map. */
+            edge?: string | null;
             /**
              * Format: double
              * @description How bad, in the unit of its kind.
@@ -1309,6 +1311,11 @@ export interface components {
              * @description Frame `agent`: metres to the left of the start's heading; with `ahead_m` or not at all.
              */
             left_m?: number | null;
+            /**
+             * @description Ids of road edges of the map, such as those of a median, that the road user may drive over: no fault, and no
+             *     reason to go another way.
+             */
+            may_cross?: string[];
             /**
              * Format: double
              * @description m/s.
@@ -2790,6 +2797,8 @@ export interface components {
         Stretch: {
             /** @description Who. */
             agent: string;
+            /** @description Off the road and over a median: the road edge that is driven over, by its id in the map. */
+            edge?: string | null;
             /**
              * @description The log itself shows it: the motion is the recorded one, or the recording has the same at about
              *     the same time, no less bad.

@@ -7,6 +7,7 @@ use super::tables::ANCHOR;
 use super::tangent::tangent;
 use crate::planning::MODES;
 use crate::planning::anchors::{Anchor, anchors};
+use crate::planning::crossing::{Kerb, kerb};
 use crate::planning::lights::{Gate, gates, sets_off};
 use crate::planning::world::{AgentAtStart, World};
 use scene::geometry::obb::OrientedBox;
@@ -31,12 +32,16 @@ pub struct AgentPlan {
     pub anchors: Vec<Anchor>,
     /// Red lights on each anchor's path.
     pub lights: [Vec<Gate>; MODES],
+    /// Where a walker steps onto the lanes on each anchor's path.
+    pub kerbs: [Option<Kerb>; MODES],
     /// Heading of the lane that each anchor brings to the goal, where the goal lies on a lane and leaves its
     /// heading free, radians.
     pub lane_headings: [Option<f64>; MODES],
     /// How those who stand set off towards a goal, m/s2.
     pub easy_mps2: f64,
-    /// Where vehicles may drive; `None` for who does not start there or is no vehicle.
+    /// Where it may drive: [`World::ground`].
+    pub drivable: Arc<Drivable>,
+    /// The same; `None` for who does not start there or is no vehicle.
     pub ground: Option<Arc<Drivable>>,
     /// For the networks.
     pub features: AgentFeatures,
@@ -58,6 +63,7 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let mut encoded = Box::new([[0.0; ANCHOR]; MODES]);
     let obstacles = world.obstacles(who.index);
     let mut lights: [Vec<Gate>; MODES] = Default::default();
+    let mut kerbs: [Option<Kerb>; MODES] = Default::default();
     let mut last: Option<(u64, PathFacts)> = None;
     for (slot, anchor) in anchors.iter().enumerate() {
         let path_identity = anchor.path_identity();
@@ -65,10 +71,12 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
         let facts = match last.take() {
             Some((identity, facts)) if identity == path_identity => {
                 lights[slot] = lights[slot - 1].clone();
+                kerbs[slot] = kerbs[slot - 1].clone();
                 facts
             }
             _ => {
                 lights[slot] = gates(world, who, &anchor.path);
+                kerbs[slot] = kerb(world, who, &anchor.path);
                 PathFacts::of(world, who, anchor, &obstacles)
             }
         };
@@ -89,15 +97,18 @@ pub fn plan_with(world: &World<'_>, who: &AgentAtStart, anchors: Vec<Anchor>) ->
     let projected = world.planning.projection;
     let easy_mps2 = world.tuning.anchors.setting_off_mps2;
     let present = who.clone();
-    let ground = ground(world, who);
+    let drivable = world.ground(who);
+    let ground = ground(&drivable, who);
     AgentPlan {
         present,
         model,
         target,
         anchors,
         lights,
+        kerbs,
         lane_headings,
         easy_mps2,
+        drivable,
         ground,
         features,
         projected,
@@ -114,9 +125,8 @@ impl AgentPlan {
 }
 
 /// See [`AgentPlan::ground`].
-fn ground(world: &World<'_>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
+fn ground(ground: &Arc<Drivable>, who: &AgentAtStart) -> Option<Arc<Drivable>> {
     let outline = OrientedBox::of_state(&who.start, &who.size);
-    let ground = world.graph.ground();
     let starts_there = ground.box_outside_m(&outline).is_some_and(|outside_m| outside_m <= BEYOND_M);
     (who.agent_type == AgentType::Vehicle && ground.is_bounded() && starts_there).then(|| ground.clone())
 }

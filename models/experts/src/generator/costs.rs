@@ -5,16 +5,17 @@ use super::actor::Actor;
 use super::candidates::{Candidate, Origin};
 use super::choice::{Choosable, medoid_costs, swept};
 use super::slot::Slot;
+use super::stepping_out::steps_out;
 use super::trajectory::PER_INSTANT;
 use crate::planning::INSTANTS;
 use crate::request::ShownLast;
 use crate::tuning::ChoiceTuning;
 use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
-use scene::judge::Judge;
+use scene::judge::{Judge, Trace};
 use scene::motion::{MotionState, Trajectory};
 use scene::score::Actor as ScoreActor;
-use scene::{Agent, AgentType, Future, STANDING_MPS, State};
+use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, State};
 
 /// What was shown binds less, by this share, where it breaks the rules by so much more, in the choice's costs.
 const BOUND_TO_WRONG: f64 = 0.4;
@@ -32,6 +33,8 @@ pub(super) struct Yardstick<'a> {
     pub(super) shown: Option<&'a ShownLast>,
     pub(super) map: &'a KnownMap,
     pub(super) judge: &'a Judge<'a>,
+    /// Those who go on with what they do.
+    pub(super) others: &'a [Trace],
     /// The road user in the scene, and the window's first step.
     pub(super) agent: &'a Agent,
     pub(super) start_step: usize,
@@ -49,7 +52,11 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             .collect(),
         None => central(candidates, by.around, tuning),
     };
-    let broken: Vec<f64> = candidates.iter().map(|c| broken_rules(actor, &c.motion.states, by)).collect();
+    let broken: Vec<f64> = candidates
+        .iter()
+        .map(|c| &c.motion.states)
+        .map(|states| broken_rules(actor, states, by) + stepping_out(actor, states, by))
+        .collect();
     let is_shown = |c: &Candidate| matches!(c.origin, Origin::Shown(_));
     let shown_breaks = candidates.iter().position(is_shown).map_or(0.0, |shown| broken[shown]);
     let option = |((c, cost), broken): ((&Candidate, f64), &f64)| {
@@ -85,11 +92,11 @@ fn central(candidates: &[Candidate], around: Option<Slot>, tuning: &ChoiceTuning
 }
 
 /// A vehicle whose box lies within the road's edges at the start.
-pub(super) fn starts_on_the_road(actor: &Actor, map: &KnownMap, tuning: &ChoiceTuning) -> bool {
+pub(super) fn starts_on_the_road(actor: &Actor, tuning: &ChoiceTuning) -> bool {
     let present = &actor.plan.present;
     let outline = OrientedBox::of_state(&present.start, &present.size);
     present.agent_type == AgentType::Vehicle
-        && map.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
+        && actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
 }
 
 /// What it costs to run a red light, and a vehicle to leave the road or drive against the traffic.
@@ -102,6 +109,19 @@ fn broken_rules(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
         cost += if runs { by.tuning.red_light } else { 0.0 };
     }
     cost
+}
+
+/// What it costs a walker without a goal to step out before a vehicle that comes fast.
+fn stepping_out(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
+    let plan = &actor.plan;
+    let beside = plan.target.position.is_none() && plan.kerbs.iter().any(Option::is_some);
+    if !beside || by.others.is_empty() {
+        return 0.0;
+    }
+    let at = |step: usize| states.get(step + 1).map(State::from);
+    let me = Trace::new(&actor.id, plan.present.agent_type, &plan.present.size, HORIZON_STEPS, at);
+    let before_any = by.others.iter().any(|other| steps_out(&me, other).is_some());
+    if before_any { by.tuning.stepping_out } else { 0.0 }
 }
 
 /// What it costs to show something else than a person has seen last.
@@ -131,10 +151,11 @@ fn off_road(actor: &Actor, states: &Trajectory, map: &KnownMap, tuning: &ChoiceT
     };
     let away = |s: &MotionState| {
         map.graph.nearest_for(s.position, tuning.off_lanes_m, present.agent_type).is_empty()
+            && !actor.plan.drivable.is_beside_allowed(s.position)
     };
     let beyond = |s: &MotionState| {
         let outline = OrientedBox::of_state(&State::from(s), &present.size);
-        map.drivable.box_outside_m(&outline).is_some_and(|outside| outside > tuning.past_edge_m)
+        actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside > tuning.past_edge_m)
     };
     let share = |off: &dyn Fn(&MotionState) -> bool| {
         if off(start) {

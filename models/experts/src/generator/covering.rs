@@ -9,6 +9,7 @@ use super::actor::Actor;
 use super::candidates::middle;
 use super::ideas::{HURRY, Sketch, ladder};
 use super::slot::Slot;
+use super::stepping_out::steps_out;
 use crate::planning::{MODES, Modes, RESIDUAL, Residual};
 use crate::tuning::DuplicateTuning;
 use scene::judge::{Trace, crossing};
@@ -93,13 +94,27 @@ impl<'a> Covering<'a> {
             }
         }
         let missing = self.missing_orders(first);
-        if copies.is_empty() && missing.is_empty() {
+        let waits = self.waits_until(first);
+        if copies.is_empty() && missing.is_empty() && waits.is_none() {
             return;
         }
         let mut free: Vec<usize> = copies.iter().map(|c| c.0).collect();
         free.sort_unstable();
+        if let Some(passed_s) = waits {
+            let path = self.actor.plan.anchors[first].path_identity();
+            let make = |covering: &Self, i: usize| {
+                let same = covering.actor.plan.anchors[i].path_identity() == path;
+                let like = &covering.sketches[first];
+                same.then(|| covering.sketches[i].waiting_at_kerb(like, passed_s)).flatten()
+            };
+            self.give(&make, first, &mut free);
+        }
         for (stream, before) in missing {
-            self.order(stream, before, first, &mut free);
+            let make = |covering: &Self, i: usize| {
+                let made = covering.sketches[i].ordered(stream, before)?;
+                covering.is_free(&covering.sketches[i], &made).then_some(made)
+            };
+            self.give(&make, first, &mut free);
         }
         for i in free {
             if let Some(made) = self.another(i, copy_m) {
@@ -126,12 +141,27 @@ impl<'a> Covering<'a> {
         wants.filter(|(other, before)| !has(other, if *before { 1 } else { -1 })).collect()
     }
 
-    /// Gives an order to a copy, or to an unlikely mode on a path that another one has too.
-    fn order(&mut self, other: &Trace, before: bool, first: usize, free: &mut Vec<usize>) {
-        let made = |covering: &Self, i: usize| {
-            let made = covering.sketches[i].ordered(other, before)?;
-            covering.is_free(&covering.sketches[i], &made).then_some(made)
+    /// When those have passed before whom a walker would step out by the best guess, while no other mode waits for
+    /// them at the kerb; seconds.
+    fn waits_until(&self, first: usize) -> Option<f64> {
+        let plan = &self.actor.plan;
+        let kerb = plan.kerbs[first].as_ref().filter(|_| plan.target.position.is_none())?;
+        let me = self.sketches[first].trace();
+        let passed_s = self.near.iter().filter_map(|other| steps_out(me, other)).reduce(f64::max)?;
+        let waits = |i: &usize| {
+            let at_m = self.sketches[*i].along_at(passed_s);
+            plan.kerbs[*i].is_some() && (kerb.line_m - 2.0..=kerb.line_m).contains(&at_m)
         };
+        (!self.accepted.iter().any(waits)).then_some(passed_s)
+    }
+
+    /// Gives an idea to a copy, or to an unlikely mode on a path that another one has too.
+    fn give(
+        &mut self,
+        made: &dyn Fn(&Self, usize) -> Option<Sketch<'a>>,
+        first: usize,
+        free: &mut Vec<usize>,
+    ) {
         if let Some((at, found)) = free.iter().enumerate().find_map(|(at, i)| Some((at, made(self, *i)?))) {
             let i = free.remove(at);
             self.cover.steady[i] = true;
@@ -201,7 +231,7 @@ impl<'a> Covering<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generator::samples::car_on_a_street;
+    use crate::generator::samples::{car_on_a_street, walker_beside_a_street};
     use crate::planning::INSTANTS;
     use crate::tuning::SHIPPED;
     use scene::geometry::direction;
@@ -265,6 +295,39 @@ mod tests {
             assert!(orders.contains(&1) && orders.contains(&-1), "{passes_s}: {orders:?}");
             assert!(nearest_m(&all) > 0.5, "{}", nearest_m(&all));
         }
+    }
+
+    #[test]
+    fn who_would_step_out_before_a_fast_car_may_wait_at_the_kerb_too() {
+        let mut actor = Actor::new("1".into(), walker_beside_a_street(1.4), None);
+        actor.set_modes([[0.0; RESIDUAL]; MODES], [0.4, 0.12, 0.12, 0.12, 0.12, 0.12]);
+        let car = |passes_s: f64| {
+            let size = Size::default_for(AgentType::Vehicle, Subtype::Car);
+            let at = |step: usize| {
+                let x_m = 12.0 * (0.1 * (step + 1) as f64 - passes_s);
+                Some(State { x_m, vx_mps: 12.0, ..State::default() })
+            };
+            Trace::new("7", AgentType::Vehicle, &size, 90, at)
+        };
+        let line_m = actor.plan.kerbs[0].as_ref().unwrap().line_m;
+        assert!((3.0..4.25).contains(&line_m), "before the lane: {line_m}");
+        let waiting = |cover: &Cover, passes_s: f64| {
+            let all = shown(&actor, cover);
+            let at_kerb = |s: &&Sketch<'_>| {
+                let stands_m = s.along_at(passes_s + 0.3);
+                (line_m - 1.0..line_m + 0.3).contains(&stands_m)
+            };
+            all.iter().filter(at_kerb).map(|s| s.slot.index()).collect::<Vec<_>>()
+        };
+        let comes = car(4.6);
+        let cover = Cover::of(&actor, &[&comes], 1.0, &SHIPPED.duplicates);
+        let found = waiting(&cover, 4.6);
+        assert!(found.iter().any(|i| cover.steady[*i] && *i != 0), "{found:?}");
+        assert!(found.iter().all(|i| !shown(&actor, &cover)[*i].trace().meets(&comes)));
+        assert_eq!(cover.offset[0], [0.0; RESIDUAL], "the best guess stays");
+        // Nobody comes who would have to brake.
+        let alone = Cover::of(&actor, &[&car(60.0)], 1.0, &SHIPPED.duplicates);
+        assert!(!alone.steady[1..].contains(&true));
     }
 
     #[test]

@@ -244,6 +244,7 @@ impl Window<'_> {
             shown: self.shown_last(actor),
             map: &self.map,
             judge,
+            others: &self.traces,
             agent: self.world.agent(&actor.plan.present),
             start_step: self.world.step,
             tuning: &self.tuning().choice,

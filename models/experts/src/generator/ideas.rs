@@ -22,6 +22,9 @@ const END_S: f64 = INSTANTS as f64 * INSTANT_S;
 const GAPS_S: [f64; 3] = [0.9, 0.5, 0.2];
 /// Over the caps of a path by so much is usual.
 pub(super) const HURRY: f64 = 1.1;
+/// Times at which a draft that waits is where it should be, seconds, and how far over the kerb it may lean, metres.
+const HELD_AT_S: [f64; 6] = [1.5, 3.0, 4.5, 6.0, 7.5, 9.0];
+const OVER_KERB_M: f64 = 0.4;
 /// Way kept from shared ground, metres.
 const CLEAR_M: f64 = 0.4;
 
@@ -71,7 +74,7 @@ impl<'a> Sketch<'a> {
         self.route[INSTANTS - 1].0 - self.route[INSTANTS - 2].0 < scene::STANDING_MPS * INSTANT_S
     }
 
-    fn along_at(&self, seconds: f64) -> f64 {
+    pub(super) fn along_at(&self, seconds: f64) -> f64 {
         let at = (seconds / INSTANT_S).clamp(0.0, INSTANTS as f64);
         let (i, share) = (at.floor() as usize, at.fract());
         let knot = |i: usize| if i == 0 { 0.0 } else { self.route[i.min(INSTANTS) - 1].0 };
@@ -117,6 +120,21 @@ impl<'a> Sketch<'a> {
             let cap = (hurry * caps.at(*along)).max(fastest);
             rate >= least - 0.1 && rate <= most + 0.1 && speed <= cap + 0.3
         })
+    }
+
+    /// Like another draft on this path, but waiting at the kerb until `passed_s`; `None` where there is none, or it
+    /// cannot be stopped at in time.
+    pub(super) fn waiting_at_kerb(&self, like: &Self, passed_s: f64) -> Option<Self> {
+        let plan = &self.actor.plan;
+        let kerb = plan.kerbs[self.slot.index()].as_ref()?;
+        let wanted = std::array::from_fn(|step| like.along_at(step as f64 * STEP_S));
+        let until = (passed_s / STEP_S).ceil() as usize;
+        let held = kerb.held(&wanted, plan.model.start_speed_mps(), until)?;
+        let shifts = HELD_AT_S.map(|t| (t, held[(t / STEP_S).round() as usize] - self.along_at(t)));
+        let made = self.with(&pace(plan, &shifts)?);
+        let stays = (0..=until.min((END_S / STEP_S) as usize))
+            .all(|step| made.along_at(step as f64 * STEP_S) <= kerb.line_m + OVER_KERB_M);
+        stays.then_some(made)
     }
 
     /// Going before or after another where their paths cross, as a change of pace; `None` where there is no such

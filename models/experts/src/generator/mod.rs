@@ -23,6 +23,7 @@ mod repulsion;
 mod samples;
 mod slot;
 mod standing;
+mod stepping_out;
 mod subgoal;
 mod trajectory;
 mod widening;

@@ -71,13 +71,12 @@ mod tests {
     use crate::planning::RESIDUAL;
     use crate::planning::pullback::Pullback;
     use crate::tuning::SHIPPED;
-    use scene::score::Drivable;
     use scene::{Goal, Vec2};
 
     #[test]
     fn two_on_one_way_part_and_who_is_far_stays() {
-        let (pullback, drivable) = (Pullback::default(), Drivable::default());
-        let energy = SceneEnergy { pullback: &pullback, drivable: &drivable, tuning: &SHIPPED.overlaps };
+        let pullback = Pullback::default();
+        let energy = SceneEnergy { pullback: &pullback, tuning: &SHIPPED.overlaps };
         let ride = |id: &str, y: f64| {
             let mut plan = car_on_a_street(8.0, Goal::default());
             for anchor in &mut plan.anchors {

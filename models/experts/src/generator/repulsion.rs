@@ -15,7 +15,6 @@ use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
 use scene::geometry::overlap_energy::{Growth, MovingBox, absent, carried_back, carried_on, overlap_energy};
 use scene::motion::MotionState;
-use scene::score::Drivable;
 
 /// Boxes farther apart than this do not matter to each other, metres.
 const NEAR_M: f32 = 1.0;
@@ -81,7 +80,6 @@ pub(super) enum Terms {
 #[derive(Clone, Copy)]
 pub(super) struct SceneEnergy<'a> {
     pub(super) pullback: &'a Pullback,
-    pub(super) drivable: &'a Drivable,
     pub(super) tuning: &'a OverlapTuning,
 }
 
@@ -135,7 +133,7 @@ impl SceneEnergy<'_> {
             add(self.tuning.soon as f32, soon.energy, carried_back(&soon.gradient, soon_intervals));
             if actor.keeps_to_the_road {
                 let size = &actor.plan.present.size;
-                let kerb = kerb(self.drivable, size, places, self.tuning.kerb as f32);
+                let kerb = kerb(&actor.plan.drivable, size, places, self.tuning.kerb as f32);
                 add(1.0, kerb.energy, kerb.gradient);
             }
         }
@@ -219,8 +217,8 @@ mod tests {
         let who = plan.present.clone();
         let actor = Actor::new("1".into(), plan, None);
         let standing = Outline::new([pose_of(Vec2::new(x, y), 0.0); INSTANTS], &who, &SHIPPED.overlaps);
-        let (pullback, drivable) = (Pullback::default(), Drivable::default());
-        let energy = SceneEnergy { pullback: &pullback, drivable: &drivable, tuning: &SHIPPED.overlaps };
+        let pullback = Pullback::default();
+        let energy = SceneEnergy { pullback: &pullback, tuning: &SHIPPED.overlaps };
         energy.downhill(&actor, Slot::FIRST, draft, &[&standing], terms)
     }
 

@@ -8,7 +8,6 @@ use super::trajectory::{PER_INSTANT, places};
 use super::window::Window;
 use crate::planning::world::World;
 use crate::planning::{INSTANTS, Modes};
-use scene::geometry::direction;
 use scene::judge::{About, Manoeuvre, Trace, manoeuvre, relations};
 use scene::{AgentType, HORIZON_STEPS, STEP_S, State, Vec2, wrap_angle};
 use std::collections::{BTreeMap, BTreeSet};
@@ -52,8 +51,7 @@ pub(super) fn trace_of(actor: &Actor, places: &[(Vec2, f64); INSTANTS]) -> Trace
         let ((from, h0), (to, h1)) = (knot(i), knot(i + 1));
         let position = from + (to - from) * share;
         let heading_rad = h0 + share * wrap_angle(h1 - h0);
-        let speed_mps = (to - from).norm() / (PER_INSTANT as f64 * STEP_S);
-        let velocity = direction(heading_rad) * speed_mps;
+        let velocity = (to - from) / (PER_INSTANT as f64 * STEP_S);
         Some(State { x_m: position.x, y_m: position.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y })
     };
     Trace::new(&actor.id, present.agent_type, &present.size, HORIZON_STEPS, at)

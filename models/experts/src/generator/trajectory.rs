@@ -77,7 +77,8 @@ pub(super) fn route_coordinates(plan: &AgentPlan, slot: Slot, residual: &Residua
 /// have been at that progress.
 fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(f64, f64); INSTANTS] {
     let gates = &plan.lights[slot.index()];
-    if gates.is_empty() || plan.model.gear == Gear::Reverse {
+    let kerb = plan.kerbs[slot.index()].as_ref().filter(|_| plan.target.position.is_some());
+    if (gates.is_empty() && kerb.is_none()) || plan.model.gear == Gear::Reverse {
         return wanted;
     }
     let anchor = &plan.anchors[slot.index()];
@@ -87,6 +88,10 @@ fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(
         let (from, to) = (before(i).0, before((i + 1).min(INSTANTS)).0);
         from + part * (to - from)
     });
+    if let Some(kerb) = kerb {
+        let held = kerb.waiting(&progress, plan.model.start_speed_mps(), plan.target.step);
+        return held.map_or(wanted, |held| beside_at(&wanted, &held));
+    }
     let waiting = Waiting {
         gates,
         v0: plan.model.start_speed_mps(),
@@ -100,6 +105,12 @@ fn at_lights(plan: &AgentPlan, slot: Slot, wanted: [(f64, f64); INSTANTS]) -> [(
     let leaves = plan.target.is_free() && slot != Slot::FIRST;
     let left = leaves.then(|| waiting.setting_off(held.as_ref().unwrap_or(&progress))).flatten();
     let Some(held) = left.or(held) else { return wanted };
+    beside_at(&wanted, &held)
+}
+
+/// Places at another progress than was wanted, each beside the path where it would have been at that progress.
+fn beside_at(wanted: &[(f64, f64); INSTANTS], held: &Progress) -> [(f64, f64); INSTANTS] {
+    let before = |i: usize| if i == 0 { (0.0, 0.0) } else { wanted[i - 1] };
     std::array::from_fn(|i| {
         let along = held[(i + 1) * PER_INSTANT];
         let next = (0..INSTANTS).find(|k| wanted[*k].0 >= along).unwrap_or(INSTANTS - 1);

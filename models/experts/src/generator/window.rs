@@ -120,9 +120,9 @@ impl<'g> Window<'g> {
         };
         window.act(cast)?;
         window.answer(cast)?;
-        let (tuning, map) = (&generator.tuning, window.map.clone());
+        let tuning = &generator.tuning;
         for actor in &mut window.actors {
-            actor.keeps_to_the_road = costs::starts_on_the_road(actor, &map, &tuning.choice);
+            actor.keeps_to_the_road = costs::starts_on_the_road(actor, &tuning.choice);
         }
         if window.request.stages.background_in_the_way {
             let Self { world, request, actors, .. } = &window;
@@ -207,8 +207,7 @@ impl<'g> Window<'g> {
 
     /// The scene's energy.
     pub(super) fn energy(&self) -> SceneEnergy<'_> {
-        let (pullback, drivable) = (&self.pullback, &self.map.drivable);
-        SceneEnergy { pullback, drivable, tuning: &self.tuning().overlaps }
+        SceneEnergy { pullback: &self.pullback, tuning: &self.tuning().overlaps }
     }
 
     /// What a person has seen last of an actor: it binds the first sample of the first window.

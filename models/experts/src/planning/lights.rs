@@ -6,7 +6,7 @@ use scene::geometry::cross;
 use scene::limits::Limits;
 use scene::motion::Target;
 use scene::routes::{LaneGraph, Polyline, Pose};
-use scene::{AgentType, HORIZON_STEPS, STEP_S, Signal, SignalState, wrap_angle};
+use scene::{AgentType, HORIZON_STEPS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
 use std::f64::consts::FRAC_PI_4;
 
 /// A lane is taken by a path that stays within this of its centre on average, metres.
@@ -49,7 +49,7 @@ const PRESSED_SHARE: f64 = 0.85;
 const ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
 
 /// Steps of a window as bits, the start first.
-type Steps = u128;
+pub(super) type Steps = u128;
 
 /// The stop line of a signal.
 #[derive(Clone, Debug)]
@@ -63,6 +63,8 @@ pub struct StopLine {
     red: Steps,
     /// Steps at which it is known not to be.
     open: Steps,
+    /// Steps at which the lane has green, or had until a moment ago.
+    go: Steps,
 }
 
 impl StopLine {
@@ -86,7 +88,24 @@ impl StopLine {
             goes_on: lit.path.length_m() - s_m > 5.0,
             red: steps(&must_stop),
             open: steps(&|state| state != SignalState::Unknown && !must_stop(state)),
+            go: steps(&|state| matches!(state, SignalState::Go | SignalState::ArrowGo) || state.is_caution()),
         })
+    }
+
+    /// The ground right behind the line, straight on for so many metres: its two ends.
+    pub(super) fn behind(&self, reach_m: f64) -> (Vec2, Vec2) {
+        let ahead = self.at.direction();
+        (self.at.position - ahead, self.at.position + ahead * reach_m)
+    }
+
+    /// Steps of the window at which its lane has green.
+    pub(super) fn go(&self) -> Steps {
+        self.go
+    }
+
+    /// Steps of the window at which it is known to be red.
+    pub(super) fn red(&self) -> Steps {
+        self.red
     }
 
     /// Arc length at which a path crosses the line in the lane's direction.

@@ -1,11 +1,14 @@
 //! The planning prior: what can be said of a road user's futures before any network speaks.
 //!
-//! [`world`] is the scene at one step, [`anchors`] are the ways on from there (legal ones first), [`profile`] the pace along
-//! them, [`coordinates`] how a future is written relative to its anchor, and [`pullback`] takes gradients
+//! [`world`] is the scene at one step, [`anchors`] are the ways on from there (legal ones first), [`crossing`] how
+//! walkers cross lanes, [`profile`] the pace along them, [`coordinates`] how a future is written relative to its anchor, and [`pullback`] takes gradients
 //! in the plane back to those numbers.
 
 pub mod anchors;
 pub mod coordinates;
+pub mod crossing;
+#[cfg(test)]
+mod crossing_tests;
 mod legal;
 pub mod lights;
 pub mod profile;

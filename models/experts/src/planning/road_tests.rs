@@ -69,7 +69,8 @@ fn anchors_on(map: LaneMap, agent: Agent) -> (Vec<Anchor>, Vec<f64>) {
     let target = world.target(who);
     let found = anchors(&world, who, &world.model(who), &target);
     let goal = target.position.unwrap();
-    let broken = |a: &Anchor| broken_m(world.graph.ground(), who, &a.path, a.path.project(goal).s_m);
+    let ground = world.ground(who);
+    let broken = |a: &Anchor| broken_m(&ground, who, &a.path, a.path.project(goal).s_m);
     let broken = found.iter().map(broken).collect();
     (found, broken)
 }
@@ -95,6 +96,26 @@ fn a_goal_that_only_a_way_over_the_median_reaches_is_still_reached() {
         let (there, _) = anchor.place(anchor.base[HORIZON_STEPS], 0.0);
         assert!((there - Vec2::new(80.0, 12.0)).norm() < 1.0, "{there:?}");
     }
+}
+
+#[test]
+fn the_way_over_a_median_that_may_be_crossed_comes_first() {
+    let over = |allowed: &[&str], turning: bool, goal: Goal| {
+        let mut agent = car(10.0, goal);
+        agent.conditions.may_cross = allowed.iter().map(|id| (*id).to_owned()).collect();
+        anchors_on(carriageways(turning), agent)
+    };
+    let (_, broken) = over(&["a0", "a1", "b0", "b1"], false, to(80.0, 12.0, 9.0));
+    assert_eq!(broken, [0.0; MODES], "over the median where nothing but that leads there");
+    // Once it may, it need not turn round far ahead.
+    let (by_the_gap, _) = over(&[], true, to(40.0, 12.0, 9.0));
+    let (over_it, broken) = over(&["a0", "a1"], true, to(40.0, 12.0, 9.0));
+    assert_eq!(by_the_gap[0].kind, PathKind::Route);
+    assert!(over_it[0].kind != PathKind::Route && broken[0] < 2.0, "{:?} {broken:?}", over_it[0].kind);
+    assert!(over_it[0].path.length_m() < by_the_gap[0].path.length_m());
+    // Another edge does not help.
+    let (found, _) = over(&["right"], true, to(40.0, 12.0, 9.0));
+    assert_eq!(found[0].kind, PathKind::Route);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::MODES;
 use super::anchors::{Anchor, PathKind, Way, identity_of};
+use super::crossing::by_crosswalk;
 use super::legal::broken_m;
 use super::profile::{Caps, arriving, fastest, going_on, slowest};
 use super::world::{AgentAtStart, World};
@@ -12,7 +13,9 @@ use scene::routes::{
     EndPose, GoalQuery, GoalRoute, Polyline, RouteKind, base_path, further_routes_to_goal, routes_ahead,
     routes_to_goal,
 };
+use scene::score::Drivable;
 use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
+use std::sync::Arc;
 
 /// Most ways that get anchors.
 const MOST_WAYS: usize = 3;
@@ -78,6 +81,8 @@ struct Trip<'a, 'w> {
     /// The motion of least effort, and its path.
     least: Projection,
     least_path: Polyline,
+    /// Where it may drive.
+    ground: Arc<Drivable>,
 }
 
 fn paths_to_goal(
@@ -88,7 +93,9 @@ fn paths_to_goal(
     goal: Vec2,
 ) -> Vec<Way> {
     if model.kind == Kind::Walk {
-        return vec![walk_to(who, model, target, goal, &world.tuning.anchors)];
+        let straight = walk_to(who, model, target, goal, &world.tuning.anchors);
+        let by_crosswalk = by_crosswalk(world, who, model, target, goal, &straight.path);
+        return by_crosswalk.into_iter().chain([straight]).collect();
     }
     let least = project(model, &model.coasting(), target, None);
     let least_path = Polyline::new(least.trajectory.iter().take(target.step + 1).map(|s| s.position));
@@ -103,7 +110,7 @@ fn paths_to_goal(
         goal_heading_rad: target.heading_rad,
         least_effort_m: Some(least_path.length_m()),
     };
-    let trip = Trip { world, who, model, target, goal, query, least, least_path };
+    let trip = Trip { world, who, model, target, goal, query, least, least_path, ground: world.ground(who) };
     let mut ways = trip.by_the_road(trip.usual());
     ways.truncate(MOST_WAYS);
     if target.step < HORIZON_STEPS {
@@ -136,6 +143,12 @@ impl Trip<'_, '_> {
         let near = out.first().is_some_and(|c| greatest_distance(&self.least_path, &c.path) < 1.0);
         let joined = out.first().is_some_and(|c| c.kind == PathKind::Joined);
         let direct = self.least.reach.is_reached() && is_direct(self.least_path.length_m(), who, self.goal);
+        let shorter = |way: &Way| self.least_path.length_m() < way.path.length_m();
+        let direct_there = self.least.reach.is_reached() && out.first().is_none_or(shorter);
+        if !near && direct_there && self.takes_what_is_allowed() {
+            out.insert(0, self.least_effort());
+            return out;
+        }
         if out.is_empty() || near || (joined && direct) {
             let route = if near { out.remove(0).route } else { None };
             // Off the lanes a goal with a heading is met straight away; without one the lanes say how.
@@ -143,6 +156,17 @@ impl Trip<'_, '_> {
             out.insert(place, Way { route, ..self.least_effort() });
         }
         out
+    }
+
+    /// The motion of least effort leads over an edge that this road user was allowed to cross, and no other: that is
+    /// why it was allowed.
+    fn takes_what_is_allowed(&self) -> bool {
+        let crosses = |ground: &Drivable| {
+            let path = self.least_path.points();
+            path.windows(2).any(|ends| ground.crosses_an_edge(ends[0], ends[1]))
+        };
+        let allowed = !self.world.conditions[self.who.index].may_cross.is_empty();
+        allowed && crosses(self.world.graph.ground()) && !crosses(&self.ground)
     }
 
     fn along(&self, found: GoalRoute) -> Way {
@@ -196,7 +220,7 @@ impl Trip<'_, '_> {
     fn cost(&self, way: &Way) -> f64 {
         let length_m = goal_progress(&way.path, self.goal);
         let late = if self.arrives(way, length_m) { 0.0 } else { 1e3 };
-        late + broken_m(self.world.graph.ground(), self.who, &way.path, length_m)
+        late + broken_m(&self.ground, self.who, &way.path, length_m)
     }
 
     /// The goal can be reached in time along a way, within the limits.

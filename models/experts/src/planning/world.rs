@@ -6,7 +6,9 @@ use scene::geometry::obb::OrientedBox;
 use scene::motion::{MotionModel, Target};
 use scene::routes::speed::{LaneSignal, Obstacle};
 use scene::routes::{LaneGraph, Pose};
+use scene::score::Drivable;
 use scene::{Agent, AgentType, Conditions, Goal, HORIZON_STEPS, Scene, Size, State, Vec2};
+use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -164,6 +166,14 @@ impl<'a> World<'a> {
             position: goal.position,
             heading_rad: goal.heading_rad,
             speed_mps: goal.speed_mps,
+        }
+    }
+
+    /// Where a present road user may drive: the map's ground, with the edges that it may cross.
+    pub fn ground(&self, present: &AgentAtStart) -> Arc<Drivable> {
+        match self.graph.ground().allowing(&self.conditions[present.index].may_cross) {
+            Cow::Borrowed(_) => self.graph.ground().clone(),
+            Cow::Owned(ground) => Arc::new(ground),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The hand-made scene of the generator's tests, which the golden answers use too.
 
-use scene::map::{Lane, LaneMap};
+use scene::map::{Area, Lane, LaneMap};
 use scene::{Agent, AgentType, Scene, State, Subtype, Vec2};
 
 /// A straight lane 3.5 m wide with a point a metre, limited to 30 miles an hour.
@@ -50,4 +50,14 @@ pub fn crossing() -> Scene {
         agent("6", AgentType::Vehicle, (-30.0, -6.5), 0.0, 0.0),
     ];
     Scene::bare("crossing", map, agents).checked().unwrap()
+}
+
+/// One lane eastwards with a crosswalk over it.
+pub fn street() -> LaneMap {
+    let ring = [(-2.0, -3.5), (2.0, -3.5), (2.0, 0.0), (-2.0, 0.0)].map(|(x, y)| Vec2::new(x, y));
+    LaneMap {
+        lanes: vec![lane("a", Vec2::new(-100.0, -1.75), Vec2::new(100.0, -1.75), &[])],
+        crosswalks: vec![Area { id: "walk".into(), polygon: ring.to_vec().into(), holes: Vec::new() }],
+        ..LaneMap::default()
+    }
 }

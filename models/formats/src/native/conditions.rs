@@ -151,6 +151,11 @@ pub struct GoalDoc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.45, max = 80.05))]
     pub time_s: Option<f64>,
+    /// Ids of road edges of the map, such as those of a median, that the road user may drive over: no fault, and no
+    /// reason to go another way.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 32))]
+    pub may_cross: Vec<String>,
 }
 
 /// All that a user fixes about one road user. A number fixes a field, null or absence frees it.

@@ -3,7 +3,7 @@
 use super::conditions::{ConditionsDoc, Frame, GoalDoc, StartDoc, VelocityDoc};
 use crate::problem::{FieldProblem, Problems, code};
 use scene::geometry::rotate;
-use scene::{AgentType, Conditions, Goal, STEP_S, Start, State, Vec2, wrap_angle};
+use scene::{AgentType, Conditions, Goal, MAX_CROSSED_EDGES, STEP_S, Start, State, Vec2, wrap_angle};
 use serde::Serialize;
 
 /// Farthest a goal may lie from the start, metres.
@@ -74,7 +74,7 @@ impl ConditionsDoc {
     /// lies in the request, such as `/conditions/12`.
     ///
     /// # Errors
-    /// All faults: `half-position`, `out-of-range`, `invalid-field`, and `start-missing` when a goal
+    /// All faults, but for ids of road edges, which need a map: `half-position`, `out-of-range`, `invalid-field`, and `start-missing` when a goal
     /// of frame `agent` has no start pose to be measured from.
     pub fn resolve(&self, pointer: &str, context: &Context) -> Result<Conditions, Vec<FieldProblem>> {
         let mut problems = Problems::default();
@@ -109,8 +109,13 @@ impl ConditionsDoc {
             }
             None => Goal::default(),
         };
+        let may_cross = self.goal.as_ref().map_or_else(Vec::new, |doc| doc.may_cross.clone());
+        if may_cross.len() > MAX_CROSSED_EDGES {
+            let detail = format!("{} ids; at most {MAX_CROSSED_EDGES} expected", may_cross.len());
+            problems.invalid(format!("{pointer}/goal/may_cross"), detail);
+        }
         if problems.0.is_empty() {
-            Ok(Conditions { agent_type: self.agent_type, length_m, width_m, start, goal })
+            Ok(Conditions { agent_type: self.agent_type, length_m, width_m, start, goal, may_cross })
         } else {
             Err(problems.0)
         }
@@ -118,7 +123,7 @@ impl ConditionsDoc {
 
     /// The document of domain conditions, in the scene frame.
     pub fn from_conditions(conditions: &Conditions) -> Self {
-        let Conditions { agent_type, length_m, width_m, start, goal } = conditions;
+        let Conditions { agent_type, length_m, width_m, start, goal, may_cross } = conditions;
         let start_doc = StartDoc {
             x_m: start.position.map(|p| p.x),
             y_m: start.position.map(|p| p.y),
@@ -132,6 +137,7 @@ impl ConditionsDoc {
             heading_rad: goal.heading_rad,
             speed_mps: goal.speed_mps,
             time_s: goal.time_s,
+            may_cross: may_cross.clone(),
             ..GoalDoc::default()
         };
         Self {

@@ -1,6 +1,6 @@
 //! Oriented boxes: the outlines of road users, the gap between two of them, and their overlap.
 
-use super::Vec2;
+use super::{Vec2, direction};
 use crate::{Size, State};
 
 /// A rectangle in the plane: the outline of a road user seen from above. Immutable, so that the
@@ -19,10 +19,14 @@ impl OrientedBox {
     /// Box about `center` (metres) with half its length along `heading_rad` and half its width across.
     /// Negative half sizes count as zero.
     pub fn new(center: Vec2, half_length_m: f64, half_width_m: f64, heading_rad: f64) -> Self {
-        let (half_length_m, half_width_m) = (half_length_m.max(0.0), half_width_m.max(0.0));
-        let (sin, cos) = heading_rad.sin_cos();
-        let forward = Vec2::new(cos, sin);
-        let radius_m = half_length_m.hypot(half_width_m);
+        Self::facing(center, (half_length_m, half_width_m), heading_rad, direction(heading_rad))
+    }
+
+    /// The same where the unit vector along `heading_rad` is known: many boxes of one moment need it once. Half
+    /// length, then half width.
+    pub(crate) fn facing(center: Vec2, half_m: (f64, f64), heading_rad: f64, forward: Vec2) -> Self {
+        let (half_length_m, half_width_m) = (half_m.0.max(0.0), half_m.1.max(0.0));
+        let radius_m = (half_length_m * half_length_m + half_width_m * half_width_m).sqrt();
         Self { center, half_length_m, half_width_m, heading_rad, forward, radius_m }
     }
 
@@ -73,8 +77,8 @@ impl OrientedBox {
 
     /// The box with every side moved outwards by `margin_m` (inwards when negative, to a line at most).
     pub fn grown(&self, margin_m: f64) -> Self {
-        let (length, width) = (self.half_length_m + margin_m, self.half_width_m + margin_m);
-        Self::new(self.center, length, width, self.heading_rad)
+        let half_m = (self.half_length_m + margin_m, self.half_width_m + margin_m);
+        Self::facing(self.center, half_m, self.heading_rad, self.forward)
     }
 
     /// Corners counter-clockwise from the front left: front left, rear left, rear right, front right.

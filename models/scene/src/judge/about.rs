@@ -49,6 +49,9 @@ pub struct Fault {
     /// The other road user.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with: Option<AgentId>,
+    /// The road edge that is driven over, by its id in the map.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edge: Option<String>,
 }
 
 /// How a motion stands to another's.

@@ -176,12 +176,22 @@ fn near<'s>(actor: &'s Actor<'_>, time_s: f64) -> Option<&'s State> {
 fn new(kind: FaultKind, (time_s, until_s): (f64, f64), state: &State, extent: Option<f64>) -> Fault {
     let place = state.position();
     let extent = extent.map(rounded);
-    Fault { kind, time_s, until_s, x_m: rounded(place.x), y_m: rounded(place.y), extent, with: None }
+    Fault {
+        kind,
+        time_s,
+        until_s,
+        x_m: rounded(place.x),
+        y_m: rounded(place.y),
+        extent,
+        with: None,
+        edge: None,
+    }
 }
 
 fn fault(kind: FaultKind, stretch: Stretch) -> Fault {
     let place = State { x_m: stretch.x_m, y_m: stretch.y_m, ..State::default() };
-    new(kind, (stretch.time_s, stretch.until_s), &place, stretch.worst)
+    let edge = stretch.edge;
+    Fault { edge, ..new(kind, (stretch.time_s, stretch.until_s), &place, stretch.worst) }
 }
 
 fn at_red(actor: &Actor<'_>, found: RedLight) -> Fault {

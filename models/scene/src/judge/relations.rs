@@ -4,7 +4,7 @@ use super::trace::{
     GOES_M, Ground, MOMENT_S, Moment, QUEUE_M, SAME_WAY_RAD, STRIDE, Trace, WINDOW_S, crossing,
 };
 use super::{Relation, RelationKind, rounded};
-use crate::geometry::{cross, direction};
+use crate::geometry::cross;
 use crate::{AgentType, STANDING_MPS, STEP_S, Vec2, wrap_angle};
 
 /// Most that are told.
@@ -145,7 +145,7 @@ fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f6
         return None;
     }
     // Straight ahead of it, or where it will be within the headway.
-    let facing = direction(moment.heading_rad);
+    let facing = moment.forward;
     let (along, aside) = (between.dot(&facing), cross(facing, between));
     let bumper = along - 0.5 * (me.size.length_m + other.size.length_m);
     let beside = 0.5 * (me.size.width_m + other.size.width_m);
@@ -172,6 +172,7 @@ fn gap_behind(me: &Trace, i: usize, moment: &Moment, other: &Trace) -> Option<f6
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::direction;
     use crate::{Size, State, Subtype};
     use std::f64::consts::{FRAC_PI_2, PI};
 

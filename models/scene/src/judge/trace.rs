@@ -32,6 +32,8 @@ const GOES_ON_STEP_M: f64 = 1.0;
 pub(super) struct Moment {
     pub(super) center: Vec2,
     pub(super) heading_rad: f64,
+    /// Unit vector along it.
+    pub(super) forward: Vec2,
     pub(super) speed_mps: f64,
     /// Way from the first moment, metres.
     pub(super) way_m: f64,
@@ -88,6 +90,7 @@ impl Trace {
                 Moment {
                     center: position,
                     heading_rad: state.heading_rad,
+                    forward: direction(state.heading_rad),
                     speed_mps: state.speed_mps(),
                     way_m: trace.way_m,
                 }
@@ -109,7 +112,7 @@ impl Trace {
         if let Some(last) = trace.moments.iter().rev().flatten().next().copied()
             && last.speed_mps < WAITING_MPS
         {
-            let ahead = direction(last.heading_rad);
+            let ahead = last.forward;
             let count = (GOES_ON_M / GOES_ON_STEP_M) as usize;
             let on = |i: usize| Moment { center: last.center + ahead * (GOES_ON_STEP_M * i as f64), ..last };
             trace.goes_on = (1..=count).map(on).collect();
@@ -172,8 +175,8 @@ impl Trace {
 
     /// The box at a moment. Made where it is looked at: most never are.
     fn outline(&self, moment: &Moment) -> OrientedBox {
-        let (length, width) = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
-        OrientedBox::new(moment.center, length, width, moment.heading_rad)
+        let half_m = (0.5 * self.size.length_m, 0.5 * self.size.width_m);
+        OrientedBox::facing(moment.center, half_m, moment.heading_rad, moment.forward)
     }
 
     /// The boxes of two at these moments overlap.
@@ -183,7 +186,8 @@ impl Trace {
             && overlaps(&self.outline(mine), &other.outline(theirs), 0.0)
     }
 
-    pub(super) fn speed_at(&self, moment: usize) -> Option<f64> {
+    /// Speed at a moment, m/s.
+    pub fn speed_at(&self, moment: usize) -> Option<f64> {
         self.moments.get(moment)?.as_ref().map(|m| m.speed_mps)
     }
 }

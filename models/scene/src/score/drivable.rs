@@ -4,6 +4,8 @@ use crate::geometry::Vec2;
 use crate::geometry::obb::OrientedBox;
 use crate::geometry::segments::{Segment, SegmentIndex, thinned_pieces};
 use crate::map::{Area, LaneMap, LaneType};
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Distances off the road are not told apart beyond this, metres.
 pub const FAR_M: f64 = 50.0;
@@ -11,6 +13,12 @@ pub const FAR_M: f64 = 50.0;
 const BEYOND_MAP_M: f64 = 150.0;
 /// A lane farther away than this says nothing about a place, metres.
 const LANE_REACH_M: f64 = 30.0;
+/// Ground this near to an edge that may be driven over counts as road, metres, and this near where nothing but such
+/// edges lies between it and a lane: the middle of a wide median.
+const AT_EDGE_M: f64 = 3.0;
+const BETWEEN_EDGES_M: f64 = 6.0;
+/// An edge farther from a box's centre is not the one that it is driven over, metres.
+const UNDER_M: f64 = 12.0;
 /// Height of the rows that polygon sides are sorted into, metres.
 const ROW_M: f64 = 4.0;
 
@@ -33,15 +41,17 @@ struct Band {
 /// - driveways count as drivable under the last two. Sidewalk lanes never do.
 #[derive(Clone, Debug, Default)]
 pub struct Drivable {
-    areas: Polygons,
-    driveways: Polygons,
-    area_sides: SegmentIndex,
-    edges: SegmentIndex,
-    centers: SegmentIndex,
-    bands: Vec<Band>,
-    /// By road edge: it bounds a median.
-    medians: Vec<bool>,
+    areas: Arc<Polygons>,
+    driveways: Arc<Polygons>,
+    area_sides: Arc<SegmentIndex>,
+    edges: Arc<SegmentIndex>,
+    centers: Arc<SegmentIndex>,
+    bands: Arc<[Band]>,
+    /// By road edge: its id, and whether it bounds a median.
+    edge_names: Arc<[(String, bool)]>,
     assumed_width: bool,
+    /// Road edges that may be driven over, by index.
+    allowed: Vec<u32>,
 }
 
 impl Drivable {
@@ -66,15 +76,42 @@ impl Drivable {
         };
         let edges = SegmentIndex::new(edges);
         Self {
-            areas: Polygons::new(&map.drivable),
-            driveways: Polygons::new(&map.driveways),
-            area_sides: SegmentIndex::new(sides(&map.drivable).collect()),
-            centers: SegmentIndex::new(centers),
+            areas: Arc::new(Polygons::new(&map.drivable)),
+            driveways: Arc::new(Polygons::new(&map.driveways)),
+            area_sides: Arc::new(SegmentIndex::new(sides(&map.drivable).collect())),
+            centers: Arc::new(SegmentIndex::new(centers)),
             bands: map.lanes.iter().map(band).collect(),
-            medians: map.road_edges.iter().map(|e| e.line_type == "median").collect(),
+            edge_names: map.road_edges.iter().map(|e| (e.id.clone(), e.line_type == "median")).collect(),
             assumed_width: !has_areas && edges.is_empty() && lanes().any(|(_, l)| l.width_m.is_none()),
-            edges,
+            edges: Arc::new(edges),
+            allowed: Vec::new(),
         }
+    }
+
+    /// The same ground for who may drive over these road edges, by id: they bound nothing, and what lies right at
+    /// them counts as road.
+    pub fn allowing(&self, edges: &[String]) -> Cow<'_, Self> {
+        if edges.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let named = self.edge_names.iter().zip(0..).filter(|((id, _), _)| edges.contains(id));
+        Cow::Owned(Self { allowed: named.map(|(_, i)| i).collect(), ..self.clone() })
+    }
+
+    fn bounds(&self, edge: &Segment) -> bool {
+        self.allowed.is_empty() || !self.allowed.contains(&edge.owner)
+    }
+
+    /// The ground between edges that may be driven over, or right at one.
+    pub fn is_beside_allowed(&self, point: Vec2) -> bool {
+        self.is_at_allowed(point, BETWEEN_EDGES_M)
+    }
+
+    /// An edge that may be driven over is this near.
+    fn is_at_allowed(&self, point: Vec2, reach_m: f64) -> bool {
+        let allowed = |edge: &&Segment| self.allowed.contains(&edge.owner);
+        let within = |edge: &Segment| (edge.foot(point) - point).norm() <= reach_m;
+        !self.allowed.is_empty() && self.edges.near(point, reach_m).filter(allowed).any(within)
     }
 
     /// Off-road figures rest on lane widths that were assumed by type.
@@ -95,7 +132,8 @@ impl Drivable {
     /// How far a point lies off the road, metres: zero on it, at most [`FAR_M`]; `None` when the map
     /// does not say, as it does not ahead of where a lane leaves it.
     pub fn outside_m(&self, point: Vec2) -> Option<f64> {
-        self.outside_known_m(point).filter(|m| *m == 0.0 || !self.is_beyond_map(point))
+        let outside_m = self.outside_known_m(point).filter(|m| *m == 0.0 || !self.is_beyond_map(point))?;
+        Some(if outside_m > 0.0 && self.is_at_allowed(point, AT_EDGE_M) { 0.0 } else { outside_m })
     }
 
     /// The nearest lane begins or ends there with nothing beyond, and the point lies further out.
@@ -126,10 +164,11 @@ impl Drivable {
     /// How far the farthest corner of a box lies off the road, metres; `None` when the map does not say.
     pub fn box_outside_m(&self, outline: &OrientedBox) -> Option<f64> {
         let center = self.outside_m(outline.center())?;
-        let bounds = if self.area_sides.is_empty() { &self.edges } else { &self.area_sides };
+        let (bounds, edges) = (&self.area_sides, self.area_sides.is_empty());
+        let bounds = if edges { &self.edges } else { bounds };
         // On the road with nothing that bounds it in the box: all of the box is.
         let bounded = !bounds.is_empty();
-        let cut = |s: &Segment| outline.meets_segment(s.from, s.to);
+        let cut = |s: &Segment| (!edges || self.bounds(s)) && outline.meets_segment(s.from, s.to);
         if center == 0.0 && bounded && !bounds.near(outline.center(), outline.radius_m()).any(cut) {
             return Some(0.0);
         }
@@ -140,7 +179,20 @@ impl Drivable {
     /// The road edge nearest to a point, if one is within `reach_m`, bounds a median.
     pub fn is_median(&self, point: Vec2, reach_m: f64) -> bool {
         let nearest = self.edges.nearest(point, reach_m);
-        nearest.is_some_and(|(edge, ..)| self.medians.get(edge.owner as usize) == Some(&true))
+        nearest.is_some_and(|(edge, ..)| self.edge_names.get(edge.owner as usize).is_some_and(|e| e.1))
+    }
+
+    /// The id of the road edge that a box lies over, else of the nearest one to it; none farther than
+    /// [`UNDER_M`] from its centre, and none that may be driven over.
+    pub fn edge_under(&self, outline: &OrientedBox) -> Option<&str> {
+        let center = outline.center();
+        let away = |s: &Segment| {
+            let beside = if outline.meets_segment(s.from, s.to) { 0.0 } else { UNDER_M };
+            beside + (s.foot(center) - center).norm()
+        };
+        let near = self.edges.near(center, UNDER_M).filter(|s| self.bounds(s)).map(|s| (away(s), s.owner));
+        let (_, edge) = near.filter(|(m, _)| *m <= 2.0 * UNDER_M).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        self.edge_names.get(edge as usize).map(|e| e.0.as_str())
     }
 
     /// How far a point lies off the road, metres, and the way (a unit vector) in which that grows; `None`
@@ -184,8 +236,16 @@ impl Drivable {
             return distance(&self.edges, point);
         };
         let middle = 0.5 * (point + foot);
-        let crossed = self.edges.near(middle, 0.5 * away).any(|edge| edge.crosses(point, foot));
-        if crossed { distance(&self.edges, point) } else { 0.0 }
+        let mut crossed =
+            self.edges.near(middle, 0.5 * away).filter(|edge| edge.crosses(point, foot)).peekable();
+        if crossed.peek().is_none() {
+            return 0.0;
+        }
+        // Between edges that may be driven over lies what may be, too, but not all the land behind one.
+        if crossed.all(|edge| !self.bounds(edge)) && self.is_beside_allowed(point) {
+            return 0.0;
+        }
+        distance(&self.edges, point)
     }
 
     /// The straight line between two points leaves the road over an edge of it, be the ground behind a
@@ -193,8 +253,10 @@ impl Drivable {
     pub fn crosses_an_edge(&self, from: Vec2, to: Vec2) -> bool {
         let middle = 0.5 * (from + to);
         let radius_m = 0.5 * (to - from).norm();
-        self.edges.near(middle, radius_m).any(|edge| edge.crosses(from, to))
+        let crossed = |edge: &Segment| self.bounds(edge) && edge.crosses(from, to);
+        self.edges.near(middle, radius_m).any(crossed)
             && !self.driveways.contain(middle)
+            && !self.is_at_allowed(middle, AT_EDGE_M)
     }
 
     /// Against the traffic: there are vehicle lanes at `point`, and `forward` (a unit vector) is more
@@ -279,6 +341,7 @@ impl Polygons {
 mod tests {
     use super::super::tests::{area, edge, lane};
     use super::*;
+    use crate::map::TypedLine;
 
     fn at(x: f64, y: f64) -> Vec2 {
         Vec2::new(x, y)
@@ -350,5 +413,38 @@ mod tests {
         assert!(!index.crosses_an_edge(at(20.0, -1.0), at(90.0, 1.0)));
         assert!(!index.crosses_an_edge(at(45.0, -5.0), at(45.0, -7.0)), "into the driveway");
         assert!(!index.assumed_width());
+    }
+
+    #[test]
+    fn an_edge_that_may_be_driven_over_bounds_nothing_and_the_land_behind_it_stays_land() {
+        let named = |id: &str, y: f64| TypedLine { id: id.into(), ..edge(&[(0.0, y), (100.0, y)]) };
+        let map = LaneMap {
+            lanes: vec![
+                lane("east", &[(0.0, 0.0), (100.0, 0.0)]),
+                lane("west", &[(100.0, 14.0), (0.0, 14.0)]),
+            ],
+            road_edges: vec![named("right", -2.0), named("near", 2.0), named("far", 12.0)],
+            ..LaneMap::default()
+        };
+        let all = Drivable::new(&map);
+        let car = OrientedBox::new(at(50.0, 2.5), 2.3, 1.0, 0.0);
+        assert_eq!(all.edge_under(&car), Some("near"));
+        let one = all.allowing(&["near".into()]);
+        assert_eq!((all.outside_m(at(50.0, 4.0)), one.outside_m(at(50.0, 4.0))), (Some(2.0), Some(0.0)));
+        assert_eq!(one.box_outside_m(&car), Some(0.0));
+        assert!(all.crosses_an_edge(at(50.0, 1.0), at(50.0, 3.0)));
+        assert!(!one.crosses_an_edge(at(50.0, 1.0), at(50.0, 3.0)));
+        // The other side of the median, and the kerb, are as they were.
+        assert!(
+            one.outside_m(at(50.0, 9.0)).unwrap() > 2.0
+                && one.crosses_an_edge(at(50.0, 11.0), at(50.0, 13.0))
+        );
+        assert_eq!(one.outside_m(at(50.0, -4.0)), Some(2.0));
+        assert_eq!(one.edge_under(&car), Some("right"), "the nearest of those that bound");
+        let both = all.allowing(&["near".into(), "far".into()]);
+        assert!((-1..=15).all(|y| both.outside_m(at(50.0, f64::from(y))) == Some(0.0)));
+        let kerb = all.allowing(&["right".into()]);
+        assert_eq!(kerb.outside_m(at(50.0, -4.0)), Some(0.0));
+        assert!(kerb.outside_m(at(50.0, -12.0)).unwrap() > 9.0);
     }
 }

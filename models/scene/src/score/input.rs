@@ -109,6 +109,8 @@ pub struct Actor<'a> {
     pub generated: bool,
     /// Goal that was asked for; free for recorded motion.
     pub goal: Goal,
+    /// Road edges that it may drive over.
+    pub may_cross: &'a [String],
     /// Motion to compare with, if any.
     pub reference: Option<&'a Track>,
     /// All futures, for the best of them against the reference; empty: the track alone.
@@ -127,6 +129,7 @@ impl<'a> Actor<'a> {
             log: Some(&agent.track),
             generated: false,
             goal: Goal::default(),
+            may_cross: &[],
             reference: None,
             modes: &[],
         }
@@ -146,6 +149,7 @@ impl<'a> Actor<'a> {
             track: Cow::Owned(joined(agent, chosen)),
             generated: true,
             goal: conditions.goal,
+            may_cross: &conditions.may_cross,
             reference: Some(&agent.track),
             modes,
             ..Self::of_log(agent)

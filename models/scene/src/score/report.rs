@@ -76,6 +76,9 @@ pub struct Stretch {
     pub x_m: f64,
     /// Box centre where it is worst, metres.
     pub y_m: f64,
+    /// Off the road and over a median: the road edge that is driven over, by its id in the map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edge: Option<String>,
     /// The log itself shows it: the motion is the recorded one, or the recording has the same at about
     /// the same time, no less bad.
     pub in_log: bool,
@@ -282,6 +285,7 @@ pub(super) fn stretches(actor: &Actor<'_>, flagged: &[(usize, f64)]) -> Vec<Stre
             worst: Some(value),
             x_m: place.x,
             y_m: place.y,
+            edge: None,
             in_log: false,
         }
     };

@@ -1,5 +1,6 @@
 //! Off the road and against the traffic, vehicles only.
 
+use super::drivable::Drivable;
 use super::input::{Actor, ScoreInput};
 use super::report::{Stretch, share, stretches, time_of};
 use crate::geometry::direction;
@@ -34,6 +35,7 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     if !drives || parked || input.drivable.is_unknown() {
         return RoadScore::default();
     }
+    let ground = input.drivable.allowing(actor.may_cross);
     let limits = &input.thresholds;
     let (mut off, mut wrong) = (Vec::new(), Vec::new());
     let mut score = RoadScore::default();
@@ -41,7 +43,7 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     let mut travelled_m = 0.0;
     for step in input.steps.clone() {
         let (Some(state), Some(outline)) = (actor.state(step), actor.outline(step)) else { continue };
-        if let Some(outside_m) = input.drivable.box_outside_m(&outline) {
+        if let Some(outside_m) = ground.box_outside_m(&outline) {
             score.road_steps += 1;
             farthest = Some(farthest.unwrap_or(0.0).max(outside_m));
             if outside_m > limits.offroad_m {
@@ -51,8 +53,7 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
         travelled_m += state.speed_mps() * STEP_S;
         if state.speed_mps() > limits.moving_mps {
             score.moving_steps += 1;
-            let forward = direction(state.heading_rad);
-            if input.drivable.is_wrong_way(state.position(), forward) == Some(true) {
+            if input.drivable.is_wrong_way(state.position(), outline.forward()) == Some(true) {
                 wrong.push((step, travelled_m));
             }
         }
@@ -62,8 +63,12 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     score.offroad_max_m = farthest;
     score.offroad_share = share(off.len(), score.road_steps);
     score.wrong_way_share = share(wrong.len(), score.moving_steps);
-    let over_median = |s: &Stretch| is_over_median(input, actor, s);
-    (score.over_median, score.off_road) = stretches(actor, &off).into_iter().partition(over_median);
+    let mut left = stretches(actor, &off);
+    for stretch in &mut left {
+        stretch.edge = edge_of(&ground, actor, stretch);
+    }
+    let over_median = |s: &Stretch| is_over_median(&ground, actor, s);
+    (score.over_median, score.off_road) = left.into_iter().partition(over_median);
     score.wrong_way = stretches(actor, &wrong);
     // They hold how far had been driven by then.
     for stretch in &mut score.wrong_way {
@@ -76,15 +81,24 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
 
 /// What is driven over divides two roads: the edge is called a median, or the vehicle comes down on a lane
 /// that runs against it.
-fn is_over_median(input: &ScoreInput<'_>, actor: &Actor<'_>, stretch: &Stretch) -> bool {
-    let step = |time_s: f64| (time_s / STEP_S).round() as usize;
+fn is_over_median(ground: &Drivable, actor: &Actor<'_>, stretch: &Stretch) -> bool {
     let place = Vec2::new(stretch.x_m, stretch.y_m);
-    if input.drivable.is_median(place, actor.size.length_m + stretch.worst.unwrap_or(0.0)) {
+    if ground.is_median(place, actor.size.length_m + stretch.worst.unwrap_or(0.0)) {
         return true;
     }
-    let (from, to) = (actor.state(step(stretch.time_s)), actor.state(step(stretch.until_s) + 2));
+    let (from, to) = (actor.state(step_of(stretch.time_s)), actor.state(step_of(stretch.until_s) + 2));
     let (Some(from), Some(to)) = (from, to) else { return false };
-    input.drivable.is_wrong_way(to.position(), direction(from.heading_rad)) == Some(true)
+    ground.is_wrong_way(to.position(), direction(from.heading_rad)) == Some(true)
+}
+
+/// The edge that the box lies over where it leaves the road, else the one nearest to there.
+fn edge_of(ground: &Drivable, actor: &Actor<'_>, stretch: &Stretch) -> Option<String> {
+    let outline = actor.outline(step_of(stretch.time_s))?;
+    ground.edge_under(&outline).map(str::to_owned)
+}
+
+fn step_of(time_s: f64) -> usize {
+    (time_s / STEP_S).round() as usize
 }
 
 #[cfg(test)]
@@ -92,6 +106,7 @@ mod tests {
     use super::super::tests::{area, input_of, lane, straight};
     use super::*;
     use crate::LaneMap;
+    use crate::map::TypedLine;
     use crate::score::Drivable;
     use std::f64::consts::PI;
 
@@ -110,6 +125,34 @@ mod tests {
         assert_eq!(score.off_road.len(), 1);
         assert_eq!((score.off_road[0].time_s, score.off_road[0].until_s), (4.4, 9.0));
         assert_eq!(score_road(&input, &input.actors[1]), RoadScore::default());
+    }
+
+    #[test]
+    fn over_a_median_that_may_be_crossed_is_no_fault() {
+        let side = |id: &str, y: f64| {
+            let points = vec![Vec2::new(-50.0, y), Vec2::new(150.0, y)];
+            TypedLine { id: id.into(), line_type: "median".into(), points: points.into() }
+        };
+        let map = LaneMap {
+            lanes: vec![
+                lane("east", &[(-50.0, 0.0), (150.0, 0.0)]),
+                lane("north", &[(-50.0, 8.0), (150.0, 8.0)]),
+            ],
+            road_edges: vec![side("near", 3.0), side("far", 5.0)],
+            ..LaneMap::default()
+        };
+        let drivable = Drivable::new(&map);
+        let over = |may_cross: &[String]| {
+            let car = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.2, 5.0);
+            let car = Actor { may_cross, ..car };
+            let score = score_road(&input_of(vec![car.clone()], &drivable), &car);
+            (score.over_median, score.offroad_steps)
+        };
+        let (faults, steps) = over(&[]);
+        assert_eq!((faults.len(), faults[0].edge.as_deref()), (1, Some("near")));
+        assert!(steps > 10, "{steps}");
+        assert_eq!(over(&["near".into()]), (Vec::new(), 0), "its other side is part of it");
+        assert_eq!(over(&["other".into()]).1, steps);
     }
 
     #[test]

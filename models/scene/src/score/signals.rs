@@ -20,6 +20,8 @@ pub(crate) struct StopLine<'a> {
     signal: &'a Signal,
     line: Polyline,
     at: Pose,
+    /// Unit vector along the lane there.
+    ahead: Vec2,
     half_width_m: f64,
     /// The signal's lane goes on behind the stop line (it leads through the junction); else it ends there.
     goes_on: bool,
@@ -53,7 +55,15 @@ pub(crate) fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
         let mut at = line.sample(s_m);
         at.position = signal.stop.unwrap_or(at.position);
         let goes_on = line.length_m() - s_m > 5.0;
-        Some(StopLine { signal, at, goes_on, half_width_m: 0.5 * lane.width_or_assumed_m() + 0.25, line })
+        let ahead = at.direction();
+        Some(StopLine {
+            signal,
+            at,
+            ahead,
+            goes_on,
+            half_width_m: 0.5 * lane.width_or_assumed_m() + 0.25,
+            line,
+        })
     };
     input.signals.iter().filter_map(stop_line).collect()
 }
@@ -77,8 +87,18 @@ pub(crate) fn crossed_at_red(
     if lines.is_empty() || !rides || actor.travel_m(input.steps.clone()) <= 1.0 {
         return Vec::new();
     }
+    let places = || input.steps.clone().filter_map(|i| actor.state(i)).map(crate::State::position);
+    let (low, high) = places()
+        .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(low, high), place| {
+            (low.inf(&place), high.sup(&place))
+        });
     let mut crossings: Vec<Crossing<'_, '_>> = Vec::new();
     for line in lines {
+        let reach = Vec2::repeat(0.5 * actor.size.length_m + line.half_width_m);
+        let (at, low, high) = (line.at.position, low - reach, high + reach);
+        if at.x < low.x || at.y < low.y || at.x > high.x || at.y > high.y {
+            continue;
+        }
         for step in input.steps.clone() {
             if let Some(part) = crosses(actor, line, step) {
                 let off_lane_m = off_lane_m(actor, line, step, input.steps.end);
@@ -119,8 +139,10 @@ fn must_stop(state: SignalState) -> bool {
 /// the step, 0 to 1.
 fn crosses(actor: &Actor<'_>, line: &StopLine<'_>, step: usize) -> Option<f64> {
     let (from, to) = (actor.state(step)?, actor.state(step + 1)?);
-    let (ahead, reach) = (line.at.direction(), 0.5 * actor.size.length_m);
-    if (to.position() - line.at.position).norm_squared() > (reach + 30.0).powi(2) {
+    let (ahead, reach) = (line.ahead, 0.5 * actor.size.length_m);
+    // The front passes the line between the two.
+    let moved = (to.position() - from.position()).norm() + 2.0 * reach;
+    if (to.position() - line.at.position).norm_squared() > (reach + line.half_width_m + moved).powi(2) {
         return None;
     }
     let front = |s: &crate::State| {
@@ -140,13 +162,13 @@ fn off_lane_m(actor: &Actor<'_>, line: &StopLine<'_>, step: usize, end: usize) -
     let place = |i: usize| actor.state(i).map(crate::State::position);
     let places: Vec<Vec2> = if line.goes_on {
         // From where the centre is on the lane.
-        let past = |p: &Vec2| (p - line.at.position).dot(&line.at.direction()) >= 0.0;
+        let past = |p: &Vec2| (p - line.at.position).dot(&line.ahead) >= 0.0;
         (step..end).map_while(place).skip_while(|p| !past(p)).take_while(within).collect()
     } else {
         (0..=step).rev().map_while(place).take_while(within).collect()
     };
     if places.is_empty() {
-        return cross(line.at.direction(), here - line.at.position).abs();
+        return cross(line.ahead, here - line.at.position).abs();
     }
     places.iter().map(|p| line.line.project(*p).lateral_m.abs()).sum::<f64>() / places.len() as f64
 }

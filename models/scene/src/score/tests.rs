@@ -47,6 +47,7 @@ pub(super) fn straight(
         log: None,
         generated: true,
         goal: Goal::default(),
+        may_cross: &[],
         reference: None,
         modes: &[],
     }
