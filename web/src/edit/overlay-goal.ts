@@ -8,7 +8,7 @@ import { paintFlag, paintGhost, paintHandles } from '../draw/handles';
 import { polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
-import type { Editor } from './editor';
+import type { Editor, Lag } from './editor';
 import { outOfReach, type OutOfReach } from './goal-verdict';
 
 type G = CanvasRenderingContext2D;
@@ -160,10 +160,24 @@ export class GoalOverlay {
       );
   }
 
+  /** A dotted string from the flag to the hand, as long as a kerb holds the flag back. */
+  private paintLag(g: G, v: View, { from, to, touch }: Lag): void {
+    const c = colours();
+    polyline(g, v, [from, to], c.halo, 5, 0.8, [], 'round');
+    polyline(g, v, [from, to], c['near-edge'], 2.5, 1, [0.1, 5], 'round');
+    const tries = [
+      [20, -10],
+      [20, 12],
+      [-100, -10],
+    ] as const;
+    tag(g, this.labels, v.to(to[0], to[1]), touch ? 'Hold to pass' : 'Alt passes', { tries });
+  }
+
   dragLabels(g: G, v: View, a: Agent, goal: Pose | null): void {
     const d = this.editor.drag.value;
     if (!d || d.grip.handle !== 'body') return;
     const c = colours();
+    if (d.lag) this.paintLag(g, v, d.lag);
     const p = d.grip.part === 'goal' ? goal : startPose(a);
     if (!p) return;
     const [x, y] = v.to(p.x, p.y);
