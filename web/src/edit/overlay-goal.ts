@@ -4,7 +4,7 @@ import { shortfall } from '../model/reach';
 import { startPose, type Agent } from '../model/scene';
 import { metres, seconds, speedLabel } from '../model/units';
 import { pill, tag, type Labels } from '../draw/labels';
-import { paintFlag, paintGhost, paintHandles } from '../draw/handles';
+import { paintFlag, paintGhost, paintHandles, paintString } from '../draw/handles';
 import { polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
@@ -162,15 +162,14 @@ export class GoalOverlay {
 
   /** A dotted string from the flag to the hand, as long as a kerb holds the flag back. */
   private paintLag(g: G, v: View, { from, to, touch }: Lag): void {
-    const c = colours();
-    polyline(g, v, [from, to], c.halo, 5, 0.8, [], 'round');
-    polyline(g, v, [from, to], c['near-edge'], 2.5, 1, [0.1, 5], 'round');
+    const hand = v.to(to[0], to[1]);
+    paintString(g, v.to(from[0], from[1]), hand);
     const tries = [
       [20, -10],
       [20, 12],
       [-100, -10],
     ] as const;
-    tag(g, this.labels, v.to(to[0], to[1]), touch ? 'Hold to pass' : 'Alt passes', { tries });
+    tag(g, this.labels, hand, touch ? 'Hold to pass' : 'Alt passes', { tries });
   }
 
   dragLabels(g: G, v: View, a: Agent, goal: Pose | null): void {

@@ -9,6 +9,7 @@ import type { View } from '../../draw/view';
 import type { Editor, Grip } from '../editor';
 import { goalTime } from '../moves';
 import { alongLane, lanesFor, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../snap';
+import { edgesInTheWay } from '../ways-out';
 import type { Modifiers } from './chart';
 import type { Press } from './pressed';
 import { Resistance } from './resistance';
@@ -41,6 +42,7 @@ export class HandleMove {
   readonly #resistance: Resistance | null;
   readonly #touch: boolean;
   #lane: string | null = null;
+  #mayCross: readonly string[];
 
   constructor(
     private readonly editor: Editor,
@@ -50,6 +52,7 @@ export class HandleMove {
     const fits = grip.part === 'goal' && grip.handle === 'body' ? lanesFor(agent) : null;
     this.#resistance = fits && new Resistance(editor.scene.peek()!.map, start, fits, goal);
     this.#touch = press.touch;
+    this.#mayCross = agent.goal.mayCross;
     this.grip = grip;
     this.agent = agent;
     this.#start = start;
@@ -131,15 +134,16 @@ export class HandleMove {
     editor.dragOver({ laneId: this.#lane, laneName, stop: stop ?? null, lag });
 
     const pos = Object.freeze([at.x, at.y] as const);
+    const leave = this.#leave([at.x, at.y], mods);
     if (this.#laneSetsHeading && at.laneHeading !== null) {
       editor.setHeadingFollows(grip.part, a, true);
-      return { pos, heading: wrapAngle(at.laneHeading) };
+      return { pos, heading: wrapAngle(at.laneHeading), ...leave };
     }
     if (this.#laneSetsHeading && grip.part === 'goal') {
       editor.setHeadingFollows(grip.part, a, false);
-      return { pos, heading: null };
+      return { pos, heading: null, ...leave };
     }
-    return { pos };
+    return { pos, ...leave };
   }
 
   /** Alt passes all kerbs, also after it is let go; along the lane with Shift there are none. */
@@ -147,6 +151,18 @@ export class HandleMove {
     if (mods.alt) this.passKerbs();
     if (!this.#resistance || (mods.shift && this.#lane)) return wanted;
     return this.#resistance.to(wanted, this.view.z);
+  }
+
+  /** With Alt held it may go over what the shown future goes over on its way past the kerb. */
+  #leave(at: Vec, mods: Modifiers): Partial<GoalSpec> {
+    if (!this.#resistance) return {};
+    if (!mods.alt || !this.#resistance.passesKerb(at)) this.#mayCross = this.agent.goal.mayCross;
+    else {
+      const now = this.editor.agent.peek();
+      const edges = now ? edgesInTheWay(this.editor, now).filter((id) => !this.#mayCross.includes(id)) : [];
+      if (edges.length) this.#mayCross = Object.freeze([...this.#mayCross, ...edges]);
+    }
+    return { mayCross: this.#mayCross };
   }
 
   /** Shift keeps to the lane, Alt lets go of all lanes, else the best lane near by. */

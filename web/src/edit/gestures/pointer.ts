@@ -104,8 +104,8 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag } = picture.overlay;
-    return { editor, view: stage.view, chips, timeTag, touch };
+    const { chips, timeTag, roadSign } = picture.overlay;
+    return { editor, view: stage.view, chips, timeTag, roadSign, touch };
   }
 
   #down(e: PointerEvent): void {

@@ -28,6 +28,11 @@ export class Resistance {
     return this.#held;
   }
 
+  /** Is the flag let past a kerb that lies between it and where it comes from? */
+  passesKerb([x, y]: Vec): boolean {
+    return this.#passes && firstKerb(this.map, this.#home, [x, y]) !== null;
+  }
+
   /** No kerb holds it back any more, as long as the drag goes on. */
   pass(): void {
     this.#passes = true;
