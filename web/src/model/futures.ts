@@ -5,7 +5,7 @@ import type { Point, Pose } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
 
-export const LETTERS = 'ABCDEF';
+export { LETTERS } from './names';
 
 export interface Future {
   readonly probability: number;
