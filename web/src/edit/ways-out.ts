@@ -3,6 +3,7 @@ import { leavesRoad, markOf, type Fault } from '../model/about';
 import { goalStep, type Command } from '../model/commands';
 import { LETTERS, type Future } from '../model/futures';
 import type { OnLine, Vec } from '../model/geometry';
+import type { Motion } from '../model/motion';
 import { pathTo } from '../model/reach';
 import { startPose, type Agent, type GoalSpec } from '../model/scene';
 import { goes, mayCrossWords } from '../model/verdict-words';
@@ -49,17 +50,23 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
   return { words: `By the road: ${LETTERS[good]}`, note: name, to: null, path: pointsOf(motion.x, motion.y), command };
 }
 
-/** Along the future that gets there without leaving the road, else along the lanes. */
+/** Along the future that gets there without leaving the road, else along the lanes, else as far as a future leads. */
 function pathBy(e: Editor, a: Agent, modes: readonly Future[], to: OnLine): readonly Vec[] {
-  for (const { motion, about } of modes) {
-    if (!about || about.faults.some(leavesRoad)) continue;
-    const d = motion.x.map((x, i) => Math.hypot(x - to.x, motion.y[i] - to.y));
-    const nearest = d.indexOf(Math.min(...d));
-    if (d[nearest] <= PASSES_M) return pointsOf(motion.x, motion.y).slice(0, nearest + 1);
-  }
+  const [best] = modes
+    .filter((m) => m.about && !m.about.faults.some(leavesRoad))
+    .map((m) => towards(m.motion, to))
+    .sort((p, q) => p.short - q.short);
+  if (best && best.short <= PASSES_M) return best.path;
   const start = startPose(a);
   const way = start && pathTo(e.scene.value!.map, a, start, to);
-  return way?.onLanes ? way.line.pts : [];
+  return way?.onLanes ? way.line.pts : (best?.path ?? []);
+}
+
+/** A motion up to where it is nearest to a place, and how far that is from it, metres. */
+function towards({ x, y }: Motion, to: OnLine): { path: Vec[]; short: number } {
+  const d = x.map((v, i) => Math.hypot(v - to.x, y[i] - to.y));
+  const short = Math.min(...d);
+  return { path: pointsOf(x, y).slice(0, d.indexOf(short) + 1), short };
 }
 
 const pointsOf = (x: Float64Array, y: Float64Array): Vec[] => Array.from(x, (v, i): Vec => [v, y[i]]);

@@ -3,8 +3,12 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { buildMap } from '../../src/model/lanemap';
 import { firstKerb, laneLeadsTo } from '../../src/model/kerbs';
 import type { Vec } from '../../src/model/geometry';
+import { readFutures } from '../../src/model/futures';
 import { startPose } from '../../src/model/scene';
 import { Resistance } from '../../src/edit/gestures/resistance';
+import { crossingJson } from '../helpers';
+import { sixFutures } from '../standin/futures.mjs';
+import { judged, MEDIAN } from '../standin/judged.mjs';
 import { Pointer } from './pointer';
 
 const edge = (id: string, type: string, ...points_m: [number, number][]) => ({ id, type, points_m });
@@ -120,6 +124,32 @@ describe('a flag at a kerb', () => {
     take();
     over();
     expect(p.editor.drag.peek()!.lag).not.toBeNull();
+  });
+
+  it('may go over what the shown future goes over, as long as Alt is held past a kerb', () => {
+    const futures = readFutures(
+      { chosen: 0, modes: judged(sixFutures(crossingJson().agents[0], {}, 5, 5), ['2', '17']) },
+      startPose(p.editor.agent.peek()!)!,
+      5,
+      5,
+      false,
+    );
+    const mayCross = () => p.editor.agent.peek()!.goal.mayCross;
+    take();
+    p.move(p.at(lane[0], -6), { alt: true });
+    p.editor.answers.showDraft('1', futures);
+    p.move(p.at(lane[0], -7), { alt: true });
+    // On this side of the kerb Alt only lets go of the lanes.
+    expect(mayCross()).toEqual([]);
+    over({ alt: true });
+    expect(mayCross()).toEqual([MEDIAN]);
+    over();
+    expect(mayCross()).toEqual([]);
+    over({ alt: true });
+    p.up(p.at(lane[0], -12));
+    expect(mayCross()).toEqual([MEDIAN]);
+    p.editor.undo();
+    expect([p.editor.agent.peek()!.goal.pos, mayCross()]).toEqual([null, []]);
   });
 
   it('is felt by a finger, which passes when it rests', () => {

@@ -67,6 +67,15 @@ describe('the way by the road', () => {
     expect(path.at(-1)).toEqual([expect.closeTo(ROAD.x, 1), expect.closeTo(ROAD.y, 1)]);
   });
 
+  it('goes as far as a future leads that keeps to the road, where no lane goes all the way', () => {
+    answer();
+    reach({ ...ROAD, x: 5.1, y: 60 });
+    const { path } = roadWay(e, agent())!;
+    const clean = e.futures.peek()!.modes[4].motion;
+    expect(path).toHaveLength(clean.x.length);
+    expect(path.at(-1)).toEqual([clean.x.at(-1), clean.y.at(-1)]);
+  });
+
   it('is the future that gets to the goal by it, where no other goal is known', () => {
     answer();
     reach(null);

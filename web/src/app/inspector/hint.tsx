@@ -5,7 +5,7 @@ import { remedies, snapToNearest } from '../../edit/moves';
 import { leaveToCross, roadWay } from '../../edit/ways-out';
 import { seconds } from '../../model/units';
 import { useApp } from '../parts/app-context';
-import { KeyCaps } from '../parts/buttons';
+import { KeyCaps, titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
 import { verdictOn, type Verdict } from './verdict';
@@ -50,24 +50,40 @@ function WaysOut({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const road = useComputed(() => roadWay(editor, agent.value)).value;
   const leave = useComputed(() => leaveToCross(editor, agent.value)).value;
+  const dragging = editor.dragging.value;
   if (!road && !leave) return null;
   return (
     <div class="stack">
-      {road ? <WayOut id="by-road" primary words={road.words} note={road.note} /> : null}
-      {leave ? <WayOut id="may-cross" words={leave.words} /> : null}
+      {road ? <WayOut id="by-road" primary words={road.words} note={road.note} cap="Enter" /> : null}
+      {leave ? <WayOut id="may-cross" words={leave.words} cap={dragging ? 'Alt' : undefined} /> : null}
     </div>
   );
 }
 
-function WayOut({ id, words, note, primary }: { id: string; words: string; note?: string; primary?: boolean }) {
+interface WayOutProps {
+  id: string;
+  words: string;
+  note?: string;
+  /** The key to show; there is little room. */
+  cap?: string;
+  primary?: boolean;
+}
+
+function WayOut({ id, words, note, cap, primary }: WayOutProps) {
   const c = useApp();
-  const { icon, keys } = actionOf(id);
+  const { icon } = actionOf(id);
   return (
-    <button type="button" data-action={id} class={`opt ${primary ? 'pri' : ''}`} onClick={() => perform(c, id)}>
+    <button
+      type="button"
+      data-action={id}
+      title={titleOf(id)}
+      class={`opt ${primary ? 'pri' : ''}`}
+      onClick={() => perform(c, id)}
+    >
       <Icon name={icon!} size={15} />
       {words}
-      <small>{note}</small>
-      <KeyCaps of={keys![0]} />
+      {note ? <small>{note}</small> : null}
+      {cap ? <KeyCaps of={cap} /> : null}
     </button>
   );
 }
