@@ -4,7 +4,15 @@ import type { FaultJson, ModeJson, RelationJson } from '../src/model/json';
 import { markOf, readAbout } from '../src/model/about';
 import { counted, eventsOf, readEvents, summary } from '../src/model/events';
 import { faultPlaces } from '../src/model/fault-places';
-import { emptyMotion, percents, readFutures, withNames, type Futures, type MotionSet } from '../src/model/futures';
+import {
+  emptyMotion,
+  keepVerdicts,
+  percents,
+  readFutures,
+  withNames,
+  type Futures,
+  type MotionSet,
+} from '../src/model/futures';
 import type { Naming } from '../src/model/names';
 import { readGenerated, readScene } from '../src/model/read';
 import { nameIn, startPose } from '../src/model/scene';
@@ -279,6 +287,31 @@ describe('names under a moving hand', () => {
       'Straight on, slower',
       'Straight on',
     ]);
+  });
+});
+
+describe('verdicts of drafts', () => {
+  const draft = (n = 2) =>
+    futures(Array.from({ length: n }, (_, anchor) => mode({ anchor, manoeuvre: 'straight', side: anchor })));
+  const judgedOnes = futures([
+    mode({ anchor: 1, manoeuvre: 'straight', faults: [fault('over_median')] }),
+    mode({ anchor: 0, manoeuvre: 'left' }),
+  ]);
+
+  it('stay with their idea until the answer', () => {
+    const kept = keepVerdicts(judgedOnes, draft());
+    expect(kept.unjudged).toBeUndefined();
+    expect(kept.modes.map((m) => [m.about!.manoeuvre, m.about!.faults.map((f) => f.kind)])).toEqual([
+      ['straight', []],
+      ['straight', ['over_median']],
+    ]);
+    // What is judged itself is taken as it is.
+    expect(keepVerdicts(kept, judgedOnes)).toBe(judgedOnes);
+  });
+
+  it('are none before the first answer', () => {
+    expect(keepVerdicts(null, draft()).unjudged).toBe(true);
+    expect(keepVerdicts(keepVerdicts(null, draft()), draft()).unjudged).toBe(true);
   });
 });
 

@@ -22,7 +22,10 @@ export function knownReach(e: Editor, a: Agent): Reach | null {
 
 /** Are the futures on screen an answer to the document as it is? In a drag those from before it are none. */
 export const verdictsHold = (e: Editor): boolean =>
-  !e.outdated.value && !e.futures.value?.sketch && (!e.dragging.value || e.draft.value !== null);
+  !e.outdated.value &&
+  !e.futures.value?.sketch &&
+  !e.futures.value?.unjudged &&
+  (!e.dragging.value || e.draft.value !== null);
 
 /** Null when the goal can be reached, as far as anybody knows. */
 export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
