@@ -6,8 +6,8 @@ import openapi, { astToString } from 'openapi-typescript';
 const document = new URL('../../assets/openapi.json', import.meta.url);
 const target = fileURLToPath(new URL('../src/model/api.ts', import.meta.url));
 const head =
-  '// Made from assets/openapi.json by `npm run api`; not to be edited. model/json.ts and net/types.ts name what the\n' +
-  '// editor uses.\n';
+  '// Made from assets/openapi.json by `npm run api`; not to be edited. model/json.ts and net/types.ts name what\n' +
+  '// the editor uses.\n';
 
 // A member with a default may be left out of a request.
 const types = head + astToString(await openapi(document, { defaultNonNullable: false, silent: true }));

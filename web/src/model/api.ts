@@ -1,5 +1,5 @@
-// Made from assets/openapi.json by `npm run api`; not to be edited. model/json.ts and net/types.ts name what the
-// editor uses.
+// Made from assets/openapi.json by `npm run api`; not to be edited. model/json.ts and net/types.ts name what
+// the editor uses.
 export interface paths {
     "/healthz": {
         parameters: {

@@ -300,6 +300,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const stored = d.server.scenes.get(id.id)!;
     expect(stored.rev).toBeGreaterThan(1);
     expect(JSON.stringify(stored.scene.agents[0].conditions)).toContain('x_m');
+    // The word stands from the save before until the next one begins: what counts is what has arrived.
+    await expect.poll(() => stored.scene.generated?.samples[0].agents['1']).toBeDefined();
     // Opened again, the futures are there without asking.
     const asked = d.server.log.length;
     await d.page.reload();
