@@ -44,7 +44,7 @@ const NO_SLEEPING = {
 const LINE_LENGTH = ['error', { code: 120, ignoreUrls: true, ignoreRegExpLiterals: true }];
 
 export default tseslint.config(
-  { ignores: ['**/dist', '**/node_modules', '**/out', '**/src/net/api.ts'] },
+  { ignores: ['**/dist', '**/node_modules', '**/out', '**/src/model/api.ts'] },
   ...tseslint.configs.recommended,
   {
     rules: {

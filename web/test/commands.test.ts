@@ -35,6 +35,7 @@ const goal: fc.Arbitrary<GoalSpec> = fc.record({
   heading: fc.option(number),
   speed: fc.option(number),
   time: fc.double({ min: 1, max: 20, noNaN: true }),
+  mayCross: fc.array(fc.string(), { maxLength: 3 }),
 });
 
 const makers: fc.Arbitrary<(s: Scene, a: Agent) => Command> = fc.oneof(

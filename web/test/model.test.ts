@@ -155,10 +155,10 @@ describe('scene', () => {
     const json = crossingJson(),
       s = readScene(json),
       a = car(s);
-    let next = setGoal(a, { pos: [4, 30], heading: null, speed: 7, time: 8 }).apply(s);
+    let next = setGoal(a, { ...freeGoal(8), pos: [4, 30], speed: 7, mayCross: ['e1'] }).apply(s);
     next = setStart(next.agents.get('1')!, { ...next.agents.get('1')!.start, speed: null }).apply(next);
     expect(conditionOf(next.agents.get('1')!)).toEqual({
-      goal: { x_m: 4, y_m: 30, speed_mps: 7, time_s: 8 },
+      goal: { x_m: 4, y_m: 30, speed_mps: 7, time_s: 8, may_cross: ['e1'] },
       start: { x_m: -60, y_m: expect.any(Number), heading_rad: expect.any(Number), speed_mps: null },
     });
     const written = JSON.parse(JSON.stringify(writeScene(json, next, null)));
@@ -174,9 +174,7 @@ describe('scene', () => {
   it('keeps futures and picks beside the scene, and drops those that are out of date', () => {
     const json = crossingJson(),
       s = readScene(json);
-    const picked = choose(car(s), 2, 'C').apply(
-      setGoal(car(s), { pos: [4, 30], heading: null, speed: null, time: 9 }).apply(s),
-    );
+    const picked = choose(car(s), 2, 'C').apply(setGoal(car(s), { ...freeGoal(), pos: [4, 30] }).apply(s));
     const f = readFutures(
       { chosen: 1, modes: sixFutures(json.agents[0], { goal: { x_m: 4, y_m: 30 } }, 5, 5) },
       startPose(car(s))!,
@@ -353,7 +351,7 @@ describe('lanes and reach', () => {
           const furthest = speed * time + (accel * rise * rise) / 2 + accel * rise * (time - rise);
           const d = share * furthest;
           const pos = [start.x + d * Math.cos(bearing), start.y + d * Math.sin(bearing)] as const;
-          const goal = { pos, heading: null, speed: null, time };
+          const goal = { ...freeGoal(time), pos };
           const verdict = localReach(s.map, { ...a, ...who, goal }, start, goal, 'km/h', 20);
           expect(verdict!.kind).not.toBe('far');
         },
@@ -372,7 +370,7 @@ describe('lanes and reach', () => {
   });
 
   it('says why not and what would do', () => {
-    const a = { ...car(s), goal: { pos: [1.75, 90] as const, heading: Math.PI / 2, speed: null, time: 4 } };
+    const a = { ...car(s), goal: { ...freeGoal(4), pos: [1.75, 90] as const, heading: Math.PI / 2 } };
     const r = localReach(s.map, a, startPose(a)!, a.goal, 'km/h')!;
     expect(r.kind).toBe('far');
     expect(r.words).toMatch(/along the lane\. In 4\.0 s from 32 km\/h this car gets \d+ m at most\./);

@@ -2,6 +2,7 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { ACTIONS, actionForKey } from '../src/actions/registry';
+import type { Action } from '../src/actions/action';
 import { caps, keyOf } from '../src/actions/keys';
 
 const src = new URL('../src/', import.meta.url);
@@ -22,14 +23,26 @@ describe('action registry', () => {
   });
 
   it('uses no key twice', () => {
+    const keys = (which: (a: Action) => boolean) => ACTIONS.filter(which).flatMap((a) => [...(a.keys ?? [])]);
     for (const dragging of [false, true]) {
-      const all = ACTIONS.filter((a) => !!a.whileDragging === dragging).flatMap((a) => (a.keys ?? []).map((k) => k));
+      const all = keys((a) => !a.onOffer && !!a.whileDragging === dragging);
       expect(all.filter((k, i) => all.indexOf(k) !== i)).toEqual([]);
       for (const k of all) {
-        expect(actionForKey(k, dragging)?.keys).toContain(k);
-        expect(!!actionForKey(k, dragging)?.whileDragging).toBe(dragging);
+        expect(actionForKey(k, { dragging })?.keys).toContain(k);
+        expect(!!actionForKey(k, { dragging })?.whileDragging).toBe(dragging);
       }
     }
+    const offered = keys((a) => !!a.onOffer);
+    expect(new Set(offered).size).toBe(offered.length);
+  });
+
+  it('gives a key to what is on offer, and else to what it does otherwise', () => {
+    const way = (id: string) => ({ offers: (a: Action) => a.id === id });
+    expect(actionForKey('Enter', way('by-road'))?.id).toBe('by-road');
+    expect(actionForKey('Enter', { ...way('by-road'), dragging: true })?.id).toBe('by-road');
+    expect(actionForKey('Enter', way('may-cross'))?.id).toBe('inspect');
+    expect(actionForKey('Enter')?.id).toBe('inspect');
+    expect(actionForKey('Alt+Enter')).toBeUndefined();
   });
 
   it('knows every action that a button names', () => {

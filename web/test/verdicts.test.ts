@@ -4,8 +4,16 @@ import type { FaultJson, ModeJson, RelationJson } from '../src/model/json';
 import { markOf, readAbout } from '../src/model/about';
 import { counted, eventsOf, readEvents, summary } from '../src/model/events';
 import { faultPlaces } from '../src/model/fault-places';
-import { emptyMotion, percents, readFutures, withNames, type Futures, type MotionSet } from '../src/model/futures';
-import { nameBeside, type Naming } from '../src/model/names';
+import {
+  emptyMotion,
+  keepVerdicts,
+  percents,
+  readFutures,
+  withNames,
+  type Futures,
+  type MotionSet,
+} from '../src/model/futures';
+import type { Naming } from '../src/model/names';
 import { readGenerated, readScene } from '../src/model/read';
 import { nameIn, startPose } from '../src/model/scene';
 import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/verdict-words';
@@ -229,19 +237,11 @@ describe('names', () => {
     expect(new Set(list).size).toBe(6);
     expect(list[0]).toBe('Waits for Pedestrian 17');
     // Where the difference has no room beside the other's name, something else is said.
-    expect(list.slice(1, 4)).toEqual(['Lets Ped. 17 go, slower', 'Lets Ped. 17 go, faster', 'Straight on']);
+    expect(list.slice(1, 4)).toEqual(['Lets Ped. 17 go, slower', 'Lets Ped. 17 go, faster', 'Straight on, more left']);
     for (const n of list) {
       expect(n.length).toBeLessThanOrEqual(24);
       expect(n).not.toMatch(/\d m\b|almost/);
     }
-  });
-
-  it('do not say the same twice', () => {
-    const left = mode({ manoeuvre: 'left' });
-    const straight = mode({ manoeuvre: 'straight', speed: 5 });
-    const shown = [{ name: 'Straight on', basis: 'Straight on' }, null];
-    const modes = futures([left, straight]).modes;
-    expect(nameBeside(1, modes, naming, shown).name).toBe('Straight on, slower');
   });
 
   it('tell a lane change before a turn', () => {
@@ -287,6 +287,31 @@ describe('names under a moving hand', () => {
       'Straight on, slower',
       'Straight on',
     ]);
+  });
+});
+
+describe('verdicts of drafts', () => {
+  const draft = (n = 2) =>
+    futures(Array.from({ length: n }, (_, anchor) => mode({ anchor, manoeuvre: 'straight', side: anchor })));
+  const judgedOnes = futures([
+    mode({ anchor: 1, manoeuvre: 'straight', faults: [fault('over_median')] }),
+    mode({ anchor: 0, manoeuvre: 'left' }),
+  ]);
+
+  it('stay with their idea until the answer', () => {
+    const kept = keepVerdicts(judgedOnes, draft());
+    expect(kept.unjudged).toBeUndefined();
+    expect(kept.modes.map((m) => [m.about!.manoeuvre, m.about!.faults.map((f) => f.kind)])).toEqual([
+      ['straight', []],
+      ['straight', ['over_median']],
+    ]);
+    // What is judged itself is taken as it is.
+    expect(keepVerdicts(kept, judgedOnes)).toBe(judgedOnes);
+  });
+
+  it('are none before the first answer', () => {
+    expect(keepVerdicts(null, draft()).unjudged).toBe(true);
+    expect(keepVerdicts(keepVerdicts(null, draft()), draft()).unjudged).toBe(true);
   });
 });
 

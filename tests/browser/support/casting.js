@@ -87,3 +87,48 @@ export async function carBehindAnother(e) {
   }
   throw new Error('nobody drives behind anybody');
 }
+
+/** The scene that is open, as the server has it. */
+async function openScene(e) {
+  const name = await e.page.locator('.title input').inputValue();
+  const get = async (path) => (await e.page.request.get(new URL(path, e.page.url()).href)).json();
+  const { scenes } = await get('/v1/scenes');
+  return get(`/v1/scenes/${scenes.find((s) => s.name === name).id}`);
+}
+
+/** So far beyond a median is a place across it, and so near to one is a goal beside it, metres. */
+const ACROSS_M = 5,
+  BESIDE_M = 6;
+
+/** The place right across a median from where somebody ends; null where there is none. */
+function acrossMedian(medians, { end }) {
+  const left = { x: -Math.sin(end.heading), y: Math.cos(end.heading) };
+  const aside = (p) => (p[0] - end.x) * left.x + (p[1] - end.y) * left.y;
+  const along = (p) => (p[0] - end.x) * left.y - (p[1] - end.y) * left.x;
+  for (const [a, b] of medians) {
+    // Well inside a stretch, or the way round its end is no detour.
+    if (Math.max(along(a), along(b)) < 15 || Math.min(along(a), along(b)) > -15) continue;
+    const side = (aside(a) + aside(b)) / 2;
+    if (Math.abs(side) > BESIDE_M) continue;
+    const d = side + Math.sign(side) * ACROSS_M;
+    return { x: end.x + left.x * d, y: end.y + left.y * d };
+  }
+  return null;
+}
+
+/** A car on the move that ends beside a median, and a place right across it. */
+export async function carBesideMedian(e) {
+  const { map } = await openScene(e);
+  const medians = map.road_edges
+    .filter((r) => r.type === 'median')
+    .flatMap(({ points_m: p }) => p.slice(1).map((b, i) => [p[i], b]));
+  const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
+  const car = await find(
+    e,
+    cars,
+    (who) =>
+      (distance(who.start, who.end) > 40 && acrossMedian(medians, who) !== null) ||
+      'does not end far off, beside a median',
+  );
+  return { car, across: acrossMedian(medians, car) };
+}

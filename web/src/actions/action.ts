@@ -20,6 +20,8 @@ export interface Action {
   readonly context?: 'always';
   /** Its keys are its own while a handle is dragged; at other times they are another action's. */
   readonly whileDragging?: true;
+  /** Its keys are its own while it is on offer, also in a drag; at other times they are another action's. */
+  onOffer?(c: Context): boolean;
   /** True when possible; words say why not. */
   when?(c: Context): true | string;
   checked?(c: Context): boolean;

@@ -1,9 +1,12 @@
 // Goal and futures: what is asked of the selected road user, which future it takes, and working everything out.
-import { hasGoal, touched } from '../model/scene';
-import { clearGoal, resetAgent, setSeed } from '../model/commands';
+import { canChange, hasGoal, touched, type Agent } from '../model/scene';
+import { clearGoal, resetAgent, setSeed, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
+import type { Editor } from '../edit/editor';
 import * as moves from '../edit/moves';
+import { leaveToCross, roadWay } from '../edit/ways-out';
 import { activePart, hasScene, inGroup, onAgent, type Action } from './action';
+import type { Context } from './context';
 
 const LARGEST_NEW_SEED = 9999;
 
@@ -14,6 +17,23 @@ const goalTime = (id: string, label: string, key: string, seconds: number): Omit
   help: 'Time at the goal',
   ...onAgent((c, a) => moves.later(c.editor, a, seconds)),
 });
+
+/** A way out of a goal that is reached against the rules; in the middle of a drag it ends the drag. */
+const wayOut = (find: (e: Editor, a: Agent) => { command: Command } | null, none: string) => {
+  const found = ({ editor }: Context) => {
+    const a = editor.agent.value;
+    return a && canChange(a) ? find(editor, a) : null;
+  };
+  return {
+    onOffer: (c: Context) => found(c) !== null,
+    when: (c: Context) => (found(c) ? true : none),
+    run(c: Context) {
+      const way = found(c);
+      if (c.editor.dragging.peek()) c.gestures.cancel();
+      if (way) c.editor.run(way.command);
+    },
+  };
+};
 
 const futures = [...LETTERS].map((letter, i) => ({
   id: `future-${letter.toLowerCase()}`,
@@ -83,6 +103,22 @@ export const goal = inGroup('Goal and futures', [
     keys: ['Alt+0'],
     help: 'The generator chooses again',
     ...onAgent((c, a) => (a.chosen === null ? null : moves.pickFuture(c.editor, a, null))),
+  },
+  {
+    id: 'by-road',
+    label: 'Take the way by the road',
+    keys: ['Enter'],
+    icon: 'road',
+    help: 'The nearest place that the road leads to in the same time, else the future that gets there by it',
+    ...wayOut(roadWay, 'No way by the road is needed here.'),
+  },
+  {
+    id: 'may-cross',
+    label: 'It may go over what is in the way',
+    keys: ['Alt+Enter'],
+    icon: 'check',
+    help: 'Over the median or kerb that the shown future crosses, for this goal alone',
+    ...wayOut(leaveToCross, 'Nothing that could be crossed is in the way.'),
   },
   {
     id: 'generate',

@@ -14,7 +14,7 @@ export const ACTIONS: readonly Action[] = Object.freeze([look, movement, goal, t
 const byId = new Map(ACTIONS.map((a) => [a.id, a]));
 const keysOf = (actions: readonly Action[]): ReadonlyMap<string, Action> =>
   new Map(actions.flatMap((a) => (a.keys ?? []).map((k) => [k, a] as const)));
-const byKey = keysOf(ACTIONS.filter((a) => !a.whileDragging));
+const byKey = keysOf(ACTIONS.filter((a) => !a.whileDragging && !a.onOffer));
 const byKeyWhileDragging = keysOf(ACTIONS.filter((a) => a.whileDragging));
 
 export function actionOf(id: string): Action {
@@ -23,8 +23,19 @@ export function actionOf(id: string): Action {
   return a;
 }
 
-export const actionForKey = (key: string, dragging = false): Action | undefined =>
-  (dragging ? byKeyWhileDragging.get(key) : undefined) ?? byKey.get(key);
+const byKeyOnOffer = keysOf(ACTIONS.filter((a) => a.onOffer));
+
+interface Now {
+  readonly dragging?: boolean;
+  offers?(a: Action): boolean;
+}
+
+/** The action of a key, by what goes on at the moment. */
+export function actionForKey(key: string, { dragging = false, offers }: Now = {}): Action | undefined {
+  const offered = byKeyOnOffer.get(key);
+  if (offered && offers?.(offered)) return offered;
+  return (dragging ? byKeyWhileDragging.get(key) : undefined) ?? byKey.get(key);
+}
 export const possible = (c: Context, a: Action): true | string => a.when?.(c) ?? true;
 
 export function perform(c: Context, id: string): void {

@@ -6,7 +6,8 @@ import type { Action } from '../actions/action';
 
 export function listenToPage(c: Context): void {
   addEventListener('keydown', (e) => {
-    const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e), c.editor.dragging.peek());
+    const now = { dragging: c.editor.dragging.peek(), offers: (a: Action) => a.onOffer!(c) };
+    const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e), now);
     if (!a || belongsToPage(c, e, a)) return;
     e.preventDefault();
     perform(c, a.id);
@@ -26,7 +27,7 @@ function belongsToPage({ editor, ui }: Context, e: KeyboardEvent, a: Action): bo
   if (/^(Shift\+)?Tab$/.test(a.keys![0]) && target !== document.body && !inList) return true;
   if (target instanceof HTMLButtonElement && pressesButton(target, e, editor.selection.peek())) return true;
   if (input?.type === 'range' && e.key.startsWith('Arrow')) return true;
-  return editor.dragging.peek() && a.id !== 'deselect' && !a.whileDragging;
+  return editor.dragging.peek() && a.id !== 'deselect' && !a.whileDragging && !a.onOffer;
 }
 
 /** In a number field undo is the browser's only while something is typed that has not been taken over. */

@@ -209,6 +209,31 @@ export function paintFlag(
   labels.block(x - 4, y - FLAG_HEIGHT, 28, FLAG_HEIGHT);
 }
 
+/** A dotted string with the hand at its end, in pixels. */
+export function paintString(g: CanvasRenderingContext2D, from: Vec, hand: Vec): void {
+  const c = colours();
+  const line = (colour: string, width: number, dash: number[]) => {
+    g.beginPath();
+    g.moveTo(from[0], from[1]);
+    g.lineTo(hand[0], hand[1]);
+    g.lineCap = 'round';
+    g.strokeStyle = colour;
+    g.lineWidth = width;
+    g.setLineDash(dash);
+    g.stroke();
+    g.setLineDash([]);
+  };
+  line(c.halo, 6, []);
+  line(c['near-edge'], 3, [0.1, 5.5]);
+  g.beginPath();
+  g.arc(hand[0], hand[1], 4, 0, Math.PI * 2);
+  g.fillStyle = c.near;
+  g.fill();
+  g.strokeStyle = c.halo;
+  g.lineWidth = 1.6;
+  g.stroke();
+}
+
 /** Ring around a box: selection, collision. */
 export function paintRing(
   g: CanvasRenderingContext2D,

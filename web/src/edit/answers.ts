@@ -38,6 +38,8 @@ export interface Remark {
 export interface LiveReach {
   readonly id: string;
   readonly reach: Reach;
+  /** Has the goal moved on since? */
+  readonly moved: boolean;
 }
 
 export class Answers {
@@ -99,7 +101,8 @@ export class Answers {
   }
 
   dragMoved(): void {
-    this.#liveReach.value = null;
+    const live = this.#liveReach.peek();
+    if (live && !live.moved) this.#liveReach.value = { ...live, moved: true };
   }
 
   dragPutBack(): void {
@@ -179,7 +182,7 @@ export class Answers {
   }
 
   judge(id: string, reach: Reach): void {
-    this.#liveReach.value = { id, reach };
+    this.#liveReach.value = { id, reach, moved: false };
   }
 
   /** The verdict of the whole answer takes the place of the one during the drag. */

@@ -38,11 +38,19 @@ export interface Pointed {
   readonly grip?: Grip | null;
 }
 
-/** The lane under what is dragged, in words and by id, and the stop line it holds to. */
+/** How far the flag lags behind the hand while a kerb holds it back: from where it is held to the pointer, metres. */
+export interface Lag {
+  readonly from: Vec;
+  readonly to: Vec;
+  readonly touch: boolean;
+}
+
+/** The lane under what is dragged, in words and by id, the stop line it holds to, and what holds it back. */
 export interface DragPlace {
   readonly laneName: string | null;
   readonly laneId: string | null;
   readonly stop: OnLine | null;
+  readonly lag: Lag | null;
 }
 export interface DragInfo extends DragPlace {
   readonly grip: Grip;
@@ -239,7 +247,7 @@ export class Editor {
       this.playhead.pause();
       this.#focusPart.value = grip.part;
       this.#history?.begin();
-      this.#drag.value = { grip, laneName: null, laneId: null, stop: null };
+      this.#drag.value = { grip, laneName: null, laneId: null, stop: null, lag: null };
       this.answers.dragBegan();
       this.notices.hide();
     });
@@ -258,8 +266,9 @@ export class Editor {
   dragOver(place: DragPlace): void {
     const old = this.#drag.peek();
     if (!old) return;
-    const { laneId, laneName, stop } = place;
-    if (old.laneId !== laneId || old.laneName !== laneName || (old.stop === null) !== (stop === null))
+    const { laneId, laneName, stop, lag } = place;
+    const lane = old.laneId !== laneId || old.laneName !== laneName;
+    if (lane || (old.stop === null) !== (stop === null) || old.lag !== lag)
       this.#drag.value = { grip: old.grip, ...place };
   }
 

@@ -1,7 +1,7 @@
 // Names of futures while a hand moves: an idea keeps its name until rest, unless what the name rests on is no longer
 // so and another relation has held for a while.
 import { ideas, type Future, type Futures } from '../model/futures';
-import { nameAll, nameBeside, type Named, type Naming } from '../model/names';
+import { nameAll, nameRest, type Named, type Naming } from '../model/names';
 
 /** So long must a new relation hold before it is named, in milliseconds. */
 const HOLDS_MS = 400;
@@ -20,12 +20,13 @@ export class FrozenNames {
     const fresh = nameAll(next.modes, who);
     const keys = ideas(next.modes);
     const kept = keys.map((k, i) => this.#kept(k, was.get(k), next.modes[i], fresh[i], now));
-    const names: (Named | null)[] = kept.map((m) => m && { name: m.name, basis: m.basis! });
     // New ones are told apart from those that stay.
-    names.forEach((n, i) => {
-      if (!n) names[i] = nameBeside(i, next.modes, who, names);
-    });
-    return { ...next, modes: next.modes.map((m, i) => ({ ...m, ...names[i]! })) };
+    const names = nameRest(
+      next.modes,
+      who,
+      kept.map((m) => m && { name: m.name, basis: m.basis! }),
+    );
+    return { ...next, modes: next.modes.map((m, i) => ({ ...m, ...names[i] })) };
   }
 
   /** At rest everything is named anew. */

@@ -15,14 +15,17 @@ export interface OutOfReach {
 /** What the generator said of the goal as it is now; during a drag, of the goal as it is dragged. */
 export function knownReach(e: Editor, a: Agent): Reach | null {
   const live = e.liveReach.value;
-  if (live?.id === a.id) return live.reach;
+  if (live?.id === a.id && !live.moved) return live.reach;
   const m = e.motion.value;
   return e.dragging.value || m.stale ? null : (m.reach.get(a.id) ?? null);
 }
 
 /** Are the futures on screen an answer to the document as it is? In a drag those from before it are none. */
 export const verdictsHold = (e: Editor): boolean =>
-  !e.outdated.value && !e.futures.value?.sketch && (!e.dragging.value || e.draft.value !== null);
+  !e.outdated.value &&
+  !e.futures.value?.sketch &&
+  !e.futures.value?.unjudged &&
+  (!e.dragging.value || e.draft.value !== null);
 
 /** Null when the goal can be reached, as far as anybody knows. */
 export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
@@ -40,11 +43,15 @@ export interface RoadGoal extends Point {
 }
 
 export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
-  const to = knownReach(e, a)?.byRoad;
+  // The road stays where it is: what was said a moment ago holds until the next answer.
+  const live = e.liveReach.value;
+  const to = (live?.id === a.id ? live.reach : knownReach(e, a))?.byRoad;
   if (!to || !a.goal.pos) return null;
   const dx = to.x - a.goal.pos[0],
     dy = to.y - a.goal.pos[1];
+  // In a drag the goal has moved on since the answer.
+  const distance = Math.hypot(dx, dy);
   const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
-  const where = ahead > to.distance / 2 ? 'further on' : ahead < -to.distance / 2 ? 'before it' : 'beside it';
-  return { x: to.x, y: to.y, heading: to.heading, words: `By the road: ${metres(to.distance, 0)} ${where}` };
+  const where = ahead > distance / 2 ? 'further on' : ahead < -distance / 2 ? 'before it' : 'beside it';
+  return { x: to.x, y: to.y, heading: to.heading, words: `By the road: ${metres(distance, 0)} ${where}` };
 }

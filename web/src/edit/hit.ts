@@ -1,16 +1,19 @@
 // What lies under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
-import { insideBox } from '../model/geometry';
+import { insideBox, type Vec } from '../model/geometry';
 import { poseAt } from '../model/motion';
 import { canChange, startPose, type Agent } from '../model/scene';
 import { FLAG_HEIGHT, handlePoints } from '../draw/handles';
+import type { Rect } from '../draw/labels';
 import { sizeOnScreen } from '../draw/sprites';
 import type { Chip } from '../draw/strokes';
 import type { View } from '../draw/view';
 import type { Editor, Grip } from './editor';
+import type { RoadSign } from './overlay-verdicts';
 
 export type Hit =
   | { kind: 'grip'; grip: Grip }
   | { kind: 'future'; index: number }
+  | { kind: 'by road' }
   | { kind: 'agent'; id: string; pile: string[] }
   | { kind: 'none' };
 
@@ -19,19 +22,28 @@ export const NOTHING: Hit = { kind: 'none' };
 const near = (p: readonly [number, number], x: number, y: number, r: number): boolean =>
   Math.hypot(p[0] - x, p[1] - y) <= r;
 
+const inRect = (r: Rect, x: number, y: number): boolean => x >= r.x && x <= r.x + r.w && y >= r.y && y <= r.y + r.h;
+
+/** On a flag with its foot at a place. */
+const onFlag = ([fx, fy]: Vec, x: number, y: number): boolean =>
+  x > fx - 6 && x < fx + 26 && y > fy - FLAG_HEIGHT - 2 && y < fy + 5;
+
 export interface HitContext {
   editor: Editor;
   view: View;
   chips: readonly Chip[];
-  timeTag: { x: number; y: number; w: number; h: number } | null;
+  timeTag: Rect | null;
+  roadSign: RoadSign | null;
   touch: boolean;
 }
 
 export function hitTest(c: HitContext, x: number, y: number): Hit {
   const a = c.editor.agent.value;
   if (a && canChange(a)) {
+    if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by road' };
     const grip = gripAt(c, a, x, y);
     if (grip) return { kind: 'grip', grip };
+    if (c.roadSign?.flag && onFlag(c.roadSign.flag, x, y)) return { kind: 'by road' };
     for (const chip of c.chips)
       if (near([chip.x, chip.y], x, y, c.touch ? 22 : 11)) return { kind: 'future', index: chip.index };
     if (c.editor.layers.value.futures && futureAt(c, c.editor.chosen.value, x, y))
@@ -51,12 +63,10 @@ function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   const goal = editor.goalPose(a);
   if (goal) {
     const g = handlePoints(v, a, goal);
-    const t = c.timeTag;
-    if (t && x >= t.x && x <= t.x + t.w && y >= t.y && y <= t.y + t.h) return { part: 'goal', handle: 'time' };
+    if (c.timeTag && inRect(c.timeTag, x, y)) return { part: 'goal', handle: 'time' };
     if (goal.set && near(g.tip, x, y, r)) return { part: 'goal', handle: 'speed' };
     if (goal.set && near(g.knob, x, y, r)) return { part: 'goal', handle: 'heading' };
-    const [gx, gy] = g.centre;
-    if (x > gx - 6 && x < gx + 26 && y > gy - FLAG_HEIGHT - 2 && y < gy + 5) return { part: 'goal', handle: 'body' };
+    if (onFlag(g.centre, x, y)) return { part: 'goal', handle: 'body' };
     if (onBox(v, a, goal, x, y)) return { part: 'goal', handle: 'body' };
   }
   const start = startPose(a);

@@ -1,14 +1,14 @@
 // Changes of start and goal, said once and used by handles, keys and typed values alike.
 import { deg, rad, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { nearestLanes } from '../model/lanemap';
-import { choose, setGoal, setSize, setStart, type Command } from '../model/commands';
+import { choose, goalStep, setGoal, setSize, setStart, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
 import { limitsOf, topSpeed } from '../model/domain';
 import { localReach, shortfall } from '../model/reach';
 import { GOAL_TIME, startPose, type Agent, type GoalSpec, type Scene, type StartSpec } from '../model/scene';
 import { metres, toUnit } from '../model/units';
 import type { Editor, Field, Part } from './editor';
-import { roadGoal } from './goal-verdict';
+import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
 
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
@@ -145,39 +145,13 @@ export interface Remedy {
   readonly command: Command;
 }
 
-/** The way by the road out of a goal that is reached against the rules: the nearest such goal, else a future. */
-export function byRoad(e: Editor, a: Agent): Remedy | null {
-  const to = roadGoal(e, a);
-  if (to)
-    return {
-      label: to.words,
-      note: '',
-      icon: 'road',
-      primary: true,
-      command: {
-        ...setGoal(a, {
-          ...a.goal,
-          pos: freeze([to.x, to.y]),
-          heading: a.goal.heading === null ? null : to.heading,
-        }),
-        name: `Goal of ${a.name} moved to where the road leads`,
-      },
-    };
-  const modes = e.futures.value?.modes ?? [];
-  const good = modes.findIndex((m) => m.about && !m.about.faults.length);
-  const command = a.goal.pos && good >= 0 ? pickFuture(e, a, good) : null;
-  return (
-    command && { label: `By the road: ${LETTERS[good]}`, note: modes[good].name, icon: 'road', primary: true, command }
-  );
-}
-
 export function remedies(e: Editor, a: Agent): Remedy[] {
   const scene = e.scene.value,
     start = startPose(a);
   if (!scene || !start || !a.goal.pos) return [];
   const unit = e.unitOf(a);
   const local = localReach(scene.map, a, start, a.goal, unit, scene.length);
-  const verdict = e.liveReach.value?.id === a.id ? e.liveReach.value.reach : e.motion.value.reach.get(a.id);
+  const verdict = knownReach(e, a);
   const out: Remedy[] = [];
   const nearest = (verdict?.status === 'unreachable' ? verdict.nearest : null) ?? local?.nearest ?? null;
   if (nearest) {
@@ -190,10 +164,11 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
       note: metres(gets, 0),
       icon: 'flag',
       primary: true,
-      command: {
-        ...setGoal(a, { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed }),
-        name: `Goal of ${a.name} moved to the nearest reachable point`,
-      },
+      command: goalStep(
+        a,
+        { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed },
+        `Goal of ${a.name} moved to the nearest reachable point`,
+      ),
     });
   }
   const bend = verdict?.limiting === 'lateral' || verdict?.limiting === 'curvature' || local?.kind === 'sharp';

@@ -4,11 +4,11 @@ import { shortfall } from '../model/reach';
 import { startPose, type Agent } from '../model/scene';
 import { metres, seconds, speedLabel } from '../model/units';
 import { pill, tag, type Labels } from '../draw/labels';
-import { paintFlag, paintGhost, paintHandles } from '../draw/handles';
+import { paintFlag, paintGhost, paintHandles, paintString } from '../draw/handles';
 import { polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
-import type { Editor } from './editor';
+import type { Editor, Lag } from './editor';
 import { outOfReach, type OutOfReach } from './goal-verdict';
 
 type G = CanvasRenderingContext2D;
@@ -160,10 +160,23 @@ export class GoalOverlay {
       );
   }
 
+  /** A dotted string from the flag to the hand, as long as a kerb holds the flag back. */
+  private paintLag(g: G, v: View, { from, to, touch }: Lag): void {
+    const hand = v.to(to[0], to[1]);
+    paintString(g, v.to(from[0], from[1]), hand);
+    const tries = [
+      [20, -10],
+      [20, 12],
+      [-100, -10],
+    ] as const;
+    tag(g, this.labels, hand, touch ? 'Hold to pass' : 'Alt passes', { tries });
+  }
+
   dragLabels(g: G, v: View, a: Agent, goal: Pose | null): void {
     const d = this.editor.drag.value;
     if (!d || d.grip.handle !== 'body') return;
     const c = colours();
+    if (d.lag) this.paintLag(g, v, d.lag);
     const p = d.grip.part === 'goal' ? goal : startPose(a);
     if (!p) return;
     const [x, y] = v.to(p.x, p.y);

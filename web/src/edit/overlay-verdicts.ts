@@ -3,16 +3,17 @@
 import type { Fault } from '../model/about';
 import { faultPlaces, type FaultPlace } from '../model/fault-places';
 import type { Futures } from '../model/futures';
+import type { Vec } from '../model/geometry';
 import { nameIn, type Agent } from '../model/scene';
 import { placeWord } from '../model/verdict-words';
 import { paintBroken, paintGround, type Stretch } from '../draw/broken';
-import { paintFlag, paintGhost } from '../draw/handles';
-import { pill, tag, type Labels, type PillStyle, type Rect } from '../draw/labels';
-import { modeStyle } from '../draw/strokes';
+import { FLAG_HEIGHT, paintFlag, paintGhost } from '../draw/handles';
+import { pill, type Labels, type PillStyle, type Rect } from '../draw/labels';
+import { modeStyle, polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-import { roadGoal } from './goal-verdict';
+import { roadWay } from './ways-out';
 
 type G = CanvasRenderingContext2D;
 
@@ -20,6 +21,9 @@ type G = CanvasRenderingContext2D;
 const NAMED = 3;
 
 export class VerdictOverlay {
+  /** Where the way by the road was painted, for the pointer. */
+  roadSign: RoadSign | null = null;
+
   constructor(
     private readonly editor: Editor,
     private readonly labels: Labels,
@@ -73,24 +77,42 @@ export class VerdictOverlay {
     }
   }
 
-  /** Hollow: where the road leads to, when the goal is reached against the rules. */
-  paintByRoad(g: G, v: View, a: Agent): void {
-    const { editor: e } = this;
-    const about = e.futures.value?.modes[e.chosen.value]?.about;
-    const to = about?.faults.some((x) => x.kind !== 'goal_missed') ? roadGoal(e, a) : null;
-    if (!to) return;
+  /** Under the paths: the way by the road, out of a goal that is reached against the rules. */
+  paintRoadBand(g: G, v: View, a: Agent): void {
+    const way = roadWay(this.editor, a);
+    if (!way) return;
+    polyline(g, v, way.path, colours().goal, Math.max(6, a.width * 1.5 * v.z), 0.2, [], 'round');
+    // Labels that are placed before the flag is painted leave it room.
+    if (way.to) this.labels.block(v.x(way.to.x) - 4, v.y(way.to.y) - FLAG_HEIGHT, 28, FLAG_HEIGHT);
+  }
+
+  /** Where it leads to, hollow: a click takes it. */
+  paintRoadWay(g: G, v: View, a: Agent): void {
+    const way = roadWay(this.editor, a);
+    if (!way) return;
     const c = colours();
-    const [x, y] = v.to(to.x, to.y);
-    paintGhost(g, v, a, to, c.goal, c['goal-soft'], [4, 3]);
-    paintFlag(g, this.labels, x, y, c.goal, true);
+    const { to, path } = way;
+    if (to) {
+      paintGhost(g, v, a, to, c.goal, c['goal-soft'], [4, 3]);
+      paintFlag(g, this.labels, v.x(to.x), v.y(to.y), c.goal, true);
+    }
+    const [wx, wy] = to ? [to.x, to.y] : path[path.length >> 1];
     const tries = [
       [34, -26],
       [-190, -26],
       [34, 8],
       [-190, 8],
     ] as const;
-    tag(g, this.labels, [x, y], to.words, { tries, bg: c.goal, fg: c.surface });
+    const [x, y] = v.to(wx, wy);
+    const label = pill(g, this.labels, x, y, way.words, { tries, bg: c.goal, fg: c.surface });
+    this.roadSign = { label, flag: to && [x, y] };
   }
+}
+
+/** The sign of the way by the road on the picture: its label, and the foot of its flag. */
+export interface RoadSign {
+  readonly label: Rect | null;
+  readonly flag: Vec | null;
 }
 
 const RADII = [40, 56, 76, 100, 128];

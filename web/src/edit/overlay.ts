@@ -50,6 +50,11 @@ export class Overlay {
     return this.goal.timeTag;
   }
 
+  /** Where the way by the road was painted, for the pointer. */
+  get roadSign(): VerdictOverlay['roadSign'] {
+    return this.verdicts.roadSign;
+  }
+
   /** Is something still fading? It is to be painted again then. */
   get fading(): boolean {
     return this.ghosts.fading;
@@ -60,6 +65,7 @@ export class Overlay {
     const scene = e.scene.value;
     this.chips = [];
     this.goal.timeTag = null;
+    this.verdicts.roadSign = null;
     if (!scene) return;
     const { left, right } = v.inset;
     this.labels.reset(v.w, v.h, {
@@ -184,6 +190,7 @@ export class Overlay {
       d.earlier.forEach((old, i) => paintFutures(g, v, old, { chosen, alpha: TRAIL_ALPHA[i] ?? 0.1 }));
     const committed = this.committed(a);
     const judged = this.judged(a, f);
+    this.verdicts.paintRoadBand(g, v, a);
     this.verdicts.paintGround(g, v, a, f, judged);
     paintFutures(g, v, f, {
       chosen,
@@ -219,7 +226,7 @@ export class Overlay {
   private paintWords(g: G, v: View, a: Agent): void {
     const f = this.editor.futures.value;
     if (!f || !this.editor.layers.value.futures) return;
-    this.verdicts.paintByRoad(g, v, a);
+    this.verdicts.paintRoadWay(g, v, a);
     this.verdicts.paintWords(g, v, f, this.judged(a, f));
   }
 

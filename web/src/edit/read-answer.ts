@@ -1,5 +1,4 @@
 // Verdicts, scores and warnings of an answer, in the editor's own terms.
-import type { MayBeInLog } from '../model/json';
 import type { FinalEvent, Resolved, ScoreReply } from '../net/types';
 import type { Reach, Score, Stretch } from '../model/futures';
 
@@ -39,7 +38,7 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
       b: c.b,
       time: c.time_s,
       closing: c.closing_speed_mps,
-      ...inLog(c),
+      inLog: c.in_log,
     })),
     nearMisses: s.near_misses.map((c) => ({
       a: c.a,
@@ -47,7 +46,7 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
       time: c.time_s,
       distance: c.distance_m,
       ttc: c.ttc_s,
-      ...inLog(c),
+      inLog: c.in_log,
     })),
     stretches: [
       ...stretches('off_road', s.off_road),
@@ -61,17 +60,12 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
         time: r.time_s,
         until: r.time_s,
         extent: r.speed_mps,
-        ...inLog(r),
+        inLog: r.in_log,
       })),
     ],
     minTtc: s.min_ttc_s,
     offroadShare: s.offroad_share,
   };
-}
-
-function inLog(of: object): { inLog?: boolean } {
-  const { in_log } = of as MayBeInLog;
-  return in_log === undefined ? {} : { inLog: in_log };
 }
 
 type SentStretch = ScoreReply['scene']['off_road'][number];
@@ -83,5 +77,5 @@ const stretches = (what: Stretch['what'], sent: readonly SentStretch[] | undefin
     time: s.time_s,
     until: s.until_s,
     extent: s.worst,
-    ...inLog(s),
+    inLog: s.in_log,
   }));

@@ -4,6 +4,7 @@ import { DEFAULTS } from '../model/domain';
 import type { AgentFuturesJson, ReactionJson } from '../model/json';
 import {
   ideas,
+  keepVerdicts,
   percents,
   readFutures,
   withNames,
@@ -168,7 +169,8 @@ export class Reception {
     const last = shown?.id === id && !shown.futures.sketch ? shown : null;
     // The answer to a release starts rough again; what the drag has settled already stays until it is better.
     if (last && !editor.dragging.peek() && step < last.futures.step) return false;
-    const read = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
+    const sent = readFutures(json, start, step, steps, a.type === 'pedestrian', keep(a));
+    const read = keepVerdicts(last?.futures ?? null, sent);
     const f = this.#withFrozenNames(a, editor.dragging.peek() ? this.#withoutThoseWhoAnswer(read) : read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
     editor.answers.showDraft(id, f, trails);

@@ -15,6 +15,8 @@ export interface Fault {
   readonly extent: number | null;
   /** The other road user. */
   readonly with: string | null;
+  /** Id of the road edge that it goes over; null where there is none, or the generator does not say. */
+  readonly edge: string | null;
 }
 
 export interface Relation {
@@ -83,6 +85,7 @@ const readFault = (f: FaultJson): Fault => ({
   at: [f.x_m, f.y_m],
   extent: f.extent ?? null,
   with: f.with ?? null,
+  edge: f.edge ?? null,
 });
 
 /** As it was sent, for a scene that is saved with its futures. */

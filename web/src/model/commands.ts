@@ -59,6 +59,12 @@ export const setStart = (a: Agent, start: StartSpec, what = 'Start'): Command =>
   one(`${what} of ${a.name} changed`, a.id, { start: Object.freeze(start), chosen: null }, 'start');
 export const setGoal = (a: Agent, goal: GoalSpec, what = 'Goal'): Command =>
   one(`${what} of ${a.name} moved`, a.id, { goal: Object.freeze(goal), chosen: null }, 'goal');
+/** A goal that was decided on: a step of its own, however soon after another change of the goal. */
+export const goalStep = (a: Agent, goal: GoalSpec, name: string): Command => ({
+  ...setGoal(a, goal),
+  name,
+  fold: undefined,
+});
 export const setBoth = (a: Agent, start: StartSpec, goal: GoalSpec): Command =>
   one(`${a.name} moved`, a.id, { start: Object.freeze(start), goal: Object.freeze(goal), chosen: null }, 'both');
 export const setSize = (a: Agent, length: number, width: number): Command =>

@@ -217,7 +217,15 @@ function shortOf(scene: Scene, r: Raw): string {
   const other = (r.b !== null && nameIn(scene)(r.b)) || '';
   if (r.what === 'near_miss' && r.ttc !== null && (r.extent === null || r.extent > 1))
     return `${num(r.ttc, 1)} s to collision with ${other}`;
-  const fault = { kind: r.what, time: r.time, until: r.until, at: [0, 0] as const, extent: r.extent, with: r.b };
+  const fault = {
+    kind: r.what,
+    time: r.time,
+    until: r.until,
+    at: [0, 0] as const,
+    extent: r.extent,
+    with: r.b,
+    edge: null,
+  };
   return placeWord(fault, nameIn(scene));
 }
 

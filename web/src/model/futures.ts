@@ -5,7 +5,7 @@ import type { Point, Pose } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
 
-export const LETTERS = 'ABCDEF';
+export { LETTERS } from './names';
 
 export interface Future {
   readonly probability: number;
@@ -28,6 +28,8 @@ export interface Futures {
   /** 0 is the first rough guess, `steps` is settled. */
   readonly step: number;
   readonly steps: number;
+  /** Nobody has said yet what is wrong with them: not that nothing is. */
+  readonly unjudged?: boolean;
   /** True for the plain local curve drawn while the generator is away. */
   readonly sketch?: boolean;
 }
@@ -110,6 +112,22 @@ export function placesLike(shown: readonly HasAnchor[], sent: readonly HasAnchor
     else if (rest.length) order.push(rest.shift()!);
   }
   return [...order, ...now.map((_, i) => i).filter((i) => !order.includes(i))];
+}
+
+/**
+ * Drafts are shown before they are judged. Until the answer each idea keeps the faults that it had last, or verdicts
+ * would come and go with every movement of the hand; where nothing was said, they are marked as not judged.
+ */
+export function keepVerdicts(shown: Futures | null, next: Futures): Futures {
+  if (next.modes.some((m) => m.about?.faults.length)) return next;
+  if (!shown || shown.unjudged || !isJudged(shown)) return { ...next, unjudged: true };
+  const was = new Map(ideas(shown.modes).map((k, i) => [k, shown.modes[i].about]));
+  const keys = ideas(next.modes);
+  const modes = next.modes.map((m, i) => {
+    const old = was.get(keys[i]);
+    return old ? { ...m, about: m.about ? { ...m.about, faults: old.faults } : old } : m;
+  });
+  return { ...next, modes };
 }
 
 /** The same futures, called by how they stand to others. */

@@ -1,5 +1,8 @@
-// The scene document as it travels and is stored (`dragtraffic.scene`, version 1).
-// Members that may be missing are optional: the reader is tolerant, the writer is not.
+// The scene document as it travels and is stored (`dragtraffic.scene`, version 1), and what answers say of futures.
+// Of a document members that may be missing are optional: the reader is tolerant, the writer is not.
+import type { components } from './api';
+
+type Schemas = components['schemas'];
 
 export type Point = [number, number] | [number, number, number];
 
@@ -56,8 +59,10 @@ export interface StartJson {
   heading_rad?: number | null;
   speed_mps?: number | null;
 }
+/** `may_cross`: ids of road edges that this one may go over on its way. */
 export interface GoalJson extends StartJson {
   time_s?: number | null;
+  may_cross?: string[];
 }
 export interface ConditionJson {
   type?: 'vehicle' | 'pedestrian' | 'cyclist' | null;
@@ -77,35 +82,12 @@ export interface AgentJson {
   track: TrackJson;
   conditions?: ConditionJson | null;
 }
-export type FaultKind =
-  | 'collision'
-  | 'red_light'
-  | 'wrong_way'
-  | 'over_median'
-  | 'off_road'
-  | 'harsh_braking'
-  | 'harsh_steering'
-  | 'near_miss'
-  | 'goal_missed';
-export interface FaultJson {
-  kind: FaultKind;
-  time_s: number;
-  until_s: number;
-  x_m: number;
-  y_m: number;
-  extent?: number | null;
-  with?: string | null;
-}
-export type RelationKind = 'before' | 'after' | 'follows' | 'gives_way_to';
-export interface RelationJson {
-  kind: RelationKind;
-  with: string;
-  time_s: number;
-  x_m: number;
-  y_m: number;
-  gap_s?: number | null;
-}
-export type Manoeuvre = 'straight' | 'left' | 'right' | 'turn_round' | 'lane_left' | 'lane_right' | 'stays' | 'reverse';
+export type FaultKind = Schemas['FaultKind'];
+/** `edge`: id of the road edge that it goes over. */
+export type FaultJson = Schemas['Fault'] & { edge?: string | null };
+export type RelationKind = Schemas['RelationKind'];
+export type RelationJson = Schemas['Relation'];
+export type Manoeuvre = Schemas['Manoeuvre'];
 /** `anchor`: which of the generator's ideas the future follows; absent for staying at rest. */
 export interface ModeJson extends TrackJson {
   probability: number;
@@ -115,34 +97,11 @@ export interface ModeJson extends TrackJson {
   relations?: RelationJson[];
   manoeuvre?: Manoeuvre | null;
 }
-/** The nearest goal that the road reaches in the time; `distance_m` from the one that was set. */
-export interface ByRoadJson {
-  x_m: number;
-  y_m: number;
-  heading_rad: number;
-  distance_m: number;
-}
-/** Of what a score counts: it happens in the log or in the example itself. */
-export interface MayBeInLog {
-  in_log?: boolean;
-}
 /** A future as it was shown last: box centres every 0.5 s, the first 0.5 s after the start. */
-export interface ShownJson {
-  anchor?: number;
-  x_m: number[];
-  y_m: number[];
-}
-export type ReactionKind = 'waits' | 'slows' | 'speeds_up' | 'keeps_clear';
+export type ShownJson = Schemas['ShownDoc'];
+export type ReactionKind = Schemas['ReactionKind'];
 /** Why a road user gave up the motion it had: whom it answers, and where it waits or is slowest. */
-export interface ReactionJson {
-  kind: ReactionKind;
-  cause: string;
-  delay_s?: number | null;
-  time_s?: number;
-  x_m?: number;
-  y_m?: number;
-  speed_mps?: number;
-}
+export type ReactionJson = Schemas['Reaction'];
 /** `reaction`: absent for whoever was asked for or does as before. */
 export interface AgentFuturesJson {
   chosen: number;

@@ -29,6 +29,7 @@ export interface Lane {
   readonly inside: boolean;
 }
 export interface MapLine {
+  readonly id: string;
   readonly type: string;
   readonly line: Line;
 }
@@ -85,7 +86,7 @@ export function buildMap(json: MapJson): LaneMap {
   }
   const lines = (list: LineJson[] | undefined): MapLine[] =>
     (list ?? [])
-      .map((l) => ({ type: l.type ?? '', line: makeLine(flat(l.points_m)) }))
+      .map((l) => ({ id: l.id ?? '', type: l.type ?? '', line: makeLine(flat(l.points_m)) }))
       .filter((l) => l.line.pts.length > 1);
   const areas = (list: AreaJson[] | undefined) =>
     (list ?? []).map((a) => flat(a.polygon_m)).filter((p) => p.length > 2);

@@ -1,4 +1,5 @@
-// Names of futures: made of how each stands to others, else of what it does. No two in one list are alike.
+// Names of futures: made of how each stands to others, else of what it does, and of what tells it from those that do
+// the same. No two in one list are alike.
 import { leavesRoad, type About, type RelationKind } from './about';
 import { wrapAngle } from './geometry';
 import { distances, endPose, pathLength, type Motion } from './motion';
@@ -21,6 +22,8 @@ export interface Named {
   readonly basis: string;
 }
 
+export const LETTERS = 'ABCDEF';
+
 /** Letters that a row of the list has room for. */
 const LONGEST = 24;
 
@@ -40,51 +43,95 @@ const RELATION_WORDS: Readonly<Record<RelationKind, string>> = {
 const nameless: Naming['nameOf'] = () => null;
 
 /** A name for each. What all share says nothing and is not used. */
-export function nameAll(modes: readonly Nameable[], who: Naming = { onFoot: false, nameOf: nameless }): Named[] {
+export const nameAll = (modes: readonly Nameable[], who: Naming = { onFoot: false, nameOf: nameless }): Named[] =>
+  nameRest(
+    modes,
+    who,
+    modes.map(() => null),
+  );
+
+/** Names for those that have none yet, told apart from the others, which keep theirs. */
+export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly (Named | null)[]): Named[] {
+  const list = new NameList(modes, kept);
   const said = candidates(modes, who);
-  const out: Named[] = [];
-  modes.forEach((_, i) => out.push(nameOne(i, said[i], modes, out)));
-  return out;
+  // What says most first; who cannot be told apart by it is named by something else.
+  for (let rank = 0; list.unnamed.length; rank++) {
+    const groups = new Map<string, number[]>();
+    for (const i of list.unnamed) {
+      const c = said[i][rank];
+      if (c) groups.set(c.basis, [...(groups.get(c.basis) ?? []), i]);
+    }
+    if (!groups.size) break;
+    for (const group of groups.values()) list.tellApart(group, said[group[0]][rank]);
+  }
+  for (const i of list.unnamed) list.likenToOther(i, said[i][0]);
+  return list.names;
 }
 
-/** A name for one that is told apart from those of `others`, which keep theirs. */
-export function nameBeside(
-  i: number,
-  modes: readonly Nameable[],
-  who: Naming,
-  others: readonly (Named | null)[],
-): Named {
-  return nameOne(i, candidates(modes, who)[i], modes, others);
-}
+/** The names given so far. */
+class NameList {
+  readonly #names: (Named | null)[];
 
-function nameOne(
-  i: number,
-  said: readonly Candidate[],
-  modes: readonly Nameable[],
-  others: readonly (Named | null)[],
-): Named {
-  const taken = new Set(others.map((o) => o?.name));
-  const [first] = said;
-  const plain = first.forms.find((f) => f.length <= LONGEST)!;
-  if (!taken.has(plain)) return { name: plain, basis: first.basis };
-  const alike = others.findIndex((o) => o?.name === plain);
-  const words = differences(modes[alike].motion, modes[i].motion, modes[alike].about, modes[i].about);
-  const free = (c: Candidate, ends: readonly string[]): Named | undefined => {
-    // `Straight on, straight` would say the same twice.
-    const fits = (f: string, end: string): boolean => !end || !f.toLowerCase().includes(end.split(' ')[0]);
-    const names = ends.flatMap((end) => c.forms.filter((f) => fits(f, end)).map((f) => (end ? `${f}, ${end}` : f)));
-    const name = names.find((n) => n.length <= LONGEST && !taken.has(n));
-    return name === undefined ? undefined : { name, basis: c.basis };
-  };
-  // First what tells the two apart, then something else to say of this one.
-  const rest = said.slice(1);
-  const other = (ends: readonly string[]): Named | undefined =>
-    rest.reduce<Named | undefined>((known, c) => known ?? free(c, ends), undefined);
-  return free(first, words) ?? other(['']) ?? other(words) ?? free(first, ORDINALS) ?? other(ORDINALS)!;
-}
+  constructor(
+    private readonly modes: readonly Nameable[],
+    kept: readonly (Named | null)[],
+  ) {
+    this.#names = [...kept];
+  }
 
-/** For those that nothing tells apart. */
-const ORDINALS = ['second way', 'third way', 'fourth way', 'fifth way', 'sixth way'];
+  get unnamed(): number[] {
+    return this.#names.flatMap((n, i) => (n ? [] : [i]));
+  }
+
+  get names(): Named[] {
+    return this.#names.map((n) => n!);
+  }
+
+  #give(i: number, c: Candidate, end: string): boolean {
+    const said = (o: Named | null): boolean => !!end && o?.basis === c.basis && o.name.endsWith(`, ${end}`);
+    if (this.#names.some(said)) return false;
+    const taken = (n: string): boolean => this.#names.some((o) => o?.name === n);
+    const names = c.forms.map((f) => (end ? `${f}, ${end}` : f));
+    const name = names.find((n) => n.length <= LONGEST && !taken(n));
+    if (name === undefined) return false;
+    this.#names[i] = { name, basis: c.basis };
+    return true;
+  }
+
+  /** The first of a group is called what all of it do; each other one by what tells it from all the rest. */
+  tellApart(group: readonly number[], c: Candidate): void {
+    const named = this.#names.flatMap((n, i) => (n?.basis === c.basis ? [i] : []));
+    const left = [...group];
+    if (!named.length && this.#give(left[0], c, '')) named.push(left.shift()!);
+    if (!left.length) return;
+    const all = [...named, ...left];
+    const { traits, halfway } = traitsOf(this.modes, all, c.basis);
+    const take = (claims: readonly Claim[]): void => {
+      for (const { i, word } of [...claims].sort((p, q) => q.margins - p.margins))
+        if (left.includes(i) && this.#give(i, c, word)) left.splice(left.indexOf(i), 1);
+    };
+    const [pace] = traits;
+    // Of two the plainest difference is said. Several are told apart by their pace first.
+    if (all.length > 2) take(scaleOf(pace, all));
+    take(traits.flatMap((t) => extremesOf(t, all)));
+    // Those of one pace, beside each other and the first.
+    for (const i of [...left]) {
+      const same = all.filter((j) => j === all[0] || Math.abs(pace.values.get(j)! - pace.values.get(i)!) < pace.least);
+      take([...traits, halfway].flatMap((t) => extremesOf(t, same)).filter((claim) => claim.i === i));
+    }
+  }
+
+  /** Of one that nothing tells from another, to which it is likened. */
+  likenToOther(i: number, c: Candidate): void {
+    const others = this.#names.flatMap((n, j) => (n && j !== i ? [j] : []));
+    others.sort(
+      (a, b) => apart(this.modes[a].motion, this.modes[i].motion) - apart(this.modes[b].motion, this.modes[i].motion),
+    );
+    const like = (j: number): string => `like ${LETTERS[j]}`;
+    if (others.some((j) => this.#give(i, c, like(j)))) return;
+    others.some((j) => this.#give(i, { basis: c.basis, forms: [`Much ${like(j)}`] }, ''));
+  }
+}
 
 // -------------------------------------------------------------- what can be said of each
 
@@ -107,10 +154,12 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
   return modes.map((m, i) => [
     ...(alone && onRoad[i] ? [{ basis: 'By the road', forms: ['By the road'] }] : []),
     ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
-    ...(stops[i] && stopTells ? [{ basis: 'Stops', forms: ['Stops'] }] : []),
-    manner(m, who.onFoot),
+    // One that stops is not called by how it goes on.
+    stops[i] && stopTells ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
   ]);
 }
+
+const STOPS = 'Stops';
 
 interface RelationCandidate extends Candidate {
   readonly other: string;
@@ -139,6 +188,8 @@ const shortName = (name: string): string =>
 const standing = (onFoot: boolean): number => (onFoot ? 0.25 : 0.8);
 /** Less than this is no way at all, metres. */
 const STAYS_M = 1.5;
+/** Less than this is not seen, metres. */
+const CREEPS_M = 0.4;
 
 const endsStanding = ({ motion: m, about }: Nameable, onFoot: boolean): boolean =>
   about?.manoeuvre !== 'stays' && pathLength(m) >= STAYS_M && Math.abs(endPose(m).speed) < standing(onFoot);
@@ -163,11 +214,12 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<About['manoeuvre']>, onFo
     case 'turn_round':
       return ['Turns round'];
     case 'stays':
+      if (pathLength(m) >= CREEPS_M) return [onFoot ? 'A step or two' : 'Creeps on'];
       return [onFoot ? 'Stays' : 'Stands still'];
     case 'reverse':
       return ['Backs up'];
     case 'straight':
-      return [onFoot ? 'Straight' : 'Straight on'];
+      return onFoot ? ['Straight'] : ['Straight on', 'Straight'];
   }
 }
 
@@ -208,39 +260,117 @@ function shiftsFirst(m: Motion): boolean {
   return i > 0 && Math.abs(sideways(m, i, m.heading[0])) > LANE_M;
 }
 
-const SIDE: Partial<Record<NonNullable<About['manoeuvre']>, string>> = {
-  left: 'left',
-  right: 'right',
-  straight: 'straight',
-  lane_left: 'left lane',
-  lane_right: 'right lane',
-  turn_round: 'round',
+// -------------------------------------------------------------- what tells one from another
+
+/** Something that can be seen of each of a group. */
+interface Trait {
+  readonly values: ReadonlyMap<number, number>;
+  /** Less than this is not seen. */
+  readonly least: number;
+  readonly more: string;
+  readonly less: string;
+}
+
+interface Claim {
+  readonly i: number;
+  readonly word: string;
+  /** By how many times what can be seen it differs. */
+  readonly margins: number;
+}
+
+/** Who has most and least of a trait: each beyond all of the others. */
+function extremesOf({ values, least, more, less }: Trait, all: readonly number[]): Claim[] {
+  const order = [...all].sort((a, b) => values.get(b)! - values.get(a)!);
+  const gap = (a: number, b: number): number => (values.get(order[a])! - values.get(order[b])!) / least;
+  const last = order.length - 1;
+  return [
+    { i: order[0], word: more, margins: gap(0, 1) },
+    { i: order[last], word: less, margins: gap(last - 1, last) },
+  ].filter((claim) => claim.margins >= 1);
+}
+
+/** Words of a scale, from the first of a group outwards: one on each level that can be seen apart. */
+const SCALE: Readonly<Record<number, readonly string[]>> = {
+  1: ['', ''],
+  2: ['', '', 'much '],
+  3: ['', 'a bit ', '', 'much '],
 };
 
-/** How the second differs from the first, in words of which the first one says most. */
-export function differences(a: Motion, b: Motion, sa?: About | null, sb?: About | null): string[] {
-  const found: [weight: number, word: string][] = [];
-  const to = sb?.manoeuvre;
-  if (to && sa?.manoeuvre && to !== sa.manoeuvre && SIDE[to]) found.push([Infinity, SIDE[to]]);
-  const da = distances(a),
-    db = distances(b);
-  const n = Math.min(da.length, db.length) - 1;
-  if (n < 2) return found.map(([, word]) => word);
-  const say = (value: number, least: number, more: string, less: string): void => {
-    if (Math.abs(value) >= least) found.push([Math.abs(value) / least, value > 0 ? more : less]);
-  };
+/** More and less of a trait than the first has, level by level. */
+function scaleOf({ values, least, more, less }: Trait, all: readonly number[]): Claim[] {
+  const [first] = all;
+  const out: Claim[] = [];
+  for (const [sign, word] of [
+    [1, more],
+    [-1, less],
+  ] as const) {
+    const beyond = (i: number): number => (sign * (values.get(i)! - values.get(first)!)) / least;
+    const levels: number[] = [];
+    for (const i of [...all].sort((a, b) => beyond(a) - beyond(b)))
+      if (beyond(i) >= 1 + (levels.length ? beyond(levels.at(-1)!) : 0)) levels.push(i);
+    // Of more levels than there are words the outermost have them.
+    const kept = levels.length > 3 ? [levels[0], levels[levels.length >> 1], levels.at(-1)!] : levels;
+    kept.forEach((i, k) => out.push({ i, word: SCALE[kept.length][k + 1] + word, margins: beyond(i) }));
+  }
+  return out;
+}
+
+/** The most that is lost in speed in half a second, m/s². */
+function hardestBraking(m: Motion): number {
+  let most = 0;
+  for (let i = 5; i < m.speed.length; i++)
+    most = Math.max(most, (Math.abs(m.speed[i - 5]) - Math.abs(m.speed[i])) / 0.5);
+  return most;
+}
+
+interface Traits {
+  /** The pace first. */
+  readonly traits: readonly Trait[];
+  /** Who is ahead halfway. */
+  readonly halfway: Trait;
+}
+
+/** Everything by which the members of a group may differ in what is seen of them. */
+function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: string): Traits {
+  const motion = (i: number): Motion => modes[i].motion;
+  const gone = new Map(group.map((i) => [i, distances(motion(i))]));
+  const n = Math.min(...[...gone.values()].map((d) => d.length)) - 1;
+  const trait = (of: (i: number) => number, least: number, more: string, less: string): Trait => ({
+    values: new Map(group.map((i) => [i, of(i)])),
+    least,
+    more,
+    less,
+  });
+  const at = (part: number) => (i: number) => gone.get(i)![Math.round(n * part)];
+  const ends = group.map(at(1));
+  const far = Math.max(1, 0.03 * Math.max(...ends));
+  const together = Math.max(...ends) - Math.min(...ends) < far;
+  const halfway = trait(at(0.5), 0.8, 'earlier', 'later');
+  const [more, less] = basis === STOPS ? ['further on', 'sooner'] : ['faster', 'slower'];
   // With a goal all get as far in the end; then it is told on the way who is ahead.
-  const ahead = (i: number): number => db[i] - da[i];
-  const far = Math.max(1, 0.03 * da[n]);
-  if (Math.abs(ahead(n)) >= far) say(ahead(n), far, 'faster', 'slower');
-  else say(ahead(n >> 1), 0.8, 'earlier', 'later');
-  say(ahead(n >> 2), 0.8, 'early start', 'late start');
-  say(ahead(n) - ahead((3 * n) >> 2), 0.8, 'faster end', 'slower end');
-  const side = sideOf(a, b, n);
-  const turn = totalTurn(a);
-  if (Math.abs(turn) > 0.4) say(turn > 0 ? -side : side, 0.4, 'wider', 'tighter');
-  else say(side, 0.4, 'more left', 'more right');
-  return found.sort((p, q) => q[0] - p[0]).map(([, word]) => word);
+  const pace = together ? halfway : trait(at(1), far, more, less);
+  const [first] = group;
+  const turn = totalTurn(motion(first));
+  const turns = Math.abs(turn) > 0.4;
+  // Positive outwards in a turn, else to the left.
+  const side = new Map(group.map((i) => [i, (turns ? -Math.sign(turn) : 1) * sideOf(motion(first), motion(i), n)]));
+  const offset = (i: number): number => side.get(i)!;
+  const traits = [
+    pace,
+    trait(at(0.25), 0.8, 'faster start', 'slower start'),
+    trait((i) => Math.abs(motion(i).speed[n]), 1.5, 'faster end', 'slower end'),
+    trait((i) => hardestBraking(motion(i)), 1, 'harder braking', 'softer braking'),
+    turns ? trait(offset, 0.5, 'wider', 'tighter') : trait(offset, 0.5, 'more left', 'more right'),
+  ];
+  return { traits, halfway };
+}
+
+/** How far two are apart where they are furthest apart at the same time, metres. */
+function apart(a: Motion, b: Motion): number {
+  let most = 0;
+  for (let i = 0; i < Math.min(a.x.length, b.x.length); i++)
+    most = Math.max(most, Math.hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]));
+  return most;
 }
 
 /** The furthest that the second path lies to the left of the first, metres; negative to the right. */

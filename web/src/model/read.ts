@@ -143,6 +143,7 @@ function readGoal(c: ConditionJson): GoalSpec {
     heading: g.heading_rad ?? null,
     speed: g.speed_mps ?? null,
     time: g.time_s ?? GOAL_TIME,
+    mayCross: Object.freeze([...(g.may_cross ?? [])]),
   });
 }
 

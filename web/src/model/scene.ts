@@ -17,6 +17,8 @@ export interface StartSpec {
 }
 export interface GoalSpec extends StartSpec {
   readonly time: number;
+  /** Ids of the road edges that it may go over on its way there. */
+  readonly mayCross: readonly string[];
 }
 
 export interface Agent {
@@ -79,7 +81,10 @@ export const readReplan = (v: unknown): Replan => REPLANS.find((r) => r === v) ?
 /** A recording may be shorter than 9 s; past that the generator goes on by itself. */
 export const durationOf = (length: Length, steps: number): number =>
   length > GOAL_TIME ? length : Math.min(GOAL_TIME, Math.max(1, steps - 1) * STEP_S);
-export const freeGoal = (time = GOAL_TIME): GoalSpec => Object.freeze({ pos: null, heading: null, speed: null, time });
+const NO_EDGES: readonly string[] = Object.freeze([]);
+
+export const freeGoal = (time = GOAL_TIME): GoalSpec =>
+  Object.freeze({ pos: null, heading: null, speed: null, time, mayCross: NO_EDGES });
 
 export function logStartSpec(p: Pose | null): StartSpec {
   return Object.freeze(

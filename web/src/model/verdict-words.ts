@@ -10,6 +10,7 @@ import {
   type Mark,
 } from './about';
 import { LETTERS, type Futures } from './futures';
+import type { LaneMap } from './lanemap';
 import { endPose } from './motion';
 import type { AgentType } from './scene';
 import { metres, num, seconds } from './units';
@@ -197,6 +198,15 @@ const GOES: Readonly<Record<AgentType, readonly [many: string, one: string]>> = 
   pedestrian: ['walk', 'walks'],
   other: ['go', 'goes'],
 };
+
+/** `drive`, `ride`, `walk`: how one kind gets about. */
+export const goes = (type: AgentType): string => GOES[type][0];
+
+/** `may drive over this median`. An island has several edges and is one median all the same. */
+export function mayCrossWords(go: string, map: LaneMap, edges: readonly string[]): string {
+  const medians = new Set(map.edges.filter((e) => e.type === 'median').map((e) => e.id));
+  return `may ${go} over this ${edges.every((id) => medians.has(id)) ? 'median' : 'kerb'}`;
+}
 
 // -------------------------------------------------------------- why another is shown
 

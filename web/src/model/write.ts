@@ -44,6 +44,7 @@ export function conditionOf(a: Agent): ConditionJson {
     if (a.goal.pos) {
       g.x_m = a.goal.pos[0];
       g.y_m = a.goal.pos[1];
+      if (a.goal.mayCross.length) g.may_cross = [...a.goal.mayCross];
     }
     if (a.goal.heading !== null) g.heading_rad = a.goal.heading;
     if (a.goal.speed !== null) g.speed_mps = a.goal.speed;

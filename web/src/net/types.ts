@@ -1,7 +1,7 @@
 // The API as the editor uses it: names for parts of the generated document. What the editor does, a script can do:
 // nothing here is private.
-import type { components } from './api';
-import type { ByRoadJson, SceneJson, ShownJson } from '../model/json';
+import type { components } from '../model/api';
+import type { SceneJson } from '../model/json';
 
 type Schemas = components['schemas'];
 
@@ -16,22 +16,19 @@ export type Problem = Omit<Partial<Schemas['Problem']>, 'code'> & {
 };
 
 /** Body of POST /v1/generate, without the scene: that part is large and kept as ready-made text. */
-export type GenerateOptions = Pick<Schemas['GenerateRequest'], 'horizon_s' | 'replan_interval_s'> &
+export type GenerateOptions = Pick<Schemas['GenerateRequest'], 'horizon_s' | 'replan_interval_s' | 'shown'> &
   Required<
     Pick<
       Schemas['GenerateRequest'],
       'agents' | 'react' | 'conditions' | 'seed' | 'diversity' | 'steps' | 'stream_modes' | 'score'
     >
-  > & {
-    /** What was shown last, by road user. */
-    readonly shown?: Readonly<Record<string, ShownJson>>;
-  };
+  >;
 
 export type GenerateEvent = Schemas['Event'];
 export type DraftEvent = Schemas['DraftEvent'];
 export type FinalEvent = Schemas['FinalEvent'];
 
-export type Resolved = Schemas['Resolved'] & { readonly by_road?: ByRoadJson | null };
+export type Resolved = Schemas['Resolved'];
 export type ScoreReply = Schemas['ScoreReply'];
 
 export type { SceneJson };

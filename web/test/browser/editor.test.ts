@@ -300,6 +300,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     const stored = d.server.scenes.get(id.id)!;
     expect(stored.rev).toBeGreaterThan(1);
     expect(JSON.stringify(stored.scene.agents[0].conditions)).toContain('x_m');
+    // The word stands from the save before until the next one begins: what counts is what has arrived.
+    await expect.poll(() => stored.scene.generated?.samples[0].agents['1']).toBeDefined();
     // Opened again, the futures are there without asking.
     const asked = d.server.log.length;
     await d.page.reload();
@@ -385,12 +387,39 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.locator('.hint .to').click();
     expect(await d.text('.tm')).toContain('3.2 s');
     const goal = await d.goal();
-    await d.page.locator('.opt.pri').click();
+    const byRoad = async (take: () => Promise<void>) => {
+      await take();
+      await d.settled();
+      const moved = await d.goal();
+      expect(Math.hypot(moved[0] - goal[0], moved[1] - goal[1])).toBeCloseTo(14, 0);
+      await d.key('Control+z');
+      await d.settled();
+      expect(await d.goal()).toEqual(goal);
+      return moved;
+    };
+    const moved = await byRoad(() => d.page.locator('.opt.pri').click());
+    await byRoad(() => d.key('Enter'));
+    const [hollowX, hollowY] = await d.at(...moved);
+    await byRoad(() => d.page.mouse.click(hollowX + 8, hollowY - 26));
+
+    // Leave to go over the median travels with the goal, is one step, and can be taken back.
+    await d.page.getByRole('button', { name: 'It may drive over this median' }).click();
     await d.settled();
-    const moved = await d.goal();
-    expect(Math.hypot(moved[0] - goal[0], moved[1] - goal[1])).toBeCloseTo(14, 0);
-    await d.key('Control+z');
+    expect(d.last().conditions['1'].goal!.may_cross).toEqual(['m0']);
+    expect(await marks()).toEqual(['ok', 'ok', 'ok', 'rule', 'ok', 'short']);
+    expect(await d.text('.leave')).toContain('May drive over this median');
+    await d.page.getByRole('button', { name: 'May drive over this median: take back' }).click();
     await d.settled();
+    expect(await d.page.locator('.leave').count()).toBe(0);
+    expect(await marks()).toEqual(['rule', 'rule', 'rule', 'rule', 'ok', 'short']);
+    await d.key('Alt+Enter');
+    await d.settled();
+    expect(await d.page.locator('.leave').count()).toBe(1);
+    for (let i = 0; i < 3; i++) {
+      await d.key('Control+z');
+      await d.settled();
+    }
+    expect(await d.page.locator('.leave').count()).toBe(0);
     expect(await d.goal()).toEqual(goal);
     // What is in the log is there, and does not count.
     expect(await d.page.locator('.badge.log').count()).toBe(1);

@@ -18,6 +18,8 @@ export class Pointer {
   /** Road users that live futures were asked for, and how often they were dropped again. */
   readonly previewed: string[] = [];
   dropped = 0;
+  /** How often two ticks were felt. */
+  ticked = 0;
   readonly chart: Chart;
 
   constructor() {
@@ -37,6 +39,7 @@ export class Pointer {
       hitAt: () => this.hit,
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
       calm: () => true,
+      ticks: () => this.ticked++,
       tool: toolOf,
     });
   }

@@ -115,6 +115,8 @@ function markings() {
       ].map(([u, v]) => pt(at(a, u, v))),
     });
   });
+  // Far out, between the two directions of one arm.
+  edges.push({ id: 'm0', type: 'median', points_m: [pt(at(ARMS[1], 70, 0)), pt(at(ARMS[1], FAR, 0))] });
   return { lines, edges, crosswalks };
 }
 

@@ -1,3 +1,9 @@
 import type { ByRoadJson, GoalJson, ModeJson } from '../../src/model/json';
-export function judged(modes: ModeJson[], others: readonly [string, string], hit?: boolean): ModeJson[];
+export const MEDIAN: string;
+export function judged(
+  modes: ModeJson[],
+  others: readonly [string, string],
+  hit?: boolean,
+  mayCross?: readonly string[],
+): ModeJson[];
 export function byRoad(goal: GoalJson): ByRoadJson;

@@ -10,19 +10,23 @@ const relation = (kind, other, mode, time) => {
   return { kind, with: other, time_s: time, x_m: mode.x_m[i], y_m: mode.y_m[i], gap_s: 1.4 };
 };
 
+/** The road edge that they go over. */
+export const MEDIAN = 'm0';
+
 /** The same six with faults, relations and manoeuvres; `others` are the ids that are met. */
-export function judged(modes, [first, second], hit = false) {
-  const over = (m, from) => fault('over_median', m, from, from + 1.1, { extent: 0.6 });
+export function judged(modes, [first, second], hit = false, mayCross = []) {
+  const over = (m, from) =>
+    mayCross.includes(MEDIAN) ? [] : [fault('over_median', m, from, from + 1.1, { extent: 0.6, edge: MEDIAN })];
   const said = [
     (m) => ({
-      faults: [...(hit ? [fault('collision', m, 5.4, 5.6, { extent: 4, with: first })] : []), over(m, 3.2)],
+      faults: [...(hit ? [fault('collision', m, 5.4, 5.6, { extent: 4, with: first })] : []), ...over(m, 3.2)],
       relations: [relation('before', first, m, 4.1)],
       manoeuvre: 'left',
     }),
-    (m) => ({ faults: [over(m, 3.1)], relations: [relation('after', first, m, 4.8)], manoeuvre: 'left' }),
-    (m) => ({ faults: [over(m, 3.3)], relations: [relation('gives_way_to', second, m, 5)], manoeuvre: 'left' }),
+    (m) => ({ faults: over(m, 3.1), relations: [relation('after', first, m, 4.8)], manoeuvre: 'left' }),
+    (m) => ({ faults: over(m, 3.3), relations: [relation('gives_way_to', second, m, 5)], manoeuvre: 'left' }),
     (m) => ({
-      faults: [over(m, 3.2), fault('harsh_braking', m, 6.8, 7.6, { extent: 6.2 })],
+      faults: [...over(m, 3.2), fault('harsh_braking', m, 6.8, 7.6, { extent: 6.2 })],
       relations: [relation('after', first, m, 5.2)],
       manoeuvre: 'left',
     }),

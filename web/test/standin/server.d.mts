@@ -1,3 +1,4 @@
+import type { GeneratedJson } from '../../src/model/json';
 export interface StandInOptions {
   port?: number;
   delay?: number;
@@ -26,7 +27,7 @@ export interface StandIn {
   scenes: Map<
     string,
     {
-      scene: { name: string; agents: { id: string; conditions: unknown }[] };
+      scene: { name: string; agents: { id: string; conditions: unknown }[]; generated?: GeneratedJson | null };
       etag: string;
       rev: number;
       readonly: boolean;

@@ -126,7 +126,8 @@ export function startStandIn(options = {}) {
     };
     const six = (a, step) => {
       const modes = sixFutures(a, b.conditions?.[a.id], step, b.steps);
-      return o.judged && a.type === 'vehicle' ? judged(modes, ['2', '17'], o.collision) : modes;
+      if (!o.judged || a.type !== 'vehicle') return modes;
+      return judged(modes, ['2', '17'], o.collision, b.conditions?.[a.id]?.goal?.may_cross);
     };
     const drafts = (step) => Object.fromEntries(wanted.map((a) => [a.id, { chosen: 0, modes: six(a, step) }]));
     send({

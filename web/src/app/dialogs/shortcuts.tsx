@@ -117,7 +117,7 @@ function lineOf(a: Action): Line {
     FAMILIES.find((f) => f.ids.test(a.id)) ?? {
       label: a.label,
       keys: [a.keys![0]],
-      ...(a.whileDragging ? { how: 'while dragging' } : {}),
+      ...(a.whileDragging ? { how: 'while dragging' } : a.onOffer ? { how: 'while it is offered' } : {}),
     }
   );
 }

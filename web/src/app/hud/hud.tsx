@@ -69,30 +69,37 @@ const TIPS = {
   time: [['Shift', 'whole seconds']],
 } as const;
 
+const AT_KERB = [
+  ['Alt', 'passes'],
+  ['Shift', 'along the lane'],
+] as const;
+
 function DragHelp() {
   const { editor } = useApp();
   const handle = useComputed(() => editor.drag.value?.grip.handle ?? 'body').value;
   const shown = editor.showForeseen.value;
   const react = editor.scene.peek()?.others === 'react';
+  const held = useComputed(() => !!editor.drag.value?.lag).value;
   const answers = ['H', `${shown ? 'hide' : 'show'} the others’ answers`] as const;
+  const tips = held ? AT_KERB : react ? [...TIPS[handle].slice(0, 1), answers] : TIPS[handle];
   return (
     <div class="card helpbar">
       <span class="mut">
-        {!react
-          ? 'Let go to work it out'
-          : shown
-            ? 'Dashed boxes: where they would wait'
-            : 'Others react when you let go'}
+        {held
+          ? 'The flag lags behind while a kerb is in the way'
+          : !react
+            ? 'Let go to work it out'
+            : shown
+              ? 'Dashed boxes: where they would wait'
+              : 'Others react when you let go'}
       </span>
       <div class="sep" />
-      {[...(react ? TIPS[handle].slice(0, 1) : TIPS[handle]), ...(react ? [answers] : []), ['Esc', 'put back']].map(
-        ([key, text]) => (
-          <span key={key}>
-            <KeyCaps of={key} />
-            {text}
-          </span>
-        ),
-      )}
+      {[...tips, ['Esc', 'put back']].map(([key, text]) => (
+        <span key={key}>
+          <KeyCaps of={key} />
+          {text}
+        </span>
+      ))}
     </div>
   );
 }

@@ -1,8 +1,11 @@
 // The verdict on the goal, and the ways out of one that cannot be reached.
 import { useComputed } from '@preact/signals';
-import { byRoad, remedies, snapToNearest } from '../../edit/moves';
+import { actionOf, perform } from '../../actions/registry';
+import { remedies, snapToNearest } from '../../edit/moves';
+import { leaveToCross, roadWay } from '../../edit/ways-out';
 import { seconds } from '../../model/units';
 import { useApp } from '../parts/app-context';
+import { KeyCaps, titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
 import { verdictOn, type Verdict } from './verdict';
@@ -20,7 +23,7 @@ export function Hint({ agent }: { agent: LiveAgent }) {
           {v.words ? <div class="tx">{v.words}</div> : null}
         </div>
       </div>
-      {v.byRoad ? <ByRoad agent={agent} /> : null}
+      <WaysOut agent={agent} />
       {v.remedies ? <Remedies agent={agent} /> : null}
       {v.snap ? <SnapButton agent={agent} /> : null}
     </div>
@@ -42,19 +45,46 @@ function Title({ verdict: { title, at } }: { verdict: Verdict }) {
   );
 }
 
-/** The nearest goal by the road, or the future that gets there by it. */
-function ByRoad({ agent }: { agent: LiveAgent }) {
+/** By the road first; then leave to go over what is in the way. */
+function WaysOut({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const way = useComputed(() => (editor.dragging.value ? null : byRoad(editor, agent.value))).value;
-  if (!way) return null;
+  const road = useComputed(() => roadWay(editor, agent.value)).value;
+  const leave = useComputed(() => leaveToCross(editor, agent.value)).value;
+  const dragging = editor.dragging.value;
+  if (!road && !leave) return null;
   return (
     <div class="stack">
-      <button type="button" class="opt pri" onClick={() => editor.run(way.command)}>
-        <Icon name={way.icon} size={15} />
-        {way.label}
-        <small>{way.note}</small>
-      </button>
+      {road ? <WayOut id="by-road" primary words={road.words} note={road.note} cap="Enter" /> : null}
+      {leave ? <WayOut id="may-cross" words={leave.words} cap={dragging ? 'Alt' : undefined} /> : null}
     </div>
+  );
+}
+
+interface WayOutProps {
+  id: string;
+  words: string;
+  note?: string;
+  /** The key to show; there is little room. */
+  cap?: string;
+  primary?: boolean;
+}
+
+function WayOut({ id, words, note, cap, primary }: WayOutProps) {
+  const c = useApp();
+  const { icon } = actionOf(id);
+  return (
+    <button
+      type="button"
+      data-action={id}
+      title={titleOf(id)}
+      class={`opt ${primary ? 'pri' : ''}`}
+      onClick={() => perform(c, id)}
+    >
+      <Icon name={icon!} size={15} />
+      {words}
+      {note ? <small>{note}</small> : null}
+      {cap ? <KeyCaps of={cap} /> : null}
+    </button>
   );
 }
 

@@ -8,6 +8,7 @@ import { fromUnit, num, speedText, toUnit } from '../../model/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
 import { goalTime, resize, shownPose, toggleField, withField } from '../../edit/moves';
 import { laneWords } from '../../edit/snap';
+import { leaveGiven } from '../../edit/ways-out';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
@@ -66,7 +67,23 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
           set={run}
         />
       </Row>
+      <LeaveLine agent={agent} />
     </section>
+  );
+}
+
+/** What it may go over on its way, to be taken back. */
+function LeaveLine({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const leave = useComputed(() => leaveGiven(editor, agent.value)).value;
+  if (!leave) return null;
+  return (
+    <p class="leave">
+      {leave.words}
+      <button type="button" aria-label={`${leave.words}: take back`} onClick={() => editor.run(leave.command)}>
+        <Icon name="x" size={12} />
+      </button>
+    </p>
   );
 }
 

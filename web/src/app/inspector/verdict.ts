@@ -17,8 +17,6 @@ export interface Verdict {
   readonly words: string;
   /** Where the playhead goes on a click on the title, seconds. */
   readonly at?: number | null;
-  /** Is the way by the road to be offered? */
-  readonly byRoad?: boolean;
   /** Are there ways out to offer? */
   readonly remedies?: boolean;
   /** Is "snap to the nearest lane" to be offered? */
@@ -84,7 +82,7 @@ function onFaults({ editor: e }: Context, a: Agent): Verdict | null {
   const said = headline(f, e.chosen.value, a.goal.pos !== null, who);
   if (!said) return null;
   const { mark, title, words, at } = said;
-  return { kind: KINDS[mark], icon: `mark-${mark}`, title, words, at, byRoad: mark === 'rule' || mark === 'collision' };
+  return { kind: KINDS[mark], icon: `mark-${mark}`, title, words, at };
 }
 
 function offLanes({ editor }: Context, a: Agent): boolean {

@@ -17,7 +17,7 @@ export function KeyCaps({ of }: { of: string }) {
   );
 }
 
-function titleOf(id: string): string {
+export function titleOf(id: string): string {
   const a = actionOf(id);
   return a.keys?.[0] ? `${a.label} (${caps(a.keys[0]).join(' ')})` : a.label;
 }

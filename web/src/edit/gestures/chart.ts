@@ -70,6 +70,8 @@ export interface ChartParts {
   agentsAt(p: Point): string[];
   /** Is motion to be kept small? */
   calm(): boolean;
+  /** Two short ticks under the finger. */
+  ticks(): void;
   tool(name: ToolName): Tool;
 }
 

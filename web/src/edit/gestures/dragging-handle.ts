@@ -1,6 +1,6 @@
 // A handle is dragged: the document follows as a preview, the generator shows live futures, the release is one step.
 import { batch } from '@preact/signals-core';
-import { clamp } from '../../model/geometry';
+import { clamp, type Point } from '../../model/geometry';
 import type { Command } from '../../model/commands';
 import type { Chart, State } from './chart';
 import type { HandleMove } from './handle-move';
@@ -9,12 +9,17 @@ import type { Press } from './pressed';
 /** Within this many pixels of the edge the picture scrolls, up to this many pixels a second. */
 const EDGE_PX = 32;
 const EDGE_SPEED = 600;
+/** A finger that rests so long at a kerb passes it, seconds; it trembles by less than this, pixels. */
+const PASSES_AFTER_S = 0.4;
+const TREMBLE_PX = 8;
 
 export class DraggingHandle implements State {
   readonly name = 'dragging handle';
   readonly followsView = true;
   readonly followsModifiers = true;
   #command: Command | null = null;
+  /** Where and for how long a finger has rested at a kerb. */
+  #rest: { readonly at: Point; seconds: number } | null = null;
 
   constructor(
     private readonly chart: Chart,
@@ -37,16 +42,43 @@ export class DraggingHandle implements State {
   /** The page follows a step as a whole: the lane under the pointer, the document, the question. */
   move(): void {
     const { chart } = this;
+    const wasHeld = this.what.held;
     batch(() => {
       this.#command = this.what.to(chart.at, chart.modifiers, this.press);
       chart.editor.previewDrag(this.#command);
       chart.previews.preview(this.what.agent.id);
     });
+    if (this.press.touch && this.what.held && !wasHeld) chart.parts.ticks();
     chart.surface.invalidate('overlay');
   }
 
-  /** The picture scrolls while the pointer is near its edge. */
   frame(seconds: number): boolean {
+    const scrolled = this.#scroll(seconds);
+    return this.#pressOn(seconds) || scrolled;
+  }
+
+  /** A finger has no Alt: resting at a kerb passes it. */
+  #pressOn(seconds: number): boolean {
+    const { chart, what } = this;
+    if (!this.press.touch || !what.held) {
+      this.#rest = null;
+      return false;
+    }
+    const { at } = chart;
+    if (!this.#rest || Math.hypot(at.x - this.#rest.at.x, at.y - this.#rest.at.y) > TREMBLE_PX)
+      this.#rest = { at, seconds: 0 };
+    this.#rest.seconds += seconds;
+    if (this.#rest.seconds < PASSES_AFTER_S) {
+      // A finger that rests moves nothing, and without a frame no time passes.
+      chart.surface.invalidate();
+      return false;
+    }
+    what.passKerbs();
+    return true;
+  }
+
+  /** The picture scrolls while the pointer is near its edge. */
+  #scroll(seconds: number): boolean {
     const { chart } = this;
     const v = chart.surface.view;
     const dx = pull(chart.at.x, v.w);

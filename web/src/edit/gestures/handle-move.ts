@@ -8,8 +8,11 @@ import { speedForTip } from '../../draw/handles';
 import type { View } from '../../draw/view';
 import type { Editor, Grip } from '../editor';
 import { goalTime } from '../moves';
-import { alongLane, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../snap';
+import { alongLane, lanesFor, laneWords, snapHeading, snapToLane, softStop, type Snapped } from '../snap';
+import { edgesInTheWay } from '../ways-out';
 import type { Modifiers } from './chart';
+import type { Press } from './pressed';
+import { Resistance } from './resistance';
 
 /** Pixels of drag on the time tag for one second. */
 const PX_PER_SECOND = 40;
@@ -23,7 +26,7 @@ interface Beginning {
   readonly agent: Agent;
   readonly start: Pose;
   readonly goal: Pose;
-  readonly press: Point;
+  readonly press: Press;
 }
 
 export class HandleMove {
@@ -35,13 +38,21 @@ export class HandleMove {
   readonly #grab: Vec;
   /** May a lane set the heading? One that was set by hand is never overwritten. */
   readonly #laneSetsHeading: boolean;
+  /** Kerbs hold back the flag of whoever keeps to lanes. */
+  readonly #resistance: Resistance | null;
+  readonly #touch: boolean;
   #lane: string | null = null;
+  #mayCross: readonly string[];
 
   constructor(
     private readonly editor: Editor,
     private readonly view: View,
     { grip, agent, start, goal, press }: Beginning,
   ) {
+    const fits = grip.part === 'goal' && grip.handle === 'body' ? lanesFor(agent) : null;
+    this.#resistance = fits && new Resistance(editor.scene.peek()!.map, start, fits, goal);
+    this.#touch = press.touch;
+    this.#mayCross = agent.goal.mayCross;
     this.grip = grip;
     this.agent = agent;
     this.#start = start;
@@ -55,6 +66,15 @@ export class HandleMove {
     const { x, y, heading } = this.#start;
     const map = this.editor.scene.peek()!.map;
     return this.grip.part === 'start' && snapToLane(map, this.agent, x, y, heading, this.view.z, null).lane !== null;
+  }
+
+  /** Does a kerb hold the flag back? */
+  get held(): boolean {
+    return this.#resistance?.held ?? false;
+  }
+
+  passKerbs(): void {
+    this.#resistance?.pass();
   }
 
   /** The pose of the dragged part at the beginning. */
@@ -99,25 +119,50 @@ export class HandleMove {
 
   #position(wx: number, wy: number, mods: Modifiers): Partial<GoalSpec> {
     const { editor, agent: a, grip } = this;
-    const s = this.#snapped(this.#pose.x + wx - this.#grab[0], this.#pose.y + wy - this.#grab[1], mods);
+    const wanted: Vec = [this.#pose.x + wx - this.#grab[0], this.#pose.y + wy - this.#grab[1]];
+    const place = this.#heldBack(wanted, mods);
+    const s = this.#snapped(place[0], place[1], mods);
     const scene = editor.scene.peek()!;
     const held = s.lane && !mods.alt && a.type === 'vehicle' ? s.lane : null;
     const stop = held && softStop(scene, held, a, project(held.line, s.x, s.y).s, this.view.z);
     const at = stop ? { x: stop.x, y: stop.y, laneHeading: stop.heading } : s;
     this.#lane = s.lane?.id ?? null;
     const laneName = laneWords(scene.map, a, at.x, at.y, at.laneHeading);
-    editor.dragOver({ laneId: this.#lane, laneName, stop: stop ?? null });
+    // The hand holds the flag, not its foot.
+    const from: Vec = [wx + at.x - wanted[0], wy + at.y - wanted[1]];
+    const lag = this.held ? { from, to: [wx, wy] as const, touch: this.#touch } : null;
+    editor.dragOver({ laneId: this.#lane, laneName, stop: stop ?? null, lag });
 
     const pos = Object.freeze([at.x, at.y] as const);
+    const leave = this.#leave([at.x, at.y], mods);
     if (this.#laneSetsHeading && at.laneHeading !== null) {
       editor.setHeadingFollows(grip.part, a, true);
-      return { pos, heading: wrapAngle(at.laneHeading) };
+      return { pos, heading: wrapAngle(at.laneHeading), ...leave };
     }
     if (this.#laneSetsHeading && grip.part === 'goal') {
       editor.setHeadingFollows(grip.part, a, false);
-      return { pos, heading: null };
+      return { pos, heading: null, ...leave };
     }
-    return { pos };
+    return { pos, ...leave };
+  }
+
+  /** Alt passes all kerbs, also after it is let go; along the lane with Shift there are none. */
+  #heldBack(wanted: Vec, mods: Modifiers): Vec {
+    if (mods.alt) this.passKerbs();
+    if (!this.#resistance || (mods.shift && this.#lane)) return wanted;
+    return this.#resistance.to(wanted, this.view.z);
+  }
+
+  /** With Alt held it may go over what the shown future goes over on its way past the kerb. */
+  #leave(at: Vec, mods: Modifiers): Partial<GoalSpec> {
+    if (!this.#resistance) return {};
+    if (!mods.alt || !this.#resistance.passesKerb(at)) this.#mayCross = this.agent.goal.mayCross;
+    else {
+      const now = this.editor.agent.peek();
+      const edges = now ? edgesInTheWay(this.editor, now).filter((id) => !this.#mayCross.includes(id)) : [];
+      if (edges.length) this.#mayCross = Object.freeze([...this.#mayCross, ...edges]);
+    }
+    return { mayCross: this.#mayCross };
   }
 
   /** Shift keeps to the lane, Alt lets go of all lanes, else the best lane near by. */

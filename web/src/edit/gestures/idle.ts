@@ -51,6 +51,7 @@ export class Idle implements State {
       case 'agent':
         return editor.time.peek() < 0.05 ? 'grab' : 'pointer';
       case 'future':
+      case 'by road':
         return 'pointer';
       case 'none':
         return parts.tool(editor.tool.peek()).cursor;

@@ -12,6 +12,8 @@ const MODIFIER_KEYS = ['Alt', 'Shift', 'Control', 'Meta'];
 const WHEEL_ZOOM = 0.0016;
 const TRACKPAD_ZOOM = 0.006;
 const PX_PER_LINE = 33;
+/** On, off, on. */
+const TICKS_MS = [10, 40, 10];
 
 const modifiersOf = (e: MouseEvent | KeyboardEvent): Modifiers => ({
   alt: e.altKey,
@@ -40,6 +42,10 @@ export class Gestures {
       hitAt: (p, touch) => hitTest(this.#context(touch), p.x, p.y),
       agentsAt: (p) => agentsAt(this.#context(false), p.x, p.y),
       calm: () => calm.matches,
+      ticks: () => {
+        // Not every browser has it.
+        navigator.vibrate?.(TICKS_MS);
+      },
       tool: toolOf,
     });
     this.#listen(stage.element);
@@ -98,8 +104,8 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag } = picture.overlay;
-    return { editor, view: stage.view, chips, timeTag, touch };
+    const { chips, timeTag, roadSign } = picture.overlay;
+    return { editor, view: stage.view, chips, timeTag, roadSign, touch };
   }
 
   #down(e: PointerEvent): void {

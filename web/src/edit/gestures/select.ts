@@ -2,6 +2,7 @@
 import { canChange, startPose } from '../../model/scene';
 import type { Grip } from '../editor';
 import { pickFuture } from '../moves';
+import { roadWay } from '../ways-out';
 import type { Chart, State } from './chart';
 import { DraggingHandle } from './dragging-handle';
 import { HandleMove } from './handle-move';
@@ -61,6 +62,11 @@ function click(chart: Chart, press: Press, timeStamp: number): void {
     case 'future': {
       const command = a && a.chosen !== hit.index ? pickFuture(editor, a, hit.index) : null;
       if (command) editor.run(command);
+      break;
+    }
+    case 'by road': {
+      const way = a && roadWay(editor, a);
+      if (way) editor.run(way.command);
       break;
     }
     case 'grip': {

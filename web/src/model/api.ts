@@ -1,4 +1,5 @@
-// Made from assets/openapi.json by `npm run api`; not to be edited. net/types.ts names what the editor uses.
+// Made from assets/openapi.json by `npm run api`; not to be edited. model/json.ts and net/types.ts name what
+// the editor uses.
 export interface paths {
     "/healthz": {
         parameters: {

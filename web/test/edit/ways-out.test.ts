@@ -1,0 +1,143 @@
+// Out of a goal that is reached over a median: by the road, or with leave to go over it.
+import { beforeEach, describe, expect, it } from 'vitest';
+import { setGoal } from '../../src/model/commands';
+import { readFutures, withNames } from '../../src/model/futures';
+import type { ModeJson } from '../../src/model/json';
+import { nameIn, startPose, type Agent } from '../../src/model/scene';
+import { Editor } from '../../src/edit/editor';
+import { edgesInTheWay, leaveGiven, leaveToCross, roadWay } from '../../src/edit/ways-out';
+import { car, crossing, crossingJson } from '../helpers';
+import { sixFutures } from '../standin/futures.mjs';
+import { judged } from '../standin/judged.mjs';
+
+const GOAL = [1.75, 26] as const;
+/** On the lane that car 1 turns into, and on the way of its futures. */
+const ROAD = { x: 1.75, y: 40, heading: Math.PI / 2, distance: 14 };
+
+let e: Editor;
+const agent = (): Agent => e.agent.peek()!;
+
+/** What a generator answers for the goal as it is; with `named: false` it does not say which edge is gone over. */
+function answer({ mayCross = [] as string[], named = true, change = (m: ModeJson[]) => m } = {}): void {
+  const goal = { x_m: GOAL[0], y_m: GOAL[1], heading_rad: Math.PI / 2 };
+  const six = judged(sixFutures(crossingJson().agents[0], { goal }, 5, 5), ['2', '17'], false, mayCross);
+  const modes = change(structuredClone(six) as ModeJson[]);
+  if (!named) for (const m of modes) for (const f of m.faults ?? []) delete f.edge;
+  const f = readFutures({ chosen: 0, modes }, startPose(agent())!, 5, 5, false);
+  e.answers.showDraft('1', withNames(f, { onFoot: false, nameOf: nameIn(e.scene.peek()!) }));
+}
+const reach = (byRoad: typeof ROAD | null) =>
+  e.answers.judge('1', { status: 'reached', nearest: null, limiting: null, needs: null, words: null, byRoad });
+
+beforeEach(() => {
+  e = new Editor();
+  e.open(crossing());
+  e.select('1');
+  e.run(setGoal(agent(), { ...agent().goal, pos: GOAL }));
+});
+
+describe('the way by the road', () => {
+  it('leads to the nearest goal that the road has, in one step that can be undone', () => {
+    answer();
+    reach(ROAD);
+    const way = roadWay(e, agent())!;
+    expect(way.words).toBe('By the road: 14 m further on');
+    expect(way.to).toMatchObject({ x: ROAD.x, y: ROAD.y });
+    e.run(way.command);
+    expect(agent().goal.pos).toEqual([ROAD.x, ROAD.y]);
+    e.undo();
+    expect(agent().goal.pos).toEqual(GOAL);
+  });
+
+  it('goes along the future that gets there without leaving the road', () => {
+    answer();
+    reach({ ...ROAD, y: GOAL[1] });
+    const { path } = roadWay(e, agent())!;
+    const clean = e.futures.peek()!.modes[4].motion;
+    expect(path.slice(0, 20)).toEqual([...clean.x.slice(0, 20)].map((x, i) => [x, clean.y[i]]));
+    expect(Math.hypot(path.at(-1)![0] - ROAD.x, path.at(-1)![1] - GOAL[1])).toBeLessThan(4);
+  });
+
+  it('goes along the lanes where no future does', () => {
+    answer({ change: (modes) => modes.map((m) => ({ ...m, faults: modes[0].faults })) });
+    reach(ROAD);
+    const { path } = roadWay(e, agent())!;
+    const start = startPose(car(e.scene.peek()!))!;
+    expect(Math.hypot(path[0][0] - start.x, path[0][1] - start.y)).toBeLessThan(1);
+    expect(path.at(-1)).toEqual([expect.closeTo(ROAD.x, 1), expect.closeTo(ROAD.y, 1)]);
+  });
+
+  it('goes as far as a future leads that keeps to the road, where no lane goes all the way', () => {
+    answer();
+    reach({ ...ROAD, x: 5.1, y: 60 });
+    const { path } = roadWay(e, agent())!;
+    const clean = e.futures.peek()!.modes[4].motion;
+    expect(path).toHaveLength(clean.x.length);
+    expect(path.at(-1)).toEqual([clean.x.at(-1), clean.y.at(-1)]);
+  });
+
+  it('is the future that gets to the goal by it, where no other goal is known', () => {
+    answer();
+    reach(null);
+    const way = roadWay(e, agent())!;
+    expect([way.words, way.note, way.to]).toEqual(['By the road: E', 'By the road', null]);
+    e.run(way.command);
+    expect(agent().chosen).toBe(4);
+  });
+
+  it('is not offered where the shown future breaks no rule', () => {
+    answer({ mayCross: ['m0'] });
+    reach(ROAD);
+    expect([roadWay(e, agent()), leaveToCross(e, agent())]).toEqual([null, null]);
+  });
+
+  it('stays while the hand moves on, as far from the goal as it is by then', () => {
+    e.beginDrag({ part: 'goal', handle: 'body' });
+    answer();
+    reach(ROAD);
+    e.previewDrag(setGoal(agent(), { ...agent().goal, pos: [GOAL[0], GOAL[1] + 4] }));
+    answer();
+    expect(roadWay(e, agent())!.words).toBe('By the road: 10 m further on');
+    e.cancelDrag();
+    expect(roadWay(e, agent())).toBeNull();
+  });
+});
+
+describe('leave to go over an edge', () => {
+  it('is stored with the goal as one step, and can be taken back', () => {
+    answer();
+    const leave = leaveToCross(e, agent())!;
+    expect([leave.words, leave.command.name]).toEqual([
+      'It may drive over this median',
+      'Car 1 may drive over this median',
+    ]);
+    expect(leaveGiven(e, agent())).toBeNull();
+    e.run(leave.command);
+    expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: ['m0'] });
+    const given = leaveGiven(e, agent())!;
+    expect([given.words, given.command.name]).toEqual([
+      'May drive over this median',
+      'Car 1 may not drive over this median',
+    ]);
+    e.run(given.command);
+    expect(agent().goal.mayCross).toEqual([]);
+    e.undo();
+    e.undo();
+    expect(agent().goal).toMatchObject({ pos: GOAL, mayCross: [] });
+  });
+
+  it('names a kerb what is no median', () => {
+    answer({ change: (modes) => modes.map((m) => ({ ...m, faults: m.faults?.map((f) => ({ ...f, edge: 'e1' })) })) });
+    expect(leaveToCross(e, agent())!.words).toBe('It may drive over this kerb');
+  });
+
+  it('is offered for edges that the answer names and that it has no leave for', () => {
+    answer({ named: false });
+    expect(leaveToCross(e, agent())).toBeNull();
+    answer();
+    expect(edgesInTheWay(e, agent())).toEqual(['m0']);
+    e.run(leaveToCross(e, agent())!.command);
+    answer();
+    expect(leaveToCross(e, agent())).toBeNull();
+  });
+});
