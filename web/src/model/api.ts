@@ -1613,7 +1613,7 @@ export interface components {
          * Limiting
          * @description The limit of motion that binds.
          */
-        Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature";
+        Limiting: "acceleration" | "braking" | "speed" | "lateral" | "curvature" | "traffic";
         /**
          * Log
          * @description The word `log`.

@@ -152,13 +152,14 @@ impl Window<'_> {
             let tried = order.into_iter().filter_map(|o| Some((o, candidates[i][o].origin.slot()?)));
             let mut found: Vec<Candidate> = self.material(i).shown_halting().into_iter().collect();
             for (o, slot) in tried.take(MOST_TRIED) {
-                let (plan, states) = (&actor.plan, &candidates[i][o].motion.states);
+                let (plan, graph) = (&actor.plan, &*self.map.graph);
+                let states = &candidates[i][o].motion.states;
                 let mut add = |origin, motion: Option<Motion>| {
                     found.extend(motion.map(|motion| Candidate { probability: 0.0, origin, motion }));
                 };
-                add(Origin::Evading(slot), way_round(plan, slot, states, &others));
+                add(Origin::Evading(slot), way_round(plan, graph, slot, states, &others));
                 if meets && !is_asked_to_meet(actor, &shown.motion, &others) {
-                    add(Origin::Halting(slot), short_of(plan, states, &others));
+                    add(Origin::Halting(slot), short_of(plan, graph, states, &others));
                 }
             }
             found

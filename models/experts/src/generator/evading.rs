@@ -11,8 +11,9 @@ use crate::planning::INSTANTS;
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::motion::{Gear, Kind, Trajectory};
-use scene::routes::{Polyline, Pose};
-use scene::{HORIZON_STEPS, STEP_S, Vec2};
+use scene::routes::{LaneGraph, Polyline, Pose};
+use scene::score::CLOSE_M;
+use scene::{AgentType, HORIZON_STEPS, STEP_S, Vec2};
 use std::f64::consts::FRAC_PI_2;
 
 /// Shifts to each side and their distance, metres.
@@ -32,7 +33,9 @@ const MOST_AHEAD: i32 = 1;
 const SLOPE: f64 = 0.35;
 /// Steps about an instant at which boxes are looked at.
 const ABOUT: [isize; 3] = [-2, 0, 2];
-/// Room that is kept beside others, metres.
+/// A motion comes this near to the places that it is made from, metres.
+const SPARE_M: f64 = 0.2;
+/// Room that is kept beside others when halting, metres.
 const ROOM_M: f64 = 0.3;
 /// Room that is kept before others, metres: ten knots cannot follow every halt.
 const SHORT_M: f64 = 1.0;
@@ -45,10 +48,14 @@ const LEAST_WAY_M: f64 = 2.0;
 const BRAKES: [f64; 3] = [0.3, 0.55, 0.9];
 const HARDER_M: f64 = 2.0;
 
-/// What an instant costs: somebody met, ground off the road, a lane against the traffic.
+/// What an instant costs: somebody met or close, ground off the road, a lane against the traffic.
 const MET: f64 = 8.0;
+const CLOSE: f64 = 0.7;
 const OFF_ROAD: f64 = 2.0;
 const AGAINST: f64 = 1.0;
+/// The same for a place so far from every lane.
+const AWAY: f64 = 0.5;
+const OFF_LANES_M: f64 = 2.5;
 /// What a shift costs at each instant, and its change: for a square metre.
 const ASIDE_COST: f64 = 0.01;
 const AHEAD_COST: f64 = 0.004;
@@ -91,6 +98,9 @@ impl Shift {
 /// A motion to be shifted.
 struct Course<'a> {
     plan: &'a AgentPlan,
+    graph: &'a LaneGraph,
+    /// Vehicles that start on a lane keep near lanes.
+    keeps_to_lanes: bool,
     path: Polyline,
     /// Metres along it, one a step.
     along_m: Vec<f64>,
@@ -101,6 +111,7 @@ struct Course<'a> {
 /// as it is serves as well.
 pub(super) fn way_round(
     plan: &AgentPlan,
+    graph: &LaneGraph,
     slot: Slot,
     motion: &Trajectory,
     others: &[&Moving],
@@ -108,7 +119,7 @@ pub(super) fn way_round(
     if plan.model.gear == Gear::Reverse {
         return None;
     }
-    let course = Course::new(plan, motion, others)?;
+    let course = Course::new(plan, graph, motion, others)?;
     let shifts = course.least()?;
     let centres: [Vec2; INSTANTS] =
         std::array::from_fn(|i| course.pose((i + 1) * PER_INSTANT, shifts[i]).position);
@@ -117,11 +128,16 @@ pub(super) fn way_round(
 
 /// The motion on the same path that halts before whoever of `others` would be met; `None` where no braking is
 /// enough. The goal is missed, unless nothing was asked.
-pub(super) fn short_of(plan: &AgentPlan, motion: &Trajectory, others: &[&Moving]) -> Option<Motion> {
+pub(super) fn short_of(
+    plan: &AgentPlan,
+    graph: &LaneGraph,
+    motion: &Trajectory,
+    others: &[&Moving],
+) -> Option<Motion> {
     if plan.model.gear == Gear::Reverse {
         return None;
     }
-    let course = Course::new(plan, motion, others)?;
+    let course = Course::new(plan, graph, motion, others)?;
     let mut best: Option<Vec<f64>> = None;
     for share in BRAKES {
         // The later, the farther.
@@ -145,7 +161,12 @@ pub(super) fn short_of(plan: &AgentPlan, motion: &Trajectory, others: &[&Moving]
 }
 
 impl<'a> Course<'a> {
-    fn new(plan: &'a AgentPlan, motion: &Trajectory, others: &[&'a Moving]) -> Option<Self> {
+    fn new(
+        plan: &'a AgentPlan,
+        graph: &'a LaneGraph,
+        motion: &Trajectory,
+        others: &[&'a Moving],
+    ) -> Option<Self> {
         let mut along_m = Vec::with_capacity(motion.len());
         let mut way_m = 0.0;
         for (i, state) in motion.iter().enumerate() {
@@ -158,7 +179,9 @@ impl<'a> Course<'a> {
         let last = motion.last()?;
         let tail = last.position + direction(last.heading_rad) * TAIL_M;
         let path = Polyline::new(motion.iter().map(|s| s.position).chain([tail]));
-        let mut course = Self { plan, path, along_m, others: Vec::new() };
+        let vehicle = plan.present.agent_type == AgentType::Vehicle;
+        let mut course = Self { plan, graph, keeps_to_lanes: false, path, along_m, others: Vec::new() };
+        course.keeps_to_lanes = vehicle && !course.is_off_lanes(plan.present.start.position());
         course.others = others.iter().copied().filter(|o| course.may_meet(o)).collect();
         Some(course)
     }
@@ -205,9 +228,15 @@ impl<'a> Course<'a> {
         let steps = ABOUT.map(|about| step.saturating_add_signed(about).min(HORIZON_STEPS));
         let ground: Vec<f64> = (-ASIDES..=ASIDES).map(|aside| self.on_ground(step, aside)).collect();
         for shift in Shift::all().filter(|s| self.allows(instant, *s)) {
-            let at = |step: usize| self.outline(self.pose(step, shift)).grown(ROOM_M);
-            let met = steps.into_iter().any(|step| self.is_met(step, &at(step)));
-            let met = if met { MET } else { 0.0 };
+            let near = |room_m: f64| {
+                let at = |step: usize| self.outline(self.pose(step, shift)).grown(room_m);
+                steps.into_iter().any(|step| self.is_met(step, &at(step)))
+            };
+            let met = match near(CLOSE_M + SPARE_M) {
+                true if near(SPARE_M) => MET,
+                true => CLOSE,
+                false => 0.0,
+            };
             costs[shift.index()] = met + ground[(shift.aside + ASIDES) as usize] + shift.cost();
         }
         costs
@@ -215,11 +244,17 @@ impl<'a> Course<'a> {
 
     /// What the ground so far aside costs.
     fn on_ground(&self, step: usize, aside: i32) -> f64 {
-        let Some(ground) = &self.plan.ground else { return 0.0 };
         let pose = self.pose(step, Shift { ahead: 0, aside });
+        let away = self.keeps_to_lanes && self.is_off_lanes(pose.position);
+        let away = f64::from(u8::from(away)) * AWAY;
+        let Some(ground) = &self.plan.ground else { return away };
         let off = ground.box_outside_m(&self.outline(pose)).is_some_and(|m| m > BEYOND_M);
         let against = ground.is_wrong_way(pose.position, pose.direction()) == Some(true);
-        f64::from(u8::from(off)) * OFF_ROAD + f64::from(u8::from(against)) * AGAINST
+        away + f64::from(u8::from(off)) * OFF_ROAD + f64::from(u8::from(against)) * AGAINST
+    }
+
+    fn is_off_lanes(&self, place: Vec2) -> bool {
+        self.graph.nearest_for(place, OFF_LANES_M, self.plan.present.agent_type).is_empty()
     }
 
     /// Metres along the path at each step for one that brakes from a step on until it stands.
