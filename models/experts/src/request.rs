@@ -260,6 +260,9 @@ pub enum ReachReport {
         needs: Option<f64>,
         /// One sentence for people.
         words: String,
+        /// Who is in the way, where somebody is.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        with: Option<AgentId>,
     },
 }
 

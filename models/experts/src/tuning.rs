@@ -183,6 +183,12 @@ tuning! {
         wrong_way = 8.0, off 0.0;
         /// A stop line that is crossed at red. Set by hand. 2026-11-22.
         red_light = 4.0, off 0.0;
+        /// Braking or steering harder than this, on wheels, m/s2: what the judge calls harsh. Set by hand. 2026-11-23.
+        harsh_mps2 = 4.0;
+        /// A motion that does so at all. Set by hand. 2026-11-23.
+        harsh = 0.4, off 0.0;
+        /// Each second of it. Set by hand. 2026-11-23.
+        harsh_second = 0.4, off 0.0;
         /// A walker who steps out before a vehicle that would have to brake hard. Set by hand. 2026-11-23.
         stepping_out = 1.5, off 0.0;
         /// Leaving the future that was shown last, while a goal is dragged: less than an overlap, more than what tells

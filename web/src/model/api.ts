@@ -2123,6 +2123,8 @@ export interface components {
             needs: number | null;
             /** @constant */
             status: "unreachable";
+            /** @description Who is in the way, where somebody is. */
+            with?: string | null;
             /** @description One sentence for people. */
             words: string;
         };

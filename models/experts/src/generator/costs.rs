@@ -10,12 +10,12 @@ use super::trajectory::PER_INSTANT;
 use crate::planning::INSTANTS;
 use crate::request::ShownLast;
 use crate::tuning::ChoiceTuning;
-use scene::geometry::direction;
 use scene::geometry::obb::OrientedBox;
+use scene::geometry::{cross, direction};
 use scene::judge::{Judge, Trace};
 use scene::motion::{MotionState, Trajectory};
 use scene::score::Actor as ScoreActor;
-use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, State};
+use scene::{Agent, AgentType, Future, HORIZON_STEPS, STANDING_MPS, STEP_S, State};
 
 /// What was shown binds less, by this share, where it breaks the rules by so much more, in the choice's costs.
 const BOUND_TO_WRONG: f64 = 0.4;
@@ -99,9 +99,26 @@ pub(super) fn starts_on_the_road(actor: &Actor, tuning: &ChoiceTuning) -> bool {
         && actor.plan.drivable.box_outside_m(&outline).is_some_and(|outside| outside <= tuning.past_edge_m)
 }
 
-/// What it costs to run a red light, and a vehicle to leave the road or drive against the traffic.
+/// What it costs to brake or steer harshly, by its seconds.
+fn harsh(actor: &Actor, states: &Trajectory, tuning: &ChoiceTuning) -> f64 {
+    if actor.plan.present.agent_type == AgentType::Pedestrian {
+        return 0.0;
+    }
+    let is_harsh = |w: &[MotionState]| {
+        let (from, to) = (w[0].velocity, w[1].velocity);
+        let change = (to - from) / STEP_S;
+        let ahead = direction(w[0].heading_rad);
+        -change.dot(&ahead) > tuning.harsh_mps2 || cross(ahead, change).abs() > tuning.harsh_mps2
+    };
+    let steps = states.windows(2).filter(|w| is_harsh(w)).count();
+    // A step or two are a jerk of the wheel.
+    if steps > 2 { tuning.harsh + tuning.harsh_second * steps as f64 * STEP_S } else { 0.0 }
+}
+
+/// What it costs to run a red light, to brake or steer harshly, and a vehicle to leave the road or drive against the
+/// traffic.
 fn broken_rules(actor: &Actor, states: &Trajectory, by: &Yardstick<'_>) -> f64 {
-    let mut cost = off_road(actor, states, by.map, by.tuning);
+    let mut cost = off_road(actor, states, by.map, by.tuning) + harsh(actor, states, by.tuning);
     if by.judge.has_lights() {
         let moved = states.iter().skip(1).map(State::from).collect();
         let future = Future::bare(1.0, by.start_step + 1, moved);

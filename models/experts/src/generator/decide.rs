@@ -2,7 +2,7 @@
 
 use super::actor::Actor;
 use super::candidates::{Candidate, Origin, own, shown};
-use super::choice::{Choice, Choosable};
+use super::choice::{Choice, Choosable, swept};
 use super::costs::{Yardstick, options};
 use super::evading::{short_of, way_round};
 use super::guidance::guided;
@@ -11,7 +11,7 @@ use super::repulsion::{Outline, poses_of_states};
 use super::trajectory::{Motion, PER_INSTANT};
 use super::window::Window;
 use crate::features::agent::BEYOND_M;
-use crate::request::Shown;
+use crate::request::{React, Shown};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::{Judge, Reaction};
 use scene::motion::MotionState;
@@ -35,6 +35,8 @@ pub(super) struct Decided {
     pub(super) alternatives: Vec<Candidate>,
     /// Why it gave up what it did before, where it had something.
     pub(super) reaction: Option<Reaction>,
+    /// Before whom it halts and misses its goal.
+    pub(super) blocked_by: Option<AgentId>,
 }
 
 impl Decided {
@@ -86,10 +88,11 @@ impl Window<'_> {
         let mut causes = self.put_back(&choice, &mut chosen);
         let mut changed = self.changed(&candidates, &chosen);
         let mut answered = self.answerers.answers(&changed);
+        let mut blockers: Vec<Option<AgentId>> = vec![None; self.actors.len()];
         let rounds = if self.request.stages.guidance { MOST_ROUNDS } else { 0 };
         for _ in 0..rounds {
             let seen = (&changed[..], &answered[..]);
-            if !self.evade(&judge, &mut choice, &mut candidates, &mut chosen, seen) {
+            if !self.evade(&judge, &mut choice, &mut candidates, &mut chosen, seen, &mut blockers) {
                 break;
             }
             causes = self.put_back(&choice, &mut chosen);
@@ -105,7 +108,10 @@ impl Window<'_> {
                 let from_s = self.world.step as f64 * STEP_S;
                 Some(reaction_of(actor.kept.as_ref()?, motion, cause.clone(), from_s))
             });
-            Some(Decided { agent: actor.plan.present.index, actor: i, chosen, alternatives, reaction })
+            let halts = matches!(alternatives[chosen].origin, Origin::Halting(_));
+            let blocked_by = blockers[i].clone().filter(|_| halts);
+            let agent = actor.plan.present.index;
+            Some(Decided { agent, actor: i, chosen, alternatives, reaction, blocked_by })
         });
         Decisions { actors: actors.collect(), answered }
     }
@@ -129,28 +135,43 @@ impl Window<'_> {
         candidates: &mut [Vec<Candidate>],
         chosen: &mut Vec<usize>,
         (changed, answered): (&[Changed], &[Answered]),
+        blockers: &mut [Option<AgentId>],
     ) -> bool {
         let answering = self.answerers.movings_with(answered);
+        let may_answer = self.request.react != React::Nobody;
         let found = self.workers().map(&self.indices(), |&i| {
             let actor = &self.actors[i];
             let shown = &candidates[i][chosen[i]];
             if actor.kept.is_some() || actor.keeps_still() || shown.origin == Origin::Rest {
-                return Vec::new();
+                return (Vec::new(), None);
             }
             let actors = changed.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, c)| &c.moving);
-            let others: Vec<&Moving> = answering.iter().map(AsRef::as_ref).chain(actors).collect();
+            let others: Vec<&Moving> =
+                answering.iter().map(|(_, moving)| moving.as_ref()).chain(actors).collect();
             let own = &changed[i].moving;
-            let meets = others.iter().any(|o| own.starts_apart(o) && overlap(&own.swept, &o.swept).overlaps);
+            let is_met = |o: &Moving| own.starts_apart(o) && own.meets(o);
+            let met = answering.iter().find(|(_, moving)| is_met(moving));
+            let meets = met.is_some() || others.iter().any(|o| is_met(o));
             if !meets && !leaves_the_road(actor, &shown.motion) {
-                return Vec::new();
+                return (Vec::new(), None);
             }
+            // Who only replays its log would answer if it might: to halt before it says nothing of the goal.
+            let halts = meets
+                && (may_answer || met.is_some_and(|(_, moving)| moving.stands()))
+                && !is_asked_to_meet(actor, &shown.motion, &others);
             let costs = &choice.agents[i];
             let mut order: Vec<usize> = (0..candidates[i].len()).collect();
             order.sort_by(|a, b| costs[*a].cost.total_cmp(&costs[*b].cost));
             order.retain(|o| *o != chosen[i]);
             order.insert(0, chosen[i]);
             let tried = order.into_iter().filter_map(|o| Some((o, candidates[i][o].origin.slot()?)));
-            let mut found: Vec<Candidate> = self.material(i).shown_halting().into_iter().collect();
+            let size = &actor.plan.present.size;
+            let is_clear = |c: &Candidate| {
+                let boxes = swept(&c.motion.states, size);
+                !others.iter().any(|o| own.starts_apart(o) && overlap(&boxes, &o.swept).overlaps)
+            };
+            let mut found: Vec<Candidate> = Vec::new();
+            found.extend(self.material(i).shown_halting().filter(|c| halts && is_clear(c)));
             for (o, slot) in tried.take(MOST_TRIED) {
                 let (plan, graph) = (&actor.plan, &*self.map.graph);
                 let states = &candidates[i][o].motion.states;
@@ -158,14 +179,15 @@ impl Window<'_> {
                     found.extend(motion.map(|motion| Candidate { probability: 0.0, origin, motion }));
                 };
                 add(Origin::Evading(slot), way_round(plan, graph, slot, states, &others));
-                if meets && !is_asked_to_meet(actor, &shown.motion, &others) {
+                if halts {
                     add(Origin::Halting(slot), short_of(plan, graph, states, &others));
                 }
             }
-            found
+            (found, met.map(|(id, _)| (*id).clone()))
         });
         let mut changes = false;
-        for (i, found) in found.into_iter().enumerate().filter(|(_, found)| !found.is_empty()) {
+        for (i, (found, met)) in found.into_iter().enumerate().filter(|(_, (found, _))| !found.is_empty()) {
+            blockers[i] = blockers[i].take().or(met);
             candidates[i].extend(found);
             choice.agents[i] = self.options(judge, i, &candidates[i]);
             changes = true;

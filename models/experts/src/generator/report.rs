@@ -10,7 +10,7 @@ use crate::request::{
 };
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::motion::{Kind, Limiting, MotionState, Reach};
-use scene::{AgentType, Conditions, STEP_S, State, wrap_angle};
+use scene::{AgentId, AgentType, Conditions, STEP_S, State, wrap_angle};
 
 impl From<&MotionState> for NearestState {
     fn from(s: &MotionState) -> Self {
@@ -86,8 +86,13 @@ pub(super) fn resolved(world: &World<'_>, outcome: Outcome<'_>) -> Resolved {
 }
 
 /// Verdict of one window on what it was asked. `since_s` is the scene time of a later window's start:
-/// its words are about the way from there.
-pub(super) fn reach_report(actor: &Actor, motion: &Motion, since_s: Option<f64>) -> ReachReport {
+/// its words are about the way from there. `blocked_by` is in the way of a motion that halts before somebody.
+pub(super) fn reach_report(
+    actor: &Actor,
+    motion: &Motion,
+    since_s: Option<f64>,
+    blocked_by: Option<&AgentId>,
+) -> ReachReport {
     match &motion.reach {
         Reach::Reached(r) => ReachReport::Reached {
             position_m: r.position_m,
@@ -95,20 +100,27 @@ pub(super) fn reach_report(actor: &Actor, motion: &Motion, since_s: Option<f64>)
             speed_mps: r.speed_mps,
         },
         Reach::Unreachable { nearest, limiting, needs, .. } => {
-            let words = words(actor, nearest, *limiting, *needs);
+            let words = words(actor, nearest, *limiting, *needs, blocked_by);
             let words = since_s.map_or(words.clone(), |s| format!("From {s:.1} s on: {words}"));
             ReachReport::Unreachable {
                 nearest: nearest.into(),
                 limiting: (*limiting).into(),
                 needs: *needs,
                 words,
+                with: blocked_by.cloned(),
             }
         }
     }
 }
 
 /// One sentence or two: what cannot be, and what can.
-fn words(actor: &Actor, nearest: &MotionState, limiting: Limiting, needs: Option<f64>) -> String {
+fn words(
+    actor: &Actor,
+    nearest: &MotionState,
+    limiting: Limiting,
+    needs: Option<f64>,
+    blocked_by: Option<&AgentId>,
+) -> String {
     let planned = &actor.plan;
     let seconds = planned.target.step as f64 * STEP_S;
     let what = match planned.present.agent_type {
@@ -143,7 +155,8 @@ fn words(actor: &Actor, nearest: &MotionState, limiting: Limiting, needs: Option
         (Limiting::Curvature, _) => format!("Too tight a turn for this {what}."),
         (Limiting::Traffic, _) => {
             let short = planned.target.position.map_or(0.0, |p| (p - nearest.position).norm());
-            format!("Somebody is in the way of this {what}. It halts {short:.0} m short of the goal.")
+            let who = blocked_by.map_or("Somebody".to_owned(), |id| format!("Road user {id}"));
+            format!("{who} is in the way of this {what}. It halts {short:.0} m short of the goal.")
         }
     }
 }

@@ -26,8 +26,10 @@ use std::ops::Range;
 const PAST_EDGE_M: f64 = 0.15;
 /// Shorter stretches off the road are touches, metres driven.
 const TOUCH_M: f64 = 0.3;
-/// Shorter stretches against the traffic are turns across it, metres driven.
+/// Shorter stretches against the traffic are turns across it: metres driven, unless it faces the traffic so long,
+/// seconds.
 const WRONG_WAY_M: f64 = 4.0;
+const FACING_S: f64 = 1.0;
 /// Shorter braking and steering is a jerk of the wheel or of the record, seconds.
 const HARSH_S: f64 = 0.2;
 
@@ -85,7 +87,9 @@ impl<'a> Judge<'a> {
         let driven = |s: &Stretch| entered(s) && self.driven_m(actor, s) >= TOUCH_M;
         add(FaultKind::OffRoad, road.off_road, &driven);
         add(FaultKind::OverMedian, road.over_median, &driven);
-        let against = |s: &Stretch| entered(s) && s.worst.unwrap_or(0.0) >= WRONG_WAY_M;
+        let against = |s: &Stretch| {
+            entered(s) && (s.worst.unwrap_or(0.0) >= WRONG_WAY_M || s.until_s - s.time_s >= FACING_S - 1e-6)
+        };
         add(FaultKind::WrongWay, road.wrong_way, &against);
         let lasting = |s: &Stretch| s.until_s - s.time_s >= HARSH_S - 1e-6;
         add(FaultKind::HarshBraking, braking, &lasting);
@@ -119,9 +123,11 @@ impl<'a> Judge<'a> {
                 Meeting::Collision { time_s, closing_speed_mps, .. } => {
                     (FaultKind::Collision, time_s, closing_speed_mps)
                 }
-                Meeting::Near { time_s, distance_m, .. } => {
-                    (FaultKind::NearMiss, time_s, distance_m.max(0.0))
+                // Boxes that touch have met, however little.
+                Meeting::Near { time_s, distance_m, closing_speed_mps, .. } if distance_m <= 0.0 => {
+                    (FaultKind::Collision, time_s, closing_speed_mps.max(0.0))
                 }
+                Meeting::Near { time_s, distance_m, .. } => (FaultKind::NearMiss, time_s, distance_m),
             };
             let state = near(actor, time_s)?;
             let with = Some(other.actor.id.to_owned());
@@ -202,4 +208,73 @@ fn at_red(actor: &Actor<'_>, found: RedLight) -> Fault {
 /// To a millimetre, as coordinates are written.
 fn rounded(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::direction;
+    use crate::{Goal, Size, Subtype, Track, Vec2};
+    use std::borrow::Cow;
+    use std::f64::consts::PI;
+
+    /// A made car, 4 by 2 m, that is there so many steps.
+    fn car<'a>(id: &'a str, at: impl Fn(f64) -> (f64, f64), heading_rad: f64, speed_mps: f64) -> Actor<'a> {
+        let velocity = direction(heading_rad) * speed_mps;
+        let state = |i: usize| {
+            let (x_m, y_m) = at(i as f64 * STEP_S);
+            State { x_m, y_m, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y }
+        };
+        let states = (0..91).map(|i| Some(state(i))).collect();
+        Actor {
+            id,
+            agent_type: AgentType::Vehicle,
+            subtype: Subtype::Unknown,
+            size: Size { length_m: 4.0, width_m: 2.0, height_m: None },
+            track: Cow::Owned(Track { first_step: 0, states, z_m: None }),
+            log: None,
+            generated: true,
+            goal: Goal::default(),
+            may_cross: &[],
+            reference: None,
+            modes: &[],
+        }
+    }
+
+    fn kinds(map: &LaneMap, me: &Actor<'_>, other: Option<Actor<'_>>) -> Vec<FaultKind> {
+        let drivable = Drivable::new(map);
+        let judge = Judge::new(map, &[], &drivable, 0..91);
+        let others: Vec<Other<'_>> = other.into_iter().map(|o| judge.other(o)).collect();
+        let mut faults = judge.alone(me);
+        faults.extend(judge.among(me, others.iter()));
+        faults.iter().map(|f| f.kind).collect()
+    }
+
+    #[test]
+    fn boxes_that_touch_have_met_and_a_brush_at_speed_is_a_near_miss() {
+        let passes = |beside_m: f64| {
+            let me = car("a", |t| (-30.0 + 8.0 * t, 0.0), 0.0, 8.0);
+            let other = car("b", |t| (30.0 - 8.0 * t, beside_m), PI, 8.0);
+            kinds(&LaneMap::default(), &me, Some(other))
+        };
+        assert_eq!(passes(1.95), [FaultKind::Collision]);
+        assert_eq!(passes(2.1), [FaultKind::NearMiss]);
+        assert!(passes(2.6).is_empty());
+    }
+
+    #[test]
+    fn to_face_the_traffic_for_long_is_the_wrong_way_too() {
+        let lane = crate::map::Lane::street("east", vec![Vec2::new(-50.0, 0.0), Vec2::new(50.0, 0.0)]);
+        let map = LaneMap { lanes: vec![lane], ..LaneMap::default() };
+        // It comes onto the lane at 7 s and creeps against it.
+        let comes = |since_s: f64| {
+            let at = move |t: f64| {
+                let on = (t - since_s).max(0.0);
+                (-1.2 * on, if t < since_s { 30.0 } else { 0.0 })
+            };
+            kinds(&map, &car("a", at, PI, 1.2), None)
+        };
+        assert!(comes(7.0).contains(&FaultKind::WrongWay));
+        assert!(!comes(8.6).contains(&FaultKind::WrongWay));
+    }
 }

@@ -106,14 +106,17 @@ pub(crate) fn crossed_at_red(
             }
         }
     }
-    crossings.retain(|c| c.off_lane_m < ON_LANE_M);
     crossings.sort_by_key(|c| c.step);
     let mut found = Vec::new();
     // Crossings within a second are of one junction: the nearest lane counts, and only if no lane that is
-    // as near lets go.
+    // as near lets go. Who takes none of these lanes, nor one without a signal, is bound by all of them.
     for group in crossings.chunk_by(|a, b| b.step - a.step < 10) {
         let least = group.iter().map(|c| c.off_lane_m).fold(f64::INFINITY, f64::min);
-        let taken = || group.iter().filter(|c| c.off_lane_m <= least + SAME_LANE_M);
+        let most = if least < ON_LANE_M { (least + SAME_LANE_M).min(ON_LANE_M) } else { f64::INFINITY };
+        let taken = || group.iter().filter(|c| c.off_lane_m <= most);
+        if most.is_infinite() && takes_a_free_lane(input, actor, group[0].step, lines) {
+            continue;
+        }
         let allowed = input.thresholds.right_on_red && turns_right_after_stop(actor, group[0].step);
         if allowed || !taken().all(|c| must_stop(c.line.signal.at(c.step))) {
             continue;
@@ -129,6 +132,22 @@ pub(crate) fn crossed_at_red(
         }
     }
     found
+}
+
+/// Behind a line it takes a lane that no signal controls.
+fn takes_a_free_lane(input: &ScoreInput<'_>, actor: &Actor<'_>, step: usize, lines: &[StopLine<'_>]) -> bool {
+    let places: Vec<Vec2> =
+        (step..input.steps.end).map_while(|i| actor.state(i)).map(crate::State::position).collect();
+    let Some(here) = places.first() else { return false };
+    let told: Vec<Vec2> = places.iter().copied().take_while(|p| (p - here).norm() <= TELLING_M).collect();
+    let free = input.map.lanes.iter().filter(|lane| {
+        lane.lane_type.carries_vehicles() && !lines.iter().any(|line| line.signal.lane == lane.id)
+    });
+    free.filter(|lane| lane.points.xy.iter().any(|p| (p - here).norm() <= TELLING_M)).any(|lane| {
+        let line = Polyline::new(lane.points.xy.iter().copied());
+        let off: f64 = told.iter().map(|p| line.project(*p).distance_m).sum();
+        off / (told.len() as f64) < ON_LANE_M
+    })
 }
 
 fn must_stop(state: SignalState) -> bool {
@@ -228,5 +247,26 @@ mod tests {
         let left_green = signal("left", &[(0, Go)]);
         assert_eq!(run(&[left_green, signal("through", &[(0, Stop)])]).len(), 1);
         assert!(run(&[left_red]).is_empty());
+    }
+
+    #[test]
+    fn who_takes_no_lane_behind_the_line_is_bound_by_all() {
+        use SignalState::{Go, Stop};
+        // To the right at once, where no lane leads.
+        let map =
+            LaneMap { lanes: vec![lane("through", &[(40.0, 0.0), (100.0, 0.0)])], ..LaneMap::default() };
+        let drivable = Drivable::default();
+        let turns = |signals: &[Signal]| {
+            let mut car = straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0);
+            for (i, state) in car.track.to_mut().states.iter_mut().flatten().enumerate().skip(41) {
+                let past_m = i as f64 - 41.0;
+                (state.x_m, state.y_m, state.heading_rad) = (41.0, -past_m, -1.57);
+            }
+            let mut input = input_of(vec![car], &drivable);
+            (input.map, input.signals) = (&map, signals);
+            red_lights(&input).len()
+        };
+        assert_eq!(turns(&[signal("through", &[(0, Stop)])]), 1);
+        assert_eq!(turns(&[signal("through", &[(0, Go)])]), 0);
     }
 }

@@ -97,7 +97,7 @@ impl Ledger {
         let actor = &window.actors[decided.actor];
         let later = span.start > 0;
         let since_s = later.then(|| (request.start_step + span.start) as f64 * STEP_S);
-        let reach = report::reach_report(actor, decided.motion(), since_s);
+        let reach = report::reach_report(actor, decided.motion(), since_s, decided.blocked_by.as_ref());
         let mut progress = match self.progress.remove(&agent) {
             Some(known) => Progress { parked: known.parked && decided.rests(), answers: false, ..known },
             None => first_of(window, actor, decided, later, before(base, request, agent, span.start), &reach),

@@ -16,6 +16,9 @@ const PACE_MPS: f64 = 13.9;
 /// Who brakes harder than this does not stop gently, m/s2.
 const STOPPING_MPS2: f64 = 3.0;
 
+/// A place nearer to the goal than this is the goal, metres.
+const LEAST_MOVE_M: f64 = 1.0;
+
 /// By road user whose shown future leaves the road or drives against the traffic to meet its goal.
 pub(super) fn by_road(
     request: &Request,
@@ -47,6 +50,8 @@ pub(super) fn by_road(
         };
         let places = routes_ahead(&map.graph, who.pose(), who.agent_type, farthest_m).into_iter().map(place);
         let nearest = places.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))?;
+        // The goal itself lies on the road: another place is no way out.
+        (nearest.distance_m >= LEAST_MOVE_M).then_some(())?;
         Some((agent.id.clone(), nearest))
     };
     world.present.iter().filter(wants).filter_map(found).collect()

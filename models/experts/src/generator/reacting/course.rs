@@ -1,9 +1,10 @@
 //! The motion that a road user has without this call: a path, and how far along it it is at each step.
 
+use crate::planning::STAYS_WITHIN_M;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::{direction, wrap_angle};
 use scene::motion::Trajectory;
-use scene::score::SweptBoxes;
+use scene::score::{SweptBoxes, overlap};
 use scene::{HORIZON_STEPS, STEP_S, Size, State, Vec2};
 
 /// States nearer to each other than this are one place of the path, metres: what stands and trembles stays.
@@ -55,6 +56,23 @@ impl Moving {
             (Some(a), Some(b)) => !overlaps(a, b, 0.0),
             _ => true,
         }
+    }
+
+    /// The boxes overlap at some step.
+    pub(in crate::generator) fn meets(&self, other: &Self) -> bool {
+        let touch = |(a, b): (&Option<OrientedBox>, &Option<OrientedBox>)| match (a, b) {
+            (Some(a), Some(b)) => overlaps(a, b, 0.0),
+            _ => false,
+        };
+        let found = overlap(&self.swept, &other.swept);
+        found.overlaps || found.close && self.boxes.iter().zip(&other.boxes).any(touch)
+    }
+
+    /// It is there and stays where it is.
+    pub(in crate::generator) fn stands(&self) -> bool {
+        let mut places = self.boxes.iter().flatten().map(OrientedBox::center);
+        let first = places.next();
+        first.is_some_and(|first| places.all(|place| (place - first).norm() < STAYS_WITHIN_M))
     }
 
     /// Box at a step.

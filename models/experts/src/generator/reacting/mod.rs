@@ -165,19 +165,19 @@ impl<'g> Answerers<'g> {
         self.all.iter().map(|a| &a.kept).chain(self.fixed.iter().map(|f| &f.moving))
     }
 
-    /// Everybody's motion, those who gave up theirs with what they do instead.
-    pub(super) fn movings_with(&self, answered: &[Answered]) -> Vec<Cow<'_, Moving>> {
+    /// Everybody's motion by name, those who gave up theirs with what they do instead.
+    pub(super) fn movings_with(&self, answered: &[Answered]) -> Vec<(&AgentId, Cow<'_, Moving>)> {
         let of = |own: &'_ Answerer| answered.iter().find(|a| a.index == own.index && a.reaction.is_some());
         let all = self.all.iter().map(|own| match of(own) {
             Some(answer) => {
                 // From the step after it is there first.
                 let first = own.course.states.first().into_iter();
                 let states = first.chain(&answer.states);
-                Cow::Owned(Moving::of_states(answer.enters, states, &own.size))
+                (&own.id, Cow::Owned(Moving::of_states(answer.enters, states, &own.size)))
             }
-            None => Cow::Borrowed(&own.kept),
+            None => (&own.id, Cow::Borrowed(&own.kept)),
         });
-        all.chain(self.fixed.iter().map(|f| Cow::Borrowed(&f.moving))).collect()
+        all.chain(self.fixed.iter().map(|f| (&f.id, Cow::Borrowed(&f.moving)))).collect()
     }
 
     /// Somebody who may answer would have to answer this.

@@ -12,6 +12,11 @@ pub(super) const PARKED_M: f64 = 1.0;
 /// Beside people, wheels slower than this crawl: who walks there keeps clear of them without haste, m/s.
 const CRAWL_MPS: f64 = 1.5;
 
+/// Made motion that passes another nearer than this, at this speed relative to it, all but brushes it, metres and m/s.
+/// Recorded boxes are no better than that.
+const BRUSH_M: f64 = 0.15;
+const BRUSH_MPS: f64 = 3.0;
+
 /// A course towards each other that lasts less than this many steps is that of one who just begins to
 /// turn away.
 const LEAST_COURSE: usize = 3;
@@ -95,9 +100,14 @@ pub(super) struct Gap {
 
 /// A near miss: both move (or one stands in the way for a while), the gap shrinks fast, and either they
 /// meet within the time threshold if both go on as they do, round their bends too, or one crosses close
-/// to the other. Not so: two walkers, parked cars, wheels that stand or crawl beside people, one that
+/// to the other; or made motion all but brushes another at speed. Not so: two walkers, parked cars, wheels that stand or crawl beside people, one that
 /// passes beside another on its own line, and one that brakes normally behind another.
 pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap) -> Option<Kind> {
+    let made = a.mover.generated || b.mover.generated;
+    let relative_mps = (a.moment.velocity - b.moment.velocity).norm();
+    if made && !(a.walks() && b.walks()) && gap.gap_m < BRUSH_M && relative_mps > BRUSH_MPS {
+        return Some(Kind::Gap);
+    }
     let parked = a.mover.travel_m < PARKED_M || b.mover.travel_m < PARKED_M;
     if parked || a.walks() && b.walks() || gap.closing_mps <= limits.closing_speed_mps {
         return None;
