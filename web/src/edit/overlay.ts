@@ -173,7 +173,7 @@ export class Overlay {
     if (!atStart && now && !e.playing.value)
       tag(g, this.labels, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
-    if (bad?.nearest) this.goal.labelNearest(g, v, a, bad.nearest);
+    if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest);
     this.paintWords(g, v, a);
     this.paintLetters(g, v, a);
     this.goal.dragLabels(g, v, a, goal);
