@@ -43,6 +43,9 @@ export interface Hooks {
 /** Refinement steps left behind on screen as trails. */
 const TRAILS = 3;
 
+/** Futures that stand for so long in a drag are named anew. */
+const RESTS_MS = 450;
+
 type Keep = (a: Agent) => KeepOrder;
 
 const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
@@ -53,6 +56,7 @@ export class Reception {
   readonly #names = new FrozenNames();
 
   readonly #steady: Steady;
+  #rest: ReturnType<typeof setTimeout> | undefined;
   /** The document of the last answer foreseen, and what was bold before it took the place of the drag's own. */
   #foreseen: { readonly key: string; readonly bold: string | null } | null = null;
 
@@ -176,8 +180,22 @@ export class Reception {
     const read = keepVerdicts(last?.futures ?? null, sent);
     const f = this.#withFrozenNames(a, editor.dragging.peek() ? this.#withoutThoseWhoAnswer(read) : read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
-    editor.answers.showDraft(id, f, trails);
+    this.#show(a, f, trails);
     return true;
+  }
+
+  /** Draws futures. Where the hand of a drag rests at them they get the names that they have at rest. */
+  #show(a: Agent, f: Futures, trails: readonly Futures[] = []): void {
+    const { editor } = this;
+    clearTimeout(this.#rest);
+    editor.answers.showDraft(a.id, f, trails);
+    if (!editor.dragging.peek()) return;
+    this.#rest = setTimeout(() => {
+      const d = editor.draft.peek();
+      if (!editor.dragging.peek() || d?.futures !== f) return;
+      this.#names.rest();
+      editor.answers.showDraft(a.id, withNames(f, naming(editor.scene.peek()!, a)), d.earlier);
+    }, RESTS_MS);
   }
 
   /** What is on screen keeps its names as far as they hold. */
@@ -206,7 +224,8 @@ export class Reception {
     this.#foreseen = { key, bold: this.#boldOf(id) };
     const reach = readReach(e.resolved[id]);
     if (reach) editor.answers.judge(id, reach);
-    editor.answers.showDraft(id, this.#withFrozenNames(scene.agents.get(id)!, f));
+    const a = scene.agents.get(id)!;
+    this.#show(a, this.#withFrozenNames(a, f));
   }
 
   /** Whether somebody stays in the way is known when they have answered, as is all about a goal that they have. */
@@ -264,7 +283,7 @@ export class Reception {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
       if (reach && !this.#isForOthersToSay(scene, reach)) editor.answers.judge(id, reach);
       if (!dragging && !editor.motion.peek().stale) editor.answers.look(id, f, reach);
-      else if (editor.selection.peek() === id && !this.#knownBetter(scene)) editor.answers.showDraft(id, f);
+      else if (editor.selection.peek() === id && !this.#knownBetter(scene)) this.#show(scene.agents.get(id)!, f);
     });
     const best = f.modes[f.chosen];
     if (!best || dragging) return;

@@ -6,6 +6,8 @@ import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
 import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
+import { nameAll } from '../../src/model/names';
+import { nameIn } from '../../src/model/scene';
 import { judged } from '../standin/judged.mjs';
 import { draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
 
@@ -245,6 +247,20 @@ describe('what is shown of a drag', () => {
     // The bold one is the same, under its new letter.
     expect(editor.futures.peek()!.modes[editor.chosen.peek()].anchor).toBe(0);
     expect(editor.answers.remark.peek()).toBeNull();
+  });
+
+  it('has the names of rest where the hand rests', () => {
+    dragTo(10);
+    const ahead = judgedSix.map((m) => ({ ...m, relations: [], manoeuvre: 'straight' as const }));
+    generator.last.on.draft(draft({ chosen: 0, modes: ahead as ModeJson[] }), 5, 5, 10);
+    const moving = names();
+    vi.advanceTimersByTime(300);
+    expect(names()).toEqual(moving);
+    vi.advanceTimersByTime(300);
+    const f = editor.futures.peek()!;
+    const who = { onFoot: false, nameOf: nameIn(editor.scene.peek()!) };
+    expect(names()).toEqual(nameAll(f.modes, who).map((n) => n.name));
+    expect(names()).not.toEqual(moving);
   });
 
   it('says why another is shown than in the drag, until the next one', () => {
