@@ -1,7 +1,7 @@
 // Names of futures, on lists as the generator answers them: one of each example scene.
 /* eslint-disable max-len -- an answer is one line */
 import { describe, expect, it } from 'vitest';
-import type { Manoeuvre, RelationKind } from '../src/model/json';
+import type { FaultKind, Manoeuvre, RelationKind } from '../src/model/json';
 import type { About } from '../src/model/about';
 import { distances, type Motion } from '../src/model/motion';
 import { nameAll, nameRest, type Nameable, type Naming } from '../src/model/names';
@@ -192,7 +192,7 @@ describe('names of what can hardly be told apart', () => {
       'Stands still',
       'Stands still, like A',
       'Straight on',
-      'Stands still, like B',
+      'Much like A',
     ]);
     expect(names(drives(9), drives(9.02), drives(7), drives(9.01, { side: 1.2 }))).toEqual([
       'Straight on',
@@ -200,6 +200,35 @@ describe('names of what can hardly be told apart', () => {
       'Straight on, slower',
       'Straight on, more left',
     ]);
+  });
+
+  it('say a small difference that is so before a likeness, and never a chain of them', () => {
+    expect(names(drives(9), drives(8.97), drives(9.06, { side: 0.3 }), drives(9))).toEqual([
+      'Straight on',
+      'Straight on, like A',
+      'Straight on, more left',
+      'Straight on, much like A',
+    ]);
+    expect(names(drives(9), drives(9.15))).toEqual(['Straight on', 'Straight, a bit earlier']);
+    const alike = names(...Array.from({ length: 6 }, () => drives(9)));
+    expect(new Set(alike).size).toBe(6);
+    for (const name of alike.slice(1)) expect(name).toMatch(/like A$/);
+  });
+
+  it('do not call it by the road or a stop where it is not so', () => {
+    const rolls = drives(0.4, { at: 20 });
+    const about = (kind: FaultKind | null, manoeuvre: Manoeuvre = 'straight'): About => ({
+      faults: kind ? [{ kind, time: 1, until: 2, at: [0, 0], extent: 1, with: null, edge: null }] : [],
+      relations: [],
+      manoeuvre,
+    });
+    const called = (kind: FaultKind | null) =>
+      names({ ...drives(9), about: about('off_road') }, { ...drives(7), about: about(kind) })[1];
+    expect([called(null), called('near_miss')]).toEqual(['By the road', 'By the road']);
+    for (const kind of ['collision', 'red_light', 'harsh_steering', 'goal_missed'] as const)
+      expect(called(kind)).toBe('Straight on, slower');
+    expect(names({ ...rolls, about: about(null, 'lane_left') }, drives(9))[0]).toBe('To the left lane');
+    expect(names({ ...drives(9, { at: 30 }), about: about(null, 'lane_left') }, drives(9))[0]).toBe('Stops');
   });
 
   it('tell who stops where, and who creeps from who stands', () => {

@@ -15,7 +15,8 @@ import {
 } from '../src/model/futures';
 import type { Naming } from '../src/model/names';
 import { readGenerated, readScene } from '../src/model/read';
-import { nameIn, startPose } from '../src/model/scene';
+import { withMeetingsOf } from '../src/model/rejudge';
+import { nameIn, startPose, withAgents } from '../src/model/scene';
 import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/verdict-words';
 import { generatedJson, writeScene } from '../src/model/write';
 import { FrozenNames } from '../src/edit/frozen-names';
@@ -381,6 +382,36 @@ describe('events', () => {
     );
     expect(events.map((e) => e.what)).toEqual(['harsh_braking', 'over_median', 'collision']);
     expect(events.map((e) => e.inLog)).toEqual([true, false, false]);
+  });
+
+  it('of those that were asked are what their verdict says, and of others what the score says', () => {
+    const asked = withAgents(scene, [{ ...car(scene), chosen: 0 }]);
+    const stretches = [
+      { what: 'harsh_steering' as const, agent: '1', time: 7, until: 7.4, extent: 4 },
+      { what: 'harsh_braking' as const, agent: '3', time: 2, until: 2.4, extent: 5 },
+    ];
+    const nearMisses = [{ a: '3', b: '1', time: 8, distance: 0.4, ttc: null }];
+    const events = (s: typeof scene) => readEvents(s, set({ score: { ...score, stretches, nearMisses } }));
+    expect(events(asked).map((e) => e.what)).toEqual(['harsh_braking', 'over_median', 'collision']);
+    expect(events(scene).map((e) => e.what)).toContain('harsh_steering');
+    const { about } = six(true).modes[0];
+    const own = events(asked).filter((e) => e.a.id === '1');
+    expect(own.map((e) => e.what).sort()).toEqual(about!.faults.map((f) => f.kind).sort());
+  });
+
+  it('of a future that is kept are judged by whom it meets now', () => {
+    const [hit] = six(true).modes;
+    expect(withMeetingsOf({ ...score, collisions: [{ a: '2', b: '1', time: 5.5 }] }, '1', hit)).toBe(hit);
+    const spared = withMeetingsOf(score, '1', hit);
+    expect(spared.about!.faults.map((f) => f.kind)).toEqual(['over_median']);
+    expect(spared.sent!.faults).toHaveLength(1);
+    const met = withMeetingsOf({ ...score, collisions: [{ a: '1', b: '3', time: 4, closing: 3 }] }, '1', hit);
+    expect(met.about!.faults[0]).toMatchObject({ kind: 'collision', with: '3', time: 4, extent: 3 });
+    const near = [{ a: '1', b: '3', time: 4, distance: 0.3, ttc: null }];
+    const log = near.map((n) => ({ ...n, inLog: true }));
+    const passed = withMeetingsOf({ ...score, nearMisses: near }, '1', spared);
+    expect(passed.about!.faults.map((f) => f.kind)).toEqual(['over_median', 'near_miss']);
+    expect(withMeetingsOf({ ...score, nearMisses: log }, '1', spared)).toBe(spared);
   });
 
   it('of the log are marked and not counted', () => {

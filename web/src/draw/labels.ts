@@ -15,6 +15,7 @@ export type Offset = readonly [number, number];
 export class Labels {
   private used: Rect[] = [];
   private avoided: readonly Rect[] = [];
+  private kept: Rect[] = [];
   constructor(
     private w = 0,
     private h = 0,
@@ -27,6 +28,12 @@ export class Labels {
     this.inset = inset;
     this.used = [];
     this.avoided = [];
+    this.kept = [];
+  }
+
+  /** Labels keep off it while there is any other place. */
+  keepOff(r: Rect): void {
+    this.kept.push(r);
   }
 
   /** Is a point out of the picture? What belongs to it is not labelled then. */
@@ -52,20 +59,19 @@ export class Labels {
       w,
       h,
     });
-    for (const o of tries) {
-      const r = at(o);
-      const meets = (u: Rect) => r.x < u.x + u.w && r.x + w > u.x && r.y < u.y + u.h && r.y + h > u.y;
-      if (!this.used.some(meets) && !this.avoided.some(meets)) {
-        this.used.push(r);
-        return r;
-      }
-    }
-    if (!must) return null;
-    const r = at(tries[0]);
+    const free = (r: Rect, ...of: (readonly Rect[])[]): boolean => !of.some((list) => list.some((u) => meet(r, u)));
+    const all = tries.map(at);
+    const r =
+      all.find((o) => free(o, this.used, this.avoided, this.kept)) ??
+      all.find((o) => free(o, this.used, this.avoided)) ??
+      (must ? all[0] : null);
+    if (!r) return null;
     this.used.push(r);
     return r;
   }
 }
+
+const meet = (a: Rect, b: Rect): boolean => a.x < b.x + b.w && a.x + a.w > b.x && a.y < b.y + b.h && a.y + a.h > b.y;
 
 /** Eight directions at six distances, nearest first. */
 function around(w: number, h: number, radii: readonly number[]): Offset[] {

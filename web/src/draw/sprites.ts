@@ -23,6 +23,16 @@ export function sizeOnScreen(a: Sized, z: number): [number, number] {
   return [Math.max(a.length * z, least[0]), Math.max(a.width * z, least[1])];
 }
 
+/** The upright rectangle around a road user, in pixels. */
+export function boxOnScreen(v: View, a: Sized, p: OnLine): { x: number; y: number; w: number; h: number } {
+  const [l, s] = sizeOnScreen(a, v.z);
+  const c = Math.abs(Math.cos(p.heading)),
+    n = Math.abs(Math.sin(p.heading));
+  const w = l * c + s * n,
+    h = l * n + s * c;
+  return { x: v.x(p.x) - w / 2, y: v.y(p.y) - h / 2, w, h };
+}
+
 const cache = new Map<string, HTMLCanvasElement>();
 const PAD = 3;
 

@@ -42,6 +42,19 @@ export class View {
     this.cy += dy / this.z;
   }
 
+  /** The same, but not so far that the picture shows more beyond a part of the world than it does; false at its end. */
+  panWithin(dx: number, dy: number, b: Box): boolean {
+    const { cx, cy } = this;
+    this.panBy(dx, dy);
+    const { x0, x1, y0, y1 } = this.box();
+    // Only the side that comes into view is held, so that nothing jumps where it lies outside already.
+    if (dx < 0) this.cx = Math.max(cx, this.cx - Math.max(0, x1 - b.x1));
+    else this.cx = Math.min(cx, this.cx + Math.max(0, b.x0 - x0));
+    if (dy > 0) this.cy = Math.max(cy, this.cy - Math.max(0, y1 - b.y1));
+    else this.cy = Math.min(cy, this.cy + Math.max(0, b.y0 - y0));
+    return this.cx !== cx || this.cy !== cy;
+  }
+
   /** Zooms so that the world point under (sx, sy) stays there. */
   zoomAt(sx: number, sy: number, factor: number): void {
     const [wx, wy] = this.from(sx, sy);

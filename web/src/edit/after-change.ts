@@ -14,8 +14,10 @@ export function askedAfter(editor: Editor, scene: Scene, step: Step): Asked {
   const rest = [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && editor.motion.peek().futures.has(subject.id)) {
-    // A picked future is kept as it is; everybody else answers it.
-    return rest.length ? { agents: rest, react: false, step, kept: new Set(picked) } : 'known';
+    // A picked future is kept as it is; whoever meets it answers it, and all others go on as they do.
+    const { id } = subject;
+    const react = picked.length > 1 ? rest : true;
+    return rest.length ? { agents: [id], pinned: [id], react, step, kept: new Set(picked) } : 'known';
   }
   const first = subject && touched(subject) ? subject.id : mine[0];
   const react = picked.length ? rest.filter((id) => id !== first) : true;

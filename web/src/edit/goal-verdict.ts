@@ -1,7 +1,8 @@
 // Can the goal of a road user be reached? The generator's verdict where it is known, the quick one while it is not.
+import { markOf } from '../model/about';
 import type { Point } from '../model/geometry';
-import { reachWords, type Reach } from '../model/futures';
-import type { Agent } from '../model/scene';
+import { isBlocked, reachWords, type Reach } from '../model/futures';
+import { nameIn, type Agent } from '../model/scene';
 import { metres } from '../model/units';
 import type { Editor } from './editor';
 
@@ -10,6 +11,8 @@ export interface OutOfReach {
   readonly title: string;
   readonly words: string;
   readonly nearest: (Point & { readonly heading: number }) | null;
+  /** Something worse is to be said first. */
+  readonly outranked?: boolean;
 }
 
 /** What the generator said of the goal as it is now; during a drag, of the goal as it is dragged. */
@@ -27,11 +30,20 @@ export const verdictsHold = (e: Editor): boolean =>
   !e.futures.value?.unjudged &&
   (!e.dragging.value || e.draft.value !== null);
 
+/** Does the shown future run into somebody? That says more than that somebody is in the way. */
+function collides(e: Editor): boolean {
+  const about = verdictsHold(e) ? e.futures.value?.modes[e.chosen.value]?.about : null;
+  return !!about && markOf(about) === 'collision';
+}
+
 /** Null when the goal can be reached, as far as anybody knows. */
 export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
   const known = knownReach(e, a);
-  if (known)
-    return known.status === 'unreachable' ? { ...reachWords(known, a.goal.time), nearest: known.nearest } : null;
+  if (known) {
+    if (known.status !== 'unreachable') return null;
+    const words = reachWords(known, a.goal, nameIn(e.scene.value!));
+    return { ...words, nearest: known.nearest, outranked: isBlocked(known) && collides(e) };
+  }
   const local = e.localReach.value;
   return local && local.kind !== 'ok' ? local : null;
 }
@@ -42,6 +54,9 @@ export interface RoadGoal extends Point {
   readonly words: string;
 }
 
+/** Less than this beside the goal is no other goal, metres. */
+const LEAST_M = 1;
+
 export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
   // The road stays where it is: what was said a moment ago holds until the next answer.
   const live = e.liveReach.value;
@@ -51,6 +66,8 @@ export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
     dy = to.y - a.goal.pos[1];
   // In a drag the goal has moved on since the answer.
   const distance = Math.hypot(dx, dy);
+  // That near it is the goal itself.
+  if (distance < LEAST_M) return null;
   const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
   const where = ahead > distance / 2 ? 'further on' : ahead < -distance / 2 ? 'before it' : 'beside it';
   return { x: to.x, y: to.y, heading: to.heading, words: `By the road: ${metres(distance, 0)} ${where}` };

@@ -92,7 +92,8 @@ export class GoalOverlay {
     }
     paintFlag(g, this.labels, x, y, colour, !goal.set);
     if (bad) this.paintNearest(g, v, a, bad.nearest);
-    const text = bad ? bad.title : goal.set ? `Goal · ${seconds(a.goal.time)}` : 'Goal · free';
+    const said = bad && !bad.outranked;
+    const text = said ? bad.title : goal.set ? `Goal · ${seconds(a.goal.time)}` : 'Goal · free';
     if (drag?.part === 'goal' && drag.handle === 'body') return;
     const r = pill(
       g,
@@ -100,7 +101,7 @@ export class GoalOverlay {
       x,
       y,
       text,
-      bad
+      said
         ? {
             tries: [
               [32, -44],

@@ -5,7 +5,7 @@ import { comparedWithLog } from '../model/changes';
 import type { Futures } from '../model/futures';
 import { canChange, startPose, touched, type Agent } from '../model/scene';
 import { metres, num, seconds, speedLabel } from '../model/units';
-import { Labels, pill, tag } from '../draw/labels';
+import { Labels, pill, tag, type Rect } from '../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../draw/handles';
 import { colourKey, sizeOnScreen, stamp } from '../draw/sprites';
 import { paintChips, paintFutures, polyline, trail, type Chip } from '../draw/strokes';
@@ -24,6 +24,9 @@ type G = CanvasRenderingContext2D;
 /** Alpha of the refinement steps left behind, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
 
+/** About as wide as a toast is, pixels. */
+const TOAST_W = 420;
+
 export class Overlay {
   /** Where the letters were painted, for the pointer. */
   chips: Chip[] = [];
@@ -37,6 +40,8 @@ export class Overlay {
   constructor(
     private readonly editor: Editor,
     private readonly poseNow: (a: Agent) => Pose | null,
+    /** What is on the picture under it and better left to be seen. */
+    private readonly below: () => readonly Rect[],
   ) {
     this.goal = new GoalOverlay(editor, this.labels);
     this.events = new EventsOverlay(editor, this.labels, poseNow);
@@ -75,6 +80,11 @@ export class Overlay {
       bottom: 0,
     });
     for (const r of this.panels(v)) this.labels.block(...r);
+    for (const r of this.below()) this.labels.keepOff(r);
+    if (e.notices.toast.value) {
+      const middle = (v.w + (left > 100 ? left : 0)) / 2;
+      this.labels.keepOff({ x: middle - TOAST_W / 2, y: v.h - 100, w: TOAST_W, h: 48 });
+    }
     this.paintHover(g, v);
     const a = e.agent.value;
     if (e.showBefore.value) this.changes.paintBefore(g, v);
@@ -173,7 +183,7 @@ export class Overlay {
     if (!atStart && now && !e.playing.value)
       tag(g, this.labels, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
-    if (bad?.nearest) this.goal.labelNearest(g, v, a, bad.nearest);
+    if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest);
     this.paintWords(g, v, a);
     this.paintLetters(g, v, a);
     this.goal.dragLabels(g, v, a, goal);

@@ -5,8 +5,8 @@ import { isStill, poseAt } from '../model/motion';
 import { motionOf } from '../model/changes';
 import { isRecorded, startPose, type Agent } from '../model/scene';
 import { speedLabel } from '../model/units';
-import { Labels, pill } from '../draw/labels';
-import { colourKey, sizeOnScreen, stamp } from '../draw/sprites';
+import { Labels, pill, type Rect } from '../draw/labels';
+import { boxOnScreen, colourKey, sizeOnScreen, stamp } from '../draw/sprites';
 import { trail } from '../draw/strokes';
 import { paintSignals } from '../draw/signals';
 import { colours } from '../draw/theme';
@@ -24,6 +24,9 @@ const REACT_MS = 320;
 export class Picture {
   readonly overlay: Overlay;
   private map: MapPicture | null = null;
+  /** Where road users and their names were painted last, for the labels over them. */
+  private boxes: Rect[] = [];
+  private names: Rect[] = [];
   private reactFrom: { motion: Editor['motion']['value']; at: number } | null = null;
 
   constructor(
@@ -32,7 +35,11 @@ export class Picture {
   ) {
     stage.painter('map', (g, v) => this.paintMap(g, v));
     stage.painter('agents', (g, v) => this.paintAgents(g, v));
-    this.overlay = new Overlay(editor, (a) => this.poseNow(a));
+    this.overlay = new Overlay(
+      editor,
+      (a) => this.poseNow(a),
+      () => [...this.boxes, ...this.names],
+    );
     stage.painter('overlay', (g, v) => {
       this.overlay.paint(g, v);
       if (this.overlay.fading) stage.invalidate('overlay');
@@ -83,6 +90,7 @@ export class Picture {
         e.localReach.value,
         e.liveReach.value,
         e.measure.value,
+        e.notices.toast.value,
       ];
       stage.invalidate('overlay');
     });
@@ -137,7 +145,9 @@ export class Picture {
     for (const [a, p] of shown) stamp(g, v, a, p, a.parked && this.drives(a));
     g.globalAlpha = 1;
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    this.names = [];
     if (e.layers.value.labels || v.z > 16) this.nameLabels(g, v, shown);
+    this.boxes = shown.map(([a, p]) => boxOnScreen(v, a, p));
   }
 
   /** One that was parked in the log, and drives now. */
@@ -162,12 +172,13 @@ export class Picture {
 
   private nameLabels(g: G, v: View, shown: [Agent, Pose][]): void {
     if (v.z < 5) return;
+    const names: Rect[] = [];
     const labels = new Labels(v.w, v.h);
     for (const [, p] of shown) labels.block(v.x(p.x) - 9, v.y(p.y) - 7, 18, 14);
     for (const [a, p] of shown) {
       if (a.parked) continue;
       const half = sizeOnScreen(a, v.z)[1] / 2 + 12;
-      pill(g, labels, v.x(p.x), v.y(p.y), a.name, {
+      const r = pill(g, labels, v.x(p.x), v.y(p.y), a.name, {
         weight: 500,
         must: false,
         tries: [
@@ -175,7 +186,9 @@ export class Picture {
           [-22, half - 8],
         ],
       });
+      if (r) names.push(r);
     }
+    this.names = names;
   }
 
   /** Text of the hover card. */

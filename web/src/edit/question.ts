@@ -21,6 +21,8 @@ export interface Wanted {
   readonly step: Step | null;
   /** Those whose futures are kept as they are and count as what the scene does. */
   readonly kept?: ReadonlySet<string>;
+  /** Those of them that others are to answer as if they had been asked for. */
+  readonly pinned?: readonly string[];
   readonly unscored?: boolean;
   /** What is to be seen on the way to the answer; all six unless only the answer counts. */
   readonly drafts?: 'all' | 'chosen';
@@ -61,6 +63,7 @@ export class Questions {
       steps: DEFAULTS.steps,
       stream_modes: w.drafts ?? 'all',
       score: w.step !== null && !w.unscored,
+      ...(w.pinned ? { pinned: [...w.pinned] } : {}),
       ...shownOf(this.editor, w),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME
@@ -104,7 +107,7 @@ export class Questions {
 /** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
 function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
   const drags = editor.dragging.peek() || (w.step !== null && editor.draft.peek()?.id === editor.selection.peek());
-  const shown = drags ? shownFuture(editor, w.agents) : undefined;
+  const shown = drags && !w.pinned ? shownFuture(editor, w.agents) : undefined;
   return shown ? { shown } : {};
 }
 

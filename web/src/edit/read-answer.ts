@@ -16,6 +16,7 @@ export function readReach(r: Resolved | undefined): Reach | null {
     limiting: j.limiting,
     needs: j.needs,
     words: j.words,
+    with: (j as { readonly with?: string | null }).with ?? null,
     byRoad,
   };
 }

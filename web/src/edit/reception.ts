@@ -4,6 +4,7 @@ import { DEFAULTS } from '../model/domain';
 import type { AgentFuturesJson, ReactionJson } from '../model/json';
 import {
   ideas,
+  isBlocked,
   keepVerdicts,
   percents,
   readFutures,
@@ -11,12 +12,14 @@ import {
   type Futures,
   type KeepOrder,
   type MotionSet,
+  type Reach,
 } from '../model/futures';
 import { motionFrom } from '../model/motion';
 import type { Naming } from '../model/names';
 import type { Fault } from '../model/about';
 import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
+import { withMeetingsOf } from '../model/rejudge';
 import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { whyAnother, whyNot } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
@@ -40,6 +43,9 @@ export interface Hooks {
 /** Refinement steps left behind on screen as trails. */
 const TRAILS = 3;
 
+/** Futures that stand for so long in a drag are named anew. */
+const RESTS_MS = 450;
+
 type Keep = (a: Agent) => KeepOrder;
 
 const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
@@ -50,6 +56,7 @@ export class Reception {
   readonly #names = new FrozenNames();
 
   readonly #steady: Steady;
+  #rest: ReturnType<typeof setTimeout> | undefined;
   /** The document of the last answer foreseen, and what was bold before it took the place of the drag's own. */
   #foreseen: { readonly key: string; readonly bold: string | null } | null = null;
 
@@ -173,8 +180,22 @@ export class Reception {
     const read = keepVerdicts(last?.futures ?? null, sent);
     const f = this.#withFrozenNames(a, editor.dragging.peek() ? this.#withoutThoseWhoAnswer(read) : read);
     const trails = last && step > 0 && !this.#calm.matches ? [last.futures, ...last.earlier].slice(0, TRAILS) : [];
-    editor.answers.showDraft(id, f, trails);
+    this.#show(a, f, trails);
     return true;
+  }
+
+  /** Draws futures. Where the hand of a drag rests at them they get the names that they have at rest. */
+  #show(a: Agent, f: Futures, trails: readonly Futures[] = []): void {
+    const { editor } = this;
+    clearTimeout(this.#rest);
+    editor.answers.showDraft(a.id, f, trails);
+    if (!editor.dragging.peek()) return;
+    this.#rest = setTimeout(() => {
+      const d = editor.draft.peek();
+      if (!editor.dragging.peek() || d?.futures !== f) return;
+      this.#names.rest();
+      editor.answers.showDraft(a.id, withNames(f, naming(editor.scene.peek()!, a)), d.earlier);
+    }, RESTS_MS);
   }
 
   /** What is on screen keeps its names as far as they hold. */
@@ -201,7 +222,16 @@ export class Reception {
     if (!f || editor.selection.peek() !== id || sceneKey(editor.scene.peek()!) !== key) return;
     // The hand rests here: its six are those that the others answer, judged with what these do.
     this.#foreseen = { key, bold: this.#boldOf(id) };
-    editor.answers.showDraft(id, this.#withFrozenNames(scene.agents.get(id)!, f));
+    const reach = readReach(e.resolved[id]);
+    if (reach) editor.answers.judge(id, reach);
+    const a = scene.agents.get(id)!;
+    this.#show(a, this.#withFrozenNames(a, f));
+  }
+
+  /** Whether somebody stays in the way is known when they have answered, as is all about a goal that they have. */
+  #isForOthersToSay(scene: Scene, reach: Reach): boolean {
+    if (!this.editor.dragging.peek()) return false;
+    return this.#knownBetter(scene) || (scene.others === 'react' && isBlocked(reach));
   }
 
   /** Is what a drag's own question says of this document known better? */
@@ -251,9 +281,9 @@ export class Reception {
     const f = dragging ? this.#withFrozenNames(scene.agents.get(id)!, this.#withoutThoseWhoAnswer(settled)) : settled;
     batch(() => {
       editor.answers.report({ kind: 'settled', ms, adapted: null });
-      if (reach) editor.answers.judge(id, reach);
+      if (reach && !this.#isForOthersToSay(scene, reach)) editor.answers.judge(id, reach);
       if (!dragging && !editor.motion.peek().stale) editor.answers.look(id, f, reach);
-      else if (editor.selection.peek() === id && !this.#knownBetter(scene)) editor.answers.showDraft(id, f);
+      else if (editor.selection.peek() === id && !this.#knownBetter(scene)) this.#show(scene.agents.get(id)!, f);
     });
     const best = f.modes[f.chosen];
     if (!best || dragging) return;
@@ -282,6 +312,15 @@ export class Reception {
     // A look at somebody's futures from before the change is no longer true.
     const stillTrue = (id: string) => before.driving.has(id) || w.kept?.has(id) || touched(scene.agents.get(id)!);
     const futures = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+    const score = readScore(e.scores?.[0]);
+    // Those that go on as they did may meet others than before.
+    for (const id of score ? editor.touchedIds(scene) : []) {
+      const f = answers.has(id) ? undefined : futures.get(id);
+      if (!f) continue;
+      const shown = scene.agents.get(id)!.chosen ?? f.chosen;
+      const modes = f.modes.map((m, i) => (i === shown ? withMeetingsOf(score!, id, m) : m));
+      if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
+    }
     const everybody = scene.others === 'react' || w.agents === 'all';
     const driving = new Set(everybody ? [...before.driving, ...answers.keys()] : []);
     for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
@@ -295,7 +334,7 @@ export class Reception {
       key: sceneKey(scene),
       futures,
       driving,
-      score: readScore(e.scores?.[0]),
+      score,
       reach,
       stale: false,
       head: e.generated,

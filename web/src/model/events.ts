@@ -4,7 +4,7 @@ import { compareMarks, faultMark, type Fault, type FaultKind, type Mark } from '
 import { motionOf } from './changes';
 import type { Futures, MotionSet, Score, Stretch } from './futures';
 import { poseAt } from './motion';
-import { nameIn, type Agent, type Scene } from './scene';
+import { nameIn, touched, type Agent, type Scene } from './scene';
 import { metres, num, seconds, speedLabel } from './units';
 import { placeWord } from './verdict-words';
 import { wrapAngle, type Pose, type Vec } from './geometry';
@@ -52,13 +52,19 @@ interface Raw {
 /** Everything that happens in the scene as it is followed. */
 export function readEvents(scene: Scene, set: MotionSet): TrafficEvent[] {
   const said: Raw[] = [];
+  const judged = new Set<string>();
   for (const id of set.driving) {
     const a = scene.agents.get(id);
     const f = set.futures.get(id);
     const m = a && f?.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)];
     for (const fault of m?.about?.faults ?? []) said.push(ofFault(id, fault));
+    if (m?.about && touched(a!)) judged.add(id);
   }
-  return inWords(scene, set, [...said, ...(set.score ? ofScore(scene, set, set.score) : [])]);
+  const scored = set.score ? ofScore(scene, set, set.score) : [];
+  // Of those that were asked something the timeline says what the verdict on their shown future says, nothing else.
+  const told = (r: Raw): boolean => judged.has(r.a) || (r.b !== null && judged.has(r.b));
+  const own = said.filter((r) => judged.has(r.a) || !told(r));
+  return inWords(scene, set, [...own, ...scored.filter((r) => !told(r))]);
 }
 
 /** What is wrong with one future on its way, while nobody follows it yet. */

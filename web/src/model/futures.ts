@@ -1,9 +1,10 @@
 // Futures: up to six ways a road user could go, and the sets of them that belong to a document.
 import type { AgentFuturesJson, ReactionJson } from './json';
 import { NOTHING_SAID, readAbout, sentAbout, type About, type FaultKind, type SentAbout } from './about';
-import type { Point, Pose } from './geometry';
+import type { Point, Pose, Vec } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
+import { metres } from './units';
 
 export { LETTERS } from './names';
 
@@ -187,6 +188,8 @@ export interface Reach {
   readonly limiting: string | null;
   readonly needs: unknown;
   readonly words: string | null;
+  /** Id of whoever is in the way, where traffic is what keeps it from the goal and the generator says who. */
+  readonly with?: string | null;
   /** The nearest goal that the road reaches in the time, and how far it is from the one that was set. */
   readonly byRoad?: ByRoad | null;
 }
@@ -197,14 +200,26 @@ export interface ByRoad extends Point {
   readonly distance: number;
 }
 
+/** Is it somebody else who keeps it from the goal? */
+export const isBlocked = (r: Reach | null): boolean => r?.status === 'unreachable' && r.limiting === 'traffic';
+
 /** The generator's verdict as a title and the rest: its first sentence says what is wrong. */
-export function reachWords(r: Reach, time: number): { title: string; words: string } {
+export function reachWords(
+  r: Reach,
+  goal: { readonly pos: Vec | null; readonly time: number },
+  nameOf: (id: string) => string | null = () => null,
+): { title: string; words: string } {
+  if (isBlocked(r) && r.nearest && goal.pos) {
+    const who = (r.with != null && nameOf(r.with)) || 'Somebody';
+    const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
+    return { title: `${who} is in the way`, words: `Halts ${metres(short, 0)} short.` };
+  }
   const text = r.words?.trim() ?? '';
   const cut = /[.!?](?=\s|$)/.exec(text);
   const title = cut ? text.slice(0, cut.index) : text;
   const rest = cut ? text.slice(cut.index + 1).trim() : '';
   return {
-    title: title || `Out of reach in ${time.toFixed(1)} s`,
+    title: title || `Out of reach in ${goal.time.toFixed(1)} s`,
     words: rest || 'The nearest reachable point is shown.',
   };
 }

@@ -1,8 +1,8 @@
 // Names of futures: made of how each stands to others, else of what it does, and of what tells it from those that do
 // the same. No two in one list are alike.
-import { leavesRoad, type About, type RelationKind } from './about';
+import { faultMark, leavesRoad, type About, type RelationKind } from './about';
 import { wrapAngle } from './geometry';
-import { distances, endPose, pathLength, type Motion } from './motion';
+import { distances, endPose, pathLength, STEP_S, type Motion } from './motion';
 
 /** What a name is made from. */
 export interface Nameable {
@@ -64,6 +64,8 @@ export function nameRest(modes: readonly Nameable[], who: Naming, kept: readonly
     if (!groups.size) break;
     for (const group of groups.values()) list.tellApart(group, said[group[0]][rank]);
   }
+  // A small difference that is so says more than whom it is like.
+  for (const part of SMALL) for (const i of list.unnamed) said[i].some((c) => list.tellSlightly(i, c, part));
   for (const i of list.unnamed) list.likenToOther(i, said[i][0]);
   return list.names;
 }
@@ -121,17 +123,48 @@ class NameList {
     }
   }
 
-  /** Of one that nothing tells from another, to which it is likened. */
+  /** By what it differs a little from the first of those that do the same; `part` of what can be seen is enough. */
+  tellSlightly(i: number, c: Candidate, part: number): boolean {
+    const named = this.#names.flatMap((n, j) => (n?.basis === c.basis ? [j] : []));
+    if (!named.length) return false;
+    const [first] = named;
+    const { traits, halfway } = traitsOf(this.modes, [...named, i], c.basis);
+    const differs = [...new Set([...traits, halfway, brakingTime(this.modes, [...named, i])])]
+      .map((t) => ({ t, by: (t.values.get(i)! - t.values.get(first)!) / t.least }))
+      .filter(({ by }) => Math.abs(by) >= part)
+      .sort((p, q) => Math.abs(q.by) - Math.abs(p.by));
+    for (const { t, by } of differs) {
+      const word = by > 0 ? t.more : t.less;
+      const beyond = (j: number): number => Math.sign(by) * (t.values.get(j)! - t.values.get(i)!);
+      const ends = (j: number, end: string): boolean => this.#names[j]!.name.endsWith(end);
+      const inOrder = (end: string): boolean =>
+        named.every(
+          (j) => !ends(j, ` ${word}`) || (end === word && ends(j, ` a bit ${word}`) ? beyond(j) < 0 : beyond(j) > 0),
+        );
+      if ([`a bit ${word}`, word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
+      if (t.short && this.#give(i, c, t.short[by > 0 ? 0 : 1])) return true;
+    }
+    return false;
+  }
+
+  /** Of one that nothing tells from another, to which it is likened: to one that is called by what it does. */
   likenToOther(i: number, c: Candidate): void {
-    const others = this.#names.flatMap((n, j) => (n && j !== i ? [j] : []));
-    others.sort(
-      (a, b) => apart(this.modes[a].motion, this.modes[i].motion) - apart(this.modes[b].motion, this.modes[i].motion),
-    );
-    const like = (j: number): string => `like ${LETTERS[j]}`;
-    if (others.some((j) => this.#give(i, c, like(j)))) return;
-    others.some((j) => this.#give(i, { basis: c.basis, forms: [`Much ${like(j)}`] }, ''));
+    const others = this.#names.flatMap((n, j) => (n && j !== i && !/\blike [A-F]$/.test(n.name) ? [j] : []));
+    const far = new Map(others.map((j) => [j, apart(this.modes[j].motion, this.modes[i].motion)]));
+    others.sort((a, b) => far.get(a)! - far.get(b)!);
+    for (const j of others) {
+      const likes = LIKES.map((like) => `${like} ${LETTERS[j]}`);
+      if (likes.some((like) => this.#give(i, c, like))) return;
+      const alone = likes.slice(1).map((like) => like.charAt(0).toUpperCase() + like.slice(1));
+      if (alone.some((like) => this.#give(i, { basis: c.basis, forms: [like] }, ''))) return;
+    }
   }
 }
+
+/** Parts of what can be seen that are named where nothing else tells. */
+const SMALL = [0.5, 0.2] as const;
+
+const LIKES = ['like', 'much like', 'just like', 'almost like', 'nearly like'] as const;
 
 // -------------------------------------------------------------- what can be said of each
 
@@ -147,7 +180,7 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
   const tells = (r: RelationCandidate): boolean => modes.length === 1 || count.get(r.basis)! < modes.length;
   // Somebody that one future is before and another is after says most about both.
   const contrast = (r: RelationCandidate): number => Number(kinds.get(r.other)!.size > 1);
-  const onRoad = modes.map((m) => !!m.about && !m.about.faults.some((f) => leavesRoad(f) || f.kind === 'goal_missed'));
+  const onRoad = modes.map((m) => !!m.about && m.about.faults.every((f) => faultMark(f) === 'near'));
   const alone = onRoad.filter(Boolean).length === 1 && modes.some((m) => m.about?.faults.some(leavesRoad));
   const stops = modes.map((m) => endsStanding(m, who.onFoot));
   const stopTells = modes.length === 1 || stops.some((s) => !s);
@@ -185,14 +218,20 @@ const shortName = (name: string): string =>
   name.replace('Pedestrian', 'Ped.').replace('Motorcycle', 'Moto').replace('Cyclist', 'Cycl.');
 
 /** Slower than this is standing, m/s. */
-const standing = (onFoot: boolean): number => (onFoot ? 0.25 : 0.8);
+const STANDING_M_S = 0.25;
+const standing = (onFoot: boolean): number => (onFoot ? STANDING_M_S : 0.5);
 /** Less than this is no way at all, metres. */
 const STAYS_M = 1.5;
 /** Less than this is not seen, metres. */
 const CREEPS_M = 0.4;
 
-const endsStanding = ({ motion: m, about }: Nameable, onFoot: boolean): boolean =>
-  about?.manoeuvre !== 'stays' && pathLength(m) >= STAYS_M && Math.abs(endPose(m).speed) < standing(onFoot);
+function endsStanding({ motion: m, about }: Nameable, onFoot: boolean): boolean {
+  const manoeuvre = about?.manoeuvre ?? shapeOf(m, onFoot);
+  if (manoeuvre === 'stays' || pathLength(m) < STAYS_M) return false;
+  // One that rolls on into the other lane has not stopped in this one.
+  const changesLane = manoeuvre === 'lane_left' || manoeuvre === 'lane_right';
+  return Math.abs(endPose(m).speed) < (changesLane ? STANDING_M_S : standing(onFoot));
+}
 
 function manner({ motion, about }: Nameable, onFoot: boolean): Candidate {
   const forms = mannerWords(motion, about?.manoeuvre ?? shapeOf(motion, onFoot), onFoot);
@@ -269,6 +308,8 @@ interface Trait {
   readonly least: number;
   readonly more: string;
   readonly less: string;
+  /** Shorter words for more and for less of it. */
+  readonly short?: readonly [more: string, less: string];
 }
 
 interface Claim {
@@ -323,6 +364,21 @@ function hardestBraking(m: Motion): number {
   return most;
 }
 
+/** When it brakes hardest, seconds; nobody is told from those that hardly brake. */
+function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trait {
+  const at = (m: Motion): number => {
+    let most = 1,
+      when = NaN;
+    for (let i = 5; i < m.speed.length; i++) {
+      const braking = (Math.abs(m.speed[i - 5]) - Math.abs(m.speed[i])) / 0.5;
+      if (braking > most) [most, when] = [braking, i * STEP_S];
+    }
+    return when;
+  };
+  const values = new Map(group.map((i) => [i, at(modes[i].motion)]));
+  return { values, least: 1, more: 'brakes later', less: 'brakes sooner' };
+}
+
 interface Traits {
   /** The pace first. */
   readonly traits: readonly Trait[];
@@ -355,11 +411,14 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   // Positive outwards in a turn, else to the left.
   const side = new Map(group.map((i) => [i, (turns ? -Math.sign(turn) : 1) * sideOf(motion(first), motion(i), n)]));
   const offset = (i: number): number => side.get(i)!;
-  const traits = [
+  const traits: Trait[] = [
     pace,
     trait(at(0.25), 0.8, 'faster start', 'slower start'),
     trait((i) => Math.abs(motion(i).speed[n]), 1.5, 'faster end', 'slower end'),
-    trait((i) => hardestBraking(motion(i)), 1, 'harder braking', 'softer braking'),
+    {
+      ...trait((i) => hardestBraking(motion(i)), 1, 'harder braking', 'softer braking'),
+      short: ['brakes more', 'brakes less'],
+    },
     turns ? trait(offset, 0.5, 'wider', 'tighter') : trait(offset, 0.5, 'more left', 'more right'),
   ];
   return { traits, halfway };

@@ -1,7 +1,10 @@
 // What the others would do, asked while a handle is dragged and taken over by the release.
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { setGoal, setOthers, type Command } from '../../src/model/commands';
-import type { DraftEvent } from '../../src/net/types';
+import { outOfReach } from '../../src/edit/goal-verdict';
+import type { ModeJson } from '../../src/model/json';
+import type { DraftEvent, FinalEvent } from '../../src/net/types';
+import { judged } from '../standin/judged.mjs';
 import { answered, draftOf, finalOf, finalWith, late, Session, six } from './session';
 
 let s: Session;
@@ -230,5 +233,54 @@ describe('a release', () => {
     releaseAt(10);
     s.others.last.on.refused({ code: 'busy', title: 'busy' });
     expect(s.generator.last).toMatchObject({ preview: false, options: { agents: ['1'], react: true } });
+  });
+});
+
+describe('whether somebody is in the way', () => {
+  const BLOCKED = {
+    status: 'unreachable',
+    limiting: 'traffic',
+    needs: null,
+    nearest: { x_m: 7, y_m: 10, heading_rad: 0, speed_mps: 0 },
+    words: 'Somebody is in the way of this vehicle. It halts 3 m short of the goal.',
+    with: '2',
+  };
+  const REACHED = { status: 'reached', position_m: 0.1, heading_rad: 0, speed_mps: 0 };
+  const about = (e: FinalEvent, reach: object) => ({ ...e, resolved: { '1': { reach } } }) as unknown as FinalEvent;
+  const said = () => outOfReach(s.editor, s.editor.agent.peek()!);
+
+  it('is known when the others have answered', async () => {
+    begin();
+    await frame(10);
+    s.generator.last.on.final(about(finalOf('1'), BLOCKED), 5);
+    expect(s.editor.liveReach.peek()).toBeNull();
+    s.others.last.on.final(about(answered('1', {}), BLOCKED), 30);
+    expect(said()).toMatchObject({ title: 'Car 2 is in the way', words: 'Halts 3 m short.' });
+    await frame(20);
+    vi.advanceTimersByTime(150);
+    s.others.last.on.final(about(answered('1', {}), REACHED), 30);
+    s.generator.last.on.final(about(finalOf('1'), BLOCKED), 5);
+    expect([said(), s.editor.liveReach.peek()?.reach.status]).toEqual([null, 'reached']);
+  });
+
+  it('is said of a goal of its own alone', async () => {
+    begin();
+    await frame(10);
+    await frame(12);
+    s.others.last.on.final(about(answered('1', {}), BLOCKED), 30);
+    expect(s.editor.liveReach.peek()).toBeNull();
+  });
+
+  it('is nothing beside a collision', async () => {
+    begin();
+    await frame(10);
+    const hits = judged(six('1').modes as ModeJson[], ['2', '17'], true);
+    const answer = {
+      ...finalOf(),
+      samples: [{ agents: { '1': { chosen: 0, modes: hits } } }],
+    } as unknown as FinalEvent;
+    s.others.last.on.final(about(answer, { ...BLOCKED, with: null }), 30);
+    expect(s.editor.futures.peek()!.modes[0].about!.faults[0].kind).toBe('collision');
+    expect(said()).toMatchObject({ title: 'Somebody is in the way', outranked: true });
   });
 });

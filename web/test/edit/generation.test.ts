@@ -2,11 +2,14 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { clearGoal, setGoal, setOthers } from '../../src/model/commands';
 import type { Editor } from '../../src/edit/editor';
+import { pickFuture } from '../../src/edit/moves';
 import type { Generation } from '../../src/edit/generation';
 import type { DraftEvent, FinalEvent } from '../../src/net/types';
 import type { AgentFuturesJson, ModeJson, SceneJson } from '../../src/model/json';
+import { nameAll } from '../../src/model/names';
+import { nameIn } from '../../src/model/scene';
 import { judged } from '../standin/judged.mjs';
-import { draftOf, finalOf, json, Session, six as modes, type InMemoryGenerator } from './session';
+import { draftOf, finalOf, finalWith, json, late, Session, six, type InMemoryGenerator } from './session';
 
 let editor: Editor;
 let generator: InMemoryGenerator;
@@ -89,6 +92,57 @@ describe('a change', () => {
   });
 });
 
+describe('a pick among futures', () => {
+  const pick = (index: number) => {
+    editor.run(pickFuture(editor, editor.agent.peek()!, index)!);
+    rest();
+  };
+  const asked = () => (generator.last.scene() as { scene: SceneJson }).scene.generated!.samples[0].agents;
+
+  beforeEach(() => {
+    editor.select('1');
+    generator.last.on.final(finalOf('1'), 5);
+  });
+
+  it('asks for that one alone, pinned, and how the others react to it', () => {
+    pick(2);
+    expect(generator.last).toMatchObject({ preview: false });
+    expect(generator.last.options).toMatchObject({ agents: ['1'], pinned: ['1'], react: true, score: true });
+    expect(generator.last.options.shown).toBeUndefined();
+    expect(Object.keys(asked())).toEqual(['1']);
+    expect(asked()['1']).toMatchObject({ chosen: 0, modes: [{ probability: six('1').modes[2].probability }] });
+  });
+
+  it('changes only those that say whom they answer', () => {
+    pick(2);
+    generator.last.on.final(finalWith({ '2': late('2', 3, '1') }), 5);
+    expect(editor.motion.peek()).toMatchObject({ stale: false, driving: new Set(['1', '2']) });
+    expect(editor.changes.peek().map((c) => [c.id, c.reaction?.cause.id])).toEqual([['2', '1']]);
+    const before = editor.motion.peek();
+    expect([editor.futures.peek()!.modes.length, editor.chosen.peek()]).toEqual([6, 2]);
+    const sent = asked;
+    pick(3);
+    // Whoever answered the other one is asked about as it drives now.
+    expect(Object.keys(sent()).sort()).toEqual(['1', '2']);
+    generator.last.on.final(finalWith({}), 5);
+    expect(editor.motion.peek().futures.get('2')).toBe(before.futures.get('2'));
+    expect(editor.changes.peek()).toEqual([]);
+  });
+
+  it('leaves those that were picked before as they are', () => {
+    pick(2);
+    generator.last.on.final(finalWith({}), 5);
+    editor.select('2');
+    generator.last.on.final(finalOf('2'), 5);
+    pick(1);
+    const { react, agents, pinned } = generator.last.options;
+    expect([agents, pinned]).toEqual([['2'], ['2']]);
+    expect(react).not.toContain('1');
+    expect(react).not.toContain('2');
+    expect(react).toContain('3');
+  });
+});
+
 describe('a generator that goes away', () => {
   it('is tried again, and then asked for what has waited', async () => {
     editor.select('1');
@@ -129,11 +183,11 @@ describe('a drag', () => {
 });
 
 describe('what is shown of a drag', () => {
-  const six = judged(modes('1').modes as ModeJson[], ['2', '17']);
+  const judgedSix = judged(six('1').modes as ModeJson[], ['2', '17']);
   /** The six in another order of likelihood, as sent: the likeliest first. */
   const sent = (order: string, chosen: number): AgentFuturesJson => ({
     chosen,
-    modes: [...order].map((letter, i) => ({ ...six['ABCDEF'.indexOf(letter)], probability: 0.3 - 0.04 * i })),
+    modes: [...order].map((letter, i) => ({ ...judgedSix['ABCDEF'.indexOf(letter)], probability: 0.3 - 0.04 * i })),
   });
   const draft = (a: AgentFuturesJson) => ({ event: 'step', window: 0, agents: { '1': a } }) as unknown as DraftEvent;
   const final = (a: AgentFuturesJson) => ({ ...finalOf(), samples: [{ agents: { '1': a } }] }) as unknown as FinalEvent;
@@ -162,7 +216,7 @@ describe('what is shown of a drag', () => {
     dragTo(10);
     const { x_m, y_m, anchor } = generator.last.options.shown!['1'];
     expect([anchor, x_m.length, y_m.length]).toEqual([0, 18, 18]);
-    expect(x_m[0]).toBeCloseTo(six[0].x_m[4], 3);
+    expect(x_m[0]).toBeCloseTo(judgedSix[0].x_m[4], 3);
     generator.last.on.draft(draft(sent('BACDEF', 0)), 5, 5, 10);
     editor.endDrag(goal(10));
     rest();
@@ -195,12 +249,26 @@ describe('what is shown of a drag', () => {
     expect(editor.answers.remark.peek()).toBeNull();
   });
 
+  it('has the names of rest where the hand rests', () => {
+    dragTo(10);
+    const ahead = judgedSix.map((m) => ({ ...m, relations: [], manoeuvre: 'straight' as const }));
+    generator.last.on.draft(draft({ chosen: 0, modes: ahead as ModeJson[] }), 5, 5, 10);
+    const moving = names();
+    vi.advanceTimersByTime(300);
+    expect(names()).toEqual(moving);
+    vi.advanceTimersByTime(300);
+    const f = editor.futures.peek()!;
+    const who = { onFoot: false, nameOf: nameIn(editor.scene.peek()!) };
+    expect(names()).toEqual(nameAll(f.modes, who).map((n) => n.name));
+    expect(names()).not.toEqual(moving);
+  });
+
   it('says why another is shown than in the drag, until the next one', () => {
     dragTo(10);
     generator.last.on.draft(draft(sent('ABCDEF', 0)), 5, 5, 10);
     editor.endDrag(goal(10));
     rest();
-    const hits = judged(modes('1').modes as ModeJson[], ['2', '17'], true);
+    const hits = judged(six('1').modes as ModeJson[], ['2', '17'], true);
     generator.last.on.final(final({ chosen: 2, modes: hits }), 12);
     expect(editor.answers.remark.peek()).toEqual({ id: '1', words: 'C is shown: A hits Car 2.' });
     expect(editor.notices.toast.peek()?.text).toBe('Goal of Car 1 moved.');

@@ -111,6 +111,24 @@ describe('dragging a handle', () => {
     expect(p.editor.agent.peek()!.goal.pos).toBeNull();
   });
 
+  it('scrolls at the edge of the picture as far as the map, and no further', () => {
+    p.calm = false;
+    const from = take();
+    const { box } = p.editor.scene.peek()!.map;
+    const { w, h } = p.view;
+    p.move({ x: from.x + 50, y: from.y });
+    for (const [x, y] of [
+      [w - 1, 1],
+      [1, h - 1],
+    ]) {
+      for (let s = 0; s < 20; s += 0.016) p.move({ x, y });
+      const [gx, gy] = p.editor.agent.peek()!.goal.pos!;
+      expect([gx > box.x0 - 31, gx < box.x1 + 31, gy > box.y0 - 31, gy < box.y1 + 31]).toEqual(Array(4).fill(true));
+      const out = x > 1 ? [gx - box.x1, gy - box.y1] : [box.x0 - gx, box.y0 - gy];
+      for (const d of out) expect(d).toBeGreaterThan(25);
+    }
+  });
+
   it('puts everything back on Esc and drops the previews', () => {
     const from = take();
     p.move({ x: from.x + 50, y: from.y });

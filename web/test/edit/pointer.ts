@@ -18,6 +18,8 @@ export class Pointer {
   /** Road users that live futures were asked for, and how often they were dropped again. */
   readonly previewed: string[] = [];
   dropped = 0;
+  /** Does the picture stand still at its edges? */
+  calm = true;
   /** How often two ticks were felt. */
   ticked = 0;
   readonly chart: Chart;
@@ -38,7 +40,7 @@ export class Pointer {
       previews: { preview: (id) => this.previewed.push(id), cancelPreviews: () => this.dropped++ },
       hitAt: () => this.hit,
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
-      calm: () => true,
+      calm: () => this.calm,
       ticks: () => this.ticked++,
       tool: toolOf,
     });

@@ -5,6 +5,7 @@ import { readFutures, withNames } from '../../src/model/futures';
 import type { ModeJson } from '../../src/model/json';
 import { nameIn, startPose, type Agent } from '../../src/model/scene';
 import { Editor } from '../../src/edit/editor';
+import { roadGoal } from '../../src/edit/goal-verdict';
 import { edgesInTheWay, leaveGiven, leaveToCross, roadWay } from '../../src/edit/ways-out';
 import { car, crossing, crossingJson } from '../helpers';
 import { sixFutures } from '../standin/futures.mjs';
@@ -47,6 +48,13 @@ describe('the way by the road', () => {
     expect(agent().goal.pos).toEqual([ROAD.x, ROAD.y]);
     e.undo();
     expect(agent().goal.pos).toEqual(GOAL);
+  });
+
+  it('is nothing where the road leads to the goal itself', () => {
+    answer();
+    reach({ ...ROAD, y: GOAL[1] + 0.4 });
+    expect(roadWay(e, agent())?.words ?? '').not.toMatch(/0 m/);
+    expect(roadGoal(e, agent())).toBeNull();
   });
 
   it('goes along the future that gets there without leaving the road', () => {

@@ -79,8 +79,8 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
 function settledLine(c: Context, ms: number, adapted: number | null): Line {
   const { editor } = c;
   const a = editor.agent.value;
-  if (a?.goal.pos && outOfReach(editor, a))
-    return { dot: 'near', text: 'Showing futures to the nearest reachable point' };
+  const bad = a?.goal.pos ? outOfReach(editor, a) : null;
+  if (bad && !bad.outranked) return { dot: 'near', text: 'Showing futures to the nearest reachable point' };
   if (!editor.selection.value) return sceneLine(c);
   const n = editor.futures.value?.modes.length ?? 6;
   const parts = [

@@ -31,9 +31,10 @@ const NO_LANE_M = 4;
 export function verdictOn(c: Context, a: Agent): Verdict | null {
   const { editor: e } = c;
   if (e.away.value && e.motion.value.stale) return OUTDATED;
-  const reach = onReach(c, a);
-  if (reach) return reach;
+  const bad = a.goal.pos ? outOfReach(e, a) : null;
+  if (bad && !bad.outranked) return { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
   const judged = onFaults(c, a);
+  if (bad && judged) return { ...judged, remedies: true };
   if (judged && judged.kind !== 'ok') return judged;
   if (e.dragging.value) return judged ?? onQuickReach(c, a);
   if (offLanes(c, a)) return NO_LANE;
@@ -54,11 +55,6 @@ const NO_LANE: Verdict = {
   words: 'Cars may still be put here, but the futures will be rough.',
   snap: true,
 };
-
-function onReach({ editor: e }: Context, a: Agent): Verdict | null {
-  const bad = a.goal.pos ? outOfReach(e, a) : null;
-  return bad && { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
-}
 
 /** During a drag, until the generator has judged it, the quick answer stands even when it is yes. */
 function onQuickReach({ editor: e }: Context, a: Agent): Verdict | null {

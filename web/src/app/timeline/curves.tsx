@@ -13,10 +13,13 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const agent = editor.agent.peek();
   const log = editor.layers.peek().log;
   const name = agent ? ` · ${agent.name}${log ? ', dashed: log' : ''}` : '';
+  const start = agent && startPose(agent);
+  // Beside a curve that begins at the top it stands below.
+  const high = start && a.y(toUnit(start.speed, a.unit)) < (a.y0 + a.y1) / 2;
   return (
     <>
       {agent ? <AgentCurves axes={a} agent={agent} /> : <Hint axes={a} />}
-      <text class="back" x={X0 + 6} y={a.y0 + 11}>
+      <text class="back" x={X0 + 8} y={high ? a.y1 - 6 : a.y0 + 11}>
         {`${a.unit}${name}`}
       </text>
     </>

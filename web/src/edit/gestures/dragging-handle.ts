@@ -9,6 +9,8 @@ import type { Press } from './pressed';
 /** Within this many pixels of the edge the picture scrolls, up to this many pixels a second. */
 const EDGE_PX = 32;
 const EDGE_SPEED = 600;
+/** It scrolls no further past the map than this, metres. */
+const BEYOND_M = 30;
 /** A finger that rests so long at a kerb passes it, seconds; it trembles by less than this, pixels. */
 const PASSES_AFTER_S = 0.4;
 const TREMBLE_PX = 8;
@@ -84,7 +86,9 @@ export class DraggingHandle implements State {
     const dx = pull(chart.at.x, v.w);
     const dy = pull(chart.at.y, v.h);
     if ((!dx && !dy) || chart.parts.calm()) return false;
-    v.panBy(dx * EDGE_SPEED * seconds, dy * EDGE_SPEED * seconds);
+    const { x0, x1, y0, y1 } = chart.editor.scene.peek()!.map.box;
+    const there = { x0: x0 - BEYOND_M, x1: x1 + BEYOND_M, y0: y0 - BEYOND_M, y1: y1 + BEYOND_M };
+    if (!v.panWithin(dx * EDGE_SPEED * seconds, dy * EDGE_SPEED * seconds, there)) return false;
     chart.surface.viewChanged();
     return true;
   }

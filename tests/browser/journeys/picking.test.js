@@ -1,0 +1,47 @@
+// Another of the six is picked: who meets it answers it, and nobody else does anything new.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { carBehindAnother } from '../support/casting.js';
+import { journeys } from '../support/journey.js';
+
+/** How everybody but `id` drives in the scene that a question is about. */
+const driving = ({ body }, id) =>
+  new Map(
+    Object.entries(body.scene?.generated?.samples[0].agents ?? {})
+      .filter(([other]) => other !== id)
+      .map(([other, f]) => [other, JSON.stringify(f)]),
+  );
+
+journeys('picking', (stage) => {
+  it('asks for the picked future alone, and changes those that answer it', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const { car, obstacle } = await carBehindAnother(e);
+    await e.choose(car.id);
+    await e.type('goal-pos', String(obstacle.end.x), 0);
+    await e.type('goal-pos', String(obstacle.end.y), 1);
+    await e.settled();
+    let sent = driving(e.wire.last(), car.id);
+    let answered = Object.keys(e.wire.last().event('final').samples[0].agents);
+    for (const letter of 'CEB') {
+      const mark = e.wire.asked.length;
+      await e.page.locator(`.fu[data-future="${letter}"]`).click();
+      await e.settled();
+      const [asked, ...more] = e.wire.since(mark);
+      assert.equal(more.length, 0, 'one question a pick');
+      const { agents, pinned, react } = asked.body;
+      assert.deepEqual([agents, pinned, react], [[car.id], [car.id], true]);
+      const now = driving(asked, car.id);
+      for (const [id, bytes] of now) {
+        if (answered.includes(id)) continue;
+        assert.equal(bytes, sent.get(id), `${id} has not answered and goes on as it did`);
+      }
+      const answer = Object.entries(asked.event('final').samples[0].agents).filter(([id]) => id !== car.id);
+      for (const [id, f] of answer) assert.ok(f.reaction?.cause, `${id} says whom it answers`);
+      assert.ok((await e.page.locator('.ch').count()) <= answer.length, 'who is listed has answered');
+      assert.equal(await e.page.locator(`.fu[data-future="${letter}"]`).getAttribute('aria-checked'), 'true');
+      sent = now;
+      answered = answer.map(([id]) => id);
+    }
+  });
+});
