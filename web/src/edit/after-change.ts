@@ -1,5 +1,5 @@
 // What is asked of the generator once the document is changed: who is worked out anew, and who answers them.
-import { canChange, touched, type Scene } from '../model/scene';
+import { canChange, GOAL_TIME, touched, type Scene } from '../model/scene';
 import type { Editor, Step } from './editor';
 import type { Wanted } from './question';
 
@@ -14,10 +14,13 @@ export function askedAfter(editor: Editor, scene: Scene, step: Step): Asked {
   const rest = [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
   if (subject && subject.chosen !== null && editor.motion.peek().futures.has(subject.id)) {
-    // A picked future is kept as it is; whoever meets it answers it, and all others go on as they do.
+    if (!rest.length) return 'known';
+    // Past its 9 s a picked future goes on only where it is kept beside everybody else's.
+    if (scene.length > GOAL_TIME) return { agents: rest, react: false, step, kept: new Set(picked) };
+    // It is kept as it is; whoever meets it answers it, and all others go on as they do.
     const { id } = subject;
     const react = picked.length > 1 ? rest : true;
-    return rest.length ? { agents: [id], pinned: [id], react, step, kept: new Set(picked) } : 'known';
+    return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
   }
   const first = subject && touched(subject) ? subject.id : mine[0];
   const react = picked.length ? rest.filter((id) => id !== first) : true;

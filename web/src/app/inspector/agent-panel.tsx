@@ -57,7 +57,7 @@ function Head({ agent }: { agent: LiveAgent }) {
     const p = startPose(a);
     if (!p) return `Appears at ${appearsAt(a)}`;
     const place = a.parked ? 'Parked' : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
-    return `${place} · id ${a.id}`;
+    return `${place} ·\u00a0id\u00a0${a.id}`;
   });
   return (
     <div class="ih">
