@@ -157,7 +157,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.key('Alt+2');
     await d.settled();
     expect(await d.page.locator('.fu[aria-checked="true"]').getAttribute('data-future')).toBe('B');
-    expect(d.last().agents).not.toContain('1');
+    expect(d.last().agents).toEqual(['1']);
+    expect(d.last().pinned).toEqual(['1']);
     expect(d.last().scene).toBe('inline');
     await d.key('Control+z');
     await d.settled();

@@ -17,6 +17,7 @@ export interface StandIn {
   log: {
     path: string;
     agents: string[] | 'all';
+    pinned?: string[];
     react: unknown;
     revision: number;
     client: string;

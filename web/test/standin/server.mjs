@@ -129,7 +129,9 @@ export function startStandIn(options = {}) {
       if (!o.judged || a.type !== 'vehicle') return modes;
       return judged(modes, ['2', '17'], o.collision, b.conditions?.[a.id]?.goal?.may_cross);
     };
-    const drafts = (step) => Object.fromEntries(wanted.map((a) => [a.id, { chosen: 0, modes: six(a, step) }]));
+    // Those that are pinned go on as they are, and nothing is said of them.
+    const made = wanted.filter((a) => !b.pinned?.includes(a.id));
+    const drafts = (step) => Object.fromEntries(made.map((a) => [a.id, { chosen: 0, modes: six(a, step) }]));
     send({
       event: 'accepted',
       regenerated: wanted.map((a) => a.id),
