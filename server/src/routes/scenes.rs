@@ -309,7 +309,7 @@ pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Res
     Ok(saved(StatusCode::OK, id, written.etag))
 }
 
-refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnly);
+refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
 
 /// Deletes a scene.
 #[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",

@@ -5837,6 +5837,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
+                    };
+                };
+            };
         };
     };
     renameScene: {

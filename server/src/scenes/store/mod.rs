@@ -177,6 +177,17 @@ impl Store {
         result
     }
 
+    /// Puts the log's pages to their places and the log back to nothing, which gives its room to the disk.
+    async fn empty_log(&self) -> Result<(), StoreError> {
+        let (reply, done) = oneshot::channel();
+        let work: Work = Box::new(move |connection| {
+            let empty = connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()));
+            let _ = reply.send(empty.map_err(StoreError::from));
+        });
+        self.writer.send(work).map_err(|_| StoreError::Closed)?;
+        done.await.unwrap_or(Err(StoreError::Closed))
+    }
+
     /// True when a change is written.
     pub async fn is_writable(&self) -> bool {
         if self.reserve.is_full() {

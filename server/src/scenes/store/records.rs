@@ -204,6 +204,8 @@ impl Store {
         match delete(id.to_owned(), expect.clone()).await {
             Err(error) if error.is_disk_full() && self.reserve.give_up() => {
                 delete(id.to_owned(), expect).await?;
+                // Without this the log would take the room that is kept for the next delete.
+                self.empty_log().await?;
                 self.reserve.restore();
             }
             done => done?,
