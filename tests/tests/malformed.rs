@@ -454,3 +454,51 @@ fn every_call_about_a_scene_can_name_its_version() {
         assert_eq!(stale.json()["etag"], etag, "{path}");
     }
 }
+
+/// What a member in the wrong shape is refused with.
+fn place_of_fault(request: &Request, server: &Server) -> (u16, String) {
+    let reply = server.send(request).unwrap();
+    let pointer = reply.json().pointer("/errors/0/pointer").and_then(Value::as_str).map(str::to_owned);
+    (reply.status, pointer.unwrap_or_else(|| reply.text()))
+}
+
+#[test]
+fn a_list_is_never_read_as_an_object_and_null_is_no_map() {
+    let server = Server::start(&[]).unwrap();
+    let place = |request: Request| place_of_fault(&request, &server);
+    let scene = |pointer: &str, value: Value| {
+        let mut body = street(2, 20);
+        set(&mut body, pointer, value);
+        post("/v1/scenes").body(body.to_string())
+    };
+    let refused = |pointer: &str| (422, pointer.to_owned());
+    assert_eq!(place(with("/conditions/0/goal", json!([61, 3.4]))), refused("/conditions/0/goal"));
+    assert_eq!(place(with("/conditions/0", json!([]))), refused("/conditions/0"));
+    assert_eq!(place(scene("/time", json!([0.1, 20, 10]))), refused("/time"));
+    assert_eq!(place(scene("/meta", json!([]))), refused("/meta"));
+    assert_eq!(place(scene("/agents/1", json!(["1", "vehicle"]))), refused("/agents/1"));
+    assert_eq!(place(scene("/agents/0/track", json!([0]))), refused("/agents/0/track"));
+    assert_eq!(place(scene("/map", json!({"ref": null}))), refused("/map/ref"));
+    assert_eq!(place(scene("/map/ref", json!(null))), refused("/map/ref"));
+    let demo = json!([null, "demo-crossing"]).to_string();
+    for path in ["/v1/generate", "/v1/score", "/v1/place"] {
+        assert_eq!(place(post(path).body(demo.clone())), refused(""), "{path}");
+    }
+    assert_eq!(place(post("/v1/scenes/demo-crossing/duplicate").body("[]")), refused(""));
+    let track = json!({"scene_id": "demo-crossing", "reference": {"1": [0, [1.0]]}}).to_string();
+    assert_eq!(place(post("/v1/score").body(track)), refused("/reference/1"));
+}
+
+#[test]
+fn names_and_notes_have_a_length() {
+    let server = Server::start(&[]).unwrap();
+    let named = |pointer: &str, length: usize| {
+        let mut body = street(1, 5);
+        body["meta"] = json!({"notes": ""});
+        set(&mut body, pointer, json!("ü".repeat(length)));
+        place_of_fault(&post("/v1/scenes").body(body.to_string()), &server)
+    };
+    assert_eq!((named("/name", 200).0, named("/meta/notes", 10_000).0), (201, 201));
+    assert_eq!(named("/name", 201), (422, "/name".to_owned()));
+    assert_eq!(named("/meta/notes", 10_001), (422, "/meta/notes".to_owned()));
+}

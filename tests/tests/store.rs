@@ -195,3 +195,68 @@ fn trouble_at_the_start_has_its_exit_code() {
     let broken = folder.path().join("broken.sqlite");
     assert_eq!(run(&["serve", "--port", "0", "--db", broken.to_str().unwrap()]).status.code(), Some(1));
 }
+
+/// A small disk of its own; `None`, and why, where this may not be mounted.
+#[cfg(target_os = "linux")]
+fn small_disk(folder: &std::path::Path) -> Option<SmallDisk> {
+    let mount = std::process::Command::new("mount")
+        .args(["-t", "tmpfs", "-o", "size=3m", "none"])
+        .arg(folder)
+        .output();
+    match mount {
+        Ok(output) if output.status.success() => Some(SmallDisk(folder.to_owned())),
+        _ => {
+            println!("skipped: no small disk can be mounted here");
+            None
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+struct SmallDisk(std::path::PathBuf);
+
+#[cfg(target_os = "linux")]
+impl Drop for SmallDisk {
+    fn drop(&mut self) {
+        let _ = std::process::Command::new("umount").arg("-l").arg(&self.0).status();
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn on_a_full_disk_scenes_can_be_deleted_and_then_saved_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(_disk) = small_disk(folder.path()) else { return };
+    let server = Server::start_at(&folder.path().join("scenes.sqlite"), &[]).unwrap();
+    let ready = || server.get("/readyz").unwrap().status;
+    let started = Instant::now();
+    while ready() != 200 && started.elapsed() < Duration::from_secs(30) {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let mut etags = Vec::new();
+    let full = loop {
+        let k = etags.len();
+        let mut scene = street(20, 90);
+        // Text that does not pack well, so that a few scenes fill the disk.
+        let noise: String = (0..9_000u32)
+            .map(|i| char::from(b'!' + (i.wrapping_mul(2_654_435_761 + k as u32) >> 25) as u8 % 90))
+            .collect();
+        scene["meta"] = json!({"notes": noise});
+        let reply = server.send(&put(&format!("s{k}"), ("if-none-match", "*"), &scene)).unwrap();
+        if reply.status != 201 {
+            break reply;
+        }
+        etags.push(reply.header("etag").to_owned());
+        assert!(k < 2_000, "the disk never fills");
+    };
+    assert_eq!((full.status, full.code().as_str()), (507, "store-full"), "{}", full.text());
+    assert_eq!(ready(), 503, "not ready while the disk is full");
+    for (k, etag) in etags.iter().enumerate() {
+        let delete = Request::new("DELETE", &format!("/v1/scenes/s{k}")).header("if-match", etag);
+        let gone = server.send(&delete).unwrap();
+        assert_eq!(gone.status, 204, "scene {k} of {}: {}", etags.len(), gone.text());
+    }
+    let again = server.send(&put("again", ("if-none-match", "*"), &street(5, 20))).unwrap();
+    assert_eq!(again.status, 201, "{}", again.text());
+    assert_eq!(ready(), 200);
+}

@@ -3,9 +3,9 @@
 use lru::LruCache;
 use scene::routes::LaneGraph;
 use scene::score::Drivable;
-use scene::{ContentHash, LaneMap};
+use scene::{ContentHash, LaneMap, Shared};
 use std::num::NonZeroUsize;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Maps kept, the least recently used one goes first.
 const MOST: NonZeroUsize = NonZeroUsize::new(32).unwrap();
@@ -19,74 +19,42 @@ pub(crate) struct KnownMap {
 }
 
 /// Known maps, a bounded number of them. A map's content never changes, so nothing is ever out of date.
-pub struct Maps {
-    cached: Mutex<Cached>,
-}
-
-/// By content hash, and by the very map that was handed in, which saves the hashing.
-struct Cached {
-    by_hash: LruCache<ContentHash, Arc<KnownMap>>,
-    /// By address. The weak handle keeps an address from being given to another map while it is here.
-    by_handle: LruCache<usize, (Weak<LaneMap>, Arc<KnownMap>)>,
-}
+pub struct Maps(Mutex<LruCache<ContentHash, Arc<KnownMap>>>);
 
 impl Default for Maps {
     fn default() -> Self {
-        let (by_hash, by_handle) = (LruCache::new(MOST), LruCache::new(MOST));
-        Self { cached: Mutex::new(Cached { by_hash, by_handle }) }
+        Self(Mutex::new(LruCache::new(MOST)))
     }
 }
 
 impl Maps {
     /// What is known about a map, worked out where it is new.
-    pub(crate) fn known(&self, map: &Arc<LaneMap>) -> Arc<KnownMap> {
-        if let Some(known) = self.cached().by_handle(map) {
-            return known;
-        }
+    pub(crate) fn known(&self, map: &Shared<LaneMap>) -> Arc<KnownMap> {
         let hash = map.hash();
-        if let Some(known) = self.cached().by_hash(hash, map) {
-            return known;
+        if let Some(known) = self.cached().get(&hash) {
+            return known.clone();
         }
         // Not under the lock: others may go on with maps that are known.
         let graph = Arc::new(LaneGraph::new(map));
         let known = Arc::new(KnownMap { drivable: graph.ground().clone(), graph });
-        self.cached().insert(hash, map, known.clone());
+        self.cached().put(hash, known.clone());
         known
+    }
+
+    /// Where vehicles may drive on a map.
+    pub fn drivable(&self, map: &Shared<LaneMap>) -> Arc<Drivable> {
+        self.known(map).drivable.clone()
     }
 
     /// Forgets all: the next call on each map works it out again.
     pub fn forget(&self) {
-        let mut cached = self.cached();
-        cached.by_hash.clear();
-        cached.by_handle.clear();
+        self.cached().clear();
     }
 
     /// Nothing in the cache is ever half done, so a panic elsewhere does not spoil it.
-    fn cached(&self) -> MutexGuard<'_, Cached> {
-        self.cached.lock().unwrap_or_else(PoisonError::into_inner)
+    fn cached(&self) -> MutexGuard<'_, LruCache<ContentHash, Arc<KnownMap>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-impl Cached {
-    fn by_handle(&mut self, map: &Arc<LaneMap>) -> Option<Arc<KnownMap>> {
-        let (weak, known) = self.by_handle.get(&address(map))?;
-        weak.upgrade().is_some_and(|m| Arc::ptr_eq(&m, map)).then(|| known.clone())
-    }
-
-    fn by_hash(&mut self, hash: ContentHash, map: &Arc<LaneMap>) -> Option<Arc<KnownMap>> {
-        let known = self.by_hash.get(&hash)?.clone();
-        self.by_handle.put(address(map), (Arc::downgrade(map), known.clone()));
-        Some(known)
-    }
-
-    fn insert(&mut self, hash: ContentHash, map: &Arc<LaneMap>, known: Arc<KnownMap>) {
-        self.by_handle.put(address(map), (Arc::downgrade(map), known.clone()));
-        self.by_hash.put(hash, known);
-    }
-}
-
-fn address(map: &Arc<LaneMap>) -> usize {
-    Arc::as_ptr(map).addr()
 }
 
 #[cfg(test)]
@@ -95,18 +63,17 @@ mod tests {
     use scene::Vec2;
     use scene::map::Lane;
 
-    fn street(length: usize) -> Arc<LaneMap> {
+    fn street(length: usize) -> Shared<LaneMap> {
         let points: Vec<Vec2> = (0..=length).map(|i| Vec2::new(i as f64, 0.0)).collect();
-        Arc::new(LaneMap { lanes: vec![Lane::street("a", points)], ..LaneMap::default() })
+        LaneMap { lanes: vec![Lane::street("a", points)], ..LaneMap::default() }.into()
     }
 
     #[test]
-    fn a_map_is_worked_out_once_by_handle_and_by_content() {
+    fn a_map_is_worked_out_once_by_its_content() {
         let maps = Maps::default();
         let known = maps.known(&street(50));
         let again = street(50);
         assert!(Arc::ptr_eq(&known, &maps.known(&again)), "equal content");
-        assert!(Arc::ptr_eq(&known, &maps.known(&again)), "the same handle");
         assert!(!Arc::ptr_eq(&known, &maps.known(&street(60))));
         maps.forget();
         assert!(!Arc::ptr_eq(&known, &maps.known(&again)));

@@ -203,7 +203,7 @@ fn a_big_scene_opens_quickly() {
             .collect();
         map.road_edges.push(line);
     }
-    scene.map = std::sync::Arc::new(map);
+    scene.map = map.into();
     let bytes = native::write(&scene);
     let start = Instant::now();
     let again = native::read(&bytes).unwrap();

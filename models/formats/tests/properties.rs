@@ -16,7 +16,6 @@ use scene::{
     Subtype, Timing, Track, Vec2,
 };
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");
 
@@ -66,7 +65,7 @@ fn agent(steps: usize) -> impl Strategy<Value = Agent> {
                 subtype: Subtype::Unknown,
                 role: None,
                 size,
-                track,
+                track: track.into(),
                 conditions: Conditions { goal, ..Conditions::default() },
             }
         })
@@ -210,7 +209,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                 name: "synth-1".into(),
                 meta,
                 time: Timing { steps, now_step },
-                map: Arc::new(map),
+                map: map.into(),
                 signals,
                 agents,
                 generated: None,
@@ -249,7 +248,7 @@ fn snap(mut scene: Scene, model: &Scene) -> Scene {
         own.xy.iter_mut().zip(&wanted.xy).for_each(|(p, q)| fix(p, q));
     }
     map.stop_signs.iter_mut().zip(&model.map.stop_signs).for_each(|(s, m)| fix(&mut s.position, &m.position));
-    scene.map = Arc::new(map);
+    scene.map = map.into();
     for (signal, wanted) in scene.signals.iter_mut().zip(&model.signals) {
         if let (Some(p), Some(q)) = (&mut signal.stop, &wanted.stop) {
             fix(p, q);

@@ -1,6 +1,6 @@
 //! Road users: type, size, recorded track, conditions.
 
-use crate::{Conditions, Vec2, wrap_angle};
+use crate::{Conditions, Shared, Vec2, wrap_angle};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -151,7 +151,7 @@ pub struct Agent {
     /// Box.
     pub size: Size,
     /// What was recorded, or the start alone for a drawn road user.
-    pub track: Track,
+    pub track: Shared<Track>,
     /// What the user fixed.
     pub conditions: Conditions,
 }
@@ -170,7 +170,7 @@ impl Agent {
             subtype,
             role: None,
             size: Size::default_for(agent_type, subtype),
-            track: Track { first_step: 0, states, z_m: None },
+            track: Track { first_step: 0, states, z_m: None }.into(),
             conditions: Conditions::default(),
         }
     }

@@ -20,6 +20,7 @@ pub mod random;
 pub mod routes;
 mod scene;
 pub mod score;
+pub mod shared;
 pub mod signal;
 
 pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
@@ -29,9 +30,11 @@ pub use geometry::{Vec2, wrap_angle};
 pub use hash::ContentHash;
 pub use map::LaneMap;
 pub use scene::{
-    MAX_AGENTS, MAX_COORDINATE_M, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,
+    MAX_AGENTS, MAX_COORDINATE_M, MAX_MAP_POINTS, MAX_NAME_CHARS, MAX_NOTES_CHARS, MAX_POLYLINE_POINTS,
+    MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,
 };
 pub use scene::{Meta, Origin, Scene, SceneError, Timing};
+pub use shared::Shared;
 pub use signal::{Signal, SignalState};
 
 /// Length of one step in seconds, fixed for the whole product (10 Hz).

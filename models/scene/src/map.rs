@@ -1,6 +1,6 @@
 //! Lane maps: centre lines with their links, painted lines, edges, crosswalks and the like.
 
-use crate::{ContentHash, Vec2};
+use crate::Vec2;
 use serde::{Deserialize, Serialize};
 
 /// A line or ring of points, metres.
@@ -171,7 +171,7 @@ pub struct StopSign {
     pub lanes: Vec<String>,
 }
 
-/// Everything that does not move. Immutable; shared between scenes by [`LaneMap::hash`].
+/// Everything that does not move. Scenes share it ([`crate::Shared`]).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct LaneMap {
@@ -186,11 +186,6 @@ pub struct LaneMap {
 }
 
 impl LaneMap {
-    /// Content hash: equal maps have equal hashes, whatever file they came from.
-    pub fn hash(&self) -> ContentHash {
-        ContentHash::of(self)
-    }
-
     /// Position of a lane in [`LaneMap::lanes`].
     pub fn lane_index(&self, id: &str) -> Option<usize> {
         self.lanes.iter().position(|l| l.id == id)

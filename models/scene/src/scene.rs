@@ -1,12 +1,17 @@
 //! The whole scene and what makes one valid.
 
-use crate::{Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Signal, Vec2};
+use crate::{
+    Agent, AgentId, AgentType, ContentHash, Generated, HORIZON_STEPS, LaneMap, Shared, Signal, Vec2,
+};
 use serde::Serialize;
 use std::collections::HashSet;
-use std::sync::Arc;
 
 /// Most agents a scene may hold.
 pub const MAX_AGENTS: usize = 256;
+/// Most characters of a scene's name.
+pub const MAX_NAME_CHARS: usize = 200;
+/// Most characters of its notes.
+pub const MAX_NOTES_CHARS: usize = 10_000;
 /// Most steps a scene may span.
 pub const MAX_STEPS: usize = 600;
 /// Most map polylines.
@@ -71,7 +76,7 @@ pub struct Scene {
     pub name: String,
     pub meta: Meta,
     pub time: Timing,
-    pub map: Arc<LaneMap>,
+    pub map: Shared<LaneMap>,
     pub signals: Vec<Signal>,
     pub agents: Vec<Agent>,
     pub generated: Option<Generated>,
@@ -106,7 +111,7 @@ impl Scene {
             name: name.to_owned(),
             meta: Meta::default(),
             time: Timing { steps: HORIZON_STEPS + 1, now_step: 0 },
-            map: Arc::new(map),
+            map: map.into(),
             signals: Vec::new(),
             agents,
             generated: None,
@@ -122,6 +127,7 @@ impl Scene {
     /// beyond the scene's steps.
     pub fn checked(self) -> Result<Self, Vec<SceneError>> {
         let mut problems = Vec::new();
+        self.check_words(&mut problems);
         self.check_time(&mut problems);
         self.check_map(&mut problems);
         self.check_signals(&mut problems);
@@ -147,14 +153,27 @@ impl Scene {
     }
 
     /// Hash of what the user made: everything that decides an answer except the generated futures,
-    /// the id and the name.
+    /// the id and the name. Map and recordings are known by their own hashes, which clones of the scene
+    /// share.
     pub fn input_hash(&self) -> ContentHash {
         let agents: Vec<_> = self
             .agents
             .iter()
-            .map(|a| (&a.id, a.agent_type, a.subtype, a.size, &a.track, &a.conditions))
+            .map(|a| (&a.id, a.agent_type, a.subtype, a.size, a.track.hash(), &a.conditions))
             .collect();
         ContentHash::of(&(self.time, self.map.hash(), &self.signals, agents))
+    }
+
+    fn check_words(&self, problems: &mut Vec<SceneError>) {
+        let words =
+            [("/name", &self.name, MAX_NAME_CHARS), ("/meta/notes", &self.meta.notes, MAX_NOTES_CHARS)];
+        for (at, text, most) in words {
+            let count = text.chars().count();
+            if count > most {
+                let reason = format!("{count} characters; at most {most}");
+                problems.push(SceneError::new(at, "out-of-range", reason));
+            }
+        }
     }
 
     fn check_time(&self, problems: &mut Vec<SceneError>) {

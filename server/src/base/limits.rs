@@ -55,8 +55,8 @@ limits! {
     stored_scenes = 10_000, "scenes in the store";
     store_bytes = 4 << 30, "size of the store's file";
     map_keep_s = 86_400, "time an unused map is kept";
-    cached_maps = 64, "maps kept in memory";
-    cached_scenes = 8, "scenes of demos and the data folder kept in memory";
+    cached_map_bytes = 128 << 20, "maps kept in memory";
+    cached_scene_bytes = 128 << 20, "open scenes kept in memory: saved ones, and as much for demos and the data folder";
     shutdown_s = 10, "time running work gets when the server stops";
 }
 

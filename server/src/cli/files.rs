@@ -2,12 +2,11 @@
 
 use super::{Exit, Failure, output};
 use crate::base::problem::Problem;
-use crate::generation::scoring;
 use crate::routes::import::range;
 use crate::scenes::transfer::{self, Imported, Motion};
 use clap::Args;
 use scene::Scene;
-use scene::score::ScoreInput;
+use scene::score::{Drivable, ScoreInput};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
@@ -218,7 +217,7 @@ pub fn score(args: ScoreArgs) -> Result<(), Failure> {
             }
         };
         for imported in scenes {
-            let drivable = scoring::drivable(&imported.scene);
+            let drivable = Drivable::new(&imported.scene.map);
             let score = scene::score::score(&ScoreInput::of_scene(&imported.scene, &drivable));
             let mut object = Map::new();
             object.insert("file".into(), path.display().to_string().into());

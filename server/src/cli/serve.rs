@@ -94,11 +94,11 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let handle = metrics::install().map_err(|reason| Failure::new(Exit::Failure, reason))?;
     metrics::identity(generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())));
     let pool = Pool::start(&limits)?;
-    let cached_scenes = limits.cached_scenes as usize;
-    let library = Library::start(args.data.as_deref(), Arc::clone(&pool), cached_scenes)?;
+    let cached_bytes = limits.cached_scene_bytes as usize;
+    let library = Library::start(args.data.as_deref(), Arc::clone(&pool), cached_bytes)?;
     let app = App::new(Inside {
         gate: Gate { guard: Arc::new(guard), limits: Arc::clone(&limits) },
-        catalog: Catalog::new(store, library, Arc::clone(&pool), limits.cached_maps as usize),
+        catalog: Catalog::new(store, library, Arc::clone(&pool), &limits),
         pool,
         generator,
         placer: Arc::new(placer),

@@ -1,10 +1,10 @@
 //! What a generation tells, as JSON objects: the same in all three representations.
 
+use super::compact::{FuturesDoc, FuturesForm};
 use crate::base::clock;
 use crate::base::problem::{Problem, ProblemDoc};
 use experts::{Accepted, Draft, Resolved, Warning};
-use formats::native::{AgentFuturesDoc, FutureDoc, SampleDoc};
-use scene::AgentFutures;
+use scene::Sample;
 use scene::score::Score;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
@@ -85,25 +85,18 @@ pub struct DraftBody {
     /// Refinement steps of a window.
     steps: usize,
     /// Futures by road user; the chosen ones alone, or all as `stream_modes` says.
-    agents: BTreeMap<String, AgentFuturesDoc>,
+    agents: BTreeMap<String, FuturesDoc>,
 }
 
 impl DraftBody {
     /// Of a draft; with `all_modes`, all alternatives and not the chosen ones alone.
-    pub fn new(draft: &Draft, all_modes: bool) -> Self {
+    pub fn new(draft: &Draft, all_modes: bool, form: FuturesForm) -> Self {
         let agents = draft.futures.agents.iter();
-        let agents = agents.map(|(id, futures)| (id.clone(), futures_doc(futures, all_modes))).collect();
+        let agents =
+            agents.map(|(id, futures)| (id.clone(), FuturesDoc::new(futures, all_modes, form))).collect();
         let step = (draft.step > 0).then_some(draft.step);
         Self { window: draft.window, sample: draft.sample, step, steps: draft.steps, agents }
     }
-}
-
-fn futures_doc(futures: &AgentFutures, all_modes: bool) -> AgentFuturesDoc {
-    if all_modes {
-        return AgentFuturesDoc::from_futures(futures);
-    }
-    let chosen = futures.modes.get(futures.chosen).map(FutureDoc::from_future);
-    AgentFuturesDoc { chosen: 0, modes: chosen.into_iter().collect(), reaction: futures.reaction.clone() }
 }
 
 /// Time spent, milliseconds.
@@ -124,6 +117,24 @@ pub struct TimingBody {
     pub score_ms: f64,
 }
 
+/// One joint scene of the answer. Its score stands in `scores`.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "AnswerSample")]
+pub struct SampleBody {
+    /// Road user's id to its futures.
+    pub agents: BTreeMap<String, FuturesDoc>,
+    /// Empty here; a place for the score when it is saved.
+    pub score: Value,
+}
+
+impl SampleBody {
+    /// Of a sample.
+    pub fn new(sample: &Sample, form: FuturesForm) -> Self {
+        let agents = sample.agents.iter().map(|(id, f)| (id.clone(), FuturesDoc::new(f, true, form)));
+        Self { agents: agents.collect(), score: sample.score.clone() }
+    }
+}
+
 /// `final`: the answer.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Final")]
@@ -132,7 +143,7 @@ pub struct FinalBody {
     /// of the first and end with its plan.
     pub windows: usize,
     /// Joint scenes.
-    pub samples: Vec<SampleDoc>,
+    pub samples: Vec<SampleBody>,
     /// Every condition field as it was used.
     pub resolved: BTreeMap<String, Resolved>,
     /// One report a sample, or null when none was asked for.
@@ -141,7 +152,8 @@ pub struct FinalBody {
     pub warnings: Vec<Warning>,
     /// Where the time went.
     pub timing: TimingBody,
-    /// The scene's `generated` member, all but `samples`: put `samples` in and save.
+    /// The scene's `generated` member, all but `samples`: put `samples` in and save (those in
+    /// compact form as columns).
     pub generated: GeneratedHead,
 }
 

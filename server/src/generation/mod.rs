@@ -1,5 +1,6 @@
 //! Generations: a task for the pool, its events, and the reply made of them.
 
+pub mod compact;
 pub mod events;
 mod feed;
 mod outbox;
@@ -11,21 +12,28 @@ pub use feed::Reader;
 
 use crate::base::limits::Limits;
 use crate::base::problem::Problem;
+use crate::scenes::Standings;
 use crate::work::{Caller, Kind, Pool, Work};
+use compact::FuturesForm;
 use events::GeneratedHead;
 use experts::{Generator, Request};
 use feed::Feed;
 use std::sync::Arc;
 
 /// What a generation is to do.
-#[derive(Debug)]
 pub struct Task {
     /// For the generator.
     pub request: Request,
+    /// The caller reads all events, not the last one alone.
+    pub streams: bool,
     /// All alternatives in drafts, not the chosen ones alone.
     pub all_modes: bool,
+    /// How futures are written.
+    pub form: FuturesForm,
     /// Score each sample.
     pub score: bool,
+    /// What the scene comes to without this call's changes, where it is one that stays open.
+    pub standings: Option<Arc<Standings>>,
     /// The rest of `generated`.
     pub head: GeneratedHead,
 }

@@ -1,15 +1,16 @@
 //! One generation: drives the generator, turns its events into messages.
 
-use super::events::{AcceptedBody, DraftBody, FinalBody, GeneratedHead, TimingBody};
+use super::compact::FuturesForm;
+use super::events::{AcceptedBody, DraftBody, FinalBody, GeneratedHead, SampleBody, TimingBody};
 use super::feed::Feed;
 use super::outbox::End;
 use super::{Task, scoring};
 use crate::base::metrics;
 use crate::base::problem::Problem;
+use crate::scenes::Standings;
 use crate::work::Kind;
 use experts::weights::EXPERTS;
 use experts::{Answer, Draft, Event, GenerateError, Generator};
-use formats::native::SampleDoc;
 use scene::Scene;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -32,16 +33,20 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
     for event in generation {
         match event {
             Ok(Event::Accepted(accepted)) => {
-                feed.send(AcceptedBody::new(accepted, feed.ticket.queue_position), None);
+                if task.streams {
+                    feed.send(AcceptedBody::new(accepted, feed.ticket.queue_position), None);
+                }
             }
             Ok(Event::Draft(draft)) => {
                 count(&scene, &draft);
-                feed.send(DraftBody::new(&draft, task.all_modes), None);
+                if task.streams {
+                    feed.send(DraftBody::new(&draft, task.all_modes, task.form), None);
+                }
             }
             Ok(Event::Final(answer)) => {
-                let mut body = final_body(&task.head, &answer, queued);
+                let mut body = final_body(&task.head, task.form, &answer, queued);
                 if task.score {
-                    add_scores(&mut body, &scene, &answer);
+                    add_scores(&mut body, &scene, &answer, generator, task.standings.as_deref());
                 }
                 if feed.send(body, Some(End::Final)) {
                     metrics::ended(Kind::Generate.name(), "final");
@@ -68,7 +73,7 @@ fn expert_of(agent: &scene::Agent) -> Option<&'static str> {
     EXPERTS.iter().find(|(agent_type, _)| *agent_type == agent.kind()).map(|(_, name)| *name)
 }
 
-fn final_body(head: &GeneratedHead, answer: &Answer, queued: Duration) -> FinalBody {
+fn final_body(head: &GeneratedHead, form: FuturesForm, answer: &Answer, queued: Duration) -> FinalBody {
     let t = &answer.timings;
     metrics::phase("encode", t.encode_ms / 1e3);
     metrics::phase("initial", t.initial_ms / 1e3);
@@ -83,7 +88,7 @@ fn final_body(head: &GeneratedHead, answer: &Answer, queued: Duration) -> FinalB
     };
     FinalBody {
         windows: answer.windows,
-        samples: answer.samples.iter().map(SampleDoc::from_sample).collect(),
+        samples: answer.samples.iter().map(|sample| SampleBody::new(sample, form)).collect(),
         resolved: answer.resolved.clone(),
         scores: None,
         warnings: answer.warnings.clone(),
@@ -92,9 +97,17 @@ fn final_body(head: &GeneratedHead, answer: &Answer, queued: Duration) -> FinalB
     }
 }
 
-fn add_scores(body: &mut FinalBody, scene: &Scene, answer: &Answer) {
+fn add_scores(
+    body: &mut FinalBody,
+    scene: &Scene,
+    answer: &Answer,
+    generator: &Generator,
+    standings: Option<&Standings>,
+) {
     let began = Instant::now();
-    let scores: Vec<_> = answer.samples.iter().map(|sample| scoring::sample(scene, sample)).collect();
+    let drivable = generator.maps().drivable(&scene.map);
+    let score = |sample| scoring::sample(scene, sample, &drivable, standings);
+    let scores: Vec<_> = answer.samples.iter().map(score).collect();
     body.timing.score_ms = round(began.elapsed().as_secs_f64() * 1e3);
     body.scores = Some(scores);
 }

@@ -1,33 +1,26 @@
-//! Scores of scenes, with the map's index kept between calls.
+//! Scores of answers.
 
-use crate::base::cache::Cache;
-use scene::score::{Drivable, Score, ScoreInput};
-use scene::{ContentHash, Sample, Scene};
-use std::sync::{Arc, OnceLock};
-
-/// Map indices kept.
-const KEPT: usize = 16;
-
-/// The index of a scene's map, built once a map.
-pub fn drivable(scene: &Scene) -> Arc<Drivable> {
-    static CACHE: OnceLock<Cache<ContentHash, Arc<Drivable>>> = OnceLock::new();
-    let cache = CACHE.get_or_init(|| Cache::new(KEPT));
-    let hash = scene.map.hash();
-    cache.get(&hash).unwrap_or_else(|| {
-        let built = Arc::new(Drivable::new(&scene.map));
-        cache.put(hash, Arc::clone(&built));
-        built
-    })
-}
+use crate::scenes::Standings;
+use scene::score::{Drivable, PairChoice, Score, ScoreInput, Thresholds};
+use scene::{Sample, Scene};
 
 /// Score of one sample of an answer: its futures, the chosen futures of road users that were kept,
 /// and the log of the rest.
-pub fn sample(scene: &Scene, sample: &Sample) -> Score {
+pub fn sample(scene: &Scene, sample: &Sample, drivable: &Drivable, standings: Option<&Standings>) -> Score {
     let mut all = sample.clone();
     let kept = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
     for (id, futures) in kept.into_iter().flat_map(|s| &s.agents) {
         all.agents.entry(id.clone()).or_insert_with(|| futures.clone());
     }
-    let drivable = drivable(scene);
-    scene::score::score(&ScoreInput::of_sample(scene, Some(&all), &drivable))
+    of(&ScoreInput::of_sample(scene, Some(&all), drivable), sample.agents.len(), standings)
+}
+
+/// Score of an input in which so many road users move otherwise than in the scene of the standings.
+pub fn of(input: &ScoreInput<'_>, changed: usize, standings: Option<&Standings>) -> Score {
+    let usual = input.pairs == PairChoice::default() && input.thresholds == Thresholds::default();
+    // Where most have changed, what stands saves nothing.
+    match standings.filter(|_| usual && 2 * changed <= input.actors.len()) {
+        Some(standings) => standings.over(&input.steps, input.drivable).score(input),
+        None => scene::score::score(input),
+    }
 }

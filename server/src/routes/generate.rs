@@ -1,10 +1,11 @@
 //! `/v1/generate`: conditions to futures.
 
-use super::scene_ref::{AboutScene, SceneRef};
+use super::scene_ref::{AboutScene, SceneRef, Subject};
 use crate::app::App;
 use crate::base::id::is_id;
 use crate::base::limits::{self, Limits};
 use crate::base::problem::{Code, Problem};
+use crate::generation::compact::FuturesForm;
 use crate::generation::events::GeneratedHead;
 use crate::generation::{self, Task, stream};
 use crate::http::accept::Form;
@@ -149,6 +150,9 @@ pub struct GenerateRequest {
     /// What drafts carry.
     #[serde(default)]
     stream_modes: StreamModes,
+    /// How futures are written, in drafts and in `final`.
+    #[serde(default)]
+    futures: FuturesForm,
     /// Put scores into `final`.
     #[serde(default = "yes")]
     score: bool,
@@ -232,9 +236,13 @@ pub async fn generate(State(app): State<App>, request: Request) -> Result<Respon
     let form = Form::negotiate(request.headers())?;
     let Json(mut body) = Json::<GenerateRequest>::from_request(request, &app).await?;
     let caller = body.caller()?;
-    let scene = body.take_scene().open(&app).await?;
+    let Subject { scene, standings } = body.take_scene().open(&app).await?;
+    let streams = form != Form::Json;
     let (shared, bytes) = (app.clone(), bytes_of(&scene));
-    let prepare = move || body.task(&scene, &shared.limits, &shared.generator);
+    let prepare = move || {
+        let task = body.task(&scene, &shared.limits, &shared.generator)?;
+        Ok(Task { streams, standings, ..task })
+    };
     let task = app.pool.document(bytes, prepare).await?;
     let reader = generation::submit(&app.pool, &app.generator, &app.limits, caller, task)?;
     Ok(stream::reply(reader, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await)
@@ -257,7 +265,8 @@ impl GenerateRequest {
         let head =
             GeneratedHead::new(scene.input_hash().hex(), generator.hashes(), self.seed, self.options());
         let all_modes = self.stream_modes == StreamModes::All;
-        Ok(Task { request, all_modes, score: self.score, head })
+        let (form, score) = (self.futures, self.score);
+        Ok(Task { request, all_modes, form, score, head, streams: true, standings: None })
     }
 
     fn caller(&self) -> Result<Caller, Problem> {

@@ -1,6 +1,6 @@
 //! `/v1/place`: road users where there are none yet.
 
-use super::scene_ref::{AboutScene, SceneRef, WithScene};
+use super::scene_ref::{AboutScene, SceneRef, Subject, WithScene};
 use crate::app::App;
 use crate::base::problem::{Code, Problem};
 use crate::http::body::JsonText;
@@ -159,7 +159,7 @@ refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK);
         Refused))]
 pub async fn place(
     State(app): State<App>,
-    WithScene(body, scene): WithScene<PlaceBody>,
+    WithScene(body, Subject { scene, .. }): WithScene<PlaceBody>,
 ) -> Result<JsonText, Problem> {
     let placer = Arc::clone(&app.placer);
     let work = move |cancel: &Cancel| JsonText::of(&PlaceReply::from(&body.run(&scene, &placer, cancel)?));

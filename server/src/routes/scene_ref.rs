@@ -3,6 +3,7 @@
 use crate::app::App;
 use crate::base::problem::{Code, Problem};
 use crate::http::body::Json;
+use crate::scenes::Standings;
 use axum::extract::{FromRequest, Request};
 use formats::native::SceneDoc;
 use scene::Scene;
@@ -26,11 +27,12 @@ impl SceneRef {
     /// # Errors
     /// `invalid-field` unless exactly one is given, `not-found`, `stale-etag`, or every fault of the
     /// scene, its pointers below `/scene`.
-    pub async fn open(self, app: &App) -> Result<Arc<Scene>, Problem> {
+    pub async fn open(self, app: &App) -> Result<Subject, Problem> {
         match (self.scene, self.scene_id) {
             (Some(doc), None) => {
                 let scene = app.catalog.scene_of(doc).await;
-                Ok(Arc::new(scene.map_err(|problem| problem.under("/scene"))?))
+                let scene = Arc::new(scene.map_err(|problem| problem.under("/scene"))?);
+                Ok(Subject { scene, standings: None })
             }
             (None, Some(id)) => {
                 let opened = app.catalog.open(&id).await?;
@@ -38,7 +40,7 @@ impl SceneRef {
                     let detail = "The stored scene is another than the one you read.";
                     return Err(Problem::new(Code::StaleEtag, detail).with(|m| m.etag = Some(opened.etag)));
                 }
-                Ok(opened.scene)
+                Ok(Subject { scene: opened.scene, standings: Some(opened.standings) })
             }
             _ => {
                 let detail = "exactly one of scene and scene_id is needed";
@@ -54,8 +56,16 @@ pub trait AboutScene {
     fn take_scene(&mut self) -> SceneRef;
 }
 
+/// The scene that a call is about.
+pub struct Subject {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// What it comes to as it stands; not for one that came with the call and goes with it.
+    pub standings: Option<Arc<Standings>>,
+}
+
 /// A JSON body with the scene it is about.
-pub struct WithScene<T>(pub T, pub Arc<Scene>);
+pub struct WithScene<T>(pub T, pub Subject);
 
 impl<T: AboutScene + DeserializeOwned + Send + 'static> FromRequest<App> for WithScene<T> {
     type Rejection = Problem;

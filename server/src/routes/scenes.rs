@@ -5,14 +5,14 @@ use crate::base::id;
 use crate::base::problem::{Code, Problem};
 use crate::http::body::{self, Json, Reading};
 use crate::http::extract::{Id, Params, if_match, if_none_match};
-use crate::scenes::store::Expect;
-use crate::scenes::{Item, not_found, record};
+use crate::scenes::store::{Expect, Page, SceneSummary, Sort};
+use crate::scenes::{Item, not_found, record, tags_of};
 use axum::extract::{FromRef, FromRequest, Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use formats::native::{self, MapForm, SceneDoc};
+use scene::MAX_NAME_CHARS;
 use serde::{Deserialize, Serialize};
-use std::cmp::Ordering;
 
 /// Query of the list.
 #[derive(Debug, Deserialize, utoipa::IntoParams)]
@@ -61,35 +61,57 @@ pub async fn list(
     if !(1..=200).contains(&params.limit) {
         return Err(Problem::range("/query/limit", 1.0, 200.0, params.limit as f64));
     }
-    let order = order(&params.sort)?;
+    let sort = sort(&params.sort)?;
+    let after = params.after.as_deref().map(place).transpose()?;
     let text = params.q.map(|q| q.to_lowercase());
-    let mut items: Vec<Item> = app.catalog.store.list().await?.into_iter().map(Item::from).collect();
-    items.extend(app.catalog.library.items());
+    let wanted = move |name: &str, tags: &[String], parent_id: Option<&String>| {
+        text.as_ref().is_none_or(|q| name.to_lowercase().contains(q))
+            && params.tag.as_ref().is_none_or(|tag| tags.contains(tag))
+            && params.parent.as_ref().is_none_or(|parent| parent_id == Some(parent))
+    };
+    // One more than is shown tells whether there is another page.
+    let most = params.limit + 1;
+    let order = |a: &(String, String), b: &(String, String)| {
+        let keys = if sort.falls { b.0.cmp(&a.0) } else { a.0.cmp(&b.0) };
+        keys.then_with(|| a.1.cmp(&b.1))
+    };
+    let place_of = |item: &Item| (sort.key(&item.name, &item.updated_at).to_owned(), item.id.clone());
+    let mut items = app.catalog.library.items();
     items.retain(|item| {
-        text.as_ref().is_none_or(|q| item.name.to_lowercase().contains(q))
-            && params.tag.as_ref().is_none_or(|tag| item.tags.contains(tag))
-            && params.parent.as_ref().is_none_or(|parent| item.parent_id.as_ref() == Some(parent))
+        wanted(&item.name, &item.tags, item.parent_id.as_ref())
+            && after.as_ref().is_none_or(|after| order(after, &place_of(item)).is_lt())
     });
-    items.sort_by(|a, b| order(a, b).then_with(|| a.id.cmp(&b.id)));
-    if let Some(after) = params.after {
-        let at = items.iter().position(|item| item.id == after).ok_or_else(|| {
-            Problem::field("/query/after", Code::InvalidField, "no scene of this list has that cursor")
-        })?;
-        items.drain(..=at);
-    }
-    let next = (items.len() > params.limit).then(|| items.get(params.limit - 1).map(|item| item.id.clone()));
+    let saved = move |row: &SceneSummary| wanted(&row.name, &tags_of(row), row.parent_id.as_ref());
+    let rows = app.catalog.store.list(Page { sort, after, most }, saved).await?;
+    items.extend(rows.into_iter().map(Item::from));
+    items.sort_by(|a, b| order(&place_of(a), &place_of(b)));
+    let more = items.len() > params.limit;
     items.truncate(params.limit);
-    Ok(axum::Json(SceneList { scenes: items, next: next.flatten() }))
+    let next = items.last().filter(|_| more).map(|item| {
+        let (key, id) = place_of(item);
+        let hex: String = key.bytes().map(|byte| format!("{byte:02x}")).collect();
+        format!("{hex}~{id}")
+    });
+    Ok(axum::Json(SceneList { scenes: items, next }))
 }
 
-type Order = fn(&Item, &Item) -> Ordering;
+/// Key (its bytes in hexadecimal, which need no escaping in a query) and id of the last scene of a page, as
+/// `next` has them.
+fn place(cursor: &str) -> Result<(String, String), Problem> {
+    let wrong = || Problem::field("/query/after", Code::InvalidField, "`next` of the page before expected");
+    let (hex, id) =
+        cursor.rsplit_once('~').filter(|(hex, id)| hex.is_ascii() && id::is_id(id)).ok_or_else(wrong)?;
+    let byte = |at: usize| u8::from_str_radix(hex.get(at..at + 2)?, 16).ok();
+    let bytes: Option<Vec<u8>> = (0..hex.len()).step_by(2).map(byte).collect();
+    let key = bytes.and_then(|bytes| String::from_utf8(bytes).ok()).ok_or_else(wrong)?;
+    Ok((key, id.to_owned()))
+}
 
-fn order(sort: &str) -> Result<Order, Problem> {
-    match sort {
-        "-updated" => Ok(|a, b| b.updated_at.cmp(&a.updated_at)),
-        "updated" => Ok(|a, b| a.updated_at.cmp(&b.updated_at)),
-        "name" => Ok(|a, b| a.name.cmp(&b.name)),
-        "-name" => Ok(|a, b| b.name.cmp(&a.name)),
+fn sort(word: &str) -> Result<Sort, Problem> {
+    let (falls, key) = word.strip_prefix('-').map_or((false, word), |key| (true, key));
+    match key {
+        "updated" => Ok(Sort { by_name: false, falls }),
+        "name" => Ok(Sort { by_name: true, falls }),
         _ => Err(Problem::field(
             "/query/sort",
             Code::InvalidField,
@@ -287,7 +309,7 @@ pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Res
     Ok(saved(StatusCode::OK, id, written.etag))
 }
 
-refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnly);
+refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
 
 /// Deletes a scene.
 #[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",
@@ -296,7 +318,7 @@ refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnl
 pub async fn remove(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<StatusCode, Problem> {
     let tags = if_match(&headers).ok_or_else(precondition_required)?;
     writable(&app, &id)?;
-    app.catalog.store.delete(&id, Expect::Etags(tags)).await?;
+    app.catalog.delete(&id, Expect::Etags(tags)).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -327,7 +349,14 @@ pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> 
         if bytes.is_empty() && !typed { DuplicateRequest::default() } else { reading.parse(bytes).await? };
     let opened = app.catalog.open(&id).await?;
     let mut scene = (*opened.scene).clone();
-    scene.name = options.name.unwrap_or_else(|| format!("{} copy", scene.name));
+    scene.name = match options.name {
+        Some(name) if name.chars().count() > MAX_NAME_CHARS => {
+            return Err(Problem::range("/name", 0.0, MAX_NAME_CHARS as f64, name.chars().count() as f64));
+        }
+        Some(name) => name,
+        // The longest names lose what the word needs.
+        None => scene.name.chars().take(MAX_NAME_CHARS - 5).chain(" copy".chars()).collect(),
+    };
     scene.meta.parent_id = Some(id);
     let copy = id::fresh();
     let written = app.catalog.save(&copy, Expect::Absent, scene).await?;

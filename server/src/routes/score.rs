@@ -1,19 +1,24 @@
 //! `/v1/score`: collisions, near misses, off-road driving, kinematics, goals.
 
-use super::scene_ref::{AboutScene, SceneRef, WithScene};
+use super::scene_ref::{AboutScene, SceneRef, Subject, WithScene};
 use crate::app::App;
 use crate::base::problem::Problem;
 use crate::generation::scoring;
 use crate::http::body::JsonText;
 use crate::work::Kind;
 use axum::extract::State;
+use experts::Maps;
 use formats::native::{Members, SceneDoc};
 use formats::{FieldProblem, ReadError, pointer_token};
 use scene::score::{PairChoice, Score, ScoreInput, Thresholds};
 use scene::{AgentFutures, Future, Sample, Scene, State as AgentState, Track};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, IntoDeserializer, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
 
 /// Motion of one road user as columns, one value a step from `first_step`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -30,13 +35,38 @@ pub struct TrajectoryDoc {
 }
 
 /// What trajectories are compared with.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[derive(Clone, Debug, JsonSchema)]
+#[schemars(untagged)]
 pub enum Reference {
     /// `"log"`.
     Word(Log),
     /// Motion by road user.
     Given(Members<TrajectoryDoc>),
+}
+
+impl<'de> Deserialize<'de> for Reference {
+    /// Read as it comes: what is kept to be tried twice would lose where its faults are.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either;
+
+        impl<'de> Visitor<'de> for Either {
+            type Value = Reference;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"log\" or motion by road user")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<Reference, E> {
+                Log::deserialize(word.into_deserializer()).map(Reference::Word)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, members: A) -> Result<Reference, A::Error> {
+                Members::deserialize(MapAccessDeserializer::new(members)).map(Reference::Given)
+            }
+        }
+
+        deserializer.deserialize_any(Either)
+    }
 }
 
 /// The word `log`.
@@ -90,12 +120,14 @@ refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK);
         Refused))]
 pub async fn score(
     State(app): State<App>,
-    WithScene(request, scene): WithScene<ScoreRequest>,
+    WithScene(request, about): WithScene<ScoreRequest>,
 ) -> Result<JsonText, Problem> {
-    app.pool.run(Kind::Score, move |_| JsonText::of(&of(&scene, &request)?)).await
+    let generator = Arc::clone(&app.generator);
+    app.pool.run(Kind::Score, move |_| JsonText::of(&of(&about, &request, generator.maps())?)).await
 }
 
-fn of(scene: &Scene, request: &ScoreRequest) -> Result<Score, Problem> {
+fn of(about: &Subject, request: &ScoreRequest, maps: &Maps) -> Result<Score, Problem> {
+    let scene = &about.scene;
     let mut faults = Vec::new();
     let mut sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample)).cloned();
     for (id, doc) in &request.trajectories.0 {
@@ -115,7 +147,7 @@ fn of(scene: &Scene, request: &ScoreRequest) -> Result<Score, Problem> {
     if !faults.is_empty() {
         return Err(ReadError::invalid(faults).into());
     }
-    let drivable = scoring::drivable(scene);
+    let drivable = maps.drivable(&scene.map);
     let mut input = ScoreInput::of_sample(scene, sample.as_ref(), &drivable);
     for actor in &mut input.actors {
         if let Some(track) = references.get(actor.id) {
@@ -124,7 +156,8 @@ fn of(scene: &Scene, request: &ScoreRequest) -> Result<Score, Problem> {
     }
     input.pairs = request.pairs;
     input.thresholds = request.thresholds;
-    Ok(scene::score::score(&input))
+    let changed = request.trajectories.0.len() + references.len();
+    Ok(scoring::of(&input, changed, about.standings.as_deref()))
 }
 
 /// The motion of a document, or its faults.

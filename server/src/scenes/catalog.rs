@@ -2,13 +2,15 @@
 //! content hash.
 
 use super::library::Library;
+use super::opened::Opened;
 use super::record::{self, size};
-use super::store::{Expect, SceneRecord, Store, Written};
+use super::store::{Expect, PackedScene, SceneRecord, Store, Written};
 use crate::base::cache::Cache;
+use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
 use crate::work::Pool;
 use formats::native::{self, MapDoc, MapField, MapForm, SceneDoc};
-use scene::{ContentHash, LaneMap, Scene};
+use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::sync::Arc;
 
 /// Bytes that one step of one road user takes in JSON, about.
@@ -18,15 +20,6 @@ const POINT_BYTES: usize = 20;
 /// Bytes that one line of a map takes in JSON, about.
 const LINE_BYTES: usize = 32 * POINT_BYTES;
 
-/// A scene that is open, with its ETag.
-#[derive(Clone)]
-pub struct Opened {
-    /// The scene, with its id.
-    pub scene: Arc<Scene>,
-    /// With quotes.
-    pub etag: String,
-}
-
 /// All scenes and maps that the server knows. Cheap to clone.
 #[derive(Clone)]
 pub struct Catalog {
@@ -34,21 +27,24 @@ pub struct Catalog {
     pub store: Store,
     /// Read-only scenes.
     pub library: Library,
-    maps: Arc<Cache<ContentHash, Arc<LaneMap>>>,
+    maps: Arc<Cache<ContentHash, Shared<LaneMap>>>,
+    open: Arc<Cache<String, Opened>>,
     pool: Arc<Pool>,
 }
 
 impl Catalog {
-    /// Over a store and a library, with so many maps in memory.
-    pub fn new(store: Store, library: Library, pool: Arc<Pool>, cached_maps: usize) -> Self {
-        Self { store, library, maps: Arc::new(Cache::new(cached_maps)), pool }
+    /// Over a store and a library, with maps and saved scenes in memory up to these limits.
+    pub fn new(store: Store, library: Library, pool: Arc<Pool>, limits: &Limits) -> Self {
+        let maps = Arc::new(Cache::new(limits.cached_map_bytes as usize));
+        let open = Arc::new(Cache::new(limits.cached_scene_bytes as usize));
+        Self { store, library, maps, open, pool }
     }
 
     /// The map of a hash, wherever it is.
     ///
     /// # Errors
     /// When it cannot be read.
-    pub async fn map(&self, hash: ContentHash) -> Result<Option<Arc<LaneMap>>, Problem> {
+    pub async fn map(&self, hash: ContentHash) -> Result<Option<Shared<LaneMap>>, Problem> {
         if let Some(map) = self.maps.get(&hash) {
             return Ok(Some(map));
         }
@@ -57,7 +53,7 @@ impl Catalog {
             None => self.library.map(&hash).await?,
         };
         if let Some(map) = &map {
-            self.maps.put(hash, Arc::clone(map));
+            self.maps.put(hash, map.clone(), map_bytes(map));
         }
         Ok(map)
     }
@@ -82,7 +78,7 @@ impl Catalog {
             let inline = matches!(doc.map, MapField::Inline(_));
             let scene = doc.into_scene(|_| known)?;
             if inline {
-                maps.put(scene.map.hash(), Arc::clone(&scene.map));
+                maps.put(scene.map.hash(), scene.map.clone(), map_bytes(&scene.map));
             }
             Ok(scene)
         };
@@ -97,10 +93,19 @@ impl Catalog {
         if let Some(opened) = self.library.open(id).await? {
             return Ok(opened);
         }
+        let key = id.to_owned();
+        if let Some(known) = self.open.get(&key) {
+            // Another program may have written to the file: only the store knows what is current.
+            if self.store.etag(id).await?.as_deref() == Some(known.etag.as_str()) {
+                return Ok(known);
+            }
+            self.open.forget(&key);
+        }
         let (summary, json) = self.store.get(id).await?.ok_or_else(not_found)?;
         let doc = self.pool.document(json.len(), move || Ok(native::read_doc(&json)?)).await?;
-        let scene = Arc::new(self.scene_of(doc).await?);
-        Ok(Opened { scene, etag: summary.etag })
+        let opened = Opened::new(self.scene_of(doc).await?, summary.etag);
+        self.open.put(key, opened.clone(), held_bytes(&opened.scene));
+        Ok(opened)
     }
 
     /// JSON of an open scene.
@@ -130,7 +135,7 @@ impl Catalog {
     pub async fn save(&self, id: &str, expect: Expect, scene: Scene) -> Result<Written, Problem> {
         let (key, bytes) = (id.to_owned(), bytes_of(&scene));
         let packed = self.pool.document(bytes, move || record::of_scene(scene, &key)?.packed()).await?;
-        Ok(self.store.put(id, expect, packed).await?)
+        self.put(id, expect, packed).await
     }
 
     /// Keeps a row that is made already.
@@ -145,7 +150,23 @@ impl Catalog {
     ) -> Result<Written, Problem> {
         let bytes = record.json.len();
         let packed = self.pool.document(bytes, move || record.packed()).await?;
-        Ok(self.store.put(id, expect, packed).await?)
+        self.put(id, expect, packed).await
+    }
+
+    async fn put(&self, id: &str, expect: Expect, packed: PackedScene) -> Result<Written, Problem> {
+        let written = self.store.put(id, expect, packed).await?;
+        self.open.forget(&id.to_owned());
+        Ok(written)
+    }
+
+    /// Deletes a saved scene.
+    ///
+    /// # Errors
+    /// When there is none, or the precondition does not hold.
+    pub async fn delete(&self, id: &str, expect: Expect) -> Result<(), Problem> {
+        self.store.delete(id, expect).await?;
+        self.open.forget(&id.to_owned());
+        Ok(())
     }
 }
 
@@ -154,15 +175,23 @@ pub fn not_found() -> Problem {
     Problem::new(Code::NotFound, "No scene has this id.")
 }
 
-fn parse_map(json: &[u8]) -> Result<Arc<LaneMap>, Problem> {
+fn parse_map(json: &[u8]) -> Result<Shared<LaneMap>, Problem> {
     let doc: MapDoc = native::from_json(json)?;
-    Ok(Arc::new(doc.into_map()?))
+    Ok(doc.into_map()?.into())
 }
 
 /// About how many bytes a scene has as JSON: what work on it costs grows with them.
 pub fn bytes_of(scene: &Scene) -> usize {
     let steps: usize = scene.agents.iter().map(|agent| agent.track.states.len()).sum();
-    steps * STEP_BYTES + map_bytes(&scene.map)
+    let samples = scene.generated.iter().flat_map(|g| &g.samples);
+    let modes = samples.flat_map(|s| s.agents.values()).flat_map(|f| &f.modes);
+    let made: usize = modes.map(|future| future.states.len()).sum();
+    (steps + made) * STEP_BYTES + map_bytes(&scene.map)
+}
+
+/// About how many bytes of memory an open scene takes, with what is worked out about it.
+pub fn held_bytes(scene: &Scene) -> usize {
+    4 * bytes_of(scene)
 }
 
 /// About how many bytes a map has as JSON.

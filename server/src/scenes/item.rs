@@ -76,11 +76,16 @@ impl Facts {
     }
 }
 
+/// Tags of a stored scene.
+pub fn tags_of(row: &SceneSummary) -> Vec<String> {
+    serde_json::from_str(&row.tags).unwrap_or_default()
+}
+
 impl From<SceneSummary> for Item {
     fn from(row: SceneSummary) -> Self {
         Self {
             facts: serde_json::from_str(&row.meta).unwrap_or_default(),
-            tags: serde_json::from_str(&row.tags).unwrap_or_default(),
+            tags: tags_of(&row),
             id: row.id,
             name: row.name,
             etag: row.etag,

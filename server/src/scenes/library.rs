@@ -3,8 +3,9 @@
 //! Files are read once in the background for the list; a scene is parsed again when it is opened,
 //! and a few stay in memory.
 
-use super::catalog::Opened;
+use super::catalog::held_bytes;
 use super::item::{Facts, Item};
+use super::opened::Opened;
 use super::transfer;
 use crate::base::cache::Cache;
 use crate::base::clock;
@@ -13,7 +14,7 @@ use crate::base::problem::Problem;
 use crate::work::Pool;
 use formats::native;
 use rust_embed::RustEmbed;
-use scene::{ContentHash, LaneMap, Scene};
+use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -54,12 +55,13 @@ struct Inside {
 pub struct Library(Arc<Inside>);
 
 impl Library {
-    /// The demos at once; the folder's files as they are read. Keeps so many opened scenes in memory.
+    /// The demos at once; the folder's files as they are read. Keeps opened scenes in memory, so many bytes at
+    /// most.
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached: usize) -> io::Result<Self> {
-        let inside = Inside { entries: RwLock::default(), open: Cache::new(cached), pool };
+    pub fn start(folder: Option<&Path>, pool: Arc<Pool>, cached_bytes: usize) -> io::Result<Self> {
+        let inside = Inside { entries: RwLock::default(), open: Cache::new(cached_bytes), pool };
         let library = Self(Arc::new(inside));
         let folder = folder.map(Path::to_owned);
         let filled = library.clone();
@@ -102,10 +104,10 @@ impl Library {
             let mut scene = read(&entry.place)?;
             scene.id = Some(entry.item.id.clone());
             scene.name.clone_from(&entry.item.name);
-            Ok(Opened { scene: Arc::new(scene), etag: entry.item.etag })
+            Ok(Opened::new(scene, entry.item.etag))
         };
         let opened = self.0.pool.document(bytes, open).await?;
-        self.0.open.put(key, opened.clone());
+        self.0.open.put(key, opened.clone(), held_bytes(&opened.scene));
         Ok(Some(opened))
     }
 
@@ -113,12 +115,12 @@ impl Library {
     ///
     /// # Errors
     /// When its file cannot be read any more.
-    pub async fn map(&self, hash: &ContentHash) -> Result<Option<Arc<LaneMap>>, Problem> {
+    pub async fn map(&self, hash: &ContentHash) -> Result<Option<Shared<LaneMap>>, Problem> {
         let hex = hash.hex();
         let holder = self
             .with(|entries| entries.values().find(|e| e.item.map_sha256 == hex).map(|e| e.item.id.clone()));
         match holder {
-            Some(id) => Ok(self.open(&id).await?.map(|opened| Arc::clone(&opened.scene.map))),
+            Some(id) => Ok(self.open(&id).await?.map(|opened| opened.scene.map.clone())),
             None => Ok(None),
         }
     }

@@ -3,10 +3,12 @@
 mod catalog;
 mod item;
 mod library;
+mod opened;
 pub mod record;
 pub mod store;
 pub mod transfer;
 
 pub use catalog::{Catalog, bytes_of, map_bytes, not_found};
-pub use item::{Counts, Facts, Item};
+pub use item::{Counts, Facts, Item, tags_of};
 pub use library::Library;
+pub use opened::Standings;

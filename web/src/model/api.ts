@@ -513,6 +513,18 @@ export interface components {
          */
         All: "all";
         /**
+         * AnswerSample
+         * @description One joint scene of the answer. Its score stands in `scores`.
+         */
+        AnswerSample: {
+            /** @description Road user's id to its futures. */
+            agents: {
+                [key: string]: components["schemas"]["FuturesDoc"];
+            };
+            /** @description Empty here; a place for the score when it is saved. */
+            score: unknown;
+        };
+        /**
          * AreaDoc
          * @description A crosswalk, speed bump or driveway.
          */
@@ -642,6 +654,60 @@ export interface components {
              * @description Scene time of the first moment over the threshold, seconds.
              */
             time_s: number;
+        };
+        /**
+         * CompactFuture
+         * @description One possible motion. The first number of a column is its value at the first step, the second how much the
+         *     next value is greater, and each further one by how much that changes: with two running sums the columns of a
+         *     scene document come out, to the last digit.
+         */
+        CompactFuture: {
+            /**
+             * Format: uint32
+             * @description Which of the generator's anchors it follows.
+             */
+            anchor?: number | null;
+            /** @description What is wrong with it, the worst first. */
+            faults?: components["schemas"]["Fault"][];
+            /**
+             * Format: uint64
+             * @description Scene step of the first value.
+             */
+            first_step: number;
+            /** @description Ten-thousandths of a radian. */
+            heading_e4rad: number[];
+            /** @description What it does. */
+            manoeuvre?: components["schemas"]["Manoeuvre"] | null;
+            /**
+             * Format: double
+             * @description Share of belief among the road user's futures.
+             */
+            probability: number;
+            /** @description How it stands to others. */
+            relations?: components["schemas"]["Relation"][];
+            /** @description Millimetres a second. */
+            vx_mmps: number[];
+            /** @description Millimetres a second. */
+            vy_mmps: number[];
+            /** @description Box centre, millimetres. */
+            x_mm: number[];
+            /** @description Box centre, millimetres. */
+            y_mm: number[];
+        };
+        /**
+         * CompactFuturesDoc
+         * @description The futures of one road user, compact.
+         */
+        CompactFuturesDoc: {
+            /**
+             * Format: uint64
+             * @description Index into `compact` of the one that is shown and exported.
+             */
+            chosen: number;
+            /** @description By falling probability. */
+            compact: components["schemas"]["CompactFuture"][];
+            /** @description Why it gave up the motion that it had. */
+            reaction?: components["schemas"]["Reaction"] | null;
         };
         /**
          * Condition
@@ -783,7 +849,7 @@ export interface components {
         DraftEvent: {
             /** @description Futures by road user; the chosen ones alone, or all as `stream_modes` says. */
             agents: {
-                [key: string]: components["schemas"]["AgentFuturesDoc"];
+                [key: string]: components["schemas"]["FuturesDoc"];
             };
             /**
              * Format: double
@@ -991,7 +1057,10 @@ export interface components {
              * @constant
              */
             event: "final";
-            /** @description The scene's `generated` member, all but `samples`: put `samples` in and save. */
+            /**
+             * @description The scene's `generated` member, all but `samples`: put `samples` in and save (those in
+             *     compact form as columns).
+             */
             generated: components["schemas"]["GeneratedHead"];
             /** @description Id of the job. */
             job: string;
@@ -1005,7 +1074,7 @@ export interface components {
              */
             revision?: number;
             /** @description Joint scenes. */
-            samples: components["schemas"]["SampleDoc"][];
+            samples: components["schemas"]["AnswerSample"][];
             /** @description One report a sample, or null when none was asked for. */
             scores: components["schemas"]["ScoreReply"][] | null;
             /**
@@ -1086,6 +1155,16 @@ export interface components {
             y_m: number[];
         };
         /**
+         * FuturesDoc
+         * @description The futures of one road user in a reply, as `futures` of the request says.
+         */
+        FuturesDoc: components["schemas"]["AgentFuturesDoc"] | components["schemas"]["CompactFuturesDoc"];
+        /**
+         * FuturesForm
+         * @description How the futures of a reply are written.
+         */
+        FuturesForm: "columns" | "compact";
+        /**
          * GenerateRequest
          * @description Body of a generation. Exactly one of `scene` and `scene_id` is given.
          */
@@ -1123,6 +1202,8 @@ export interface components {
              * @default null
              */
             etag?: string | null;
+            /** @description How futures are written, in drafts and in `final`. */
+            futures?: components["schemas"]["FuturesForm"];
             /**
              * Format: double
              * @description Seconds to generate. More than 9 is planned window after window.
@@ -5755,6 +5836,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description store-full */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-full";
                     };
                 };
             };

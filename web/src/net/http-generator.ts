@@ -188,7 +188,12 @@ export class HttpGenerator implements Generator {
   }
 
   private post(scene: SceneRef, me: Running): Promise<Response> {
-    const rest = JSON.stringify({ client: this.name, revision: me.revision, ...me.question.options });
+    const rest = JSON.stringify({
+      client: this.name,
+      revision: me.revision,
+      futures: 'compact',
+      ...me.question.options,
+    });
     const part = 'id' in scene ? `"scene_id":${JSON.stringify(scene.id)}` : `"scene":${this.textOf(scene.scene)}`;
     return this.client.send('/v1/generate', {
       method: 'POST',

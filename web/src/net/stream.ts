@@ -1,5 +1,6 @@
 // Reads a fetch body as newline-delimited JSON. EventSource cannot POST, so the stream is read by hand.
 import type { GenerateEvent } from './types';
+import { expanded } from './compact';
 import { parseLater } from './decoder';
 
 /** Lines longer than this are parsed off the main thread: they cost more than 2 ms here. */
@@ -28,5 +29,7 @@ export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenera
   }
 }
 
-const parse = (line: string): GenerateEvent | Promise<GenerateEvent> =>
-  line.length > LONG_LINE ? (parseLater(line) as Promise<GenerateEvent>) : (JSON.parse(line) as GenerateEvent);
+type Sent = Parameters<typeof expanded>[0];
+
+const parse = async (line: string): Promise<GenerateEvent> =>
+  expanded((line.length > LONG_LINE ? await parseLater(line) : JSON.parse(line)) as Sent);

@@ -1,7 +1,7 @@
 // The API as the editor uses it: names for parts of the generated document. What the editor does, a script can do:
 // nothing here is private.
 import type { components } from '../model/api';
-import type { SceneJson } from '../model/json';
+import type { AgentFuturesJson, SceneJson } from '../model/json';
 
 type Schemas = components['schemas'];
 
@@ -24,9 +24,15 @@ export type GenerateOptions = Pick<Schemas['GenerateRequest'], 'horizon_s' | 'pi
     >
   >;
 
-export type GenerateEvent = Schemas['Event'];
-export type DraftEvent = Schemas['DraftEvent'];
-export type FinalEvent = Schemas['FinalEvent'];
+/** Events as the editor reads them: futures in columns, however they were sent. */
+type InColumns<T> = Omit<T, 'agents'> & { agents: Record<string, AgentFuturesJson> };
+
+export type DraftEvent = InColumns<Schemas['DraftEvent']>;
+export type FinalEvent = Omit<Schemas['FinalEvent'], 'samples'> & {
+  samples: InColumns<Schemas['FinalEvent']['samples'][number]>[];
+};
+export type GenerateEvent =
+  Exclude<Schemas['Event'], Schemas['DraftEvent'] | Schemas['FinalEvent']> | DraftEvent | FinalEvent;
 
 export type Resolved = Schemas['Resolved'];
 export type ScoreReply = Schemas['ScoreReply'];

@@ -51,7 +51,7 @@ impl PlacedAgent {
             subtype: self.subtype,
             role: None,
             size: self.size,
-            track: Track { first_step: step, states: vec![Some(state)], z_m: None },
+            track: Track { first_step: step, states: vec![Some(state)], z_m: None }.into(),
             conditions: Conditions { start, ..Conditions::default() },
         }
     }

@@ -27,7 +27,7 @@ fn each_takes_away_its_own_part_alone() {
         assert_eq!(free.features.own, all.features.own);
         // The anchors of the same car where no lane is near.
         let mut bare = scene.clone();
-        bare.map = Arc::new(LaneMap::default());
+        bare.map = LaneMap::default().into();
         let bare = planned(&bare, Planning::default());
         let points = |p: &AgentPlan| p.anchors.iter().map(|a| a.path.points().to_vec()).collect::<Vec<_>>();
         assert_eq!(points(&free), points(&bare));

@@ -65,7 +65,7 @@ fn who_is_alone_is_neither_pushed_nor_settled() {
     let mut scene = crossing();
     scene.agents.truncate(1);
     // Nor is there a kerb.
-    scene.map = Arc::default();
+    scene.map = Default::default();
     let full = Refining::default();
     let all = drawn(scene.clone(), 1, full).samples;
     assert!(all == drawn(scene.clone(), 1, Refining { repulsion: false, ..full }).samples);

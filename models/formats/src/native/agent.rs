@@ -248,7 +248,7 @@ impl AgentDoc {
             subtype: self.subtype,
             role: self.role,
             size,
-            track,
+            track: track.into(),
             conditions,
         })
     }

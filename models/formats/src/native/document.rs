@@ -8,10 +8,9 @@ use super::map::{MapDoc, MapField, MapRef};
 use super::value::{Members, PointDoc};
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
 use crate::problem::{FieldProblem, Problems, ReadError, code};
-use scene::{Agent, ContentHash, LaneMap, Meta, Origin, STEP_S, Scene, Signal, SignalState, Timing};
+use scene::{Agent, ContentHash, LaneMap, Meta, Origin, STEP_S, Scene, Shared, Signal, SignalState, Timing};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// Value of the `format` member.
 pub const FORMAT: &str = "dragtraffic.scene";
@@ -53,6 +52,7 @@ pub struct MetaDoc {
     #[serde(deserialize_with = "bounded::<_, _, 256>")]
     pub tags: Vec<String>,
     /// Free text.
+    #[schemars(length(max = 10_000))]
     pub notes: String,
     /// Version of the program that made it.
     pub created_with: Option<String>,
@@ -151,6 +151,7 @@ pub struct SceneDoc {
     pub id: Option<String>,
     /// For people.
     #[serde(default)]
+    #[schemars(length(max = 200))]
     pub name: String,
     /// Where it came from.
     #[serde(default)]
@@ -188,7 +189,7 @@ impl SceneDoc {
     /// `unsupported-version`, `unknown-map`, and all faults of fields with their JSON pointers.
     pub fn into_scene(
         self,
-        resolve_map: impl FnOnce(&ContentHash) -> Option<Arc<LaneMap>>,
+        resolve_map: impl FnOnce(&ContentHash) -> Option<Shared<LaneMap>>,
     ) -> Result<Scene, ReadError> {
         self.check_head()?;
         let map = self.map.into_map(resolve_map)?;

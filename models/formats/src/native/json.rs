@@ -1,5 +1,6 @@
 //! From bytes to a typed document with the place of the fault.
 
+use super::objects::Objects;
 use crate::problem::{FieldProblem, ReadError, code, pointer_token};
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
@@ -8,14 +9,15 @@ use serde_path_to_error::{Path, Segment};
 /// Longest message: it may quote the document.
 const MAX_DETAIL: usize = 300;
 
-/// Parses JSON into any document type.
+/// Parses JSON into any document type. A list is never taken for an object.
 ///
 /// # Errors
 /// `malformed-json` with line and column for text that is not JSON (including NaN, numbers beyond
 /// f64 and nesting over 128); `invalid-field` with a JSON pointer for a wrong type, an unknown,
 /// missing or repeated member.
 pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, ReadError> {
-    match serde_json::from_slice(bytes) {
+    let mut parser = serde_json::Deserializer::from_slice(bytes);
+    match T::deserialize(Objects(&mut parser)).and_then(|value| parser.end().map(|()| value)) {
         Ok(value) => Ok(value),
         // The plain parser is twice as fast; the one that tracks places runs only for a fault.
         Err(error) => Err(locate::<T>(bytes, &error)),
@@ -27,7 +29,7 @@ fn locate<T: DeserializeOwned>(bytes: &[u8], error: &serde_json::Error) -> ReadE
         return ReadError::malformed_json(error.line(), error.column(), reason(error));
     }
     let mut parser = serde_json::Deserializer::from_slice(bytes);
-    let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(&mut parser) {
+    let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(Objects(&mut parser)) {
         Err(error) => (pointer_of(error.path()), plain_words(error.inner())),
         Ok(_) => (String::new(), plain_words(error)),
     };

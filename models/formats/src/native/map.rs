@@ -5,7 +5,7 @@ use super::value::{PointDoc, PointsDoc, id, words};
 use crate::limits::MAX_POLYLINES;
 use scene::map::LaneType;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// One more than a map may have: enough to be refused for, however many a document holds.
 const LINES: usize = MAX_POLYLINES + 1;
@@ -243,7 +243,7 @@ pub struct MapRef {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct MapWire {
-    #[serde(rename = "ref")]
+    #[serde(rename = "ref", deserialize_with = "given")]
     reference: Option<String>,
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     lanes: Vec<LaneDoc>,
@@ -261,6 +261,11 @@ struct MapWire {
     stop_signs: Vec<StopSignDoc>,
     #[serde(deserialize_with = "capped::<_, _, LINES>")]
     drivable: Vec<DrivableDoc>,
+}
+
+/// A member that is there is not null: an empty map must not come of it.
+fn given<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
+    String::deserialize(deserializer).map(Some)
 }
 
 impl TryFrom<MapWire> for MapField {

@@ -8,18 +8,17 @@ use super::value::{PointDoc, PointsDoc};
 use crate::limits::MAX_POLYLINES;
 use crate::problem::{FieldProblem, Problems, ReadError, code};
 use scene::map::{Area, Boundary, Lane, Neighbor, StopSign, TypedLine};
-use scene::{ContentHash, LaneMap};
+use scene::{ContentHash, LaneMap, Shared};
 use std::collections::HashSet;
-use std::sync::Arc;
 
 impl MapField {
     /// The map itself; `resolve` looks a hash up.
     pub(crate) fn into_map(
         self,
-        resolve: impl FnOnce(&ContentHash) -> Option<Arc<LaneMap>>,
-    ) -> Result<Arc<LaneMap>, ReadError> {
+        resolve: impl FnOnce(&ContentHash) -> Option<Shared<LaneMap>>,
+    ) -> Result<Shared<LaneMap>, ReadError> {
         match self {
-            Self::Inline(map) => map.into_map().map(Arc::new),
+            Self::Inline(map) => map.into_map().map(Shared::from),
             Self::Ref(MapRef { hash }) => {
                 let found = hash.strip_prefix("sha256:").and_then(ContentHash::from_hex);
                 let Some(key) = found else {

@@ -14,6 +14,7 @@ mod json;
 mod lists;
 mod map;
 mod map_domain;
+mod objects;
 mod resolve;
 mod value;
 

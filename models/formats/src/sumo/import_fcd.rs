@@ -8,9 +8,10 @@ use super::window::{Between, MAX_FILLED_S, SAME_S, Sample, between, track};
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
 use scene::geometry::direction;
-use scene::{Agent, AgentType, Conditions, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene, Timing, Vec2};
+use scene::{
+    Agent, AgentType, Conditions, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene, Shared, Timing, Vec2,
+};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 /// Steps of a scene: 9.1 s, as recordings of other sources have.
 pub(super) const STEPS: usize = 91;
@@ -200,7 +201,7 @@ impl<'a> Windows<'a> {
                 subtype: user.kind.subtype,
                 role: None,
                 size: user.kind.size,
-                track,
+                track: track.into(),
                 conditions: Conditions::default(),
             });
         }
@@ -221,7 +222,7 @@ impl<'a> Windows<'a> {
                 ..Meta::default()
             },
             time: Timing { steps, now_step: NOW_STEP.min(steps - 1) },
-            map: self.common.net.map_or_else(Arc::default, |net| net.map.clone()),
+            map: self.common.net.map_or_else(Shared::default, |net| net.map.clone()),
             signals: self.common.net.map_or_else(Vec::new, |net| net.signals(start_s, steps)),
             agents,
             generated: None,

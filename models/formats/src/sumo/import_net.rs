@@ -8,9 +8,8 @@ use super::unpack;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS};
 use crate::problem::{FieldProblem, ReadError, Warning, code};
 use scene::map::LaneMap;
-use scene::{MAX_COORDINATE_M, STEP_S, Signal, Vec2};
+use scene::{MAX_COORDINATE_M, STEP_S, Shared, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
-use std::sync::Arc;
 
 /// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
 const MAX_BYTES: u64 = 64 << 20;
@@ -21,7 +20,7 @@ pub(super) const MAX_SOURCE_M: f64 = 1e8;
 #[derive(Clone, Debug)]
 pub(super) struct NetScene {
     /// About the origin.
-    pub map: Arc<LaneMap>,
+    pub map: Shared<LaneMap>,
     /// Where the origin lies in the network's frame, whole metres.
     pub origin: Vec2,
     /// Half the size of the box round all lanes, metres.
@@ -57,7 +56,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<NetScene, ReadError> {
     }
     // Of programs with the same id the simulation runs the one loaded last.
     let programs = net.programs.into_iter().map(|p| (p.id.clone(), p)).collect();
-    Ok(NetScene { map: Arc::new(drawn.map), origin, half, warnings, places, programs })
+    Ok(NetScene { map: drawn.map.into(), origin, half, warnings, places, programs })
 }
 
 impl NetScene {

@@ -8,7 +8,6 @@ use crate::problem::{FieldProblem, Imported, ReadError, Warning};
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 /// Role of the vehicle that recorded the scene.
 pub(crate) const EGO: &str = "ego";
@@ -86,7 +85,7 @@ pub fn scene(scenario: Scenario, options: &Options) -> Result<Imported, ReadErro
         name: id,
         meta,
         time: Timing { steps, now_step },
-        map: Arc::new(map),
+        map: map.into(),
         signals,
         agents,
         generated: None,
@@ -196,7 +195,10 @@ fn agent(track: &Track, id: String, role: Option<String>, now: usize, origin: Ve
     let z_m = known().any(|s| s.center_z.is_some()).then(|| track.states.iter().map(heights).collect());
     let track = scene::Track { first_step: 0, states, z_m };
     let subtype = Subtype::Unknown;
-    (Agent { id, agent_type, subtype, role, size, track, conditions: Conditions::default() }, varies)
+    (
+        Agent { id, agent_type, subtype, role, size, track: track.into(), conditions: Conditions::default() },
+        varies,
+    )
 }
 
 fn state(state: &ObjectState, origin: Vec2) -> State {

@@ -13,7 +13,6 @@ use formats::sumo::polyline::contains;
 use scene::geometry::{cross, direction};
 use scene::{Agent, AgentType, Conditions, Meta, Scene, Size, State, Subtype, Timing, Track, Vec2};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Half a side of the square that a demo shows, metres.
 const SHOWN_M: f64 = 110.0;
@@ -207,7 +206,7 @@ impl Demo {
                 ..Meta::default()
             },
             time: Timing { steps: STEPS, now_step: NOW },
-            map: Arc::new(map),
+            map: map.into(),
             signals,
             agents,
             generated: None,
@@ -361,7 +360,7 @@ fn agent(n: usize, actor: &Actor, states: Vec<Option<State>>) -> Agent {
         subtype: actor.subtype,
         role: role.map(str::to_owned),
         size: body,
-        track: Track { first_step: 0, states, z_m: None },
+        track: Track { first_step: 0, states, z_m: None }.into(),
         conditions: Conditions::default(),
     }
 }

@@ -8,7 +8,6 @@ use scene::geometry::{cross, direction};
 use scene::map::{LaneMap, LaneType};
 use scene::score::{Drivable, ScoreInput, score};
 use scene::{Agent, AgentType, STEP_S, Scene, State, Vec2, wrap_angle};
-use std::sync::Arc;
 
 /// Lanes shorter than this that lead nowhere are left-overs of the cut, metres.
 const FRAGMENT_M: f64 = 30.0;
@@ -37,7 +36,7 @@ pub fn mend(mut scene: Scene, half: f64) -> Scene {
     for agent in scene.agents.iter_mut().filter(|a| a.agent_type == AgentType::Vehicle) {
         keep_on_road(agent, &drivable);
     }
-    scene.map = Arc::new(map);
+    scene.map = map.into();
     calm(&mut scene, &drivable);
     scene
 }
@@ -198,7 +197,8 @@ mod tests {
             subtype: Subtype::Car,
             role: None,
             size: Size { length_m: 4.0, width_m: 2.0, height_m: None },
-            track: Track { first_step: 0, states: (0..91).map(|i| Some(state(i))).collect(), z_m: None },
+            track: Track { first_step: 0, states: (0..91).map(|i| Some(state(i))).collect(), z_m: None }
+                .into(),
             conditions: Conditions::default(),
         };
         keep_on_road(&mut agent, &drivable);

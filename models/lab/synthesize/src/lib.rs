@@ -38,8 +38,8 @@ use scene::random::Stream;
 use scene::{AgentType, STEP_S, Scene};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
 
 /// Simulated seconds before recording begins.
 const WARM_UP_S: f64 = 90.0;
@@ -267,7 +267,7 @@ fn write(path: &Path, scenes: &[Scene]) -> std::io::Result<()> {
 fn without_footways(scene: &Scene) -> Scene {
     let mut map = (*scene.map).clone();
     map.lanes.retain(|l| !matches!(l.lane_type, LaneType::Sidewalk | LaneType::Parking));
-    Scene { map: Arc::new(map), ..scene.clone() }
+    Scene { map: map.into(), ..scene.clone() }
 }
 
 impl SynthesizeReport {

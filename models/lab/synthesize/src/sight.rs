@@ -131,7 +131,7 @@ mod tests {
             subtype: Subtype::default(),
             role: None,
             size: Size { length_m: size[0], width_m: size[1], height_m: Some(size[2]) },
-            track: Track { first_step: 0, states: vec![Some(state); 20], z_m: None },
+            track: Track { first_step: 0, states: vec![Some(state); 20], z_m: None }.into(),
             conditions: Conditions::default(),
         }
     }

@@ -398,7 +398,7 @@ mod tests {
             subtype: Subtype::Car,
             role: None,
             size: Size { length_m: 4.0, width_m: 2.0, height_m: None },
-            track: Track { first_step: 0, states: states.collect(), z_m: None },
+            track: Track { first_step: 0, states: states.collect(), z_m: None }.into(),
             conditions: scene::Conditions::default(),
         }
     }

@@ -8,7 +8,6 @@ use scene::map::{Area, Lane, LaneMap, Points, TypedLine};
 use scene::random::Stream;
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Signal, State, Timing, Track, Vec2};
 use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
 
 /// Steps of a window.
 pub const STEPS: usize = 91;
@@ -188,7 +187,7 @@ fn window(recording: &Recording, start: usize, cast: &Cast, id: String, name: St
             subtype: actor.subtype,
             role: role.map(str::to_owned),
             size: actor.size,
-            track: Track { first_step: 0, states, z_m: None },
+            track: Track { first_step: 0, states, z_m: None }.into(),
             conditions: Conditions::default(),
         });
     }
@@ -210,7 +209,7 @@ fn window(recording: &Recording, start: usize, cast: &Cast, id: String, name: St
             ..Meta::default()
         },
         time: Timing { steps: STEPS, now_step: NOW },
-        map: Arc::new(map),
+        map: map.into(),
         signals,
         agents,
         generated: None,

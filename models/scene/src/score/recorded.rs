@@ -55,18 +55,20 @@ pub(crate) fn mark_steering(input: &ScoreInput<'_>, actor: &Actor<'_>, found: &m
     mark(actor, found, SAME_HARSH_MPS2, |a| kinematic::harsh_steering(a, input));
 }
 
-/// Marks red lights that are run in the log.
-pub(super) fn mark_red_lights(input: &ScoreInput<'_>, found: &mut [RedLight]) {
-    let of = |id: &str| input.actors.iter().find(|a| a.id == id);
-    let runners: Vec<Actor<'_>> =
-        found.iter().filter_map(|r| of(&r.agent).filter(|a| a.generated).and_then(as_recorded)).collect();
-    let log = if runners.is_empty() {
-        Vec::new()
-    } else {
-        signals::red_lights(&ScoreInput { actors: runners, ..input.clone() })
-    };
+/// Marks red lights that one road user runs in the log too.
+pub(super) fn mark_red_lights(
+    input: &ScoreInput<'_>,
+    actor: &Actor<'_>,
+    lines: &[signals::StopLine<'_>],
+    found: &mut [RedLight],
+) {
+    if found.is_empty() {
+        return;
+    }
+    let recorded = as_recorded(actor).filter(|_| actor.generated);
+    let log = recorded.map(|a| signals::crossed_at_red(input, &a, lines)).unwrap_or_default();
     for red in found {
-        red.in_log = of(&red.agent).is_some_and(|a| !a.generated) || log.iter().any(|l| is_same(l, red));
+        red.in_log = !actor.generated || log.iter().any(|l| is_same(l, red));
     }
 }
 

@@ -210,6 +210,7 @@ impl SceneScore {
         self.near_misses = pairs.near_misses;
         self.collisions.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.near_misses.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        self.red_lights.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.offroad_share = share(self.offroad_steps, self.road_steps);
         self.offroad_max_m = maximum(agents.iter().map(|a| a.offroad_max_m));
         self.assumed_width = input.drivable.assumed_width();

@@ -27,18 +27,6 @@ pub(crate) struct StopLine<'a> {
     goes_on: bool,
 }
 
-/// All crossings at red by vehicles and cyclists, by time.
-///
-/// Where several lanes part at one line, the lane that the road user takes decides; flashing red counts
-/// as a stop sign and is left out; a right turn after a stop is allowed when the thresholds say so.
-pub fn red_lights(input: &ScoreInput<'_>) -> Vec<RedLight> {
-    let lines = stop_lines(input);
-    let mut found: Vec<RedLight> =
-        input.actors.iter().flat_map(|actor| crossed_at_red(input, actor, &lines)).collect();
-    found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
-    found
-}
-
 /// The stop lines of the input's signals.
 pub(crate) fn stop_lines<'a>(input: &ScoreInput<'a>) -> Vec<StopLine<'a>> {
     if input.signals.is_empty() {
@@ -77,7 +65,10 @@ struct Crossing<'a, 'b> {
     off_lane_m: f64,
 }
 
-/// Lines that one road user crosses at red.
+/// Lines that a vehicle or cyclist crosses at red.
+///
+/// Where several lanes part at one line, the lane that the road user takes decides; flashing red counts
+/// as a stop sign and is left out; a right turn after a stop is allowed when the thresholds say so.
 pub(crate) fn crossed_at_red(
     input: &ScoreInput<'_>,
     actor: &Actor<'_>,
@@ -225,7 +216,8 @@ mod tests {
         let drivable = Drivable::default();
         let mut input = input_of(vec![straight("a", AgentType::Vehicle, (0.0, 0.0), 0.0, 10.0)], &drivable);
         (input.map, input.signals) = (&map, signals);
-        red_lights(&input).into_iter().map(|r| (r.lane, r.time_s)).collect()
+        let lines = stop_lines(&input);
+        crossed_at_red(&input, &input.actors[0], &lines).into_iter().map(|r| (r.lane, r.time_s)).collect()
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! `dragtraffic eval` and `bench`.
 
-use super::{SceneArgs, failed, print_json, scenes};
+use super::{SceneArgs, failed, http_bench, print_json, scenes};
 use crate::cli::{Common, Exit, Failure, generator, output};
 use clap::Args;
 use experts::Tuning;
@@ -53,6 +53,9 @@ pub struct EvalArgs {
 pub struct BenchArgs {
     #[command(flatten)]
     scenes: SceneArgs,
+    /// Over HTTP: a server is started beside, and each call's time stands beside what the engine took of it.
+    #[arg(long)]
+    http: bool,
 }
 
 /// Seconds as steps of the scene.
@@ -128,12 +131,15 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     output::print(format!("{}{cost}", report.markdown()).as_bytes())
 }
 
-/// Times answers at one thread and at two.
+/// Times answers: the engine's at one thread and at two, or a server's.
 ///
 /// # Errors
 /// Exit 3 when nothing can be read, 7 without weights.
 pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
+    if args.http {
+        return print_json(&http_bench::latency(&scenes, common)?);
+    }
     let mut rows = Vec::new();
     for threads in [1, 2] {
         let generator = generator(common)?.with_threads(threads);

@@ -1,6 +1,7 @@
 //! How experts are made and judged: the only folder that knows the lab. One file a command, or a pair.
 
 mod eval;
+mod http_bench;
 mod placement;
 mod prepare;
 mod statistics;

@@ -31,8 +31,34 @@ const STEPS: &[&str] = &["
     CREATE INDEX scenes_by_map ON scenes(map_sha);
 "];
 
+/// `application_id` of our files: "DrTr".
+const OURS: i32 = 0x4472_5472;
+
 /// Newest schema this program knows.
 pub const LATEST: i64 = STEPS.len() as i64;
+
+/// Makes sure that a file is ours, or new, before anything in it is changed. Files of the first schema carry no
+/// `application_id`: they are known by their tables.
+///
+/// # Errors
+/// [`StoreError::Foreign`] for another program's database, [`StoreError::Broken`] for a damaged one.
+pub fn check(connection: &Connection) -> Result<(), StoreError> {
+    let id: i32 = connection.pragma_query_value(None, "application_id", |row| row.get(0))?;
+    let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    let tables = |sql: &str| connection.query_row(sql, [], |row| row.get::<_, i64>(0));
+    let any = tables("SELECT count(*) FROM sqlite_master")?;
+    let own =
+        tables("SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('maps', 'scenes')")?;
+    let fits = if version == 0 { any == 0 } else { own == 2 || version > LATEST };
+    if id != OURS && !(id == 0 && fits) {
+        return Err(StoreError::Foreign);
+    }
+    let found: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
+    if found != "ok" {
+        return Err(StoreError::Broken(found));
+    }
+    Ok(())
+}
 
 /// Brings a file up to date in one transaction, after a copy beside it.
 ///
@@ -43,10 +69,11 @@ pub fn run(connection: &mut Connection, path: &Path) -> Result<(), StoreError> {
     if version > LATEST {
         return Err(StoreError::Newer(version));
     }
-    if version == LATEST {
+    let id: i32 = connection.pragma_query_value(None, "application_id", |row| row.get(0))?;
+    if version == LATEST && id == OURS {
         return Ok(());
     }
-    if version > 0 {
+    if version > 0 && version < LATEST {
         let copy = path.with_extension(format!("v{version}.sqlite"));
         if !copy.exists() {
             connection.execute("VACUUM INTO ?1", [copy.to_string_lossy()])?;
@@ -57,6 +84,7 @@ pub fn run(connection: &mut Connection, path: &Path) -> Result<(), StoreError> {
         transaction.execute_batch(step)?;
     }
     transaction.pragma_update(None, "user_version", LATEST)?;
+    transaction.pragma_update(None, "application_id", OURS)?;
     transaction.commit()?;
     Ok(())
 }

@@ -4,13 +4,17 @@
 //! its own: nothing else runs on them. A write is answered after its commit, so a reply of success
 //! survives a power cut.
 
+mod list;
 mod migrations;
 mod records;
+mod reserve;
 
+pub use list::{Page, Sort};
 pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
 
 use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
+use reserve::Reserve;
 use rusqlite::{Connection, OpenFlags};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
@@ -34,6 +38,12 @@ pub enum StoreError {
     /// Written by a later version of the program.
     #[error("the file has schema {0}, this program knows up to {known}", known = migrations::LATEST)]
     Newer(i64),
+    /// The file holds something else than scenes.
+    #[error("the file is another program's database; choose another one with --db")]
+    Foreign,
+    /// The database library finds the file damaged.
+    #[error("the file is damaged: {0}")]
+    Broken(String),
     /// The precondition names another version.
     #[error("the scene has changed in the meantime")]
     Stale {
@@ -84,15 +94,25 @@ pub struct Store {
     writer: mpsc::Sender<Work>,
     readers: mpsc::Sender<Query>,
     limits: Arc<Limits>,
+    reserve: Arc<Reserve>,
+}
+
+impl StoreError {
+    /// The disk has no room.
+    fn is_disk_full(&self) -> bool {
+        matches!(self, Self::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == rusqlite::ErrorCode::DiskFull)
+    }
 }
 
 impl Store {
     /// Opens or makes the file and brings its schema up to date.
     ///
     /// # Errors
-    /// When the file cannot be opened, is no database, or is of a later version.
+    /// When the file cannot be opened, is no database, is damaged, another program's, or of a later version.
     pub fn open(path: &Path, limits: &Arc<Limits>) -> Result<Self, StoreError> {
+        reserve::make_private(path)?;
         let mut connection = Connection::open(path)?;
+        migrations::check(&connection)?;
         prepare(&connection)?;
         migrations::run(&mut connection, path)?;
         let (writer, work) = mpsc::channel::<Work>();
@@ -107,7 +127,8 @@ impl Store {
                 }
             })?;
         }
-        Ok(Self { writer, readers, limits: Arc::clone(limits) })
+        let reserve = Arc::new(Reserve::beside(path));
+        Ok(Self { writer, readers, limits: Arc::clone(limits), reserve })
     }
 
     /// Runs a read on one of the reading connections.
@@ -147,13 +168,33 @@ impl Store {
             let _ = reply.send(result);
         });
         self.writer.send(work).map_err(|_| StoreError::Closed)?;
+        let result = done.await.unwrap_or(Err(StoreError::Closed));
+        match &result {
+            Ok(_) => self.reserve.note(false),
+            Err(error) if error.is_disk_full() => self.reserve.note(true),
+            Err(_) => {}
+        }
+        result
+    }
+
+    /// Puts the log's pages to their places and the log back to nothing, which gives its room to the disk.
+    async fn empty_log(&self) -> Result<(), StoreError> {
+        let (reply, done) = oneshot::channel();
+        let work: Work = Box::new(move |connection| {
+            let empty = connection.query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()));
+            let _ = reply.send(empty.map_err(StoreError::from));
+        });
+        self.writer.send(work).map_err(|_| StoreError::Closed)?;
         done.await.unwrap_or(Err(StoreError::Closed))
     }
 
-    /// True when a change can be begun.
+    /// True when a change is written.
     pub async fn is_writable(&self) -> bool {
-        let probe = self.write(|tx| Ok(tx.query_row("SELECT 1", [], |row| row.get::<_, i64>(0))?));
-        matches!(tokio::time::timeout(Duration::from_secs(2), probe).await, Ok(Ok(1)))
+        if self.reserve.is_full() {
+            return false;
+        }
+        let probe = self.write(|tx| Ok(tx.pragma_update(None, "user_version", migrations::LATEST)?));
+        matches!(tokio::time::timeout(Duration::from_secs(2), probe).await, Ok(Ok(())))
     }
 }
 

@@ -120,9 +120,10 @@ pub enum Expect {
     Etags(Vec<String>),
 }
 
-const SUMMARY: &str = "id, name, etag, tags, parent_id, map_sha, meta, length(body), created_at, updated_at";
+pub(super) const SUMMARY: &str =
+    "id, name, etag, tags, parent_id, map_sha, meta, length(body), created_at, updated_at";
 
-fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
+pub(super) fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
     Ok(SceneSummary {
         id: row.get(0)?,
         name: row.get(1)?,
@@ -138,16 +139,6 @@ fn summary(row: &Row<'_>) -> rusqlite::Result<SceneSummary> {
 }
 
 impl Store {
-    /// All scenes without their bodies.
-    pub async fn list(&self) -> Result<Vec<SceneSummary>, StoreError> {
-        self.read(|connection| {
-            let mut query = connection.prepare_cached(&format!("SELECT {SUMMARY} FROM scenes"))?;
-            let rows = query.query_map([], summary)?;
-            Ok(rows.collect::<Result<_, _>>()?)
-        })
-        .await
-    }
-
     /// A scene's facts and its JSON (map by reference).
     pub async fn get(&self, id: &str) -> Result<Option<(SceneSummary, Vec<u8>)>, StoreError> {
         let id = id.to_owned();
@@ -158,6 +149,16 @@ impl Store {
                 query.query_row([id], |row| Ok((summary(row)?, row.get::<_, Vec<u8>>(10)?))).optional()?;
             let Some((summary, packed)) = row else { return Ok(None) };
             Ok(Some((summary, zstd::decode_all(packed.as_slice())?)))
+        })
+        .await
+    }
+
+    /// The ETag of a scene; `None` when nothing has the id.
+    pub async fn etag(&self, id: &str) -> Result<Option<String>, StoreError> {
+        let id = id.to_owned();
+        self.read(move |connection| {
+            let mut query = connection.prepare_cached("SELECT etag FROM scenes WHERE id = ?1")?;
+            Ok(query.query_row([id], |row| row.get(0)).optional()?)
         })
         .await
     }
@@ -176,9 +177,9 @@ impl Store {
                         return Err(StoreError::Full(format!("{count} scenes are stored.")));
                     }
                 }
-                if file_bytes(tx)? >= limits.store_bytes {
-                    return Err(StoreError::Full("The file has reached its size.".into()));
-                }
+                let before = stored.as_ref().map_or(0, |s| s.bytes);
+                let map_bytes = map_body.as_ref().map_or(0, Vec::len) as u64;
+                make_room(tx, (body.len() as u64).saturating_sub(before) + map_bytes, limits.store_bytes)?;
                 keep_map(tx, &record.map, map_body.as_deref())?;
                 let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
                 let etag = etag(rev, &record.json);
@@ -186,21 +187,31 @@ impl Store {
                 Ok(Written { etag, created: stored.is_none() })
             })
             .await?;
-        self.measure().await?;
+        self.tell_size().await;
         Ok(written)
     }
 
-    /// Deletes a scene.
+    /// Deletes a scene, on a full disk too: the room that is kept for that is given up then.
     pub async fn delete(&self, id: &str, expect: Expect) -> Result<(), StoreError> {
-        let id = id.to_owned();
-        self.write(move |tx| {
-            let stored = current(tx, &id)?.ok_or(StoreError::Missing)?;
-            check(&expect, Some(&stored))?;
-            tx.execute("DELETE FROM scenes WHERE id = ?1", [&id])?;
-            Ok(())
-        })
-        .await?;
-        self.measure().await
+        let delete = |id: String, expect: Expect| {
+            self.write(move |tx| {
+                let stored = current(tx, &id)?.ok_or(StoreError::Missing)?;
+                check(&expect, Some(&stored))?;
+                tx.execute("DELETE FROM scenes WHERE id = ?1", [&id])?;
+                Ok(())
+            })
+        };
+        match delete(id.to_owned(), expect.clone()).await {
+            Err(error) if error.is_disk_full() && self.reserve.give_up() => {
+                delete(id.to_owned(), expect).await?;
+                // Without this the log would take the room that is kept for the next delete.
+                self.empty_log().await?;
+                self.reserve.restore();
+            }
+            done => done?,
+        }
+        self.tell_size().await;
+        Ok(())
     }
 
     /// JSON of a map.
@@ -241,12 +252,20 @@ impl Store {
 
     /// Puts the store's size into the metrics.
     pub async fn measure(&self) -> Result<(), StoreError> {
+        self.reserve.restore();
         self.read(|connection| {
             let scenes: i64 = connection.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
-            metrics::store(scenes.unsigned_abs(), file_bytes(connection)?);
+            metrics::store(scenes.unsigned_abs(), used_bytes(connection)?);
             Ok(())
         })
         .await
+    }
+
+    /// The same after a write, which is done whether its size can be told or not.
+    async fn tell_size(&self) {
+        if let Err(error) = self.measure().await {
+            tracing::warn!(%error, "the store's size cannot be told");
+        }
     }
 }
 
@@ -254,12 +273,17 @@ struct Stored {
     rev: i64,
     etag: String,
     updated_at: String,
+    /// Of its body as it is stored.
+    bytes: u64,
 }
 
 fn current(tx: &Transaction<'_>, id: &str) -> Result<Option<Stored>, StoreError> {
-    let mut query = tx.prepare_cached("SELECT rev, etag, updated_at FROM scenes WHERE id = ?1")?;
-    let stored = query
-        .query_row([id], |row| Ok(Stored { rev: row.get(0)?, etag: row.get(1)?, updated_at: row.get(2)? }));
+    let mut query =
+        tx.prepare_cached("SELECT rev, etag, updated_at, length(body) FROM scenes WHERE id = ?1")?;
+    let stored = query.query_row([id], |row| {
+        let bytes = row.get::<_, i64>(3)?.unsigned_abs();
+        Ok(Stored { rev: row.get(0)?, etag: row.get(1)?, updated_at: row.get(2)?, bytes })
+    });
     Ok(stored.optional()?)
 }
 
@@ -324,10 +348,26 @@ pub fn etag(rev: i64, json: &[u8]) -> String {
     format!("\"{rev}-{}\"", hash.get(..16).unwrap_or_default())
 }
 
-fn file_bytes(connection: &rusqlite::Connection) -> Result<u64, StoreError> {
-    let pages: i64 = connection.pragma_query_value(None, "page_count", |row| row.get(0))?;
-    let size: i64 = connection.pragma_query_value(None, "page_size", |row| row.get(0))?;
-    Ok((pages * size).unsigned_abs())
+/// Refuses to grow beyond the store's size. Maps that no scene has any more are kept for a while, but not when
+/// there is no room.
+fn make_room(tx: &Transaction<'_>, grows: u64, most: u64) -> Result<(), StoreError> {
+    let fits = |used: u64| grows == 0 || used.saturating_add(grows) <= most;
+    if fits(used_bytes(tx)?) {
+        return Ok(());
+    }
+    tx.execute("DELETE FROM maps WHERE sha NOT IN (SELECT map_sha FROM scenes)", [])?;
+    if fits(used_bytes(tx)?) {
+        Ok(())
+    } else {
+        Err(StoreError::Full("The file has reached its size.".into()))
+    }
+}
+
+/// Pages of the file that hold something: those of what was deleted are free to be written again.
+fn used_bytes(connection: &rusqlite::Connection) -> Result<u64, StoreError> {
+    let number = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i64>(0));
+    let pages = number("page_count")? - number("freelist_count")?;
+    Ok((pages * number("page_size")?).unsigned_abs())
 }
 
 fn seconds_now() -> i64 {

@@ -1,5 +1,5 @@
 use super::records::{Expect, MapRecord, PackedScene, SceneRecord};
-use super::{Store, StoreError};
+use super::{Page, Sort, Store, StoreError};
 use crate::base::limits::Limits;
 use std::sync::Arc;
 
@@ -52,10 +52,116 @@ async fn scenes_share_their_map_and_survive_reopening() {
         store.put("b", Expect::Absent, record("two")).await.unwrap();
     }
     let store = store(&folder, limits);
-    assert_eq!(store.list().await.unwrap().len(), 2);
+    assert_eq!(store.list(page(None, 10), |_| true).await.unwrap().len(), 2);
     assert_eq!(store.maps().await.unwrap().len(), 1);
     store.drop_unused_maps().await.unwrap();
     assert_eq!(store.map("aa").await.unwrap().unwrap(), b"{}");
+}
+
+fn page(after: Option<(&str, &str)>, most: usize) -> Page {
+    let after = after.map(|(key, id)| (key.to_owned(), id.to_owned()));
+    Page { sort: Sort { by_name: true, falls: false }, after, most }
+}
+
+#[tokio::test]
+async fn pages_go_on_where_the_last_one_ended_even_when_its_scene_is_gone() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder, Limits::default());
+    for (id, name) in [("a", "one"), ("b", "two"), ("c", "one"), ("d", "three")] {
+        store.put(id, Expect::Absent, record(name)).await.unwrap();
+    }
+    let ids = async |page: Page| {
+        let rows = store.list(page, |row| row.name != "three").await.unwrap();
+        rows.into_iter().map(|row| row.id).collect::<Vec<_>>()
+    };
+    assert_eq!(ids(page(None, 2)).await, ["a", "c"]);
+    store.delete("c", Expect::Etags(vec!["*".into()])).await.unwrap();
+    assert_eq!(ids(page(Some(("one", "c")), 2)).await, ["b"]);
+    let falling = Page { sort: Sort { by_name: true, falls: true }, ..page(Some(("two", "a")), 9) };
+    assert_eq!(ids(falling).await, ["b", "a"]);
+}
+
+/// A scene with a map of its own, neither of which packs well.
+fn large(name: &str) -> PackedScene {
+    let noise: Vec<u8> = (0..40_000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 11) as u8).collect();
+    let mut scene = unpacked(name);
+    scene.json = noise.clone();
+    (scene.map.sha, scene.map.json) = (name.into(), Some(noise));
+    scene.packed().unwrap()
+}
+
+#[tokio::test]
+async fn a_store_that_was_full_takes_scenes_again_after_deletes() {
+    let folder = tempfile::tempdir().unwrap();
+    let limits = Limits { store_bytes: 400_000, ..Limits::default() };
+    let mut store = store(&folder, limits.clone());
+    for round in 0..3 {
+        let mut count = 0;
+        loop {
+            match store.put(&format!("s{count}"), Expect::Absent, large(&format!("{round}-{count}"))).await {
+                Ok(_) => count += 1,
+                Err(StoreError::Full(_)) => break,
+                Err(other) => panic!("{other}"),
+            }
+        }
+        assert!(count >= 3, "{count} scenes in round {round}");
+        // One that is stored may be written anew where it does not grow.
+        let again = store.put("s0", Expect::Etags(vec!["*".into()]), record("small")).await;
+        assert!(matches!(again, Ok(_) | Err(StoreError::Full(_))));
+        for k in 0..count {
+            store.delete(&format!("s{k}"), Expect::Etags(vec!["*".into()])).await.unwrap();
+        }
+        if round == 1 {
+            drop(store);
+            store = Store::open(&folder.path().join("s.sqlite"), &Arc::new(limits.clone())).unwrap();
+        }
+    }
+}
+
+#[test]
+fn another_programs_file_and_a_damaged_one_are_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let open = |name: &str| Store::open(&folder.path().join(name), &Arc::new(Limits::default()));
+    for (name, version, id) in [("plain", 0, 0), ("versioned", 1, 0), ("marked", 0, 77)] {
+        let path = folder.path().join(name);
+        let connection = rusqlite::Connection::open(&path).unwrap();
+        connection.execute_batch("CREATE TABLE notes (text); INSERT INTO notes VALUES ('mine')").unwrap();
+        connection.pragma_update(None, "user_version", version).unwrap();
+        connection.pragma_update(None, "application_id", id).unwrap();
+        drop(connection);
+        let before = std::fs::read(&path).unwrap();
+        assert!(matches!(open(name), Err(StoreError::Foreign)), "{name}");
+        assert_eq!(std::fs::read(&path).unwrap(), before, "{name} is as it was");
+    }
+    drop(open("own").unwrap());
+    let path = folder.path().join("own");
+    let connection = rusqlite::Connection::open(&path).unwrap();
+    let id: i64 = connection.pragma_query_value(None, "application_id", |row| row.get(0)).unwrap();
+    assert_ne!(id, 0);
+    // A file of the first schema, which had no mark, is taken for what it is.
+    connection.pragma_update(None, "application_id", 0).unwrap();
+    drop(connection);
+    drop(open("own").unwrap());
+    let mut bytes = std::fs::read(&path).unwrap();
+    let half = bytes.len() / 2;
+    bytes[half..].fill(0x5a);
+    std::fs::write(&path, bytes).unwrap();
+    assert!(open("own").is_err());
+}
+
+#[cfg(unix)]
+#[tokio::test]
+async fn only_its_owner_may_read_the_file() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.sqlite");
+    std::fs::write(&path, "").unwrap();
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o644)).unwrap();
+    let store = store(&folder, Limits::default());
+    store.put("a", Expect::Absent, record("one")).await.unwrap();
+    for file in std::fs::read_dir(folder.path()).unwrap().flatten() {
+        assert_eq!(file.metadata().unwrap().permissions().mode() & 0o077, 0, "{:?}", file.file_name());
+    }
 }
 
 #[tokio::test]

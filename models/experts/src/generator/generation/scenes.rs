@@ -33,7 +33,7 @@ pub(super) fn reached(base: &Scene, roster: &Roster, ledger: &Ledger, step: usiz
         scene::Agent {
             id: agent.id.clone(),
             role: None,
-            track: Track { first_step: step, states, z_m: None },
+            track: Track { first_step: step, states, z_m: None }.into(),
             conditions,
             ..*agent
         }
@@ -59,7 +59,7 @@ pub(super) fn known_to_the_end(
         let pinned = request.pinned.get(&agent.id).map(Vec::as_slice);
         let (track, since) = extrapolated(scene, agent, pinned, start, last);
         guessed[i] = since;
-        scene::Agent { track, ..agent.clone() }
+        scene::Agent { track: track.into(), ..agent.clone() }
     });
     let agents = agents.collect();
     (Arc::new(bare(scene, agents)), guessed)

@@ -2,12 +2,11 @@
 
 use scene::map::{Area, Lane, LaneMap, Points, TypedLine};
 use scene::{Scene, State, Vec2};
-use std::sync::Arc;
 
 /// The scene with y and all headings turned over. What drives on the right drives on the left in it.
 pub fn mirrored(scene: &Scene) -> Scene {
     let mut out = scene.clone();
-    out.map = Arc::new(map(&scene.map));
+    out.map = map(&scene.map).into();
     out.generated = None;
     for signal in &mut out.signals {
         signal.stop = signal.stop.map(point);
@@ -79,6 +78,7 @@ mod tests {
     use experts::features::agent::plan;
     use experts::planning::world::World;
     use scene::routes::LaneGraph;
+    use std::sync::Arc;
 
     #[test]
     fn twice_is_the_scene_again() {

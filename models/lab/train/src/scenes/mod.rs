@@ -49,7 +49,7 @@ pub fn blind(scene: &Scene) -> Scene {
     for agent in &mut out.agents {
         let start = agent.track.at(0).copied();
         let states = start.map(|s| vec![Some(s)]).unwrap_or_default();
-        agent.track = Track { first_step: 0, states, z_m: None };
+        agent.track = Track { first_step: 0, states, z_m: None }.into();
         agent.conditions = Conditions::default();
     }
     for signal in &mut out.signals {

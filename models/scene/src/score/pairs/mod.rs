@@ -4,9 +4,9 @@ mod company;
 mod log;
 mod mover;
 mod near;
+mod tally;
 
-use super::input::{Actor, Exclude, PairChoice, ScoreInput};
-use super::pet::post_encroachment_s;
+use super::input::{Actor, Exclude, ScoreInput};
 use super::report::{Collision, NearMiss, time_of};
 use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
@@ -14,6 +14,7 @@ use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
 pub(super) use mover::Rectangle;
 pub(crate) use mover::{Moment, Mover};
 use near::{Gap, Nearest, PARKED_M, Side, near_miss};
+pub(super) use tally::Tally;
 
 /// Moments looked at between two steps, the step itself counted.
 pub const SUBSTEPS: usize = 4;
@@ -80,59 +81,13 @@ struct Known {
 impl Known {
     /// Everything may change it.
     const NOTHING: Self = Self { gap_m: f64::INFINITY, ttc_s: LOOK_AHEAD_S };
-
-    fn of(a: &PairTotals, b: &PairTotals) -> Self {
-        let larger = |p: Option<f64>, q: Option<f64>, most: f64| p.unwrap_or(most).max(q.unwrap_or(most));
-        Self {
-            gap_m: larger(a.min_distance_m, b.min_distance_m, f64::INFINITY),
-            ttc_s: larger(a.min_ttc_s, b.min_ttc_s, LOOK_AHEAD_S),
-        }
-    }
 }
 
 /// Looks at all pairs that the input asks for.
 pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
     let movers: Vec<Mover> = input.actors.iter().map(|a| Mover::new(a, input.steps.clone())).collect();
-    let mut scores = PairScores { agents: vec![PairTotals::default(); movers.len()], ..Default::default() };
-    let pairs = (0..movers.len()).flat_map(|i| (i + 1..movers.len()).map(move |j| (i, j)));
-    for (i, j) in pairs {
-        let known = Known::of(&scores.agents[i], &scores.agents[j]);
-        if stay_apart(&movers[i], &movers[j], known.gap_m.max(input.thresholds.gap_m)) {
-            continue;
-        }
-        let (a, b) = (&input.actors[i], &input.actors[j]);
-        let asked = input.pairs == PairChoice::All || a.generated || b.generated;
-        if !asked || is_excluded(input, a, b) {
-            continue;
-        }
-        let pair = look_at(input, &movers[i], &movers[j], known);
-        let pet_s = post_encroachment_s(&movers[i], &movers[j]);
-        let happens = pair.collision.is_some() || pair.near.is_some();
-        let in_log = happens && log::is_in_log(input, a, b, &pair);
-        let ids = (a.id.to_owned(), b.id.to_owned());
-        for k in [i, j] {
-            let totals = &mut scores.agents[k];
-            totals.collisions += usize::from(pair.collision.is_some() && !in_log);
-            totals.logged_collisions += usize::from(pair.collision.is_some() && in_log);
-            totals.near_misses += usize::from(pair.near.is_some() && !in_log);
-            totals.overlaps |= pair.overlaps;
-            totals.min_ttc_s = least(totals.min_ttc_s, pair.min_ttc_s);
-            totals.min_distance_m = least(totals.min_distance_m, pair.min_distance_m);
-            totals.pet_s = least(totals.pet_s, pet_s);
-        }
-        let (a, b) = ids;
-        match Meeting::of(&pair, input.steps.start) {
-            Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
-                scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
-            }
-            Some(Meeting::Near { time_s, distance_m, ttc_s, closing_speed_mps }) => {
-                let miss = NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps, in_log };
-                scores.near_misses.push(miss);
-            }
-            None => {}
-        }
-    }
-    scores
+    let movers: Vec<&Mover> = movers.iter().collect();
+    Tally::of_all(input, &movers).scores(input)
 }
 
 /// How two motions meet.

@@ -1,0 +1,183 @@
+//! What is found while pairs are gone through: the least of each road user, and what happens.
+
+use super::{Known, Meeting, Mover, PairScores, PairTotals, is_excluded, log, look_at, stay_apart};
+use crate::geometry::ttc::LOOK_AHEAD_S;
+use crate::score::input::{PairChoice, ScoreInput};
+use crate::score::pet::post_encroachment_s;
+use crate::score::report::{Collision, NearMiss};
+
+/// A least value of one road user, and in the pair with whom it was found.
+#[derive(Clone, Copy, Debug)]
+struct Least {
+    value: f64,
+    with: usize,
+}
+
+/// The least values of one road user over its pairs.
+#[derive(Clone, Copy, Debug, Default)]
+struct Leasts {
+    ttc_s: Option<Least>,
+    distance_m: Option<Least>,
+    pet_s: Option<Least>,
+}
+
+impl Leasts {
+    fn all_mut(&mut self) -> [&mut Option<Least>; 3] {
+        [&mut self.ttc_s, &mut self.distance_m, &mut self.pet_s]
+    }
+}
+
+/// A pair in which something happens.
+#[derive(Clone, Debug)]
+struct Event {
+    pair: (usize, usize),
+    /// The boxes overlap at a step, however little.
+    overlaps: bool,
+    meeting: Option<Meeting>,
+    /// The two come that near, before or after a collision too.
+    nears: bool,
+    in_log: bool,
+}
+
+/// What pairs come to so far. Which of them are gone through first changes nothing.
+#[derive(Clone, Debug, Default)]
+pub(in crate::score) struct Tally {
+    leasts: Vec<Leasts>,
+    events: Vec<Event>,
+}
+
+impl Tally {
+    /// Of all pairs that the input asks for.
+    pub(in crate::score) fn of_all(input: &ScoreInput<'_>, movers: &[&Mover]) -> Self {
+        let mut tally = Self { leasts: vec![Leasts::default(); movers.len()], events: Vec::new() };
+        for i in 0..movers.len() {
+            for j in i + 1..movers.len() {
+                tally.add(input, movers, (i, j), true);
+            }
+        }
+        tally
+    }
+
+    /// Of all pairs where some road users have changed, left or come. `was` says which one of this tally's each of
+    /// the input's is, where it is as it was; their order has not changed.
+    pub(in crate::score) fn changed(
+        &self,
+        input: &ScoreInput<'_>,
+        movers: &[&Mover],
+        was: &[Option<usize>],
+    ) -> Self {
+        let mut now = vec![None; self.leasts.len()];
+        for (new, old) in was.iter().enumerate() {
+            if let Some(slot) = old.and_then(|old| now.get_mut(old)) {
+                *slot = Some(new);
+            }
+        }
+        let mut tally = Self { leasts: vec![Leasts::default(); movers.len()], events: Vec::new() };
+        let stays = |event: &Event| Some((now[event.pair.0]?, now[event.pair.1]?));
+        let kept = self.events.iter().filter_map(|e| Some(Event { pair: stays(e)?, ..e.clone() }));
+        tally.events.extend(kept);
+        // Who was nearest to one that is as it was may have changed: then all its pairs are asked again.
+        let mut orphans = Vec::new();
+        for (new, old) in was.iter().enumerate() {
+            let Some(old) = *old else { continue };
+            let mut leasts = self.leasts[old];
+            let mut lost = false;
+            for least in leasts.all_mut() {
+                let known = least.and_then(|l| Some(Least { with: now[l.with]?, ..l }));
+                lost |= known.is_none() && least.is_some();
+                *least = known;
+            }
+            tally.leasts[new] = leasts;
+            orphans.extend(lost.then_some(new));
+        }
+        let all = 0..movers.len();
+        for orphan in orphans {
+            for other in all.clone().filter(|k| *k != orphan && was[*k].is_some()) {
+                tally.add(input, movers, (orphan.min(other), orphan.max(other)), false);
+            }
+        }
+        for changed in all.clone().filter(|k| was[*k].is_none()) {
+            for other in all.clone().filter(|k| was[*k].is_some() || *k > changed) {
+                tally.add(input, movers, (changed.min(other), changed.max(other)), true);
+            }
+        }
+        tally.events.sort_by_key(|event| event.pair);
+        tally
+    }
+
+    /// What cannot change a score of these two any more.
+    fn known(&self, (i, j): (usize, usize)) -> Known {
+        let larger = |of: fn(&Leasts) -> Option<Least>, most: f64| {
+            let value = |k: usize| of(&self.leasts[k]).map_or(most, |l| l.value);
+            value(i).max(value(j))
+        };
+        Known { gap_m: larger(|l| l.distance_m, f64::INFINITY), ttc_s: larger(|l| l.ttc_s, LOOK_AHEAD_S) }
+    }
+
+    /// Looks at one pair; what happens in it is noted only where that is not known already.
+    fn add(&mut self, input: &ScoreInput<'_>, movers: &[&Mover], pair: (usize, usize), note: bool) {
+        let (i, j) = pair;
+        let known = self.known(pair);
+        if stay_apart(movers[i], movers[j], known.gap_m.max(input.thresholds.gap_m)) {
+            return;
+        }
+        let (a, b) = (&input.actors[i], &input.actors[j]);
+        let asked = input.pairs == PairChoice::All || a.generated || b.generated;
+        if !asked || is_excluded(input, a, b) {
+            return;
+        }
+        let found = look_at(input, movers[i], movers[j], known);
+        let pet_s = post_encroachment_s(movers[i], movers[j]);
+        for (k, with) in [(i, j), (j, i)] {
+            let leasts = &mut self.leasts[k];
+            let values = [found.min_ttc_s, found.min_distance_m, pet_s];
+            for (least, value) in leasts.all_mut().into_iter().zip(values) {
+                let Some(value) = value else { continue };
+                if least.is_none_or(|l| value < l.value) {
+                    *least = Some(Least { value, with });
+                }
+            }
+        }
+        let meeting = Meeting::of(&found, input.steps.start);
+        if note && (found.overlaps || meeting.is_some()) {
+            let in_log = meeting.is_some() && log::is_in_log(input, a, b, &found);
+            let (overlaps, nears) = (found.overlaps, found.near.is_some());
+            self.events.push(Event { pair, overlaps, meeting, nears, in_log });
+        }
+    }
+
+    /// What all pairs come to.
+    pub(in crate::score) fn scores(self, input: &ScoreInput<'_>) -> PairScores {
+        let value = |least: Option<Least>| least.map(|l| l.value);
+        let totals = |l: &Leasts| PairTotals {
+            min_ttc_s: value(l.ttc_s),
+            min_distance_m: value(l.distance_m),
+            pet_s: value(l.pet_s),
+            ..PairTotals::default()
+        };
+        let mut scores =
+            PairScores { agents: self.leasts.iter().map(totals).collect(), ..PairScores::default() };
+        for Event { pair: (i, j), overlaps, meeting, nears, in_log } in self.events {
+            let collides = matches!(meeting, Some(Meeting::Collision { .. }));
+            for k in [i, j] {
+                let totals = &mut scores.agents[k];
+                totals.collisions += usize::from(collides && !in_log);
+                totals.logged_collisions += usize::from(collides && in_log);
+                totals.near_misses += usize::from(nears && !in_log);
+                totals.overlaps |= overlaps;
+            }
+            let (a, b) = (input.actors[i].id.to_owned(), input.actors[j].id.to_owned());
+            match meeting {
+                Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
+                    scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
+                }
+                Some(Meeting::Near { time_s, distance_m, ttc_s, closing_speed_mps }) => {
+                    let miss = NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps, in_log };
+                    scores.near_misses.push(miss);
+                }
+                None => {}
+            }
+        }
+        scores
+    }
+}

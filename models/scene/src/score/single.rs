@@ -1,0 +1,79 @@
+//! What one road user's motion comes to by itself.
+
+use super::accuracy::{Accuracy, accuracy};
+use super::goal::{GoalError, goal_error};
+use super::input::{Actor, ScoreInput};
+use super::kinematic::{Kinematic, harsh_braking, harsh_steering, score_kinematic};
+use super::pairs::PairTotals;
+use super::recorded;
+use super::report::{AgentScore, RedLight, SceneScore, Stretch};
+use super::road::{RoadScore, score_road};
+use super::signals::{StopLine, crossed_at_red};
+
+/// What one road user's motion comes to by itself.
+#[derive(Clone, Debug)]
+pub(super) struct Single {
+    road: RoadScore,
+    kinematic: Option<Kinematic>,
+    implausible_turns: Vec<Stretch>,
+    braking: Vec<Stretch>,
+    steering: Vec<Stretch>,
+    red_lights: Vec<RedLight>,
+    goal_error: Option<GoalError>,
+    accuracy: Option<Accuracy>,
+}
+
+impl Single {
+    /// Of one road user of the input, with the stop lines there.
+    pub(super) fn of(input: &ScoreInput<'_>, actor: &Actor<'_>, lines: &[StopLine<'_>]) -> Self {
+        let mut road = score_road(input, actor);
+        recorded::mark_road(input, actor, &mut road);
+        let kinematic = actor.generated.then(|| score_kinematic(actor, input.steps.clone()));
+        let (kinematic, turns) = kinematic.unzip();
+        let mut braking = harsh_braking(actor, input);
+        recorded::mark_braking(input, actor, &mut braking);
+        let mut steering = harsh_steering(actor, input);
+        recorded::mark_steering(input, actor, &mut steering);
+        let mut red_lights = crossed_at_red(input, actor, lines);
+        recorded::mark_red_lights(input, actor, lines, &mut red_lights);
+        Self {
+            road,
+            kinematic,
+            implausible_turns: turns.unwrap_or_default(),
+            braking,
+            steering,
+            red_lights,
+            goal_error: goal_error(actor),
+            accuracy: accuracy(actor, input.steps.clone()),
+        }
+    }
+
+    /// Adds what the scene's lists and sums take, and gives the road user's own score.
+    pub(super) fn add_to(self, scene: &mut SceneScore, totals: &PairTotals) -> AgentScore {
+        let road = self.road;
+        scene.implausible_turns.extend(self.implausible_turns);
+        scene.harsh_braking.extend(self.braking);
+        scene.harsh_steering.extend(self.steering);
+        scene.red_lights.extend(self.red_lights);
+        scene.off_road.extend(road.off_road);
+        scene.over_median.extend(road.over_median);
+        scene.wrong_way.extend(road.wrong_way);
+        scene.offroad_steps += road.offroad_steps;
+        scene.road_steps += road.road_steps;
+        scene.wrong_way_steps += road.wrong_way_steps;
+        scene.moving_steps += road.moving_steps;
+        AgentScore {
+            collisions: totals.collisions,
+            near_misses: totals.near_misses,
+            min_ttc_s: totals.min_ttc_s,
+            min_distance_m: totals.min_distance_m,
+            pet_s: totals.pet_s,
+            offroad_share: road.offroad_share,
+            offroad_max_m: road.offroad_max_m,
+            wrong_way_share: road.wrong_way_share,
+            kinematic: self.kinematic,
+            goal_error: self.goal_error,
+            accuracy: self.accuracy,
+        }
+    }
+}

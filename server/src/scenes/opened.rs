@@ -1,0 +1,57 @@
+//! Scenes that are open, and what is worked out about them once.
+
+use scene::Scene;
+use scene::score::{Drivable, Standing};
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Spans of steps that a scene's standing score is kept for.
+const SPANS: usize = 2;
+
+/// A scene that is open, with its ETag.
+#[derive(Clone)]
+pub struct Opened {
+    /// The scene, with its id.
+    pub scene: Arc<Scene>,
+    /// With quotes.
+    pub etag: String,
+    /// What it comes to as it stands.
+    pub standings: Arc<Standings>,
+}
+
+impl Opened {
+    /// A scene of which nothing is worked out yet.
+    pub fn new(scene: Scene, etag: String) -> Self {
+        let scene = Arc::new(scene);
+        Self { standings: Arc::new(Standings::new(Arc::clone(&scene))), scene, etag }
+    }
+}
+
+/// What a scene comes to as it stands, by the steps that are scored; worked out when it is first asked for.
+pub struct Standings {
+    scene: Arc<Scene>,
+    known: Mutex<Vec<Arc<Standing>>>,
+}
+
+impl Standings {
+    fn new(scene: Arc<Scene>) -> Self {
+        Self { scene, known: Mutex::default() }
+    }
+
+    /// The one over these steps.
+    pub fn over(&self, steps: &Range<usize>, drivable: &Drivable) -> Arc<Standing> {
+        let find = |known: &[Arc<Standing>]| known.iter().find(|s| s.steps() == *steps).cloned();
+        let lock = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(standing) = find(&lock()) {
+            return standing;
+        }
+        // Not under the lock: two callers may work out the same, and nobody waits for another.
+        let standing = Arc::new(Standing::new(Arc::clone(&self.scene), drivable, steps.clone()));
+        let mut known = lock();
+        if find(&known).is_none() {
+            known.insert(0, Arc::clone(&standing));
+            known.truncate(SPANS);
+        }
+        standing
+    }
+}

@@ -1,0 +1,58 @@
+//! Pages of the list: read in order from where the last page ended, never the whole store.
+
+use super::records::{SUMMARY, summary};
+use super::{SceneSummary, Store, StoreError};
+
+/// By what a list is ordered; the id decides between equals, always rising.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sort {
+    /// By name, not by the time of the last change.
+    pub by_name: bool,
+    /// The greatest first.
+    pub falls: bool,
+}
+
+impl Sort {
+    /// What it is ordered by.
+    pub fn key<'a>(self, name: &'a str, updated_at: &'a str) -> &'a str {
+        if self.by_name { name } else { updated_at }
+    }
+}
+
+/// A page that is asked for.
+#[derive(Clone, Debug)]
+pub struct Page {
+    /// Order.
+    pub sort: Sort,
+    /// Key and id of the last one before.
+    pub after: Option<(String, String)>,
+    /// Most rows.
+    pub most: usize,
+}
+
+impl Store {
+    /// Scenes of a page that are wanted, without their bodies.
+    pub async fn list(
+        &self,
+        page: Page,
+        wanted: impl Fn(&SceneSummary) -> bool + Send + 'static,
+    ) -> Result<Vec<SceneSummary>, StoreError> {
+        self.read(move |connection| {
+            let Page { sort, after, most } = page;
+            let key = if sort.by_name { "name" } else { "updated_at" };
+            let (beyond, falling) = if sort.falls { ("<", "DESC") } else { (">", "ASC") };
+            let from = after.is_some();
+            let (last_key, last_id) = after.unwrap_or_default();
+            let sql = format!(
+                "SELECT {SUMMARY} FROM scenes
+                 WHERE NOT ?1 OR {key} {beyond} ?2 OR ({key} = ?2 AND id > ?3)
+                 ORDER BY {key} {falling}, id"
+            );
+            let mut query = connection.prepare_cached(&sql)?;
+            let rows = query.query_map(rusqlite::params![from, last_key, last_id], summary)?;
+            let wanted = rows.filter(|row| row.as_ref().map_or(true, &wanted));
+            Ok(wanted.take(most).collect::<Result<_, _>>()?)
+        })
+        .await
+    }
+}

@@ -1,0 +1,115 @@
+//! Room kept on the disk, so that scenes can be deleted when it is full.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A delete writes a few pages to the log first: what is kept for that.
+const RESERVE_BYTES: usize = 512 << 10;
+/// A disk with this much room takes writes again.
+const ROOM_BYTES: usize = 256 << 10;
+
+/// A file of zeros beside the store's, given up when a delete finds the disk full.
+#[derive(Debug)]
+pub struct Reserve {
+    path: PathBuf,
+    probe: PathBuf,
+    /// A write found the disk full, and none has succeeded since.
+    full: AtomicBool,
+}
+
+impl Reserve {
+    /// Beside a database; made where there is room for it.
+    pub fn beside(database: &Path) -> Self {
+        let named = |end: &str| {
+            let mut name = database.file_name().unwrap_or_default().to_owned();
+            name.push(end);
+            database.with_file_name(name)
+        };
+        let reserve = Self { path: named("-reserve"), probe: named("-probe"), full: AtomicBool::new(false) };
+        reserve.restore();
+        reserve
+    }
+
+    /// Makes the file again, where it is missing and there is room.
+    pub fn restore(&self) {
+        let whole = self.path.metadata().is_ok_and(|m| m.len() == RESERVE_BYTES as u64);
+        if !whole && let Err(error) = fill(&self.path, RESERVE_BYTES) {
+            tracing::warn!(%error, "no room could be kept for deletes");
+            self.give_up();
+        }
+    }
+
+    /// Gives the room back to the disk. True when there was some.
+    pub fn give_up(&self) -> bool {
+        std::fs::remove_file(&self.path).is_ok()
+    }
+
+    /// Notes whether the last write found the disk full.
+    pub fn note(&self, full: bool) {
+        self.full.store(full, Ordering::Relaxed);
+    }
+
+    /// True when the disk was full at the last write and still is.
+    pub fn is_full(&self) -> bool {
+        if !self.full.load(Ordering::Relaxed) {
+            return false;
+        }
+        let full = fill(&self.probe, ROOM_BYTES).is_err();
+        // What was written of it is in nobody's way; a probe that stays is written over by the next.
+        let _ = std::fs::remove_file(&self.probe);
+        self.note(full);
+        full
+    }
+}
+
+/// Writes so many zeros: holes would keep no room.
+fn fill(path: &Path, bytes: usize) -> io::Result<()> {
+    let mut file = private(OpenOptions::new().write(true).create(true).truncate(true)).open(path)?;
+    file.write_all(&vec![0; bytes])?;
+    file.sync_all()
+}
+
+/// Makes the file of a database for its owner alone; one that exists is closed to others.
+///
+/// # Errors
+/// When it cannot be made or changed.
+pub fn make_private(path: &Path) -> io::Result<()> {
+    let file: File = private(OpenOptions::new().read(true).append(true).create(true)).open(path)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = file.metadata()?.permissions().mode();
+        if mode & 0o077 != 0 {
+            file.set_permissions(std::fs::Permissions::from_mode(mode & !0o077))?;
+        }
+    }
+    drop(file);
+    Ok(())
+}
+
+fn private(options: &mut OpenOptions) -> &mut OpenOptions {
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(options, 0o600);
+    options
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Reserve;
+
+    #[test]
+    fn room_is_given_up_once_and_made_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let reserve = Reserve::beside(&folder.path().join("s.sqlite"));
+        let kept = || folder.path().join("s.sqlite-reserve").metadata().map_or(0, |m| m.len());
+        assert!(kept() > 0);
+        assert!(reserve.give_up() && !reserve.give_up());
+        reserve.restore();
+        assert!(kept() > 0);
+        // A disk that was full and has room again is not full.
+        reserve.note(true);
+        assert!(!reserve.is_full());
+    }
+}
