@@ -1,5 +1,29 @@
 // What the page asks of the generator and what comes back, seen from outside the page.
 
+/** An event with compact futures written out as a scene document has them: numbers are summed up twice. */
+function inColumns(event) {
+  const summed = (numbers, perUnit) => {
+    let [value, change] = [0, 0];
+    return numbers.map((n, i) => {
+      if (i) value += change += n;
+      else value = n;
+      return value / perUnit;
+    });
+  };
+  const mode = ({ x_mm, y_mm, heading_e4rad, vx_mmps, vy_mmps, ...rest }) => ({
+    ...rest,
+    x_m: summed(x_mm, 1e3),
+    y_m: summed(y_mm, 1e3),
+    heading_rad: summed(heading_e4rad, 1e4),
+    vx_mps: summed(vx_mmps, 1e3),
+    vy_mps: summed(vy_mmps, 1e3),
+  });
+  const futures = ({ compact, ...rest }) => (compact ? { ...rest, modes: compact.map(mode) } : rest);
+  const all = (agents) => Object.fromEntries(Object.entries(agents).map(([id, f]) => [id, futures(f)]));
+  if (event.samples) return { ...event, samples: event.samples.map((s) => ({ ...s, agents: all(s.agents) })) };
+  return event.agents ? { ...event, agents: all(event.agents) } : event;
+}
+
 /** One `POST /v1/generate`. Times are seconds of the browser's monotonic clock. */
 class Asked {
   constructor(id, sent, body) {
@@ -21,7 +45,7 @@ class Asked {
     const out = [];
     let from = 0;
     for (let end; (end = text.indexOf(10, from)) >= 0; from = end + 1) {
-      if (end > from) out.push({ ...JSON.parse(text.subarray(from, end).toString()), at: this.#arrival(end + 1) });
+      if (end > from) out.push({ ...inColumns(JSON.parse(text.subarray(from, end).toString())), at: this.#arrival(end + 1) });
     }
     return out;
   }

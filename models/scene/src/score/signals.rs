@@ -256,7 +256,8 @@ mod tests {
             }
             let mut input = input_of(vec![car], &drivable);
             (input.map, input.signals) = (&map, signals);
-            red_lights(&input).len()
+            let lines = stop_lines(&input);
+            crossed_at_red(&input, &input.actors[0], &lines).len()
         };
         assert_eq!(turns(&[signal("through", &[(0, Stop)])]), 1);
         assert_eq!(turns(&[signal("through", &[(0, Go)])]), 0);
