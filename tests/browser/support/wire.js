@@ -45,7 +45,8 @@ class Asked {
     const out = [];
     let from = 0;
     for (let end; (end = text.indexOf(10, from)) >= 0; from = end + 1) {
-      if (end > from) out.push({ ...inColumns(JSON.parse(text.subarray(from, end).toString())), at: this.#arrival(end + 1) });
+      if (end > from)
+        out.push({ ...inColumns(JSON.parse(text.subarray(from, end).toString())), at: this.#arrival(end + 1) });
     }
     return out;
   }

@@ -54,7 +54,7 @@ pub fn latency(scenes: &[Scene], common: &Common) -> Result<Vec<HttpLatency>, Fa
         };
         let (off, all) = (("score", json!(false)), ("stream_modes", json!("all")));
         let kinds = [
-            ("one road user, not scored", JSON, with(&[off.clone()])),
+            ("one road user, not scored", JSON, with(std::slice::from_ref(&off))),
             ("one road user, scored", JSON, with(&[])),
             ("others react, scored", JSON, with(&[("react", json!(true))])),
             ("drag, streamed", NDJSON, with(&[off, all.clone()])),
