@@ -114,8 +114,8 @@ impl Material<'_> {
     }
 
     /// What was shown last, where it led next to the goal of now: so a hand that moves by little sees a motion that
-    /// moves by little, whatever the modes make of it.
-    /// Where no draft gets to the goal, it need not either.
+    /// moves by little, whatever the modes make of it. Where no draft gets to the goal (`missed` says why), it need
+    /// not either.
     fn shown_last(&self, missed: Option<Reach>) -> Option<Candidate> {
         let (slot, places, near) = self.seen()?;
         let plan = &self.actor.plan;

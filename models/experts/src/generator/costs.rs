@@ -52,17 +52,16 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             .collect(),
         None => central(candidates, by.around, tuning),
     };
-    let broken: Vec<f64> = candidates
-        .iter()
-        .map(|c| &c.motion.states)
-        .map(|states| broken_rules(actor, states, by) + stepping_out(actor, states, by))
-        .collect();
+    let broken = |c: &Candidate| match &c.motion.states {
+        // What is given costs nothing by itself.
+        _ if c.origin.is_given() => 0.0,
+        states => broken_rules(actor, states, by) + stepping_out(actor, states, by),
+    };
+    let broken: Vec<f64> = candidates.iter().map(broken).collect();
     let is_shown = |c: &Candidate| matches!(c.origin, Origin::Shown(_));
     let shown_breaks = candidates.iter().position(is_shown).map_or(0.0, |shown| broken[shown]);
     let option = |((c, cost), broken): ((&Candidate, f64), &f64)| {
         let boxes = swept(&c.motion.states, size);
-        // What is given costs nothing by itself.
-        let given = c.origin.is_given();
         // Where the others are alike, a way round is far from all of them.
         let cost = match c.origin {
             Origin::Evading(_) | Origin::Shown(_) => cost.min(MOST_EVADING),
@@ -72,7 +71,7 @@ pub(super) fn options(actor: &Actor, candidates: &[Candidate], by: &Yardstick<'_
             _ => cost,
         };
         let binds = if *broken < shown_breaks - LAWFUL { BOUND_TO_WRONG } else { 1.0 };
-        let cost = if given { 0.0 } else { cost + broken + binds * leaving(c, by) };
+        let cost = if c.origin.is_given() { 0.0 } else { cost + broken + binds * leaving(c, by) };
         Choosable { boxes, cost, kept: c.origin == Origin::Kept }
     };
     candidates.iter().zip(costs).zip(&broken).map(option).collect()

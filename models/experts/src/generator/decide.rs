@@ -4,7 +4,7 @@ use super::actor::Actor;
 use super::candidates::{Candidate, Origin, own, shown};
 use super::choice::{Choice, Choosable, swept};
 use super::costs::{Yardstick, options};
-use super::evading::{short_of, way_round};
+use super::evading::{Field, short_of, way_round};
 use super::guidance::guided;
 use super::reacting::{Answered, Changed, Moving, caused, reaction_of};
 use super::repulsion::{Outline, poses_of_states};
@@ -165,6 +165,8 @@ impl Window<'_> {
             order.retain(|o| *o != chosen[i]);
             order.insert(0, chosen[i]);
             let tried = order.into_iter().filter_map(|o| Some((o, candidates[i][o].origin.slot()?)));
+            let off_lanes_m = self.tuning().choice.off_lanes_m;
+            let field = Field { graph: &self.map.graph, off_lanes_m, others: &others };
             let size = &actor.plan.present.size;
             let is_clear = |c: &Candidate| {
                 let boxes = swept(&c.motion.states, size);
@@ -173,14 +175,14 @@ impl Window<'_> {
             let mut found: Vec<Candidate> = Vec::new();
             found.extend(self.material(i).shown_halting().filter(|c| halts && is_clear(c)));
             for (o, slot) in tried.take(MOST_TRIED) {
-                let (plan, graph) = (&actor.plan, &*self.map.graph);
+                let plan = &actor.plan;
                 let states = &candidates[i][o].motion.states;
                 let mut add = |origin, motion: Option<Motion>| {
                     found.extend(motion.map(|motion| Candidate { probability: 0.0, origin, motion }));
                 };
-                add(Origin::Evading(slot), way_round(plan, graph, slot, states, &others));
+                add(Origin::Evading(slot), way_round(plan, field, slot, states));
                 if halts {
-                    add(Origin::Halting(slot), short_of(plan, graph, states, &others));
+                    add(Origin::Halting(slot), short_of(plan, field, states));
                 }
             }
             (found, met.map(|(id, _)| (*id).clone()))

@@ -53,9 +53,8 @@ const MET: f64 = 8.0;
 const CLOSE: f64 = 0.7;
 const OFF_ROAD: f64 = 2.0;
 const AGAINST: f64 = 1.0;
-/// The same for a place so far from every lane.
+/// A place off the lanes.
 const AWAY: f64 = 0.5;
-const OFF_LANES_M: f64 = 2.5;
 /// What a shift costs at each instant, and its change: for a square metre.
 const ASIDE_COST: f64 = 0.01;
 const AHEAD_COST: f64 = 0.004;
@@ -95,49 +94,48 @@ impl Shift {
     }
 }
 
+/// What a motion is led through.
+#[derive(Clone, Copy)]
+pub(super) struct Field<'a> {
+    pub(super) graph: &'a LaneGraph,
+    /// How far from every lane a place is off the lanes, metres.
+    pub(super) off_lanes_m: f64,
+    /// Those who are there.
+    pub(super) others: &'a [&'a Moving],
+}
+
 /// A motion to be shifted.
 struct Course<'a> {
     plan: &'a AgentPlan,
-    graph: &'a LaneGraph,
+    field: Field<'a>,
     /// Vehicles that start on a lane keep near lanes.
     keeps_to_lanes: bool,
     path: Polyline,
     /// Metres along it, one a step.
     along_m: Vec<f64>,
-    others: Vec<&'a Moving>,
+    /// Those of the field that its shifts may meet.
+    near: Vec<&'a Moving>,
 }
 
-/// The motion on the path of `slot` beside, before or behind which nobody of `others` is met; `None` where the motion
+/// The motion on the path of `slot` beside, before or behind which nobody is met; `None` where the motion
 /// as it is serves as well.
 pub(super) fn way_round(
     plan: &AgentPlan,
-    graph: &LaneGraph,
+    field: Field<'_>,
     slot: Slot,
     motion: &Trajectory,
-    others: &[&Moving],
 ) -> Option<Motion> {
-    if plan.model.gear == Gear::Reverse {
-        return None;
-    }
-    let course = Course::new(plan, graph, motion, others)?;
+    let course = Course::new(plan, field, motion)?;
     let shifts = course.least()?;
     let centres: [Vec2; INSTANTS] =
         std::array::from_fn(|i| course.pose((i + 1) * PER_INSTANT, shifts[i]).position);
     Some(along_places(plan, slot, &centres))
 }
 
-/// The motion on the same path that halts before whoever of `others` would be met; `None` where no braking is
+/// The motion on the same path that halts before whoever would be met; `None` where no braking is
 /// enough. The goal is missed, unless nothing was asked.
-pub(super) fn short_of(
-    plan: &AgentPlan,
-    graph: &LaneGraph,
-    motion: &Trajectory,
-    others: &[&Moving],
-) -> Option<Motion> {
-    if plan.model.gear == Gear::Reverse {
-        return None;
-    }
-    let course = Course::new(plan, graph, motion, others)?;
+pub(super) fn short_of(plan: &AgentPlan, field: Field<'_>, motion: &Trajectory) -> Option<Motion> {
+    let course = Course::new(plan, field, motion)?;
     let mut best: Option<Vec<f64>> = None;
     for share in BRAKES {
         // The later, the farther.
@@ -161,28 +159,25 @@ pub(super) fn short_of(
 }
 
 impl<'a> Course<'a> {
-    fn new(
-        plan: &'a AgentPlan,
-        graph: &'a LaneGraph,
-        motion: &Trajectory,
-        others: &[&'a Moving],
-    ) -> Option<Self> {
+    /// `None` for what rolls backwards or hardly goes anywhere.
+    fn new(plan: &'a AgentPlan, field: Field<'a>, motion: &Trajectory) -> Option<Self> {
         let mut along_m = Vec::with_capacity(motion.len());
         let mut way_m = 0.0;
         for (i, state) in motion.iter().enumerate() {
             way_m += if i == 0 { 0.0 } else { (state.position - motion[i - 1].position).norm() };
             along_m.push(way_m);
         }
-        if way_m < LEAST_WAY_M || along_m.len() <= HORIZON_STEPS {
+        let backwards = plan.model.gear == Gear::Reverse;
+        if backwards || way_m < LEAST_WAY_M || along_m.len() <= HORIZON_STEPS {
             return None;
         }
         let last = motion.last()?;
         let tail = last.position + direction(last.heading_rad) * TAIL_M;
         let path = Polyline::new(motion.iter().map(|s| s.position).chain([tail]));
         let vehicle = plan.present.agent_type == AgentType::Vehicle;
-        let mut course = Self { plan, graph, keeps_to_lanes: false, path, along_m, others: Vec::new() };
+        let mut course = Self { plan, field, keeps_to_lanes: false, path, along_m, near: Vec::new() };
         course.keeps_to_lanes = vehicle && !course.is_off_lanes(plan.present.start.position());
-        course.others = others.iter().copied().filter(|o| course.may_meet(o)).collect();
+        course.near = field.others.iter().copied().filter(|o| course.may_meet(o)).collect();
         Some(course)
     }
 
@@ -254,7 +249,7 @@ impl<'a> Course<'a> {
     }
 
     fn is_off_lanes(&self, place: Vec2) -> bool {
-        self.graph.nearest_for(place, OFF_LANES_M, self.plan.present.agent_type).is_empty()
+        self.field.graph.nearest_for(place, self.field.off_lanes_m, self.plan.present.agent_type).is_empty()
     }
 
     /// Metres along the path at each step for one that brakes from a step on until it stands.
@@ -289,7 +284,7 @@ impl<'a> Course<'a> {
             let reach = b.radius_m() + outline.radius_m();
             (b.center() - outline.center()).norm_squared() < reach * reach && overlaps(outline, b, 0.0)
         };
-        self.others.iter().any(|o| o.boxes.get(step).is_some_and(|b| b.as_ref().is_some_and(near)))
+        self.near.iter().any(|o| o.boxes.get(step).is_some_and(|b| b.as_ref().is_some_and(near)))
     }
 
     /// The cheapest shifts, one an instant; `None` where none at all are.

@@ -93,7 +93,7 @@ impl Window<'_> {
         let present = &actor.plan.present;
         let states = self.cut(&draft.motion.states);
         let at = |step: usize| states.get(step).copied();
-        let me = Trace::ahead(&actor.id, present.agent_type, &present.size, states.len(), at);
+        let me = Trace::new(&actor.id, present.agent_type, &present.size, states.len(), at).going_on();
         let lanes = (present.agent_type != AgentType::Pedestrian).then_some(&*self.map.graph);
         About {
             relations: relations(&me, self.traces.iter().chain(leading), self.world.step + 1),

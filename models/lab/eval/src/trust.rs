@@ -171,7 +171,7 @@ fn drags(generator: &Generator, site: &Site<'_>, index: usize, seed: u64) -> Res
     for (along, metres) in [true, false].into_iter().flat_map(|a| MOVES_M.map(|m| (a, m))) {
         let Some(goal) = control::dragged_goal(site, case, along, metres) else { continue };
         let nudge = direction(std::f64::consts::TAU * draw.unit()) * NUDGE_M;
-        out.push(Drag { case: index, ..drag(generator, site, case, goal, nudge, seed)? });
+        out.push(drag(generator, site, index, goal, nudge, seed)?);
     }
     Ok(out)
 }
@@ -179,11 +179,12 @@ fn drags(generator: &Generator, site: &Site<'_>, index: usize, seed: u64) -> Res
 fn drag(
     generator: &Generator,
     site: &Site<'_>,
-    case: &Case,
+    index: usize,
     goal: Goal,
     nudge: Vec2,
     seed: u64,
 ) -> Result<Drag> {
+    let case = &site.cases[index];
     let log = site.log(case);
     let first = answer(generator, asked(site, case, goal, seed))?;
     let futures = futures(&first, &log.id);
@@ -212,7 +213,7 @@ fn drag(
     let changed: Vec<bool> = reactions.map(|(_, f)| f.reaction.is_none()).collect();
     Ok(Drag {
         site: site.index,
-        case: 0,
+        case: index,
         goal,
         extent: shown.and_then(|f| f.about.faults.first()?.extent).unwrap_or(0.0),
         vehicle,

@@ -213,33 +213,11 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::direction;
-    use crate::{Goal, Size, Subtype, Track, Vec2};
-    use std::borrow::Cow;
+    use crate::Vec2;
+    use crate::score::tests::straight;
     use std::f64::consts::PI;
 
-    /// A made car, 4 by 2 m, that is there so many steps.
-    fn car<'a>(id: &'a str, at: impl Fn(f64) -> (f64, f64), heading_rad: f64, speed_mps: f64) -> Actor<'a> {
-        let velocity = direction(heading_rad) * speed_mps;
-        let state = |i: usize| {
-            let (x_m, y_m) = at(i as f64 * STEP_S);
-            State { x_m, y_m, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y }
-        };
-        let states = (0..91).map(|i| Some(state(i))).collect();
-        Actor {
-            id,
-            agent_type: AgentType::Vehicle,
-            subtype: Subtype::Unknown,
-            size: Size { length_m: 4.0, width_m: 2.0, height_m: None },
-            track: Cow::Owned(Track { first_step: 0, states, z_m: None }),
-            log: None,
-            generated: true,
-            goal: Goal::default(),
-            may_cross: &[],
-            reference: None,
-            modes: &[],
-        }
-    }
+    const CAR: AgentType = AgentType::Vehicle;
 
     fn kinds(map: &LaneMap, me: &Actor<'_>, other: Option<Actor<'_>>) -> Vec<FaultKind> {
         let drivable = Drivable::new(map);
@@ -253,8 +231,8 @@ mod tests {
     #[test]
     fn boxes_that_touch_have_met_and_a_brush_at_speed_is_a_near_miss() {
         let passes = |beside_m: f64| {
-            let me = car("a", |t| (-30.0 + 8.0 * t, 0.0), 0.0, 8.0);
-            let other = car("b", |t| (30.0 - 8.0 * t, beside_m), PI, 8.0);
+            let me = straight("a", CAR, (-30.0, 0.0), 0.0, 8.0);
+            let other = straight("b", CAR, (30.0, beside_m), PI, 8.0);
             kinds(&LaneMap::default(), &me, Some(other))
         };
         assert_eq!(passes(1.95), [FaultKind::Collision]);
@@ -266,13 +244,12 @@ mod tests {
     fn to_face_the_traffic_for_long_is_the_wrong_way_too() {
         let lane = crate::map::Lane::street("east", vec![Vec2::new(-50.0, 0.0), Vec2::new(50.0, 0.0)]);
         let map = LaneMap { lanes: vec![lane], ..LaneMap::default() };
-        // It comes onto the lane at 7 s and creeps against it.
+        // It creeps beside the lane and comes onto it, facing the traffic.
         let comes = |since_s: f64| {
-            let at = move |t: f64| {
-                let on = (t - since_s).max(0.0);
-                (-1.2 * on, if t < since_s { 30.0 } else { 0.0 })
-            };
-            kinds(&map, &car("a", at, PI, 1.2), None)
+            let mut me = straight("a", CAR, (0.0, 0.0), PI, 1.2);
+            let beside = me.track.to_mut().states.iter_mut().take(step(since_s)).flatten();
+            beside.for_each(|state| state.y_m = 30.0);
+            kinds(&map, &me, None)
         };
         assert!(comes(7.0).contains(&FaultKind::WrongWay));
         assert!(!comes(8.6).contains(&FaultKind::WrongWay));

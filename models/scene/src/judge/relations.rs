@@ -195,7 +195,7 @@ mod tests {
 
     fn trace(id: &str, agent_type: AgentType, states: &[State]) -> Trace {
         let at = |step: usize| states.get(step).copied();
-        Trace::ahead(id, agent_type, &size(agent_type), states.len(), at)
+        Trace::new(id, agent_type, &size(agent_type), states.len(), at).going_on()
     }
 
     fn car(id: &str, states: &[State]) -> Trace {

@@ -101,25 +101,21 @@ impl Trace {
     }
 
     /// The same for one that is looked at itself: where it would go on from its end counts too.
-    pub fn ahead(
-        id: &str,
-        agent_type: AgentType,
-        size: &Size,
-        steps: usize,
-        at: impl Fn(usize) -> Option<State>,
-    ) -> Self {
-        let mut trace = Self::new(id, agent_type, size, steps, at);
-        if let Some(last) = trace.moments.iter().rev().flatten().next().copied()
+    #[must_use]
+    pub fn going_on(mut self) -> Self {
+        if let Some(last) = self.moments.iter().rev().flatten().next().copied()
             && last.speed_mps < WAITING_MPS
         {
-            let ahead = last.forward;
             let count = (GOES_ON_M / GOES_ON_STEP_M) as usize;
-            let on = |i: usize| Moment { center: last.center + ahead * (GOES_ON_STEP_M * i as f64), ..last };
-            trace.goes_on = (1..=count).map(on).collect();
-            let end = last.center + ahead * GOES_ON_M;
-            (trace.low, trace.high) = (trace.low.inf(&end), trace.high.sup(&end));
+            let on = |i: usize| {
+                let center = last.center + last.forward * (GOES_ON_STEP_M * i as f64);
+                Moment { center, ..last }
+            };
+            self.goes_on = (1..=count).map(on).collect();
+            let end = last.center + last.forward * GOES_ON_M;
+            (self.low, self.high) = (self.low.inf(&end), self.high.sup(&end));
         }
-        trace
+        self
     }
 
     /// Whose.

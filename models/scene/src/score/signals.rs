@@ -105,11 +105,11 @@ pub(crate) fn crossed_at_red(
         let least = group.iter().map(|c| c.off_lane_m).fold(f64::INFINITY, f64::min);
         let most = if least < ON_LANE_M { (least + SAME_LANE_M).min(ON_LANE_M) } else { f64::INFINITY };
         let taken = || group.iter().filter(|c| c.off_lane_m <= most);
-        if most.is_infinite() && takes_a_free_lane(input, actor, group[0].step, lines) {
-            continue;
-        }
         let allowed = input.thresholds.right_on_red && turns_right_after_stop(actor, group[0].step);
         if allowed || !taken().all(|c| must_stop(c.line.signal.at(c.step))) {
+            continue;
+        }
+        if most.is_infinite() && takes_a_free_lane(input, actor, group[0].step, lines) {
             continue;
         }
         if let (Some(c), Some(state)) = (taken().next(), actor.state(group[0].step)) {
@@ -127,10 +127,10 @@ pub(crate) fn crossed_at_red(
 
 /// Behind a line it takes a lane that no signal controls.
 fn takes_a_free_lane(input: &ScoreInput<'_>, actor: &Actor<'_>, step: usize, lines: &[StopLine<'_>]) -> bool {
-    let places: Vec<Vec2> =
-        (step..input.steps.end).map_while(|i| actor.state(i)).map(crate::State::position).collect();
-    let Some(here) = places.first() else { return false };
-    let told: Vec<Vec2> = places.iter().copied().take_while(|p| (p - here).norm() <= TELLING_M).collect();
+    let place = |i: usize| actor.state(i).map(crate::State::position);
+    let Some(here) = place(step) else { return false };
+    let told: Vec<Vec2> =
+        (step..input.steps.end).map_while(place).take_while(|p| (p - here).norm() <= TELLING_M).collect();
     let free = input.map.lanes.iter().filter(|lane| {
         lane.lane_type.carries_vehicles() && !lines.iter().any(|line| line.signal.lane == lane.id)
     });

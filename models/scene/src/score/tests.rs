@@ -22,7 +22,7 @@ pub(super) fn track_of(state: impl Fn(usize) -> State) -> Track {
 }
 
 /// Generated motion straight on at a steady speed: vehicles 4 by 2 m, others 0.8 by 0.8 m.
-pub(super) fn straight(
+pub(crate) fn straight(
     id: &'static str,
     agent_type: AgentType,
     from: (f64, f64),

@@ -51,7 +51,8 @@ impl<'a> Standing<'a> {
         let (shown, first_step) = (&self.traces[agent], self.request.start_step + 1);
         let late = future.first_step.saturating_sub(first_step);
         let at = |step: usize| future.states.get(step.checked_sub(late)?).copied();
-        let me = Trace::ahead(shown.id(), shown.agent_type(), shown.size(), late + future.states.len(), at);
+        let me = Trace::new(shown.id(), shown.agent_type(), shown.size(), late + future.states.len(), at)
+            .going_on();
         relations(&me, &self.traces, first_step)
     }
 
