@@ -20,6 +20,7 @@ pub mod random;
 pub mod routes;
 mod scene;
 pub mod score;
+mod shown;
 pub mod signal;
 
 pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
@@ -32,6 +33,7 @@ pub use scene::{
     MAX_AGENTS, MAX_COORDINATE_M, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS,
 };
 pub use scene::{Meta, Origin, Scene, SceneError, Timing};
+pub use shown::Shown;
 pub use signal::{Signal, SignalState};
 
 /// Length of one step in seconds, fixed for the whole product (10 Hz).
