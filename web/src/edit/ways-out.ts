@@ -29,6 +29,8 @@ const PASSES_M = 4;
 function brokenRules(e: Editor, a: Agent): readonly Fault[] {
   const about = a.goal.pos && verdictsHold(e) ? e.futures.value?.modes[e.chosen.value]?.about : null;
   const mark = about && markOf(about);
+  // Leave to break a rule does not bring a goal within reach.
+  if (about?.faults.some((f) => f.kind === 'goal_missed')) return [];
   return mark === 'rule' || mark === 'collision' ? about!.faults : [];
 }
 

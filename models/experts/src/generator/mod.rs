@@ -7,6 +7,7 @@ mod choice;
 mod costs;
 mod covering;
 mod decide;
+mod drafting;
 mod duplicate_modes;
 mod evading;
 mod extrapolation;

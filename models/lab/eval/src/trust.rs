@@ -15,9 +15,10 @@ use rayon::prelude::*;
 use scene::geometry::direction;
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::judge::{FaultKind, RelationKind};
+use scene::limits::Limits;
 use scene::random::Key;
 use scene::routes::{GoalQuery, Pose, RouteKind, routes_to_goal};
-use scene::{AgentFutures, AgentId, AgentType, Future, Goal, Vec2};
+use scene::{AgentFutures, AgentId, AgentType, Future, Goal, STEP_S, Vec2};
 use std::collections::BTreeSet;
 
 /// Road users whose goals are dragged; ten drags each.
@@ -30,6 +31,8 @@ const NUDGE_M: f64 = 0.05;
 const COPY_M: f64 = 0.5;
 /// A driver this far before a stop line at red is told to wait, metres.
 const BEFORE_LINE_M: f64 = 50.0;
+/// Share of what limits allow that a way may need to count as driven in time: there are bends.
+const PRESSED_SHARE: f64 = 0.8;
 /// Half seconds of a window.
 const SHOWN: usize = 18;
 
@@ -238,7 +241,7 @@ fn last_shown(future: &Future) -> ShownLast {
     ShownLast { anchor: future.anchor, places: places.collect() }
 }
 
-/// A route with the traffic leads to the goal, and there is room for the vehicle on the road there.
+/// A route with the traffic leads to the goal in the time, and there is room for the vehicle on the road there.
 fn has_route(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
     let Some(position) = goal.position else { return false };
     let size = site.log(case).size;
@@ -256,9 +259,23 @@ fn has_route(site: &Site<'_>, case: &Case, goal: &Goal) -> bool {
         goal_heading_rad: goal.heading_rad,
         least_effort_m: None,
     };
-    routes_to_goal(&site.graph, &query)
-        .iter()
-        .any(|r| r.kind == RouteKind::Forward && r.goal_lateral_m.abs() < 1.5)
+    routes_to_goal(&site.graph, &query).iter().any(|r| {
+        let (kind, beside_m) = (r.kind, r.goal_lateral_m.abs());
+        kind == RouteKind::Forward && beside_m < 1.5 && is_in_time(site, case, r.route.path.length_m())
+    })
+}
+
+/// A way of this length can be driven by when the goal is due, neither too far nor too near to slow down for.
+fn is_in_time(site: &Site<'_>, case: &Case, length_m: f64) -> bool {
+    let log = site.log(case);
+    let limits = Limits::of(case.agent_type, log.subtype, log.size.length_m);
+    let (v0, seconds) = (case.start.speed_mps(), case.goal_step as f64 * STEP_S);
+    let (accel, brake) = (limits.accel_mps2, limits.brake_mps2);
+    let speeding_s = seconds.min((limits.speed_mps - v0).max(0.0) / accel);
+    let most_m = v0 * seconds + accel * speeding_s * (seconds - 0.5 * speeding_s);
+    let braking_s = seconds.min(v0 / brake);
+    let least_m = v0 * braking_s - 0.5 * brake * braking_s * braking_s;
+    (least_m / PRESSED_SHARE..=PRESSED_SHARE * most_m).contains(&length_m)
 }
 
 /// Nobody's log is where the goal is when it is due. With its heading free one comes along the lane there, else
@@ -371,7 +388,8 @@ fn faults_sheet() -> Sheet {
         &[
             "Goals moved by 2 to 30 m along and across the lane, ten for each of at most 150 road users drawn by the \
              seed, everybody reacting. Share of reached goals whose future has each fault (`all six`: share of all \
-             futures), by whether a route with the traffic leads to the goal.",
+             futures), by whether a route with the traffic leads to the goal \
+             in the time.",
         ],
         &["ours", "goals of vehicles", "futures"],
         &columns,

@@ -13,7 +13,8 @@ mod standing;
 mod targets;
 mod verdicts;
 
-use super::window::{Window, steps};
+use super::drafting::steps;
+use super::window::Window;
 use super::{Generator, KnownMap, report};
 use crate::clock::milliseconds;
 use crate::planning::world::World;
