@@ -13,6 +13,7 @@ pub mod generated;
 pub mod geometry;
 pub mod hash;
 pub mod judge;
+pub mod licence;
 pub mod limits;
 pub mod map;
 pub mod motion;

@@ -2,6 +2,7 @@
 
 pub mod events;
 mod feed;
+pub mod kept;
 mod outbox;
 mod run;
 pub mod scoring;
@@ -26,6 +27,8 @@ pub struct Task {
     pub all_modes: bool,
     /// Score each sample.
     pub score: bool,
+    /// Samples hold the futures of those who are not part of the call too.
+    pub with_kept: bool,
     /// The rest of `generated`.
     pub head: GeneratedHead,
 }

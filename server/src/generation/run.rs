@@ -3,14 +3,14 @@
 use super::events::{AcceptedBody, DraftBody, FinalBody, GeneratedHead, TimingBody};
 use super::feed::Feed;
 use super::outbox::End;
-use super::{Task, scoring};
+use super::{Task, kept, scoring};
 use crate::base::metrics;
 use crate::base::problem::Problem;
 use crate::work::Kind;
 use experts::weights::EXPERTS;
 use experts::{Answer, Draft, Event, GenerateError, Generator};
 use formats::native::SampleDoc;
-use scene::Scene;
+use scene::{Sample, Scene};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -40,6 +40,9 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
             }
             Ok(Event::Final(answer)) => {
                 let mut body = final_body(&task.head, &answer, queued);
+                if task.with_kept {
+                    body.samples = answer.samples.iter().map(|sample| with_kept(&scene, sample)).collect();
+                }
                 if task.score {
                     add_scores(&mut body, &scene, &answer);
                 }
@@ -90,6 +93,12 @@ fn final_body(head: &GeneratedHead, answer: &Answer, queued: Duration) -> FinalB
         timing,
         generated: head.clone().dated(),
     }
+}
+
+fn with_kept(scene: &Scene, sample: &Sample) -> SampleDoc {
+    let mut all = sample.clone();
+    kept::fill(scene, &mut all);
+    SampleDoc::from_sample(&all)
 }
 
 fn add_scores(body: &mut FinalBody, scene: &Scene, answer: &Answer) {

@@ -24,10 +24,7 @@ pub fn drivable(scene: &Scene) -> Arc<Drivable> {
 /// and the log of the rest.
 pub fn sample(scene: &Scene, sample: &Sample) -> Score {
     let mut all = sample.clone();
-    let kept = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
-    for (id, futures) in kept.into_iter().flat_map(|s| &s.agents) {
-        all.agents.entry(id.clone()).or_insert_with(|| futures.clone());
-    }
+    super::kept::fill(scene, &mut all);
     let drivable = drivable(scene);
     scene::score::score(&ScoreInput::of_sample(scene, Some(&all), &drivable))
 }

@@ -50,7 +50,7 @@ export class VerdictOverlay {
         paintBroken(g, v, stretchOf(f, i, fault), {
           width: i === chosen ? Math.max(width, 3.2) : width,
           alpha: i === chosen ? 1 : Math.max(0.45, 0.85 * alpha),
-          colour: fault.kind === 'near_miss' ? c['near-edge'] : c.collision,
+          colour: fault.kind === 'near_miss' || fault.kind === 'overlap' ? c['near-edge'] : c.collision,
         });
       }
     }

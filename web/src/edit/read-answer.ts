@@ -40,6 +40,8 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
       closing: c.closing_speed_mps,
       inLog: c.in_log,
     })),
+    // Servers of before have none.
+    overlaps: (s.overlaps ?? []).map((c) => ({ a: c.a, b: c.b, time: c.time_s, depth: c.depth_m, inLog: c.in_log })),
     nearMisses: s.near_misses.map((c) => ({
       a: c.a,
       b: c.b,

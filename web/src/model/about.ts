@@ -43,6 +43,7 @@ export const FAULT_KINDS: readonly FaultKind[] = [
   'off_road',
   'harsh_braking',
   'harsh_steering',
+  'overlap',
   'near_miss',
   'goal_missed',
 ];
@@ -53,7 +54,13 @@ export type Mark = 'collision' | 'rule' | 'near' | 'short' | 'ok';
 const MARKS: readonly Mark[] = ['collision', 'rule', 'near', 'short', 'ok'];
 
 const kindMark = (kind: FaultKind): Mark =>
-  kind === 'collision' ? 'collision' : kind === 'near_miss' ? 'near' : kind === 'goal_missed' ? 'short' : 'rule';
+  kind === 'collision'
+    ? 'collision'
+    : kind === 'near_miss' || kind === 'overlap'
+      ? 'near'
+      : kind === 'goal_missed'
+        ? 'short'
+        : 'rule';
 
 export const faultMark = (f: Pick<Fault, 'kind'>): Mark => kindMark(f.kind);
 

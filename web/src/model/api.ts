@@ -487,6 +487,11 @@ export interface components {
              */
             offroad_share: number | null;
             /**
+             * Format: uint
+             * @description Overlaps below the threshold of a collision that it is part of and the log does not show.
+             */
+            overlaps: number;
+            /**
              * Format: double
              * @description As in [`SceneScore`].
              */
@@ -617,7 +622,7 @@ export interface components {
         };
         /**
          * Collision
-         * @description Two road users overlap. One entry a pair.
+         * @description Two road users collide: their boxes overlap by more than the thresholds say. One entry a pair.
          */
         Collision: {
             /** @description The one listed first. */
@@ -935,7 +940,7 @@ export interface components {
          * FaultKind
          * @description What can be wrong with a motion, the worst first.
          */
-        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "goal_missed";
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "overlap" | "near_miss" | "goal_missed";
         /**
          * Field
          * @description A value and where it came from.
@@ -1004,7 +1009,10 @@ export interface components {
              * @description Revision of the request, when it had one.
              */
             revision?: number;
-            /** @description Joint scenes. */
+            /**
+             * @description Joint scenes. Those who are not part of the call but have a future in the scene are among them with it,
+             *     unless `kept_futures` says otherwise.
+             */
             samples: components["schemas"]["SampleDoc"][];
             /** @description One report a sample, or null when none was asked for. */
             scores: components["schemas"]["ScoreReply"][] | null;
@@ -1135,6 +1143,11 @@ export interface components {
              */
             job?: string | null;
             /**
+             * @description What becomes of the futures that the scene has, of those who are not part of this call.
+             * @default answered
+             */
+            kept_futures?: components["schemas"]["KeptFutures"];
+            /**
              * Format: uint64
              * @description Alternatives kept per road user.
              * @default 6
@@ -1238,6 +1251,8 @@ export interface components {
             created_at?: string;
             /** @description Hash of the user's part that these futures answer. */
             input_sha256: string;
+            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            licence?: string | null;
             /**
              * @description The request's options as sent.
              * @default null
@@ -1278,6 +1293,8 @@ export interface components {
             created_at: string;
             /** @description Hash of the user's part that the futures answer. */
             input_sha256: string;
+            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            licence?: string | null;
             /** @description The request's options as sent, without scene and conditions. */
             request: unknown;
             /**
@@ -1486,6 +1503,11 @@ export interface components {
             /** Format: double */
             y_m: number;
         };
+        /**
+         * KeptFutures
+         * @description What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+         */
+        KeptFutures: "answered" | "omitted" | "forgotten";
         /**
          * KindLimits
          * @description Motion limits by kind of road user, each of the kind's usual size.
@@ -1815,7 +1837,7 @@ export interface components {
         };
         /**
          * NearMiss
-         * @description Two moving road users nearly collide. One entry a pair, at its worst moment.
+         * @description Two moving road users nearly collide, their boxes apart all the time. One entry a pair, at its worst moment.
          */
         NearMiss: {
             /** @description The one listed first. */
@@ -1903,6 +1925,31 @@ export interface components {
              * @default 0
              */
             z_m?: number;
+        };
+        /**
+         * Overlap
+         * @description The boxes of two road users overlap by less than a collision takes. One entry a pair.
+         */
+        Overlap: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Greatest depth, metres: the least gap of the pair is this below zero.
+             */
+            depth_m: number;
+            /**
+             * @description The log itself shows it: both move as recorded, or the recording has an overlap as deep. It does not
+             *     count.
+             */
+            in_log: boolean;
+            /**
+             * Format: double
+             * @description Scene time of the first step at which they overlap, seconds.
+             */
+            time_s: number;
         };
         /**
          * PairChoice
@@ -2561,7 +2608,8 @@ export interface components {
             min_ade_m?: number | null;
             /**
              * Format: double
-             * @description Least gap of any pair that is not parked, metres; negative for depth.
+             * @description Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
+             *     overlap. People in company are left out where they touch.
              */
             min_distance_m: number | null;
             /**
@@ -2595,6 +2643,8 @@ export interface components {
              * @description Share of road users whose box overlaps another's at all, however little.
              */
             overlap_rate: number;
+            /** @description By time, then by pair. */
+            overlaps: components["schemas"]["Overlap"][];
             /**
              * Format: double
              * @description Least post-encroachment time of crossing paths, seconds.

@@ -101,6 +101,14 @@ function ofScore(scene: Scene, set: MotionSet, score: Score): Raw[] {
     extent: c.distance,
     inLog: c.inLog ?? (replays(c.a, c.time) && replays(c.b, c.time)),
   }));
+  const light = (score.overlaps ?? []).map((c): Raw => ({
+    ...none,
+    ...c,
+    what: 'overlap',
+    until: c.time,
+    extent: c.depth,
+    inLog: c.inLog ?? (replays(c.a, c.time) && replays(c.b, c.time)),
+  }));
   const one = (score.stretches ?? []).map((s: Stretch): Raw => ({
     ...none,
     what: s.what,
@@ -111,7 +119,7 @@ function ofScore(scene: Scene, set: MotionSet, score: Score): Raw[] {
     extent: s.extent,
     inLog: s.inLog ?? replays(s.agent, s.time),
   }));
-  return [...two, ...near, ...one];
+  return [...two, ...light, ...near, ...one];
 }
 
 /** Does it do what was recorded, or what the example says? */
@@ -157,6 +165,7 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
   off_road: 'Off the road',
   harsh_braking: 'Hard braking',
   harsh_steering: 'Hard steering',
+  overlap: 'Overlap',
   near_miss: 'Near miss',
   goal_missed: 'Goal missed',
 };
@@ -255,6 +264,7 @@ const FACTS: Partial<Record<FaultKind, string>> = {
   off_road: 'Past the edge',
   harsh_braking: 'Braking',
   harsh_steering: 'Sideways',
+  overlap: 'Depth',
   goal_missed: 'Left to the goal',
 };
 

@@ -164,9 +164,14 @@ export interface NearMiss extends Collision {
   distance: number | null;
   ttc: number | null;
 }
+/** Boxes that overlap by less than a collision takes. */
+export interface Overlap extends Collision {
+  /** Metres. */
+  depth: number;
+}
 /** One road user does something that it should not for a while. */
 export interface Stretch {
-  readonly what: Exclude<FaultKind, 'collision' | 'near_miss'>;
+  readonly what: Exclude<FaultKind, 'collision' | 'overlap' | 'near_miss'>;
   readonly agent: string;
   readonly time: number;
   readonly until: number;
@@ -175,6 +180,7 @@ export interface Stretch {
 }
 export interface Score {
   readonly collisions: readonly Collision[];
+  readonly overlaps?: readonly Overlap[];
   readonly nearMisses: readonly NearMiss[];
   readonly stretches?: readonly Stretch[];
   readonly minTtc: number | null;

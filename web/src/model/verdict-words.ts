@@ -40,6 +40,8 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
       return `brakes${hard(f)}`;
     case 'harsh_steering':
       return `steers${hard(f)}`;
+    case 'overlap':
+      return `overlaps ${somebody(f, nameOf)}`;
     case 'near_miss':
       // Far apart, but so fast towards each other that the time is what was near.
       return f.extent === null || f.extent > GAP_M
@@ -178,6 +180,10 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
       return group(worst.kind, 'brake hard', 'brakes hard');
     case 'harsh_steering':
       return group(worst.kind, 'steer hard', 'steers hard');
+    case 'overlap': {
+      const whom = somebody(worst, said.who.nameOf);
+      return group(`overlap:${worst.with}`, `overlap ${whom}`, `overlaps ${whom}`);
+    }
     case 'near_miss': {
       const whom = somebody(worst, said.who.nameOf);
       return group(`near:${worst.with}`, `nearly hit ${whom}`, `nearly hits ${whom}`);

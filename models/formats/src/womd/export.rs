@@ -253,7 +253,7 @@ fn scene_losses(scene: &Scene, motion: ExportedMotion, id: &str, losses: &mut Ve
     if egos > 1 || agents.iter().any(|a| a.role.as_deref().is_some_and(|r| r != EGO)) {
         losses.push(Loss::new(code::NO_ROLES, "roles other than the ego's"));
     }
-    if scene.meta.licence.is_some() {
+    if scene.licence().is_some() {
         losses.push(Loss::new(code::NO_LICENCE, "the file has no place for a licence"));
     }
     let meta = &scene.meta;

@@ -37,8 +37,9 @@ const PRESSED_SHARE: f64 = 0.8;
 const SHOWN: usize = 18;
 
 /// Faults in the order of the columns.
-const KINDS: [(FaultKind, &str); 8] = [
+const KINDS: [(FaultKind, &str); 9] = [
     (FaultKind::Collision, "collision"),
+    (FaultKind::Overlap, "overlap"),
     (FaultKind::RedLight, "red light"),
     (FaultKind::WrongWay, "wrong way"),
     (FaultKind::OverMedian, "over median"),

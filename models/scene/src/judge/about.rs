@@ -23,6 +23,8 @@ pub enum FaultKind {
     HarshBraking,
     /// Turning; `extent` is the acceleration sideways, m/s2.
     HarshSteering,
+    /// Its box overlaps another's by less than a collision takes; `extent` is how deep, metres.
+    Overlap,
     /// Another is met all but; `extent` is the gap, metres.
     NearMiss,
     /// The goal is not met; `extent` is what is left, metres.

@@ -119,9 +119,8 @@ impl<'a> Judge<'a> {
                 Meeting::Collision { time_s, closing_speed_mps, .. } => {
                     (FaultKind::Collision, time_s, closing_speed_mps)
                 }
-                Meeting::Near { time_s, distance_m, .. } => {
-                    (FaultKind::NearMiss, time_s, distance_m.max(0.0))
-                }
+                Meeting::Overlap { time_s, depth_m } => (FaultKind::Overlap, time_s, depth_m),
+                Meeting::Near { time_s, distance_m, .. } => (FaultKind::NearMiss, time_s, distance_m),
             };
             let state = near(actor, time_s)?;
             let with = Some(other.actor.id.to_owned());

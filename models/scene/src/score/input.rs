@@ -68,6 +68,7 @@ impl Default for Thresholds {
 /// Which pairs are looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum PairChoice {
     /// Every pair.
     #[default]

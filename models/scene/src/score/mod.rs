@@ -47,6 +47,7 @@ pub fn score(input: &ScoreInput<'_>) -> Score {
         scene.wrong_way.extend(road.wrong_way);
         agents.push(AgentScore {
             collisions: pair.collisions,
+            overlaps: pair.light_overlaps,
             near_misses: pair.near_misses,
             min_ttc_s: pair.min_ttc_s,
             min_distance_m: pair.min_distance_m,

@@ -99,6 +99,7 @@ fn member_names_are_those_of_the_api() {
     for name in [
         "collisions",
         "collision_rate",
+        "overlaps",
         "near_misses",
         "min_ttc_s",
         "min_distance_m",

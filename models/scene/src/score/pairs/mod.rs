@@ -7,7 +7,7 @@ mod near;
 
 use super::input::{Actor, Exclude, PairChoice, ScoreInput};
 use super::pet::post_encroachment_s;
-use super::report::{Collision, NearMiss, time_of};
+use super::report::{BoxOverlap, Collision, NearMiss, time_of};
 use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
@@ -25,6 +25,8 @@ pub struct PairTotals {
     pub collisions: usize,
     /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
+    /// Overlaps below the threshold of a collision, likewise.
+    pub light_overlaps: usize,
     /// Collisions it is part of and the log shows too.
     pub logged_collisions: usize,
     /// Its box overlaps another's at a step, however little.
@@ -43,6 +45,8 @@ pub struct PairScores {
     /// One a pair, in pair order.
     pub collisions: Vec<Collision>,
     /// One a pair, in pair order.
+    pub overlaps: Vec<BoxOverlap>,
+    /// One a pair, in pair order.
     pub near_misses: Vec<NearMiss>,
     /// By road user, in input order.
     pub agents: Vec<PairTotals>,
@@ -54,8 +58,25 @@ struct Pair {
     min_ttc_s: Option<f64>,
     min_distance_m: Option<f64>,
     overlaps: bool,
+    touch: Option<Touch>,
     collision: Option<Contact>,
     near: Option<Nearest>,
+}
+
+/// Boxes that overlap at a step, however little, of two for whom that says something.
+#[derive(Debug)]
+struct Touch {
+    /// First step, from the first scored one.
+    first: usize,
+    /// Greatest depth, metres.
+    depth_m: f64,
+}
+
+impl Touch {
+    fn keep(touch: &mut Option<Self>, step: usize, depth_m: f64) {
+        let touch = touch.get_or_insert(Self { first: step, depth_m });
+        touch.depth_m = touch.depth_m.max(depth_m);
+    }
 }
 
 /// A collision. Times are in steps from the first scored one.
@@ -107,23 +128,28 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
         }
         let pair = look_at(input, &movers[i], &movers[j], known);
         let pet_s = post_encroachment_s(&movers[i], &movers[j]);
-        let happens = pair.collision.is_some() || pair.near.is_some();
+        let met = Meeting::of(&pair, input.steps.start);
+        let happens = met.is_some();
         let in_log = happens && log::is_in_log(input, a, b, &pair);
         let ids = (a.id.to_owned(), b.id.to_owned());
         for k in [i, j] {
             let totals = &mut scores.agents[k];
             totals.collisions += usize::from(pair.collision.is_some() && !in_log);
             totals.logged_collisions += usize::from(pair.collision.is_some() && in_log);
-            totals.near_misses += usize::from(pair.near.is_some() && !in_log);
+            totals.near_misses += usize::from(matches!(met, Some(Meeting::Near { .. })) && !in_log);
+            totals.light_overlaps += usize::from(matches!(met, Some(Meeting::Overlap { .. })) && !in_log);
             totals.overlaps |= pair.overlaps;
             totals.min_ttc_s = least(totals.min_ttc_s, pair.min_ttc_s);
             totals.min_distance_m = least(totals.min_distance_m, pair.min_distance_m);
             totals.pet_s = least(totals.pet_s, pet_s);
         }
         let (a, b) = ids;
-        match Meeting::of(&pair, input.steps.start) {
+        match met {
             Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
                 scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
+            }
+            Some(Meeting::Overlap { time_s, depth_m }) => {
+                scores.overlaps.push(BoxOverlap { a, b, time_s, depth_m, in_log });
             }
             Some(Meeting::Near { time_s, distance_m, ttc_s, closing_speed_mps }) => {
                 let miss = NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps, in_log };
@@ -140,6 +166,8 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
 pub(crate) enum Meeting {
     /// As [`Collision`].
     Collision { time_s: f64, iou: f64, closing_speed_mps: f64 },
+    /// As [`BoxOverlap`].
+    Overlap { time_s: f64, depth_m: f64 },
     /// As [`NearMiss`].
     Near { time_s: f64, distance_m: f64, ttc_s: Option<f64>, closing_speed_mps: f64 },
 }
@@ -149,6 +177,9 @@ impl Meeting {
         let scene_time = |step: f64| time_of(first_step as f64 + step);
         if let Some(Contact { first, iou, closing_mps: closing_speed_mps, .. }) = pair.collision {
             return Some(Self::Collision { time_s: scene_time(first), iou, closing_speed_mps });
+        }
+        if let Some(Touch { first, depth_m }) = pair.touch {
+            return Some(Self::Overlap { time_s: scene_time(first as f64), depth_m });
         }
         let Nearest { step, gap, .. } = pair.near.as_ref()?;
         let (distance_m, ttc_s, closing_speed_mps) = (gap.gap_m, gap.ttc_s, gap.closing_mps);
@@ -235,10 +266,14 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
             if matters { gap_and_direction(&p.outline, &q.outline) } else { (apart, Vec2::zeros()) };
         let ttc_s = if moving { ttc(p, q, horizon_s) } else { None };
         if matters {
-            if travels || gap < 0.0 {
+            pair.overlaps |= gap < 0.0;
+            let touches = gap < 0.0 && !belong_together(a, b, step);
+            if touches {
+                Touch::keep(&mut pair.touch, step, -gap);
+            }
+            if touches || (travels && gap >= 0.0) {
                 pair.min_distance_m = least(pair.min_distance_m, Some(gap));
             }
-            pair.overlaps |= gap < 0.0;
             collide(&mut pair, input, (a, b), step, gap);
         }
         pair.min_ttc_s = least(pair.min_ttc_s, ttc_s);
