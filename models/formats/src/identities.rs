@@ -5,8 +5,11 @@ use crate::problem::Warning;
 use scene::geometry::obb::{OrientedBox, iou};
 use scene::{Agent, STEP_S, Scene, State, wrap_angle};
 
-/// The second track begins at most this long before or after the end of the first, steps.
+/// The second track begins at most this long before or after the end of the first, steps. Of one that stands at the
+/// end of the first and at the beginning of the second it may be any time after: nobody else takes its place.
 const MOST_STEPS: usize = 10;
+/// Slower than this stands, m/s.
+const STANDING_MPS: f64 = 0.5;
 /// Boxes of one road user share at least this much.
 const LEAST_IOU: f64 = 0.4;
 /// ... and differ in velocity by at most this, m/s ...
@@ -60,14 +63,11 @@ fn find(agents: &[Agent]) -> Option<(String, usize)> {
         let Some(end) = first.track.last_valid_step() else { continue };
         let is_next = |second: &Agent| {
             let Some(begin) = second.track.valid_steps().next() else { return false };
-            let later =
-                second.track.last_valid_step() > Some(end) && first.track.valid_steps().next() < Some(begin);
-            let ego = second.role.is_some() || second.id == first.id;
-            later
-                && !ego
-                && second.agent_type == first.agent_type
-                && begin.abs_diff(end) <= MOST_STEPS
-                && is_same(first, second, begin, end)
+            let begins_first = first.track.valid_steps().next() < Some(begin);
+            let later = begins_first && second.track.last_valid_step() > Some(end);
+            let other =
+                second.role.is_none() && second.id != first.id && second.agent_type == first.agent_type;
+            later && other && in_time(first, second, begin, end) && is_same(first, second, begin, end)
         };
         if let Some(at) = agents.iter().position(is_next) {
             return Some((first.id.clone(), at));
@@ -76,10 +76,22 @@ fn find(agents: &[Agent]) -> Option<(String, usize)> {
     None
 }
 
+/// The second track begins about where the first one ends.
+fn in_time(first: &Agent, second: &Agent, begin: usize, end: usize) -> bool {
+    let stands = |state: Option<&State>| state.is_some_and(|s| s.speed_mps() < STANDING_MPS);
+    let waits = || begin > end && stands(first.track.at(end)) && stands(second.track.at(begin));
+    begin.abs_diff(end) <= MOST_STEPS || waits()
+}
+
 /// Where both are known they coincide; where they are not, the first goes on into the place of the second.
 fn is_same(first: &Agent, second: &Agent, begin: usize, end: usize) -> bool {
     if begin > end {
         let (Some(last), Some(next)) = (first.track.at(end), second.track.at(begin)) else { return false };
+        // What creeps for seconds without being seen would be guessed too far on.
+        let stands = last.speed_mps() < STANDING_MPS && next.speed_mps() < STANDING_MPS;
+        if stands {
+            return coincide((last, first), (next, second));
+        }
         let gone_on = last.position() + last.velocity() * ((begin - end) as f64 * STEP_S);
         let expected = State { x_m: gone_on.x, y_m: gone_on.y, ..*last };
         return coincide((&expected, first), (next, second));
@@ -151,6 +163,24 @@ mod tests {
         assert_eq!(known, (0..60).chain(64..91).collect::<Vec<_>>());
         assert_eq!((track.at(40).unwrap().y_m, track.at(41).unwrap().y_m), (0.0, 0.2));
         assert_eq!(scene.meta.objects_of_interest, ["1"]);
+    }
+
+    #[test]
+    fn one_that_stands_unseen_for_long_is_the_same() {
+        let stands = |id: &str, steps: std::ops::Range<usize>| {
+            let mut agent = tracked(id, steps, 0.0);
+            for state in agent.track.states.iter_mut().flatten() {
+                (state.x_m, state.vx_mps) = (12.0, 0.0);
+            }
+            agent
+        };
+        let (scene, warning) = joined(vec![stands("1", 0..20), stands("2", 70..91)]);
+        assert!(scene.agents.len() == 1 && warning.is_some());
+        // One that drives through the same place seconds later is another.
+        let mut passing = tracked("2", 40..91, 0.0);
+        passing.track.states.iter_mut().flatten().for_each(|state| state.x_m -= 28.0);
+        let (scene, _) = joined(vec![stands("1", 0..20), passing]);
+        assert_eq!(scene.agents.len(), 2);
     }
 
     #[test]
