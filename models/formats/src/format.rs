@@ -40,6 +40,8 @@ pub struct ImportOptions {
     pub licence: Option<String>,
     /// Check the checksums that the format has.
     pub verify: bool,
+    /// Join the tracks of road users that a recording has under two ids.
+    pub join_identities: bool,
     /// The network that a recording belongs to, for formats whose info has `takes_net`: a SUMO `net.xml`,
     /// plain or gzip. Faults in it are reported under [`NET_POINTER`].
     pub net: Option<Vec<u8>>,
@@ -50,7 +52,14 @@ pub const NET_POINTER: &str = "/net";
 
 impl Default for ImportOptions {
     fn default() -> Self {
-        Self { skip: 0, max_scenes: MAX_SCENES, licence: None, verify: true, net: None }
+        Self {
+            skip: 0,
+            max_scenes: MAX_SCENES,
+            licence: None,
+            verify: true,
+            join_identities: true,
+            net: None,
+        }
     }
 }
 

@@ -5,7 +5,9 @@
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 
 pub mod checks;
+pub mod files;
 pub mod format;
+pub mod identities;
 pub mod limits;
 pub mod loss;
 pub mod native;

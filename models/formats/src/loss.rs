@@ -22,6 +22,8 @@ impl Loss {
 pub mod code {
     /// What the user fixed.
     pub const NO_CONDITIONS: &str = "no-conditions";
+    /// Which motion was generated: read again, all of it counts as recorded.
+    pub const NO_GENERATED: &str = "no-generated";
     /// Futures other than the exported one.
     pub const NO_MODES: &str = "no-modes";
     /// Finer kinds of road user.

@@ -12,11 +12,12 @@ use formats::{ExportOptions, ImportOptions};
 use std::collections::BTreeSet;
 
 /// Every loss code that a writer here can give.
-const LOSS_CODES: [&str; 11] = [
+const LOSS_CODES: [&str; 12] = [
     code::NO_CONDITIONS,
     code::NO_MODES,
     code::NO_SUBTYPE,
     code::NO_ROLES,
+    code::NO_GENERATED,
     code::NO_LICENCE,
     code::NO_NOTES,
     code::NO_DRIVABLE,
@@ -76,6 +77,6 @@ fn losses_are_listed_once() {
     let exported = womd.export(&[&scene, &scene], &ExportOptions::default()).unwrap();
     assert_eq!(
         registry::loss_header(&exported.losses),
-        "no-conditions, no-licence, no-modes, no-notes, no-subtype"
+        "no-conditions, no-generated, no-licence, no-modes, no-notes, no-subtype"
     );
 }

@@ -68,6 +68,8 @@ pub struct Generated {
     pub seed: u64,
     /// The request's options as sent.
     pub request: serde_json::Value,
+    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    pub licence: Option<String>,
     /// RFC 3339 time.
     pub created_at: String,
     /// Index into `samples`.

@@ -13,6 +13,7 @@ pub mod generated;
 pub mod geometry;
 pub mod hash;
 pub mod judge;
+pub mod licence;
 pub mod limits;
 pub mod map;
 pub mod motion;
@@ -21,6 +22,7 @@ pub mod routes;
 mod scene;
 pub mod score;
 pub mod shared;
+mod shown;
 pub mod signal;
 
 pub use agent::{Agent, AgentId, AgentType, Size, State, Subtype, Track};
@@ -35,6 +37,7 @@ pub use scene::{
 };
 pub use scene::{Meta, Origin, Scene, SceneError, Timing};
 pub use shared::Shared;
+pub use shown::Shown;
 pub use signal::{Signal, SignalState};
 
 /// Length of one step in seconds, fixed for the whole product (10 Hz).

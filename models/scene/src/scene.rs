@@ -136,6 +136,12 @@ impl Scene {
         if problems.is_empty() { Ok(self) } else { Err(problems) }
     }
 
+    /// Licence of the scene with the futures that it has: the strictest of its own and theirs.
+    pub fn licence(&self) -> Option<String> {
+        let generated = self.generated.as_ref().and_then(|generated| generated.licence.as_deref());
+        crate::licence::strictest(self.meta.licence.as_deref().into_iter().chain(generated))
+    }
+
     /// The agent with this id.
     pub fn agent(&self, id: &str) -> Option<&Agent> {
         self.agents.iter().find(|a| a.id == id)

@@ -6,7 +6,7 @@ use crate::routes::import::range;
 use crate::scenes::transfer::{self, Imported, Motion};
 use clap::Args;
 use scene::Scene;
-use scene::score::{Drivable, ScoreInput};
+use scene::score::{Drivable, PairChoice, ScoreInput, Thresholds};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
@@ -79,6 +79,26 @@ pub struct ScoreArgs {
     /// One JSON object a line in place of text.
     #[arg(long)]
     json: bool,
+    /// Which pairs are looked at: all of them, or those with a generated road user.
+    #[arg(long, value_enum, default_value_t)]
+    pairs: PairChoice,
+    /// Boxes collide when their intersection over union is above this; 0 takes any overlap.
+    #[arg(long, value_name = "SHARE", default_value_t = Thresholds::default().iou, value_parser = share)]
+    iou: f64,
+    /// Near miss: time to collision below this, seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = Thresholds::default().ttc_s, value_parser = positive)]
+    ttc: f64,
+    /// Near miss: gap below this, metres.
+    #[arg(long, value_name = "METRES", default_value_t = Thresholds::default().gap_m, value_parser = positive)]
+    gap: f64,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|v| (0.0..=1.0).contains(v)).ok_or_else(|| "0 to 1 expected".to_owned())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|v| (0.0..=60.0).contains(v)).ok_or_else(|| "0 to 60 expected".to_owned())
 }
 
 /// Problems of files as failures of the command.
@@ -218,7 +238,11 @@ pub fn score(args: ScoreArgs) -> Result<(), Failure> {
         };
         for imported in scenes {
             let drivable = Drivable::new(&imported.scene.map);
-            let score = scene::score::score(&ScoreInput::of_scene(&imported.scene, &drivable));
+            let mut input = ScoreInput::of_scene(&imported.scene, &drivable);
+            input.pairs = args.pairs;
+            input.thresholds =
+                Thresholds { iou: args.iou, ttc_s: args.ttc, gap_m: args.gap, ..input.thresholds };
+            let score = scene::score::score(&input);
             let mut object = Map::new();
             object.insert("file".into(), path.display().to_string().into());
             object.insert("source_id".into(), json!(imported.scene.meta.source_id));
@@ -240,14 +264,25 @@ pub fn score(args: ScoreArgs) -> Result<(), Failure> {
     }
 }
 
+/// The score in one line. The words are those of "Words of a score" in the README.
 fn in_words(path: &Path, score: &scene::score::Score) -> String {
     let number = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.2} {unit}"));
     let scene = &score.scene;
+    let own = |in_log: &[bool]| {
+        let (all, log) = (in_log.len(), in_log.iter().filter(|in_log| **in_log).count());
+        let of_log = if log > 0 { format!(" (and {log} of the log)") } else { String::new() };
+        (all - log, of_log)
+    };
+    let list = |one: &str, many: &str, in_log: Vec<bool>| {
+        let (count, of_log) = own(&in_log);
+        format!("{count} {}{of_log}", if count == 1 { one } else { many })
+    };
     format!(
-        "{}: {} collisions, {} near misses, least time to collision {}, least gap {}, off road {}",
+        "{}: {}, {}, {}, least time to collision {}, least gap {}, off road {}",
         path.display(),
-        scene.collisions.len(),
-        scene.near_misses.len(),
+        list("collision", "collisions", scene.collisions.iter().map(|c| c.in_log).collect()),
+        list("lighter overlap", "lighter overlaps", scene.overlaps.iter().map(|c| c.in_log).collect()),
+        list("near miss", "near misses", scene.near_misses.iter().map(|c| c.in_log).collect()),
         number(scene.min_ttc_s, "s"),
         number(scene.min_distance_m, "m"),
         scene.offroad_share.map_or("-".into(), |share| format!("{:.1} %", share * 100.0)),

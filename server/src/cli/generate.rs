@@ -5,6 +5,7 @@ use super::{Common, Exit, Failure, output};
 use crate::base::limits::Limits;
 use crate::base::problem::Problem;
 use crate::generation::events::GeneratedHead;
+use crate::generation::kept;
 use crate::routes::generate::GenerateRequest;
 use clap::Args;
 use experts::request::DEFAULTS;
@@ -31,6 +32,10 @@ pub struct GenerateArgs {
     /// The rest answers: all of it, or the given ids.
     #[arg(long, value_delimiter = ',', num_args = 0.., value_name = "ID")]
     react: Option<Vec<String>>,
+    /// Forget the futures that the scene has from earlier calls: whoever is not asked for goes back to its log.
+    /// Without it they are planned around and stay.
+    #[arg(long)]
+    forget: bool,
     /// The same seed gives the same answer.
     #[arg(long, default_value_t = DEFAULTS.seed)]
     seed: u64,
@@ -83,11 +88,31 @@ pub fn run(args: GenerateArgs, common: &Common) -> Result<(), Failure> {
                 let who = warning.agent.as_deref().unwrap_or("scene");
                 output::complain(&format!("{who}: {}: {}", warning.code, warning.detail));
             }
-            scene.generated = Some(generated(task.head, answer.samples));
+            let mut samples = answer.samples;
+            samples.iter_mut().for_each(|sample| kept::fill(&scene, sample));
+            tell_latecomers(&scene, &args, &samples);
+            scene.generated = Some(generated(task.head, samples));
             return write(&scene, &args);
         }
     }
     Err(Failure::new(Exit::Failure, "the generator ended without an answer"))
+}
+
+/// Says who comes in after the start of a scene that is generated whole and keeps its log, which knows nothing of
+/// what the others do now.
+fn tell_latecomers(scene: &Scene, args: &GenerateArgs, samples: &[scene::Sample]) {
+    let start = (args.start / scene::STEP_S).round() as usize;
+    let late = |agent: &&scene::Agent| {
+        agent.state_at(start).is_none()
+            && agent.track.last_valid_step() > Some(start)
+            && !samples.iter().any(|sample| sample.agents.contains_key(&agent.id))
+    };
+    let count = scene.agents.iter().filter(late).count();
+    if args.agents.is_empty() && args.react.is_none() && count > 0 {
+        output::complain(&format!(
+            "{count} road users come in later and keep their log; --react lets them answer the others"
+        ));
+    }
 }
 
 fn write(scene: &Scene, args: &GenerateArgs) -> Result<(), Failure> {
@@ -103,6 +128,7 @@ fn generated(head: GeneratedHead, samples: Vec<scene::Sample>) -> Generated {
         weights: head.weights,
         seed: head.seed,
         request: head.request,
+        licence: head.licence,
         created_at: head.created_at,
         chosen_sample: head.chosen_sample,
         samples,
@@ -135,6 +161,7 @@ fn body(args: &GenerateArgs) -> Result<Value, Failure> {
         "react": react, "start_s": args.start, "horizon_s": args.horizon, "replan_interval_s": args.replan,
         "seed": args.seed, "samples": args.samples, "modes": args.modes, "diversity": args.diversity,
         "steps": args.steps, "score": false,
+        "kept_futures": if args.forget { "forgotten" } else { "answered" },
     }))
 }
 

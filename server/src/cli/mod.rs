@@ -3,6 +3,7 @@
 mod document;
 mod files;
 mod generate;
+mod interrupt;
 mod lab;
 mod output;
 mod place;
@@ -33,6 +34,8 @@ pub enum Exit {
     Weights = 7,
     /// The output exists.
     OutputExists = 8,
+    /// Ctrl-C; what was done by then is kept where the command says so.
+    Interrupted = 130,
 }
 
 /// Why a command failed.
@@ -59,7 +62,7 @@ impl From<std::io::Error> for Failure {
 
 /// Make traffic scenes by dragging: editor, HTTP API and command line in one program.
 #[derive(Parser)]
-#[command(name = "dragtraffic", version, args_conflicts_with_subcommands = true)]
+#[command(name = "dragtraffic", version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -96,45 +99,79 @@ pub enum LogFormat {
     Json,
 }
 
+/// Two calls of a command, for the end of its help.
+macro_rules! examples {
+    ($first:literal, $second:literal) => {
+        concat!("Examples:\n  ", $first, "\n  ", $second)
+    };
+}
+
+/// How commands end, for the end of the program's help.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0 done   1 failure   2 command line   3 input   4 some items failed   5 lossy under --strict
+  6 address in use   7 weights   8 the output exists   130 Ctrl-C   143 asked to terminate
+
+Each command has examples in its own help: dragtraffic generate --help";
+
 #[derive(Subcommand)]
 enum Command {
     /// Serve the editor and the HTTP API (the default).
+    #[command(after_help = examples!("dragtraffic serve --open", "dragtraffic serve --data recordings/ --port 9000"))]
     Serve(serve::ServeArgs),
     /// Generate futures of a scene.
+    #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=-40,8 --react -o out.json", "dragtraffic generate scene.json --samples 8 --seed 7 --horizon 20 --replan 6 -o long.json"))]
     Generate(generate::GenerateArgs),
     /// Place road users on a scene's map.
+    #[command(after_help = examples!("dragtraffic place scene.json --count 30 --keep --seed 7 -o placed.json", "dragtraffic place scene.json --density 12 --types vehicle=0.7,pedestrian=0.3 -o placed.json"))]
     Place(place::PlaceArgs),
     /// Turn a file of any known format into scene JSON.
+    #[command(after_help = examples!("dragtraffic import record.tfrecord.gz --index 0 -o scene.json", "dragtraffic import fcd.xml --net net.xml --index 0..9 -o scenes/"))]
     Import(files::ConvertArgs),
     /// Turn a file of one format into another.
+    #[command(after_help = examples!("dragtraffic convert record.tfrecord.gz --to dragtraffic --index 0 -o scene.json", "dragtraffic convert --list"))]
     Convert(files::ConvertArgs),
     /// Write a scene in another format.
+    #[command(after_help = examples!("dragtraffic export out.json --format womd -o out.tfrecord", "dragtraffic export out.json --format womd --mode log --strict -o log.tfrecord"))]
     Export(files::ExportArgs),
     /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
+    #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score scenes/*.json --json --pairs regenerated --ttc 2"))]
     Score(files::ScoreArgs),
     /// Print the OpenAPI document, or compare it with a file.
+    #[command(after_help = examples!("dragtraffic openapi > assets/openapi.json", "dragtraffic openapi --check assets/openapi.json"))]
     Openapi(document::CheckArgs),
     /// Print the JSON Schema of the scene document, or compare it with a file.
+    #[command(after_help = examples!("dragtraffic schema > scene.schema.json", "dragtraffic schema --check assets/schema/scene.v1.schema.json"))]
     Schema(document::CheckArgs),
     /// Print motion limits, ranges of conditions and defaults of requests, or compare them with a file.
+    #[command(after_help = examples!("dragtraffic domain > domain.json", "dragtraffic domain --check assets/domain.json"))]
     Domain(document::CheckArgs),
     /// Print version, weights, limits and formats as JSON.
+    #[command(after_help = examples!("dragtraffic info", "dragtraffic info --weights DIR"))]
     Info,
     /// Make training windows from procedural networks, driven through SUMO.
+    #[command(after_help = examples!("dragtraffic synthesize --seed 0 --count 8 --per-seed 20 -o windows/", "dragtraffic synthesize --seed 900 --count 8 --sumo-home /opt/sumo -o held-out/"))]
     Synthesize(lab::SynthesizeArgs),
     /// Lay the statistics of sets of scenes side by side.
+    #[command(after_help = examples!("dragtraffic statistics synthetic=windows/ recorded=recordings/", "dragtraffic statistics recorded=recordings/ --json --most 50"))]
     Statistics(lab::StatisticsArgs),
     /// Make training shards from logs.
+    #[command(after_help = examples!("dragtraffic prepare windows/ --expert vehicle -o vehicle.records", "dragtraffic prepare recordings/ --expert cyclist --crop 120 --least-agents 32 --mirror -o cyclist.records"))]
     Prepare(lab::PrepareArgs),
     /// Train an expert.
+    #[command(after_help = examples!("dragtraffic train vehicle.records --expert vehicle --stage initializer --steps 20000 -o v1.safetensors", "dragtraffic train vehicle.records --expert vehicle --stage joint --steps 1200 --init v1.safetensors -o vehicle.safetensors"))]
     Train(lab::TrainArgs),
     /// Learn the placement weights from scenes.
+    #[command(after_help = examples!("dragtraffic train-placement windows/ -o placement.json", "dragtraffic train-placement windows/ --trained-on \"Synthetic traffic, seeds 0 to 99\" -o placement.json"))]
     TrainPlacement(lab::TrainPlacementArgs),
     /// Judge the placement on recorded scenes.
+    #[command(after_help = examples!("dragtraffic eval-place recordings/", "dragtraffic eval-place recordings/ --radius 80 --seeds 8 --json"))]
     EvalPlace(lab::EvalPlaceArgs),
     /// Judge the experts on scenes: tables of quality, coherence, control, realism, variety and cost, pictures.
+    #[command(after_help = examples!("dragtraffic eval recordings/ --tables 1,2 -o tables/", "dragtraffic eval recordings/ --tables 1,2,4 --baseline TrafficGen=trafficgen.safetensors -o tables/"))]
     Eval(lab::EvalArgs),
     /// Time answers: one drag, and whole scenes.
+    #[command(after_help = examples!("dragtraffic bench recordings/", "dragtraffic bench recordings/ --scenes 20 --weights DIR"))]
     Bench(lab::BenchArgs),
 }
 
@@ -151,6 +188,10 @@ pub fn run() -> ExitCode {
     };
     let common = cli.common;
     log(&common);
+    // The server ends by itself, and training with a checkpoint.
+    if !matches!(cli.command, None | Some(Command::Serve(_) | Command::Train(_))) {
+        interrupt::watch();
+    }
     let done = match cli.command {
         None => serve::run(cli.serve, &common),
         Some(Command::Serve(args)) => serve::run(args, &common),

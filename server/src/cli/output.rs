@@ -1,6 +1,7 @@
 //! Reading inputs and writing outputs: `-` is stdin or stdout, existing files are kept.
 
 use super::{Exit, Failure};
+use formats::files;
 use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
 
@@ -35,23 +36,29 @@ pub fn print(bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Writes a file whole or not at all, or stdout for `-` and `None`.
+/// Refuses a file or folder that is there already, before work on what is to go there.
+///
+/// # Errors
+/// Exit 8.
+pub fn keep(path: &Path, force: bool) -> Result<(), Failure> {
+    if files::would_replace(path) && !force {
+        let message = format!("{} exists; --force overwrites it", path.display());
+        return Err(Failure::new(Exit::OutputExists, message));
+    }
+    Ok(())
+}
+
+/// Writes a file whole or not at all, or stdout for `-` and `None`. Links are followed, and a device or a pipe
+/// is written into, never replaced.
 ///
 /// # Errors
 /// Exit 8 when the file exists and `force` is not given; exit 1.
 pub fn write(path: Option<&Path>, bytes: &[u8], force: bool) -> Result<(), Failure> {
     let Some(path) = path.filter(|p| *p != Path::new("-")) else { return print(bytes) };
-    if path.exists() && !force {
-        let message = format!("{} exists; --force overwrites it", path.display());
-        return Err(Failure::new(Exit::OutputExists, message));
+    keep(path, force)?;
+    match files::replace(path, bytes) {
+        // A reader of a pipe that has closed its end is no failure.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        result => result.map_err(|error| Failure::new(Exit::Failure, format!("{}: {error}", path.display()))),
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let partial = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-    let written = std::fs::File::create(&partial)
-        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-        .and_then(|()| std::fs::rename(&partial, path));
-    written.map_err(|error| {
-        let _ = std::fs::remove_file(&partial);
-        Failure::new(Exit::Failure, format!("{}: {error}", path.display()))
-    })
 }

@@ -142,7 +142,8 @@ pub struct FinalBody {
     /// Planning windows that were run. A chosen future runs through all of them; its alternatives are those
     /// of the first and end with its plan.
     pub windows: usize,
-    /// Joint scenes.
+    /// Joint scenes. Those who are not part of the call but have a future in the scene are among them with it,
+    /// unless `kept_futures` says otherwise.
     pub samples: Vec<SampleBody>,
     /// Every condition field as it was used.
     pub resolved: BTreeMap<String, Resolved>,
@@ -170,6 +171,9 @@ pub struct GeneratedHead {
     pub seed: u64,
     /// The request's options as sent, without scene and conditions.
     pub request: Value,
+    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub licence: Option<String>,
     /// RFC 3339 time.
     pub created_at: String,
     /// Index into `samples`.
@@ -180,7 +184,8 @@ impl GeneratedHead {
     /// Of an answer to come.
     pub fn new(input_sha256: String, weights: BTreeMap<String, String>, seed: u64, request: Value) -> Self {
         let created_at = String::new();
-        Self { input_sha256, stale: false, weights, seed, request, created_at, chosen_sample: 0 }
+        let (stale, licence, chosen_sample) = (false, None, 0);
+        Self { input_sha256, stale, weights, seed, request, licence, created_at, chosen_sample }
     }
 
     /// The same, made now.

@@ -3,6 +3,7 @@
 pub mod compact;
 pub mod events;
 mod feed;
+pub mod kept;
 mod outbox;
 mod run;
 pub mod scoring;
@@ -34,6 +35,8 @@ pub struct Task {
     pub score: bool,
     /// What the scene comes to without this call's changes, where it is one that stays open.
     pub standings: Option<Arc<Standings>>,
+    /// Samples hold the futures of those who are not part of the call too.
+    pub with_kept: bool,
     /// The rest of `generated`.
     pub head: GeneratedHead,
 }

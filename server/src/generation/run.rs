@@ -1,17 +1,16 @@
 //! One generation: drives the generator, turns its events into messages.
 
-use super::compact::FuturesForm;
-use super::events::{AcceptedBody, DraftBody, FinalBody, GeneratedHead, SampleBody, TimingBody};
+use super::events::{AcceptedBody, DraftBody, FinalBody, SampleBody, TimingBody};
 use super::feed::Feed;
 use super::outbox::End;
-use super::{Task, scoring};
+use super::{Task, kept, scoring};
 use crate::base::metrics;
 use crate::base::problem::Problem;
 use crate::scenes::Standings;
 use crate::work::Kind;
 use experts::weights::EXPERTS;
 use experts::{Answer, Draft, Event, GenerateError, Generator};
-use scene::Scene;
+use scene::{Sample, Scene};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -26,7 +25,7 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
     let queued = feed.ticket.elapsed();
     metrics::phase("queue", queued.as_secs_f64());
     let scene = Arc::clone(&task.request.scene);
-    let generation = match generator.start(task.request, feed.ticket.cancel.clone()) {
+    let generation = match generator.start(task.request.clone(), feed.ticket.cancel.clone()) {
         Ok(generation) => generation,
         Err(error) => return fail(error.into()),
     };
@@ -44,7 +43,7 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
                 }
             }
             Ok(Event::Final(answer)) => {
-                let mut body = final_body(&task.head, task.form, &answer, queued);
+                let mut body = final_body(&task, &scene, &answer, queued);
                 if task.score {
                     add_scores(&mut body, &scene, &answer, generator, task.standings.as_deref());
                 }
@@ -73,7 +72,7 @@ fn expert_of(agent: &scene::Agent) -> Option<&'static str> {
     EXPERTS.iter().find(|(agent_type, _)| *agent_type == agent.kind()).map(|(_, name)| *name)
 }
 
-fn final_body(head: &GeneratedHead, form: FuturesForm, answer: &Answer, queued: Duration) -> FinalBody {
+fn final_body(task: &Task, scene: &Scene, answer: &Answer, queued: Duration) -> FinalBody {
     let t = &answer.timings;
     metrics::phase("encode", t.encode_ms / 1e3);
     metrics::phase("initial", t.initial_ms / 1e3);
@@ -88,13 +87,23 @@ fn final_body(head: &GeneratedHead, form: FuturesForm, answer: &Answer, queued: 
     };
     FinalBody {
         windows: answer.windows,
-        samples: answer.samples.iter().map(|sample| SampleBody::new(sample, form)).collect(),
+        samples: answer.samples.iter().map(|sample| answered(task, scene, sample)).collect(),
         resolved: answer.resolved.clone(),
         scores: None,
         warnings: answer.warnings.clone(),
         timing,
-        generated: head.clone().dated(),
+        generated: task.head.clone().dated(),
     }
+}
+
+/// A sample as it is answered: beside the new futures those that were kept, where they are asked for.
+fn answered(task: &Task, scene: &Scene, sample: &Sample) -> SampleBody {
+    if !task.with_kept {
+        return SampleBody::new(sample, task.form);
+    }
+    let mut all = sample.clone();
+    kept::fill(scene, &mut all);
+    SampleBody::new(&all, task.form)
 }
 
 fn add_scores(

@@ -8,10 +8,7 @@ use scene::{Sample, Scene};
 /// and the log of the rest.
 pub fn sample(scene: &Scene, sample: &Sample, drivable: &Drivable, standings: Option<&Standings>) -> Score {
     let mut all = sample.clone();
-    let kept = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
-    for (id, futures) in kept.into_iter().flat_map(|s| &s.agents) {
-        all.agents.entry(id.clone()).or_insert_with(|| futures.clone());
-    }
+    super::kept::fill(scene, &mut all);
     of(&ScoreInput::of_sample(scene, Some(&all), drivable), sample.agents.len(), standings)
 }
 

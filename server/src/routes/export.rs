@@ -68,7 +68,7 @@ pub async fn unsaved(
 }
 
 async fn export(app: &App, scene: Arc<Scene>, params: ExportParams) -> Result<Response, Problem> {
-    let licence = scene.meta.licence.clone();
+    let licence = scene.licence();
     let name = scene.name.clone();
     let format = transfer::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
     let write = move |_: &_| transfer::write(&scene, &params.format, params.sample, params.mode);

@@ -18,7 +18,7 @@ use experts::React;
 use experts::request::{DEFAULTS, ShownLast};
 use formats::native::{AgentDoc, ConditionsDoc, Context, MAX_SAFE_INTEGER, Members, SceneDoc, Window};
 use formats::{FieldProblem, ReadError, pointer_token};
-use scene::{MAX_HORIZON_STEPS, STEP_S, Scene, Vec2};
+use scene::{MAX_HORIZON_STEPS, STEP_S, Scene, Vec2, licence};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -68,6 +68,19 @@ pub enum StreamModes {
     Chosen,
     /// All alternatives.
     All,
+}
+
+/// What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum KeptFutures {
+    /// They are planned around and answered beside the new ones: the samples are the whole scene's.
+    #[default]
+    Answered,
+    /// They are planned around and not answered, for a client that has them itself.
+    Omitted,
+    /// They are dropped: who has one goes back to its log before anything is planned.
+    Forgotten,
 }
 
 /// Body of a generation. Exactly one of `scene` and `scene_id` is given.
@@ -153,6 +166,9 @@ pub struct GenerateRequest {
     /// How futures are written, in drafts and in `final`.
     #[serde(default)]
     futures: FuturesForm,
+    /// What becomes of the futures that the scene has, of those who are not part of this call.
+    #[serde(default)]
+    kept_futures: KeptFutures,
     /// Put scores into `final`.
     #[serde(default = "yes")]
     score: bool,
@@ -260,13 +276,27 @@ impl GenerateRequest {
         generator: &experts::Generator,
     ) -> Result<Task, Problem> {
         self.check_ranges()?;
-        let scene = Arc::new(self.apply(scene.clone())?);
-        let request = self.request(&scene, limits.regenerated_agents, limits.reply_points)?;
-        let head =
-            GeneratedHead::new(scene.input_hash().hex(), generator.hashes(), self.seed, self.options());
+        let applied = Arc::new(self.apply(scene.clone())?);
+        let request = self.request(&applied, limits.regenerated_agents, limits.reply_points)?;
+        let mut head =
+            GeneratedHead::new(applied.input_hash().hex(), generator.hashes(), self.seed, self.options());
+        head.stale = self.keeps_stale(scene, &applied, &request);
+        let stricter = |weights: &String| !licence::is_open(weights);
+        head.licence = generator.licence().filter(stricter);
         let all_modes = self.stream_modes == StreamModes::All;
         let (form, score) = (self.futures, self.score);
-        Ok(Task { request, all_modes, form, score, head, streams: true, standings: None })
+        let with_kept = self.kept_futures == KeptFutures::Answered;
+        Ok(Task { request, all_modes, form, score, with_kept, head, streams: true, standings: None })
+    }
+
+    /// A future that is kept answers something else than what the scene says with this call's conditions.
+    fn keeps_stale(&self, scene: &Scene, applied: &Scene, request: &experts::Request) -> bool {
+        let (Some(before), Some(generated)) = (&scene.generated, &applied.generated) else { return false };
+        let asked = |id: &String| request.agents.as_ref().is_none_or(|asked| asked.contains(id));
+        let ids = generated.samples.get(generated.chosen_sample).into_iter().flat_map(|s| s.agents.keys());
+        let mut kept = ids.filter(|id| !asked(id)).peekable();
+        let changed = before.stale || before.input_sha256 != scene.input_hash().hex();
+        kept.peek().is_some() && (changed || kept.any(|id| self.conditions.0.contains_key(id)))
     }
 
     fn caller(&self) -> Result<Caller, Problem> {
@@ -331,6 +361,9 @@ impl GenerateRequest {
                 Ok(agent) => scene.agents.push(agent),
                 Err(more) => faults.extend(more),
             }
+        }
+        if self.kept_futures == KeptFutures::Forgotten {
+            scene.generated = None;
         }
         let start_step = self.start_step();
         let window = Window { start_s: start_step as f64 * STEP_S, horizon_s: self.horizon_s };
@@ -480,6 +513,9 @@ impl GenerateRequest {
             "replan_interval_s": self.replan_interval_s, "samples": self.samples, "modes": self.modes,
             "diversity": self.diversity, "steps": self.steps,
         });
+        if self.kept_futures != KeptFutures::default() {
+            options["kept_futures"] = json!(self.kept_futures);
+        }
         if !self.pinned.is_empty() {
             options["pinned"] = json!(self.pinned);
         }

@@ -13,6 +13,7 @@ use axum::extract::{FromRef, FromRequest, Multipart, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use formats::native::{MapForm, SceneDoc};
+use scene::licence::is_noncommercial;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -214,7 +215,7 @@ impl Order {
         }
         let (mut scenes, mut rows) = (Vec::new(), Vec::new());
         for transfer::Imported { scene, warnings } in read.scenes {
-            if self.refuse_nc && is_noncommercial(scene.meta.licence.as_deref()) {
+            if self.refuse_nc && scene.licence().is_some_and(|licence| is_noncommercial(&licence)) {
                 return Err(Problem::new(Code::LicenceRefused, "The source is for non-commercial use only."));
             }
             let facts = Facts::of(&scene);
@@ -240,11 +241,6 @@ fn known(format: &str) -> &'static str {
     transfer::names().into_iter().find(|name| *name == format).unwrap_or("auto")
 }
 
-/// Waymo's and Argoverse's terms, by the word the importers set.
-fn is_noncommercial(licence: Option<&str>) -> bool {
-    licence.is_some_and(|l| l.to_ascii_lowercase().split(['-', ' ', '_']).any(|word| word == "nc"))
-}
-
 /// `3` or `0..9`, both ends taken.
 pub fn range(text: &str) -> Result<Range<usize>, Problem> {
     let wrong = || Problem::field("/query/index", Code::InvalidField, "a number or FIRST..LAST expected");
@@ -260,7 +256,7 @@ pub fn range(text: &str) -> Result<Range<usize>, Problem> {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_noncommercial, range};
+    use super::range;
 
     #[test]
     fn index_ranges() {
@@ -269,13 +265,5 @@ mod tests {
         for bad in ["", "a", "-1", "5..2", "1..", "..3", "99999999999999999999"] {
             assert!(range(bad).is_err(), "{bad}");
         }
-    }
-
-    #[test]
-    fn licences() {
-        assert!(is_noncommercial(Some("waymo-nc")));
-        assert!(is_noncommercial(Some("CC-BY-NC-SA-4.0")));
-        assert!(!is_noncommercial(Some("cc0")));
-        assert!(!is_noncommercial(None));
     }
 }

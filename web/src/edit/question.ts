@@ -62,6 +62,8 @@ export class Questions {
       diversity: scene.diversity,
       steps: DEFAULTS.steps,
       stream_modes: w.drafts ?? 'all',
+      // What it knows of the others it has itself.
+      kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,
       ...(w.pinned ? { pinned: [...w.pinned] } : {}),
       ...shownOf(this.editor, w),

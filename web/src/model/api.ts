@@ -487,6 +487,11 @@ export interface components {
              */
             offroad_share: number | null;
             /**
+             * Format: uint
+             * @description Overlaps below the threshold of a collision that it is part of and the log does not show.
+             */
+            overlaps: number;
+            /**
              * Format: double
              * @description As in [`SceneScore`].
              */
@@ -629,7 +634,7 @@ export interface components {
         };
         /**
          * Collision
-         * @description Two road users overlap. One entry a pair.
+         * @description Two road users collide: their boxes overlap by more than the thresholds say. One entry a pair.
          */
         Collision: {
             /** @description The one listed first. */
@@ -1001,7 +1006,7 @@ export interface components {
          * FaultKind
          * @description What can be wrong with a motion, the worst first.
          */
-        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "goal_missed";
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "overlap" | "near_miss" | "goal_missed";
         /**
          * Field
          * @description A value and where it came from.
@@ -1216,6 +1221,11 @@ export interface components {
              */
             job?: string | null;
             /**
+             * @description What becomes of the futures that the scene has, of those who are not part of this call.
+             * @default answered
+             */
+            kept_futures?: components["schemas"]["KeptFutures"];
+            /**
              * Format: uint64
              * @description Alternatives kept per road user.
              * @default 6
@@ -1319,6 +1329,8 @@ export interface components {
             created_at?: string;
             /** @description Hash of the user's part that these futures answer. */
             input_sha256: string;
+            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            licence?: string | null;
             /**
              * @description The request's options as sent.
              * @default null
@@ -1359,6 +1371,8 @@ export interface components {
             created_at: string;
             /** @description Hash of the user's part that the futures answer. */
             input_sha256: string;
+            /** @description Licence of the answer where it is stricter than the scene's own: that of the weights. */
+            licence?: string | null;
             /** @description The request's options as sent, without scene and conditions. */
             request: unknown;
             /**
@@ -1567,6 +1581,11 @@ export interface components {
             /** Format: double */
             y_m: number;
         };
+        /**
+         * KeptFutures
+         * @description What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
+         */
+        KeptFutures: "answered" | "omitted" | "forgotten";
         /**
          * KindLimits
          * @description Motion limits by kind of road user, each of the kind's usual size.
@@ -1896,7 +1915,7 @@ export interface components {
         };
         /**
          * NearMiss
-         * @description Two moving road users nearly collide. One entry a pair, at its worst moment.
+         * @description Two moving road users nearly collide, their boxes apart all the time. One entry a pair, at its worst moment.
          */
         NearMiss: {
             /** @description The one listed first. */
@@ -1984,6 +2003,31 @@ export interface components {
              * @default 0
              */
             z_m?: number;
+        };
+        /**
+         * Overlap
+         * @description The boxes of two road users overlap by less than a collision takes. One entry a pair.
+         */
+        Overlap: {
+            /** @description The one listed first. */
+            a: string;
+            /** @description The other. */
+            b: string;
+            /**
+             * Format: double
+             * @description Greatest depth, metres: the least gap of the pair is this below zero.
+             */
+            depth_m: number;
+            /**
+             * @description The log itself shows it: both move as recorded, or the recording has an overlap as deep. It does not
+             *     count.
+             */
+            in_log: boolean;
+            /**
+             * Format: double
+             * @description Scene time of the first step at which they overlap, seconds.
+             */
+            time_s: number;
         };
         /**
          * PairChoice
@@ -2644,7 +2688,8 @@ export interface components {
             min_ade_m?: number | null;
             /**
              * Format: double
-             * @description Least gap of any pair that is not parked, metres; negative for depth.
+             * @description Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
+             *     overlap. People in company are left out where they touch.
              */
             min_distance_m: number | null;
             /**
@@ -2678,6 +2723,8 @@ export interface components {
              * @description Share of road users whose box overlaps another's at all, however little.
              */
             overlap_rate: number;
+            /** @description By time, then by pair. */
+            overlaps: components["schemas"]["Overlap"][];
             /**
              * Format: double
              * @description Least post-encroachment time of crossing paths, seconds.

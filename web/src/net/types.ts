@@ -16,7 +16,10 @@ export type Problem = Omit<Partial<Schemas['Problem']>, 'code'> & {
 };
 
 /** Body of POST /v1/generate, without the scene: that part is large and kept as ready-made text. */
-export type GenerateOptions = Pick<Schemas['GenerateRequest'], 'horizon_s' | 'pinned' | 'replan_interval_s' | 'shown'> &
+export type GenerateOptions = Pick<
+  Schemas['GenerateRequest'],
+  'horizon_s' | 'kept_futures' | 'pinned' | 'replan_interval_s' | 'shown'
+> &
   Required<
     Pick<
       Schemas['GenerateRequest'],

@@ -68,6 +68,12 @@ impl Generator {
         for ((agent_type, name), bytes) in EXPERTS.into_iter().zip(files) {
             let expert = Expert::load(bytes)
                 .map_err(|e| WeightsError { path: format!("{name}.safetensors"), reason: e.to_string() })?;
+            let card = &expert.card;
+            if card.expert != name && !card.untrained {
+                let reason =
+                    format!("weights of the expert \"{}\", where \"{name}\" is expected", card.expert);
+                return Err(WeightsError { path: format!("{name}.safetensors"), reason });
+            }
             info.insert(name.to_owned(), WeightsInfo::of(name, bytes, &expert));
             experts.insert(agent_type, expert);
         }
@@ -138,6 +144,11 @@ impl Generator {
     pub fn hashes(&self) -> BTreeMap<String, String> {
         let weights = self.info.iter().map(|(name, info)| (name.clone(), info.sha256.clone()));
         weights.chain([("tuning".to_owned(), self.tuning_hash.clone())]).collect()
+    }
+
+    /// Licence of what it answers, as far as the weights go: the strictest of theirs.
+    pub fn licence(&self) -> Option<String> {
+        scene::licence::strictest(self.info.values().map(|info| info.licence.as_str()))
     }
 
     /// The maps that it knows.

@@ -89,6 +89,9 @@ pub struct GeneratedDoc {
     /// The request's options as sent.
     #[serde(default)]
     pub request: AnyDoc,
+    /// Licence of the answer where it is stricter than the scene's own: that of the weights.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub licence: Option<String>,
     /// RFC 3339 time.
     #[serde(default)]
     pub created_at: String,
@@ -184,6 +187,7 @@ impl GeneratedDoc {
             weights: Members(generated.weights.clone()),
             seed: generated.seed,
             request: AnyDoc(generated.request.clone()),
+            licence: generated.licence.clone(),
             created_at: generated.created_at.clone(),
             chosen_sample: generated.chosen_sample as u64,
             samples: generated.samples.iter().map(SampleDoc::from_sample).collect(),
@@ -224,6 +228,7 @@ impl GeneratedDoc {
             weights: self.weights.0,
             seed: self.seed,
             request: self.request.0,
+            licence: self.licence,
             created_at: self.created_at,
             chosen_sample: self.chosen_sample as usize,
             samples,

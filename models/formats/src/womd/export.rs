@@ -12,7 +12,8 @@ use crate::loss::{Loss, code};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use prost::Message;
-use scene::{Agent, AgentType, STEP_S, Scene, Signal, State, Subtype};
+use scene::{Agent, AgentType, STEP_S, Scene, Shown, Signal, Size, Start, State, Subtype};
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::io::{self, Write};
 
@@ -59,11 +60,8 @@ pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) 
     let mut losses = Vec::new();
     let ids = agent_ids(&scene.agents, &mut losses);
     let map_ids = MapIds::new(&scene.map, &mut losses);
-    let chosen = |agent: &Agent| match (motion, &scene.generated) {
-        (ExportedMotion::Chosen, Some(generated)) => generated.chosen_future(&agent.id),
-        _ => None,
-    };
-    let ends = scene.agents.iter().filter_map(chosen).map(|f| f.first_step + f.states.len());
+    let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| written(scene, agent, motion)).collect();
+    let ends = shown.iter().map(|shown| shown.track.first_step + shown.track.states.len());
     let steps = ends.fold(scene.time.steps, usize::max);
     if steps > scene.time.steps {
         let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
@@ -72,11 +70,12 @@ pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) 
     let tracks: Vec<Track> = scene
         .agents
         .iter()
+        .zip(&shown)
         .zip(&ids)
-        .map(|(agent, id)| Track {
+        .map(|((agent, shown), id)| Track {
             id: Some(*id),
-            object_type: Some(type_number(agent.agent_type)),
-            states: states(agent, chosen(agent), steps, frame),
+            object_type: Some(type_number(shown.agent_type)),
+            states: states(&agent.track, shown, steps, frame),
         })
         .collect();
     let index: HashMap<&str, usize> =
@@ -124,20 +123,27 @@ fn agent_ids(agents: &[Agent], losses: &mut Vec<Loss>) -> Vec<i32> {
     ids
 }
 
-fn states(agent: &Agent, future: Option<&scene::Future>, steps: usize, frame: Frame) -> Vec<ObjectState> {
+/// A road user as the file has it: as it is shown, or as it was recorded.
+fn written<'a>(scene: &Scene, agent: &'a Agent, motion: ExportedMotion) -> Shown<'a> {
+    match motion {
+        ExportedMotion::Chosen => scene.shown(agent),
+        ExportedMotion::Log => {
+            Shown { agent_type: agent.agent_type, size: agent.size, track: Cow::Borrowed(&agent.track) }
+        }
+    }
+}
+
+/// Its state at each step; heights are the log's, the last known one where it has none.
+fn states(log: &scene::Track, shown: &Shown<'_>, steps: usize, frame: Frame) -> Vec<ObjectState> {
     let mut height = None;
     (0..steps)
         .map(|step| {
-            let slot = step.checked_sub(agent.track.first_step);
-            let logged = agent.track.at(step);
-            if logged.is_some() {
-                height = agent.track.z_m.as_ref().zip(slot).and_then(|(z, slot)| z.get(slot)).copied();
+            if log.at(step).is_some() {
+                let heights = log.z_m.as_ref().zip(step.checked_sub(log.first_step));
+                height = heights.and_then(|(z, slot)| z.get(slot)).copied();
             }
-            let state = match future {
-                Some(f) if step >= f.first_step => f.states.get(step - f.first_step),
-                _ => logged,
-            };
-            state.map_or_else(absent, |state| present(agent, state, height, frame))
+            let state = shown.track.at(step);
+            state.map_or_else(absent, |state| present(&shown.size, state, height, frame))
         })
         .collect()
 }
@@ -158,16 +164,16 @@ fn absent() -> ObjectState {
     }
 }
 
-fn present(agent: &Agent, state: &State, z_m: Option<f64>, frame: Frame) -> ObjectState {
+fn present(size: &Size, state: &State, z_m: Option<f64>, frame: Frame) -> ObjectState {
     let at = frame.place(state.position());
     let velocity = frame.turn(state.velocity());
     ObjectState {
         center_x: Some(at.x),
         center_y: Some(at.y),
         center_z: z_m.map(|z| frame.height(z)),
-        length: Some(agent.size.length_m as f32),
-        width: Some(agent.size.width_m as f32),
-        height: agent.size.height_m.map(|h| h as f32),
+        length: Some(size.length_m as f32),
+        width: Some(size.width_m as f32),
+        height: size.height_m.map(|h| h as f32),
         heading: Some(frame.heading(state.heading_rad) as f32),
         velocity_x: Some(velocity.x as f32),
         velocity_y: Some(velocity.y as f32),
@@ -203,12 +209,35 @@ fn signal_rows(signals: &[Signal], steps: usize, frame: Frame, ids: &MapIds) -> 
     (0..steps).map(row).collect()
 }
 
+/// What users fixed that the file does not have. Types, sizes and the starts of futures are in its states.
+fn unwritten_conditions(scene: &Scene, motion: ExportedMotion) -> Option<&'static str> {
+    let is_lost = |agent: &Agent| {
+        let mut rest = agent.conditions.clone();
+        if motion == ExportedMotion::Chosen {
+            (rest.agent_type, rest.length_m, rest.width_m) = (None, None, None);
+            let generated = scene.generated.as_ref();
+            if generated.is_some_and(|g| g.chosen_future(&agent.id).is_some()) {
+                rest.start = Start::default();
+            }
+        }
+        !rest.is_empty()
+    };
+    let lost = scene.agents.iter().any(is_lost);
+    lost.then_some(match motion {
+        ExportedMotion::Chosen => "goals, and starts of road users that were not generated from them",
+        ExportedMotion::Log => "types, sizes, starts and goals that the user fixed",
+    })
+}
+
 fn scene_losses(scene: &Scene, motion: ExportedMotion, id: &str, losses: &mut Vec<Loss>) {
     let agents = &scene.agents;
-    if agents.iter().any(|a| !a.conditions.is_empty()) {
-        losses.push(Loss::new(code::NO_CONDITIONS, "starts and goals that the user fixed"));
+    if let Some(fixed) = unwritten_conditions(scene, motion) {
+        losses.push(Loss::new(code::NO_CONDITIONS, fixed));
     }
     if let Some(generated) = &scene.generated {
+        if motion == ExportedMotion::Chosen {
+            losses.push(Loss::new(code::NO_GENERATED, "read again, generated motion counts as recorded"));
+        }
         let futures = || generated.samples.iter().flat_map(|s| s.agents.values());
         if motion == ExportedMotion::Log
             || generated.samples.len() > 1
@@ -224,7 +253,7 @@ fn scene_losses(scene: &Scene, motion: ExportedMotion, id: &str, losses: &mut Ve
     if egos > 1 || agents.iter().any(|a| a.role.as_deref().is_some_and(|r| r != EGO)) {
         losses.push(Loss::new(code::NO_ROLES, "roles other than the ego's"));
     }
-    if scene.meta.licence.is_some() {
+    if scene.licence().is_some() {
         losses.push(Loss::new(code::NO_LICENCE, "the file has no place for a licence"));
     }
     let meta = &scene.meta;

@@ -1,6 +1,7 @@
 //! Scenario records as a format among others.
 
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info};
+use crate::identities;
 use crate::problem::{Imported, ReadError};
 use scene::Scene;
 use std::io;
@@ -30,6 +31,7 @@ impl Format for Womd {
     }
 
     fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+        let join = options.join_identities;
         let options = super::Options {
             skip: options.skip,
             max_scenes: options.max_scenes,
@@ -37,7 +39,11 @@ impl Format for Womd {
             verify_crc: options.verify,
             ..super::Options::default()
         };
-        super::read_all(bytes, &options)
+        let mut read = super::read_all(bytes, &options);
+        for (scene, warnings) in read.iter_mut().flatten().filter(|_| join) {
+            warnings.extend(identities::join(scene));
+        }
+        read
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

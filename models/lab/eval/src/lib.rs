@@ -31,7 +31,7 @@ mod variety;
 
 pub use cases::{Case, Site, Subset, cases};
 pub use quality::type_name;
-pub use report::{CropReport, EvalReport};
+pub use report::{CropReport, EvalReport, TABLES_FILE};
 pub use run::{EvalOptions, run};
 pub use table::Table;
 pub use tables::TABLES;

@@ -7,6 +7,9 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// The tables as Markdown, in the folder of a run.
+pub const TABLES_FILE: &str = "tables.md";
+
 /// What a crop did.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CropReport {
@@ -77,20 +80,17 @@ impl EvalReport {
     pub fn write(&self, folder: &Path) -> Result<()> {
         let write = |name: &str, text: &str| -> Result<()> {
             let path = folder.join(name);
-            std::fs::write(&path, text).with_context(|| format!("write {}", path.display()))
+            formats::files::replace(&path, text.as_bytes())
+                .with_context(|| format!("write {}", path.display()))
         };
-        std::fs::create_dir_all(folder).with_context(|| format!("make {}", folder.display()))?;
-        write("tables.md", &self.markdown())?;
+        write(TABLES_FILE, &self.markdown())?;
         write("tables.json", &format!("{}\n", serde_json::to_string_pretty(self)?))?;
         if !self.cost.is_empty() {
             write("cost.md", &self.cost.iter().map(Sheet::markdown).collect::<String>())?;
             write("cost.json", &format!("{}\n", serde_json::to_string_pretty(&self.cost)?))?;
         }
-        if !self.pictures.is_empty() {
-            std::fs::create_dir_all(folder.join("pictures"))?;
-            for (name, picture) in &self.pictures {
-                write(&format!("pictures/{name}"), picture)?;
-            }
+        for (name, picture) in &self.pictures {
+            write(&format!("pictures/{name}"), picture)?;
         }
         Ok(())
     }

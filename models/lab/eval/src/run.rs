@@ -26,17 +26,18 @@ pub struct EvalOptions {
     pub crop: Crop,
 }
 
-/// Makes the tables, telling `progress` what is under way. The first of `judged` is in the pictures, and
+/// Makes the tables, telling `progress` what is under way and `made` what is there after each table. The first of `judged` is in the pictures, and
 /// `baselines` stand beside them in tables 1, 2 and 4.
 ///
 /// # Errors
-/// When a generator fails, or the crop leaves no scene.
+/// When a generator or `made` fails, or the crop leaves no scene.
 pub fn run(
     judged: Vec<Judged>,
     baselines: &[Baseline],
     scenes: &[Scene],
     options: &EvalOptions,
     progress: &dyn Fn(&str),
+    made: &dyn Fn(&EvalReport) -> Result<()>,
 ) -> Result<EvalReport> {
     let seed = options.seed;
     let (scenes, crop) = cropped(scenes, options.crop)?;
@@ -62,10 +63,11 @@ pub fn run(
     };
     for table in TABLES.iter().filter(|table| options.tables.iter().any(|own| own.number == table.number)) {
         progress(&format!("table {}: {}", table.number, table.name));
-        let made = (table.make)(&mut trial)?;
-        report.sheets.extend(made.sheets);
-        report.cost.extend(made.times);
-        report.pictures.extend(made.pictures);
+        let new = (table.make)(&mut trial)?;
+        report.sheets.extend(new.sheets);
+        report.cost.extend(new.times);
+        report.pictures.extend(new.pictures);
+        made(&report)?;
     }
     Ok(report)
 }
@@ -118,7 +120,27 @@ mod tests {
         let judged = vec![Judged { name: "random".into(), generator }];
         let tables = tables.iter().filter_map(|number| Table::numbered(*number)).collect();
         let options = EvalOptions { tables, seed, pictures: true, replan_steps: vec![30, 90], crop };
-        run(judged, baselines, &scenes, &options, &|_| {})
+        run(judged, baselines, &scenes, &options, &|_| {}, &|_| Ok(()))
+    }
+
+    #[test]
+    fn each_table_is_handed_over_as_it_is_made() {
+        let scenes = [scene(vec![log("a", 8.0, 91)])];
+        let judged = vec![Judged { name: "random".into(), generator: Generator::random(1).unwrap() }];
+        let tables = [1, 2].into_iter().filter_map(Table::numbered).collect();
+        let options =
+            EvalOptions { tables, seed: 5, pictures: false, replan_steps: vec![90], crop: Crop::default() };
+        let folder = tempfile::tempdir().unwrap();
+        let count = std::cell::Cell::new(0);
+        // Somebody stops it after the first table: that one is there, and whole.
+        let made = |report: &EvalReport| {
+            report.write(folder.path())?;
+            count.set(count.get() + 1);
+            anyhow::bail!("stopped")
+        };
+        assert!(run(judged, &[], &scenes, &options, &|_| {}, &made).is_err());
+        let tables = std::fs::read_to_string(folder.path().join("tables.md")).unwrap();
+        assert!(count.get() == 1 && tables.contains("### 1a") && !tables.contains("### 2 "), "{tables}");
     }
 
     #[test]

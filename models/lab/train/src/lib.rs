@@ -5,6 +5,7 @@ pub mod baselines;
 pub mod placement;
 pub mod polylines;
 pub mod prepare;
+pub mod provenance;
 #[cfg(any(test, feature = "samples"))]
 pub mod samples;
 pub mod scenes;

@@ -1,5 +1,6 @@
 //! Fits the placement weights to recorded scenes. The same input gives the same bytes.
 
+use crate::provenance::Provenance;
 use crate::scenes::{read_scenes, scene_files};
 use anyhow::{Result, ensure};
 use experts::placement::learn::{
@@ -33,8 +34,8 @@ const BOX_SHARE: f64 = 0.99;
 pub struct PlacementOptions {
     /// Files or folders of scenes in any format that can be read.
     pub inputs: Vec<PathBuf>,
-    /// What the data are, for the weights' header.
-    pub trained_on: String,
+    /// What the data are, for the weights' header, in place of what the scenes say themselves.
+    pub trained_on: Option<String>,
 }
 
 /// What was learned from.
@@ -54,6 +55,7 @@ pub struct PlacementSummary {
 #[derive(Default)]
 struct Sums {
     scenes: u64,
+    provenance: Provenance,
     cells: CellCounts,
     lateral: BTreeMap<(AgentType, PoseContext), Vec<f64>>,
     heading: BTreeMap<(AgentType, PoseContext), Vec<f64>>,
@@ -105,6 +107,7 @@ fn of_file(path: &Path) -> Option<Sums> {
     let scenes = read_scenes(path).ok().filter(|s| !s.is_empty())?;
     let mut sums = Sums::default();
     for scene in &scenes {
+        sums.provenance.add(scene);
         sums.scene(scene);
     }
     Some(sums)
@@ -161,6 +164,7 @@ impl Sums {
 
     fn add(&mut self, other: Self) {
         self.scenes += other.scenes;
+        self.provenance.merge(&other.provenance);
         self.cells(other.cells);
         add_to(&mut self.lateral, other.lateral);
         add_to(&mut self.heading, other.heading);
@@ -210,8 +214,8 @@ impl Sums {
         PlacementModel {
             format: FORMAT.to_owned(),
             version: VERSION,
-            licence: "MIT OR Apache-2.0".to_owned(),
-            trained_on: options.trained_on.clone(),
+            licence: self.provenance.licence(),
+            trained_on: options.trained_on.clone().unwrap_or_else(|| self.provenance.words()),
             scenes: self.scenes,
             types,
         }

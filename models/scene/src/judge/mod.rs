@@ -124,9 +124,7 @@ impl<'a> Judge<'a> {
                     (FaultKind::Collision, time_s, closing_speed_mps)
                 }
                 // Boxes that touch have met, however little.
-                Meeting::Near { time_s, distance_m, closing_speed_mps, .. } if distance_m <= 0.0 => {
-                    (FaultKind::Collision, time_s, closing_speed_mps.max(0.0))
-                }
+                Meeting::Overlap { time_s, .. } => (FaultKind::Collision, time_s, 0.0),
                 Meeting::Near { time_s, distance_m, .. } => (FaultKind::NearMiss, time_s, distance_m),
             };
             let state = near(actor, time_s)?;

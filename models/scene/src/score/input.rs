@@ -12,7 +12,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Thresholds {
-    /// Boxes collide when their intersection over union is above this.
+    /// Boxes collide when their intersection over union is above this (the paper's collision rate: 0.02).
     pub iou: f64,
     /// ... or when more than this share of the smaller box is covered: a child under a bus has a
     /// tiny intersection over union. Above 1 turns the rule off (the paper's form).
@@ -47,7 +47,7 @@ pub struct Thresholds {
 impl Default for Thresholds {
     fn default() -> Self {
         Self {
-            iou: 0.02,
+            iou: 0.0,
             covered_share: 0.5,
             ttc_s: 1.5,
             gap_m: 1.0,
@@ -68,6 +68,7 @@ impl Default for Thresholds {
 /// Which pairs are looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum PairChoice {
     /// Every pair.
     #[default]
@@ -140,20 +141,20 @@ impl<'a> Actor<'a> {
     /// reference.
     pub fn of_future(agent: &'a Agent, chosen: &Future, modes: &'a [Future]) -> Self {
         let conditions = &agent.conditions;
-        let mut size = agent.size;
-        size.length_m = conditions.length_m.unwrap_or(size.length_m);
-        size.width_m = conditions.width_m.unwrap_or(size.width_m);
         Self {
-            size,
-            agent_type: conditions.kind_of(agent),
-            track: Cow::Owned(joined(agent, chosen)),
+            track: agent.shown(Some(chosen)).track,
             generated: true,
             goal: conditions.goal,
             may_cross: &conditions.may_cross,
             reference: Some(&agent.track),
             modes,
-            ..Self::of_log(agent)
+            ..Self::of_kept(agent)
         }
+    }
+
+    /// A road user that keeps its log, as it is shown: with the type and size that it was given.
+    pub fn of_kept(agent: &'a Agent) -> Self {
+        Self { size: agent.shown_size(), agent_type: agent.kind(), ..Self::of_log(agent) }
     }
 
     /// State at a scene step.
@@ -172,39 +173,6 @@ impl<'a> Actor<'a> {
         let Some(first) = places.next() else { return 0.0 };
         places.map(|p| (p - first).norm()).fold(0.0, f64::max)
     }
-}
-
-/// The log up to the step before the future, then the future.
-fn joined(agent: &Agent, chosen: &Future) -> Track {
-    let start_step = chosen.first_step.saturating_sub(1);
-    let first_step = agent.track.first_step.min(start_step);
-    let mut states: Vec<Option<State>> =
-        (first_step..chosen.first_step).map(|i| agent.track.at(i).copied()).collect();
-    if let Some(slot) = states.last_mut() {
-        *slot = start_state(agent, *slot);
-    }
-    states.extend(chosen.states.iter().copied().map(Some));
-    Track { first_step, states, z_m: None }
-}
-
-/// Logged state with the fixed start fields in place; `None` when neither gives a position.
-fn start_state(agent: &Agent, logged: Option<State>) -> Option<State> {
-    let start = &agent.conditions.start;
-    let mut state = match (logged, start.position) {
-        (Some(state), _) => state,
-        (None, Some(_)) => State::default(),
-        (None, None) => return None,
-    };
-    if let Some(p) = start.position {
-        (state.x_m, state.y_m) = (p.x, p.y);
-    }
-    if start.heading_rad.is_some() || start.speed_mps.is_some() {
-        let speed = start.speed_mps.unwrap_or(state.speed_mps());
-        state.heading_rad = start.heading_rad.unwrap_or(state.heading_rad);
-        let velocity = crate::geometry::direction(state.heading_rad) * speed;
-        (state.vx_mps, state.vy_mps) = (velocity.x, velocity.y);
-    }
-    Some(state)
 }
 
 /// Everything a score needs.
@@ -249,7 +217,7 @@ impl<'a> ScoreInput<'a> {
                     first_future = Some(earlier);
                     Actor::of_future(agent, chosen, &futures.modes)
                 }
-                None => Actor::of_log(agent),
+                None => Actor::of_kept(agent),
             };
             actors.push(actor);
         }

@@ -22,7 +22,7 @@ pub struct Score {
     pub thresholds: Thresholds,
 }
 
-/// Two road users overlap. One entry a pair.
+/// Two road users collide: their boxes overlap by more than the thresholds say. One entry a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Collision {
     /// The one listed first.
@@ -40,7 +40,24 @@ pub struct Collision {
     pub in_log: bool,
 }
 
-/// Two moving road users nearly collide. One entry a pair, at its worst moment.
+/// The boxes of two road users overlap by less than a collision takes. One entry a pair.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Overlap")]
+pub struct BoxOverlap {
+    /// The one listed first.
+    pub a: AgentId,
+    /// The other.
+    pub b: AgentId,
+    /// Scene time of the first step at which they overlap, seconds.
+    pub time_s: f64,
+    /// Greatest depth, metres: the least gap of the pair is this below zero.
+    pub depth_m: f64,
+    /// The log itself shows it: both move as recorded, or the recording has an overlap as deep. It does not
+    /// count.
+    pub in_log: bool,
+}
+
+/// Two moving road users nearly collide, their boxes apart all the time. One entry a pair, at its worst moment.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct NearMiss {
     /// The one listed first.
@@ -117,10 +134,13 @@ pub struct SceneScore {
     /// Share of road users whose box overlaps another's at all, however little.
     pub overlap_rate: f64,
     /// By time, then by pair.
+    pub overlaps: Vec<BoxOverlap>,
+    /// By time, then by pair.
     pub near_misses: Vec<NearMiss>,
     /// Least time to collision of any pair, seconds; none within the look-ahead.
     pub min_ttc_s: Option<f64>,
-    /// Least gap of any pair that is not parked, metres; negative for depth.
+    /// Least gap of any pair that is not parked, metres; below zero it is the depth of a collision or an
+    /// overlap. People in company are left out where they touch.
     pub min_distance_m: Option<f64>,
     /// Least post-encroachment time of crossing paths, seconds.
     pub pet_s: Option<f64>,
@@ -172,6 +192,8 @@ pub struct SceneScore {
 pub struct AgentScore {
     /// Collisions it is part of and the log does not show.
     pub collisions: usize,
+    /// Overlaps below the threshold of a collision that it is part of and the log does not show.
+    pub overlaps: usize,
     /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
     /// As in [`SceneScore`].
@@ -207,8 +229,10 @@ impl SceneScore {
         self.collision_rate_with_log = of_all(pairs.agents.iter().filter(|a| any(a)).count());
         self.overlap_rate = of_all(pairs.agents.iter().filter(|a| a.overlaps).count());
         self.collisions = pairs.collisions;
+        self.overlaps = pairs.overlaps;
         self.near_misses = pairs.near_misses;
         self.collisions.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        self.overlaps.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.near_misses.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.red_lights.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
         self.offroad_share = share(self.offroad_steps, self.road_steps);

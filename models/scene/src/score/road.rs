@@ -6,6 +6,9 @@ use super::report::{Stretch, share, stretches, time_of};
 use crate::geometry::direction;
 use crate::{AgentType, STEP_S, Subtype, Vec2};
 
+/// A vehicle that stays within this of its first place is parked, metres.
+const PARKED_M: f64 = 1.0;
+
 /// What a vehicle's motion comes to on the map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RoadScore {
@@ -28,10 +31,11 @@ pub struct RoadScore {
 }
 
 /// Looks at a vehicle's steps; nothing for other types, on maps that do not say where to drive, and
-/// for recorded vehicles that stay parked (they often stand across the kerb).
+/// for vehicles that stay parked where the log has them (they often stand across the kerb), whether they were
+/// generated or not.
 pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
     let drives = actor.agent_type == AgentType::Vehicle && actor.subtype != Subtype::Trailer;
-    let parked = !actor.generated && actor.travel_m(input.steps.clone()) < 1.0;
+    let parked = actor.travel_m(input.steps.clone()) < PARKED_M && stands_where_logged(input, actor);
     if !drives || parked || input.drivable.is_unknown() {
         return RoadScore::default();
     }
@@ -77,6 +81,14 @@ pub fn score_road(input: &ScoreInput<'_>, actor: &Actor<'_>) -> RoadScore {
         stretch.worst = stretch.worst.map(|m| m - begun_m);
     }
     score
+}
+
+/// It begins where its recording has it then; with no recording of that step, somebody has put it there.
+fn stands_where_logged(input: &ScoreInput<'_>, actor: &Actor<'_>) -> bool {
+    let Some(step) = input.steps.clone().find(|step| actor.state(*step).is_some()) else { return true };
+    let (now, logged) = (actor.state(step), actor.log.and_then(|log| log.at(step)));
+    let moved_m = now.zip(logged).map(|(p, q)| (p.position() - q.position()).norm());
+    !actor.generated || moved_m.is_some_and(|m| m < PARKED_M)
 }
 
 /// What is driven over divides two roads: the edge is called a median, or the vehicle comes down on a lane
@@ -153,6 +165,20 @@ mod tests {
         assert!(steps > 10, "{steps}");
         assert_eq!(over(&["near".into()]), (Vec::new(), 0), "its other side is part of it");
         assert_eq!(over(&["other".into()]).1, steps);
+    }
+
+    #[test]
+    fn what_stays_parked_off_the_road_is_judged_alike() {
+        let road = area(&[(-10.0, -4.0), (45.0, -4.0), (45.0, 4.0), (-10.0, 4.0)]);
+        let drivable = Drivable::new(&LaneMap { drivable: vec![road], ..LaneMap::default() });
+        let of = |generated: bool, log: (f64, f64)| {
+            let track = straight("a", AgentType::Vehicle, log, 0.0, 0.0).track.into_owned();
+            let parked = straight("a", AgentType::Vehicle, (0.0, 4.0), 0.0, 0.0);
+            let car = Actor { generated, log: Some(&track), ..parked };
+            score_road(&input_of(vec![car.clone()], &drivable), &car).offroad_share
+        };
+        assert_eq!((of(false, (0.0, 4.0)), of(true, (0.0, 4.0))), (None, None));
+        assert_eq!(of(true, (0.0, 0.0)), Some(1.0), "it was put there");
     }
 
     #[test]

@@ -64,6 +64,7 @@ impl Single {
         scene.moving_steps += road.moving_steps;
         AgentScore {
             collisions: totals.collisions,
+            overlaps: totals.light_overlaps,
             near_misses: totals.near_misses,
             min_ttc_s: totals.min_ttc_s,
             min_distance_m: totals.min_distance_m,

@@ -99,6 +99,7 @@ fn member_names_are_those_of_the_api() {
     for name in [
         "collisions",
         "collision_rate",
+        "overlaps",
         "near_misses",
         "min_ttc_s",
         "min_distance_m",
@@ -122,7 +123,7 @@ fn member_names_are_those_of_the_api() {
     assert_eq!(json["agents"]["a"]["goal_error"], serde_json::json!({"speed_mps": 0.0}));
     assert_eq!(json["agents"]["b"]["goal_error"], serde_json::Value::Null);
     assert_eq!(json["agents"]["a"]["endpoint"], "last");
-    assert_eq!(json["thresholds"]["iou"], 0.02);
+    assert_eq!(json["thresholds"]["iou"], 0.0);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::{SceneArgs, failed, http_bench, print_json, scenes};
 use crate::cli::{Common, Exit, Failure, generator, output};
 use clap::Args;
 use experts::Tuning;
-use lab_eval::{Judged, TABLES, Table};
+use lab_eval::{EvalReport, Judged, TABLES, TABLES_FILE, Table};
 use lab_train::baselines::Baseline;
 use lab_train::scenes::Crop;
 use std::path::PathBuf;
@@ -36,6 +36,9 @@ pub struct EvalArgs {
     /// Folder for the tables as Markdown and JSON and for pictures of the best, the worst and random cases.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Overwrite the tables of the folder.
+    #[arg(long)]
+    force: bool,
     /// Draws noise, resamples, drags and random pictures.
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -84,11 +87,15 @@ fn named_folder(text: &str) -> Result<(String, PathBuf), String> {
     }
 }
 
-/// Judges the experts on scenes: the tables to stdout as Markdown, everything to the output folder.
+/// Judges the experts on scenes: the tables to stdout as Markdown, everything to the output folder, each table as
+/// soon as it is made.
 ///
 /// # Errors
-/// Exit 3 when nothing can be read, 7 without weights.
+/// Exit 3 when nothing can be read, 7 without weights, 8 when the folder has tables already.
 pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
+    if let Some(folder) = &args.output {
+        output::keep(&folder.join(TABLES_FILE), args.force)?;
+    }
     let scenes = scenes(&args.scenes)?;
     // Scenes are judged side by side, each on one thread.
     let one =
@@ -123,10 +130,9 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
             output::complain(line);
         }
     };
-    let report = lab_eval::run(judged, &baselines, &scenes, &options, &progress).map_err(failed)?;
-    if let Some(folder) = &args.output {
-        report.write(folder).map_err(failed)?;
-    }
+    // What is done stays when the run is stopped.
+    let made = |report: &EvalReport| args.output.as_ref().map_or(Ok(()), |folder| report.write(folder));
+    let report = lab_eval::run(judged, &baselines, &scenes, &options, &progress, &made).map_err(failed)?;
     let cost: String = report.cost.iter().map(|sheet| sheet.markdown()).collect();
     output::print(format!("{}{cost}", report.markdown()).as_bytes())
 }

@@ -17,9 +17,9 @@ pub struct TrainPlacementArgs {
     /// Overwrite the output.
     #[arg(long)]
     force: bool,
-    /// What the data are, for the weights' header.
-    #[arg(long, default_value = "Synthetic traffic made by dragtraffic synthesize (CC0)")]
-    trained_on: String,
+    /// What the data are, for the weights' header, in place of what the scenes say.
+    #[arg(long, value_name = "TEXT")]
+    trained_on: Option<String>,
 }
 
 /// Flags of `eval-place`.
@@ -43,6 +43,7 @@ pub struct EvalPlaceArgs {
 /// # Errors
 /// Exit 1 when nothing can be read, 8 when the output exists.
 pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), Failure> {
+    output::keep(&args.output, args.force)?;
     let options = lab_train::placement::PlacementOptions { inputs: args.inputs, trained_on: args.trained_on };
     let progress = |summary: &lab_train::placement::PlacementSummary| {
         if !common.quiet {

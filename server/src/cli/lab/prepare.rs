@@ -38,6 +38,9 @@ pub struct PrepareArgs {
     /// Leave out scenes with fewer road users at the first step. The paper's least is 32.
     #[arg(long, value_name = "N", default_value_t = 0)]
     least_agents: usize,
+    /// Overwrite the output.
+    #[arg(long)]
+    force: bool,
     /// Take each scene's mirror image too: twice the records from few scenes.
     #[arg(long)]
     mirror: bool,
@@ -53,8 +56,9 @@ fn metres(text: &str) -> Result<f64, String> {
 /// Makes training records.
 ///
 /// # Errors
-/// Exit 3 when nothing can be read, 1 when the records cannot be written.
+/// Exit 3 when nothing can be read, 1 when the records cannot be written, 8 when they are there already.
 pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
+    output::keep(&args.output, args.force)?;
     let options = lab_train::prepare::PrepareOptions {
         inputs: args.inputs,
         out: args.output,

@@ -1,14 +1,16 @@
 //! `dragtraffic train`.
 
 use super::failed;
-use crate::cli::{Common, Exit, Failure, output};
+use crate::cli::{Common, Exit, Failure, interrupt, output};
 use clap::{Args, ValueEnum};
 use experts::Refining;
 use experts::net::Architecture;
 use lab_train::baselines::{self, BaselineKind};
-use lab_train::training::{Processor, Stage};
+use lab_train::training::{self, Processor, Stage, TrainError};
 use scene::AgentType;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// The part of refinement that shows the way downhill in the scene's energy.
 const PUSH: &str = "push";
@@ -60,12 +62,17 @@ pub struct TrainArgs {
     /// End after this time, the rate falling accordingly; the result then depends on the machine's speed.
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f64>,
-    /// Go on from the checkpoint.
+    /// Go on from the checkpoint. One is kept at each validation, each minute and on Ctrl-C; the weights with the
+    /// least held-out loss lie beside the last ones under the name .best.
     #[arg(long)]
     resume: bool,
-    /// What the data are, for the weights' header.
-    #[arg(long, default_value = "Synthetic traffic made by dragtraffic synthesize (CC0)")]
-    trained_on: String,
+    /// Overwrite weights that are there.
+    #[arg(long)]
+    force: bool,
+    /// What the data are, for the weights' header, in place of what the records say. The licence is that of the
+    /// records: the strictest of their scenes'.
+    #[arg(long, value_name = "TEXT")]
+    trained_on: Option<String>,
 }
 
 /// The word of a type on the command line, which names its expert.
@@ -78,10 +85,15 @@ fn word(agent_type: AgentType) -> String {
 /// # Errors
 /// Exit 1 with the reason.
 pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
+    let goes_on = args.resume && training::checkpoint_path(&args.output).exists();
+    if !goes_on {
+        output::keep(&args.output, args.force)?;
+    }
+    let stop = interrupt::gently();
     let stage = args.stage.unwrap_or(Stage::Initializer);
     let (records, output) = (args.records.clone(), args.output.clone());
     let quiet = common.quiet;
-    let mut report = |line: &lab_train::training::TrainProgress| {
+    let mut report = |line: &training::TrainProgress| {
         if !quiet {
             output::complain(&line.to_string());
         }
@@ -89,29 +101,35 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
     let expert = args.expert.map(word);
     let done = match args.baseline {
         None => {
-            let mut options = lab_train::training::TrainOptions::new(records, stage, output);
+            let mut options = training::TrainOptions::new(records, stage, output);
             options.architecture = args.expert.map_or_else(Architecture::default, Architecture::of);
-            lab_train::training::run(&args.set(options, expert.unwrap_or_default()), &mut report)
+            training::run(&args.set(options, expert.unwrap_or_default(), stop), &mut report)
         }
         Some(kind) => {
             let expert = kind.expert().map(str::to_owned).or(expert);
             let expert = expert
                 .ok_or_else(|| Failure::new(Exit::Usage, "--baseline paper: --expert says whose it is"))?;
             let options = baselines::options(kind, records, stage, output);
-            baselines::train(&args.set(options, expert), &mut report)
+            baselines::train(&args.set(options, expert, stop), &mut report)
         }
     };
-    done.map(drop).map_err(failed)
+    match done {
+        Err(stopped @ TrainError::Stopped { .. }) => {
+            Err(Failure::new(Exit::Interrupted, stopped.to_string()))
+        }
+        done => done.map(drop).map_err(failed),
+    }
 }
 
 impl TrainArgs {
     /// Fills in what all trainings have.
     fn set<A>(
         self,
-        options: lab_train::training::TrainOptions<A>,
+        options: training::TrainOptions<A>,
         expert: String,
-    ) -> lab_train::training::TrainOptions<A> {
-        lab_train::training::TrainOptions {
+        stop: Arc<AtomicBool>,
+    ) -> training::TrainOptions<A> {
+        training::TrainOptions {
             expert,
             init: self.init,
             steps: self.steps,
@@ -127,6 +145,7 @@ impl TrainArgs {
             minutes: self.minutes,
             resume: self.resume,
             trained_on: self.trained_on,
+            stop,
             ..options
         }
     }

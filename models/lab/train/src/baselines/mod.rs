@@ -34,14 +34,12 @@ use experts::net::{Architecture, Card, NetError, Params, on_cpu};
 use scene::AgentType;
 use serde::{Deserialize, Serialize};
 
-use crate::training::{self, Metrics, Stage, TrainError, TrainOptions, TrainProgress};
+use crate::training::{self, EVERYBODY, Metrics, Stage, TrainError, TrainOptions, TrainProgress};
 use regressor::Regressor;
 use unet::Unet;
 
 /// The one member of a file's metadata.
 const HEADER: &str = "dragtraffic-baseline";
-/// Name of a network for all types.
-const EVERYBODY: &str = "everybody";
 
 /// Whose method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

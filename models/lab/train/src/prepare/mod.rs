@@ -10,6 +10,7 @@ mod tests;
 pub use report::{Fit, LeftOut, PlaceSplit, PrepareReport};
 
 use crate::polylines::Polylines;
+use crate::provenance::Provenance;
 use crate::scenes::{Crop, Cropped, mirrored, read_scenes, scene_files};
 use crate::training::{FitError, Record, Writer};
 use anyhow::Result;
@@ -51,7 +52,7 @@ pub struct PrepareOptions {
 /// When nothing can be read or the records cannot be written.
 pub fn run(options: &PrepareOptions, mut progress: impl FnMut(&PrepareReport)) -> Result<PrepareReport> {
     let files = scene_files(&options.inputs)?;
-    let mut writer = Writer::create(&options.out)?;
+    let mut writer = Writer::create(&options.out, Provenance::of(options.agent_type))?;
     let mut report = PrepareReport::default();
     let mut distances = Vec::new();
     for chunk in files.chunks(32) {
@@ -75,6 +76,7 @@ pub fn run(options: &PrepareOptions, mut progress: impl FnMut(&PrepareReport)) -
                 report.records += scene.records.len() as u64;
                 report.split.add(scene.key, scene.records.len());
                 distances.extend(scene.distances);
+                writer.comes_from(&scene.provenance);
                 writer.scene(scene.key, &scene.polylines.pieces, &scene.records)?;
             }
         }
@@ -90,6 +92,7 @@ pub fn run(options: &PrepareOptions, mut progress: impl FnMut(&PrepareReport)) -
 
 struct SceneRecords {
     key: u64,
+    provenance: Provenance,
     polylines: Polylines,
     records: Vec<Record>,
     /// By record, metres; see [`FitError`].
@@ -101,8 +104,11 @@ struct SceneRecords {
 
 impl SceneRecords {
     fn new(scene: &Scene) -> Self {
+        let mut provenance = Provenance::default();
+        provenance.add(scene);
         Self {
             key: place_key(scene),
+            provenance,
             polylines: Polylines::new(&scene.map),
             records: Vec::new(),
             distances: Vec::new(),

@@ -106,6 +106,11 @@ fn hash_and_split_are_those_of_the_file() {
     let records = Records::load(std::slice::from_ref(&options.out)).unwrap();
     let held = (0..records.len()).filter(|i| is_held_out(records.scene_of(*i).0)).count();
     assert_eq!(report.records as usize, records.len());
+    let provenance = &records.provenances()[0];
+    assert_eq!(
+        (provenance.expert.as_str(), provenance.scenes.values().flat_map(|l| l.values()).sum()),
+        ("vehicle", 30u64)
+    );
     assert_eq!((report.split.places, report.split.scenes), (30, records.scenes()));
     assert_eq!(report.split.records_held_out, held);
     assert!((1..30).contains(&report.split.scenes_held_out));

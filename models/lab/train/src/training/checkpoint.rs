@@ -23,6 +23,13 @@ pub(super) struct State<A> {
     pub(super) stage: Stage,
     pub(super) seed: u64,
     pub(super) batch: usize,
+    /// Steps in all: the rate falls towards them.
+    pub(super) steps: u64,
+    /// Top learning rate.
+    pub(super) rate: f64,
+    pub(super) minutes: Option<f64>,
+    /// The refiner is shown the way downhill.
+    pub(super) repulsion: bool,
     pub(super) step: u64,
     /// Seconds trained so far.
     pub(super) seconds: f64,
@@ -30,16 +37,9 @@ pub(super) struct State<A> {
     pub(super) records: String,
 }
 
-/// Writes under another name, then renames, so that a stopped write leaves the file of before.
+/// Writes a file whole or leaves that of before.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder).map_err(TrainError::io(folder))?;
-    }
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = Path::new(&partial);
-    std::fs::write(partial, bytes).map_err(TrainError::io(partial))?;
-    std::fs::rename(partial, path).map_err(TrainError::io(path))
+    formats::files::replace(path, bytes).map_err(TrainError::io(path))
 }
 
 pub(super) fn save<T: Trainee>(

@@ -24,6 +24,12 @@ pub enum TrainError {
     /// TrainOptions or data that do not make sense together.
     #[error("{0}")]
     Invalid(String),
+    /// Somebody asked the run to end; its checkpoint is kept.
+    #[error("stopped after step {step}; --resume goes on from there")]
+    Stopped {
+        /// Steps done.
+        step: u64,
+    },
     /// No graphics card can be used.
     #[error("no CUDA device to train on: {0}")]
     Device(String),

@@ -73,7 +73,19 @@ impl Log {
         if held_out { self.write() } else { Ok(()) }
     }
 
-    fn write(&self) -> Result<(), TrainError> {
+    /// The least loss on records held out so far, as far as it is measured, else the least distance.
+    pub(super) fn is_best(&self, metrics: &super::Metrics) -> bool {
+        let Some(name) = ["loss", "refined", "min"].into_iter().find(|name| metrics.mean(name).is_some())
+        else {
+            return true;
+        };
+        let held_out = self.lines.iter().filter(|line| line.held_out);
+        let before = held_out.filter_map(|line| line.means.get(name)).copied().fold(f64::INFINITY, f64::min);
+        metrics.mean(name).is_some_and(|now| now < before)
+    }
+
+    /// Both files anew, with all lines so far.
+    pub(super) fn write(&self) -> Result<(), TrainError> {
         let path = self.beside(".jsonl");
         let mut text = String::new();
         for line in &self.lines {

@@ -2,11 +2,14 @@
 
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use candle_core::{Device, Tensor};
 use experts::Refining;
 use experts::net::{Architecture, Card, Expert};
+use scene::licence::strictest;
 
 use super::checkpoint::{self, Resumed, State};
 use super::log::Log;
@@ -18,7 +21,10 @@ use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
 use super::workers::{SHARD, Workers};
 use super::{Records, TrainError};
+use crate::provenance::Provenance;
 
+/// Name of networks for all types.
+pub(crate) const EVERYBODY: &str = "everybody";
 /// Steps between two lines of a report.
 const REPORT: u64 = 100;
 /// Records held out that are used at most.
@@ -31,10 +37,9 @@ pub struct TrainOptions<A = Architecture> {
     pub records: Vec<PathBuf>,
     /// Name of the expert: vehicle, pedestrian or cyclist.
     pub expert: String,
-    /// Licence that goes into the weights' header.
-    pub licence: String,
-    /// What the records were made from, for the header.
-    pub trained_on: String,
+    /// What the records were made from, for the header, in place of what they say themselves. Their licence goes
+    /// there whatever is said here.
+    pub trained_on: Option<String>,
     /// Which part is trained.
     pub stage: Stage,
     /// Weights to begin with; random ones without.
@@ -61,6 +66,10 @@ pub struct TrainOptions<A = Architecture> {
     pub minutes: Option<f64>,
     /// Steps between two validations, each followed by a save.
     pub validate_every: u64,
+    /// A checkpoint is kept too where this time has passed at a line of the report, seconds.
+    pub checkpoint_every_s: f64,
+    /// Set by others to end the run after the step under way, with a checkpoint.
+    pub stop: Arc<AtomicBool>,
     /// Sizes of new networks.
     pub architecture: A,
     /// What the refiner is given: parts are left out to see what they bring.
@@ -80,8 +89,7 @@ impl<A> TrainOptions<A> {
         Self {
             records,
             expert: "vehicle".into(),
-            licence: "MIT OR Apache-2.0".into(),
-            trained_on: "synthetic traffic".into(),
+            trained_on: None,
             stage,
             init: None,
             steps: 20_000,
@@ -94,6 +102,8 @@ impl<A> TrainOptions<A> {
             seed: 1,
             minutes: None,
             validate_every: 1000,
+            checkpoint_every_s: 60.0,
+            stop: Arc::default(),
             architecture,
             refining: Refining::default(),
         }
@@ -104,6 +114,13 @@ impl<A> TrainOptions<A> {
 pub fn checkpoint_path(out: &Path) -> PathBuf {
     let mut path = out.as_os_str().to_owned();
     path.push(".checkpoint");
+    path.into()
+}
+
+/// Where the weights with the least held-out loss of a run lie.
+pub fn best_path(out: &Path) -> PathBuf {
+    let mut path = out.as_os_str().to_owned();
+    path.push(".best");
     path.into()
 }
 
@@ -172,7 +189,8 @@ pub(crate) fn run_of<T: Trainee>(
 ) -> Result<Metrics, TrainError> {
     let device = options.processor.device()?;
     let records = Records::load(&options.records)?;
-    let mut run = Run::<T>::begin(options, &records, &device)?;
+    let provenance = provenance(options, &records)?;
+    let mut run = Run::<T>::begin(options, &records, &provenance, &device)?;
     let even = run.trained.draws_files_evenly();
     let split = Split::new(&records, HELD_OUT, even, |record| run.trained.takes(record))?;
     report(&TrainProgress::Begin {
@@ -190,14 +208,17 @@ pub(crate) fn run_of<T: Trainee>(
         shard,
         threads,
     };
-    let mut log = Log::open(&options.out, run.adam.step)?;
-    let mut report = |line: &TrainProgress| {
-        report(line);
-        log.add(line)
-    };
+    let log = Log::open(&options.out, run.adam.step)?;
+    let mut told = Told { report, log };
     let mut since = Since::new();
+    let mut kept = Instant::now();
     let mut validated = None;
     while run.progress() < 1.0 {
+        if options.stop.load(Ordering::Relaxed) {
+            told.log.write()?;
+            run.keep()?;
+            return Err(TrainError::Stopped { step: run.adam.step });
+        }
         let rate = rate(options.rate, run.adam.step, options.steps.min(200), run.progress());
         let batch = split.batch(options.seed, run.adam.step, options.batch);
         let (gradients, metrics) = workers.train(&run.trained, &batch, run.adam.step)?;
@@ -206,18 +227,54 @@ pub(crate) fn run_of<T: Trainee>(
         since.add(&metrics, length);
         let step = run.adam.step;
         if step.is_multiple_of(REPORT) {
-            report(&since.line(step, rate))?;
+            told.line(&since.line(step, rate))?;
             since = Since::new();
+            // At a line, so that the log of a run that goes on from here is that of a run without a stop.
+            if kept.elapsed().as_secs_f64() >= options.checkpoint_every_s {
+                told.log.write()?;
+                run.keep()?;
+                kept = Instant::now();
+            }
         }
         if step.is_multiple_of(options.validate_every.max(1)) {
-            validated = Some((step, run.finish(&workers, &split, &mut report)?));
+            validated = Some((step, run.finish(&workers, &split, &mut told)?));
             since = Since::new();
+            kept = Instant::now();
         }
     }
     match validated {
         Some((step, metrics)) if step == run.adam.step => Ok(metrics),
-        _ => run.finish(&workers, &split, &mut report),
+        _ => run.finish(&workers, &split, &mut told),
     }
+}
+
+/// Who hears of a run: the caller, and the log beside the weights.
+struct Told<'a> {
+    report: &'a mut dyn FnMut(&TrainProgress),
+    log: Log,
+}
+
+impl Told<'_> {
+    fn line(&mut self, line: &TrainProgress) -> Result<(), TrainError> {
+        (self.report)(line);
+        self.log.add(line)
+    }
+}
+
+/// Where all records come from.
+///
+/// # Errors
+/// When some are another expert's.
+fn provenance<A>(options: &TrainOptions<A>, records: &Records) -> Result<Provenance, TrainError> {
+    let mut all = Provenance::default();
+    for (path, own) in options.records.iter().zip(records.provenances()) {
+        if options.expert != EVERYBODY && own.expert != options.expert {
+            let reason = format!("records of the expert \"{}\", not of \"{}\"", own.expert, options.expert);
+            return Err(TrainError::damaged(path, reason));
+        }
+        all.merge(own);
+    }
+    Ok(all)
 }
 
 /// What was measured since the last line.
@@ -265,6 +322,7 @@ impl<'a, T: Trainee> Run<'a, T> {
     fn begin(
         options: &'a TrainOptions<T::Architecture>,
         records: &Records,
+        provenance: &Provenance,
         device: &Device,
     ) -> Result<Self, TrainError> {
         let path = checkpoint_path(&options.out);
@@ -278,7 +336,7 @@ impl<'a, T: Trainee> Run<'a, T> {
                 (trained, adam, state.seconds)
             }
             None => {
-                let trained: T = first_weights(options, device)?;
+                let trained: T = first_weights(options, provenance, device)?;
                 let adam = AdamW::new(trained.vars(), options.stage)?;
                 (trained, adam, 0.0)
             }
@@ -305,28 +363,44 @@ impl<'a, T: Trainee> Run<'a, T> {
         &mut self,
         workers: &Workers<'_>,
         split: &Split,
-        report: &mut dyn FnMut(&TrainProgress) -> Result<(), TrainError>,
+        told: &mut Told<'_>,
     ) -> Result<Metrics, TrainError> {
         self.adam.write_means(self.mean.vars())?;
         let metrics = workers.validate(&self.mean, &split.held_out)?;
-        report(&TrainProgress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
-        self.save()?;
+        let best = told.log.is_best(&metrics);
+        told.line(&TrainProgress::Validation { step: self.adam.step, metrics: metrics.clone() })?;
+        self.save(best)?;
         Ok(metrics)
     }
 
-    fn save(&mut self) -> Result<(), TrainError> {
+    /// The weights, the same as the best so far where they are that, and a checkpoint.
+    fn save(&mut self, best: bool) -> Result<(), TrainError> {
         let options = self.options;
         let notes = &mut self.mean.card_mut().notes;
         notes.insert(format!("{:?} steps", options.stage).to_lowercase(), self.adam.step.to_string());
         notes.insert("records".into(), self.records.clone());
         self.adam.write_means(self.mean.vars())?;
-        checkpoint::replace(&options.out, &self.mean.write()?)?;
+        let bytes = self.mean.write()?;
+        checkpoint::replace(&options.out, &bytes)?;
+        if best {
+            checkpoint::replace(&best_path(&options.out), &bytes)?;
+        }
+        self.keep()
+    }
+
+    /// A checkpoint alone.
+    fn keep(&self) -> Result<(), TrainError> {
+        let options = self.options;
         let state = State {
             architecture: self.trained.architecture().clone(),
             card: self.trained.card().clone(),
             stage: options.stage,
             seed: options.seed,
             batch: options.batch,
+            steps: options.steps,
+            rate: options.rate,
+            minutes: options.minutes,
+            repulsion: options.refining.repulsion,
             step: self.adam.step,
             seconds: self.seconds(),
             records: self.records.clone(),
@@ -337,6 +411,7 @@ impl<'a, T: Trainee> Run<'a, T> {
 
 fn first_weights<T: Trainee>(
     options: &TrainOptions<T::Architecture>,
+    provenance: &Provenance,
     device: &Device,
 ) -> Result<T, TrainError> {
     let mut trained = match &options.init {
@@ -356,9 +431,22 @@ fn first_weights<T: Trainee>(
         }
     };
     let card = trained.card_mut();
+    let before = options.init.is_some() && !card.untrained;
+    if before && card.expert != options.expert {
+        let reason = format!("the weights to begin with are of the expert \"{}\"", card.expert);
+        return Err(TrainError::Invalid(reason));
+    }
+    let own = options.trained_on.clone().unwrap_or_else(|| provenance.words());
+    let mut licences = vec![provenance.licence()];
+    if before {
+        licences.push(card.licence.clone());
+    }
+    card.licence = strictest(licences.iter().map(String::as_str)).unwrap_or_default();
+    card.trained_on = match before && card.trained_on != own {
+        true => format!("{}, then {own}", card.trained_on),
+        false => own,
+    };
     card.expert.clone_from(&options.expert);
-    card.licence.clone_from(&options.licence);
-    card.trained_on.clone_from(&options.trained_on);
     card.untrained = false;
     Ok(trained)
 }
@@ -377,6 +465,10 @@ fn same_run<A: PartialEq>(
         () if state.stage != options.stage => differs("stage"),
         () if state.seed != options.seed => differs("seed"),
         () if state.batch != options.batch => differs("batch"),
+        () if state.steps != options.steps => differs("number of steps"),
+        () if state.rate != options.rate => differs("rate"),
+        () if state.minutes != options.minutes => differs("number of minutes"),
+        () if state.repulsion != options.refining.repulsion => differs("choice of what to leave out"),
         () if state.card.expert != options.expert => differs("expert"),
         () if options.init.is_none() && state.architecture != options.architecture => differs("architecture"),
         () => Ok(()),

@@ -67,6 +67,81 @@ fn stopping_and_going_on_changes_nothing() {
 }
 
 #[test]
+fn a_run_that_is_stopped_goes_on_as_if_it_had_not_been() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path(), 30);
+    let straight =
+        TrainOptions { checkpoint_every_s: 0.0, ..options(folder.path(), Stage::Initializer, 130) };
+    let (_, expected) = trained(&straight);
+    let log = |out: &Path| std::fs::read(format!("{}.jsonl", out.display())).unwrap();
+    let expected_log = log(&straight.out);
+    let stopped = TrainOptions { out: folder.path().join("stopped.safetensors"), ..straight.clone() };
+    let ended = run(&stopped, &mut |line| {
+        if let TrainProgress::Training { step: 100, .. } = line {
+            stopped.stop.store(true, std::sync::atomic::Ordering::Relaxed);
+        }
+    });
+    assert!(matches!(ended, Err(TrainError::Stopped { step: 100 })));
+    assert!(!stopped.out.exists() && checkpoint_path(&stopped.out).exists());
+    let resumed = TrainOptions { resume: true, stop: Default::default(), ..stopped.clone() };
+    let (_, bytes) = trained(&resumed);
+    assert!(bytes == expected, "weights differ");
+    assert_eq!(log(&resumed.out), expected_log);
+    // Other settings are another run.
+    let other = [
+        (TrainOptions { steps: 140, ..resumed.clone() }, "number of steps"),
+        (TrainOptions { rate: 1e-3, ..resumed.clone() }, "rate"),
+        (TrainOptions { minutes: Some(1.0), ..resumed.clone() }, "minutes"),
+    ];
+    for (other, what) in other {
+        let refused = run(&other, &mut |_| ()).unwrap_err().to_string();
+        assert!(refused.contains(what), "{refused}");
+    }
+}
+
+#[test]
+fn records_and_weights_of_another_expert_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path(), 30);
+    let own = options(folder.path(), Stage::Initializer, 1);
+    let (_, bytes) = trained(&own);
+    let card = Expert::load(&bytes).unwrap().card;
+    assert_eq!((card.expert.as_str(), card.trained_on.as_str()), ("vehicle", "30 scenes of toy (cc0)"));
+    assert_eq!(card.licence, "MIT OR Apache-2.0");
+    let other = TrainOptions { expert: "pedestrian".into(), ..own.clone() };
+    let refused = run(&other, &mut |_| ()).unwrap_err().to_string();
+    assert!(refused.contains("records of the expert \"vehicle\""), "{refused}");
+    let files = [bytes.clone().into(), bytes.clone().into(), bytes.into()];
+    let refused = experts::Generator::new(&files, std::sync::Arc::default()).err().unwrap().to_string();
+    assert!(refused.contains("pedestrian.safetensors") && refused.contains("\"vehicle\""), "{refused}");
+}
+
+#[test]
+fn the_best_weights_are_kept_beside_the_last() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path(), 30);
+    // A rate this high makes the networks worse again in the fifth validation.
+    let wild =
+        TrainOptions { rate: 1.0, validate_every: 5, ..options(folder.path(), Stage::Initializer, 40) };
+    let mut losses: Vec<f64> = Vec::new();
+    let mut at_fourth = Vec::new();
+    let ended = run(&wild, &mut |line| {
+        if let TrainProgress::Validation { metrics, .. } = line {
+            losses.extend(metrics.mean("loss").or(metrics.mean("min")));
+            if losses.len() == 5 {
+                // Reported before it is saved, so the file is still that of the fourth.
+                at_fourth = std::fs::read(&wild.out).unwrap();
+                wild.stop.store(true, std::sync::atomic::Ordering::Relaxed);
+            }
+        }
+    });
+    assert!(matches!(ended, Err(TrainError::Stopped { step: 25 })));
+    assert!(losses[4] > losses[3] && losses[..3].iter().all(|loss| *loss > losses[3]), "{losses:?}");
+    assert!(std::fs::read(best_path(&wild.out)).unwrap() == at_fourth);
+    assert!(std::fs::read(&wild.out).unwrap() != at_fourth);
+}
+
+#[test]
 fn losses_fall_on_a_toy_world() {
     let folder = tempfile::tempdir().unwrap();
     records(folder.path(), 60);

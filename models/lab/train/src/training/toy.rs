@@ -1,6 +1,7 @@
 //! Records of a toy world for tests: straight paths, an acceleration and a lateral wish that can be
 //! read off the features, and recorded neighbours beside the path.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use experts::Refining;
@@ -13,6 +14,7 @@ use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
 use super::{AnchorPath, LoggedBox, Record, Records, Writer};
 use crate::polylines::{PIECE, PIECE_POSE, SeenPiece};
+use crate::provenance::Provenance;
 
 /// Key, map pieces and records of a scene.
 pub(crate) type ToyScene = (u64, Vec<[f32; PIECE]>, Vec<Record>);
@@ -34,7 +36,10 @@ pub(crate) fn scenes(count: usize, records: usize, seed: u64) -> Vec<ToyScene> {
 
 /// Writes scenes to a file.
 pub(crate) fn write(path: &Path, scenes: &[ToyScene]) {
-    let mut writer = Writer::create(path).unwrap();
+    let scenes_of =
+        BTreeMap::from([("toy".to_owned(), BTreeMap::from([("cc0".to_owned(), scenes.len() as u64)]))]);
+    let provenance = Provenance { expert: "vehicle".into(), scenes: scenes_of };
+    let mut writer = Writer::create(path, provenance).unwrap();
     for (key, map, records) in scenes {
         writer.scene(*key, map, records).unwrap();
     }

@@ -1,13 +1,15 @@
 //! Whether the log itself shows an event of a pair.
 
 use super::mover::Mover;
-use super::{Known, Pair, look_at};
+use super::{Known, Pair, Touch, look_at};
 use crate::STEP_S;
 use crate::score::input::{Actor, ScoreInput};
 use std::borrow::Cow;
 
 /// An event this much before or after that of the log is the same one, seconds.
 const SAME_S: f64 = 1.0;
+/// An overlap that much deeper than the log's is another one, metres.
+const SAME_DEPTH_M: f64 = 0.1;
 /// A near miss that much closer than the log's is another one, metres.
 const SAME_GAP_M: f64 = 0.5;
 
@@ -21,7 +23,7 @@ pub(super) fn logged(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>) -> Op
     Some((of_log(a)?, of_log(b)?))
 }
 
-/// The collision, else the near miss, of this pair is the log's own: both move as recorded, or the log shows
+/// The collision, else the overlap, else the near miss, of this pair is the log's own: both move as recorded, or the log shows
 /// as near a miss at about the same time. A collision of motion that was made is never the log's.
 pub(super) fn is_in_log(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>, pair: &Pair) -> bool {
     if !a.generated && !b.generated {
@@ -30,8 +32,13 @@ pub(super) fn is_in_log(input: &ScoreInput<'_>, a: &Actor<'_>, b: &Actor<'_>, pa
     if pair.collision.is_some() {
         return false;
     }
-    let (Some(found), Some((p, q))) = (&pair.near, logged(input, a, b)) else { return false };
+    let Some((p, q)) = logged(input, a, b) else { return false };
     let log = look_at(input, &p, &q, Known::NOTHING);
+    if let Some(touch) = &pair.touch {
+        let as_deep = |l: Touch| touch.depth_m <= l.depth_m + SAME_DEPTH_M;
+        return log.collision.is_some() || log.touch.is_some_and(as_deep);
+    }
+    let Some(found) = &pair.near else { return false };
     let near = |at: f64, first: f64, last: f64| {
         let same = SAME_S / STEP_S;
         (first - same..=last + same).contains(&at)

@@ -7,7 +7,7 @@ mod near;
 mod tally;
 
 use super::input::{Actor, Exclude, ScoreInput};
-use super::report::{Collision, NearMiss, time_of};
+use super::report::{BoxOverlap, Collision, NearMiss, time_of};
 use crate::geometry::Vec2;
 use crate::geometry::obb::{OrientedBox, circle_gap, gap_and_direction, iou, overlaps, shared_area_m2};
 use crate::geometry::ttc::{LOOK_AHEAD_S, time_to_collision};
@@ -26,6 +26,8 @@ pub struct PairTotals {
     pub collisions: usize,
     /// Near misses it is part of and the log does not show.
     pub near_misses: usize,
+    /// Overlaps below the threshold of a collision, likewise.
+    pub light_overlaps: usize,
     /// Collisions it is part of and the log shows too.
     pub logged_collisions: usize,
     /// Its box overlaps another's at a step, however little.
@@ -44,6 +46,8 @@ pub struct PairScores {
     /// One a pair, in pair order.
     pub collisions: Vec<Collision>,
     /// One a pair, in pair order.
+    pub overlaps: Vec<BoxOverlap>,
+    /// One a pair, in pair order.
     pub near_misses: Vec<NearMiss>,
     /// By road user, in input order.
     pub agents: Vec<PairTotals>,
@@ -55,8 +59,25 @@ struct Pair {
     min_ttc_s: Option<f64>,
     min_distance_m: Option<f64>,
     overlaps: bool,
+    touch: Option<Touch>,
     collision: Option<Contact>,
     near: Option<Nearest>,
+}
+
+/// Boxes that overlap at a step, however little, of two for whom that says something.
+#[derive(Debug)]
+struct Touch {
+    /// First step, from the first scored one.
+    first: usize,
+    /// Greatest depth, metres.
+    depth_m: f64,
+}
+
+impl Touch {
+    fn keep(touch: &mut Option<Self>, step: usize, depth_m: f64) {
+        let touch = touch.get_or_insert(Self { first: step, depth_m });
+        touch.depth_m = touch.depth_m.max(depth_m);
+    }
 }
 
 /// A collision. Times are in steps from the first scored one.
@@ -95,6 +116,8 @@ pub fn score_pairs(input: &ScoreInput<'_>) -> PairScores {
 pub(crate) enum Meeting {
     /// As [`Collision`].
     Collision { time_s: f64, iou: f64, closing_speed_mps: f64 },
+    /// As [`BoxOverlap`].
+    Overlap { time_s: f64, depth_m: f64 },
     /// As [`NearMiss`].
     Near { time_s: f64, distance_m: f64, ttc_s: Option<f64>, closing_speed_mps: f64 },
 }
@@ -104,6 +127,9 @@ impl Meeting {
         let scene_time = |step: f64| time_of(first_step as f64 + step);
         if let Some(Contact { first, iou, closing_mps: closing_speed_mps, .. }) = pair.collision {
             return Some(Self::Collision { time_s: scene_time(first), iou, closing_speed_mps });
+        }
+        if let Some(Touch { first, depth_m }) = pair.touch {
+            return Some(Self::Overlap { time_s: scene_time(first as f64), depth_m });
         }
         let Nearest { step, gap, .. } = pair.near.as_ref()?;
         let (distance_m, ttc_s, closing_speed_mps) = (gap.gap_m, gap.ttc_s, gap.closing_mps);
@@ -190,10 +216,14 @@ fn look_at(input: &ScoreInput<'_>, a: &Mover, b: &Mover, known: Known) -> Pair {
             if matters { gap_and_direction(&p.outline, &q.outline) } else { (apart, Vec2::zeros()) };
         let ttc_s = if moving { ttc(p, q, horizon_s) } else { None };
         if matters {
-            if travels || gap < 0.0 {
+            pair.overlaps |= gap < 0.0;
+            let touches = gap < 0.0 && !belong_together(a, b, step);
+            if touches {
+                Touch::keep(&mut pair.touch, step, -gap);
+            }
+            if touches || (travels && gap >= 0.0) {
                 pair.min_distance_m = least(pair.min_distance_m, Some(gap));
             }
-            pair.overlaps |= gap < 0.0;
             collide(&mut pair, input, (a, b), step, gap);
         }
         pair.min_ttc_s = least(pair.min_ttc_s, ttc_s);

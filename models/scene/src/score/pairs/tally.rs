@@ -4,7 +4,7 @@ use super::{Known, Meeting, Mover, PairScores, PairTotals, is_excluded, log, loo
 use crate::geometry::ttc::LOOK_AHEAD_S;
 use crate::score::input::{PairChoice, ScoreInput};
 use crate::score::pet::post_encroachment_s;
-use crate::score::report::{Collision, NearMiss};
+use crate::score::report::{BoxOverlap, Collision, NearMiss};
 
 /// A least value of one road user, and in the pair with whom it was found.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +34,6 @@ struct Event {
     /// The boxes overlap at a step, however little.
     overlaps: bool,
     meeting: Option<Meeting>,
-    /// The two come that near, before or after a collision too.
-    nears: bool,
     in_log: bool,
 }
 
@@ -141,8 +139,7 @@ impl Tally {
         let meeting = Meeting::of(&found, input.steps.start);
         if note && (found.overlaps || meeting.is_some()) {
             let in_log = meeting.is_some() && log::is_in_log(input, a, b, &found);
-            let (overlaps, nears) = (found.overlaps, found.near.is_some());
-            self.events.push(Event { pair, overlaps, meeting, nears, in_log });
+            self.events.push(Event { pair, overlaps: found.overlaps, meeting, in_log });
         }
     }
 
@@ -157,19 +154,26 @@ impl Tally {
         };
         let mut scores =
             PairScores { agents: self.leasts.iter().map(totals).collect(), ..PairScores::default() };
-        for Event { pair: (i, j), overlaps, meeting, nears, in_log } in self.events {
-            let collides = matches!(meeting, Some(Meeting::Collision { .. }));
+        for Event { pair: (i, j), overlaps, meeting, in_log } in self.events {
             for k in [i, j] {
                 let totals = &mut scores.agents[k];
-                totals.collisions += usize::from(collides && !in_log);
-                totals.logged_collisions += usize::from(collides && in_log);
-                totals.near_misses += usize::from(nears && !in_log);
                 totals.overlaps |= overlaps;
+                let count = match meeting {
+                    Some(Meeting::Collision { .. }) if in_log => &mut totals.logged_collisions,
+                    Some(Meeting::Collision { .. }) => &mut totals.collisions,
+                    Some(Meeting::Overlap { .. }) if !in_log => &mut totals.light_overlaps,
+                    Some(Meeting::Near { .. }) if !in_log => &mut totals.near_misses,
+                    _ => continue,
+                };
+                *count += 1;
             }
             let (a, b) = (input.actors[i].id.to_owned(), input.actors[j].id.to_owned());
             match meeting {
                 Some(Meeting::Collision { time_s, iou, closing_speed_mps }) => {
                     scores.collisions.push(Collision { a, b, time_s, iou, closing_speed_mps, in_log });
+                }
+                Some(Meeting::Overlap { time_s, depth_m }) => {
+                    scores.overlaps.push(BoxOverlap { a, b, time_s, depth_m, in_log });
                 }
                 Some(Meeting::Near { time_s, distance_m, ttc_s, closing_speed_mps }) => {
                     let miss = NearMiss { a, b, time_s, distance_m, ttc_s, closing_speed_mps, in_log };

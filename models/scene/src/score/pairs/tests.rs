@@ -193,11 +193,12 @@ fn a_bus_that_stands_or_crawls_beside_a_walker_is_no_near_miss() {
         };
         let mut walker = straight("b", Pedestrian, (0.0, 0.0), FRAC_PI_2, 0.0);
         walker.track = Cow::Owned(track_of(walk));
-        plain(vec![bus, walker]).near_misses.len()
+        let found = plain(vec![bus, walker]);
+        (found.near_misses.len(), found.overlaps.len())
     };
-    assert_eq!((misses(0.6), misses(1.3)), (0, 0));
-    // Rolling past at 4 m/s, a walker in its way is one.
-    assert_eq!(misses(4.0), 1);
+    assert_eq!((misses(0.6).0, misses(1.3).0), (0, 0));
+    // Rolling past at 4 m/s, a walker in its way is touched.
+    assert_eq!(misses(4.0), (0, 1));
 }
 
 #[test]
@@ -241,6 +242,23 @@ fn only_regenerated_pairs() {
     let found = scored(actors, |input| input.pairs = PairChoice::Regenerated);
     let ids: Vec<_> = found.collisions.iter().map(|c| c.b.as_str()).collect();
     assert_eq!(ids, ["b", "c"]);
+}
+
+#[test]
+fn a_light_touch_is_an_overlap_and_no_near_miss() {
+    // b crosses behind a: 0.1 m of a's rear corner is in the way of its front.
+    let found = plain(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, -45.0, FRAC_PI_2, 10.0)]);
+    let touching = |y: f64| plain(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, y, FRAC_PI_2, 10.0)]);
+    let light =
+        (0..40).map(|i| touching(-46.0 + 0.05 * f64::from(i))).find(|s| !s.overlaps.is_empty()).unwrap();
+    assert!(light.collisions.is_empty() && light.near_misses.is_empty(), "{light:?}");
+    let depth_m = light.overlaps[0].depth_m;
+    assert!(depth_m > 0.0 && !light.overlaps[0].in_log, "{light:?}");
+    assert_eq!(light.agents[0].min_distance_m, Some(-depth_m));
+    assert_eq!((light.agents[0].light_overlaps, light.agents[0].near_misses), (1, 0));
+    // A least gap below zero is always a collision or an overlap.
+    let negative = found.agents[0].min_distance_m.is_some_and(|gap| gap < 0.0);
+    assert_eq!(negative, !found.collisions.is_empty() || !found.overlaps.is_empty());
 }
 
 #[test]

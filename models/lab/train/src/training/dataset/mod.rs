@@ -2,7 +2,7 @@
 //!
 //! A file is: the magic bytes, ten `u32` dimensions (so that a file of other features is refused),
 //! then blocks of one tag byte, a `u32` length and that many bytes: `M` a scene's map pieces, `R` a
-//! record of the scene before it, and one `E` with the counts and the BLAKE3 hash of all before it.
+//! record of the scene before it, one `P` with where they come from ([`crate::provenance`], JSON), and one `E` with the counts and the BLAKE3 hash of all before it.
 //! Numbers are little endian; arrays are `f32` in the order of the structs' fields.
 //!
 //! Not safetensors: its header comes first and names every tensor's length, so scenes could not be appended as they
@@ -25,7 +25,9 @@ pub const BOXES: usize = 8;
 /// Most points of an anchor's path, one a metre.
 pub const PATH_POINTS: usize = 160;
 
-const MAGIC: &[u8; 8] = b"DTRECS2\n";
+const MAGIC: &[u8; 8] = b"DTRECS3\n";
+/// How files of earlier programs begin: they do not say whose records they are.
+const MAGIC_BEFORE: &[u8; 8] = b"DTRECS2\n";
 const DIMENSIONS: [usize; 10] =
     [MODES, INSTANTS, RESIDUAL, OWN, PIECES, PIECE, PIECE_POSE, NEIGHBOURS, NEIGHBOUR, ANCHOR];
 
@@ -137,6 +139,7 @@ mod tests {
         flipped[100] ^= 1;
         refused(&flipped, "hash");
         refused(b"something else entirely", "not a file of training records");
+        refused(b"DTRECS2\n then what an older program wrote", "prepare them again");
         let mut other = good;
         other[8] = 7;
         refused(&other, "dimensions");

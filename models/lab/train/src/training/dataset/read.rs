@@ -1,8 +1,9 @@
 //! Files into records.
 
 use super::codec::Cursor;
-use super::{AnchorPath, BOXES, DIMENSIONS, LoggedBox, MAGIC, PATH_POINTS, Record, check};
+use super::{AnchorPath, BOXES, DIMENSIONS, LoggedBox, MAGIC, MAGIC_BEFORE, PATH_POINTS, Record, check};
 use crate::polylines::{PIECE, PIECE_POSE, PIECES, SeenPiece};
+use crate::provenance::Provenance;
 use crate::training::TrainError;
 use experts::features::{ANCHOR, AgentFeatures, GroundTruth, NEIGHBOUR, NEIGHBOURS, OWN};
 use experts::planning::{INSTANTS, MODES};
@@ -82,6 +83,8 @@ pub struct Records {
     files: Vec<Vec<u8>>,
     scenes: Vec<SceneEntry>,
     entries: Vec<Entry>,
+    /// By file.
+    provenances: Vec<Provenance>,
     hash: blake3::Hash,
 }
 
@@ -91,8 +94,13 @@ impl Records {
     /// # Errors
     /// When a file cannot be read, is damaged, or was written for other features.
     pub fn load(paths: &[PathBuf]) -> Result<Self, TrainError> {
-        let mut records =
-            Self { files: Vec::new(), scenes: Vec::new(), entries: Vec::new(), hash: blake3::hash(b"") };
+        let mut records = Self {
+            files: Vec::new(),
+            scenes: Vec::new(),
+            entries: Vec::new(),
+            provenances: Vec::new(),
+            hash: blake3::hash(b""),
+        };
         let mut all = blake3::Hasher::new();
         for path in paths {
             let mut bytes = Vec::new();
@@ -111,8 +119,15 @@ impl Records {
         let file = self.files.len();
         let (scenes_before, entries_before) = (self.scenes.len(), self.entries.len());
         let mut cursor = Cursor::new(bytes);
-        if cursor.take(MAGIC.len())? != MAGIC {
-            return Err("not a file of training records".into());
+        match cursor.take(MAGIC.len())? {
+            magic if magic == MAGIC => {}
+            magic if magic == MAGIC_BEFORE => {
+                return Err(
+                    "records of an earlier program, which do not say whose they are; prepare them again"
+                        .into(),
+                );
+            }
+            _ => return Err("not a file of training records".into()),
         }
         let mut found = [0; DIMENSIONS.len()];
         for dimension in &mut found {
@@ -140,7 +155,15 @@ impl Records {
                     check(&decode(payload)?, self.scenes[scene].pieces)?;
                     self.entries.push(Entry { file, scene, at: at..at + length });
                 }
+                b'P' => {
+                    let found =
+                        serde_json::from_slice(payload).map_err(|e| format!("where it comes from: {e}"))?;
+                    self.provenances.push(found);
+                }
                 b'E' => {
+                    if self.provenances.len() != file + 1 {
+                        return Err("it does not say once where its records come from".into());
+                    }
                     let mut inner = Cursor::new(payload);
                     let (scenes, records) = (inner.count(usize::MAX)?, inner.u64()? as usize);
                     let hash = blake3::hash(&bytes[..before]);
@@ -159,6 +182,11 @@ impl Records {
                 other => return Err(format!("unknown block tag {other} at byte {before}")),
             }
         }
+    }
+
+    /// Where the records of each file come from.
+    pub fn provenances(&self) -> &[Provenance] {
+        &self.provenances
     }
 
     /// Number of records.

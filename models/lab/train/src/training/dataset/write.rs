@@ -3,16 +3,17 @@
 use super::codec::Sink;
 use super::{DIMENSIONS, MAGIC, Record, check};
 use crate::polylines::PIECE;
+use crate::provenance::Provenance;
 use crate::training::TrainError;
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use formats::files::Whole;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Writes a file of records, scene by scene.
 pub struct Writer {
     path: PathBuf,
-    partial: PathBuf,
-    file: BufWriter<File>,
+    file: Whole,
+    provenance: Provenance,
     hash: blake3::Hasher,
     scenes: u32,
     records: u64,
@@ -23,13 +24,12 @@ impl Writer {
     ///
     /// # Errors
     /// When the file cannot be created.
-    pub fn create(path: &Path) -> Result<Self, TrainError> {
-        let partial = path.with_extension("partial");
-        let file = BufWriter::new(File::create(&partial).map_err(TrainError::io(&partial))?);
+    pub fn create(path: &Path, provenance: Provenance) -> Result<Self, TrainError> {
+        let file = Whole::create(path).map_err(TrainError::io(path))?;
         let mut writer = Self {
             path: path.to_path_buf(),
-            partial,
             file,
+            provenance,
             hash: blake3::Hasher::new(),
             scenes: 0,
             records: 0,
@@ -41,6 +41,11 @@ impl Writer {
         }
         writer.put(head.as_slice())?;
         Ok(writer)
+    }
+
+    /// Counts the scenes of other records among those that the file comes from.
+    pub fn comes_from(&mut self, more: &Provenance) {
+        self.provenance.merge(more);
     }
 
     /// Adds a scene. `key` decides, by its hash, whether the scene is held out for validation: scenes
@@ -82,14 +87,15 @@ impl Writer {
     /// # Errors
     /// When the file cannot be written or renamed.
     pub fn finish(mut self) -> Result<blake3::Hash, TrainError> {
+        let text = serde_json::to_vec(&self.provenance)
+            .map_err(|error| TrainError::damaged(&self.path, error.to_string()))?;
+        self.block(b'P', &text)?;
         let mut sink = Sink::default();
         sink.count(self.scenes as usize);
         sink.u64(self.records);
         sink.bytes(self.hash.finalize().as_bytes());
         self.block(b'E', sink.as_slice())?;
-        self.file.flush().map_err(TrainError::io(&self.partial))?;
-        self.file.get_ref().sync_all().map_err(TrainError::io(&self.partial))?;
-        std::fs::rename(&self.partial, &self.path).map_err(TrainError::io(&self.path))?;
+        self.file.finish().map_err(TrainError::io(&self.path))?;
         Ok(self.hash.finalize())
     }
 
@@ -101,7 +107,7 @@ impl Writer {
 
     fn put(&mut self, bytes: &[u8]) -> Result<(), TrainError> {
         self.hash.update(bytes);
-        self.file.write_all(bytes).map_err(TrainError::io(&self.partial))
+        self.file.write_all(bytes).map_err(TrainError::io(&self.path))
     }
 }
 

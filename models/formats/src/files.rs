@@ -1,0 +1,153 @@
+//! Files on disk: whole or not there at all, and nothing replaced that is no plain file.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Partial files of this process, for [`abandon`].
+static UNDER_WAY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn under_way() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes what is half written: for a process that is about to end.
+pub fn abandon() {
+    for path in under_way().drain(..) {
+        // What cannot be removed is gone already, or nothing can be done about it.
+        let _ = fs::remove_file(path);
+    }
+}
+
+/// There is something that writing would replace. Devices and pipes take what comes and lose nothing.
+pub fn would_replace(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| found.is_file() || found.is_dir())
+}
+
+/// A file being written. It appears under its name, or takes the place of the one of before, when
+/// [`Whole::finish`] has succeeded. A link is followed; a device or a pipe is written straight into.
+pub struct Whole {
+    target: PathBuf,
+    /// `None` where there is nothing to put in place.
+    partial: Option<PathBuf>,
+    file: BufWriter<File>,
+}
+
+impl Whole {
+    /// Begins a file; folders that are missing are made.
+    ///
+    /// # Errors
+    /// When it cannot be created.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        let found = fs::metadata(&target);
+        // A link to nowhere is followed by opening it.
+        let dangling = found.is_err() && fs::symlink_metadata(path).is_ok();
+        if dangling || found.as_ref().is_ok_and(|found| !found.is_file()) {
+            let file = File::options().write(true).create(dangling).truncate(dangling).open(path)?;
+            return Ok(Self { target, partial: None, file: BufWriter::new(file) });
+        }
+        if let Some(folder) = target.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder)?;
+        }
+        let name = target.file_name().unwrap_or_default().to_string_lossy();
+        let partial = target.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+        under_way().push(partial.clone());
+        let file = File::create(&partial)?;
+        if let Ok(found) = found {
+            file.set_permissions(found.permissions())?;
+        }
+        Ok(Self { target, partial: Some(partial), file: BufWriter::new(file) })
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// When what was written cannot be kept; the file of before is then still there.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.file.flush()?;
+        let Some(partial) = self.partial.clone() else { return Ok(()) };
+        self.file.get_ref().sync_all()?;
+        fs::rename(&partial, &self.target)?;
+        self.forget();
+        Ok(())
+    }
+
+    fn forget(&mut self) {
+        if let Some(partial) = self.partial.take() {
+            under_way().retain(|path| *path != partial);
+        }
+    }
+}
+
+impl Write for Whole {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for Whole {
+    fn drop(&mut self) {
+        if let Some(partial) = &self.partial {
+            let _ = fs::remove_file(partial);
+        }
+        self.forget();
+    }
+}
+
+/// Writes a file whole or not at all.
+///
+/// # Errors
+/// When it cannot be written; the file of before is then still there.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = Whole::create(path)?;
+    file.write_all(bytes)?;
+    file.finish()
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+
+    #[test]
+    fn links_are_followed_and_devices_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
+        symlink(&file, &link).unwrap();
+        replace(&link, b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
+        let nowhere = folder.path().join("nowhere");
+        symlink(folder.path().join("made"), &nowhere).unwrap();
+        replace(&nowhere, b"new").unwrap();
+        assert!(fs::symlink_metadata(&nowhere).unwrap().is_symlink());
+        assert_eq!(fs::read(folder.path().join("made")).unwrap(), b"new");
+        replace(Path::new("/dev/null"), b"new").unwrap();
+        assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+        assert!(!would_replace(Path::new("/dev/null")) && would_replace(&file));
+    }
+
+    #[test]
+    fn half_a_file_is_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/file");
+        let mut half = Whole::create(&path).unwrap();
+        half.write_all(b"half").unwrap();
+        let listed = || fs::read_dir(folder.path().join("deep")).unwrap().count();
+        assert_eq!((listed(), path.exists()), (1, false));
+        drop(half);
+        assert_eq!(listed(), 0);
+        replace(&path, b"whole").unwrap();
+        assert_eq!((listed(), fs::read(&path).unwrap()), (1, b"whole".to_vec()));
+        assert!(replace(folder.path(), b"a folder").is_err());
+    }
+}
