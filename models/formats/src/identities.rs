@@ -191,8 +191,9 @@ mod tests {
         let parked = Agent {
             track: scene::Track {
                 states: vec![Some(State::default()); 91],
-                ..tracked("5", 0..91, 0.0).track
-            },
+                ..scene::Track::clone(&tracked("5", 0..91, 0.0).track)
+            }
+            .into(),
             ..tracked("5", 0..91, 0.0)
         };
         let parts = vec![
