@@ -29,8 +29,8 @@ fn parked(id: &'static str, x: f64, y: f64) -> Actor<'static> {
 #[test]
 fn rear_end_collision() {
     let found = plain(vec![car("a", 0.0, 0.0, 0.0, 15.0), car("b", 24.0, 0.0, 0.0, 5.0)]);
-    // 20 m between the bumpers, 10 m/s: contact after 2 s; IoU over 0.02 needs 0.157 m, and the first
-    // quarter step with it is at 2.025 s.
+    // 20 m between the bumpers, 10 m/s: contact after 2 s, and the first quarter step
+    // in which they share area is at 2.025 s.
     assert_eq!(found.collisions.len(), 1);
     let crash = &found.collisions[0];
     assert_eq!((crash.a.as_str(), crash.b.as_str(), crash.time_s), ("a", "b", 2.025));
@@ -55,9 +55,16 @@ fn small_under_large() {
     (bus.size.length_m, bus.size.width_m) = (12.0, 2.6);
     let mut child = straight("b", Pedestrian, (0.0, -9.0), FRAC_PI_2, 2.0);
     (child.size.length_m, child.size.width_m) = (0.4, 0.4);
-    let found = plain(vec![bus.clone(), child.clone()]);
-    assert_eq!(found.collisions.len(), 1);
-    let paper = scored(vec![bus, child], |input| input.thresholds.covered_share = 2.0);
+    assert_eq!(plain(vec![bus.clone(), child.clone()]).collisions.len(), 1);
+    let above = |iou: f64, covered_share: f64| {
+        let actors = vec![bus.clone(), child.clone()];
+        let limits = |input: &mut ScoreInput<'_>| {
+            (input.thresholds.iou, input.thresholds.covered_share) = (iou, covered_share);
+        };
+        scored(actors, limits)
+    };
+    assert_eq!(above(0.02, 0.5).collisions.len(), 1);
+    let paper = above(0.02, 2.0);
     assert!(paper.collisions.is_empty() && paper.agents[0].overlaps);
 }
 
@@ -194,7 +201,7 @@ fn a_bus_that_stands_or_crawls_beside_a_walker_is_no_near_miss() {
         let mut walker = straight("b", Pedestrian, (0.0, 0.0), FRAC_PI_2, 0.0);
         walker.track = Cow::Owned(track_of(walk));
         let found = plain(vec![bus, walker]);
-        (found.near_misses.len(), found.overlaps.len())
+        (found.near_misses.len(), found.collisions.len())
     };
     assert_eq!((misses(0.6).0, misses(1.3).0), (0, 0));
     // Rolling past at 4 m/s, a walker in its way is touched.
@@ -245,20 +252,23 @@ fn only_regenerated_pairs() {
 }
 
 #[test]
-fn a_light_touch_is_an_overlap_and_no_near_miss() {
-    // b crosses behind a: 0.1 m of a's rear corner is in the way of its front.
-    let found = plain(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, -45.0, FRAC_PI_2, 10.0)]);
-    let touching = |y: f64| plain(vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, y, FRAC_PI_2, 10.0)]);
-    let light =
-        (0..40).map(|i| touching(-46.0 + 0.05 * f64::from(i))).find(|s| !s.overlaps.is_empty()).unwrap();
-    assert!(light.collisions.is_empty() && light.near_misses.is_empty(), "{light:?}");
-    let depth_m = light.overlaps[0].depth_m;
-    assert!(depth_m > 0.0 && !light.overlaps[0].in_log, "{light:?}");
-    assert_eq!(light.agents[0].min_distance_m, Some(-depth_m));
-    assert_eq!((light.agents[0].light_overlaps, light.agents[0].near_misses), (1, 0));
-    // A least gap below zero is always a collision or an overlap.
-    let negative = found.agents[0].min_distance_m.is_some_and(|gap| gap < 0.0);
-    assert_eq!(negative, !found.collisions.is_empty() || !found.overlaps.is_empty());
+fn a_light_touch_is_a_collision_and_never_a_near_miss() {
+    // b crosses behind a: up to 2 m of a's rear corner are in the way of its front.
+    let crossing = |y: f64, iou: f64| {
+        let actors = vec![car("a", 0.0, 0.0, 0.0, 10.0), car("b", 40.0, y, FRAC_PI_2, 10.0)];
+        scored(actors, |input| input.thresholds.iou = iou)
+    };
+    let y = |i: u32| -46.0 + 0.05 * f64::from(i);
+    let light = (0..40).map(y).find(|y| !crossing(*y, 0.02).overlaps.is_empty()).unwrap();
+    let found = crossing(light, 0.0);
+    assert!(found.collisions.len() == 1 && found.overlaps.is_empty() && found.near_misses.is_empty());
+    // Above the paper's threshold alone it is an overlap, and a near miss neither.
+    let paper = crossing(light, 0.02);
+    assert!(paper.collisions.is_empty() && paper.near_misses.is_empty(), "{paper:?}");
+    let depth_m = paper.overlaps[0].depth_m;
+    assert!(depth_m > 0.0 && !paper.overlaps[0].in_log, "{paper:?}");
+    assert_eq!(paper.agents[0].min_distance_m, Some(-depth_m));
+    assert_eq!((paper.agents[0].light_overlaps, paper.agents[0].near_misses), (1, 0));
 }
 
 #[test]
