@@ -34,8 +34,7 @@ fn current() -> Option<PathBuf> {
     let tests = std::env::current_exe().ok()?;
     let program = tests.parent()?.parent()?.join("dragtraffic");
     let built = program.metadata().and_then(|m| m.modified()).ok()?;
-    let sources =
-        ["Cargo.lock", "server", "models", "assets/scenes", "assets/weights", "web/src", "web/index.html"];
+    let sources = ["Cargo.lock", "server", "models", "assets/scenes", "web/src", "web/index.html"];
     let changed = sources.iter().filter_map(|source| newest(&root().join(source))).max()?;
     (changed < built).then_some(program)
 }

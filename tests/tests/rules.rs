@@ -9,7 +9,7 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-/// Crate and the crates of this workspace that it may import.
+/// Crate, by its name without the product's before it, and the crates of this workspace that it may import.
 const ARROWS: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("formats", &["scene"]),
@@ -18,7 +18,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("lab-train", &["scene", "formats", "experts"]),
     ("lab-eval", &["scene", "formats", "experts", "lab-train"]),
     ("dragtraffic", &["scene", "formats", "experts", "lab-synthesize", "lab-train", "lab-eval"]),
-    ("dragtraffic-tests", &[]),
+    ("tests", &[]),
     ("xtask", &[]),
 ];
 /// Libraries with one home: name, and the crates that may import it.
@@ -81,6 +81,11 @@ const HOUSES: &[House] = &[
     },
 ];
 
+fn short_name(package: &Value) -> String {
+    let name = package.as_str().unwrap();
+    name.strip_prefix("dragtraffic-").unwrap_or(name).to_owned()
+}
+
 fn imports() -> BTreeMap<String, BTreeSet<String>> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
@@ -92,8 +97,8 @@ fn imports() -> BTreeMap<String, BTreeSet<String>> {
     let mut imports = BTreeMap::new();
     for package in metadata["packages"].as_array().unwrap() {
         let normal = package["dependencies"].as_array().unwrap().iter().filter(|d| d["kind"] != "dev");
-        let names = normal.map(|d| d["name"].as_str().unwrap().to_owned()).collect();
-        imports.insert(package["name"].as_str().unwrap().to_owned(), names);
+        let names = normal.map(|dependency| short_name(&dependency["name"])).collect();
+        imports.insert(short_name(&package["name"]), names);
     }
     imports
 }

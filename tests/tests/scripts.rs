@@ -154,7 +154,7 @@ fn licences_travel_and_wrong_data_is_refused() {
     let told = ends_of(train("vehicle", &["--steps", "2", "--resume"]), 1);
     assert!(told.contains("another number of steps"), "{told}");
     // The same weights under another name, then under their own beside the shipped ones.
-    let shipped = root().join("assets/weights");
+    let shipped = root().join("models/experts/weights");
     for name in ["pedestrian", "cyclist"] {
         let file = format!("{name}.safetensors");
         std::fs::copy(shipped.join(&file), at(&file)).unwrap();

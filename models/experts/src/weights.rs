@@ -67,11 +67,11 @@ impl Files {
     /// The files inside the program.
     pub fn built_in() -> Self {
         let experts: [&'static [u8]; EXPERTS.len()] = [
-            include_bytes!("../../../assets/weights/vehicle.safetensors"),
-            include_bytes!("../../../assets/weights/pedestrian.safetensors"),
-            include_bytes!("../../../assets/weights/cyclist.safetensors"),
+            include_bytes!("../weights/vehicle.safetensors"),
+            include_bytes!("../weights/pedestrian.safetensors"),
+            include_bytes!("../weights/cyclist.safetensors"),
         ];
-        let placement: &'static [u8] = include_bytes!("../../../assets/weights/placement.json");
+        let placement: &'static [u8] = include_bytes!("../weights/placement.json");
         Self { experts: experts.map(Cow::Borrowed), placement: Some(Cow::Borrowed(placement)) }
     }
 

@@ -3,6 +3,25 @@
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
 //! record; [`sumo`] reads what the traffic simulator writes: networks and recordings. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
+//!
+//! ```
+//! use formats::{ExportOptions, ImportOptions, registry};
+//! use scene::{Agent, AgentType, LaneMap, Scene, State, Subtype};
+//!
+//! let standing = vec![Some(State::default()); 91];
+//! let car = Agent::bare("7", AgentType::Vehicle, Subtype::Car, standing);
+//! let scene = Scene::bare("one car", LaneMap::default(), vec![car]);
+//!
+//! let womd = registry::by_id("womd").unwrap();
+//! let file = womd.export(&[&scene], &ExportOptions::default())?;
+//! println!("lost: {}", registry::loss_header(&file.losses));
+//!
+//! // What it is, is told by its content.
+//! let scenes = registry::import(&file.bytes, "a file", "auto", &ImportOptions::default())?;
+//! let (again, _warnings) = scenes[0].as_ref().unwrap();
+//! assert_eq!(again.agents[0].track.states.len(), 91);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod checks;
 pub mod files;

@@ -1,6 +1,6 @@
 //! Cost of box gaps, energies, overlaps of six by six futures and whole-scene scores.
 //!
-//! Run with `cargo bench -p scene --bench boxes`. Meant to stay below: a gap 50 ns, overlaps of six by
+//! Run with `cargo bench -p dragtraffic-scene --bench boxes`. Meant to stay below: a gap 50 ns, overlaps of six by
 //! six futures 20 us, a scene of 128 road users over 91 steps 10 ms.
 
 use criterion::{Criterion, criterion_group, criterion_main};

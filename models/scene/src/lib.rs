@@ -6,6 +6,23 @@
 //!
 //! No files, no network, no tensors. Once a value exists here it is right by its type: outside data
 //! becomes a [`Scene`] in one fallible step ([`Scene::checked`]).
+//!
+//! ```
+//! use scene::score::{Drivable, ScoreInput, score};
+//! use scene::{Agent, AgentType, LaneMap, STEP_S, Scene, State, Subtype};
+//!
+//! // One car at 15 m/s behind another at 5 m/s, 24 m ahead.
+//! let drive = |id: &str, x: f64, speed: f64| {
+//!     let at = |step: i32| State { x_m: x + speed * STEP_S * f64::from(step), vx_mps: speed, ..State::default() };
+//!     Agent::bare(id, AgentType::Vehicle, Subtype::Car, (0..91).map(|step| Some(at(step))).collect())
+//! };
+//! let scene = Scene::bare("", LaneMap::default(), vec![drive("a", 0.0, 15.0), drive("b", 24.0, 5.0)]);
+//!
+//! let drivable = Drivable::new(&scene.map);
+//! let score = score(&ScoreInput::of_scene(&scene, &drivable));
+//! assert_eq!(score.scene.collisions.len(), 1);
+//! assert_eq!(score.agents["a"].min_ttc_s, Some(0.0));
+//! ```
 
 pub mod agent;
 pub mod condition;

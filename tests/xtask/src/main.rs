@@ -35,8 +35,13 @@ const CHECKS: &[Check] = &[
     ("domain", || drift("domain", "assets/domain.json")),
     ("machete", || tool("machete", &["machete"])),
     ("deny", || tool("deny", &["deny", "check", "licenses", "bans", "sources"])),
+    ("package", || cargo(&[&["package", "--allow-dirty"][..], PACKAGES].concat())),
     ("browser", browser),
 ];
+
+/// The crates for other projects: each is built from its package alone.
+const PACKAGES: &[&str] =
+    &["-p", "dragtraffic-scene", "-p", "dragtraffic-formats", "-p", "dragtraffic-experts"];
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

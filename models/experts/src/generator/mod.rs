@@ -36,7 +36,7 @@ pub use generation::Generation;
 use crate::clock::{self, Clock};
 use crate::maps::{KnownMap, Maps};
 use crate::net::Expert;
-use crate::request::{Cancel, GenerateError, Request};
+use crate::request::{Answer, Cancel, Event, GenerateError, Request};
 use crate::tuning::{self, Tuning};
 use crate::weights::{EXPERTS, Files, WeightsError, WeightsInfo};
 use scene::map::Lane;
@@ -162,6 +162,19 @@ impl Generator {
     /// What can be told before any work: unknown ids, missing starts, too many road users.
     pub fn start(&self, request: Request, cancel: Cancel) -> Result<Generation<'_>, GenerateError> {
         Generation::new(self, request, cancel)
+    }
+
+    /// Runs a call to its end, without its drafts.
+    ///
+    /// # Errors
+    /// What the call reports.
+    pub fn answer(&self, request: Request) -> Result<Answer, GenerateError> {
+        for event in self.start(request, Cancel::default())? {
+            if let Event::Final(answer) = event? {
+                return Ok(answer);
+            }
+        }
+        Err(GenerateError::Expert("the call ended without an answer".into()))
     }
 
     /// The gate: which expert a type runs on.

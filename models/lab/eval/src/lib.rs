@@ -4,6 +4,16 @@
 //! metrics ([`measure`]), the formulas that stand beside the experts ([`rivals`]) and the bootstrap
 //! ([`stats`]). The same scenes, weights and seed give the same bytes, except for the clock's readings of
 //! table 6, which stand in files of their own.
+//!
+//! ```
+//! use lab_eval::stats::{Bootstrap, Value};
+//!
+//! // Errors of three road users in two scenes, metres: the interval is that of scenes drawn anew.
+//! let errors = [(0, 1.0), (0, 3.0), (1, 5.0)].map(|(scene, metres)| Value::new(scene, metres));
+//! let mean = Bootstrap::new(2, 0).estimate(errors).unwrap();
+//! assert_eq!((mean.mean, mean.samples, mean.scenes), (3.0, 3, 2));
+//! assert!(mean.low <= mean.mean && mean.mean <= mean.high);
+//! ```
 
 mod ablation;
 mod cases;
@@ -36,7 +46,7 @@ pub use run::{EvalOptions, run};
 pub use table::Table;
 pub use tables::TABLES;
 
-use experts::{Answer, Cancel, Event, GenerateError, Generator, Request};
+use experts::{Answer, GenerateError, Generator, Request};
 use lab_train::baselines::Baseline;
 
 /// Weights under judgement.
@@ -61,10 +71,5 @@ pub struct Entrants<'a> {
 /// # Errors
 /// What the call reports.
 pub fn answer(generator: &Generator, request: Request) -> Result<Answer, GenerateError> {
-    for event in generator.start(request, Cancel::default())? {
-        if let Event::Final(answer) = event? {
-            return Ok(answer);
-        }
-    }
-    Err(GenerateError::Expert("the call ended without an answer".into()))
+    generator.answer(request)
 }

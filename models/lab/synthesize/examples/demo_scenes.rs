@@ -1,4 +1,4 @@
-//! Makes the demo scenes: `cargo run -p lab-synthesize --example demo_scenes -- FOLDER [ID]`. Needs SUMO.
+//! Makes the demo scenes: `cargo run -p dragtraffic-lab-synthesize --example demo_scenes -- FOLDER [ID]`. Needs SUMO.
 
 use anyhow::Context as _;
 use std::path::Path;

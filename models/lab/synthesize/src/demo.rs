@@ -1,5 +1,5 @@
 //! Demo scenes of our own making: hand-laid networks, simulated traffic, and the nine seconds of it
-//! that show most. `cargo run -p lab-synthesize --example demo_scenes -- assets/scenes` writes them.
+//! that show most. `cargo run -p dragtraffic-lab-synthesize --example demo_scenes -- assets/scenes` writes them.
 
 use super::demand::Crowd;
 use super::demo_check;

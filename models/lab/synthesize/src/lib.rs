@@ -2,6 +2,19 @@
 //! separate program), cleaned until it looks recorded, and cut into windows of 9 seconds.
 //!
 //! One seed decides everything about one network and its traffic; the same seed gives the same file.
+//!
+//! ```
+//! use lab_synthesize::statistics::Statistics;
+//! use scene::{Agent, AgentType, LaneMap, Scene, State, Subtype};
+//!
+//! let walking = |step: i32| State { x_m: 0.14 * f64::from(step), vx_mps: 1.4, ..State::default() };
+//! let track = (0..91).map(|step| Some(walking(step))).collect();
+//! let walker = Agent::bare("w", AgentType::Pedestrian, Subtype::Unknown, track);
+//! let mut seen = Statistics::default();
+//! seen.add(&Scene::bare("", LaneMap::default(), vec![walker]));
+//! let speed = seen.summary("pedestrian_speed").unwrap();
+//! assert!((speed.mean - 1.4).abs() < 1e-9);
+//! ```
 
 mod demand;
 pub mod demo;

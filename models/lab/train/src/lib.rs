@@ -1,5 +1,18 @@
 //! How experts are made: records from recorded scenes, training, the learned rivals that training makes by the
 //! same means, and the weights of placement.
+//!
+//! ```
+//! use lab_train::scenes::{Crop, Cropped};
+//! use scene::{Agent, AgentType, LaneMap, Scene, State, Subtype};
+//!
+//! let stands = |id: &str, x_m: f64| {
+//!     let state = State { x_m, ..State::default() };
+//!     Agent::bare(id, AgentType::Vehicle, Subtype::Car, vec![Some(state); 91])
+//! };
+//! let scene = Scene::bare("", LaneMap::default(), vec![stands("near", 0.0), stands("far", 70.0)]);
+//! // The paper's square of 120 m holds one of the two, and asks for 32.
+//! assert_eq!(Crop::PAPER.apply(scene), Cropped::TooFew(1));
+//! ```
 
 pub mod baselines;
 pub mod placement;
