@@ -1,0 +1,207 @@
+"""A scene document and what the program does with it."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import tempfile
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ._conditions import Condition, Goal
+from ._program import run
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+
+class Scene:
+    """A scene: map, signals, road users with their tracks, and futures where there are some.
+
+    ``document`` is the scene as JSON has it (``dragtraffic schema`` prints what that is). Methods give new
+    scenes and leave this one as it is.
+    """
+
+    def __init__(self, document: Mapping[str, Any]) -> None:
+        self.document: dict[str, Any] = dict(document)
+
+    def __repr__(self) -> str:
+        futures = f", {len(self.samples)} samples" if self.samples else ""
+        return f"<Scene {self.name!r}: {len(self.agents)} road users, {self.duration_s:.1f} s{futures}>"
+
+    @property
+    def name(self) -> str:
+        """Name for people."""
+        return str(self.document.get("name") or self.document.get("id") or "")
+
+    @property
+    def agents(self) -> list[str]:
+        """Ids of the road users."""
+        return [agent["id"] for agent in self.document["agents"]]
+
+    @property
+    def duration_s(self) -> float:
+        """Recorded time, seconds."""
+        time = self.document["time"]
+        return float(time["step_s"] * (time["steps"] - 1))
+
+    @property
+    def samples(self) -> list[dict[str, Any]]:
+        """Joint scenes of the last answer: road user's id to its futures."""
+        return list((self.document.get("generated") or {}).get("samples", []))
+
+    def chosen(self, sample: int) -> Scene:
+        """The same scene with another joint scene shown, scored and exported."""
+        if not 0 <= sample < len(self.samples):
+            raise IndexError(f"sample {sample} of {len(self.samples)}")
+        return Scene({**self.document, "generated": {**self.document["generated"], "chosen_sample": sample}})
+
+    def generate(
+        self,
+        agents: Iterable[str] | None = None,
+        *,
+        goals: Mapping[str, Goal] | None = None,
+        conditions: Mapping[str, Condition] | None = None,
+        react: bool | Iterable[str] = False,
+        seed: int = 0,
+        samples: int = 1,
+        modes: int = 6,
+        horizon_s: float = 9.0,
+        start_s: float = 0.0,
+        replan_s: float | None = None,
+        diversity: float | None = None,
+        steps: int | None = None,
+        forget: bool = False,
+    ) -> Scene:
+        """Futures for road users.
+
+        ``agents``: who is asked for; without it those with a goal or condition, and without any of these
+        everybody. ``react``: the rest answers, all of it or the ids named. ``forget``: futures of earlier
+        calls are dropped; else whoever is not asked for keeps its own. ``horizon_s`` up to 20; above 9, and
+        with ``replan_s`` (3, 6 or 9), everybody plans anew from where they are by then.
+
+        Raises:
+            DragTrafficError: where something asked for cannot be.
+        """
+        fixed = {id: Condition(goal=goal) for id, goal in (goals or {}).items()}
+        both = sorted(fixed.keys() & (conditions or {}).keys())
+        if both:
+            raise ValueError(f"goals and conditions both speak of {', '.join(both)}")
+        fixed.update(conditions or {})
+        asked = list(agents) if agents is not None else list(fixed)
+        arguments = ["generate", "-"]
+        if asked:
+            arguments.append(f"--agents={','.join(asked)}")
+        options = {
+            "seed": seed,
+            "samples": samples,
+            "modes": modes,
+            "horizon": horizon_s,
+            "start": start_s,
+            "replan": replan_s,
+            "diversity": diversity,
+            "steps": steps,
+        }
+        arguments += [f"--{name}={value}" for name, value in options.items() if value is not None]
+        if forget:
+            arguments.append("--forget")
+        if react is True:
+            arguments.append("--react")
+        elif react is not False:
+            arguments.append(f"--react={','.join(react)}")
+        with tempfile.TemporaryDirectory() as folder:
+            for number, (id, condition) in enumerate(fixed.items()):
+                file = Path(folder, f"{number}.json")
+                file.write_text(json.dumps(condition.document()))
+                arguments.append(f"--condition={id}={file}")
+            return self._made(arguments)
+
+    def place(
+        self,
+        *,
+        count: int | None = None,
+        density_per_km: float | None = None,
+        types: Mapping[str, float] | None = None,
+        region: Iterable[tuple[float, float]] | None = None,
+        keep: Iterable[str] | None = None,
+        at_s: float = 0.0,
+        seed: int = 0,
+    ) -> Scene:
+        """New road users on the map, beside those that are there: ``count`` in all, or so many for each
+        kilometre of lane. ``types`` gives shares, ``region`` a polygon in metres, ``keep`` who of the scene
+        stays (all when absent).
+
+        Raises:
+            DragTrafficError: where something asked for cannot be.
+        """
+        arguments = ["place", "-", f"--seed={seed}", f"--at={at_s}"]
+        arguments += [f"--count={count}"] if count is not None else []
+        arguments += [f"--density={density_per_km}"] if density_per_km is not None else []
+        if types:
+            arguments.append("--types=" + ",".join(f"{name}={share}" for name, share in types.items()))
+        if keep is not None:
+            ids = ",".join(keep)
+            arguments.append(f"--keep={ids}" if ids else "--keep")
+        if region is None:
+            return self._made(arguments)
+        ring = [list(point) for point in region]
+        polygon = {"type": "Polygon", "coordinates": [ring if ring[:1] == ring[-1:] else [*ring, ring[0]]]}
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "region.json")
+            file.write_text(json.dumps(polygon))
+            return self._made([*arguments, f"--region={file}"])
+
+    def score(self, sample: int | None = None) -> dict[str, Any]:
+        """Collisions, near misses, time to collision, road, kinematics and goals of the scene as it is shown,
+        or with another of its samples: ``scene`` and ``agents`` by id."""
+        scene = self if sample is None else self.chosen(sample)
+        return dict(json.loads(run(["score", "--json", "-"], scene.bytes())))
+
+    def to_frame(self) -> pandas.DataFrame:
+        """A long table of all motion, one row for each road user, future and step: recorded rows have the mode
+        ``log``, futures their number, and ``chosen`` those that are shown. Needs pandas."""
+        import pandas
+
+        text = run(["export", "-", "--format", "csv", "-o", "-"], self.bytes())
+        words = {name: "string" for name in ("scene", "agent", "type", "mode")}
+        return pandas.read_csv(io.BytesIO(text), dtype=words)
+
+    def plot(self, ax: Axes | None = None, *, modes: bool = True) -> Axes:
+        """The scene from above: map, recorded tracks in grey, what is shown in colour and, with ``modes``, the
+        alternatives thinly. Needs pandas and matplotlib."""
+        from ._plot import plot
+
+        return plot(self, ax, modes=modes)
+
+    def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
+        """Writes the scene: as it is, or in another format that ``dragtraffic export`` knows."""
+        if format is None:
+            Path(path).write_bytes(self.bytes())
+        else:
+            arguments = ["export", "-", "--format", format, "--force", "-o", os.fspath(path)]
+            run(arguments, self.bytes())
+
+    def bytes(self) -> bytes:
+        """The document as JSON."""
+        return json.dumps(self.document).encode()
+
+    def _made(self, arguments: list[str]) -> Scene:
+        return Scene(json.loads(run(arguments, self.bytes())))
+
+
+def open(path: str | os.PathLike[str], index: int = 0) -> Scene:
+    """Opens a scene of any format that ``dragtraffic convert`` reads; ``index`` says which one of a file of many.
+
+    Raises:
+        DragTrafficError: with the fault and where in the file it lies.
+    """
+    arguments = ["convert", os.fspath(path), "--to", "dragtraffic", "--index", str(index), "-o", "-"]
+    return Scene(json.loads(run(arguments)))
+
+
+def open_all(paths: Iterable[str | os.PathLike[str]]) -> list[Scene]:
+    """Opens the first scene of each file."""
+    return [open(path) for path in paths]

@@ -1,0 +1,124 @@
+"""The module over the real program. ``DRAGTRAFFIC_BIN`` names a program that is built already."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import dragtraffic
+import pandas
+import pytest
+from dragtraffic import Condition, Goal, Scene, Start, Velocity
+
+ROOT = Path(__file__).resolve().parents[2]
+CROSSING = ROOT / "assets/scenes/demo-crossing.json"
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return dragtraffic.open(CROSSING)
+
+
+@pytest.fixture(scope="module")
+def turned(scene: Scene) -> Scene:
+    return scene.generate(goals={"4": Goal(x_m=2.0, y_m=27.5)}, react=True, seed=7, samples=2)
+
+
+def test_a_scene_opens(scene: Scene) -> None:
+    assert len(scene.agents) == 44 and scene.duration_s == pytest.approx(9.0)
+    assert "44 road users" in repr(scene)
+    with pytest.raises(dragtraffic.DragTrafficError) as refused:
+        dragtraffic.open(ROOT / "pyproject.toml")
+    assert refused.value.exit_code == 3 and "pyproject.toml" in str(refused.value)
+
+
+def test_goals_are_met_and_others_react(scene: Scene, turned: Scene) -> None:
+    assert not scene.samples, "the scene asked stays as it is"
+    futures = turned.samples[0]["agents"]["4"]
+    shown = futures["modes"][futures["chosen"]]
+    assert shown["x_m"][-1] == pytest.approx(2.0, abs=0.05)
+    assert shown["y_m"][-1] == pytest.approx(27.5, abs=0.05)
+    assert "2" in turned.samples[0]["agents"], "car 2 gives way"
+    score = turned.score()
+    assert score["scene"]["collisions"] == [] and score["agents"]["4"]["goal_error"]["position_m"] < 0.05
+    assert turned.score(1)["agents"].keys() == score["agents"].keys()
+    with pytest.raises(IndexError):
+        turned.chosen(2)
+
+
+def test_equal_calls_give_equal_scenes(scene: Scene, turned: Scene) -> None:
+    again = scene.generate(goals={"4": Goal(x_m=2.0, y_m=27.5)}, react=True, seed=7, samples=2)
+    assert again.samples == turned.samples
+
+
+def test_edits_chain(turned: Scene) -> None:
+    more = turned.generate(["7"], seed=7)
+    assert more.samples[0]["agents"]["4"] == turned.samples[0]["agents"]["4"]
+    alone = turned.generate(["7"], seed=7, forget=True)
+    assert set(alone.samples[0]["agents"]) == {"7"}
+
+
+def test_frames_hold_every_step(turned: Scene) -> None:
+    frame = turned.to_frame()
+    assert isinstance(frame, pandas.DataFrame)
+    wanted = {"scene", "sample", "agent", "type", "mode", "chosen", "t_s", "x_m", "y_m", "heading_rad", "v_mps"}
+    assert wanted <= set(frame.columns)
+    ours = frame[(frame["agent"] == "4") & (frame["sample"] == 0) & (frame["mode"] != "log")]
+    assert ours["mode"].nunique() == 6 and len(ours) == 6 * 90
+    shown = ours[ours["chosen"]].iloc[-1]
+    assert (shown["x_m"], shown["y_m"], shown["t_s"]) == pytest.approx((2.0, 27.5, 9.0), abs=0.05)
+    assert set(frame[frame["mode"] == "log"]["agent"]) == set(turned.agents)
+
+
+def test_conditions_in_the_road_users_own_frame(scene: Scene) -> None:
+    goal = Goal(ahead_m=20.0, left_m=0.0, velocity=Velocity(ahead_mps=5.0, left_mps=0.0))
+    start = Start(speed_mps=3.0)
+    condition = Condition(goal=goal, start=start, length_m=6.0)
+    assert condition.document() == {
+        "goal": {"ahead_m": 20.0, "left_m": 0.0, "velocity": {"ahead_mps": 5.0, "left_mps": 0.0}},
+        "start": {"speed_mps": 3.0},
+        "length_m": 6.0,
+        "frame": "agent",
+    }
+    made = scene.generate(conditions={"6": condition})
+    agent = next(agent for agent in made.document["agents"] if agent["id"] == "6")
+    assert agent["conditions"]["length_m"] == 6.0
+    with pytest.raises(ValueError, match="6"):
+        scene.generate(goals={"6": goal}, conditions={"6": condition})
+    with pytest.raises(dragtraffic.DragTrafficError):
+        scene.generate(["nobody"])
+
+
+def test_placing(scene: Scene) -> None:
+    placed = scene.place(count=5, types={"vehicle": 1.0}, keep=[], seed=3)
+    assert len(placed.agents) == 5
+    box = [(-60.0, -60.0), (60.0, -60.0), (60.0, 60.0), (-60.0, 60.0)]
+    inside = scene.place(count=3, types={"vehicle": 1.0}, keep=[], region=box)
+    first = [agent["track"] for agent in inside.document["agents"]]
+    assert first and all(abs(t["x_m"][0]) <= 60 and abs(t["y_m"][0]) <= 60 for t in first)
+
+
+def test_saving(turned: Scene, tmp_path: Path) -> None:
+    turned.save(tmp_path / "a.json")
+    assert dragtraffic.open(tmp_path / "a.json").samples == turned.samples
+    turned.save(tmp_path / "a.tfrecord", "womd")
+    assert dragtraffic.open(tmp_path / "a.tfrecord").agents == turned.agents
+
+
+def test_a_plot_shows_map_boxes_and_futures(turned: Scene) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = turned.plot()
+    frame = turned.to_frame()
+    assert len(axes.lines) > frame["agent"].nunique()
+    assert len(axes.patches) >= frame[frame["mode"] == "log"]["agent"].nunique()
+    assert {"4", "2"} <= {text.get_text() for text in axes.texts}
+
+
+def test_the_notebook_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    notebook = nbformat.read(ROOT / "python/notebooks/first.ipynb", as_version=4)
+    monkeypatch.setenv("PYTHONPATH", str(ROOT / "python"))
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(ROOT)}}).execute()
+    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    assert any("image/png" in output.get("data", {}) for output in outputs)
