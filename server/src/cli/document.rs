@@ -55,7 +55,7 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
 /// # Errors
 /// Exit 7 without weights.
 pub fn info(common: &Common) -> Result<(), Failure> {
-    let experts::Engine { generator, placer } = super::engine(common)?;
+    let experts::Engine { generator, placer } = common.engine()?;
     let info = Info::new(&generator, &placer, &Limits::default());
     let mut text = serde_json::to_string_pretty(&info).unwrap_or_default();
     text.push('\n');

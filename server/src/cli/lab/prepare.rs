@@ -1,6 +1,7 @@
 //! `dragtraffic prepare`.
 
 use super::{failed, print_json};
+use crate::cli::progress::Progress;
 use crate::cli::{Common, Failure, output};
 use clap::Args;
 use lab_train::scenes::Crop;
@@ -70,14 +71,11 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
         crop: Crop { side_m: args.crop, least_agents: args.least_agents },
         mirror: args.mirror,
     };
-    let progress = |report: &lab_train::prepare::PrepareReport| {
-        if !common.quiet {
-            output::complain(&format!(
-                "{} files, {} scenes, {} records",
-                report.files, report.scenes, report.records
-            ));
-        }
-    };
+    // What cannot be listed is told by the work itself.
+    let files = lab_train::scenes::scene_files(&options.inputs).map_or(0, |files| files.len());
+    let bar = Progress::new("files", files as u64, common.quiet);
+    let progress = |report: &lab_train::prepare::PrepareReport| bar.reach(report.files as u64);
     let report = lab_train::prepare::run(&options, progress).map_err(failed)?;
+    drop(bar);
     print_json(&report)
 }

@@ -1,0 +1,327 @@
+//! Conditions on scores, such as `min_ttc_s < 1.5 && collisions == 0`: comparisons of figures with numbers or with
+//! each other, joined by `&&`, `||`, `!` and parentheses.
+//!
+//! A figure that a scene does not have (no two road users ever close in, nobody has a goal) compares as false with
+//! everything.
+
+use std::fmt;
+
+/// Longest text.
+const MOST_BYTES: usize = 4_096;
+/// Deepest nesting of parentheses and `!`.
+const MOST_DEEP: usize = 64;
+
+/// A condition that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression(Node);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Node {
+    Or(Box<Node>, Box<Node>),
+    And(Box<Node>, Box<Node>),
+    Not(Box<Node>),
+    Compare(Operand, Order, Operand),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Operand {
+    Number(f64),
+    Figure(String),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Order {
+    Less,
+    AtMost,
+    More,
+    AtLeast,
+    Equal,
+    Unequal,
+}
+
+/// What is wrong, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wrong {
+    /// From 1, in characters.
+    pub column: usize,
+    /// What was expected and what was found.
+    pub what: String,
+}
+
+impl fmt::Display for Wrong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "column {}: {}", self.column, self.what)
+    }
+}
+
+impl Expression {
+    /// Reads a condition; `known` says which figures there are.
+    ///
+    /// # Errors
+    /// The first fault with its column.
+    pub fn parse(text: &str, known: &dyn Fn(&str) -> Result<(), String>) -> Result<Self, Wrong> {
+        if text.len() > MOST_BYTES {
+            return Err(Wrong {
+                column: 1,
+                what: format!("{} bytes; at most {MOST_BYTES} expected", text.len()),
+            });
+        }
+        let tokens = tokens(text)?;
+        let mut parser = Parser { tokens: &tokens, at: 0, end: text.chars().count() + 1, known };
+        let node = parser.either(0)?;
+        match parser.peek() {
+            None => Ok(Self(node)),
+            Some(_) => Err(parser.expected("&&, || or the end")),
+        }
+    }
+
+    /// Whether it holds for the figures that `value` gives.
+    pub fn holds(&self, value: &dyn Fn(&str) -> Option<f64>) -> bool {
+        self.0.holds(value)
+    }
+}
+
+impl Node {
+    fn holds(&self, value: &dyn Fn(&str) -> Option<f64>) -> bool {
+        match self {
+            Self::Or(a, b) => a.holds(value) || b.holds(value),
+            Self::And(a, b) => a.holds(value) && b.holds(value),
+            Self::Not(a) => !a.holds(value),
+            Self::Compare(a, order, b) => match (a.value(value), b.value(value)) {
+                (Some(a), Some(b)) => match order {
+                    Order::Less => a < b,
+                    Order::AtMost => a <= b,
+                    Order::More => a > b,
+                    Order::AtLeast => a >= b,
+                    Order::Equal => a == b,
+                    Order::Unequal => a != b,
+                },
+                _ => false,
+            },
+        }
+    }
+}
+
+impl Operand {
+    fn value(&self, value: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Figure(name) => value(name),
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    And,
+    Or,
+    Not,
+    Open,
+    Close,
+    Compare(Order),
+    Operand(Operand),
+}
+
+struct Placed {
+    token: Token,
+    text: String,
+    column: usize,
+}
+
+fn tokens(text: &str) -> Result<Vec<Placed>, Wrong> {
+    let chars: Vec<char> = text.chars().collect();
+    let (mut tokens, mut at) = (Vec::new(), 0);
+    while let Some(c) = chars.get(at) {
+        if c.is_whitespace() {
+            at += 1;
+            continue;
+        }
+        let (token, length) = token(&chars[at..]).map_err(|what| Wrong { column: at + 1, what })?;
+        tokens.push(Placed { token, text: chars[at..at + length].iter().collect(), column: at + 1 });
+        at += length;
+    }
+    Ok(tokens)
+}
+
+/// The first token of what is left, and its length in characters.
+fn token(rest: &[char]) -> Result<(Token, usize), String> {
+    let two: String = rest.iter().take(2).collect();
+    let long = match two.as_str() {
+        "&&" => Some(Token::And),
+        "||" => Some(Token::Or),
+        "==" => Some(Token::Compare(Order::Equal)),
+        "!=" => Some(Token::Compare(Order::Unequal)),
+        "<=" => Some(Token::Compare(Order::AtMost)),
+        ">=" => Some(Token::Compare(Order::AtLeast)),
+        _ => None,
+    };
+    if let Some(token) = long {
+        return Ok((token, 2));
+    }
+    let first = rest.first().copied().unwrap_or(' ');
+    let short = match first {
+        '!' => Some(Token::Not),
+        '(' => Some(Token::Open),
+        ')' => Some(Token::Close),
+        '<' => Some(Token::Compare(Order::Less)),
+        '>' => Some(Token::Compare(Order::More)),
+        _ => None,
+    };
+    if let Some(token) = short {
+        return Ok((token, 1));
+    }
+    let run = |keep: &dyn Fn(usize, char) -> bool| {
+        rest.iter().enumerate().take_while(|(i, c)| keep(*i, **c)).count()
+    };
+    if first.is_alphabetic() || first == '_' {
+        let length = run(&|_, c| c.is_alphanumeric() || c == '_' || c == '.');
+        return Ok((Token::Operand(Operand::Figure(rest[..length].iter().collect())), length));
+    }
+    if first.is_ascii_digit() || ".-+".contains(first) {
+        let exponent = |i: usize| i > 0 && matches!(rest.get(i - 1), Some('e' | 'E'));
+        let length =
+            run(&|i, c| c.is_alphanumeric() || c == '.' || (i == 0 || exponent(i)) && (c == '-' || c == '+'));
+        let text: String = rest[..length].iter().collect();
+        let number = text.parse().ok().filter(|n: &f64| n.is_finite());
+        let number = number.ok_or_else(|| format!("\"{text}\" is no number"))?;
+        return Ok((Token::Operand(Operand::Number(number)), length));
+    }
+    Err(match first {
+        '=' => "\"=\" found; == compares".into(),
+        '&' => "\"&\" found; && joins".into(),
+        '|' => "\"|\" found; || joins".into(),
+        other => format!("\"{other}\" has no meaning here"),
+    })
+}
+
+struct Parser<'a> {
+    tokens: &'a [Placed],
+    at: usize,
+    /// Column behind the text.
+    end: usize,
+    known: &'a dyn Fn(&str) -> Result<(), String>,
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> Option<&Token> {
+        self.tokens.get(self.at).map(|placed| &placed.token)
+    }
+
+    fn take(&mut self, wanted: &Token) -> bool {
+        let found = self.peek() == Some(wanted);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn expected(&self, what: &str) -> Wrong {
+        match self.tokens.get(self.at) {
+            Some(placed) => {
+                Wrong { column: placed.column, what: format!("{what} expected, \"{}\" found", placed.text) }
+            }
+            None => Wrong { column: self.end, what: format!("{what} expected, the end found") },
+        }
+    }
+
+    fn either(&mut self, deep: usize) -> Result<Node, Wrong> {
+        let mut left = self.both(deep)?;
+        while self.take(&Token::Or) {
+            left = Node::Or(Box::new(left), Box::new(self.both(deep)?));
+        }
+        Ok(left)
+    }
+
+    fn both(&mut self, deep: usize) -> Result<Node, Wrong> {
+        let mut left = self.one(deep)?;
+        while self.take(&Token::And) {
+            left = Node::And(Box::new(left), Box::new(self.one(deep)?));
+        }
+        Ok(left)
+    }
+
+    fn one(&mut self, deep: usize) -> Result<Node, Wrong> {
+        if deep > MOST_DEEP {
+            return Err(self.expected(&format!("at most {MOST_DEEP} parentheses and ! inside each other")));
+        }
+        if self.take(&Token::Not) {
+            return Ok(Node::Not(Box::new(self.one(deep + 1)?)));
+        }
+        if self.take(&Token::Open) {
+            let inner = self.either(deep + 1)?;
+            return if self.take(&Token::Close) { Ok(inner) } else { Err(self.expected("&&, || or )")) };
+        }
+        let left = self.operand("a figure, a number, ! or (")?;
+        let Some(Token::Compare(order)) = self.peek().cloned() else {
+            return Err(self.expected("<, <=, >, >=, == or !="));
+        };
+        self.at += 1;
+        Ok(Node::Compare(left, order, self.operand("a figure or a number")?))
+    }
+
+    fn operand(&mut self, what: &str) -> Result<Operand, Wrong> {
+        let Some(Token::Operand(operand)) = self.peek().cloned() else { return Err(self.expected(what)) };
+        if let Operand::Figure(name) = &operand {
+            let column = self.tokens[self.at].column;
+            (self.known)(name).map_err(|what| Wrong { column, what })?;
+        }
+        self.at += 1;
+        Ok(operand)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(name: &str) -> Result<(), String> {
+        if ["a", "b", "none", "c.d"].contains(&name) { Ok(()) } else { Err(format!("no figure \"{name}\"")) }
+    }
+
+    fn value(name: &str) -> Option<f64> {
+        match name {
+            "a" => Some(1.0),
+            "b" => Some(2.0),
+            "c.d" => Some(-0.5),
+            _ => None,
+        }
+    }
+
+    fn holds(text: &str) -> bool {
+        Expression::parse(text, &known).unwrap_or_else(|wrong| panic!("{text}: {wrong}")).holds(&value)
+    }
+
+    #[test]
+    fn comparisons_and_their_joints() {
+        let yes = ["a < b", "a<=1&&b>=2", "a == 1 || b == 9", "!(a > b)", "a != b", "c.d == -.5", "1e0 == a"];
+        yes.iter().for_each(|text| assert!(holds(text), "{text}"));
+        let no = ["a > b", "a == 1 && b == 1", "!(a < b)", "!a==1", "a >= 1.0001"];
+        no.iter().for_each(|text| assert!(!holds(text), "{text}"));
+        // && binds closer than ||.
+        assert!(holds("a == 1 || a == 1 && b == 9") && !holds("(a == 1 || a == 1) && b == 9"));
+    }
+
+    #[test]
+    fn a_figure_that_is_missing_compares_as_false() {
+        for order in ["<", "<=", ">", ">=", "==", "!="] {
+            assert!(!holds(&format!("none {order} 1")), "{order}");
+            assert!(holds(&format!("!(none {order} 1)")), "{order}");
+        }
+    }
+
+    #[test]
+    fn faults_have_their_column() {
+        let wrong = |text: &str| Expression::parse(text, &known).unwrap_err().to_string();
+        assert_eq!(wrong("a < 1.5 && z == 0"), "column 12: no figure \"z\"");
+        assert_eq!(wrong("a < "), "column 5: a figure or a number expected, the end found");
+        assert_eq!(wrong("a = 1"), "column 3: \"=\" found; == compares");
+        assert_eq!(wrong("a < 1 b"), "column 7: &&, || or the end expected, \"b\" found");
+        assert_eq!(wrong("(a < 1"), "column 7: &&, || or ) expected, the end found");
+        assert_eq!(wrong("a < 1..2"), "column 5: \"1..2\" is no number");
+        assert_eq!(wrong("a"), "column 2: <, <=, >, >=, == or != expected, the end found");
+        assert_eq!(wrong("a < 1 & b < 1"), "column 7: \"&\" found; && joins");
+        assert_eq!(wrong("a < 1 && é"), "column 10: no figure \"é\"");
+        assert_eq!(wrong("a < $"), "column 5: \"$\" has no meaning here");
+        assert_eq!(wrong(""), "column 1: a figure, a number, ! or ( expected, the end found");
+        assert!(wrong(&"(".repeat(1_000)).contains("at most 64 parentheses"));
+        assert!(wrong(&"a<1&&".repeat(1_000)).contains("at most 4096"));
+    }
+}
