@@ -111,6 +111,9 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
         }
         None => {
             let mut one = One::create(&args)?;
+            if !(one.many || only) {
+                return Err(too_many());
+            }
             let work = |source: &Source| to_one(source, &args, &reading);
             parallel::in_order(&sources, args.inputs.workers(), work, |source, converted| {
                 let taken = converted.and_then(|converted| {
@@ -283,8 +286,7 @@ impl One {
             return self.put(part);
         }
         if self.only.is_some() {
-            let message = "more than one scene; --index takes one, --output FOLDER/ takes all";
-            return Err(Failure::usage(message));
+            return Err(too_many());
         }
         self.only = Some(part.to_vec());
         Ok(())
@@ -315,6 +317,10 @@ impl One {
             done => done.map_err(|error| unwritable(&path, &error)),
         }
     }
+}
+
+fn too_many() -> Failure {
+    Failure::usage("more than one scene; --index takes one, --output FOLDER/ takes all, a file each")
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Failure {

@@ -1,6 +1,6 @@
 //! Scenes to work on: files, folders and patterns, read a few scenes at a time.
 
-use super::{Exit, Failure, output};
+use super::{Failure, output};
 use crate::base::problem::Problem;
 use crate::scenes::transfer;
 use clap::Args;
@@ -48,6 +48,18 @@ pub struct Reading {
     pub index: Option<Range<usize>>,
 }
 
+/// Names that were given.
+#[derive(Default)]
+struct Known(HashMap<String, usize>);
+
+impl Known {
+    /// The name, with a number behind it where another one has it.
+    fn name(&mut self, name: String) -> String {
+        let count = self.0.entry(name.clone()).and_modify(|count| *count += 1).or_insert(1);
+        if *count > 1 { format!("{name}-{count}") } else { name }
+    }
+}
+
 /// One scene of a file.
 pub struct Item {
     /// The scene.
@@ -90,13 +102,8 @@ pub fn sources(inputs: &[PathBuf]) -> Result<Vec<Source>, Failure> {
             return Err(Failure::input(format!("more than {MOST_FILES} files")));
         }
     }
-    let mut known: HashMap<String, usize> = HashMap::new();
-    let named = |path: PathBuf| {
-        let label = label(&path);
-        let count = known.entry(label.clone()).and_modify(|count| *count += 1).or_insert(1);
-        let label = if *count > 1 { format!("{label}-{count}") } else { label };
-        Source { path, label }
-    };
+    let mut known = Known::default();
+    let named = |path: PathBuf| Source { label: known.name(label(&path)), path };
     Ok(paths.into_iter().map(named).collect())
 }
 
@@ -182,11 +189,12 @@ impl Source {
         reading: &Reading,
         take: &mut dyn FnMut(Item) -> Result<(), Failure>,
     ) -> Result<usize, Failure> {
-        let bytes = output::read(&self.path).map_err(|failure| hinted(&self.path, failure))?;
+        let bytes = output::read(&self.path)?;
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
         let many = Self::holds_many(&bytes, reading, &name);
         let wanted = reading.index.clone().unwrap_or(0..usize::MAX);
         let (mut at, mut count) = (wanted.start, 0);
+        let mut known = Known::default();
         while at < wanted.end {
             let most = AT_A_TIME.min(wanted.end - at);
             let read = transfer::read(&bytes, reading.from.as_deref(), &name, at, most, reading.net.clone());
@@ -208,7 +216,8 @@ impl Source {
             let found = read.scenes.len() + read.skipped.len();
             let numbers = (at..).filter(|i| read.skipped.iter().all(|(skipped, _)| skipped != i));
             for (index, imported) in numbers.zip(read.scenes) {
-                let name = if many { self.name_of(&imported.scene, index) } else { self.label.clone() };
+                let name =
+                    if many { known.name(self.name_of(&imported.scene, index)) } else { self.label.clone() };
                 take(Item { scene: imported.scene, name, notes: imported.warnings })?;
                 count += 1;
             }
@@ -247,17 +256,25 @@ impl Source {
     }
 }
 
-/// Ids after a flag that takes them behind `=` alone look like a file that is not there.
-fn hinted(path: &Path, failure: Failure) -> Failure {
-    let text = path.to_string_lossy();
-    let ids = !text.is_empty()
-        && !text.contains(['/', '.'])
-        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == ',');
-    if ids && !path.exists() {
-        let hint = format!("{} (ids stand behind =, as in --react={text} or --keep={text})", failure.message);
-        return Failure::new(Exit::Input, hint);
+/// Refuses ids that stand behind a flag which takes them behind `=` alone: they would be files that are not there.
+///
+/// # Errors
+/// Exit 2.
+pub fn no_ids(sources: &[Source], flag: &str) -> Result<(), Failure> {
+    let is_id = |c: char| c.is_ascii_alphanumeric() || ",_:-".contains(c);
+    let stray = sources.iter().find(|source| {
+        let text = source.path.to_string_lossy();
+        text != "-" && text.chars().all(is_id) && !source.path.exists()
+    });
+    match stray {
+        Some(source) if sources.len() > 1 => {
+            let text = source.shown();
+            Err(Failure::usage(format!(
+                "{text}: no such file; road users stand behind =, as in {flag}={text}"
+            )))
+        }
+        _ => Ok(()),
     }
-    failure
 }
 
 /// Problems of files as failures of the command.

@@ -100,7 +100,7 @@ mod tests {
             let ahead = running.fetch_add(1, Ordering::SeqCst) + 1;
             most.fetch_max(ahead, Ordering::SeqCst);
             // The first of each ten is slow, so others get ahead of it.
-            if item % 10 == 0 {
+            if item.is_multiple_of(10) {
                 std::thread::sleep(std::time::Duration::from_millis(2));
             }
             item * 2

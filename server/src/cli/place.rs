@@ -1,6 +1,6 @@
 //! `dragtraffic place`: the same work as `POST /v1/place`, from file to file.
 
-use super::inputs::{Inputs, Item, Reading, Source, refused};
+use super::inputs::{Inputs, Item, Reading, Source, no_ids, refused};
 use super::output::{self, Folder};
 use super::progress::Progress;
 use super::tally::Tally;
@@ -63,6 +63,9 @@ pub struct PlaceArgs {
 /// Exit 2, 3, 4, 7, 8.
 pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
     let sources = args.inputs.sources()?;
+    if args.keep.is_some() {
+        no_ids(&sources, "--keep")?;
+    }
     let body: PlaceBody =
         serde_json::from_value(body(&args)?).map_err(|error| Failure::usage(format!("options: {error}")))?;
     let placer = common.engine()?.placer;

@@ -1006,7 +1006,7 @@ export interface components {
          * FaultKind
          * @description What can be wrong with a motion, the worst first.
          */
-        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "overlap" | "near_miss" | "goal_missed";
+        FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "goal_missed";
         /**
          * Field
          * @description A value and where it came from.
@@ -1078,7 +1078,10 @@ export interface components {
              * @description Revision of the request, when it had one.
              */
             revision?: number;
-            /** @description Joint scenes. */
+            /**
+             * @description Joint scenes. Those who are not part of the call but have a future in the scene are among them with it,
+             *     unless `kept_futures` says otherwise.
+             */
             samples: components["schemas"]["AnswerSample"][];
             /** @description One report a sample, or null when none was asked for. */
             scores: components["schemas"]["ScoreReply"][] | null;
@@ -1322,10 +1325,7 @@ export interface components {
              * @default 0
              */
             chosen_sample?: number;
-            /**
-             * @description RFC 3339 time.
-             * @default
-             */
+            /** @description RFC 3339 time; absent where equal calls are to give equal files. */
             created_at?: string;
             /** @description Hash of the user's part that these futures answer. */
             input_sha256: string;
@@ -2803,7 +2803,7 @@ export interface components {
              *       "goal_speed_mps": 0.05,
              *       "harsh_brake_mps2": 4,
              *       "harsh_lateral_mps2": 4,
-             *       "iou": 0.02,
+             *       "iou": 0,
              *       "moving_mps": 0.5,
              *       "offroad_m": 0.1,
              *       "right_on_red": true,
@@ -3058,8 +3058,8 @@ export interface components {
             harsh_lateral_mps2?: number;
             /**
              * Format: double
-             * @description Boxes collide when their intersection over union is above this.
-             * @default 0.02
+             * @description Boxes collide when their intersection over union is above this (the paper's collision rate: 0.02).
+             * @default 0
              */
             iou?: number;
             /**

@@ -2,7 +2,7 @@
 
 use super::GenerateArgs;
 use super::who::{self, Who};
-use crate::cli::inputs::Source;
+use crate::cli::values::For;
 use crate::cli::{Failure, output};
 use crate::routes::generate::GenerateRequest;
 use formats::native::{ConditionsDoc, GoalDoc};
@@ -17,7 +17,6 @@ use std::collections::BTreeMap;
 /// Exit 2 for what the scene does not have, 3 for a file of conditions that cannot be read.
 pub fn request(
     args: &GenerateArgs,
-    source: &Source,
     scene: &Scene,
     casting: Option<&Casting>,
     seed: u64,
@@ -34,7 +33,7 @@ pub fn request(
         (asked, _) => who::ids(asked, scene, step, "--react")?.map_or(json!(true), |ids| json!(ids)),
     };
     let body = json!({
-        "conditions": conditions(args, source, scene, casting)?,
+        "conditions": conditions(args, scene, casting)?,
         "agents": agents.map_or(json!("all"), |ids| json!(ids)),
         "react": react, "start_s": args.at, "horizon_s": args.horizon, "replan_interval_s": args.replan,
         "seed": seed, "samples": args.samples, "modes": args.modes, "diversity": args.diversity,
@@ -47,19 +46,19 @@ pub fn request(
 /// Conditions of those that a flag says something about; the rest keep what the scene has fixed.
 fn conditions(
     args: &GenerateArgs,
-    source: &Source,
     scene: &Scene,
     casting: Option<&Casting>,
 ) -> Result<BTreeMap<String, Value>, Failure> {
+    known(scene, "--goal", &args.goal)?;
+    known(scene, "--start", &args.start)?;
+    known(scene, "--size", &args.size)?;
+    known(scene, "--type", &args.agent_type)?;
+    known(scene, "--condition", &args.condition)?;
     let mut docs: BTreeMap<String, ConditionsDoc> = BTreeMap::new();
-    let mut whole: BTreeMap<String, Value> = BTreeMap::new();
     for given in &args.condition {
         let bytes = output::read(&given.value)?;
         let wrong = |error: serde_json::Error| Failure::input(format!("{}: {error}", given.value.display()));
-        let value: Value = serde_json::from_slice(&bytes).map_err(wrong)?;
-        let doc: ConditionsDoc = serde_json::from_value(value.clone()).map_err(wrong)?;
-        whole.insert(given.id.clone(), value);
-        docs.insert(given.id.clone(), doc);
+        docs.insert(given.id.clone(), serde_json::from_slice(&bytes).map_err(wrong)?);
     }
     if let Some(Casting { actor, conditions, .. }) = casting {
         docs.insert(actor.clone(), ConditionsDoc::from_conditions(conditions));
@@ -68,7 +67,7 @@ fn conditions(
         let own = || scene.agent(id).map_or_else(Conditions::default, |agent| agent.conditions.clone());
         set(docs.entry(id.to_owned()).or_insert_with(|| ConditionsDoc::from_conditions(&own())));
     };
-    for id in logged(args, source, scene)? {
+    for id in logged(args, scene)? {
         let Some(agent) = scene.agent(&id) else { continue };
         let Some(goal) = goal_of_log(args, agent) else {
             // A word means all who fit; an id means this one.
@@ -98,8 +97,16 @@ fn conditions(
     Ok(docs.into_iter().filter_map(written).collect())
 }
 
+/// Refuses to say something about somebody who is not there.
+fn known<T>(scene: &Scene, flag: &str, values: &[For<T>]) -> Result<(), Failure> {
+    match values.iter().find(|given| scene.agent(&given.id).is_none()) {
+        Some(given) => Err(Failure::usage(format!("{flag} {}: the scene has no such road user", given.id))),
+        None => Ok(()),
+    }
+}
+
 /// Whose goals come from the recording.
-fn logged(args: &GenerateArgs, source: &Source, scene: &Scene) -> Result<Vec<String>, Failure> {
+fn logged(args: &GenerateArgs, scene: &Scene) -> Result<Vec<String>, Failure> {
     if args.goal_from_log.is_empty() {
         return Ok(Vec::new());
     }
@@ -107,8 +114,7 @@ fn logged(args: &GenerateArgs, source: &Source, scene: &Scene) -> Result<Vec<Str
     let ids = ids.unwrap_or_else(|| scene.agents.iter().map(|agent| agent.id.clone()).collect());
     match ids.iter().find(|id| scene.agent(id).is_none()) {
         Some(unknown) => {
-            let message = format!("--goal-from-log {unknown}: {} has no such road user", source.shown());
-            Err(Failure::usage(message))
+            Err(Failure::usage(format!("--goal-from-log {unknown}: the scene has no such road user")))
         }
         None => Ok(ids),
     }

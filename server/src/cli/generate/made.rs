@@ -74,7 +74,7 @@ impl Maker<'_> {
                 Some(casting)
             }
         };
-        let body = ask::request(args, source, &scene, casting.as_ref(), seed)?;
+        let body = ask::request(args, &scene, casting.as_ref(), seed)?;
         let task = body
             .task(&scene, &Limits::default(), self.generator)
             .map_err(|problem| pointers::refused(source, &problem))?;

@@ -10,7 +10,7 @@ mod pointers;
 mod tell;
 mod who;
 
-use super::inputs::{Inputs, Reading, tell_notes};
+use super::inputs::{Inputs, Reading, no_ids, tell_notes};
 use super::output::{self, Folder};
 use super::score::figures::Filter;
 use super::values::{For, for_one, index, one_of, seeds, within};
@@ -96,10 +96,10 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "COUNT", conflicts_with = "seed", value_parser = seeds, help_heading = DRAWING)]
     seeds: Option<Range<u64>>,
     /// Independent joint scenes of each seed.
-    #[arg(long, default_value_t = DEFAULTS.samples as u64, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES as u64), help_heading = DRAWING)]
+    #[arg(long, default_value_t = DEFAULTS.samples as u64, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES), help_heading = DRAWING)]
     samples: u64,
     /// Alternatives kept per road user.
-    #[arg(long, default_value_t = DEFAULTS.modes as u64, value_parser = clap::value_parser!(u64).range(1..=limits::MODES as u64), help_heading = DRAWING)]
+    #[arg(long, default_value_t = DEFAULTS.modes as u64, value_parser = clap::value_parser!(u64).range(1..=limits::MODES), help_heading = DRAWING)]
     modes: u64,
     /// Denoising steps.
     #[arg(long, default_value_t = DEFAULTS.steps as u64, value_parser = clap::value_parser!(u64).range(0..=100), help_heading = DRAWING)]
@@ -135,6 +135,9 @@ fn file(text: &str) -> Result<PathBuf, String> {
 pub fn run(args: GenerateArgs, common: &Common) -> Result<(), Failure> {
     args.check()?;
     let sources = args.inputs.sources()?;
+    if !args.react.is_empty() {
+        no_ids(&sources, "--react")?;
+    }
     let folder = args.output.as_deref().filter(|path| Folder::named(path));
     let many = folder.is_some() || sources.len() > 1 || args.seeds.is_some() || args.template.len() > 1;
     if many {

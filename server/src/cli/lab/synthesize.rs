@@ -51,7 +51,7 @@ pub fn synthesize(args: SynthesizeArgs, common: &Common) -> Result<(), Failure> 
         let (done, all) = progress.finished;
         let windows = progress.windows.map_or("there already".into(), |n| format!("{n} windows"));
         bar.line(&format!("seed {}: {windows} ({done} of {all})", progress.seed));
-        bar.reach(done as u64);
+        bar.reach(done);
     })
     .map_err(failed)?;
     drop(bar);

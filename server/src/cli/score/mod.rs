@@ -109,7 +109,7 @@ pub fn score(args: ScoreArgs, common: &Common) -> Result<(), Failure> {
     if let Some(path) = &args.csv {
         output::write(Some(path), &table.bytes()?, args.force)?;
     }
-    if let (Some(filter), false) = (&args.filter, common.quiet) {
+    if let (Some(filter), false) = (&args.filter, common.quiet || looked_at == 0) {
         output::complain(&format!("{held} of {looked_at} hold {}", filter.text()));
     }
     tally.end("files")
