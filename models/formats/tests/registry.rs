@@ -76,6 +76,8 @@ fn licence_can_be_given_and_unknown_content_is_refused() {
     assert_eq!(scene.meta.licence.as_deref(), Some("cc-by-4.0"));
     let error = registry::import(b"<xml/>", "a.xml", "auto", &options).unwrap_err();
     assert_eq!(error.code(), "format-unknown");
+    let other = registry::import(b"[1, 2]", "tfrecord-00001.json", "auto", &options).unwrap_err();
+    assert_eq!(other.code(), "format-unknown");
     assert_eq!(registry::import(JUNCTION, "", "nothing", &options).unwrap_err().code(), "format-unknown");
 }
 

@@ -22,7 +22,7 @@ pub struct ConvertArgs {
     inputs: Inputs,
     /// File to write, or folder for a file a scene; - or absent is stdout. Formats that hold many scenes (womd, csv)
     /// take all of them into one file.
-    #[arg(short, long)]
+    #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
     /// Format of the output: dragtraffic, womd (or waymo), csv.
     #[arg(long, visible_alias = "format", value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable)]
@@ -67,8 +67,8 @@ fn format_of(text: &str, done: &str, can: fn(&Info) -> bool) -> Result<&'static 
     })
 }
 
-/// Codes of what was lost, with a sentence and in how many scenes.
-type Losses = BTreeMap<&'static str, (String, usize)>;
+/// Codes of what was lost, with a sentence each.
+type Losses = BTreeMap<&'static str, String>;
 
 /// What became of one file.
 #[derive(Default)]
@@ -95,8 +95,8 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
     let only = sources.len() == 1;
     let mut note = |converted: &Converted| {
         converted.lines.iter().for_each(|line| progress.line(line));
-        for (code, (detail, count)) in &converted.losses {
-            losses.entry(code).or_insert_with(|| (detail.clone(), 0)).1 += count;
+        for (code, detail) in &converted.losses {
+            losses.entry(code).or_insert_with(|| detail.clone());
         }
     };
     let mut failed = None;
@@ -142,20 +142,27 @@ pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
             }
             one.finish()?;
             drop(progress);
-            tell(&losses, &args, common);
+            tell(&losses, only, &args, common);
             return ended;
         }
     }
     drop(progress);
-    tell(&losses, &args, common);
+    tell(&losses, only, &args, common);
     tally.end("files")
 }
 
-/// Says once what is not in the output.
-fn tell(losses: &Losses, args: &ConvertArgs, common: &Common) {
-    for (code, (detail, count)) in losses.iter().filter(|_| !common.quiet) {
-        let scenes = if *count > 1 { format!(" ({count} scenes)") } else { String::new() };
-        output::complain(&format!("not in {}: {code}: {detail}{scenes}", args.to));
+/// Says once what is not in the output: in sentences for one file, by code for many.
+fn tell(losses: &Losses, only: bool, args: &ConvertArgs, common: &Common) {
+    if common.quiet || losses.is_empty() {
+        return;
+    }
+    if only {
+        for (code, detail) in losses {
+            output::complain(&format!("not in {}: {code}: {detail}", args.to));
+        }
+    } else {
+        let codes: Vec<&str> = losses.keys().copied().collect();
+        output::complain(&format!("not in {}: {}", args.to, codes.join(", ")));
     }
 }
 
@@ -170,8 +177,7 @@ fn written(
     let written = transfer::write_part(&item.scene, args.to, args.sample, args.mode, label, continued)
         .map_err(|problem| sample_missing(args, problem))?;
     for loss in &written.losses {
-        let entry = converted.losses.entry(loss.code).or_insert_with(|| (loss.detail.clone(), 0));
-        entry.1 += 1;
+        converted.losses.entry(loss.code).or_insert_with(|| loss.detail.clone());
     }
     if args.strict && !written.losses.is_empty() {
         let codes: Vec<&str> = written.losses.iter().map(|loss| loss.code).collect();

@@ -92,8 +92,7 @@ impl Inputs {
 pub fn sources(inputs: &[PathBuf]) -> Result<Vec<Source>, Failure> {
     let mut paths = Vec::new();
     for input in inputs {
-        let pattern = input.to_str().filter(|text| text.contains(['*', '?', '[']) && !input.exists());
-        match pattern {
+        match as_pattern(input) {
             _ if input.is_dir() => paths.extend(of_folder(input)?),
             Some(pattern) => paths.extend(of_pattern(pattern)?),
             None => paths.push(input.clone()),
@@ -105,6 +104,26 @@ pub fn sources(inputs: &[PathBuf]) -> Result<Vec<Source>, Failure> {
     let mut known = Known::default();
     let named = |path: PathBuf| Source { label: known.name(label(&path)), path };
     Ok(paths.into_iter().map(named).collect())
+}
+
+/// The files of patterns among the inputs, and all else as it is: for commands that look into folders themselves.
+///
+/// # Errors
+/// Exit 3 when a pattern has none.
+pub fn patterns(inputs: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut paths = Vec::new();
+    for input in inputs {
+        match as_pattern(input) {
+            Some(pattern) => paths.extend(of_pattern(pattern)?),
+            None => paths.push(input.clone()),
+        }
+    }
+    Ok(paths)
+}
+
+/// The text of a pattern that is no file's name.
+fn as_pattern(input: &Path) -> Option<&str> {
+    input.to_str().filter(|text| text.contains(['*', '?', '[']) && !input.exists())
 }
 
 fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, Failure> {

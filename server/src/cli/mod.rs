@@ -41,7 +41,13 @@ struct Cli {
 /// Two calls of a command, for the end of its help.
 macro_rules! examples {
     ($first:literal, $second:literal) => {
-        concat!("Examples:\n  ", $first, "\n  ", $second)
+        concat!(
+            "Examples:\n  ",
+            $first,
+            "\n  ",
+            $second,
+            "\n\nExit codes: 0 done, 1 failure, 2 command line, 3 input, 4 some failed; all: dragtraffic --help"
+        )
     };
 }
 
@@ -80,8 +86,8 @@ enum Command {
     #[command(after_help = examples!("dragtraffic domain > domain.json", "dragtraffic domain --check assets/domain.json"))]
     Domain(document::CheckArgs),
     /// Print version, weights, limits and formats as JSON.
-    #[command(after_help = examples!("dragtraffic info", "dragtraffic info --weights DIR"))]
-    Info,
+    #[command(after_help = examples!("dragtraffic info formats", "dragtraffic info weights --weights DIR"))]
+    Info(document::InfoArgs),
     /// Print the completions of a shell.
     #[command(after_help = examples!("dragtraffic completions bash > ~/.local/share/bash-completion/completions/dragtraffic", "dragtraffic completions fish > ~/.config/fish/completions/dragtraffic.fish"))]
     Completions(shell::CompletionsArgs),
@@ -179,7 +185,7 @@ impl Command {
             Self::Openapi(args) => document::openapi(args),
             Self::Schema(args) => document::schema(args),
             Self::Domain(args) => document::domain(args),
-            Self::Info => document::info(common),
+            Self::Info(args) => document::info(args, common),
             Self::Completions(args) => shell::completions(args),
             Self::Man(args) => shell::man(args),
             Self::Synthesize(args) => lab::synthesize(args, common),

@@ -50,7 +50,7 @@ pub struct PlaceArgs {
     #[arg(long, default_value_t = 2.0, value_name = "METRES", value_parser = within(0.0, MAX_GAP_M, "metres"))]
     min_gap: f64,
     /// File to write the scene with its new road users to, or folder for a file a scene; - or absent is stdout.
-    #[arg(short, long)]
+    #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
     /// Overwrite the output.
     #[arg(long)]

@@ -9,7 +9,9 @@ use std::time::{Duration, Instant};
 
 /// Between two lines where there is no terminal.
 const EVERY: Duration = Duration::from_secs(5);
-const STYLE: &str = "{msg} {wide_bar} {pos} of {len}, {eta} left";
+/// The bar moves so often where nothing is done for a while.
+const TICK: Duration = Duration::from_millis(250);
+const STYLE: &str = "{msg} {wide_bar} {pos} of {len}, {elapsed} so far, {eta} left";
 
 /// Progress of one command.
 pub struct Progress {
@@ -38,6 +40,7 @@ impl Progress {
             let style = ProgressStyle::with_template(STYLE).unwrap_or_else(|_| ProgressStyle::default_bar());
             bar.set_style(style);
             bar.set_message(what);
+            bar.enable_steady_tick(TICK);
             bar
         });
         let now = Instant::now();

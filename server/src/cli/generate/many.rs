@@ -72,11 +72,7 @@ pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common
     let total = (sources.len() * wishes.len()) as u64;
     let progress = Progress::new("generations", total, common.quiet);
     let mut report = Report::new(&progress, total == 1);
-    let work = |part: &Part<'_>| {
-        let ends = part.run(&maker, &folder);
-        (0..part.wishes.len()).for_each(|_| progress.step());
-        ends
-    };
+    let work = |part: &Part<'_>| part.run(&maker, &folder, &progress);
     parallel::in_order(&parts, workers, work, |part, ends| report.add(part, ends));
     let Report { table, sums, tally, .. } = report;
     drop(progress);
@@ -109,15 +105,21 @@ fn wishes(args: &GenerateArgs) -> Vec<Wish> {
 }
 
 impl Part<'_> {
-    fn run(&self, maker: &Maker<'_>, folder: &Folder) -> Result<Vec<End>, Failure> {
+    fn run(&self, maker: &Maker<'_>, folder: &Folder, progress: &Progress) -> Result<Vec<End>, Failure> {
         let reading = Reading { index: maker.args.index.clone(), ..Reading::default() };
         let mut ends = Vec::new();
+        let mut first = true;
         self.source.each(&reading, &mut |item| {
             for wish in self.wishes {
                 let how = self.one(maker, folder, &item.scene, &item.name, *wish);
                 let how = how.unwrap_or_else(How::Failed);
                 ends.push(End { scene: item.name.clone(), wish: *wish, how });
+                // How many scenes the files have is not known: the first of each counts for all.
+                if first {
+                    progress.step();
+                }
             }
+            first = false;
             Ok(())
         })?;
         Ok(ends)

@@ -41,7 +41,7 @@ pub struct GenerateArgs {
     index: Option<Range<usize>>,
     /// File to write the scene with its futures to; - or absent is stdout. A folder for many results: a file for each
     /// scene, template and seed, and manifest.csv with their figures.
-    #[arg(short, long)]
+    #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
     /// Overwrite the output.
     #[arg(long)]
@@ -90,19 +90,19 @@ pub struct GenerateArgs {
     forget: bool,
 
     /// The same seed gives the same answer.
-    #[arg(long, default_value_t = DEFAULTS.seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER), help_heading = DRAWING)]
     seed: u64,
     /// A result for each seed: a count, or FIRST..END with the end left out.
-    #[arg(long, value_name = "COUNT", conflicts_with = "seed", value_parser = seeds, help_heading = DRAWING)]
+    #[arg(long, value_name = "COUNT|FIRST..END", conflicts_with = "seed", value_parser = seeds, help_heading = DRAWING)]
     seeds: Option<Range<u64>>,
     /// Independent joint scenes of each seed.
-    #[arg(long, default_value_t = DEFAULTS.samples as u64, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.samples as u64, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES), help_heading = DRAWING)]
     samples: u64,
     /// Alternatives kept per road user.
-    #[arg(long, default_value_t = DEFAULTS.modes as u64, value_parser = clap::value_parser!(u64).range(1..=limits::MODES), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.modes as u64, value_parser = clap::value_parser!(u64).range(1..=limits::MODES), help_heading = DRAWING)]
     modes: u64,
     /// Denoising steps.
-    #[arg(long, default_value_t = DEFAULTS.steps as u64, value_parser = clap::value_parser!(u64).range(0..=100), help_heading = DRAWING)]
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.steps as u64, value_parser = clap::value_parser!(u64).range(0..=100), help_heading = DRAWING)]
     steps: u64,
     /// Seconds to generate, 0.5 to 20. More than 9 is planned window after window.
     #[arg(long, value_name = "SECONDS", default_value_t = DEFAULTS.horizon_s, value_parser = within(0.5, 20.0, "seconds"), help_heading = DRAWING)]
@@ -114,7 +114,7 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "SECONDS", value_parser = one_of(&[3.0, 6.0, 9.0]), help_heading = DRAWING)]
     replan: Option<f64>,
     /// Scale of the noise, which makes seeds differ; 0 is the best guess.
-    #[arg(long, default_value_t = DEFAULTS.diversity, value_parser = within(0.0, 2.0, ""), help_heading = DRAWING)]
+    #[arg(long, value_name = "SCALE", default_value_t = DEFAULTS.diversity, value_parser = within(0.0, 2.0, ""), help_heading = DRAWING)]
     diversity: f64,
 }
 

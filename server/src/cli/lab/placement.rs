@@ -1,6 +1,7 @@
 //! `dragtraffic train-placement` and `eval-place`.
 
 use super::{SceneArgs, failed, print_json, scenes};
+use crate::cli::inputs::patterns;
 use crate::cli::progress::Progress;
 use crate::cli::{Common, Failure, output};
 use clap::Args;
@@ -9,7 +10,7 @@ use std::path::PathBuf;
 /// Flags of `train-placement`.
 #[derive(Args, Clone, Debug)]
 pub struct TrainPlacementArgs {
-    /// Files or folders of scenes in any format.
+    /// Files, folders or patterns of scenes in any format.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
     /// Weights file to write.
@@ -45,7 +46,10 @@ pub struct EvalPlaceArgs {
 /// Exit 1 when nothing can be read, 8 when the output exists.
 pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), Failure> {
     output::keep(&args.output, args.force)?;
-    let options = lab_train::placement::PlacementOptions { inputs: args.inputs, trained_on: args.trained_on };
+    let options = lab_train::placement::PlacementOptions {
+        inputs: patterns(&args.inputs)?,
+        trained_on: args.trained_on,
+    };
     // What cannot be listed is told by the work itself.
     let files = lab_train::scenes::scene_files(&options.inputs).map_or(0, |files| files.len());
     let bar = Progress::new("files", files as u64, common.quiet);

@@ -1,6 +1,7 @@
 //! `dragtraffic prepare`.
 
 use super::{failed, print_json};
+use crate::cli::inputs::patterns;
 use crate::cli::progress::Progress;
 use crate::cli::{Common, Failure, output};
 use clap::Args;
@@ -11,7 +12,7 @@ use std::path::PathBuf;
 /// Flags of `prepare`.
 #[derive(Args, Clone, Debug)]
 pub struct PrepareArgs {
-    /// Files or folders of scenes in any format.
+    /// Files, folders or patterns of scenes in any format.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
     /// File of records to write.
@@ -61,7 +62,7 @@ fn metres(text: &str) -> Result<f64, String> {
 pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
     output::keep(&args.output, args.force)?;
     let options = lab_train::prepare::PrepareOptions {
-        inputs: args.inputs,
+        inputs: patterns(&args.inputs)?,
         out: args.output,
         agent_type: args.expert,
         seed: args.seed,
