@@ -4,6 +4,7 @@ mod expression;
 pub mod figures;
 pub mod table;
 mod thresholds;
+mod tokens;
 mod words;
 
 use super::inputs::{Inputs, Item, Reading, Source};

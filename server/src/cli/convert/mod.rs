@@ -1,5 +1,7 @@
 //! `dragtraffic convert`, known as `import` and `export` too: files of any format to files of any format.
 
+mod one;
+
 use super::inputs::{Inputs, Item, Reading, Source, tell_notes};
 use super::output::{self, Folder};
 use super::progress::Progress;
@@ -7,13 +9,12 @@ use super::tally::Tally;
 use super::{Common, Exit, Failure, parallel, values};
 use crate::scenes::transfer::{self, Motion};
 use clap::Args;
-use formats::files::Whole;
 use formats::format::Info;
 use formats::registry::{self, FORMATS};
+use one::{One, too_many};
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Flags of `convert`.
 #[derive(Args, Clone, Debug)]
@@ -258,77 +259,4 @@ fn streamed(
         one.add(&file.bytes)
     });
     read.map(drop)
-}
-
-/// The one output of all scenes: a file that appears when it is whole, or stdout.
-struct One {
-    file: Option<(PathBuf, Whole)>,
-    /// First bytes of the file, before any scene.
-    heading: Vec<u8>,
-    many: bool,
-    /// The only scene of a format that holds one.
-    only: Option<Vec<u8>>,
-}
-
-impl One {
-    fn create(args: &ConvertArgs) -> Result<Self, Failure> {
-        let format = registry::by_id(args.to);
-        let many = format.is_some_and(|format| format.info().many);
-        let heading = format.and_then(|format| format.export(&[], &formats::ExportOptions::default()).ok());
-        let heading = heading.filter(|_| many).map_or_else(Vec::new, |exported| exported.bytes);
-        let path = args.output.as_deref().filter(|path| *path != Path::new("-"));
-        if let Some(path) = path {
-            output::keep(path, args.force)?;
-        }
-        let create = |path: &Path| {
-            let file = Whole::create(path).map_err(|error| unwritable(path, &error))?;
-            Ok::<_, Failure>((path.to_path_buf(), file))
-        };
-        Ok(Self { file: path.map(create).transpose()?, heading, many, only: None })
-    }
-
-    fn add(&mut self, part: &[u8]) -> Result<(), Failure> {
-        if self.many {
-            return self.put(part);
-        }
-        if self.only.is_some() {
-            return Err(too_many());
-        }
-        self.only = Some(part.to_vec());
-        Ok(())
-    }
-
-    fn put(&mut self, part: &[u8]) -> Result<(), Failure> {
-        let heading = std::mem::take(&mut self.heading);
-        for bytes in [heading.as_slice(), part].into_iter().filter(|bytes| !bytes.is_empty()) {
-            match &mut self.file {
-                None => output::print(bytes)?,
-                Some((path, file)) => match file.write_all(bytes) {
-                    Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => {}
-                    done => done.map_err(|error| unwritable(path, &error))?,
-                },
-            }
-        }
-        Ok(())
-    }
-
-    fn finish(mut self) -> Result<(), Failure> {
-        if let Some(only) = self.only.take() {
-            self.put(&only)?;
-        }
-        let Some((path, file)) = self.file else { return Ok(()) };
-        match file.finish() {
-            // A reader of a pipe that has closed its end is no failure.
-            Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-            done => done.map_err(|error| unwritable(&path, &error)),
-        }
-    }
-}
-
-fn too_many() -> Failure {
-    Failure::usage("more than one scene; --index takes one, --output FOLDER/ takes all, a file each")
-}
-
-fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::new(Exit::Failure, format!("{}: {error}", path.display()))
 }
