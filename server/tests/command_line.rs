@@ -29,6 +29,7 @@ fn every_help_has_examples() {
             }
         }
         assert_eq!(examples.len(), 2, "{name}");
+        assert!(text.contains("Exit codes: 0 done"), "{name}");
     }
 }
 
@@ -40,9 +41,18 @@ fn it_says_its_version_and_its_commands() {
     let expected = format!("dragtraffic {}\n", env!("CARGO_PKG_VERSION"));
     assert_eq!(String::from_utf8_lossy(&version.stdout), expected);
     let help = String::from_utf8_lossy(&run("--help").stdout).into_owned();
-    for command in
-        ["serve", "generate", "convert", "import", "export", "score", "openapi", "info", "synthesize"]
-    {
+    for command in [
+        "serve",
+        "generate",
+        "convert",
+        "import",
+        "export",
+        "score",
+        "completions",
+        "man",
+        "info",
+        "synthesize",
+    ] {
         assert!(help.contains(command), "{command}");
     }
 }

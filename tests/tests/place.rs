@@ -334,8 +334,7 @@ fn the_command_line_places_too() {
         &region,
         "--seed",
         "4",
-        "--keep",
-        "0,1",
+        "--keep=0,1",
         "-o",
         &out,
     ];

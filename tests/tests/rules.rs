@@ -47,7 +47,7 @@ const HOUSES: &[House] = &[
             &["limits", "loss", "files"],
             &["problem"],
             &["format", "identities"],
-            &["native", "womd", "sumo"],
+            &["native", "womd", "sumo", "table"],
             &["registry"],
             &["checks"],
         ],

@@ -46,6 +46,11 @@ impl Maps {
         self.known(map).drivable.clone()
     }
 
+    /// Lanes of a map with their links.
+    pub fn graph(&self, map: &Shared<LaneMap>) -> Arc<LaneGraph> {
+        self.known(map).graph.clone()
+    }
+
     /// Forgets all: the next call on each map works it out again.
     pub fn forget(&self) {
         self.cached().clear();

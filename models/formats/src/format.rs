@@ -74,12 +74,18 @@ pub enum ExportedMotion {
 }
 
 /// How to write a file of any format.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ExportOptions {
     /// Which motion, where the format has room for one only.
     pub motion: ExportedMotion,
     /// Compress, where the format knows gzip.
     pub gzip: bool,
+    /// The one sample to write, where the format has room for several.
+    pub sample: Option<usize>,
+    /// What a scene is called in a table of several; its own name when absent.
+    pub label: Option<String>,
+    /// What is written goes on behind scenes that are in the file already: no heading.
+    pub continued: bool,
 }
 
 /// An exported file.

@@ -34,6 +34,14 @@ pub mod code {
     pub const NO_LICENCE: &str = "no-licence";
     /// Name, tags, notes and the like.
     pub const NO_NOTES: &str = "no-notes";
+    /// Lanes, lines, edges and areas.
+    pub const NO_MAP: &str = "no-map";
+    /// Traffic signals.
+    pub const NO_SIGNALS: &str = "no-signals";
+    /// Boxes of road users.
+    pub const NO_SIZES: &str = "no-sizes";
+    /// What is said of futures: probabilities, faults, relations, reactions.
+    pub const NO_JUDGEMENTS: &str = "no-judgements";
     /// Drivable areas.
     pub const NO_DRIVABLE: &str = "no-drivable";
     /// Widths of lanes.

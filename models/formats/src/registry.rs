@@ -5,10 +5,11 @@ use crate::loss::Loss;
 use crate::native::format::NativeJson;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::sumo::formats::{SumoFcd, SumoNet};
+use crate::table::Table;
 use crate::womd::format::Womd;
 
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 4] = [&NativeJson, &Womd, &SumoNet, &SumoFcd];
+pub static FORMATS: [&dyn Format; 5] = [&NativeJson, &Womd, &SumoNet, &SumoFcd, &Table];
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {
@@ -33,7 +34,7 @@ pub fn import(
 ) -> Result<Vec<Result<Imported, ReadError>>, ReadError> {
     let found = if format == "auto" { sniff(bytes, name) } else { by_id(format) };
     let Some(found) = found else {
-        let known: Vec<&str> = FORMATS.iter().map(|f| f.info().id).collect();
+        let known: Vec<&str> = FORMATS.iter().map(|f| f.info()).filter(|f| f.import).map(|f| f.id).collect();
         let detail = format!("not a file of a known format ({})", known.join(", "));
         return Err(FieldProblem::new("", code::FORMAT_UNKNOWN, detail).into());
     };

@@ -12,7 +12,11 @@ use formats::{ExportOptions, ImportOptions};
 use std::collections::BTreeSet;
 
 /// Every loss code that a writer here can give.
-const LOSS_CODES: [&str; 12] = [
+const LOSS_CODES: [&str; 16] = [
+    code::NO_MAP,
+    code::NO_SIGNALS,
+    code::NO_SIZES,
+    code::NO_JUDGEMENTS,
     code::NO_CONDITIONS,
     code::NO_MODES,
     code::NO_SUBTYPE,
@@ -41,9 +45,14 @@ fn every_format_reads_what_it_writes_and_knows_its_own() {
         }
         for gzip in [false, true] {
             let exported = format.export(&[&scene], &ExportOptions { gzip, ..Default::default() }).unwrap();
+            assert!(exported.losses.iter().all(|loss| LOSS_CODES.contains(&loss.code)));
+            if !info.import {
+                let refused = format.import(&exported.bytes, &ImportOptions::default()).remove(0);
+                assert_eq!(refused.unwrap_err().code(), "format-unknown");
+                continue;
+            }
             let found = registry::sniff(&exported.bytes, "upload").unwrap().info().id;
             assert_eq!(found, info.id);
-            assert!(exported.losses.iter().all(|loss| LOSS_CODES.contains(&loss.code)));
             let list =
                 registry::import(&exported.bytes, "upload", "auto", &ImportOptions::default()).unwrap();
             let (again, _) = list.into_iter().next().unwrap().unwrap();
@@ -67,6 +76,8 @@ fn licence_can_be_given_and_unknown_content_is_refused() {
     assert_eq!(scene.meta.licence.as_deref(), Some("cc-by-4.0"));
     let error = registry::import(b"<xml/>", "a.xml", "auto", &options).unwrap_err();
     assert_eq!(error.code(), "format-unknown");
+    let other = registry::import(b"[1, 2]", "tfrecord-00001.json", "auto", &options).unwrap_err();
+    assert_eq!(other.code(), "format-unknown");
     assert_eq!(registry::import(JUNCTION, "", "nothing", &options).unwrap_err().code(), "format-unknown");
 }
 
@@ -79,4 +90,36 @@ fn losses_are_listed_once() {
         registry::loss_header(&exported.losses),
         "no-conditions, no-generated, no-licence, no-modes, no-notes, no-subtype"
     );
+}
+
+#[test]
+fn a_table_has_a_line_for_each_road_user_future_and_step() {
+    let mut scene = formats::native::read(JUNCTION).unwrap();
+    scene.name = "a, b".into();
+    let csv = registry::by_id("csv").unwrap();
+    let text = |scenes: &[&scene::Scene], options: &ExportOptions| {
+        String::from_utf8(csv.export(scenes, options).unwrap().bytes).unwrap()
+    };
+    let whole = text(&[&scene], &ExportOptions::default());
+    let (head, lines) = whole.split_once('\n').unwrap();
+    assert_eq!(head, "scene,sample,agent,type,mode,chosen,t_s,x_m,y_m,heading_rad,v_mps");
+    let generated = scene.generated.as_ref().unwrap();
+    let futures = generated.samples.iter().flat_map(|s| s.agents.values()).flat_map(|f| &f.modes);
+    let states: usize = futures.map(|future| future.states.len()).sum();
+    let logged: usize = scene.agents.iter().map(|agent| agent.track.valid_steps().count()).sum();
+    assert_eq!(lines.lines().count(), states + logged);
+    assert!(lines.lines().all(|line| line.starts_with("\"a, b\",")), "{lines}");
+    // What is shown of one road user has each moment once.
+    let (id, futures) = generated.samples[0].agents.iter().next().unwrap();
+    let of = |mode: &str| format!("\"a, b\",{},{id},", if mode == "log" { "" } else { "0" });
+    let chosen = futures.chosen.to_string();
+    let shown = lines.lines().filter(|line| line.starts_with(&of("log")) || line.starts_with(&of(&chosen)));
+    let shown: Vec<&str> = shown.filter(|line| line.split(',').nth(6) == Some("1")).collect();
+    let times: BTreeSet<&str> = shown.iter().map(|line| line.split(',').nth(7).unwrap()).collect();
+    assert_eq!(shown.len(), times.len());
+    let further = ExportOptions { continued: true, label: Some("c".into()), ..Default::default() };
+    let more = text(&[&scene], &further);
+    assert!(more.starts_with("c,") && more.lines().count() == states + logged);
+    let log = ExportOptions { motion: formats::ExportedMotion::Log, ..Default::default() };
+    assert_eq!(text(&[&scene], &log).lines().count(), 1 + logged);
 }

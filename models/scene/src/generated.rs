@@ -70,7 +70,7 @@ pub struct Generated {
     pub request: serde_json::Value,
     /// Licence of the answer where it is stricter than the scene's own: that of the weights.
     pub licence: Option<String>,
-    /// RFC 3339 time.
+    /// RFC 3339 time; empty where nobody looked at a clock.
     pub created_at: String,
     /// Index into `samples`.
     pub chosen_sample: usize,

@@ -36,6 +36,7 @@ pub mod map;
 pub mod motion;
 pub mod random;
 pub mod routes;
+pub mod scenarios;
 mod scene;
 pub mod score;
 pub mod shared;

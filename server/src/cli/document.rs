@@ -50,14 +50,32 @@ fn show(text: &str, check: Option<&Path>, command: &str) -> Result<(), Failure> 
     Err(Failure::new(Exit::Failure, message))
 }
 
-/// Prints what `/v1/info` gives.
+/// Flags of `info`.
+#[derive(Args, Clone, Debug)]
+pub struct InfoArgs {
+    /// A part of it, such as formats, weights or limits; all when absent.
+    part: Option<String>,
+}
+
+/// Prints what `/v1/info` gives, or a part of it.
 ///
 /// # Errors
-/// Exit 7 without weights.
-pub fn info(common: &Common) -> Result<(), Failure> {
-    let experts::Engine { generator, placer } = super::engine(common)?;
-    let info = Info::new(&generator, &placer, &Limits::default());
-    let mut text = serde_json::to_string_pretty(&info).unwrap_or_default();
+/// Exit 2 for a part that there is not, 7 without weights.
+pub fn info(args: InfoArgs, common: &Common) -> Result<(), Failure> {
+    let experts::Engine { generator, placer } = common.engine()?;
+    let info = serde_json::to_value(Info::new(&generator, &placer, &Limits::default())).unwrap_or_default();
+    let shown = match &args.part {
+        None => Some(&info),
+        Some(part) => info.get(part),
+    };
+    let Some(shown) = shown else {
+        let parts: Vec<&str> =
+            info.as_object().into_iter().flatten().map(|(name, _)| name.as_str()).collect();
+        let message =
+            format!("info has no part {}; there are {}", args.part.unwrap_or_default(), parts.join(", "));
+        return Err(Failure::usage(message));
+    };
+    let mut text = serde_json::to_string_pretty(shown).unwrap_or_default();
     text.push('\n');
     output::print(text.as_bytes())
 }

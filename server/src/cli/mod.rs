@@ -1,68 +1,34 @@
 //! The command line. Results go to stdout, everything else to stderr.
 
+mod common;
+mod convert;
 mod document;
-mod files;
+mod exit;
 mod generate;
+mod inputs;
 mod interrupt;
 mod lab;
 mod output;
+mod parallel;
 mod place;
+mod progress;
+mod score;
 mod serve;
+mod shell;
+mod tally;
+mod values;
 
-use crate::base::clock;
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use std::io::IsTerminal;
-use std::path::PathBuf;
+pub use common::Common;
+pub use exit::{Exit, Failure};
+
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
-
-/// How a command ends; the numbers are part of the interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exit {
-    /// Anything that has no number of its own.
-    Failure = 1,
-    /// The command line makes no sense.
-    Usage = 2,
-    /// Input cannot be read or is not valid.
-    Input = 3,
-    /// Some items failed, the rest are done.
-    Partly = 4,
-    /// Something was lost under `--strict`.
-    Lossy = 5,
-    /// The address is taken.
-    AddressInUse = 6,
-    /// Weights are missing or wrong.
-    Weights = 7,
-    /// The output exists.
-    OutputExists = 8,
-    /// Ctrl-C; what was done by then is kept where the command says so.
-    Interrupted = 130,
-}
-
-/// Why a command failed.
-#[derive(Debug)]
-pub struct Failure {
-    /// Exit code.
-    pub exit: Exit,
-    /// One sentence; empty when it was told already.
-    pub message: String,
-}
-
-impl Failure {
-    /// A failure with one sentence.
-    pub fn new(exit: Exit, message: impl Into<String>) -> Self {
-        Self { exit, message: message.into() }
-    }
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(error: std::io::Error) -> Self {
-        Self::new(Exit::Failure, error.to_string())
-    }
-}
 
 /// Make traffic scenes by dragging: editor, HTTP API and command line in one program.
 #[derive(Parser)]
-#[command(name = "dragtraffic", version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
+#[command(name = "dragtraffic", version, after_help = EXIT_CODES)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -72,37 +38,16 @@ struct Cli {
     common: Common,
 }
 
-/// Flags of every command.
-#[derive(Args, Clone, Debug)]
-pub struct Common {
-    /// Log lines as text or JSON.
-    #[arg(long, global = true, value_enum, env = "DRAGTRAFFIC_LOG_FORMAT")]
-    pub log_format: Option<LogFormat>,
-    /// Which log lines: error, warn, info, debug, trace, or a tracing filter.
-    #[arg(long, global = true, env = "DRAGTRAFFIC_LOG", default_value = "info")]
-    pub log_level: String,
-    /// Say nothing but errors.
-    #[arg(short, long, global = true)]
-    pub quiet: bool,
-    /// Folder with vehicle.safetensors, pedestrian.safetensors, cyclist.safetensors and, if it has
-    /// them, placement.json, in place of the weights inside the program.
-    #[arg(long, global = true, env = "DRAGTRAFFIC_WEIGHTS", value_name = "DIR")]
-    pub weights: Option<PathBuf>,
-}
-
-/// Form of log lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum LogFormat {
-    /// For people.
-    Text,
-    /// One object a line.
-    Json,
-}
-
 /// Two calls of a command, for the end of its help.
 macro_rules! examples {
     ($first:literal, $second:literal) => {
-        concat!("Examples:\n  ", $first, "\n  ", $second)
+        concat!(
+            "Examples:\n  ",
+            $first,
+            "\n  ",
+            $second,
+            "\n\nExit codes: 0 done, 1 failure, 2 command line, 3 input, 4 some failed; all: dragtraffic --help"
+        )
     };
 }
 
@@ -119,24 +64,18 @@ enum Command {
     /// Serve the editor and the HTTP API (the default).
     #[command(after_help = examples!("dragtraffic serve --open", "dragtraffic serve --data recordings/ --port 9000"))]
     Serve(serve::ServeArgs),
-    /// Generate futures of a scene.
-    #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=-40,8 --react -o out.json", "dragtraffic generate scene.json --samples 8 --seed 7 --horizon 20 --replan 6 -o long.json"))]
-    Generate(generate::GenerateArgs),
-    /// Place road users on a scene's map.
-    #[command(after_help = examples!("dragtraffic place scene.json --count 30 --keep --seed 7 -o placed.json", "dragtraffic place scene.json --density 12 --types vehicle=0.7,pedestrian=0.3 -o placed.json"))]
+    /// Generate futures of scenes.
+    #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=ahead:40,left:3.5,time:4 --react -o out.json", "dragtraffic generate scenes/ --template brake,cut-in --seeds 20 --where 'actor.min_ttc_s < 1.5 && collisions == 0' -o found/"))]
+    Generate(Box<generate::GenerateArgs>),
+    /// Place road users on the maps of scenes.
+    #[command(after_help = examples!("dragtraffic place scene.json --count 30 --keep --seed 7 -o placed.json", "dragtraffic place scenes/ --density 12 --types vehicle=0.7,pedestrian=0.3 -o placed/"))]
     Place(place::PlaceArgs),
-    /// Turn a file of any known format into scene JSON.
-    #[command(after_help = examples!("dragtraffic import record.tfrecord.gz --index 0 -o scene.json", "dragtraffic import fcd.xml --net net.xml --index 0..9 -o scenes/"))]
-    Import(files::ConvertArgs),
-    /// Turn a file of one format into another.
-    #[command(after_help = examples!("dragtraffic convert record.tfrecord.gz --to dragtraffic --index 0 -o scene.json", "dragtraffic convert --list"))]
-    Convert(files::ConvertArgs),
-    /// Write a scene in another format.
-    #[command(after_help = examples!("dragtraffic export out.json --format womd -o out.tfrecord", "dragtraffic export out.json --format womd --mode log --strict -o log.tfrecord"))]
-    Export(files::ExportArgs),
+    /// Turn files of any format into another.
+    #[command(visible_aliases = ["import", "export"], after_help = examples!("dragtraffic convert record.tfrecord.gz --index 0 -o scene.json", "dragtraffic convert 'runs/*.json' --to csv -o motion.csv"))]
+    Convert(convert::ConvertArgs),
     /// Score scenes: collisions, near misses, off-road driving, kinematics, goals.
-    #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score scenes/*.json --json --pairs regenerated --ttc 2"))]
-    Score(files::ScoreArgs),
+    #[command(after_help = examples!("dragtraffic score out.json", "dragtraffic score found/ --samples all --where 'min_ttc_s < 1.5 && collisions == 0' --csv close.csv"))]
+    Score(score::ScoreArgs),
     /// Print the OpenAPI document, or compare it with a file.
     #[command(after_help = examples!("dragtraffic openapi > assets/openapi.json", "dragtraffic openapi --check assets/openapi.json"))]
     Openapi(document::CheckArgs),
@@ -147,8 +86,14 @@ enum Command {
     #[command(after_help = examples!("dragtraffic domain > domain.json", "dragtraffic domain --check assets/domain.json"))]
     Domain(document::CheckArgs),
     /// Print version, weights, limits and formats as JSON.
-    #[command(after_help = examples!("dragtraffic info", "dragtraffic info --weights DIR"))]
-    Info,
+    #[command(after_help = examples!("dragtraffic info formats", "dragtraffic info weights --weights DIR"))]
+    Info(document::InfoArgs),
+    /// Print the completions of a shell.
+    #[command(after_help = examples!("dragtraffic completions bash > ~/.local/share/bash-completion/completions/dragtraffic", "dragtraffic completions fish > ~/.config/fish/completions/dragtraffic.fish"))]
+    Completions(shell::CompletionsArgs),
+    /// Print the manual page, or write one for each command.
+    #[command(after_help = examples!("dragtraffic man | man -l -", "dragtraffic man -o ~/.local/share/man/man1/"))]
+    Man(shell::ManArgs),
     /// Make training windows from procedural networks, driven through SUMO.
     #[command(after_help = examples!("dragtraffic synthesize --seed 0 --count 8 --per-seed 20 -o windows/", "dragtraffic synthesize --seed 900 --count 8 --sumo-home /opt/sumo -o held-out/"))]
     Synthesize(lab::SynthesizeArgs),
@@ -177,7 +122,7 @@ enum Command {
 
 /// Parses the command line and does what it says.
 pub fn run() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let cli = match parsed() {
         Ok(cli) => cli,
         Err(error) => {
             let code = if error.use_stderr() { Exit::Usage as u8 } else { 0 };
@@ -187,34 +132,13 @@ pub fn run() -> ExitCode {
         }
     };
     let common = cli.common;
-    log(&common);
+    common.log();
     // The server ends by itself, and training with a checkpoint.
     if !matches!(cli.command, None | Some(Command::Serve(_) | Command::Train(_))) {
         interrupt::watch();
     }
-    let done = match cli.command {
-        None => serve::run(cli.serve, &common),
-        Some(Command::Serve(args)) => serve::run(args, &common),
-        Some(Command::Generate(args)) => generate::run(args, &common),
-        Some(Command::Place(args)) => place::run(args, &common),
-        Some(Command::Import(args)) => files::convert(args, true),
-        Some(Command::Convert(args)) => files::convert(args, false),
-        Some(Command::Export(args)) => files::export(args),
-        Some(Command::Score(args)) => files::score(args),
-        Some(Command::Openapi(args)) => document::openapi(args),
-        Some(Command::Schema(args)) => document::schema(args),
-        Some(Command::Domain(args)) => document::domain(args),
-        Some(Command::Info) => document::info(&common),
-        Some(Command::Synthesize(args)) => lab::synthesize(args, &common),
-        Some(Command::Statistics(args)) => lab::statistics(args),
-        Some(Command::Prepare(args)) => lab::prepare(args, &common),
-        Some(Command::Train(args)) => lab::train(args, &common),
-        Some(Command::TrainPlacement(args)) => lab::train_placement(args, &common),
-        Some(Command::EvalPlace(args)) => lab::eval_place(args, &common),
-        Some(Command::Eval(args)) => lab::eval(args, &common),
-        Some(Command::Bench(args)) => lab::bench(args, &common),
-    };
-    match done {
+    let command = cli.command.unwrap_or(Command::Serve(cli.serve));
+    match command.run(&common) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             if !failure.message.is_empty() {
@@ -225,43 +149,53 @@ pub fn run() -> ExitCode {
     }
 }
 
-fn log(common: &Common) {
-    let level = if common.quiet { "error" } else { common.log_level.as_str() };
-    let filter = tracing_subscriber::EnvFilter::try_new(level)
-        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("info"));
-    let terminal = std::io::stderr().is_terminal();
-    let builder = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr);
-    let json = match common.log_format {
-        Some(format) => format == LogFormat::Json,
-        None => false,
-    };
-    let done = if json {
-        builder.json().try_init()
-    } else {
-        let colour = terminal && std::env::var_os("NO_COLOR").is_none();
-        builder.with_ansi(colour).with_target(false).try_init()
-    };
-    // A second subscriber is refused; the first one logs.
-    let _ = done;
+fn parsed() -> Result<Cli, clap::Error> {
+    let matches = Cli::command().try_get_matches()?;
+    if let Some((name, _)) = matches.subcommand() {
+        stray(&matches, name)?;
+    }
+    Cli::from_arg_matches(&matches)
 }
 
-/// Generator and placer, from a folder or from inside the program.
-///
-/// # Errors
-/// Exit 7.
-pub fn engine(common: &Common) -> Result<experts::Engine, Failure> {
-    let loaded = match &common.weights {
-        Some(folder) => experts::Engine::from_dir(folder),
-        None => experts::Engine::built_in(),
-    };
-    let engine = loaded.map_err(|error| Failure::new(Exit::Weights, format!("{error:#}")))?;
-    Ok(experts::Engine { generator: engine.generator.with_clock(clock::monotonic), ..engine })
+/// Flags of the server alone stand before another command: they would do nothing there.
+fn stray(matches: &ArgMatches, command: &str) -> Result<(), clap::Error> {
+    let server = serve::ServeArgs::augment_args(clap::Command::new("serve"));
+    for flag in server.get_arguments() {
+        if matches.value_source(flag.get_id().as_str()) == Some(ValueSource::CommandLine) {
+            let name = flag.get_long().unwrap_or_default();
+            let message = if command == "serve" {
+                format!("--{name} belongs behind the command: dragtraffic serve --{name}")
+            } else {
+                format!("--{name} is a flag of serve and means nothing to {command}")
+            };
+            return Err(Cli::command().error(ErrorKind::ArgumentConflict, message));
+        }
+    }
+    Ok(())
 }
 
-/// The generator alone.
-///
-/// # Errors
-/// Exit 7.
-pub fn generator(common: &Common) -> Result<experts::Generator, Failure> {
-    Ok(engine(common)?.generator)
+impl Command {
+    fn run(self, common: &Common) -> Result<(), Failure> {
+        match self {
+            Self::Serve(args) => serve::run(args, common),
+            Self::Generate(args) => generate::run(*args, common),
+            Self::Place(args) => place::run(args, common),
+            Self::Convert(args) => convert::convert(args, common),
+            Self::Score(args) => score::score(args, common),
+            Self::Openapi(args) => document::openapi(args),
+            Self::Schema(args) => document::schema(args),
+            Self::Domain(args) => document::domain(args),
+            Self::Info(args) => document::info(args, common),
+            Self::Completions(args) => shell::completions(args),
+            Self::Man(args) => shell::man(args),
+            Self::Synthesize(args) => lab::synthesize(args, common),
+            Self::Statistics(args) => lab::statistics(args),
+            Self::Prepare(args) => lab::prepare(args, common),
+            Self::Train(args) => lab::train(args, common),
+            Self::TrainPlacement(args) => lab::train_placement(args, common),
+            Self::EvalPlace(args) => lab::eval_place(args, common),
+            Self::Eval(args) => lab::eval(args, common),
+            Self::Bench(args) => lab::bench(args, common),
+        }
+    }
 }

@@ -2,8 +2,10 @@
 
 use super::{Exit, Failure};
 use formats::files;
+use std::collections::HashSet;
 use std::io::{ErrorKind, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// One line on stderr.
 pub fn complain(message: &str) {
@@ -60,5 +62,54 @@ pub fn write(path: Option<&Path>, bytes: &[u8], force: bool) -> Result<(), Failu
         // A reader of a pipe that has closed its end is no failure.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result.map_err(|error| Failure::new(Exit::Failure, format!("{}: {error}", path.display()))),
+    }
+}
+
+/// A folder that results go to, each under a name of its own.
+pub struct Folder {
+    path: PathBuf,
+    force: bool,
+    taken: Mutex<HashSet<String>>,
+}
+
+impl Folder {
+    /// The folder that `-o` names, where it names one: it is there, or it ends with a slash.
+    pub fn named(path: &Path) -> bool {
+        path.is_dir() || path.to_string_lossy().ends_with('/')
+    }
+
+    /// A folder, made when the first file is written.
+    ///
+    /// # Errors
+    /// Exit 2 when a file is there.
+    pub fn new(path: &Path, force: bool) -> Result<Self, Failure> {
+        if path.exists() && !path.is_dir() {
+            let message =
+                format!("--output {}: a folder expected for many scenes, this is a file", path.display());
+            return Err(Failure::usage(message));
+        }
+        Ok(Self { path: path.to_path_buf(), force, taken: Mutex::default() })
+    }
+
+    /// Where a file of this name goes.
+    pub fn at(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a file under a name that no other result of this call has.
+    ///
+    /// # Errors
+    /// Exit 8 when it exists, 1 when it cannot be written or two results have one name.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
+        let path = self.at(name);
+        let new = self.taken.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
+        if !new {
+            return Err(Failure::new(
+                Exit::Failure,
+                format!("{}: two scenes have this name", path.display()),
+            ));
+        }
+        write(Some(&path), bytes, self.force)?;
+        Ok(path)
     }
 }

@@ -1,84 +1,139 @@
 //! `dragtraffic place`: the same work as `POST /v1/place`, from file to file.
 
-use super::files::read_scene;
-use super::{Common, Exit, Failure, output};
+use super::inputs::{Inputs, Item, Reading, Source, no_ids, refused};
+use super::output::{self, Folder};
+use super::progress::Progress;
+use super::tally::Tally;
+use super::values::{For, for_one, index, share, within};
+use super::{Common, Failure, parallel};
 use crate::routes::place::PlaceBody;
 use clap::Args;
-use experts::Cancel;
-use formats::native::{self, MapForm, SceneDoc};
-use scene::Scene;
+use experts::placement::{MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM};
+use experts::{Cancel, Placer};
+use formats::native::{self, MAX_SAFE_INTEGER, MapForm, SceneDoc};
 use serde_json::{Map, Value, json};
 use std::collections::HashSet;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Flags of `place`.
 #[derive(Args, Clone, Debug)]
 pub struct PlaceArgs {
-    /// Scene to read, of any format; - is stdin.
-    scene: PathBuf,
-    /// Road users for each kilometre of lane.
-    #[arg(long, conflicts_with = "count", value_name = "PER_KM")]
+    #[command(flatten)]
+    inputs: Inputs,
+    /// Scenes to take of each file: one number, or FIRST..LAST. The first when the output is one file, else all.
+    #[arg(long, value_name = "WHICH", value_parser = index)]
+    index: Option<Range<usize>>,
+    /// Road users for each kilometre of lane; 12 when neither this nor --count is given.
+    #[arg(long, conflicts_with = "count", value_name = "PER_KM", value_parser = within(0.0, MAX_PER_LANE_KM, "for a kilometre"))]
     density: Option<f64>,
     /// Road users in all.
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=MAX_COUNT as u64))]
     count: Option<u64>,
-    /// Share of each type, such as vehicle=0.8,pedestrian=0.15,cyclist=0.05.
-    #[arg(long, value_delimiter = ',', value_name = "TYPE=SHARE")]
-    types: Vec<String>,
+    /// Share of each type, such as vehicle=0.8,pedestrian=0.15,cyclist=0.05; as learned when absent.
+    #[arg(long, value_delimiter = ',', value_name = "TYPE=SHARE", value_parser = for_one(share))]
+    types: Vec<For<f64>>,
     /// GeoJSON polygon in metres of the scene; the whole map when absent.
     #[arg(long, value_name = "FILE")]
     region: Option<PathBuf>,
     /// Scene time at which they start, seconds.
-    #[arg(long, default_value_t = 0.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = within(0.0, 59.9, "seconds"))]
     at: f64,
     /// The same seed gives the same answer.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER))]
     seed: u64,
-    /// Road users of the scene that stay, with commas; without ids nobody, without the flag all.
-    #[arg(long, value_delimiter = ',', num_args = 0.., value_name = "ID")]
+    /// Road users of the scene that stay (--keep=6,7); nobody for --keep alone, all without the flag.
+    #[arg(long, value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "", value_name = "ID")]
     keep: Option<Vec<String>>,
     /// Least room along the lane between those who drive, metres.
-    #[arg(long, default_value_t = 2.0, value_name = "METRES")]
+    #[arg(long, default_value_t = 2.0, value_name = "METRES", value_parser = within(0.0, MAX_GAP_M, "metres"))]
     min_gap: f64,
-    /// File to write the scene with its new road users to; - or absent is stdout.
-    #[arg(short, long)]
+    /// File to write the scene with its new road users to, or folder for a file a scene; - or absent is stdout.
+    #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
     /// Overwrite the output.
     #[arg(long)]
     force: bool,
 }
 
-/// Places road users and writes the scene with them.
+/// Places road users and writes the scenes with them.
 ///
 /// # Errors
-/// Exit 2, 3, 7, 8.
+/// Exit 2, 3, 4, 7, 8.
 pub fn run(args: PlaceArgs, common: &Common) -> Result<(), Failure> {
-    let mut scene = read_scene(&args.scene)?;
-    let body: PlaceBody = serde_json::from_value(body(&args)?)
-        .map_err(|error| Failure::new(Exit::Usage, format!("options: {error}")))?;
-    let placer = super::engine(common)?.placer;
-    let shared = Arc::new(scene.clone());
-    let placement = body
-        .run(&shared, &placer, &Cancel::default())
-        .map_err(|problem| super::files::refused(&args.scene, &problem))?;
-    if let Some(reason) = &placement.reason {
-        let unplaced: usize = placement.unplaced.values().sum();
-        output::complain(&format!("{unplaced} not placed: {reason}"));
+    let sources = args.inputs.sources()?;
+    if args.keep.is_some() {
+        no_ids(&sources, "--keep")?;
     }
-    if let Some(keep) = &args.keep {
-        let keep: HashSet<&String> = keep.iter().collect();
-        scene.agents.retain(|agent| keep.contains(&agent.id));
-    }
-    scene.agents.extend(placement.agents);
-    // Futures of a scene with other road users in it mean nothing.
-    scene.generated = None;
-    write(&scene, &args)
+    let body: PlaceBody =
+        serde_json::from_value(body(&args)?).map_err(|error| Failure::usage(format!("options: {error}")))?;
+    let placer = common.engine()?.placer;
+    let work = Work { args: &args, body: &body, placer: &placer };
+    let reading = Reading { index: args.index.clone(), ..Reading::default() };
+    let folder = args.output.as_deref().filter(|path| Folder::named(path));
+    let Some(path) = folder else {
+        let [source] = sources.as_slice() else {
+            return Err(Failure::usage("many scenes: --output FOLDER/ says where they go, a file each"));
+        };
+        let (bytes, told) = work.place(source, source.first(&reading)?)?;
+        if !common.quiet {
+            told.iter().for_each(|line| output::complain(line));
+        }
+        return output::write(args.output.as_deref(), &bytes, args.force);
+    };
+    let folder = Folder::new(path, args.force)?;
+    let progress = Progress::new("files", sources.len() as u64, common.quiet);
+    let mut tally = Tally::default();
+    let one = |source: &Source| {
+        let mut lines = Vec::new();
+        source.each(&reading, &mut |item| {
+            let name = format!("{}.json", item.name);
+            let (bytes, told) = work.place(source, item)?;
+            let path = folder.write(&name, &bytes)?;
+            lines.push(format!("{}: {}", path.display(), told.join("; ")));
+            Ok(())
+        })?;
+        Ok(lines)
+    };
+    parallel::in_order(&sources, args.inputs.workers(), one, |_, done: Result<Vec<String>, Failure>| {
+        let done = done.map(|lines| lines.iter().for_each(|line| progress.line(line)));
+        tally.add(done, sources.len() == 1, &progress);
+        progress.step();
+    });
+    drop(progress);
+    tally.end("files")
 }
 
-fn write(scene: &Scene, args: &PlaceArgs) -> Result<(), Failure> {
-    let bytes = native::write_doc(&SceneDoc::from_scene(scene, MapForm::Inline));
-    output::write(args.output.as_deref(), &bytes, args.force)
+struct Work<'a> {
+    args: &'a PlaceArgs,
+    body: &'a PlaceBody,
+    placer: &'a Placer,
+}
+
+impl Work<'_> {
+    /// The scene with its new road users as a file, and how many they are.
+    fn place(&self, source: &Source, item: Item) -> Result<(Vec<u8>, Vec<String>), Failure> {
+        let mut scene = item.scene;
+        let shared = Arc::new(scene.clone());
+        let placement = self
+            .body
+            .run(&shared, self.placer, &Cancel::default())
+            .map_err(|problem| refused(&source.path, &problem))?;
+        let mut told = vec![format!("{} placed", placement.agents.len())];
+        if let Some(reason) = &placement.reason {
+            let unplaced: usize = placement.unplaced.values().sum();
+            told.push(format!("{unplaced} not placed: {reason}"));
+        }
+        if let Some(keep) = &self.args.keep {
+            let keep: HashSet<&String> = keep.iter().collect();
+            scene.agents.retain(|agent| keep.contains(&agent.id));
+        }
+        scene.agents.extend(placement.agents);
+        // Futures of a scene with other road users in it mean nothing.
+        scene.generated = None;
+        Ok((native::write_doc(&SceneDoc::from_scene(&scene, MapForm::Inline)), told))
+    }
 }
 
 /// The body of `POST /v1/place` that says the same.
@@ -96,13 +151,8 @@ fn body(args: &PlaceArgs) -> Result<Value, Failure> {
         body.insert("density".into(), json!({ "per_lane_km": density }));
     }
     if !args.types.is_empty() {
-        let mut types = Map::new();
-        for text in &args.types {
-            let wrong = || Failure::new(Exit::Usage, format!("--types {text}: TYPE=SHARE expected"));
-            let (name, share) = text.split_once('=').ok_or_else(wrong)?;
-            let share: f64 = share.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(wrong)?;
-            types.insert(name.trim().to_owned(), json!(share));
-        }
+        let types: Map<String, Value> =
+            args.types.iter().map(|given| (given.id.clone(), json!(given.value))).collect();
         body.insert("types".into(), Value::Object(types));
     }
     if let Some(path) = &args.region {
@@ -117,7 +167,7 @@ fn body(args: &PlaceArgs) -> Result<Value, Failure> {
 fn not_a_polygon(path: &Path) -> Failure {
     let message =
         format!("{}: a GeoJSON Polygon without holes expected, in metres of the scene", path.display());
-    Failure::new(Exit::Input, message)
+    Failure::input(message)
 }
 
 /// Open outer ring of a Polygon, of a Feature that is one, or of a collection of one such feature.

@@ -89,7 +89,7 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let db = args.db.clone().map_or_else(default_db, Ok)?;
     let store = Store::open(&db, &limits)
         .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error:#}", db.display())))?;
-    let experts::Engine { generator, placer } = super::engine(common)?;
+    let experts::Engine { generator, placer } = common.engine()?;
     let generator = Arc::new(generator);
     let handle = metrics::install().map_err(|reason| Failure::new(Exit::Failure, reason))?;
     metrics::identity(generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())));

@@ -58,9 +58,16 @@ pub fn table() -> Vec<formats::format::Info> {
     FORMATS.iter().map(|format| format.info()).collect()
 }
 
-/// `scene` is another word for the native format.
-fn known(name: &str) -> &str {
-    if name == "scene" { "dragtraffic" } else { name }
+/// The id of a format by another word that people have for it.
+pub fn known(name: &str) -> &str {
+    match name {
+        "scene" | "json" | "native" => "dragtraffic",
+        "waymo" | "tfrecord" => "womd",
+        "fcd" => "sumo-fcd",
+        "net" => "sumo-net",
+        "table" => "csv",
+        name => name,
+    }
 }
 
 /// Reads a file; the format is recognised from its content when `format` is `None`. `skip` scenes
@@ -106,6 +113,21 @@ pub fn read(
 /// # Errors
 /// `format-unknown`, `cannot-represent`, or `out-of-range` for a sample that is not there.
 pub fn write(scene: &Scene, format: &str, sample: Option<usize>, motion: Motion) -> Result<Written, Problem> {
+    write_part(scene, format, sample, motion, None, false)
+}
+
+/// As [`write`], for a file of several scenes: what the scene is called there, and whether others come before it.
+///
+/// # Errors
+/// Those of [`write`].
+pub fn write_part(
+    scene: &Scene,
+    format: &str,
+    sample: Option<usize>,
+    motion: Motion,
+    label: Option<String>,
+    continued: bool,
+) -> Result<Written, Problem> {
     let found = registry::by_id(known(format)).ok_or_else(|| {
         let shown: String = format.chars().take(40).collect();
         let detail = format!("No format is named \"{shown}\"; there are {}.", names().join(", "));
@@ -127,8 +149,9 @@ pub fn write(scene: &Scene, format: &str, sample: Option<usize>, motion: Motion)
         Motion::Chosen => ExportedMotion::Chosen,
         Motion::Log => ExportedMotion::Log,
     };
+    let options = ExportOptions { motion, gzip: false, sample, label, continued };
     let exported = found
-        .export(&[copy.as_ref().unwrap_or(scene)], &ExportOptions { motion, gzip: false })
+        .export(&[copy.as_ref().unwrap_or(scene)], &options)
         .map_err(|error| Problem::new(Code::CannotRepresent, error.to_string()))?;
     let info = found.info();
     Ok(Written {

@@ -1325,10 +1325,7 @@ export interface components {
              * @default 0
              */
             chosen_sample?: number;
-            /**
-             * @description RFC 3339 time.
-             * @default
-             */
+            /** @description RFC 3339 time; absent where equal calls are to give equal files. */
             created_at?: string;
             /** @description Hash of the user's part that these futures answer. */
             input_sha256: string;

@@ -92,8 +92,8 @@ pub struct GeneratedDoc {
     /// Licence of the answer where it is stricter than the scene's own: that of the weights.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub licence: Option<String>,
-    /// RFC 3339 time.
-    #[serde(default)]
+    /// RFC 3339 time; absent where equal calls are to give equal files.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub created_at: String,
     /// Index into `samples`.
     #[serde(default)]

@@ -27,7 +27,9 @@ impl Format for Womd {
         if super::looks_like(head) {
             return 2;
         }
-        u8::from(name.to_ascii_lowercase().contains("tfrecord"))
+        // Other tools name what they made of records after them.
+        let json = matches!(head.iter().find(|byte| !byte.is_ascii_whitespace()), Some(b'{' | b'['));
+        u8::from(!json && name.to_ascii_lowercase().contains("tfrecord"))
     }
 
     fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {

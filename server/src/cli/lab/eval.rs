@@ -1,7 +1,8 @@
 //! `dragtraffic eval` and `bench`.
 
 use super::{SceneArgs, failed, http_bench, print_json, scenes};
-use crate::cli::{Common, Exit, Failure, generator, output};
+use crate::cli::progress::Progress;
+use crate::cli::{Common, Exit, Failure, output};
 use clap::Args;
 use experts::Tuning;
 use lab_eval::{EvalReport, Judged, TABLES, TABLES_FILE, Table};
@@ -100,14 +101,14 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
     // Scenes are judged side by side, each on one thread.
     let one =
         |name: String, generator: experts::Generator| Judged { name, generator: generator.with_threads(1) };
-    let mut judged = vec![one(args.name.clone(), generator(common)?)];
+    let mut judged = vec![one(args.name.clone(), common.generator()?)];
     for (what, tuning) in args.ablate {
-        let changed = generator(common)?.with_tuning(tuning);
+        let changed = common.generator()?.with_tuning(tuning);
         judged.push(one(format!("{}, {what}", args.name), changed));
     }
     for (name, folder) in args.also {
         let common = Common { weights: Some(folder), ..common.clone() };
-        judged.push(one(name, generator(&common)?));
+        judged.push(one(name, common.generator()?));
     }
     let baselines: Result<Vec<Baseline>, Failure> = args
         .baseline
@@ -124,15 +125,15 @@ pub fn eval(args: EvalArgs, common: &Common) -> Result<(), Failure> {
         replan_steps: args.replan,
         crop: if args.paper_crop { Crop::PAPER } else { Crop::default() },
     };
-    let quiet = common.quiet;
-    let progress = |line: &str| {
-        if !quiet {
-            output::complain(line);
-        }
-    };
+    let bar = Progress::new("tables", options.tables.len() as u64, common.quiet);
+    let progress = |line: &str| bar.line(line);
     // What is done stays when the run is stopped.
-    let made = |report: &EvalReport| args.output.as_ref().map_or(Ok(()), |folder| report.write(folder));
+    let made = |report: &EvalReport| {
+        bar.step();
+        args.output.as_ref().map_or(Ok(()), |folder| report.write(folder))
+    };
     let report = lab_eval::run(judged, &baselines, &scenes, &options, &progress, &made).map_err(failed)?;
+    drop(bar);
     let cost: String = report.cost.iter().map(|sheet| sheet.markdown()).collect();
     output::print(format!("{}{cost}", report.markdown()).as_bytes())
 }
@@ -148,7 +149,7 @@ pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
     }
     let mut rows = Vec::new();
     for threads in [1, 2] {
-        let generator = generator(common)?.with_threads(threads);
+        let generator = common.generator()?.with_threads(threads);
         generator.warm_up();
         rows.extend(lab_eval::cost::latency(&generator, threads, &scenes).map_err(failed)?);
     }

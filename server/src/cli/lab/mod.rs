@@ -15,6 +15,7 @@ pub use statistics::{StatisticsArgs, statistics};
 pub use synthesize::{SynthesizeArgs, synthesize};
 pub use train::{TrainArgs, train};
 
+use super::inputs::patterns;
 use super::{Exit, Failure, output};
 use clap::Args;
 use std::path::PathBuf;
@@ -22,7 +23,7 @@ use std::path::PathBuf;
 /// Scenes to look at.
 #[derive(Args, Clone, Debug)]
 struct SceneArgs {
-    /// Files or folders of scenes in any format.
+    /// Files, folders or patterns of scenes in any format.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
     /// Most files, in the order of their names.
@@ -34,7 +35,7 @@ struct SceneArgs {
 /// Exit 3 when no file holds a scene.
 fn scenes(args: &SceneArgs) -> Result<Vec<scene::Scene>, Failure> {
     let unreadable = |error: anyhow::Error| Failure::new(Exit::Input, format!("{error:#}"));
-    let files = lab_train::scenes::scene_files(&args.inputs).map_err(unreadable)?;
+    let files = lab_train::scenes::scene_files(&patterns(&args.inputs)?).map_err(unreadable)?;
     let read = files.iter().take(args.scenes).map(|file| lab_train::scenes::read_scenes(file));
     let scenes: Vec<scene::Scene> = read.filter_map(Result::ok).flatten().collect();
     if scenes.is_empty() {

@@ -1,14 +1,16 @@
 //! `dragtraffic train-placement` and `eval-place`.
 
 use super::{SceneArgs, failed, print_json, scenes};
-use crate::cli::{Common, Failure, engine, output};
+use crate::cli::inputs::patterns;
+use crate::cli::progress::Progress;
+use crate::cli::{Common, Failure, output};
 use clap::Args;
 use std::path::PathBuf;
 
 /// Flags of `train-placement`.
 #[derive(Args, Clone, Debug)]
 pub struct TrainPlacementArgs {
-    /// Files or folders of scenes in any format.
+    /// Files, folders or patterns of scenes in any format.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
     /// Weights file to write.
@@ -44,13 +46,16 @@ pub struct EvalPlaceArgs {
 /// Exit 1 when nothing can be read, 8 when the output exists.
 pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), Failure> {
     output::keep(&args.output, args.force)?;
-    let options = lab_train::placement::PlacementOptions { inputs: args.inputs, trained_on: args.trained_on };
-    let progress = |summary: &lab_train::placement::PlacementSummary| {
-        if !common.quiet {
-            output::complain(&format!("{} files, {} scenes", summary.files, summary.scenes));
-        }
+    let options = lab_train::placement::PlacementOptions {
+        inputs: patterns(&args.inputs)?,
+        trained_on: args.trained_on,
     };
+    // What cannot be listed is told by the work itself.
+    let files = lab_train::scenes::scene_files(&options.inputs).map_or(0, |files| files.len());
+    let bar = Progress::new("files", files as u64, common.quiet);
+    let progress = |summary: &lab_train::placement::PlacementSummary| bar.reach(summary.files as u64);
     let (model, summary) = lab_train::placement::run(&options, progress).map_err(failed)?;
+    drop(bar);
     let bytes = model.save().map_err(failed)?;
     output::write(Some(&args.output), &bytes, args.force)?;
     print_json(&summary)
@@ -62,7 +67,7 @@ pub fn train_placement(args: TrainPlacementArgs, common: &Common) -> Result<(), 
 /// Exit 3 when nothing can be read, 7 without weights.
 pub fn eval_place(args: EvalPlaceArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
-    let placer = engine(common)?.placer;
+    let placer = common.engine()?.placer;
     let options = lab_eval::placement::EvalPlaceOptions { radius_m: args.radius, seeds: args.seeds };
     let report = lab_eval::placement::eval(&placer, &scenes, options).map_err(failed)?;
     if args.json {

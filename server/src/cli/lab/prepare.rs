@@ -1,6 +1,8 @@
 //! `dragtraffic prepare`.
 
 use super::{failed, print_json};
+use crate::cli::inputs::patterns;
+use crate::cli::progress::Progress;
 use crate::cli::{Common, Failure, output};
 use clap::Args;
 use lab_train::scenes::Crop;
@@ -10,7 +12,7 @@ use std::path::PathBuf;
 /// Flags of `prepare`.
 #[derive(Args, Clone, Debug)]
 pub struct PrepareArgs {
-    /// Files or folders of scenes in any format.
+    /// Files, folders or patterns of scenes in any format.
     #[arg(required = true)]
     inputs: Vec<PathBuf>,
     /// File of records to write.
@@ -60,7 +62,7 @@ fn metres(text: &str) -> Result<f64, String> {
 pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
     output::keep(&args.output, args.force)?;
     let options = lab_train::prepare::PrepareOptions {
-        inputs: args.inputs,
+        inputs: patterns(&args.inputs)?,
         out: args.output,
         agent_type: args.expert,
         seed: args.seed,
@@ -70,14 +72,11 @@ pub fn prepare(args: PrepareArgs, common: &Common) -> Result<(), Failure> {
         crop: Crop { side_m: args.crop, least_agents: args.least_agents },
         mirror: args.mirror,
     };
-    let progress = |report: &lab_train::prepare::PrepareReport| {
-        if !common.quiet {
-            output::complain(&format!(
-                "{} files, {} scenes, {} records",
-                report.files, report.scenes, report.records
-            ));
-        }
-    };
+    // What cannot be listed is told by the work itself.
+    let files = lab_train::scenes::scene_files(&options.inputs).map_or(0, |files| files.len());
+    let bar = Progress::new("files", files as u64, common.quiet);
+    let progress = |report: &lab_train::prepare::PrepareReport| bar.reach(report.files as u64);
     let report = lab_train::prepare::run(&options, progress).map_err(failed)?;
+    drop(bar);
     print_json(&report)
 }

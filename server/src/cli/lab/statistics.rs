@@ -1,6 +1,7 @@
 //! `dragtraffic statistics`.
 
 use super::print_json;
+use crate::cli::inputs::patterns;
 use crate::cli::{Exit, Failure, output};
 use clap::Args;
 use std::path::PathBuf;
@@ -29,7 +30,7 @@ pub fn statistics(args: StatisticsArgs) -> Result<(), Failure> {
     for set in &args.sets {
         let (name, path) =
             set.split_once('=').ok_or_else(|| unreadable(format!("{set}: expected NAME=PATH")))?;
-        let files = lab_train::scenes::scene_files(&[PathBuf::from(path)])
+        let files = lab_train::scenes::scene_files(&patterns(&[PathBuf::from(path)])?)
             .map_err(|e| unreadable(format!("{e:#}")))?;
         let every = files.len().div_ceil(args.most.max(1)).max(1);
         let mut statistics = lab_synthesize::statistics::Statistics::default();

@@ -1,6 +1,7 @@
 //! `dragtraffic synthesize`.
 
 use super::failed;
+use crate::cli::progress::Progress;
 use crate::cli::{Common, Exit, Failure, output};
 use clap::Args;
 use lab_synthesize::{SynthesizeOptions, Template};
@@ -45,15 +46,15 @@ pub fn synthesize(args: SynthesizeArgs, common: &Common) -> Result<(), Failure> 
         per_seed: args.per_seed,
         template: args.template,
     };
-    let quiet = common.quiet;
+    let bar = Progress::new("seeds", args.count, common.quiet);
     let report = lab_synthesize::run(&options, &|progress| {
-        if !quiet {
-            let (done, all) = progress.finished;
-            let windows = progress.windows.map_or("there already".into(), |n| format!("{n} windows"));
-            output::complain(&format!("seed {}: {windows} ({done} of {all})", progress.seed));
-        }
+        let (done, all) = progress.finished;
+        let windows = progress.windows.map_or("there already".into(), |n| format!("{n} windows"));
+        bar.line(&format!("seed {}: {windows} ({done} of {all})", progress.seed));
+        bar.reach(done);
     })
     .map_err(failed)?;
+    drop(bar);
     let [vehicles, pedestrians, cyclists] = report.agents;
     let line = serde_json::json!({
         "written": report.written, "skipped": report.skipped, "windows": report.windows,

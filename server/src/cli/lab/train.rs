@@ -1,6 +1,7 @@
 //! `dragtraffic train`.
 
 use super::failed;
+use crate::cli::progress::Progress;
 use crate::cli::{Common, Exit, Failure, interrupt, output};
 use clap::{Args, ValueEnum};
 use experts::Refining;
@@ -92,10 +93,13 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
     let stop = interrupt::gently();
     let stage = args.stage.unwrap_or(Stage::Initializer);
     let (records, output) = (args.records.clone(), args.output.clone());
-    let quiet = common.quiet;
+    let progress = Progress::new("steps", args.steps, common.quiet);
     let mut report = |line: &training::TrainProgress| {
-        if !quiet {
-            output::complain(&line.to_string());
+        progress.line(&line.to_string());
+        match line {
+            training::TrainProgress::Begin { step, .. } => progress.begin(*step),
+            training::TrainProgress::Training { step, .. } => progress.reach(*step),
+            training::TrainProgress::Validation { .. } => {}
         }
     };
     let expert = args.expert.map(word);

@@ -1,0 +1,57 @@
+//! Somebody who is followed brakes to a stand.
+
+use super::stage::Stage;
+use super::{Plan, Role, on_step};
+use crate::random::Stream;
+
+/// Both drive at least so fast, m/s.
+const LEAST_SPEED_MPS: f64 = 4.0;
+/// Farthest follower, metres.
+const FARTHEST_M: f64 = 50.0;
+/// Farthest follower, seconds of its own driving.
+const FARTHEST_S: f64 = 4.0;
+/// Braking that is drawn, m/s2: from firm to what a car can do on a dry road.
+const BRAKING_MPS2: (f64, f64) = (3.5, 7.5);
+/// Time until the braking begins, seconds.
+const BEGINS_S: (f64, f64) = (0.2, 1.5);
+
+/// Each driver and who follows it closest in time.
+pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
+    let drivers = &stage.drivers;
+    let role = |follower: usize| {
+        let speed = drivers[follower].speed_mps();
+        let (leader, gap_m) = stage.leader(follower)?;
+        let fast = speed.min(drivers[leader].speed_mps()) >= LEAST_SPEED_MPS;
+        let gap_s = gap_m / speed.max(0.1);
+        let close = gap_m > 0.0 && gap_m <= FARTHEST_M && gap_s <= FARTHEST_S;
+        (fast && close).then_some(Role {
+            actor: leader,
+            other: Some(follower),
+            misfit: gap_s,
+            at_m: gap_m,
+            at_s: 0.0,
+        })
+    };
+    (0..drivers.len()).filter_map(role).collect()
+}
+
+/// Where it stands after braking evenly.
+pub(super) fn plan(stage: &Stage<'_>, role: &Role, draw: &mut Stream) -> Option<Plan> {
+    let driver = &stage.drivers[role.actor];
+    let follower = &stage.drivers[role.other?];
+    let braking = draw.between(BRAKING_MPS2.0, BRAKING_MPS2.1);
+    let begins_s = draw.between(BEGINS_S.0, BEGINS_S.1);
+    let speed = driver.speed_mps();
+    let after_s = on_step(begins_s + speed / braking);
+    // The time is that of a step, so the distance is what belongs to it.
+    let distance_m = speed * begins_s + 0.5 * speed * (after_s - begins_s);
+    let words = format!(
+        "{} drives at {speed:.1} m/s and brakes at {braking:.1} m/s2 to a stand after {after_s:.1} s and \
+         {distance_m:.0} m; {} is {:.0} m behind at {:.1} m/s",
+        driver.agent.id,
+        follower.agent.id,
+        role.at_m,
+        follower.speed_mps(),
+    );
+    Some(Plan { pose: driver.pose_ahead(distance_m)?, speed_mps: 0.0, after_s, words })
+}

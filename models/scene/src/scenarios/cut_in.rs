@@ -1,0 +1,74 @@
+//! Somebody in a neighbouring lane goes close ahead of another.
+
+use super::stage::Stage;
+use super::{Plan, Role, on_step};
+use crate::random::Stream;
+
+/// Both drive at least so fast, m/s.
+const LEAST_SPEED_MPS: f64 = 3.0;
+/// Distance across between neighbouring lanes, metres.
+const ACROSS_M: (f64, f64) = (2.2, 5.5);
+/// Directions of the two differ by less, radians.
+const ALIKE_RAD: f64 = 0.35;
+/// How far behind or ahead of the other it may begin, metres.
+const ALONG_M: (f64, f64) = (-15.0, 35.0);
+/// Gap behind it at the end, metres.
+const GAP_M: (f64, f64) = (1.5, 6.0);
+/// Time that it takes, seconds.
+const TAKES_S: (f64, f64) = (2.0, 4.5);
+/// Its speed at the end, as a share of the other's.
+const SPEED_SHARE: (f64, f64) = (0.7, 1.0);
+/// Its mean speed on the way: shares of the speed that it has, and what may come on top, m/s.
+const PACE: (f64, f64) = (0.5, 1.4);
+const PACE_MORE_MPS: f64 = 2.0;
+
+/// Pairs side by side, with no road edge between them and room ahead of the second.
+pub(super) fn roles(stage: &Stage<'_>) -> Vec<Role> {
+    let drivers = &stage.drivers;
+    let mut roles = Vec::new();
+    for (other, before) in drivers.iter().enumerate().filter(|(_, d)| d.speed_mps() >= LEAST_SPEED_MPS) {
+        let room_m = stage.leader(other).map_or(f64::INFINITY, |(_, gap_m)| gap_m);
+        for (actor, driver) in drivers.iter().enumerate() {
+            let place = before.place_of(driver.state.position(), driver.state.heading_rad);
+            let across = (ACROSS_M.0..=ACROSS_M.1).contains(&place.left_m.abs());
+            let along = (ALONG_M.0..=ALONG_M.1).contains(&place.ahead_m);
+            let fits = actor != other
+                && across
+                && along
+                && place.turn_rad.abs() < ALIKE_RAD
+                && driver.speed_mps() >= LEAST_SPEED_MPS
+                && room_m > driver.length_m() + 2.0 * GAP_M.1;
+            let Some(beside) = before.pose_ahead(place.ahead_m).filter(|_| fits) else { continue };
+            if !stage.graph.ground().crosses_an_edge(driver.state.position(), beside.position) {
+                // Best is one that has nothing to make up or to wait for.
+                let ideal_m = before.length_m() + 4.0 + 3.0 * (before.speed_mps() - driver.speed_mps());
+                let misfit = (place.ahead_m - ideal_m).abs();
+                roles.push(Role { actor, other: Some(other), misfit, at_m: place.ahead_m, at_s: 0.0 });
+            }
+        }
+    }
+    roles
+}
+
+/// The place in the other's lane, as far ahead of where that one is by then as the gap says.
+pub(super) fn plan(stage: &Stage<'_>, role: &Role, draw: &mut Stream) -> Option<Plan> {
+    let (driver, before) = (&stage.drivers[role.actor], &stage.drivers[role.other?]);
+    let after_s = on_step(draw.between(TAKES_S.0, TAKES_S.1));
+    let gap_m = draw.between(GAP_M.0, GAP_M.1);
+    let share = draw.between(SPEED_SHARE.0, SPEED_SHARE.1);
+    let other_m = before.advance_m(stage.start_step, after_s);
+    let goal_m = other_m + 0.5 * (driver.length_m() + before.length_m()) + gap_m;
+    let pace = (goal_m - role.at_m) / after_s;
+    let speed = driver.speed_mps();
+    let can = pace >= PACE.0 * speed && pace <= PACE.1 * speed + PACE_MORE_MPS;
+    let speed_mps = share * before.speed_mps();
+    let words = format!(
+        "{} leaves its lane and is {gap_m:.1} m ahead of {} after {after_s:.1} s, at {speed_mps:.1} m/s; {} drives at {:.1} m/s",
+        driver.agent.id,
+        before.agent.id,
+        before.agent.id,
+        before.speed_mps(),
+    );
+    let pose = before.pose_ahead(goal_m).filter(|_| can)?;
+    Some(Plan { pose, speed_mps, after_s, words })
+}

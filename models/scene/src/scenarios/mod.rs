@@ -1,0 +1,143 @@
+//! Situations that testing asks for: who in a scene can play them, and what that road user is to do. The same
+//! scene and seed give the same choice; another seed takes another road user, or other figures.
+
+mod brake;
+mod cut_in;
+mod late;
+mod stage;
+#[cfg(test)]
+mod tests;
+
+use crate::random::{Key, Stream};
+use crate::routes::{LaneGraph, Pose};
+use crate::{AgentId, Conditions, Goal, STEP_S, Scene};
+use stage::Stage;
+
+/// A situation that can be asked for by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Template {
+    /// Somebody who is followed brakes to a stand.
+    Brake,
+    /// Somebody in a neighbouring lane goes close ahead of another.
+    CutIn,
+    /// Somebody who would have to wait at a junction goes through it without stopping.
+    Late,
+}
+
+/// Who plays a situation, and what is asked of that road user.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Casting {
+    /// Who does it.
+    pub actor: AgentId,
+    /// Whom it concerns, where there is one.
+    pub other: Option<AgentId>,
+    /// The goal for the actor, beside what the scene has fixed about it.
+    pub conditions: Conditions,
+    /// One sentence.
+    pub words: String,
+}
+
+/// A motion to be asked for: where to be, how fast and when.
+struct Plan {
+    pose: Pose,
+    speed_mps: f64,
+    /// After the start, seconds.
+    after_s: f64,
+    words: String,
+}
+
+/// Draws of figures for one road user before the next is looked at.
+const DRAWS: usize = 6;
+/// Most pairs among which seeds choose, the most fitting first.
+const MOST_ROLES: usize = 8;
+/// Least time of a goal after the start, seconds.
+const SOONEST_S: f64 = 0.5;
+
+/// A pair that could play: who, whom it concerns, and how badly it fits (less is better).
+#[derive(Clone, Copy, Debug)]
+struct Role {
+    actor: usize,
+    other: Option<usize>,
+    misfit: f64,
+    /// Metres along the actor's way to where it happens; what that is, the template knows.
+    at_m: f64,
+    /// Seconds until the other one is there.
+    at_s: f64,
+}
+
+impl Template {
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Brake => "brake",
+            Self::CutIn => "cut-in",
+            Self::Late => "late",
+        }
+    }
+
+    /// Who plays it from a step of a scene on; `None` where no road user fits. `graph` is that of the scene's map.
+    pub fn cast(
+        self,
+        scene: &Scene,
+        graph: &LaneGraph,
+        start_step: usize,
+        horizon_s: f64,
+        seed: u64,
+    ) -> Option<Casting> {
+        let stage = Stage::new(scene, graph, start_step);
+        let (roles, plan): (Vec<Role>, Planner) = match self {
+            Self::Brake => (brake::roles(&stage), brake::plan),
+            Self::CutIn => (cut_in::roles(&stage), cut_in::plan),
+            Self::Late => (late::roles(&stage), late::plan),
+        };
+        let roles = fitting(roles);
+        // Other seeds begin with another road user; who cannot do it with any figures is passed over.
+        (0..roles.len()).find_map(|turn| {
+            let role = &roles[(seed as usize % roles.len() + turn) % roles.len()];
+            let driver = &stage.drivers[role.actor];
+            let mut draw = Key::default().words(&[self.name(), &driver.agent.id]).number(seed).stream();
+            let planned =
+                (0..DRAWS).find_map(|_| plan(&stage, role, &mut draw).filter(|p| p.fits(horizon_s)));
+            let planned = planned?;
+            let start_s = start_step as f64 * STEP_S;
+            let goal = Goal {
+                position: Some(planned.pose.position),
+                heading_rad: Some(crate::wrap_angle(planned.pose.heading_rad)),
+                speed_mps: Some(planned.speed_mps),
+                time_s: Some(start_s + planned.after_s),
+            };
+            Some(Casting {
+                actor: driver.agent.id.clone(),
+                other: role.other.map(|other| stage.drivers[other].agent.id.clone()),
+                conditions: Conditions { goal, ..driver.agent.conditions.clone() },
+                words: planned.words,
+            })
+        })
+    }
+}
+
+type Planner = fn(&Stage<'_>, &Role, &mut Stream) -> Option<Plan>;
+
+impl Plan {
+    fn fits(&self, horizon_s: f64) -> bool {
+        self.after_s >= SOONEST_S && self.after_s <= horizon_s
+    }
+}
+
+/// The most fitting pairs, one for each actor.
+fn fitting(mut roles: Vec<Role>) -> Vec<Role> {
+    roles.sort_by(|a, b| a.misfit.total_cmp(&b.misfit).then(a.actor.cmp(&b.actor)));
+    let mut kept: Vec<Role> = Vec::new();
+    for role in roles {
+        if kept.len() < MOST_ROLES && kept.iter().all(|known| known.actor != role.actor) {
+            kept.push(role);
+        }
+    }
+    kept
+}
+
+/// A time on a step, seconds.
+fn on_step(time_s: f64) -> f64 {
+    (time_s / STEP_S).round() / (1.0 / STEP_S).round()
+}

@@ -1,0 +1,134 @@
+//! A scene as the templates see it: who drives, and where each of them goes on.
+
+use crate::routes::{LaneGraph, Polyline, Pose, routes_ahead};
+use crate::{Agent, AgentType, Scene, Shown, State, Vec2, wrap_angle};
+
+/// A way reaches so far behind its road user, metres: who is beside or behind has a place on it too.
+pub(super) const BEHIND_M: f64 = 40.0;
+/// How far lanes are followed past the end of a motion that is known, metres.
+const BEYOND_M: f64 = 120.0;
+/// Who gets no farther than this has no way of its own: the lanes say where it would go, metres.
+const LEAST_MOTION_M: f64 = 2.0;
+/// Places of a way are at least this far apart, metres.
+const APART_M: f64 = 0.5;
+/// Directions nearer than this are the same, radians.
+const SAME_WAY_RAD: f64 = 0.5;
+
+/// A vehicle that is there at the start.
+pub(super) struct Driver<'a> {
+    pub(super) agent: &'a Agent,
+    pub(super) shown: Shown<'a>,
+    pub(super) state: State,
+    /// Where it goes, as known and then along lanes. It begins [`BEHIND_M`] behind the road user.
+    pub(super) way: Polyline,
+}
+
+/// Where another is on somebody's way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Ahead of the way's owner, metres; negative behind it.
+    pub(super) ahead_m: f64,
+    /// To the left of the way, metres.
+    pub(super) left_m: f64,
+    /// Its direction less the way's, wrapped, radians.
+    pub(super) turn_rad: f64,
+}
+
+impl Place {
+    pub(super) fn same_way(&self) -> bool {
+        self.turn_rad.abs() < SAME_WAY_RAD
+    }
+}
+
+impl Driver<'_> {
+    pub(super) fn speed_mps(&self) -> f64 {
+        self.state.speed_mps()
+    }
+
+    pub(super) fn length_m(&self) -> f64 {
+        self.shown.size.length_m
+    }
+
+    /// The pose so many metres on; `None` past the end of what is known.
+    pub(super) fn pose_ahead(&self, metres: f64) -> Option<Pose> {
+        let s = BEHIND_M + metres;
+        (s >= 0.0 && s <= self.way.length_m()).then(|| self.way.sample(s))
+    }
+
+    /// Where somebody is on its way.
+    pub(super) fn place_of(&self, position: Vec2, heading_rad: f64) -> Place {
+        let foot = self.way.project(position);
+        Place {
+            ahead_m: foot.s_m - BEHIND_M,
+            left_m: foot.lateral_m,
+            turn_rad: wrap_angle(heading_rad - foot.heading_rad),
+        }
+    }
+
+    /// Metres that it comes in some seconds: as its motion is known, else at the pace it has.
+    pub(super) fn advance_m(&self, start_step: usize, after_s: f64) -> f64 {
+        let step = start_step + (after_s / crate::STEP_S).round() as usize;
+        match self.shown.track.at(step) {
+            Some(state) => self.place_of(state.position(), state.heading_rad).ahead_m,
+            None => self.speed_mps() * after_s,
+        }
+    }
+}
+
+pub(super) struct Stage<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) graph: &'a LaneGraph,
+    pub(super) start_step: usize,
+    /// In the scene's order.
+    pub(super) drivers: Vec<Driver<'a>>,
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(scene: &'a Scene, graph: &'a LaneGraph, start_step: usize) -> Self {
+        let driver = |agent: &'a Agent| {
+            let shown = scene.shown(agent);
+            let state = *shown.track.at(start_step)?;
+            let drives = shown.agent_type == AgentType::Vehicle;
+            let way = drives.then(|| way(&shown, &state, graph, start_step))?;
+            Some(Driver { agent, shown, state, way })
+        };
+        Self { scene, graph, start_step, drivers: scene.agents.iter().filter_map(driver).collect() }
+    }
+
+    /// The next one ahead in the same direction on somebody's way, and the gap between the two, metres.
+    pub(super) fn leader(&self, of: usize) -> Option<(usize, f64)> {
+        let own = &self.drivers[of];
+        let ahead = self.drivers.iter().enumerate().filter(|(i, _)| *i != of).filter_map(|(i, other)| {
+            let place = own.place_of(other.state.position(), other.state.heading_rad);
+            let in_lane = place.left_m.abs() < 1.6 && place.same_way() && place.ahead_m > 1.0;
+            in_lane.then(|| (i, place.ahead_m - 0.5 * (own.length_m() + other.length_m())))
+        });
+        ahead.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// The motion that is known, then the straightest way along the lanes.
+fn way(shown: &Shown<'_>, state: &State, graph: &LaneGraph, start_step: usize) -> Polyline {
+    let forward = crate::geometry::direction(state.heading_rad);
+    let mut points = vec![state.position() - forward * BEHIND_M, state.position()];
+    let mut end = Pose::new(state.position(), state.heading_rad);
+    let track = &shown.track;
+    let last = track.first_step + track.states.len();
+    for known in (start_step + 1..last).filter_map(|step| track.at(step)) {
+        if (known.position() - end.position).norm() >= APART_M {
+            end = Pose::new(known.position(), known.heading_rad);
+            points.push(known.position());
+        }
+    }
+    let gone: f64 = points.windows(2).skip(1).map(|pair| (pair[1] - pair[0]).norm()).sum();
+    if gone < LEAST_MOTION_M {
+        points.truncate(2);
+        end = Pose::new(state.position(), state.heading_rad);
+    }
+    let route = routes_ahead(graph, end, AgentType::Vehicle, BEYOND_M).into_iter().next();
+    if let Some(route) = route {
+        // The lane's middle may be beside where it is: the offset is given up over the first metres.
+        points.extend(route.path.points().iter().copied().filter(|p| (p - end.position).norm() > 6.0));
+    }
+    Polyline::new(points)
+}

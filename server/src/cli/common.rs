@@ -1,0 +1,77 @@
+//! Flags of every command, and what follows from them: log lines, and the engine with its weights.
+
+use super::{Exit, Failure};
+use crate::base::clock;
+use clap::{Args, ValueEnum};
+use std::io::IsTerminal;
+use std::path::PathBuf;
+
+/// Heading of these flags in every help.
+const HEADING: &str = "Options of every command";
+
+/// Flags of every command.
+#[derive(Args, Clone, Debug)]
+pub struct Common {
+    /// Say nothing but errors.
+    #[arg(short, long, global = true, help_heading = HEADING)]
+    pub quiet: bool,
+    /// Folder with vehicle.safetensors, pedestrian.safetensors, cyclist.safetensors and, if it has
+    /// them, placement.json, in place of the weights inside the program.
+    #[arg(long, global = true, env = "DRAGTRAFFIC_WEIGHTS", value_name = "DIR", help_heading = HEADING)]
+    pub weights: Option<PathBuf>,
+    /// Log lines as text or JSON.
+    #[arg(long, global = true, value_enum, env = "DRAGTRAFFIC_LOG_FORMAT", help_heading = HEADING)]
+    pub log_format: Option<LogFormat>,
+    /// Which log lines: error, warn, info, debug, trace, or a tracing filter.
+    #[arg(long, global = true, env = "DRAGTRAFFIC_LOG", default_value = "info", help_heading = HEADING)]
+    pub log_level: String,
+}
+
+/// Form of log lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// For people.
+    Text,
+    /// One object a line.
+    Json,
+}
+
+impl Common {
+    /// Sends log lines to stderr.
+    pub fn log(&self) {
+        let level = if self.quiet { "error" } else { self.log_level.as_str() };
+        let filter = tracing_subscriber::EnvFilter::try_new(level)
+            .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("info"));
+        let terminal = std::io::stderr().is_terminal();
+        let builder = tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr);
+        let done = if self.log_format == Some(LogFormat::Json) {
+            builder.json().try_init()
+        } else {
+            let colour = terminal && std::env::var_os("NO_COLOR").is_none();
+            builder.with_ansi(colour).with_target(false).try_init()
+        };
+        // A second subscriber is refused; the first one logs.
+        let _ = done;
+    }
+
+    /// Generator and placer, from a folder or from inside the program.
+    ///
+    /// # Errors
+    /// Exit 7.
+    pub fn engine(&self) -> Result<experts::Engine, Failure> {
+        let loaded = match &self.weights {
+            Some(folder) => experts::Engine::from_dir(folder),
+            None => experts::Engine::built_in(),
+        };
+        let engine = loaded.map_err(|error| Failure::new(Exit::Weights, format!("{error:#}")))?;
+        Ok(experts::Engine { generator: engine.generator.with_clock(clock::monotonic), ..engine })
+    }
+
+    /// The generator alone.
+    ///
+    /// # Errors
+    /// Exit 7.
+    pub fn generator(&self) -> Result<experts::Generator, Failure> {
+        Ok(self.engine()?.generator)
+    }
+}

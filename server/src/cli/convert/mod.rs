@@ -1,0 +1,262 @@
+//! `dragtraffic convert`, known as `import` and `export` too: files of any format to files of any format.
+
+mod one;
+
+use super::inputs::{Inputs, Item, Reading, Source, tell_notes};
+use super::output::{self, Folder};
+use super::progress::Progress;
+use super::tally::Tally;
+use super::{Common, Exit, Failure, parallel, values};
+use crate::scenes::transfer::{self, Motion};
+use clap::Args;
+use formats::format::Info;
+use formats::registry::{self, FORMATS};
+use one::{One, too_many};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::PathBuf;
+
+/// Flags of `convert`.
+#[derive(Args, Clone, Debug)]
+pub struct ConvertArgs {
+    #[command(flatten)]
+    inputs: Inputs,
+    /// File to write, or folder for a file a scene; - or absent is stdout. Formats that hold many scenes (womd, csv)
+    /// take all of them into one file.
+    #[arg(short, long, value_name = "FILE|DIR/")]
+    output: Option<PathBuf>,
+    /// Format of the output: dragtraffic, womd (or waymo), csv.
+    #[arg(long, visible_alias = "format", value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable)]
+    to: &'static str,
+    /// Format of the input; recognised from its content when absent.
+    #[arg(long, value_name = "FORMAT", value_parser = readable)]
+    from: Option<&'static str>,
+    /// Network that a SUMO recording belongs to.
+    #[arg(long, value_name = "FILE")]
+    net: Option<PathBuf>,
+    /// Scenes to take of each file: one number, or FIRST..LAST.
+    #[arg(long, value_name = "WHICH", value_parser = values::index)]
+    index: Option<Range<usize>>,
+    /// Which sample of the generated futures; the chosen one when absent, all in csv.
+    #[arg(long, value_name = "N")]
+    sample: Option<usize>,
+    /// Which motion the output takes.
+    #[arg(long, value_enum, default_value_t)]
+    mode: Motion,
+    /// Exit 5 and write nothing when the output cannot hold something.
+    #[arg(long)]
+    strict: bool,
+    /// Overwrite the output.
+    #[arg(long)]
+    force: bool,
+}
+
+fn writable(text: &str) -> Result<&'static str, String> {
+    format_of(text, "written", |info| info.export)
+}
+
+fn readable(text: &str) -> Result<&'static str, String> {
+    format_of(text, "read", |info| info.import)
+}
+
+fn format_of(text: &str, done: &str, can: fn(&Info) -> bool) -> Result<&'static str, String> {
+    let infos = || FORMATS.iter().map(|format| format.info()).filter(can);
+    let found = infos().find(|info| info.id == transfer::known(text)).map(|info| info.id);
+    found.ok_or_else(|| {
+        let ids: Vec<&str> = infos().map(|info| info.id).collect();
+        format!("{} can be {done}", ids.join(", "))
+    })
+}
+
+/// Codes of what was lost, with a sentence each.
+type Losses = BTreeMap<&'static str, String>;
+
+/// What became of one file.
+#[derive(Default)]
+struct Converted {
+    /// For the one output of all, unless they went to files of their own.
+    parts: Vec<Vec<u8>>,
+    losses: Losses,
+    lines: Vec<String>,
+    /// To be read when its turn has come: a file of many scenes on its way into one output.
+    deferred: bool,
+}
+
+/// Turns files of any format into another.
+///
+/// # Errors
+/// Exit 2, 3, 4, 5, 8.
+pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
+    let sources = args.inputs.sources()?;
+    let net = args.net.as_deref().map(output::read).transpose()?;
+    let reading = Reading { from: args.from.map(str::to_owned), net, index: args.index.clone() };
+    let progress = Progress::new("files", sources.len() as u64, common.quiet);
+    let mut losses = Losses::new();
+    let mut tally = Tally::default();
+    let only = sources.len() == 1;
+    let mut note = |converted: &Converted| {
+        converted.lines.iter().for_each(|line| progress.line(line));
+        for (code, detail) in &converted.losses {
+            losses.entry(code).or_insert_with(|| detail.clone());
+        }
+    };
+    let mut failed = None;
+    match args.output.as_deref().filter(|path| Folder::named(path)) {
+        Some(path) => {
+            let folder = Folder::new(path, args.force)?;
+            let work = |source: &Source| to_folder(source, &args, &reading, &folder);
+            parallel::in_order(&sources, args.inputs.workers(), work, |_, converted| {
+                tally.add(converted.map(|converted| note(&converted)), only, &progress);
+                progress.step();
+            });
+        }
+        None => {
+            let mut one = One::create(&args)?;
+            if !(one.many || only) {
+                return Err(too_many());
+            }
+            let work = |source: &Source| to_one(source, &args, &reading);
+            parallel::in_order(&sources, args.inputs.workers(), work, |source, converted| {
+                let taken = converted.and_then(|converted| {
+                    note(&converted);
+                    converted.parts.iter().try_for_each(|part| one.add(part))?;
+                    if converted.deferred {
+                        streamed(source, &args, &reading, &mut one, &mut note)
+                    } else {
+                        Ok(())
+                    }
+                });
+                if let Err(failure @ Failure { exit: Exit::Usage | Exit::Lossy | Exit::Failure, .. }) = &taken
+                {
+                    failed.get_or_insert_with(|| failure.clone());
+                }
+                tally.add(taken, only, &progress);
+                progress.step();
+            });
+            // What cannot be written whole is not written at all.
+            if let (Some(failure), false) = (failed, only) {
+                return Err(failure);
+            }
+            let ended = tally.end("files");
+            if ended.as_ref().is_err_and(|failure| failure.exit != Exit::Partly) {
+                return ended;
+            }
+            one.finish()?;
+            drop(progress);
+            tell(&losses, only, &args, common);
+            return ended;
+        }
+    }
+    drop(progress);
+    tell(&losses, only, &args, common);
+    tally.end("files")
+}
+
+/// Says once what is not in the output: in sentences for one file, by code for many.
+fn tell(losses: &Losses, only: bool, args: &ConvertArgs, common: &Common) {
+    if common.quiet || losses.is_empty() {
+        return;
+    }
+    if only {
+        for (code, detail) in losses {
+            output::complain(&format!("not in {}: {code}: {detail}", args.to));
+        }
+    } else {
+        let codes: Vec<&str> = losses.keys().copied().collect();
+        output::complain(&format!("not in {}: {}", args.to, codes.join(", ")));
+    }
+}
+
+/// A scene in the format asked for.
+fn written(
+    item: &Item,
+    args: &ConvertArgs,
+    continued: bool,
+    converted: &mut Converted,
+) -> Result<transfer::Written, Failure> {
+    let label = Some(item.name.clone());
+    let written = transfer::write_part(&item.scene, args.to, args.sample, args.mode, label, continued)
+        .map_err(|problem| sample_missing(args, problem))?;
+    for loss in &written.losses {
+        converted.losses.entry(loss.code).or_insert_with(|| loss.detail.clone());
+    }
+    if args.strict && !written.losses.is_empty() {
+        let codes: Vec<&str> = written.losses.iter().map(|loss| loss.code).collect();
+        let message = format!(
+            "{}: nothing written: --strict was given and {} would be lost",
+            item.name,
+            codes.join(", ")
+        );
+        return Err(Failure::new(Exit::Lossy, message));
+    }
+    Ok(written)
+}
+
+fn sample_missing(args: &ConvertArgs, problem: crate::base::problem::Problem) -> Failure {
+    match args.sample {
+        Some(sample) => Failure::usage(format!("--sample {sample}: {}", problem.detail)),
+        None => Failure::usage(problem.detail),
+    }
+}
+
+/// A file a scene.
+fn to_folder(
+    source: &Source,
+    args: &ConvertArgs,
+    reading: &Reading,
+    folder: &Folder,
+) -> Result<Converted, Failure> {
+    let extension = registry::by_id(args.to).and_then(|format| format.info().extensions.first().copied());
+    let extension = extension.unwrap_or("json");
+    let mut converted = Converted::default();
+    let (mut first, mut notes) = (None, 0);
+    let count = source.each(reading, &mut |item| {
+        notes += item.notes.len();
+        let file = written(&item, args, false, &mut converted)?;
+        let path = folder.write(&format!("{}.{extension}", item.name), &file.bytes)?;
+        first.get_or_insert(path);
+        Ok(())
+    })?;
+    let first = first.map_or_else(String::new, |path| path.display().to_string());
+    let many = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+    let noted = if notes > 0 { format!(" ({notes} notes of the reader)") } else { String::new() };
+    converted.lines.push(format!("{}: {first}{many}{noted}", source.shown()));
+    Ok(converted)
+}
+
+/// The parts of one file for the output of all.
+fn to_one(source: &Source, args: &ConvertArgs, reading: &Reading) -> Result<Converted, Failure> {
+    let mut converted = Converted::default();
+    let mut count = 0;
+    let read = source.each(reading, &mut |item| {
+        count += 1;
+        if count > 1 {
+            // More than one at a time would be in memory: they follow when their turn has come.
+            converted = Converted { deferred: true, ..Converted::default() };
+            return Err(Failure::new(Exit::Failure, ""));
+        }
+        converted.lines.extend(tell_notes(source, &item.notes));
+        let file = written(&item, args, true, &mut converted)?;
+        converted.parts.push(file.bytes);
+        Ok(())
+    });
+    if converted.deferred { Ok(converted) } else { read.map(|_| converted) }
+}
+
+/// A file of many scenes, one after the other into the output.
+fn streamed(
+    source: &Source,
+    args: &ConvertArgs,
+    reading: &Reading,
+    one: &mut One,
+    note: &mut dyn FnMut(&Converted),
+) -> Result<(), Failure> {
+    let read = source.each(reading, &mut |item| {
+        let mut converted = Converted::default();
+        converted.lines.extend(tell_notes(source, &item.notes));
+        let file = written(&item, args, true, &mut converted)?;
+        note(&converted);
+        one.add(&file.bytes)
+    });
+    read.map(drop)
+}

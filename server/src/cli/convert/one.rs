@@ -1,0 +1,95 @@
+//! The one output of many scenes.
+
+use super::ConvertArgs;
+use crate::cli::{Exit, Failure, output};
+use formats::files::Whole;
+use formats::registry;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The one output of all scenes: a file that appears when it is whole, or stdout.
+pub struct One {
+    file: Option<(PathBuf, Whole)>,
+    /// First bytes of the file, before any scene.
+    heading: Vec<u8>,
+    /// The format holds many scenes.
+    pub many: bool,
+    /// The only scene of a format that holds one.
+    only: Option<Vec<u8>>,
+}
+
+impl One {
+    /// Opens it; what exists is kept unless it is to be overwritten.
+    ///
+    /// # Errors
+    /// Exit 1, 8.
+    pub fn create(args: &ConvertArgs) -> Result<Self, Failure> {
+        let format = registry::by_id(args.to);
+        let many = format.is_some_and(|format| format.info().many);
+        let heading = format.and_then(|format| format.export(&[], &formats::ExportOptions::default()).ok());
+        let heading = heading.filter(|_| many).map_or_else(Vec::new, |exported| exported.bytes);
+        let path = args.output.as_deref().filter(|path| *path != Path::new("-"));
+        if let Some(path) = path {
+            output::keep(path, args.force)?;
+        }
+        let create = |path: &Path| {
+            let file = Whole::create(path).map_err(|error| unwritable(path, &error))?;
+            Ok::<_, Failure>((path.to_path_buf(), file))
+        };
+        Ok(Self { file: path.map(create).transpose()?, heading, many, only: None })
+    }
+
+    /// A scene in the format.
+    ///
+    /// # Errors
+    /// Exit 1, and 2 for a second scene of a format that holds one.
+    pub fn add(&mut self, part: &[u8]) -> Result<(), Failure> {
+        if self.many {
+            return self.put(part);
+        }
+        if self.only.is_some() {
+            return Err(too_many());
+        }
+        self.only = Some(part.to_vec());
+        Ok(())
+    }
+
+    fn put(&mut self, part: &[u8]) -> Result<(), Failure> {
+        let heading = std::mem::take(&mut self.heading);
+        for bytes in [heading.as_slice(), part].into_iter().filter(|bytes| !bytes.is_empty()) {
+            match &mut self.file {
+                None => output::print(bytes)?,
+                Some((path, file)) => match file.write_all(bytes) {
+                    Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => {}
+                    done => done.map_err(|error| unwritable(path, &error))?,
+                },
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// Exit 1.
+    pub fn finish(mut self) -> Result<(), Failure> {
+        if let Some(only) = self.only.take() {
+            self.put(&only)?;
+        }
+        let Some((path, file)) = self.file else { return Ok(()) };
+        match file.finish() {
+            // A reader of a pipe that has closed its end is no failure.
+            Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+            done => done.map_err(|error| unwritable(&path, &error)),
+        }
+    }
+}
+
+/// Why several scenes do not go into one file.
+pub fn too_many() -> Failure {
+    Failure::usage("more than one scene; --index takes one, --output FOLDER/ takes all, a file each")
+}
+
+fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::new(Exit::Failure, format!("{}: {error}", path.display()))
+}

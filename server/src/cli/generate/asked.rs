@@ -1,0 +1,203 @@
+//! What is asked of single road users, as values of flags: goals, starts, sizes.
+
+use crate::cli::values::{number, within};
+use formats::native::{Frame, GoalDoc, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, StartDoc};
+
+/// Fastest that any road user may be asked to be, m/s.
+const FASTEST_MPS: f64 = 60.0;
+/// Largest angle that is read; then it is wrapped, radians.
+const ANGLE_RAD: f64 = 1_000.0;
+/// Latest goal, seconds.
+const LATEST_S: f64 = 80.0;
+
+/// A goal and the frame that it is told in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedGoal {
+    /// The goal.
+    pub goal: GoalDoc,
+    /// Scene, or from the start pose.
+    pub frame: Frame,
+}
+
+/// One key of a value: its name and the range of its number.
+struct Key {
+    name: &'static str,
+    least: f64,
+    most: f64,
+    unit: &'static str,
+}
+
+const fn key(name: &'static str, least: f64, most: f64, unit: &'static str) -> Key {
+    Key { name, least, most, unit }
+}
+
+const PLACE: [Key; 2] =
+    [key("x", -MAX_COORDINATE_M, MAX_COORDINATE_M, "m"), key("y", -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")];
+const SPEED: Key = key("speed", 0.0, FASTEST_MPS, "m/s");
+const HEADING: Key = key("heading", -ANGLE_RAD, ANGLE_RAD, "radians");
+const TIME: Key = key("time", 0.5, LATEST_S, "s");
+const OFFSET: [Key; 2] = [
+    key("ahead", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
+    key("left", -MAX_GOAL_DISTANCE_M, MAX_GOAL_DISTANCE_M, "m"),
+];
+const TURN: Key = key("turn", -ANGLE_RAD, ANGLE_RAD, "radians");
+
+impl Key {
+    fn read(&self, text: &str) -> Result<f64, String> {
+        number(text).map_err(|wrong| format!("{}: {wrong}", self.name))?;
+        within(self.least, self.most, self.unit)(text).map_err(|wrong| format!("{}: {wrong}", self.name))
+    }
+}
+
+/// Values by key, as `ahead:40,speed:0`, or by place in the order of the keys, as `61,3.4,12`. An empty place is free.
+fn fields<'k>(text: &str, keys: &[&'k Key], by_place: usize) -> Result<Vec<(&'k str, f64)>, String> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    if parts.iter().all(|part| !part.contains(':')) {
+        if parts.len() > by_place {
+            let names: Vec<&str> = keys.iter().take(by_place).map(|key| key.name).collect();
+            return Err(format!(
+                "{} numbers; at most {} expected",
+                parts.len(),
+                names.join(",").to_uppercase()
+            ));
+        }
+        let given = keys.iter().zip(parts).filter(|(_, part)| !part.is_empty());
+        return given.map(|(key, part)| Ok((key.name, key.read(part)?))).collect();
+    }
+    let mut out: Vec<(&str, f64)> = Vec::new();
+    for part in parts {
+        let names = || keys.iter().map(|key| key.name).collect::<Vec<_>>().join(", ");
+        let (name, value) = part
+            .split_once(':')
+            .ok_or_else(|| format!("\"{part}\": KEY:NUMBER expected, keys are {}", names()))?;
+        let key = keys.iter().find(|key| key.name == name.trim());
+        let key = key.ok_or_else(|| format!("no key is named \"{name}\"; there are {}", names()))?;
+        if out.iter().any(|(known, _)| *known == key.name) {
+            return Err(format!("{name} is given twice"));
+        }
+        out.push((key.name, key.read(value)?));
+    }
+    Ok(out)
+}
+
+fn of(fields: &[(&str, f64)], name: &str) -> Option<f64> {
+    fields.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
+}
+
+fn together(fields: &[(&str, f64)], a: &str, b: &str) -> Result<(), String> {
+    match (of(fields, a), of(fields, b)) {
+        (Some(_), None) => Err(format!("{a} needs {b} beside it")),
+        (None, Some(_)) => Err(format!("{b} needs {a} beside it")),
+        _ => Ok(()),
+    }
+}
+
+/// `X,Y[,SPEED[,HEADING[,TIME]]]`, or keys: `x y`, or `ahead left turn` from the start pose; `speed`, `heading`, `time`.
+///
+/// # Errors
+/// What is wrong with it, in one sentence.
+pub fn goal(text: &str) -> Result<AskedGoal, String> {
+    let keys = [&PLACE[0], &PLACE[1], &SPEED, &HEADING, &TIME, &OFFSET[0], &OFFSET[1], &TURN];
+    let fields = fields(text, &keys, 5)?;
+    let value = |name| of(&fields, name);
+    if fields.iter().all(|(name, _)| *name == "time") {
+        return Err("a place, a speed or a heading expected".into());
+    }
+    together(&fields, "x", "y")?;
+    let own = value("ahead").is_some() || value("left").is_some() || value("turn").is_some();
+    if own && (value("x").is_some() || value("heading").is_some()) {
+        return Err(
+            "ahead, left and turn are from the start pose, x, y and heading of the scene; not both".into()
+        );
+    }
+    if value("left").is_some() && value("ahead").is_none() {
+        return Err("left needs ahead beside it".into());
+    }
+    let goal = GoalDoc {
+        x_m: value("x"),
+        y_m: value("y"),
+        heading_rad: value("heading"),
+        ahead_m: value("ahead"),
+        // Straight ahead unless it is said otherwise.
+        left_m: value("left").or(value("ahead").map(|_| 0.0)),
+        turn_rad: value("turn"),
+        speed_mps: value("speed"),
+        time_s: value("time"),
+        ..GoalDoc::default()
+    };
+    Ok(AskedGoal { goal, frame: if own { Frame::Agent } else { Frame::Scene } })
+}
+
+/// `X,Y[,SPEED[,HEADING]]`, or keys: `x y speed heading`.
+///
+/// # Errors
+/// What is wrong with it, in one sentence.
+pub fn start(text: &str) -> Result<StartDoc, String> {
+    let fields = fields(text, &[&PLACE[0], &PLACE[1], &SPEED, &HEADING], 4)?;
+    let value = |name| of(&fields, name);
+    if fields.is_empty() {
+        return Err("a place, a speed or a heading expected".into());
+    }
+    together(&fields, "x", "y")?;
+    Ok(StartDoc {
+        x_m: value("x"),
+        y_m: value("y"),
+        heading_rad: value("heading"),
+        speed_mps: value("speed"),
+        velocity: None,
+    })
+}
+
+/// `LENGTHxWIDTH`, metres.
+///
+/// # Errors
+/// What is wrong with it, in one sentence.
+pub fn size(text: &str) -> Result<(f64, f64), String> {
+    let (length, width) =
+        text.split_once('x').ok_or_else(|| "LENGTHxWIDTH in metres expected, as in 12x2.6".to_owned())?;
+    Ok((key("length", 0.2, 25.0, "m").read(length)?, key("width", 0.2, 4.0, "m").read(width)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goals_by_place_and_by_key() {
+        let scene = |goal| Ok(AskedGoal { goal, frame: Frame::Scene });
+        let at = |x, y| GoalDoc { x_m: Some(x), y_m: Some(y), ..GoalDoc::default() };
+        assert_eq!(goal("61,3.4,12"), scene(GoalDoc { speed_mps: Some(12.0), ..at(61.0, 3.4) }));
+        assert_eq!(goal("1,2,,0.5"), scene(GoalDoc { heading_rad: Some(0.5), ..at(1.0, 2.0) }));
+        assert_eq!(goal(",,0"), scene(GoalDoc { speed_mps: Some(0.0), ..GoalDoc::default() }));
+        assert_eq!(goal("y:2, x:1"), scene(at(1.0, 2.0)));
+        let own = GoalDoc {
+            ahead_m: Some(40.0),
+            left_m: Some(3.5),
+            speed_mps: Some(0.0),
+            time_s: Some(4.0),
+            ..GoalDoc::default()
+        };
+        let relative = goal("ahead:40,left:3.5,speed:0,time:4").unwrap();
+        assert_eq!(relative, AskedGoal { goal: own, frame: Frame::Agent });
+        assert_eq!(goal("ahead:40").unwrap().goal.left_m, Some(0.0));
+    }
+
+    #[test]
+    fn bad_goals_are_told_apart() {
+        let wrong = |text: &str| goal(text).unwrap_err();
+        assert_eq!(wrong("1,NaN"), "y: \"NaN\" is no number");
+        assert_eq!(wrong("1,2,3,4,5,6"), "6 numbers; at most X,Y,SPEED,HEADING,TIME expected");
+        assert_eq!(wrong("1"), "x needs y beside it");
+        assert_eq!(wrong("speed:80"), "speed: 0 to 60 m/s expected");
+        assert_eq!(wrong("left:3"), "left needs ahead beside it");
+        assert_eq!(wrong("time:4"), "a place, a speed or a heading expected");
+        assert_eq!(wrong("ahead:4,ahead:5"), "ahead is given twice");
+        assert!(wrong("ahead:4,x:5,y:6").contains("not both"));
+        assert!(wrong("before:4").starts_with("no key is named \"before\"; there are x, y, speed"));
+        assert!(wrong("ahead:4,5").starts_with("\"5\": KEY:NUMBER expected"));
+        assert_eq!(size("12"), Err("LENGTHxWIDTH in metres expected, as in 12x2.6".into()));
+        assert_eq!(size("12x2.6"), Ok((12.0, 2.6)));
+        assert_eq!(start("x:1,y:2,speed:3").unwrap().speed_mps, Some(3.0));
+        assert!(start("").is_err());
+    }
+}

@@ -1,0 +1,150 @@
+//! One answer: a scene and a seed to a scene with its futures.
+
+use super::{GenerateArgs, ask, pointers};
+use crate::base::clock;
+use crate::base::limits::Limits;
+use crate::cli::inputs::Source;
+use crate::cli::score::figures::Figures;
+use crate::cli::{Exit, Failure};
+use crate::generation::{kept, scoring};
+use experts::{Cancel, Event, Generator, Resolved, Warning};
+use formats::native::{self, MapForm, SceneDoc};
+use scene::scenarios::{Casting, Template};
+use scene::{Generated, Scene};
+use std::collections::BTreeMap;
+use std::time::{Duration, UNIX_EPOCH};
+
+/// What makes answers.
+pub struct Maker<'a> {
+    /// Flags.
+    pub args: &'a GenerateArgs,
+    /// Experts.
+    pub generator: &'a Generator,
+    /// Figures are wanted.
+    pub scored: bool,
+}
+
+/// What came of a scene and a seed.
+pub enum Outcome {
+    /// An answer.
+    Made(Box<Made>),
+    /// The template has no actor here.
+    NobodyFits(Template),
+}
+
+/// An answer.
+pub struct Made {
+    /// With the samples that are kept.
+    pub scene: Scene,
+    /// Who plays what, with a template.
+    pub casting: Option<Casting>,
+    /// The road user that was asked for, where it is one.
+    pub actor: Option<String>,
+    /// What was asked of each and whether it can be had.
+    pub resolved: BTreeMap<String, Resolved>,
+    /// Unlikely things.
+    pub warnings: Vec<Warning>,
+    /// Number of each kept sample among all, and its figures where they are wanted.
+    pub samples: Vec<(usize, Option<Figures>)>,
+    /// How many there were.
+    pub all_samples: usize,
+    /// Who was in the scene's futures before and was not asked for.
+    pub kept: Vec<String>,
+}
+
+impl Maker<'_> {
+    /// Works out an answer.
+    ///
+    /// # Errors
+    /// Exit 1, 2 or 3.
+    pub fn make(
+        &self,
+        source: &Source,
+        scene: Scene,
+        template: Option<Template>,
+        seed: u64,
+    ) -> Result<Outcome, Failure> {
+        let args = self.args;
+        let casting = match template {
+            None => None,
+            Some(template) => {
+                let graph = self.generator.maps().graph(&scene.map);
+                let casting = template.cast(&scene, &graph, args.start_step(), args.horizon, seed);
+                let Some(casting) = casting else { return Ok(Outcome::NobodyFits(template)) };
+                Some(casting)
+            }
+        };
+        let body = ask::request(args, &scene, casting.as_ref(), seed)?;
+        let task = body
+            .task(&scene, &Limits::default(), self.generator)
+            .map_err(|problem| pointers::refused(source, &problem))?;
+        let mut scene = (*task.request.scene).clone();
+        let failed = |error: experts::GenerateError| {
+            Failure::new(Exit::Failure, format!("{}: {error}", source.shown()))
+        };
+        let actor =
+            task.request.agents.as_ref().filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
+        let mut answer = None;
+        for event in self.generator.start(task.request, Cancel::default()).map_err(failed)? {
+            if let Event::Final(last) = event.map_err(failed)? {
+                answer = Some(last);
+            }
+        }
+        let answer =
+            answer.ok_or_else(|| Failure::new(Exit::Failure, "the generator ended without an answer"))?;
+        let all_samples = answer.samples.len();
+        let mut samples = Vec::new();
+        let mut numbers = Vec::new();
+        let mut others = Vec::new();
+        for (number, mut sample) in answer.samples.into_iter().enumerate() {
+            let own: Vec<String> = sample.agents.keys().cloned().collect();
+            kept::fill(&scene, &mut sample);
+            others = sample.agents.keys().filter(|id| !own.contains(id)).cloned().collect();
+            let figures = self.scored.then(|| {
+                let drivable = self.generator.maps().drivable(&scene.map);
+                Figures::new(&scoring::sample(&scene, &sample, &drivable, None), actor.as_deref())
+            });
+            let wanted = |figures: &Figures| args.filter.as_ref().is_none_or(|filter| filter.holds(figures));
+            if figures.as_ref().is_none_or(wanted) {
+                samples.push(sample);
+                numbers.push((number, figures));
+            }
+        }
+        let head = task.head;
+        scene.generated = Some(Generated {
+            input_sha256: head.input_sha256,
+            stale: head.stale,
+            weights: head.weights,
+            seed: head.seed,
+            request: head.request,
+            licence: head.licence,
+            created_at: created_at(),
+            chosen_sample: 0,
+            samples,
+        });
+        Ok(Outcome::Made(Box::new(Made {
+            scene,
+            casting,
+            actor,
+            resolved: answer.resolved,
+            warnings: answer.warnings,
+            samples: numbers,
+            all_samples,
+            kept: others,
+        })))
+    }
+}
+
+impl Made {
+    /// The file.
+    pub fn bytes(&self) -> Vec<u8> {
+        native::write_doc(&SceneDoc::from_scene(&self.scene, MapForm::Inline))
+    }
+}
+
+/// Nothing, so that equal calls give equal files; the time that SOURCE_DATE_EPOCH names where it is set.
+fn created_at() -> String {
+    let given = std::env::var("SOURCE_DATE_EPOCH").ok().and_then(|text| text.parse().ok());
+    let time = given.and_then(|seconds| UNIX_EPOCH.checked_add(Duration::from_secs(seconds)));
+    time.map_or_else(String::new, clock::text)
+}

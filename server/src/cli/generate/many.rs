@@ -1,0 +1,257 @@
+//! Many scenes, templates and seeds in one call: side by side, a file each, what is kept in a table.
+
+use super::GenerateArgs;
+use super::made::{Made, Maker, Outcome};
+use super::{manifest, tell};
+use crate::cli::inputs::{Reading, Source};
+use crate::cli::output::{self, Folder};
+use crate::cli::progress::Progress;
+use crate::cli::score::figures::Figures;
+use crate::cli::tally::Tally;
+use crate::cli::{Common, Exit, Failure, parallel};
+use scene::Scene;
+use scene::scenarios::Template;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Parts that each worker gets of the whole work, at least: so that none is left with much at the end.
+const PARTS: usize = 4;
+
+/// A template, or none, and a seed.
+type Wish = (Option<Template>, u64);
+
+/// Some of the wishes for one file.
+struct Part<'a> {
+    source: &'a Source,
+    wishes: &'a [Wish],
+}
+
+/// How one wish for one scene ended.
+struct End {
+    scene: String,
+    wish: Wish,
+    how: How,
+}
+
+enum How {
+    /// Written: one line for people, and those of the table.
+    Kept(String, Vec<Vec<String>>),
+    /// No sample holds the condition.
+    LeftOut,
+    NobodyFits,
+    Failed(Failure),
+}
+
+/// What came of all of one template.
+#[derive(Default)]
+struct Sum {
+    all: usize,
+    kept: usize,
+    unfit: usize,
+}
+
+/// Generates everything.
+///
+/// # Errors
+/// Exit 4 when some failed, or under `--strict` when somebody does not fit or nothing is kept; 8 when the folder has
+/// results already.
+pub fn run(args: &GenerateArgs, sources: &[Source], path: &Path, common: &Common) -> Result<(), Failure> {
+    let folder = Folder::new(path, args.force)?;
+    output::keep(&folder.at(manifest::NAME), args.force)?;
+    let wishes = wishes(args);
+    let workers = args.inputs.workers();
+    // A call about one scene has its seeds side by side.
+    let parts = (PARTS * workers).div_ceil(sources.len().max(1));
+    let size = wishes.len().div_ceil(parts).max(1);
+    let parts: Vec<Part<'_>> = sources
+        .iter()
+        .flat_map(|source| wishes.chunks(size).map(move |wishes| Part { source, wishes }))
+        .collect();
+    let generator = common.generator()?.with_threads(1);
+    let maker = Maker { args, generator: &generator, scored: true };
+    let total = (sources.len() * wishes.len()) as u64;
+    let progress = Progress::new("generations", total, common.quiet);
+    let mut report = Report::new(&progress, total == 1);
+    let work = |part: &Part<'_>| part.run(&maker, &folder, &progress);
+    parallel::in_order(&parts, workers, work, |part, ends| report.add(part, ends));
+    let Report { table, sums, tally, .. } = report;
+    drop(progress);
+    let table = table.bytes()?;
+    let written = folder.write(manifest::NAME, &table)?;
+    if !common.quiet {
+        sums.iter().for_each(|(template, sum)| output::complain(&sum.words(*template, args)));
+        output::complain(&format!("the results are listed in {}", written.display()));
+    }
+    tally.end("generations")?;
+    let short = sums.values().any(|sum| sum.unfit > 0) || sums.values().all(|sum| sum.kept == 0);
+    if args.strict && short {
+        return Err(Failure::new(
+            Exit::Partly,
+            "--strict: nobody fits a template somewhere, or nothing was kept",
+        ));
+    }
+    Ok(())
+}
+
+/// Templates by seeds.
+fn wishes(args: &GenerateArgs) -> Vec<Wish> {
+    let templates: BTreeSet<Option<Template>> = if args.template.is_empty() {
+        BTreeSet::from([None])
+    } else {
+        args.template.iter().copied().map(Some).collect()
+    };
+    let seeds = args.seeds.clone().unwrap_or(args.seed..args.seed + 1);
+    templates.into_iter().flat_map(|template| seeds.clone().map(move |seed| (template, seed))).collect()
+}
+
+impl Part<'_> {
+    fn run(&self, maker: &Maker<'_>, folder: &Folder, progress: &Progress) -> Result<Vec<End>, Failure> {
+        let reading = Reading { index: maker.args.index.clone(), ..Reading::default() };
+        let mut ends = Vec::new();
+        let mut first = true;
+        self.source.each(&reading, &mut |item| {
+            for wish in self.wishes {
+                let how = self.one(maker, folder, &item.scene, &item.name, *wish);
+                let how = how.unwrap_or_else(How::Failed);
+                ends.push(End { scene: item.name.clone(), wish: *wish, how });
+                // How many scenes the files have is not known: the first of each counts for all.
+                if first {
+                    progress.step();
+                }
+            }
+            first = false;
+            Ok(())
+        })?;
+        Ok(ends)
+    }
+
+    fn one(
+        &self,
+        maker: &Maker<'_>,
+        folder: &Folder,
+        scene: &Scene,
+        name: &str,
+        (template, seed): Wish,
+    ) -> Result<How, Failure> {
+        let made = match maker.make(self.source, scene.clone(), template, seed)? {
+            Outcome::NobodyFits(_) => return Ok(How::NobodyFits),
+            Outcome::Made(made) => made,
+        };
+        if made.samples.is_empty() {
+            return Ok(How::LeftOut);
+        }
+        let file = match template {
+            Some(template) => format!("{name}-{}-seed{seed:03}.json", template.name()),
+            None => format!("{name}-seed{seed:03}.json"),
+        };
+        folder.write(&file, &made.bytes())?;
+        let rows = manifest::rows(&made, &file, name, template, seed)?;
+        Ok(How::Kept(format!("{file}: {}", words(&made)), rows))
+    }
+}
+
+/// A result in one line.
+fn words(made: &Made) -> String {
+    let mut parts = Vec::new();
+    parts.extend(made.casting.as_ref().map(|casting| casting.words.clone()));
+    let resolved = made.actor.as_ref().and_then(|id| made.resolved.get(id));
+    parts.extend(resolved.and_then(tell::goal));
+    let sample = made.scene.generated.as_ref().and_then(|generated| generated.samples.first());
+    let reacting = sample.map_or(0, |s| s.agents.values().filter(|f| f.reaction.is_some()).count());
+    parts.push(match reacting {
+        1 => "1 reacts".into(),
+        many => format!("{many} react"),
+    });
+    if let Some((_, Some(figures))) = made.samples.first() {
+        parts.push(figures_words(figures, made.actor.is_some()));
+    }
+    if made.all_samples > 1 {
+        parts.push(format!("{} of {} samples", made.samples.len(), made.all_samples));
+    }
+    parts.join("; ")
+}
+
+fn figures_words(figures: &Figures, actor: bool) -> String {
+    let (name, whose) = if actor { ("actor.min_ttc_s", "its ") } else { ("min_ttc_s", "") };
+    let ttc = figures.get(name).map_or("none".into(), |ttc| format!("{ttc:.2} s"));
+    let collisions = figures.get("collisions").unwrap_or(0.0);
+    format!(
+        "{whose}least time to collision {ttc}, {collisions} collision{}",
+        if collisions == 1.0 { "" } else { "s" }
+    )
+}
+
+/// What is gathered while results come in.
+struct Report<'a> {
+    progress: &'a Progress,
+    only: bool,
+    table: crate::cli::score::table::Table,
+    sums: BTreeMap<Option<Template>, Sum>,
+    tally: Tally,
+    /// Told already: files that cannot be read, and scenes in which nobody fits.
+    told: BTreeSet<(String, Option<Template>)>,
+}
+
+impl<'a> Report<'a> {
+    fn new(progress: &'a Progress, only: bool) -> Self {
+        Self {
+            progress,
+            only,
+            table: manifest::table(),
+            sums: BTreeMap::new(),
+            tally: Tally::default(),
+            told: BTreeSet::new(),
+        }
+    }
+
+    fn add(&mut self, part: &Part<'_>, ends: Result<Vec<End>, Failure>) {
+        match ends {
+            Ok(ends) => ends.into_iter().for_each(|end| self.end(end)),
+            // Other parts of the same file fail alike: it is told and counted once.
+            Err(failure) if self.told.insert((part.source.shown(), None)) => {
+                self.tally.add(Err(failure), self.only, self.progress);
+            }
+            Err(_) => {}
+        }
+    }
+
+    fn end(&mut self, end: End) {
+        let (template, seed) = end.wish;
+        let sum = self.sums.entry(template).or_default();
+        sum.all += 1;
+        let result = match end.how {
+            How::Kept(line, rows) => {
+                sum.kept += 1;
+                self.progress.line(&line);
+                rows.iter().for_each(|row| self.table.add(row));
+                Ok(())
+            }
+            How::LeftOut => Ok(()),
+            How::NobodyFits => {
+                sum.unfit += 1;
+                if self.told.insert((end.scene.clone(), template)) {
+                    let name = template.map_or("", Template::name);
+                    self.progress.line(&format!("{}: {name}: no road user fits", end.scene));
+                }
+                Ok(())
+            }
+            How::Failed(failure) => {
+                let place = format!("{}, seed {seed}: {}", end.scene, failure.message);
+                Err(Failure::new(failure.exit, place))
+            }
+        };
+        self.tally.add(result, self.only, self.progress);
+    }
+}
+
+impl Sum {
+    fn words(&self, template: Option<Template>, args: &GenerateArgs) -> String {
+        let Self { all, kept, unfit } = self;
+        let name = template.map_or_else(String::new, |template| format!("{}: ", template.name()));
+        let unfit = if *unfit > 0 { format!(", {unfit} where nobody fits") } else { String::new() };
+        match &args.filter {
+            Some(filter) => format!("{name}{kept} of {all} hold {}{unfit}", filter.text()),
+            None => format!("{name}{kept} of {all} made{unfit}"),
+        }
+    }
+}

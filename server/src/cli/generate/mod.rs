@@ -1,0 +1,206 @@
+//! `dragtraffic generate`: the same work as `POST /v1/generate`, from files to files; many scenes, seeds and
+//! templates in one call.
+
+mod ask;
+mod asked;
+mod made;
+mod manifest;
+mod many;
+mod pointers;
+mod tell;
+mod who;
+
+use super::inputs::{Inputs, Reading, no_ids, tell_notes};
+use super::output::{self, Folder};
+use super::score::figures::Filter;
+use super::values::{For, for_one, index, one_of, seeds, within};
+use super::{Common, Exit, Failure};
+use crate::base::limits;
+use asked::AskedGoal;
+use clap::Args;
+use experts::request::DEFAULTS;
+use formats::native::{MAX_SAFE_INTEGER, StartDoc};
+use scene::AgentType;
+use scene::scenarios::Template;
+use std::ops::Range;
+use std::path::PathBuf;
+use who::Who;
+
+/// Heading of what is asked of single road users.
+const ROAD_USERS: &str = "Road users";
+/// Heading of what is drawn.
+const DRAWING: &str = "Drawing and planning";
+
+/// Flags of `generate`.
+#[derive(Args, Clone, Debug)]
+pub struct GenerateArgs {
+    #[command(flatten)]
+    inputs: Inputs,
+    /// Scenes to take of each file: one number, or FIRST..LAST. The first when the output is one file, else all.
+    #[arg(long, value_name = "WHICH", value_parser = index)]
+    index: Option<Range<usize>>,
+    /// File to write the scene with its futures to; - or absent is stdout. A folder for many results: a file for each
+    /// scene, template and seed, and manifest.csv with their figures.
+    #[arg(short, long, value_name = "FILE|DIR/")]
+    output: Option<PathBuf>,
+    /// Overwrite the output.
+    #[arg(long)]
+    force: bool,
+    /// Exit 4 when nobody fits a template somewhere, or when --where leaves nothing.
+    #[arg(long)]
+    strict: bool,
+    /// Situations to make, with commas. Who plays them is picked from the scene and told; everybody else answers
+    /// unless --react says otherwise.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "NAME", conflicts_with_all = ["agents", "goal", "goal_from_log"])]
+    template: Vec<Template>,
+    /// Keep only samples for which this holds, such as 'actor.min_ttc_s < 1.5 && collisions == 0'. See score --help.
+    #[arg(long = "where", value_name = "CONDITION", value_parser = Filter::parse)]
+    filter: Option<Filter>,
+
+    /// Road users to regenerate, with commas: ids, @all, @moving, @vehicles, @pedestrians, @cyclists, @ego. All when
+    /// absent.
+    #[arg(long, value_delimiter = ',', value_name = "WHO", help_heading = ROAD_USERS)]
+    agents: Vec<Who>,
+    /// The rest answers: all of it, or these alone (--react=7,8).
+    #[arg(long, value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "@all", value_name = "WHO", help_heading = ROAD_USERS)]
+    react: Vec<Who>,
+    /// Goal of a road user: X,Y[,SPEED[,HEADING[,TIME]]], an empty place leaves the field free; or keys, as in
+    /// 6=ahead:40,left:3.5,speed:0,time:4 (x y heading in the scene, ahead left turn from the start pose; speed, time).
+    #[arg(long, value_name = "ID=GOAL", value_parser = for_one(asked::goal), help_heading = ROAD_USERS)]
+    goal: Vec<For<AskedGoal>>,
+    /// Goals where the recording goes: place, heading, speed and time of its last state within the horizon. Who has a
+    /// --goal keeps that.
+    #[arg(long, value_delimiter = ',', value_name = "WHO", help_heading = ROAD_USERS)]
+    goal_from_log: Vec<Who>,
+    /// Start of a road user: X,Y[,SPEED[,HEADING]], or keys, as in 6=x:10,y:4,speed:8.
+    #[arg(long, value_name = "ID=START", value_parser = for_one(asked::start), help_heading = ROAD_USERS)]
+    start: Vec<For<StartDoc>>,
+    /// Box of a road user, metres.
+    #[arg(long, value_name = "ID=LENGTHxWIDTH", value_parser = for_one(asked::size), help_heading = ROAD_USERS)]
+    size: Vec<For<(f64, f64)>>,
+    /// Type of a road user: vehicle, pedestrian or cyclist.
+    #[arg(long = "type", value_name = "ID=TYPE", value_parser = for_one(agent_type), help_heading = ROAD_USERS)]
+    agent_type: Vec<For<AgentType>>,
+    /// All conditions of a road user from a file, as the API takes them.
+    #[arg(long, value_name = "ID=FILE.json", value_parser = for_one(file), help_heading = ROAD_USERS)]
+    condition: Vec<For<PathBuf>>,
+    /// Forget the futures that the scene has from earlier calls: whoever is not asked for goes back to its log.
+    /// Without it they are planned around and stay.
+    #[arg(long, help_heading = ROAD_USERS)]
+    forget: bool,
+
+    /// The same seed gives the same answer.
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.seed, value_parser = clap::value_parser!(u64).range(0..=MAX_SAFE_INTEGER), help_heading = DRAWING)]
+    seed: u64,
+    /// A result for each seed: a count, or FIRST..END with the end left out.
+    #[arg(long, value_name = "COUNT|FIRST..END", conflicts_with = "seed", value_parser = seeds, help_heading = DRAWING)]
+    seeds: Option<Range<u64>>,
+    /// Independent joint scenes of each seed.
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.samples as u64, value_parser = clap::value_parser!(u64).range(1..=limits::SAMPLES), help_heading = DRAWING)]
+    samples: u64,
+    /// Alternatives kept per road user.
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.modes as u64, value_parser = clap::value_parser!(u64).range(1..=limits::MODES), help_heading = DRAWING)]
+    modes: u64,
+    /// Denoising steps.
+    #[arg(long, value_name = "N", default_value_t = DEFAULTS.steps as u64, value_parser = clap::value_parser!(u64).range(0..=100), help_heading = DRAWING)]
+    steps: u64,
+    /// Seconds to generate, 0.5 to 20. More than 9 is planned window after window.
+    #[arg(long, value_name = "SECONDS", default_value_t = DEFAULTS.horizon_s, value_parser = within(0.5, 20.0, "seconds"), help_heading = DRAWING)]
+    horizon: f64,
+    /// Scene time of the start, seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = within(0.0, 59.9, "seconds"), help_heading = DRAWING)]
+    at: f64,
+    /// Plan anew, from the states reached, after so many seconds: 3, 6 or 9 (9 when absent).
+    #[arg(long, value_name = "SECONDS", value_parser = one_of(&[3.0, 6.0, 9.0]), help_heading = DRAWING)]
+    replan: Option<f64>,
+    /// Scale of the noise, which makes seeds differ; 0 is the best guess.
+    #[arg(long, value_name = "SCALE", default_value_t = DEFAULTS.diversity, value_parser = within(0.0, 2.0, ""), help_heading = DRAWING)]
+    diversity: f64,
+}
+
+fn agent_type(text: &str) -> Result<AgentType, String> {
+    let found = <AgentType as clap::ValueEnum>::from_str(text, true);
+    found.map_err(|_| "vehicle, pedestrian or cyclist expected".to_owned())
+}
+
+#[allow(clippy::unnecessary_wraps, reason = "one of the readers of values")]
+fn file(text: &str) -> Result<PathBuf, String> {
+    Ok(text.into())
+}
+
+/// Generates and writes scenes with their futures.
+///
+/// # Errors
+/// Exit 2, 3, 4, 7, 8.
+pub fn run(args: GenerateArgs, common: &Common) -> Result<(), Failure> {
+    args.check()?;
+    let sources = args.inputs.sources()?;
+    if !args.react.is_empty() {
+        no_ids(&sources, "--react")?;
+    }
+    let folder = args.output.as_deref().filter(|path| Folder::named(path));
+    let many = folder.is_some() || sources.len() > 1 || args.seeds.is_some() || args.template.len() > 1;
+    if many {
+        let path = args.output.as_deref().ok_or_else(|| {
+            Failure::usage("many results: --output FOLDER/ says where they go, a file each and manifest.csv")
+        })?;
+        return many::run(&args, &sources, path, common);
+    }
+    let [source] = sources.as_slice() else { return Ok(()) };
+    one(&args, source, common)
+}
+
+/// One scene to one file, with a line for each road user.
+fn one(args: &GenerateArgs, source: &super::inputs::Source, common: &Common) -> Result<(), Failure> {
+    if let Some(path) = args.output.as_deref().filter(|path| *path != std::path::Path::new("-")) {
+        output::keep(path, args.force)?;
+    }
+    let item = source.first(&Reading { index: args.index.clone(), ..Reading::default() })?;
+    let say = |line: &str| {
+        if !common.quiet {
+            output::complain(line);
+        }
+    };
+    tell_notes(source, &item.notes).iter().for_each(|line| say(line));
+    let generator = common.generator()?;
+    let maker = made::Maker { args, generator: &generator, scored: args.filter.is_some() };
+    let template = args.template.first().copied();
+    let made = match maker.make(source, item.scene, template, args.seed)? {
+        made::Outcome::Made(made) => *made,
+        made::Outcome::NobodyFits(template) => {
+            let message = format!("{}: {}: no road user fits", source.shown(), template.name());
+            return Err(Failure::new(Exit::Partly, message));
+        }
+    };
+    tell::lines(&made, args).iter().for_each(|line| say(line));
+    if made.samples.is_empty() {
+        let condition = args.filter.as_ref().map_or("", Filter::text);
+        let message = format!("nothing written: no sample of {} holds {condition}", made.all_samples);
+        return Err(Failure::new(Exit::Partly, message));
+    }
+    output::write(args.output.as_deref(), &made.bytes(), args.force)
+}
+
+impl GenerateArgs {
+    /// What clap cannot see: that nobody is told two things.
+    fn check(&self) -> Result<(), Failure> {
+        twice("--goal", &self.goal)?;
+        twice("--start", &self.start)?;
+        twice("--size", &self.size)?;
+        twice("--type", &self.agent_type)?;
+        twice("--condition", &self.condition)
+    }
+
+    /// Scene step of the start.
+    fn start_step(&self) -> usize {
+        (self.at / scene::STEP_S).round() as usize
+    }
+}
+
+fn twice<T>(flag: &str, values: &[For<T>]) -> Result<(), Failure> {
+    let again = |i: &usize| values[..*i].iter().any(|before| before.id == values[*i].id);
+    match (0..values.len()).find(again) {
+        Some(i) => Err(Failure::usage(format!("{flag} is given twice for {}", values[i].id))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,75 @@
+//! Faults of a request in the words of the command line: the flag and the value in place of a JSON pointer.
+
+use crate::base::problem::Problem;
+use crate::cli::inputs::Source;
+use crate::cli::{Failure, inputs};
+
+/// Members of a request and the flags that say them.
+const FLAGS: [(&str, &str); 11] = [
+    ("/horizon_s", "--horizon"),
+    ("/replan_interval_s", "--replan"),
+    ("/start_s", "--at"),
+    ("/samples", "--samples"),
+    ("/modes", "--modes"),
+    ("/steps", "--steps"),
+    ("/diversity", "--diversity"),
+    ("/seed", "--seed"),
+    ("/agents", "--agents"),
+    ("/react", "--react"),
+    ("/pinned", "--pinned"),
+];
+
+/// What a request is refused for; faults of the scene itself stay the file's.
+pub fn refused(source: &Source, problem: &Problem) -> Failure {
+    let Some(errors) = problem.members.errors.as_deref().filter(|errors| !errors.is_empty()) else {
+        return inputs::refused(&source.path, problem);
+    };
+    let words: Option<Vec<String>> =
+        errors.iter().map(|error| Some(format!("{}: {}", in_flags(&error.pointer)?, error.detail))).collect();
+    match words {
+        Some(words) => Failure::usage(words.join("\n  ")),
+        None => inputs::refused(&source.path, problem),
+    }
+}
+
+fn in_flags(pointer: &str) -> Option<String> {
+    if let Some(rest) = pointer.strip_prefix("/conditions/") {
+        return Some(of_conditions(rest));
+    }
+    let flag = FLAGS.iter().find(|(member, _)| pointer.starts_with(member));
+    flag.map(|(_, flag)| (*flag).to_owned())
+}
+
+/// Such as `6/goal/speed_mps`.
+fn of_conditions(rest: &str) -> String {
+    let mut parts = rest.split('/');
+    let id = parts.next().unwrap_or_default().replace("~1", "/").replace("~0", "~");
+    let path: Vec<&str> = parts.collect();
+    let key = |name: &str| {
+        let ends = ["_mps", "_rad", "_m", "_s"];
+        ends.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name).to_owned()
+    };
+    match path.as_slice() {
+        ["goal", field, ..] => format!("--goal {id}: {}", key(field)),
+        ["start", field, ..] => format!("--start {id}: {}", key(field)),
+        ["goal"] => format!("--goal {id}"),
+        [name @ ("length_m" | "width_m")] => format!("--size {id}: {}", key(name)),
+        ["type"] => format!("--type {id}"),
+        _ => format!("road user {id}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_flags;
+
+    #[test]
+    fn pointers_become_flags() {
+        let flag = |pointer: &str| in_flags(pointer).unwrap();
+        assert_eq!(flag("/conditions/6/goal/speed_mps"), "--goal 6: speed");
+        assert_eq!(flag("/conditions/a~1b/start/x_m"), "--start a/b: x");
+        assert_eq!(flag("/conditions/6/length_m"), "--size 6: length");
+        assert_eq!(flag("/agents/0"), "--agents");
+        assert_eq!(in_flags("/scene/map"), None);
+    }
+}

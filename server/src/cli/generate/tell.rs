@@ -1,0 +1,188 @@
+//! What came of each road user, in a line: the goal met or how far from it and why, who answered whom, what is wrong
+//! with the future that is shown.
+
+use super::GenerateArgs;
+use super::made::Made;
+use experts::{ReachReport, Resolved, Source as From, WarningCode};
+use scene::judge::{Fault, FaultKind, Manoeuvre, Reaction, ReactionKind};
+use scene::{AgentFutures, Future};
+
+/// Faults of a future that are named.
+const MOST_FAULTS: usize = 3;
+/// A goal is off by so little that nobody needs the number, metres.
+const NEAR_M: f64 = 0.005;
+
+/// All lines of an answer, those of the first sample.
+pub fn lines(made: &Made, args: &GenerateArgs) -> Vec<String> {
+    let mut lines: Vec<String> = made.casting.iter().map(|c| format!("template: {}", c.words)).collect();
+    let sample = made.scene.generated.as_ref().and_then(|generated| generated.samples.first());
+    for (id, futures) in
+        sample.into_iter().flat_map(|sample| &sample.agents).filter(|(id, _)| !made.kept.contains(id))
+    {
+        lines.push(format!("{id}: {}", of_one(made.resolved.get(id), futures)));
+    }
+    // What the lines have said already is not said again.
+    let warnings = made.warnings.iter().filter(|warning| warning.code != WarningCode::GoalUnreachable);
+    for warning in warnings {
+        let who = warning.agent.as_deref().unwrap_or("scene");
+        lines.push(format!("{who}: {}: {}", warning.code, warning.detail));
+    }
+    lines.extend(latecomers(made, args));
+    if made.all_samples > 1 {
+        let kept = made.samples.len();
+        lines.push(match &args.filter {
+            Some(filter) => format!("{kept} of {} samples hold {}", made.all_samples, filter.text()),
+            None => format!("{kept} samples; the lines are about the first"),
+        });
+    }
+    lines
+}
+
+/// What came of one road user.
+fn of_one(resolved: Option<&Resolved>, futures: &AgentFutures) -> String {
+    let mut parts = Vec::new();
+    parts.extend(resolved.and_then(goal));
+    parts.extend(futures.reaction.as_ref().map(reaction));
+    if let Some(chosen) = futures.modes.get(futures.chosen) {
+        parts.push(motion(chosen));
+        parts.extend(
+            chosen
+                .about
+                .faults
+                .iter()
+                .filter(|f| f.kind != FaultKind::GoalMissed)
+                .take(MOST_FAULTS)
+                .map(fault),
+        );
+    }
+    parts.join("; ")
+}
+
+/// Whether a goal that somebody asked for is met; `None` where nobody asked.
+pub fn goal(resolved: &Resolved) -> Option<String> {
+    let goal = &resolved.goal;
+    let asked = |field: experts::Field| field.from == From::User;
+    let placed = asked(goal.x_m);
+    if !placed && !asked(goal.speed_mps) && !asked(goal.heading_rad) {
+        return None;
+    }
+    let time_s = goal.time_s.value;
+    Some(match &resolved.reach {
+        ReachReport::Reached { position_m, .. } if placed && *position_m > NEAR_M => {
+            format!("goal met at {time_s:.1} s, {position_m:.2} m off")
+        }
+        ReachReport::Reached { .. } => format!("goal met at {time_s:.1} s"),
+        ReachReport::Unreachable { nearest, words, .. } => {
+            let off_m = (nearest.x_m - goal.x_m.value).hypot(nearest.y_m - goal.y_m.value);
+            let off = if placed { format!(" by {off_m:.1} m") } else { String::new() };
+            format!("goal missed{off} at {time_s:.1} s: {}", words.trim_end_matches('.'))
+        }
+    })
+}
+
+/// Whether the goal of a road user is met, in one word, for tables.
+pub fn goal_word(resolved: Option<&Resolved>) -> &'static str {
+    match resolved.map(|resolved| (&resolved.reach, goal(resolved).is_some())) {
+        Some((ReachReport::Reached { .. }, true)) => "met",
+        Some((ReachReport::Unreachable { .. }, true)) => "missed",
+        _ => "none",
+    }
+}
+
+fn reaction(reaction: &Reaction) -> String {
+    let does = match reaction.kind {
+        ReactionKind::Waits => "waits for",
+        ReactionKind::Slows => "slows for",
+        ReactionKind::SpeedsUp => "speeds up for",
+        ReactionKind::KeepsClear => "keeps clear of",
+    };
+    let delay = match reaction.delay_s {
+        delay if delay >= 0.05 => format!(", {delay:.1} s later"),
+        delay if delay <= -0.05 => format!(", {:.1} s earlier", -delay),
+        _ => String::new(),
+    };
+    format!("{does} {}{delay}, {:.1} m/s at {:.1} s", reaction.cause, reaction.speed_mps, reaction.time_s)
+}
+
+fn motion(future: &Future) -> String {
+    let does = match future.about.manoeuvre {
+        Some(Manoeuvre::Straight) => "goes straight",
+        Some(Manoeuvre::Left) => "turns left",
+        Some(Manoeuvre::Right) => "turns right",
+        Some(Manoeuvre::TurnRound) => "turns round",
+        Some(Manoeuvre::LaneLeft) => "changes lane to the left",
+        Some(Manoeuvre::LaneRight) => "changes lane to the right",
+        Some(Manoeuvre::Stays) => return "stays".into(),
+        Some(Manoeuvre::Reverse) => "reverses",
+        None => "goes",
+    };
+    let gone: f64 =
+        future.states.windows(2).map(|pair| (pair[1].position() - pair[0].position()).norm()).sum();
+    let speed = future.states.last().map_or(0.0, scene::State::speed_mps);
+    format!("{does}, {gone:.0} m, {speed:.1} m/s at the end")
+}
+
+fn fault(fault: &Fault) -> String {
+    let what = match fault.kind {
+        FaultKind::Collision => "collides",
+        FaultKind::RedLight => "runs a red light",
+        FaultKind::WrongWay => "drives against the traffic",
+        FaultKind::OverMedian => "drives over a median",
+        FaultKind::OffRoad => "leaves the road",
+        FaultKind::HarshBraking => "brakes hard",
+        FaultKind::HarshSteering => "steers hard",
+        FaultKind::NearMiss => "nearly collides",
+        FaultKind::GoalMissed => "misses its goal",
+    };
+    let with = fault.with.as_ref().map_or_else(String::new, |with| format!(" with {with}"));
+    format!("{what}{with} at {:.1} s", fault.time_s)
+}
+
+/// Says who comes in after the start of a scene that is generated whole and keeps its log, which knows nothing of
+/// what the others do now.
+fn latecomers(made: &Made, args: &GenerateArgs) -> Option<String> {
+    let whole = args.agents.is_empty() && args.react.is_empty() && made.casting.is_none();
+    let samples = made.scene.generated.iter().flat_map(|generated| &generated.samples);
+    let start = args.start_step();
+    let late = |agent: &&scene::Agent| {
+        agent.state_at(start).is_none()
+            && agent.track.last_valid_step() > Some(start)
+            && !samples.clone().any(|sample| sample.agents.contains_key(&agent.id))
+    };
+    let count = made.scene.agents.iter().filter(late).count();
+    (whole && count > 0).then(|| {
+        format!("{count} road users come in later and keep their log; --react lets them answer the others")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reactions_and_faults_are_sentences() {
+        let waits = Reaction {
+            kind: ReactionKind::Waits,
+            cause: "6".into(),
+            delay_s: 2.26,
+            time_s: 3.1,
+            x_m: 0.0,
+            y_m: 0.0,
+            speed_mps: 0.0,
+        };
+        assert_eq!(reaction(&waits), "waits for 6, 2.3 s later, 0.0 m/s at 3.1 s");
+        let hurries = Reaction { kind: ReactionKind::SpeedsUp, delay_s: -0.5, speed_mps: 9.0, ..waits };
+        assert_eq!(reaction(&hurries), "speeds up for 6, 0.5 s earlier, 9.0 m/s at 3.1 s");
+        let near = Fault {
+            kind: FaultKind::NearMiss,
+            time_s: 1.2,
+            until_s: 1.4,
+            x_m: 0.0,
+            y_m: 0.0,
+            extent: Some(0.3),
+            with: Some("7".into()),
+            edge: None,
+        };
+        assert_eq!(fault(&near), "nearly collides with 7 at 1.2 s");
+    }
+}

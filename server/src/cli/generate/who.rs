@@ -1,0 +1,131 @@
+//! Which road users: ids, or words for sets of them.
+
+use crate::cli::Failure;
+use scene::{AgentType, STANDING_MPS, Scene};
+use std::str::FromStr;
+
+/// Road users of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Who {
+    /// Everybody that can be generated.
+    All,
+    /// Who moves at the start.
+    Moving,
+    /// Who is there at the start and counts as this.
+    Kind(AgentType),
+    /// The recording vehicle.
+    Ego,
+    /// This one.
+    Id(String),
+}
+
+const WORDS: &str = "@all, @moving, @vehicles, @pedestrians, @cyclists, @ego";
+
+impl FromStr for Who {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "@all" | "all" => Ok(Self::All),
+            "@moving" => Ok(Self::Moving),
+            "@vehicles" => Ok(Self::Kind(AgentType::Vehicle)),
+            "@pedestrians" => Ok(Self::Kind(AgentType::Pedestrian)),
+            "@cyclists" => Ok(Self::Kind(AgentType::Cyclist)),
+            "@ego" => Ok(Self::Ego),
+            _ if text.starts_with('@') => Err(format!("an id or one of {WORDS} expected")),
+            "" => Err("an id expected".into()),
+            id => Ok(Self::Id(id.to_owned())),
+        }
+    }
+}
+
+/// Ids that these words mean in a scene, each once, in the order of the scene; ids as they are, known or not. `None`
+/// for everybody.
+///
+/// # Errors
+/// Exit 2 when a word means nobody here; `flag` names where it stands.
+pub fn ids(
+    who: &[Who],
+    scene: &Scene,
+    start_step: usize,
+    flag: &str,
+) -> Result<Option<Vec<String>>, Failure> {
+    let mut ids: Vec<String> = Vec::new();
+    for who in who {
+        let there = scene.agents.iter().filter(|agent| agent.kind() != AgentType::Other);
+        let meant: Vec<String> = match who {
+            Who::All => return Ok(None),
+            Who::Id(id) => vec![id.clone()],
+            _ => there
+                .filter(|agent| who.means(scene, agent, start_step))
+                .map(|agent| agent.id.clone())
+                .collect(),
+        };
+        if meant.is_empty() {
+            return Err(Failure::usage(format!("{flag}: nobody in the scene is {}", who.words())));
+        }
+        for id in meant {
+            if !ids.contains(&id) {
+                ids.push(id);
+            }
+        }
+    }
+    Ok(Some(ids))
+}
+
+impl Who {
+    fn means(&self, scene: &Scene, agent: &scene::Agent, start_step: usize) -> bool {
+        let shown = scene.shown(agent);
+        let Some(state) = shown.track.at(start_step) else { return false };
+        match self {
+            Self::All => true,
+            Self::Moving => state.speed_mps() > STANDING_MPS,
+            Self::Kind(kind) => shown.agent_type == *kind,
+            Self::Ego => agent.role.as_deref() == Some("ego"),
+            Self::Id(id) => agent.id == *id,
+        }
+    }
+
+    fn words(&self) -> String {
+        match self {
+            Self::All => "there".into(),
+            Self::Moving => "moving at the start".into(),
+            Self::Kind(AgentType::Pedestrian) => "a pedestrian at the start".into(),
+            Self::Kind(AgentType::Cyclist) => "a cyclist at the start".into(),
+            Self::Kind(_) => "a vehicle at the start".into(),
+            Self::Ego => "the ego".into(),
+            Self::Id(id) => format!("\"{id}\""),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::{Agent, LaneMap, State, Subtype};
+
+    #[test]
+    fn words_mean_road_users_of_the_scene() {
+        let at = |speed: f64| vec![Some(State { vx_mps: speed, ..State::default() })];
+        let agents = vec![
+            Agent::bare("car", AgentType::Vehicle, Subtype::Car, at(5.0)),
+            Agent::bare("parked", AgentType::Vehicle, Subtype::Car, at(0.0)),
+            Agent::bare("walker", AgentType::Pedestrian, Subtype::Adult, at(1.0)),
+            Agent::bare("late", AgentType::Cyclist, Subtype::Bicycle, vec![None, Some(State::default())]),
+        ];
+        let scene = Scene::bare("test", LaneMap::default(), agents);
+        let meant = |words: &[&str]| {
+            let who: Vec<Who> = words.iter().map(|word| word.parse().unwrap()).collect();
+            ids(&who, &scene, 0, "--agents")
+        };
+        let some = |ids: &[&str]| Some(ids.iter().map(|id| (*id).to_owned()).collect::<Vec<_>>());
+        assert_eq!(meant(&["@moving"]).unwrap(), some(&["car", "walker"]));
+        assert_eq!(meant(&["walker", "@vehicles"]).unwrap(), some(&["walker", "car", "parked"]));
+        assert_eq!(meant(&["car", "@all"]).unwrap(), None);
+        assert_eq!(
+            meant(&["@cyclists"]).unwrap_err().message,
+            "--agents: nobody in the scene is a cyclist at the start"
+        );
+        assert!("@everybody".parse::<Who>().unwrap_err().contains("@moving"));
+    }
+}

@@ -1,0 +1,169 @@
+//! Files behind the inputs of a command: those of folders and patterns, and what each is called.
+
+use super::Source;
+use crate::cli::Failure;
+use formats::registry::FORMATS;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Most files of one call.
+const MOST_FILES: usize = 1_000_000;
+/// Ends of file names that say nothing about the scene.
+const ENDS: [&str; 9] = [".json", ".tfrecord", ".gz", ".net.xml", ".xml", ".csv", ".scene", ".fcd", ".zst"];
+
+/// Names that were given.
+#[derive(Default)]
+pub struct Known(HashMap<String, usize>);
+
+impl Known {
+    /// The name, with a number behind it where another one has it.
+    pub fn name(&mut self, name: String) -> String {
+        let count = self.0.entry(name.clone()).and_modify(|count| *count += 1).or_insert(1);
+        if *count > 1 { format!("{name}-{count}") } else { name }
+    }
+}
+
+/// The files, in the order given, those of a folder or pattern by name.
+///
+/// # Errors
+/// Exit 3 when a folder or pattern has none.
+pub fn sources(inputs: &[PathBuf]) -> Result<Vec<Source>, Failure> {
+    let mut paths = Vec::new();
+    for input in inputs {
+        match as_pattern(input) {
+            _ if input.is_dir() => paths.extend(of_folder(input)?),
+            Some(pattern) => paths.extend(of_pattern(pattern)?),
+            None => paths.push(input.clone()),
+        }
+        if paths.len() > MOST_FILES {
+            return Err(Failure::input(format!("more than {MOST_FILES} files")));
+        }
+    }
+    let mut known = Known::default();
+    let named = |path: PathBuf| Source { label: known.name(label(&path)), path };
+    Ok(paths.into_iter().map(named).collect())
+}
+
+/// The files of patterns among the inputs, and all else as it is: for commands that look into folders themselves.
+///
+/// # Errors
+/// Exit 3 when a pattern has none.
+pub fn patterns(inputs: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut paths = Vec::new();
+    for input in inputs {
+        match as_pattern(input) {
+            Some(pattern) => paths.extend(of_pattern(pattern)?),
+            None => paths.push(input.clone()),
+        }
+    }
+    Ok(paths)
+}
+
+/// The text of a pattern that is no file's name.
+fn as_pattern(input: &Path) -> Option<&str> {
+    input.to_str().filter(|text| text.contains(['*', '?', '[']) && !input.exists())
+}
+
+fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let unreadable = |error| Failure::input(format!("{}: {error}", folder.display()));
+    let entries = std::fs::read_dir(folder).map_err(unreadable)?;
+    let mut files: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.is_file() && is_scene(path))
+        .collect();
+    files.sort();
+    if files.is_empty() {
+        return Err(Failure::input(format!(
+            "{}: no file in this folder has the name of a scene",
+            folder.display()
+        )));
+    }
+    Ok(files)
+}
+
+/// Whether a file of a folder is taken, by its name alone.
+fn is_scene(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    if name.starts_with('.') || name.ends_with(".tmp") {
+        return false;
+    }
+    let mut readable = FORMATS.iter().map(|format| format.info()).filter(|info| info.import);
+    // Shards have a number behind the ending.
+    name.contains("tfrecord") || readable.any(|info| info.extensions.iter().any(|end| has_end(&name, end)))
+}
+
+fn has_end(name: &str, end: &str) -> bool {
+    name.strip_suffix(end).is_some_and(|stem| stem.ends_with('.') || end.starts_with('.'))
+}
+
+fn of_pattern(pattern: &str) -> Result<Vec<PathBuf>, Failure> {
+    let wrong = |error: glob::PatternError| Failure::usage(format!("{pattern}: {error}"));
+    let found = glob::glob(pattern).map_err(wrong)?;
+    let mut files: Vec<PathBuf> =
+        found.filter_map(Result::ok).filter(|path| path.is_file()).take(MOST_FILES).collect();
+    files.sort();
+    if files.is_empty() {
+        return Err(Failure::input(format!("{pattern}: no file matches")));
+    }
+    Ok(files)
+}
+
+/// The file's name without what its endings say.
+fn label(path: &Path) -> String {
+    if path == Path::new("-") {
+        return "stdin".into();
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let mut stem: &str = &name;
+    while let Some(shorter) = ENDS.iter().find_map(|end| stem.strip_suffix(end)).filter(|s| !s.is_empty()) {
+        stem = shorter;
+    }
+    stem.to_owned()
+}
+
+/// Refuses ids that stand behind a flag which takes them behind `=` alone: they would be files that are not there.
+///
+/// # Errors
+/// Exit 2.
+pub fn no_ids(sources: &[Source], flag: &str) -> Result<(), Failure> {
+    let is_id = |c: char| c.is_ascii_alphanumeric() || ",_:-".contains(c);
+    let stray = sources.iter().find(|source| {
+        let text = source.path.to_string_lossy();
+        text != "-" && text.chars().all(is_id) && !source.path.exists()
+    });
+    match stray {
+        Some(source) if sources.len() > 1 => {
+            let text = source.shown();
+            Err(Failure::usage(format!(
+                "{text}: no such file; road users stand behind =, as in {flag}={text}"
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_and_patterns_give_scenes_by_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let names =
+            ["b.json", "a.json", "notes.md", ".hidden.json", "x.tfrecord-00001-of-01000", "manifest.csv"];
+        for name in names {
+            std::fs::write(folder.path().join(name), "{}").unwrap();
+        }
+        std::fs::create_dir(folder.path().join("deep")).unwrap();
+        std::fs::write(folder.path().join("deep/a.json"), "{}").unwrap();
+        let labels = |inputs: &[PathBuf]| -> Vec<String> {
+            sources(inputs).unwrap().into_iter().map(|source| source.label).collect()
+        };
+        assert_eq!(labels(&[folder.path().into()]), ["a", "b", "x.tfrecord-00001-of-01000"]);
+        assert_eq!(labels(&[folder.path().join("**/*.json")]), [".hidden", "a", "b", "a-2"]);
+        assert_eq!(labels(&[folder.path().join("gone.tfrecord.gz")]), ["gone"]);
+        assert!(sources(&[folder.path().join("*.nothing")]).is_err());
+        std::fs::create_dir(folder.path().join("empty")).unwrap();
+        assert!(sources(&[folder.path().join("empty")]).is_err());
+    }
+}

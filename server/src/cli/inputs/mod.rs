@@ -1,0 +1,180 @@
+//! Scenes to work on: files, folders and patterns, read a few scenes at a time.
+
+mod find;
+
+pub use find::{no_ids, patterns};
+
+use super::{Failure, output};
+use crate::base::problem::Problem;
+use crate::scenes::transfer;
+use clap::Args;
+use find::Known;
+use formats::registry;
+use scene::Scene;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Scenes of one file that are in memory at a time.
+const AT_A_TIME: usize = 16;
+
+/// Which files, for commands that take many.
+#[derive(Args, Clone, Debug)]
+pub struct Inputs {
+    /// Files, folders or patterns such as 'runs/**/*.json', of any format; - is stdin.
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<PathBuf>,
+    /// Files worked on at the same time; one a core when absent.
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=512))]
+    pub jobs: Option<u16>,
+}
+
+/// A file of scenes and what it is called in results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Where.
+    pub path: PathBuf,
+    /// Its name without endings; another file of the same name has a number behind it.
+    pub label: String,
+}
+
+/// How files are read.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// Format; recognised when absent.
+    pub from: Option<String>,
+    /// The network that recordings belong to.
+    pub net: Option<Vec<u8>>,
+    /// Scenes of each file; all when absent.
+    pub index: Option<Range<usize>>,
+}
+
+/// One scene of a file.
+pub struct Item {
+    /// The scene.
+    pub scene: Scene,
+    /// What it is called in results.
+    pub name: String,
+    /// What its reader changed or left out: code and sentence.
+    pub notes: Vec<formats::Warning>,
+}
+
+impl Inputs {
+    /// The files, in the order given, those of a folder or pattern by name.
+    ///
+    /// # Errors
+    /// Exit 3 when a folder or pattern has none.
+    pub fn sources(&self) -> Result<Vec<Source>, Failure> {
+        find::sources(&self.scenes)
+    }
+
+    /// Workers.
+    pub fn workers(&self) -> usize {
+        self.jobs.map_or_else(super::parallel::cores, usize::from)
+    }
+}
+
+impl Source {
+    /// The file as messages name it.
+    pub fn shown(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// The file's format is one that has many scenes in a file.
+    fn holds_many(bytes: &[u8], reading: &Reading, name: &str) -> bool {
+        let format = match &reading.from {
+            Some(id) => registry::by_id(transfer::known(id)),
+            None => registry::sniff(bytes, name),
+        };
+        format.is_none_or(|format| format.info().many)
+    }
+
+    /// Reads scene after scene and hands each to `take`; gives their number. What is no scene is told and passed
+    /// over.
+    ///
+    /// # Errors
+    /// Exit 3, and what `take` reports.
+    pub fn each(
+        &self,
+        reading: &Reading,
+        take: &mut dyn FnMut(Item) -> Result<(), Failure>,
+    ) -> Result<usize, Failure> {
+        let bytes = output::read(&self.path)?;
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let many = Self::holds_many(&bytes, reading, &name);
+        let wanted = reading.index.clone().unwrap_or(0..usize::MAX);
+        let (mut at, mut count) = (wanted.start, 0);
+        let mut known = Known::default();
+        while at < wanted.end {
+            let most = AT_A_TIME.min(wanted.end - at);
+            let read = transfer::read(&bytes, reading.from.as_deref(), &name, at, most, reading.net.clone());
+            let read = match read {
+                Err(problem) if at == wanted.start => return Err(refused(&self.path, &problem)),
+                Err(problem) => {
+                    output::complain(&format!(
+                        "{}: left out from scene {at} on: {}",
+                        self.shown(),
+                        problem.detail
+                    ));
+                    break;
+                }
+                Ok(read) => read,
+            };
+            for (index, problem) in &read.skipped {
+                output::complain(&format!("{}: scene {index} left out: {}", self.shown(), problem.detail));
+            }
+            let found = read.scenes.len() + read.skipped.len();
+            let numbers = (at..).filter(|i| read.skipped.iter().all(|(skipped, _)| skipped != i));
+            for (index, imported) in numbers.zip(read.scenes) {
+                let name =
+                    if many { known.name(self.name_of(&imported.scene, index)) } else { self.label.clone() };
+                take(Item { scene: imported.scene, name, notes: imported.warnings })?;
+                count += 1;
+            }
+            if found < most || !many {
+                break;
+            }
+            at += most;
+        }
+        if count == 0 {
+            return Err(Failure::input(format!("{}: no scene at that index", self.shown())));
+        }
+        Ok(count)
+    }
+
+    /// A scene of a file with many is called by its id in the source, else by its place.
+    fn name_of(&self, scene: &Scene, index: usize) -> String {
+        let clean = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
+        let id = scene.meta.source_id.as_deref().unwrap_or_default();
+        let id: String = id.chars().map(clean).take(60).collect();
+        if id.is_empty() { format!("{}-{index:06}", self.label) } else { id }
+    }
+
+    /// The first scene that is wanted.
+    ///
+    /// # Errors
+    /// Exit 3.
+    pub fn first(&self, reading: &Reading) -> Result<Item, Failure> {
+        let at = reading.index.as_ref().map_or(0, |range| range.start);
+        let reading = Reading { index: Some(at..at + 1), ..reading.clone() };
+        let mut first = None;
+        self.each(&reading, &mut |item| {
+            first = Some(item);
+            Ok(())
+        })?;
+        first.ok_or_else(|| Failure::input(format!("{}: no scene in it", self.shown())))
+    }
+}
+
+/// Problems of files as failures of the command.
+pub fn refused(path: &Path, problem: &Problem) -> Failure {
+    let mut message = format!("{}: {}", path.display(), problem.detail);
+    for error in problem.members.errors.iter().flatten().skip(1) {
+        message.push_str(&format!("\n  {error}"));
+    }
+    Failure::input(message)
+}
+
+/// Says what readers changed or left out.
+pub fn tell_notes(source: &Source, notes: &[formats::Warning]) -> Vec<String> {
+    notes.iter().map(|note| format!("{}: {}: {}", source.shown(), note.code, note.detail)).collect()
+}

@@ -1,0 +1,213 @@
+//! Conditions on scores, such as `min_ttc_s < 1.5 && collisions == 0`: comparisons of figures with numbers or with
+//! each other, joined by `&&`, `||`, `!` and parentheses.
+//!
+//! A figure that a scene does not have (no two road users ever close in, nobody has a goal) compares as false with
+//! everything.
+
+use super::tokens::{Operand, Order, Placed, Token, Wrong, tokens};
+
+/// Longest text.
+const MOST_BYTES: usize = 4_096;
+/// Deepest nesting of parentheses and `!`.
+const MOST_DEEP: usize = 64;
+
+/// A condition that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression(Node);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Node {
+    Or(Box<Node>, Box<Node>),
+    And(Box<Node>, Box<Node>),
+    Not(Box<Node>),
+    Compare(Operand, Order, Operand),
+}
+
+impl Expression {
+    /// Reads a condition; `known` says which figures there are.
+    ///
+    /// # Errors
+    /// The first fault with its column.
+    pub fn parse(text: &str, known: &dyn Fn(&str) -> Result<(), String>) -> Result<Self, Wrong> {
+        if text.len() > MOST_BYTES {
+            return Err(Wrong {
+                column: 1,
+                what: format!("{} bytes; at most {MOST_BYTES} expected", text.len()),
+            });
+        }
+        let tokens = tokens(text)?;
+        let mut parser = Parser { tokens: &tokens, at: 0, end: text.chars().count() + 1, known };
+        let node = parser.either(0)?;
+        match parser.peek() {
+            None => Ok(Self(node)),
+            Some(_) => Err(parser.expected("&&, || or the end")),
+        }
+    }
+
+    /// Whether it holds for the figures that `value` gives.
+    pub fn holds(&self, value: &dyn Fn(&str) -> Option<f64>) -> bool {
+        self.0.holds(value)
+    }
+}
+
+impl Node {
+    fn holds(&self, value: &dyn Fn(&str) -> Option<f64>) -> bool {
+        match self {
+            Self::Or(a, b) => a.holds(value) || b.holds(value),
+            Self::And(a, b) => a.holds(value) && b.holds(value),
+            Self::Not(a) => !a.holds(value),
+            Self::Compare(a, order, b) => match (a.value(value), b.value(value)) {
+                (Some(a), Some(b)) => match order {
+                    Order::Less => a < b,
+                    Order::AtMost => a <= b,
+                    Order::More => a > b,
+                    Order::AtLeast => a >= b,
+                    Order::Equal => a == b,
+                    Order::Unequal => a != b,
+                },
+                _ => false,
+            },
+        }
+    }
+}
+
+impl Operand {
+    fn value(&self, value: &dyn Fn(&str) -> Option<f64>) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Figure(name) => value(name),
+        }
+    }
+}
+
+struct Parser<'a> {
+    tokens: &'a [Placed],
+    at: usize,
+    /// Column behind the text.
+    end: usize,
+    known: &'a dyn Fn(&str) -> Result<(), String>,
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> Option<&Token> {
+        self.tokens.get(self.at).map(|placed| &placed.token)
+    }
+
+    fn take(&mut self, wanted: &Token) -> bool {
+        let found = self.peek() == Some(wanted);
+        self.at += usize::from(found);
+        found
+    }
+
+    fn expected(&self, what: &str) -> Wrong {
+        match self.tokens.get(self.at) {
+            Some(placed) => {
+                Wrong { column: placed.column, what: format!("{what} expected, \"{}\" found", placed.text) }
+            }
+            None => Wrong { column: self.end, what: format!("{what} expected, the end found") },
+        }
+    }
+
+    fn either(&mut self, deep: usize) -> Result<Node, Wrong> {
+        let mut left = self.both(deep)?;
+        while self.take(&Token::Or) {
+            left = Node::Or(Box::new(left), Box::new(self.both(deep)?));
+        }
+        Ok(left)
+    }
+
+    fn both(&mut self, deep: usize) -> Result<Node, Wrong> {
+        let mut left = self.one(deep)?;
+        while self.take(&Token::And) {
+            left = Node::And(Box::new(left), Box::new(self.one(deep)?));
+        }
+        Ok(left)
+    }
+
+    fn one(&mut self, deep: usize) -> Result<Node, Wrong> {
+        if deep > MOST_DEEP {
+            return Err(self.expected(&format!("at most {MOST_DEEP} parentheses and ! inside each other")));
+        }
+        if self.take(&Token::Not) {
+            return Ok(Node::Not(Box::new(self.one(deep + 1)?)));
+        }
+        if self.take(&Token::Open) {
+            let inner = self.either(deep + 1)?;
+            return if self.take(&Token::Close) { Ok(inner) } else { Err(self.expected("&&, || or )")) };
+        }
+        let left = self.operand("a figure, a number, ! or (")?;
+        let Some(Token::Compare(order)) = self.peek().cloned() else {
+            return Err(self.expected("<, <=, >, >=, == or !="));
+        };
+        self.at += 1;
+        Ok(Node::Compare(left, order, self.operand("a figure or a number")?))
+    }
+
+    fn operand(&mut self, what: &str) -> Result<Operand, Wrong> {
+        let Some(Token::Operand(operand)) = self.peek().cloned() else { return Err(self.expected(what)) };
+        if let Operand::Figure(name) = &operand {
+            let column = self.tokens[self.at].column;
+            (self.known)(name).map_err(|what| Wrong { column, what })?;
+        }
+        self.at += 1;
+        Ok(operand)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(name: &str) -> Result<(), String> {
+        if ["a", "b", "none", "c.d"].contains(&name) { Ok(()) } else { Err(format!("no figure \"{name}\"")) }
+    }
+
+    fn value(name: &str) -> Option<f64> {
+        match name {
+            "a" => Some(1.0),
+            "b" => Some(2.0),
+            "c.d" => Some(-0.5),
+            _ => None,
+        }
+    }
+
+    fn holds(text: &str) -> bool {
+        Expression::parse(text, &known).unwrap_or_else(|wrong| panic!("{text}: {wrong}")).holds(&value)
+    }
+
+    #[test]
+    fn comparisons_and_their_joints() {
+        let yes = ["a < b", "a<=1&&b>=2", "a == 1 || b == 9", "!(a > b)", "a != b", "c.d == -.5", "1e0 == a"];
+        yes.iter().for_each(|text| assert!(holds(text), "{text}"));
+        let no = ["a > b", "a == 1 && b == 1", "!(a < b)", "!a==1", "a >= 1.0001"];
+        no.iter().for_each(|text| assert!(!holds(text), "{text}"));
+        // && binds closer than ||.
+        assert!(holds("a == 1 || a == 1 && b == 9") && !holds("(a == 1 || a == 1) && b == 9"));
+    }
+
+    #[test]
+    fn a_figure_that_is_missing_compares_as_false() {
+        for order in ["<", "<=", ">", ">=", "==", "!="] {
+            assert!(!holds(&format!("none {order} 1")), "{order}");
+            assert!(holds(&format!("!(none {order} 1)")), "{order}");
+        }
+    }
+
+    #[test]
+    fn faults_have_their_column() {
+        let wrong = |text: &str| Expression::parse(text, &known).unwrap_err().to_string();
+        assert_eq!(wrong("a < 1.5 && z == 0"), "column 12: no figure \"z\"");
+        assert_eq!(wrong("a < "), "column 5: a figure or a number expected, the end found");
+        assert_eq!(wrong("a = 1"), "column 3: \"=\" found; == compares");
+        assert_eq!(wrong("a < 1 b"), "column 7: &&, || or the end expected, \"b\" found");
+        assert_eq!(wrong("(a < 1"), "column 7: &&, || or ) expected, the end found");
+        assert_eq!(wrong("a < 1..2"), "column 5: \"1..2\" is no number");
+        assert_eq!(wrong("a"), "column 2: <, <=, >, >=, == or != expected, the end found");
+        assert_eq!(wrong("a < 1 & b < 1"), "column 7: \"&\" found; && joins");
+        assert_eq!(wrong("a < 1 && é"), "column 10: no figure \"é\"");
+        assert_eq!(wrong("a < $"), "column 5: \"$\" has no meaning here");
+        assert_eq!(wrong(""), "column 1: a figure, a number, ! or ( expected, the end found");
+        assert!(wrong(&"(".repeat(1_000)).contains("at most 64 parentheses"));
+        assert!(wrong(&"a<1&&".repeat(1_000)).contains("at most 4096"));
+    }
+}

@@ -1,0 +1,209 @@
+//! The figures of a score by name, for conditions and tables: the numbers of the scene's score and how many entries
+//! its lists have, and under `actor.` those of the road user that was asked for.
+
+use super::expression::Expression;
+use scene::Scene;
+use scene::score::{AgentScore, SceneScore, Score};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+/// What the actor's figures begin with.
+const ACTOR: &str = "actor.";
+/// Deepest figure inside a figure.
+const DEEPEST: usize = 3;
+/// The figure that no score has.
+const ROAD_USERS: &str = "road_users";
+
+/// A condition on a score, as text and as what it means.
+#[derive(Clone, Debug)]
+pub struct Filter {
+    text: String,
+    expression: Arc<Expression>,
+}
+
+impl Filter {
+    /// Reads one.
+    ///
+    /// # Errors
+    /// What is wrong and at which column; for an unknown name, the names there are.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let known = |name: &str| if names().iter().any(|n| n == name) { Ok(()) } else { Err(unknown(name)) };
+        let expression = Expression::parse(text, &known).map_err(|wrong| wrong.to_string())?;
+        Ok(Self { text: text.to_owned(), expression: Arc::new(expression) })
+    }
+
+    /// As it was given.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Whether a score has what it asks.
+    pub fn holds(&self, figures: &Figures) -> bool {
+        self.expression.holds(&|name| figures.get(name))
+    }
+}
+
+fn unknown(name: &str) -> String {
+    let near = names().iter().filter_map(|known| Some((distance(known, name)?, known))).min();
+    let near = near.map_or_else(String::new, |(_, known)| format!(" (did you mean {known}?)"));
+    format!("no figure is named \"{name}\"{near}; there are {}", names().join(", "))
+}
+
+/// Letters that differ, where they are few enough for a slip.
+fn distance(a: &str, b: &str) -> Option<usize> {
+    let b: Vec<char> = b.chars().take(80).collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut before = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let changed = before + usize::from(x != *y);
+            before = row[j + 1];
+            row[j + 1] = changed.min(row[j] + 1).min(before + 1);
+        }
+    }
+    row.last().copied().filter(|d| *d <= 3)
+}
+
+/// All names, those of the scene first.
+pub fn names() -> &'static [String] {
+    static NAMES: OnceLock<Vec<String>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let mut names = vec![ROAD_USERS.to_owned()];
+        names.extend(of_schema::<SceneScore>(""));
+        names.extend(of_schema::<AgentScore>(ACTOR));
+        names
+    })
+}
+
+/// Names of the numbers and lists that a type has, as its schema tells them.
+fn of_schema<T: JsonSchema>(prefix: &str) -> Vec<String> {
+    let mut generator = SchemaGenerator::default();
+    let schema: Schema = generator.root_schema_for::<T>();
+    let schema = schema.to_value();
+    let mut names = Vec::new();
+    collect(&schema, &schema, prefix, 0, &mut names);
+    names.sort();
+    names
+}
+
+fn collect(root: &Value, schema: &Value, prefix: &str, deep: usize, names: &mut Vec<String>) {
+    for (name, member) in schema["properties"].as_object().into_iter().flatten() {
+        let name = format!("{prefix}{name}");
+        let member = meant(root, member);
+        let is = |kind: &str| match &member["type"] {
+            Value::Array(kinds) => kinds.iter().any(|k| k == kind),
+            one => one == kind,
+        };
+        if ["number", "integer", "boolean", "array"].into_iter().any(is) {
+            names.push(name);
+        } else if deep < DEEPEST {
+            collect(root, member, &format!("{name}."), deep + 1, names);
+        }
+    }
+}
+
+/// A schema behind a reference, or behind "this or null".
+fn meant<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
+    let choice = schema["anyOf"].as_array().and_then(|all| all.iter().find(|one| one["type"] != "null"));
+    let schema = choice.unwrap_or(schema);
+    let pointer = schema["$ref"].as_str().and_then(|text| text.strip_prefix('#'));
+    pointer.and_then(|pointer| root.pointer(pointer)).unwrap_or(schema)
+}
+
+/// The figures of one score.
+pub struct Figures(BTreeMap<String, f64>);
+
+impl Figures {
+    /// Of a score, and of one road user in it.
+    pub fn new(score: &Score, actor: Option<&str>) -> Self {
+        let mut all = BTreeMap::from([(ROAD_USERS.to_owned(), score.agents.len() as f64)]);
+        let mut add = |prefix: &str, value: serde_json::Result<Value>| {
+            // A score always has a JSON form.
+            if let Ok(value) = value {
+                flatten(prefix, &value, &mut all);
+            }
+        };
+        add("", serde_json::to_value(&score.scene));
+        if let Some(agent) = actor.and_then(|id| score.agents.get(id)) {
+            add(ACTOR, serde_json::to_value(agent));
+        }
+        Self(all)
+    }
+
+    /// One of them; `None` where the scene does not have it.
+    pub fn get(&self, name: &str) -> Option<f64> {
+        self.0.get(name).copied()
+    }
+}
+
+fn flatten(prefix: &str, value: &Value, out: &mut BTreeMap<String, f64>) {
+    for (name, value) in value.as_object().into_iter().flatten() {
+        let name = format!("{prefix}{name}");
+        match value {
+            // What the log shows too is listed and not counted.
+            Value::Array(list) => {
+                let own = list.iter().filter(|entry| entry["in_log"] != true).count();
+                out.insert(name, own as f64);
+            }
+            Value::Bool(is) => drop(out.insert(name, f64::from(u8::from(*is)))),
+            Value::Number(number) => drop(number.as_f64().map(|n| out.insert(name, n))),
+            Value::Object(_) => flatten(&format!("{name}."), value, out),
+            Value::Null | Value::String(_) => {}
+        }
+    }
+}
+
+/// The road user that a scene's futures were asked for, where it is one alone.
+pub fn actor_of(scene: &Scene) -> Option<&str> {
+    match scene.generated.as_ref()?.request["agents"].as_array()?.as_slice() {
+        [Value::String(only)] => Some(only),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::Scene;
+    use scene::score::{Drivable, ScoreInput};
+
+    #[test]
+    fn figures_are_those_of_the_score() {
+        let known = names();
+        for name in [
+            "min_ttc_s",
+            "collisions",
+            "goals_reached",
+            "actor.min_ttc_s",
+            "goal_error.position_m",
+            "near_misses",
+        ] {
+            assert!(known.iter().any(|n| n == name), "{name}: {known:?}");
+        }
+        assert!(!known.iter().any(|n| n.contains("in_log") || n.ends_with('.')), "{known:?}");
+        let empty = Scene::bare("none", scene::LaneMap::default(), Vec::new());
+        let drivable = Drivable::new(&empty.map);
+        let score = scene::score::score(&ScoreInput::of_scene(&empty, &drivable));
+        let figures = Figures::new(&score, None);
+        assert_eq!((figures.get("collisions"), figures.get("min_ttc_s")), (Some(0.0), None));
+        // Every figure of a score is a name that can be asked for.
+        assert!(figures.0.keys().all(|name| known.contains(name)), "{:?}", figures.0.keys());
+        assert!(Filter::parse("min_ttc_s < 1.5 && collisions == 0").is_ok());
+        assert!(Filter::parse("collisions == 0").unwrap().holds(&figures));
+    }
+
+    #[test]
+    fn a_slip_is_named() {
+        let wrong = Filter::parse("min_tcc_s < 1").unwrap_err();
+        assert!(
+            wrong.starts_with(
+                "column 1: no figure is named \"min_tcc_s\" (did you mean min_ttc_s?); there are"
+            ),
+            "{wrong}"
+        );
+        assert!(!Filter::parse("something_else < 1").unwrap_err().contains("did you mean"));
+    }
+}

@@ -1,0 +1,191 @@
+//! `dragtraffic score`: figures of scenes and of each of their samples, those that hold a condition picked out.
+
+mod expression;
+pub mod figures;
+pub mod table;
+mod thresholds;
+mod tokens;
+mod words;
+
+use super::inputs::{Inputs, Item, Reading, Source};
+use super::output::{self, Folder};
+use super::progress::Progress;
+use super::tally::Tally;
+use super::{Common, Failure, parallel, values};
+use clap::Args;
+use figures::{Figures, Filter};
+use formats::native::{self, MapForm, SceneDoc};
+use scene::score::{Drivable, Score, ScoreInput};
+use scene::{Sample, Scene};
+use serde_json::{Map, Value, json};
+use std::ops::Range;
+use std::path::PathBuf;
+use table::Table;
+use thresholds::Counting;
+
+/// Flags of `score`.
+#[derive(Args, Clone, Debug)]
+pub struct ScoreArgs {
+    #[command(flatten)]
+    inputs: Inputs,
+    /// Samples of generated futures: the chosen one, all, one number, or FIRST..LAST.
+    #[arg(long, value_name = "WHICH", default_value = "chosen", value_parser = which)]
+    samples: Which,
+    /// Only what this holds for, such as 'min_ttc_s < 1.5 && collisions == 0': figures of the score (lists count
+    /// what the log does not show), actor.FIGURE for the road user asked for; <, <=, >, >=, ==, !=, &&, ||, !, ( ).
+    /// A figure that a scene does not have holds for nothing. An unknown name lists all there are.
+    #[arg(long = "where", value_name = "CONDITION", value_parser = Filter::parse)]
+    filter: Option<Filter>,
+    /// One JSON object a line in place of text.
+    #[arg(long)]
+    json: bool,
+    /// A table with a line for each sample to this file; - is stdout, in place of text.
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    csv: Option<PathBuf>,
+    /// Copy what is scored to this folder, a scene for each sample.
+    #[arg(long, value_name = "DIR")]
+    copy_to: Option<PathBuf>,
+    /// Overwrite the table and copies.
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    counting: Counting,
+}
+
+/// Which samples of a scene.
+#[derive(Clone, Debug, PartialEq)]
+enum Which {
+    Chosen,
+    All,
+    These(Range<usize>),
+}
+
+fn which(text: &str) -> Result<Which, String> {
+    match text {
+        "chosen" => Ok(Which::Chosen),
+        "all" => Ok(Which::All),
+        _ => values::index(text)
+            .map(Which::These)
+            .map_err(|_| "chosen, all, a number or FIRST..LAST expected".into()),
+    }
+}
+
+/// What became of one file.
+struct Scored {
+    text: String,
+    rows: Vec<Vec<String>>,
+    held: usize,
+    looked_at: usize,
+}
+
+/// Scores scenes.
+///
+/// # Errors
+/// Exit 3 when none can be read, 4 when some cannot, 8 when the table or a copy exists.
+pub fn score(args: ScoreArgs, common: &Common) -> Result<(), Failure> {
+    let sources = args.inputs.sources()?;
+    if let Some(path) = args.csv.as_deref().filter(|path| *path != std::path::Path::new("-")) {
+        output::keep(path, args.force)?;
+    }
+    let copies = args.copy_to.as_deref().map(|path| Folder::new(path, args.force)).transpose()?;
+    let progress = Progress::new("files", sources.len() as u64, common.quiet);
+    let (mut tally, mut table, mut broken) = (Tally::default(), Table::new(), None);
+    let (mut held, mut looked_at) = (0, 0);
+    let work = |source: &Source| of_file(source, &args, copies.as_ref());
+    parallel::in_order(&sources, args.inputs.workers(), work, |_, scored| {
+        let result = scored.map(|scored| {
+            held += scored.held;
+            looked_at += scored.looked_at;
+            scored.rows.iter().for_each(|row| table.add(row));
+            let done = progress.pausing(|| output::print(scored.text.as_bytes()));
+            broken = broken.take().or(done.err());
+        });
+        tally.add(result, sources.len() == 1, &progress);
+        progress.step();
+    });
+    drop(progress);
+    if let Some(failure) = broken {
+        return Err(failure);
+    }
+    if let Some(path) = &args.csv {
+        output::write(Some(path), &table.bytes()?, args.force)?;
+    }
+    if let (Some(filter), false) = (&args.filter, common.quiet || looked_at == 0) {
+        output::complain(&format!("{held} of {looked_at} hold {}", filter.text()));
+    }
+    tally.end("files")
+}
+
+fn of_file(source: &Source, args: &ScoreArgs, copies: Option<&Folder>) -> Result<Scored, Failure> {
+    let mut scored = Scored { text: String::new(), rows: Vec::new(), held: 0, looked_at: 0 };
+    source.each(&Reading::default(), &mut |item| {
+        let drivable = Drivable::new(&item.scene.map);
+        for (number, sample) in picked(&item.scene, &args.samples) {
+            scored.looked_at += 1;
+            let input = ScoreInput::of_sample(&item.scene, sample, &drivable);
+            let score = scene::score::score(&args.counting.applied(input));
+            let actor = figures::actor_of(&item.scene);
+            let figures = Figures::new(&score, actor);
+            if args.filter.as_ref().is_some_and(|filter| !filter.holds(&figures)) {
+                continue;
+            }
+            scored.held += 1;
+            let several = item.scene.generated.as_ref().is_some_and(|g| g.samples.len() > 1);
+            let number = number.filter(|_| several || args.samples != Which::Chosen);
+            if args.csv.is_some() {
+                scored.rows.push(table::row(&source.shown(), &item, number, &figures));
+            }
+            if args.json {
+                scored.text.push_str(&format!("{}\n", object(source, &item, number, &score)));
+            } else if args.csv.as_deref() != Some(std::path::Path::new("-")) {
+                let place =
+                    number.map_or_else(|| source.shown(), |n| format!("{} sample {n}", source.shown()));
+                scored.text.push_str(&format!("{}\n", words::line(&place, &score)));
+            }
+            if let Some(folder) = copies {
+                copy(folder, &item, number)?;
+            }
+        }
+        Ok(())
+    })?;
+    Ok(scored)
+}
+
+/// The samples asked for with their numbers; without futures, the log alone.
+fn picked<'a>(scene: &'a Scene, which: &Which) -> Vec<(Option<usize>, Option<&'a Sample>)> {
+    let Some(generated) = &scene.generated else { return vec![(None, None)] };
+    let wanted = |i: &usize| match which {
+        Which::Chosen => *i == generated.chosen_sample,
+        Which::All => true,
+        Which::These(range) => range.contains(i),
+    };
+    let samples = generated.samples.iter().enumerate();
+    samples.filter(|(i, _)| wanted(i)).map(|(i, sample)| (Some(i), Some(sample))).collect()
+}
+
+fn object(source: &Source, item: &Item, number: Option<usize>, score: &Score) -> Value {
+    let mut object = Map::new();
+    object.insert("file".into(), source.shown().into());
+    object.insert("source_id".into(), json!(item.scene.meta.source_id));
+    if let Some(number) = number {
+        object.insert("sample".into(), json!(number));
+    }
+    if let Ok(Value::Object(members)) = serde_json::to_value(score) {
+        object.extend(members);
+    }
+    Value::Object(object)
+}
+
+/// The scene with this sample chosen.
+fn copy(folder: &Folder, item: &Item, number: Option<usize>) -> Result<(), Failure> {
+    let mut scene = item.scene.clone();
+    if let (Some(generated), Some(number)) = (&mut scene.generated, number) {
+        generated.chosen_sample = number;
+    }
+    let name = match number {
+        Some(number) => format!("{}-sample{number:03}.json", item.name),
+        None => format!("{}.json", item.name),
+    };
+    let bytes = native::write_doc(&SceneDoc::from_scene(&scene, MapForm::Inline));
+    folder.write(&name, &bytes).map(drop)
+}

@@ -1,0 +1,31 @@
+//! What counts in a score, as flags.
+
+use crate::cli::values::within;
+use clap::Args;
+use scene::score::{PairChoice, ScoreInput, Thresholds};
+
+/// Flags of scoring.
+#[derive(Args, Clone, Debug)]
+pub struct Counting {
+    /// Which pairs are looked at: all of them, or those with a generated road user.
+    #[arg(long, value_enum, default_value_t)]
+    pub pairs: PairChoice,
+    /// Boxes collide when their intersection over union is above this; 0 takes any overlap.
+    #[arg(long, value_name = "SHARE", default_value_t = Thresholds::default().iou, value_parser = within(0.0, 1.0, ""))]
+    pub iou: f64,
+    /// Near miss: time to collision below this, seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = Thresholds::default().ttc_s, value_parser = within(0.0, 60.0, "seconds"))]
+    pub ttc: f64,
+    /// Near miss: gap below this, metres.
+    #[arg(long, value_name = "METRES", default_value_t = Thresholds::default().gap_m, value_parser = within(0.0, 60.0, "metres"))]
+    pub gap: f64,
+}
+
+impl Counting {
+    /// The input with these thresholds.
+    pub fn applied<'a>(&self, mut input: ScoreInput<'a>) -> ScoreInput<'a> {
+        input.pairs = self.pairs;
+        input.thresholds = Thresholds { iou: self.iou, ttc_s: self.ttc, gap_m: self.gap, ..input.thresholds };
+        input
+    }
+}

@@ -1,0 +1,23 @@
+//! A score in one line. The words are those of "Words of a score" in the README.
+
+use scene::score::Score;
+
+/// What a score says, behind the name of what was scored.
+pub fn line(place: &str, score: &Score) -> String {
+    let number = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.2} {unit}"));
+    let scene = &score.scene;
+    let list = |one: &str, many: &str, in_log: Vec<bool>| {
+        let (all, log) = (in_log.len(), in_log.iter().filter(|in_log| **in_log).count());
+        let of_log = if log > 0 { format!(" (and {log} of the log)") } else { String::new() };
+        format!("{} {}{of_log}", all - log, if all - log == 1 { one } else { many })
+    };
+    format!(
+        "{place}: {}, {}, {}, least time to collision {}, least gap {}, off road {}",
+        list("collision", "collisions", scene.collisions.iter().map(|c| c.in_log).collect()),
+        list("lighter overlap", "lighter overlaps", scene.overlaps.iter().map(|c| c.in_log).collect()),
+        list("near miss", "near misses", scene.near_misses.iter().map(|c| c.in_log).collect()),
+        number(scene.min_ttc_s, "s"),
+        number(scene.min_distance_m, "m"),
+        scene.offroad_share.map_or("-".into(), |share| format!("{:.1} %", share * 100.0)),
+    )
+}

@@ -1,0 +1,68 @@
+//! `dragtraffic completions` and `dragtraffic man`: made from the flags themselves.
+
+use super::output::{self, Folder};
+use super::{Cli, Failure};
+use clap::{Args, Command, CommandFactory};
+use clap_complete::Shell;
+use clap_mangen::Man;
+use std::path::PathBuf;
+
+const NAME: &str = "dragtraffic";
+
+/// Flags of `completions`.
+#[derive(Args, Clone, Debug)]
+pub struct CompletionsArgs {
+    /// Whose: bash, zsh, fish, elvish, powershell.
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+/// Flags of `man`.
+#[derive(Args, Clone, Debug)]
+pub struct ManArgs {
+    /// Folder for a page of the program and of each command; the program's goes to stdout without it.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Overwrite pages.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Prints the completions of a shell.
+///
+/// # Errors
+/// Exit 1.
+pub fn completions(args: CompletionsArgs) -> Result<(), Failure> {
+    let mut bytes = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), NAME, &mut bytes);
+    output::print(&bytes)
+}
+
+/// Prints the manual page, or writes all of them.
+///
+/// # Errors
+/// Exit 1, 8.
+pub fn man(args: ManArgs) -> Result<(), Failure> {
+    let mut whole = Cli::command();
+    whole.build();
+    let Some(path) = &args.output else { return output::print(&page(whole, NAME)?) };
+    let folder = Folder::new(path, args.force)?;
+    let commands: Vec<Command> =
+        whole.get_subcommands().filter(|command| command.get_name() != "help").cloned().collect();
+    folder.write(&format!("{NAME}.1"), &page(whole, NAME)?)?;
+    for command in commands {
+        let name = format!("{NAME}-{}", command.get_name());
+        folder.write(&format!("{name}.1"), &page(command, &name)?)?;
+    }
+    Ok(())
+}
+
+/// A page as roff. It has no date: equal programs give equal pages.
+fn page(command: Command, name: &str) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    Man::new(command)
+        .title(name.to_uppercase())
+        .source(format!("{NAME} {}", env!("CARGO_PKG_VERSION")))
+        .render(&mut bytes)?;
+    Ok(bytes)
+}

@@ -1,0 +1,44 @@
+//! How work on many files ends: each failure is told when it happens, the command's end follows from all of them.
+
+use super::progress::Progress;
+use super::{Exit, Failure};
+
+/// What became of the items so far.
+#[derive(Default)]
+pub struct Tally {
+    done: usize,
+    first: Option<Failure>,
+    failed: usize,
+}
+
+impl Tally {
+    /// One item's end. A failure is told at once, unless it is the only item there is: then it ends the command.
+    pub fn add(&mut self, result: Result<(), Failure>, only: bool, progress: &Progress) {
+        match result {
+            Ok(()) => self.done += 1,
+            Err(failure) => {
+                if !only {
+                    progress.error(&failure.message);
+                }
+                self.failed += 1;
+                self.first.get_or_insert(failure);
+            }
+        }
+    }
+
+    /// The end of the command; `what` such as "files".
+    ///
+    /// # Errors
+    /// Exit 4 when some failed; when all did, the code of the first.
+    pub fn end(self, what: &str) -> Result<(), Failure> {
+        let all = self.done + self.failed;
+        match self.first {
+            None => Ok(()),
+            Some(only) if all == 1 => Err(only),
+            Some(first) if self.done == 0 => {
+                Err(Failure::new(first.exit, format!("none of {all} {what} could be worked on")))
+            }
+            Some(_) => Err(Failure::new(Exit::Partly, format!("{} of {all} {what} failed", self.failed))),
+        }
+    }
+}
