@@ -1,7 +1,8 @@
 //! What every handler can reach.
 
 use crate::base::limits::Limits;
-use crate::http::body::Reading;
+use crate::generation::Experts;
+use crate::http::body::{Reading, Room};
 use crate::http::observe::Gate;
 use crate::scenes::Catalog;
 use crate::work::Pool;
@@ -24,10 +25,14 @@ pub struct Inside {
     pub gate: Gate,
     /// Scenes and maps, wherever they are.
     pub catalog: Catalog,
+    /// Room for bodies.
+    pub room: Arc<Room>,
     /// All CPU work.
     pub pool: Arc<Pool>,
-    /// Experts.
+    /// Experts, for calls that people wait for.
     pub generator: Arc<Generator>,
+    /// The same experts for long calls: they leave a core to the others.
+    pub patient: Arc<Generator>,
     /// Placement.
     pub placer: Arc<Placer>,
     /// Experts are warm.
@@ -43,6 +48,11 @@ impl App {
     pub fn new(inside: Inside) -> Self {
         Self(Arc::new(inside))
     }
+
+    /// The experts by the lane of a call.
+    pub fn experts(&self) -> Experts<'_> {
+        Experts { quick: &self.generator, patient: &self.patient }
+    }
 }
 
 impl Deref for App {
@@ -55,6 +65,7 @@ impl Deref for App {
 
 impl FromRef<App> for Reading {
     fn from_ref(app: &App) -> Self {
-        Self { limits: Arc::clone(&app.limits), pool: Arc::clone(&app.pool) }
+        let (limits, pool) = (Arc::clone(&app.limits), Arc::clone(&app.pool));
+        Self { limits, pool, room: Arc::clone(&app.room) }
     }
 }

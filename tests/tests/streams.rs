@@ -7,9 +7,9 @@ use dragtraffic_tests::{Request, Server};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Generations and other long calls alone: reading their bodies is work of the short lane.
-const RUNNING: &str = "dragtraffic_running{lane=\"long\"}";
-const WAITING: &str = "dragtraffic_queue_length{lane=\"long\"}";
+/// Long calls alone: reading their bodies is work of another lane.
+const RUNNING: &str = "dragtraffic_running{lane=\"patient\"}";
+const WAITING: &str = "dragtraffic_queue_length{lane=\"patient\"}";
 
 fn ask(body: &Value, accept: &str) -> Request {
     Request::new("POST", "/v1/generate").header("accept", accept).json(body)
@@ -213,7 +213,8 @@ fn fill_queue(server: &Server) -> impl Sized + use<> {
     while server.metric(RUNNING).unwrap() < 1.0 {
         std::thread::sleep(Duration::from_millis(10));
     }
-    let waiting = ask(&long("b", 1), "application/x-ndjson").open(server.address).unwrap();
+    // As long as the first: a shorter one would be let go before it.
+    let waiting = ask(&endless("b", 1), "application/x-ndjson").open(server.address).unwrap();
     while server.metric(WAITING).unwrap() < 1.0 {
         std::thread::sleep(Duration::from_millis(10));
     }
@@ -226,7 +227,7 @@ fn a_full_queue_says_when_to_come_back() {
     let held = fill_queue(&server);
     let refused = server.post("/v1/generate", &long("c", 1)).unwrap();
     assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
-    assert!((1..=30).contains(&refused.header("retry-after").parse::<u32>().unwrap()));
+    assert!((1..=60).contains(&refused.header("retry-after").parse::<u32>().unwrap()));
     drop(held);
 }
 
@@ -258,8 +259,8 @@ fn scenes_are_saved_while_all_workers_are_busy() {
     let saved = server.post("/v1/scenes", &street(40, 91)).unwrap();
     assert_eq!(saved.status, 201, "{}", saved.text());
     assert_eq!(server.get(saved.header("location")).unwrap().status, 200);
-    let refused = server.post("/v1/place", &json!({"scene": street(2, 20)})).unwrap();
-    assert_eq!((refused.status, refused.code().as_str()), (503, "busy"));
+    let placed = server.post("/v1/place", &json!({"scene": street(2, 20)})).unwrap();
+    assert_eq!(placed.status, 200, "small calls have a lane of their own: {}", placed.text());
     drop(held);
 }
 

@@ -31,7 +31,9 @@ limits! {
     json_encoded_bytes = 16 << 20, "JSON body as it arrives";
     json_decoded_bytes = 64 << 20, "JSON body after Content-Encoding is undone";
     import_encoded_bytes = 256 << 20, "uploaded file as it arrives";
-    import_decoded_bytes = 1 << 30, "uploaded file after Content-Encoding is undone";
+    import_decoded_bytes = 256 << 20, "uploaded file after Content-Encoding is undone";
+    body_bytes = 512 << 20, "all bodies that are in memory, before and after Content-Encoding is undone";
+    uploads = 4, "files that are uploaded at the same time";
     expansion_ratio = 100, "decoded to encoded size, beyond the first MiB";
     header_bytes = 16 << 10, "names and values of all header fields";
     header_fields = 64, "header fields of a request";
@@ -39,8 +41,8 @@ limits! {
     regenerated_agents = 128, "road users regenerated or reacting in one call";
     reply_points = 500_000, "samples x modes x road users x steps of a reply";
     import_scenes = 200, "scenes taken from one upload";
-    running = 0, "generations and other long work at the same time; 0 means half the cores, 1 to 8";
-    queue = 16, "calls that wait";
+    running = 0, "calls worked on at the same time, and as many long ones beside them; 0 means half the cores, 1 to 8";
+    queue = 16, "calls that wait, and as many long ones beside them";
     generate_s = 60, "wall time of a generation and of other work";
     stream_s = 120, "wall time of a reply, waiting included";
     stalled_s = 15, "time a reader may leave an event waiting";
@@ -49,6 +51,8 @@ limits! {
     header_read_s = 10, "time for a request's head, and between requests of a connection";
     body_read_s = 30, "time for a JSON body";
     import_read_s = 120, "time for an upload";
+    body_grace_s = 5, "time before a body must come at least at `body_rate`";
+    body_rate = 10_000, "bytes a second, on average, that a body must come at";
     connections = 256, "open connections; the longest idle one makes room";
     clients = 1_024, "clients whose revisions are remembered";
     client_idle_s = 600, "time after which a client is forgotten";

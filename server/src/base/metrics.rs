@@ -93,7 +93,7 @@ pub fn identity(weights: impl Iterator<Item = (String, String)>) {
     for expert in ["vehicle", "pedestrian", "cyclist"] {
         counter!("dragtraffic_steps_total", "expert" => expert).increment(0);
     }
-    for lane in ["long", "short"] {
+    for lane in ["quick", "patient", "document"] {
         load(lane, 0, 0);
     }
 }

@@ -4,6 +4,7 @@ use super::{Common, Exit, Failure, output};
 use crate::app::{App, Inside};
 use crate::base::limits::Limits;
 use crate::base::metrics;
+use crate::http::body::Room;
 use crate::http::guard::Guard;
 use crate::http::net;
 use crate::http::observe::Gate;
@@ -90,6 +91,8 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let store = Store::open(&db, &limits)
         .map_err(|error| Failure::new(Exit::Failure, format!("{}: {error:#}", db.display())))?;
     let experts::Engine { generator, placer } = common.engine()?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let patient = Arc::new(generator.beside(cores - 1));
     let generator = Arc::new(generator);
     let handle = metrics::install().map_err(|reason| Failure::new(Exit::Failure, reason))?;
     metrics::identity(generator.weights().iter().map(|(name, w)| (name.clone(), w.sha256.clone())));
@@ -99,8 +102,10 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
     let app = App::new(Inside {
         gate: Gate { guard: Arc::new(guard), limits: Arc::clone(&limits) },
         catalog: Catalog::new(store, library, Arc::clone(&pool), &limits),
+        room: Arc::new(Room::new(&limits)),
         pool,
         generator,
+        patient,
         placer: Arc::new(placer),
         warm: AtomicBool::new(false),
         metrics: handle,

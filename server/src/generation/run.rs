@@ -15,8 +15,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Works until the answer is sent, something fails, or the job is stopped.
-pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
+/// Works until the answer is sent, something fails, or the job is stopped. Between two events `others` may go.
+pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn()) {
     let fail = |problem: Problem| {
         if feed.fail(problem) {
             metrics::ended(Kind::Generate.name(), "error");
@@ -30,6 +30,7 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task) {
         Err(error) => return fail(error.into()),
     };
     for event in generation {
+        others();
         match event {
             Ok(Event::Accepted(accepted)) => {
                 if task.streams {

@@ -16,6 +16,8 @@ use serde::de::DeserializeOwned;
 use std::io::Read;
 use std::sync::Arc;
 use std::time::Duration;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, SemaphorePermit};
+use tokio::time::Instant;
 
 /// Growth below this size is never too much.
 const FREE_EXPANSION: u64 = 1 << 20;
@@ -30,6 +32,65 @@ pub struct Reading {
     pub limits: Arc<Limits>,
     /// Where long bodies are decoded and parsed.
     pub pool: Arc<Pool>,
+    /// Room for bodies.
+    pub room: Arc<Room>,
+}
+
+/// Room for the bodies of all requests, in memory and among the uploads.
+#[derive(Debug)]
+pub struct Room {
+    bytes: Arc<Semaphore>,
+    uploads: Semaphore,
+}
+
+impl Room {
+    /// As much as the limits say.
+    pub fn new(limits: &Limits) -> Self {
+        let of = |number: u64| (number as usize).min(Semaphore::MAX_PERMITS);
+        Self {
+            bytes: Arc::new(Semaphore::new(of(limits.body_bytes))),
+            uploads: Semaphore::new(of(limits.uploads)),
+        }
+    }
+
+    /// A place among the uploads.
+    ///
+    /// # Errors
+    /// `busy` when all are taken.
+    fn upload(&self) -> Result<SemaphorePermit<'_>, Problem> {
+        let busy = |_| Problem::new(Code::Busy, "Other files are being uploaded.").retry_after(5);
+        self.uploads.try_acquire().map_err(busy)
+    }
+
+    /// Adds so many bytes to what is held.
+    ///
+    /// # Errors
+    /// `busy` when they do not fit.
+    fn grow(&self, held: &mut Option<OwnedSemaphorePermit>, bytes: usize) -> Result<(), Problem> {
+        let full =
+            |_| Problem::new(Code::Busy, "The bodies of other requests fill the memory.").retry_after(5);
+        let count = u32::try_from(bytes).unwrap_or(u32::MAX);
+        let more = Arc::clone(&self.bytes).try_acquire_many_owned(count).map_err(full)?;
+        match held {
+            Some(held) => held.merge(more),
+            None => *held = Some(more),
+        }
+        Ok(())
+    }
+}
+
+/// A body in memory, with the room that it takes.
+#[derive(Debug, Default)]
+pub struct Held {
+    bytes: Bytes,
+    _room: Option<OwnedSemaphorePermit>,
+}
+
+impl Held {
+    /// The bytes, to be read while this is kept.
+    pub fn bytes(&self) -> Bytes {
+        self.bytes.clone()
+    }
 }
 
 /// A JSON body read into a document type.
@@ -87,7 +148,7 @@ impl Reading {
     ///
     /// # Errors
     /// Every limit of such a body.
-    pub async fn json(&self, request: Request) -> Result<Bytes, Problem> {
+    pub async fn json(&self, request: Request) -> Result<Held, Problem> {
         let bounds = Bounds {
             encoded: self.limits.json_encoded_bytes,
             decoded: self.limits.json_decoded_bytes,
@@ -101,7 +162,8 @@ impl Reading {
     ///
     /// # Errors
     /// Every limit of such a body.
-    pub async fn upload(&self, request: Request) -> Result<Bytes, Problem> {
+    pub async fn upload(&self, request: Request) -> Result<Held, Problem> {
+        let _place = self.room.upload()?;
         let bounds = Bounds {
             encoded: self.limits.import_encoded_bytes,
             decoded: self.limits.import_decoded_bytes,
@@ -115,20 +177,20 @@ impl Reading {
     ///
     /// # Errors
     /// `malformed-json`, or 422 with the place of the fault.
-    pub async fn parse<T: DeserializeOwned + Send + 'static>(&self, bytes: Bytes) -> Result<T, Problem> {
-        let size = bytes.len();
-        let parse = move || formats::native::from_json(&bytes).map_err(Problem::from);
+    pub async fn parse<T: DeserializeOwned + Send + 'static>(&self, body: Held) -> Result<T, Problem> {
+        let size = body.bytes.len();
+        let parse = move || formats::native::from_json(&body.bytes).map_err(Problem::from);
         self.pool.document(size, parse).await
     }
 
-    async fn read(&self, request: Request, bounds: Bounds) -> Result<Bytes, Problem> {
+    async fn read(&self, request: Request, bounds: Bounds) -> Result<Held, Problem> {
         let encoding = encoding_of(request.headers())?;
         let length = request.headers().get(header::CONTENT_LENGTH);
         let declared: Option<u64> = length.and_then(|v| v.to_str().ok()?.parse().ok());
         if declared.is_some_and(|length| length > bounds.encoded) {
             return Err(too_large(bounds.encoded));
         }
-        let encoded = tokio::time::timeout(bounds.time, collect(request.into_body(), bounds.encoded));
+        let encoded = tokio::time::timeout(bounds.time, self.collect(request.into_body(), bounds.encoded));
         let encoded = encoded.await.map_err(|_| {
             let detail = format!("The body did not arrive within {} s.", bounds.time.as_secs());
             Problem::new(Code::BodyTimeout, detail)
@@ -136,8 +198,35 @@ impl Reading {
         match encoding {
             Encoding::Identity => Ok(encoded),
             // A few bytes can decode to many, so even the smallest goes to the pool.
-            _ => self.pool.document(usize::MAX, move || unpack(&encoded, encoding, bounds)).await,
+            _ => {
+                let room = Arc::clone(&self.room);
+                let unpack = move || unpack(&encoded.bytes, encoding, bounds, &room);
+                self.pool.document(usize::MAX, unpack).await
+            }
         }
+    }
+
+    /// A body as it arrives, no slower than it must.
+    async fn collect(&self, mut body: Body, limit: u64) -> Result<Held, Problem> {
+        let (mut bytes, mut room) = (Vec::new(), None);
+        let began = Instant::now();
+        loop {
+            let allowed_s = self.limits.body_grace_s + bytes.len() as u64 / self.limits.body_rate.max(1);
+            let late = |_| {
+                let detail = format!("The body came slower than {} bytes a second.", self.limits.body_rate);
+                Problem::new(Code::BodyTimeout, detail).limit(self.limits.body_rate)
+            };
+            let frame = tokio::time::timeout_at(began + Duration::from_secs(allowed_s), body.frame());
+            let Some(frame) = frame.await.map_err(late)? else { break };
+            let frame = frame.map_err(|_| Problem::new(Code::BadHeader, "The body broke off."))?;
+            let Ok(data) = frame.into_data() else { continue };
+            if (bytes.len() + data.len()) as u64 > limit {
+                return Err(too_large(limit));
+            }
+            self.room.grow(&mut room, data.len())?;
+            bytes.extend_from_slice(&data);
+        }
+        Ok(Held { bytes: bytes.into(), _room: room })
     }
 }
 
@@ -173,24 +262,11 @@ fn encoding_of(headers: &HeaderMap) -> Result<Encoding, Problem> {
     }
 }
 
-async fn collect(mut body: Body, limit: u64) -> Result<Bytes, Problem> {
-    let mut bytes = Vec::new();
-    while let Some(frame) = body.frame().await {
-        let frame = frame.map_err(|_| Problem::new(Code::BadHeader, "The body broke off."))?;
-        let Ok(data) = frame.into_data() else { continue };
-        if (bytes.len() + data.len()) as u64 > limit {
-            return Err(too_large(limit));
-        }
-        bytes.extend_from_slice(&data);
-    }
-    Ok(bytes.into())
-}
-
 fn too_large(limit: u64) -> Problem {
     Problem::new(Code::BodyTooLarge, format!("The body may have {limit} bytes.")).limit(limit)
 }
 
-fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds) -> Result<Bytes, Problem> {
+fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds, room: &Room) -> Result<Held, Problem> {
     let broken = |error: std::io::Error| {
         Problem::new(Code::MalformedFile, format!("The body cannot be decoded: {error}."))
             .with(|m| (m.offset, m.reason) = (Some(0), Some(error.to_string())))
@@ -204,11 +280,12 @@ fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds) -> Result<Bytes, P
         }
         _ => Box::new(flate2::read::MultiGzDecoder::new(encoded)),
     };
-    let mut decoded = Vec::new();
+    let (mut decoded, mut held) = (Vec::new(), None);
     let mut chunk = vec![0; 64 << 10];
     loop {
         let count = reader.read(&mut chunk).map_err(broken)?;
         let Some(data) = chunk.get(..count).filter(|data| !data.is_empty()) else { break };
+        room.grow(&mut held, data.len())?;
         decoded.extend_from_slice(data);
         let size = decoded.len() as u64;
         if size > bounds.decoded {
@@ -220,12 +297,13 @@ fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds) -> Result<Bytes, P
             return Err(Problem::new(Code::ExpansionTooHigh, detail).limit(bounds.ratio));
         }
     }
-    Ok(decoded.into())
+    Ok(Held { bytes: decoded.into(), _room: held })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Bounds, Encoding, unpack};
+    use super::{Bounds, Encoding, Room, unpack};
+    use crate::base::limits::Limits;
     use std::io::Write;
     use std::time::Duration;
 
@@ -239,7 +317,8 @@ mod tests {
     }
 
     fn code(encoded: &[u8], encoding: Encoding) -> &'static str {
-        unpack(encoded, encoding, BOUNDS).map_or_else(|p| p.code.name(), |_| "ok")
+        let room = Room::new(&Limits::default());
+        unpack(encoded, encoding, BOUNDS, &room).map_or_else(|p| p.code.name(), |_| "ok")
     }
 
     #[test]
@@ -253,13 +332,33 @@ mod tests {
         );
         let big: Vec<u8> = (0..9u32 << 20).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
         let patient = Bounds { ratio: u64::MAX, ..BOUNDS };
-        let refused = unpack(&zstd::encode_all(&big[..], 1).unwrap(), Encoding::Zstd, patient);
+        let room = Room::new(&Limits::default());
+        let encoded = zstd::encode_all(&big[..], 1).unwrap();
+        let refused = unpack(&encoded, Encoding::Zstd, patient, &room);
         assert_eq!(refused.unwrap_err().code.name(), "decoded-too-large");
     }
 
     #[test]
     fn skippable_frames_decode_to_nothing() {
         let frame = [0x50, 0x2a, 0x4d, 0x18, 4, 0, 0, 0, 1, 2, 3, 4];
-        assert_eq!(unpack(&frame, Encoding::Zstd, BOUNDS).unwrap().len(), 0);
+        let room = Room::new(&Limits::default());
+        assert_eq!(unpack(&frame, Encoding::Zstd, BOUNDS, &room).unwrap().bytes().len(), 0);
+    }
+
+    #[test]
+    fn bodies_share_the_room() {
+        let room = Room::new(&Limits { body_bytes: 100 << 10, uploads: 1, ..Limits::default() });
+        let file: Vec<u8> = (0..60u32 << 10).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
+        let encoded = gzip(&file);
+        let unpacked = || unpack(&encoded, Encoding::Gzip, BOUNDS, &room);
+        let first = unpacked().unwrap();
+        let refused = unpacked().unwrap_err();
+        assert_eq!((refused.code.name(), refused.members.retry_after_s), ("busy", Some(5)));
+        drop(first);
+        assert_eq!(unpacked().unwrap().bytes().len(), file.len());
+        let place = room.upload().unwrap();
+        assert_eq!(room.upload().unwrap_err().code.name(), "busy");
+        drop(place);
+        assert!(room.upload().is_ok());
     }
 }

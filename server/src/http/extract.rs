@@ -2,6 +2,7 @@
 
 use crate::base::id::is_id;
 use crate::base::problem::{Code, Problem};
+use crate::work::Caller;
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::HeaderMap;
 use axum::http::header::{HeaderName, IF_MATCH, IF_NONE_MATCH};
@@ -19,6 +20,30 @@ impl<S: Send + Sync> FromRequestParts<S> for Id {
             Ok(Path(id)) if is_id(&id) => Ok(Self(id)),
             _ => Err(Problem::new(Code::NotFound, "Ids are 1 to 64 of A-Z a-z 0-9 _ and -.")),
         }
+    }
+}
+
+/// The connection that a request came by.
+#[derive(Clone, Copy, Debug)]
+pub struct Connection {
+    /// Unique while the server runs.
+    pub number: u64,
+    /// It is known to belong to another user of this machine.
+    pub strangers: bool,
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Connection {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        let known = parts.extensions.get().copied();
+        known.ok_or_else(|| Problem::internal("a request without a connection"))
+    }
+}
+
+impl From<Connection> for Caller {
+    fn from(connection: Connection) -> Self {
+        Self { connection: Some(connection.number), ..Self::default() }
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! A web page can point its own name at 127.0.0.1, so the Host decides first, on every address.
 
+use super::extract::Connection;
 use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
 use axum::extract::Request;
@@ -152,18 +153,28 @@ fn check_origin(guard: &Guard, request: &Request) -> Result<(), Problem> {
 }
 
 fn check_token(guard: &Guard, request: &Request) -> Result<(), Problem> {
-    let Some(token) = &guard.token else { return Ok(()) };
+    let strangers = request.extensions().get::<Connection>().is_some_and(|connection| connection.strangers);
+    if guard.token.is_none() && !strangers {
+        return Ok(());
+    }
     let path = request.uri().path();
     let open = !path.starts_with("/v1") && !["/metrics", "/readyz", "/openapi.json"].contains(&path);
     if open || request.method() == Method::OPTIONS {
         return Ok(());
     }
     let given = request.headers().get(header::AUTHORIZATION).and_then(|v| v.to_str().ok());
-    let given = given.and_then(|v| v.strip_prefix("Bearer ")).unwrap_or_default();
-    if same_bytes(given.as_bytes(), token.as_bytes()) {
-        return Ok(());
-    }
-    let mut problem = Problem::new(Code::Unauthorized, "A bearer token is needed.");
+    let scheme =
+        given.and_then(|v| v.split_once(' ')).filter(|(name, _)| name.eq_ignore_ascii_case("bearer"));
+    let given = scheme.map_or("", |(_, given)| given.trim_start());
+    let detail = match &guard.token {
+        Some(token) if same_bytes(given.as_bytes(), token.as_bytes()) => return Ok(()),
+        Some(_) => "A bearer token is needed.",
+        None => {
+            "This connection belongs to another user of this machine: it needs the token of a server that was \
+             started with --token-file."
+        }
+    };
+    let mut problem = Problem::new(Code::Unauthorized, detail);
     problem.headers.push((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer")));
     Err(problem)
 }

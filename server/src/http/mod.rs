@@ -7,3 +7,4 @@ pub mod extract;
 pub mod guard;
 pub mod net;
 pub mod observe;
+mod owner;

@@ -4,6 +4,8 @@
 //! Here hyper's HTTP/1 builder runs with a timer, and when all places are taken the connection that
 //! has waited longest without a request makes room.
 
+use super::extract::Connection;
+use super::owner;
 use crate::base::limits::Limits;
 use axum::Router;
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -21,6 +23,9 @@ const HEAD_BUFFER: usize = 128 << 10;
 /// Header fields up to this number reach our own check.
 const HEAD_FIELDS: usize = 512;
 
+/// Before that it cannot be told how fast a body arrives.
+const ARRIVING_GRACE: Duration = Duration::from_secs(1);
+
 /// One open connection, as the table sees it.
 struct Place {
     number: u64,
@@ -28,7 +33,24 @@ struct Place {
     idle_since: Mutex<Instant>,
     /// When the reply under way was last asked for more; `None` without one.
     asked: Mutex<Option<Instant>>,
+    /// The body that is arriving.
+    arriving: Mutex<Option<Progress>>,
     close: Notify,
+}
+
+/// How much of a body has come since when.
+#[derive(Clone, Copy)]
+struct Progress {
+    began: Instant,
+    bytes: u64,
+}
+
+impl Progress {
+    /// Bytes a second so far; `None` while it is too early to tell.
+    fn rate(self) -> Option<u64> {
+        let time = self.began.elapsed();
+        (time > ARRIVING_GRACE).then(|| (self.bytes as f64 / time.as_secs_f64()) as u64)
+    }
 }
 
 /// All open connections.
@@ -43,20 +65,25 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Table {
-    /// A place for a new connection; `None` when all are taken by requests under way.
+    /// A place for a new connection: where there is none, that of the one longest idle, else of the one whose
+    /// request arrives slowest. `None` when all are taken by requests that are worked on.
     fn enter(&self, most: usize) -> Option<Arc<Place>> {
         let mut places = lock(&self.places);
         if places.len() >= most {
             let idle = |p: &&Arc<Place>| p.requests.load(Ordering::Relaxed) == 0;
-            let oldest = places.iter().filter(idle).min_by_key(|p| *lock(&p.idle_since)).cloned()?;
-            oldest.close.notify_one();
-            places.retain(|p| p.number != oldest.number);
+            let oldest = places.iter().filter(idle).min_by_key(|p| *lock(&p.idle_since));
+            let slow = |p: &Arc<Place>| Some((lock(&p.arriving).and_then(Progress::rate)?, Arc::clone(p)));
+            let slowest = || places.iter().filter_map(slow).min_by_key(|(rate, _)| *rate).map(|(_, p)| p);
+            let leaves = oldest.cloned().or_else(slowest)?;
+            leaves.close.notify_one();
+            places.retain(|p| p.number != leaves.number);
         }
         let place = Arc::new(Place {
             number: self.next.fetch_add(1, Ordering::Relaxed),
             requests: AtomicUsize::new(0),
             idle_since: Mutex::new(Instant::now()),
             asked: Mutex::new(None),
+            arriving: Mutex::new(None),
             close: Notify::new(),
         });
         places.push(Arc::clone(&place));
@@ -154,9 +181,15 @@ async fn connection(
     // Events are small and must leave at once.
     let _ = stream.set_nodelay(true);
     let counted = Arc::clone(place);
-    let service = tower::service_fn(move |request: hyper::Request<hyper::body::Incoming>| {
+    let ends = stream.peer_addr().ok().zip(stream.local_addr().ok());
+    let asks = move || ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
+    let strangers = tokio::task::spawn_blocking(asks).await.unwrap_or(false);
+    let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
+        request.extensions_mut().insert(Connection { number: counted.number, strangers });
         let busy = Busy::new(&counted);
-        let reply = tower::ServiceExt::oneshot(router.clone(), request.map(axum::body::Body::new));
+        let place = Arc::clone(&counted);
+        let request = request.map(|body| axum::body::Body::new(Arriving { body, place }));
+        let reply = tower::ServiceExt::oneshot(router.clone(), request);
         async move { reply.await.map(|reply| reply.map(|body| Counted { body, busy })) }
     });
     let mut http = hyper::server::conn::http1::Builder::new();
@@ -181,6 +214,49 @@ async fn connection(
                 served.as_mut().graceful_shutdown();
             }
         }
+    }
+}
+
+/// A request's body that tells how it gets on.
+struct Arriving {
+    body: hyper::body::Incoming,
+    place: Arc<Place>,
+}
+
+impl hyper::body::Body for Arriving {
+    type Data = bytes::Bytes;
+    type Error = hyper::Error;
+
+    fn poll_frame(
+        mut self: std::pin::Pin<&mut Self>,
+        context: &mut std::task::Context<'_>,
+    ) -> std::task::Poll<Option<Result<hyper::body::Frame<bytes::Bytes>, hyper::Error>>> {
+        let polled = std::pin::Pin::new(&mut self.body).poll_frame(context);
+        let mut arriving = lock(&self.place.arriving);
+        let progress = arriving.get_or_insert(Progress { began: Instant::now(), bytes: 0 });
+        match &polled {
+            std::task::Poll::Ready(Some(Ok(frame))) => {
+                progress.bytes += frame.data_ref().map_or(0, |data| data.len() as u64);
+            }
+            std::task::Poll::Ready(_) => *arriving = None,
+            std::task::Poll::Pending => {}
+        }
+        drop(arriving);
+        polled
+    }
+
+    fn is_end_stream(&self) -> bool {
+        self.body.is_end_stream()
+    }
+
+    fn size_hint(&self) -> hyper::body::SizeHint {
+        self.body.size_hint()
+    }
+}
+
+impl Drop for Arriving {
+    fn drop(&mut self) {
+        *lock(&self.place.arriving) = None;
     }
 }
 

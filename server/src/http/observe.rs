@@ -11,8 +11,10 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header}
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+/// How long a caller is kept who is told to come back.
+const REFUSAL_PAUSE: Duration = Duration::from_millis(100);
 /// Header that names a request in logs and problems.
 pub const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 /// What pages may load: this server's own files and nothing else.
@@ -49,6 +51,10 @@ pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> 
         guard::allow_cross_origin(response.headers_mut(), origin);
     }
     let status = response.status();
+    if status == StatusCode::SERVICE_UNAVAILABLE {
+        // Who asks again at once leaves the cores to those who are answered.
+        tokio::time::sleep(REFUSAL_PAUSE).await;
+    }
     let seconds = began.elapsed().as_secs_f64();
     metrics::request(&route, &method, status, seconds);
     tracing::info!(target: "access", %method, route, status = status.as_u16(), ms = seconds * 1e3, request_id = id);

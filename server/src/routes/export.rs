@@ -4,9 +4,10 @@ use crate::app::App;
 use crate::base::metrics;
 use crate::base::problem::Problem;
 use crate::http::body::Json;
-use crate::http::extract::{Id, Params};
+use crate::http::extract::{Connection, Id, Params};
+use crate::scenes::bytes_of;
 use crate::scenes::transfer::{self, Motion};
-use crate::work::Kind;
+use crate::work::{Asked, Kind};
 use axum::extract::State;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
@@ -14,6 +15,7 @@ use formats::native::SceneDoc;
 use scene::Scene;
 use serde::Deserialize;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Query of an export.
 #[derive(Debug, Deserialize, utoipa::IntoParams)]
@@ -47,10 +49,11 @@ refusals!(Unwritten: CHANGES BODY SCENE WORK, FormatUnknown, CannotRepresent);
 pub async fn stored(
     State(app): State<App>,
     Id(id): Id,
+    connection: Connection,
     Params(params): Params<ExportParams>,
 ) -> Result<Response, Problem> {
     let opened = app.catalog.open(&id).await?;
-    export(&app, opened.scene, params).await
+    export(&app, connection, opened.scene, params).await
 }
 
 /// Exports a scene given in the body.
@@ -60,19 +63,29 @@ pub async fn stored(
         Unwritten))]
 pub async fn unsaved(
     State(app): State<App>,
+    connection: Connection,
     Params(params): Params<ExportParams>,
     Json(doc): Json<SceneDoc>,
 ) -> Result<Response, Problem> {
     let scene = Arc::new(app.catalog.scene_of(doc).await?);
-    export(&app, scene, params).await
+    export(&app, connection, scene, params).await
 }
 
-async fn export(app: &App, scene: Arc<Scene>, params: ExportParams) -> Result<Response, Problem> {
+async fn export(
+    app: &App,
+    connection: Connection,
+    scene: Arc<Scene>,
+    params: ExportParams,
+) -> Result<Response, Problem> {
+    let bytes = bytes_of(&scene);
     let licence = scene.licence();
     let name = scene.name.clone();
     let format = transfer::names().into_iter().find(|n| *n == params.format).unwrap_or("unknown");
     let write = move |_: &_| transfer::write(&scene, &params.format, params.sample, params.mode);
-    let written = app.pool.run(Kind::Export, write).await;
+    // Writers take about this long a byte.
+    let cost = Duration::from_nanos(20 * bytes as u64);
+    let asked = Asked { kind: Kind::Export, cost, caller: connection.into() };
+    let written = app.pool.run(asked, write).await;
     let file = written.inspect_err(|_| metrics::transfer(true, format, "error"))?;
     metrics::transfer(true, format, "done");
     let mut response = file.bytes.into_response();

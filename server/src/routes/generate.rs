@@ -10,6 +10,7 @@ use crate::generation::events::GeneratedHead;
 use crate::generation::{self, Task, stream};
 use crate::http::accept::Form;
 use crate::http::body::Json;
+use crate::http::extract::Connection;
 use crate::scenes::bytes_of;
 use crate::work::Caller;
 use axum::extract::{FromRequest, Request, State};
@@ -248,10 +249,16 @@ refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK,
         (ref("#/components/schemas/Event") = "application/x-ndjson", extensions(("x-stream-item" = json!(true)))),
         (ref("#/components/schemas/Event") = "text/event-stream", extensions(("x-stream-item" = json!(true)))))),
         Refused))]
-pub async fn generate(State(app): State<App>, request: Request) -> Result<Response, Problem> {
+pub async fn generate(
+    State(app): State<App>,
+    connection: Connection,
+    request: Request,
+) -> Result<Response, Problem> {
     let form = Form::negotiate(request.headers())?;
     let Json(mut body) = Json::<GenerateRequest>::from_request(request, &app).await?;
-    let caller = body.caller()?;
+    let caller = Caller { connection: Some(connection.number), ..body.caller()? };
+    // Opening and preparing a scene costs more than a refusal may.
+    app.pool.expects(caller.client.as_ref().map(|client| client.0.as_str()))?;
     let Subject { scene, standings } = body.take_scene().open(&app).await?;
     let streams = form != Form::Json;
     let (shared, bytes) = (app.clone(), bytes_of(&scene));
@@ -260,7 +267,7 @@ pub async fn generate(State(app): State<App>, request: Request) -> Result<Respon
         Ok(Task { streams, standings, ..task })
     };
     let task = app.pool.document(bytes, prepare).await?;
-    let reader = generation::submit(&app.pool, &app.generator, &app.limits, caller, task)?;
+    let reader = generation::submit(&app.pool, app.experts(), &app.limits, caller, task)?;
     Ok(stream::reply(reader, form, Duration::from_secs(app.limits.heartbeat_s.max(1))).await)
 }
 
@@ -317,7 +324,7 @@ impl GenerateRequest {
                 return Err(Problem::field("/revision", Code::InvalidField, detail));
             }
         };
-        Ok(Caller { job: self.job.clone(), client })
+        Ok(Caller { job: self.job.clone(), client, connection: None })
     }
 
     /// Numbers that do not depend on the scene.
@@ -423,25 +430,15 @@ impl GenerateRequest {
             Reacting::Whether(true) => React::Everyone,
             Reacting::Ids(ids) => React::Only(self.known(scene, "/react", ids)?),
         };
-        let count = match (&agents, &react) {
-            (None, _) | (_, React::Everyone) => scene.agents.len() - scene.counts()[3],
-            (Some(agents), React::Only(ids)) => agents.union(ids).count(),
-            (Some(agents), React::Nobody) => agents.len(),
-        };
         let named = agents.as_ref().map_or(0, BTreeSet::len);
         if named as u64 > most_agents {
             let detail = format!("{named} road users to regenerate; at most {most_agents}");
             return Err(Problem::field("/agents", Code::TooManyAgents, detail).limit(most_agents));
         }
         let horizon_steps = (self.horizon_s / STEP_S).round().max(1.0) as usize;
-        let points = self.samples * self.modes * (count as u64).min(most_agents) * horizon_steps as u64;
-        if points > most_points {
-            let detail = format!("the reply would have {points} points; at most {most_points}");
-            return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).limit(most_points));
-        }
         let shown = self.shown(scene)?;
         let replan_steps = self.replan_interval_s.map(|s| (s / STEP_S).round() as usize);
-        Ok(experts::Request {
+        let request = experts::Request {
             agents,
             react,
             shown,
@@ -456,7 +453,14 @@ impl GenerateRequest {
             steps: self.steps as usize,
             stream_all: self.stream_modes == StreamModes::All,
             ..experts::Request::new(Arc::clone(scene))
-        })
+        };
+        let count = (generation::concerned(&request) as u64).min(most_agents);
+        let points = self.samples * self.modes * count * horizon_steps as u64;
+        if points > most_points {
+            let detail = format!("the reply would have {points} points; at most {most_points}");
+            return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).limit(most_points));
+        }
+        Ok(request)
     }
 
     /// The futures that are kept as they are, from the start on.

@@ -4,10 +4,10 @@ use crate::app::App;
 use crate::base::problem::{Code, Problem, ProblemDoc};
 use crate::base::{id, metrics};
 use crate::http::body::{self, JsonText, Reading};
-use crate::http::extract::Params;
+use crate::http::extract::{Connection, Params};
 use crate::scenes::store::{Expect, PackedScene};
 use crate::scenes::{Counts, Facts, record, transfer};
-use crate::work::Kind;
+use crate::work::{Asked, Kind};
 use axum::body::Bytes;
 use axum::extract::{FromRef, FromRequest, Multipart, Request, State};
 use axum::http::{StatusCode, header};
@@ -17,6 +17,7 @@ use scene::licence::is_noncommercial;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use std::time::Duration;
 
 /// Query of an import.
 #[derive(Debug, Default, Deserialize, utoipa::IntoParams)]
@@ -157,13 +158,15 @@ refusals!(Refused: CHANGES BODY QUERY SCENE WORK, FormatUnknown, LicenceRefused,
         (status = 200, description = "dry run", body = ref("#/components/schemas/ImportReply")), Refused))]
 pub async fn import(
     State(app): State<App>,
+    connection: Connection,
     Params(params): Params<ImportParams>,
     request: Request,
 ) -> Result<Response, Problem> {
     let media_type = body::media_type(request.headers(), UPLOADS)?;
     let wanted = params.index.as_deref().map(range).transpose()?;
     let (mut parts, unread) = request.into_parts();
-    let bytes = Reading::from_ref(&app).upload(Request::from_parts(parts.clone(), unread)).await?;
+    let body = Reading::from_ref(&app).upload(Request::from_parts(parts.clone(), unread)).await?;
+    let bytes = body.bytes();
     let mut upload = if media_type == MULTIPART {
         parts.headers.remove(header::CONTENT_ENCODING);
         form_of(Request::from_parts(parts, bytes.into())).await?
@@ -180,9 +183,16 @@ pub async fn import(
         dry_run: params.dry_run,
         refuse_nc: app.refuse_nc,
     };
-    let asked = known(order.format.as_deref().unwrap_or("auto"));
-    let ready = app.pool.run(Kind::Import, move |_| order.run()).await;
-    let Ready { mut reply, rows } = ready.inspect_err(|_| metrics::transfer(false, asked, "error"))?;
+    // Readers take about this long a byte.
+    let cost = Duration::from_nanos(20 * order.upload.file.len() as u64);
+    let asked = Asked { kind: Kind::Import, cost, caller: connection.into() };
+    let format = known(order.format.as_deref().unwrap_or("auto"));
+    let work = move |_: &_| {
+        let _body = body;
+        order.run()
+    };
+    let ready = app.pool.run(asked, work).await;
+    let Ready { mut reply, rows } = ready.inspect_err(|_| metrics::transfer(false, format, "error"))?;
     for (scene, (id, row)) in reply.scenes.iter_mut().zip(rows) {
         scene.etag = Some(app.catalog.store.put(&id, Expect::Absent, row).await?.etag);
         scene.id = Some(id);

@@ -4,7 +4,8 @@ use super::scene_ref::{AboutScene, SceneRef, Subject, WithScene};
 use crate::app::App;
 use crate::base::problem::{Code, Problem};
 use crate::http::body::JsonText;
-use crate::work::Kind;
+use crate::http::extract::Connection;
+use crate::work::{Asked, Kind};
 use axum::extract::State;
 use experts::placement::{
     Amount, MAX_COUNT, MAX_GAP_M, MAX_PER_LANE_KM, Method, PlaceRequest, Placement, Region, map_bounds,
@@ -18,6 +19,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use std::time::Duration;
+
+/// What placing takes, about: a few road users, or a town of them.
+const PLACE_COST: Duration = Duration::from_millis(50);
 
 /// How far a region may reach beyond the map's box, metres: a hand-drawn ring is seldom exact.
 const REGION_MARGIN_M: f64 = 50.0;
@@ -159,11 +164,13 @@ refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK);
         Refused))]
 pub async fn place(
     State(app): State<App>,
+    connection: Connection,
     WithScene(body, Subject { scene, .. }): WithScene<PlaceBody>,
 ) -> Result<JsonText, Problem> {
     let placer = Arc::clone(&app.placer);
     let work = move |cancel: &Cancel| JsonText::of(&PlaceReply::from(&body.run(&scene, &placer, cancel)?));
-    app.pool.run(Kind::Place, work).await
+    let asked = Asked { kind: Kind::Place, cost: PLACE_COST, caller: connection.into() };
+    app.pool.run(asked, work).await
 }
 
 impl PlaceBody {

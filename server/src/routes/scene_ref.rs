@@ -72,6 +72,8 @@ impl<T: AboutScene + DeserializeOwned + Send + 'static> FromRequest<App> for Wit
 
     async fn from_request(request: Request, app: &App) -> Result<Self, Problem> {
         let Json(mut body) = Json::<T>::from_request(request, app).await?;
+        // Opening a scene costs more than a refusal may.
+        app.pool.expects(None)?;
         let scene = body.take_scene().open(app).await?;
         Ok(Self(body, scene))
     }

@@ -345,8 +345,11 @@ pub async fn duplicate(State(app): State<App>, Id(id): Id, request: Request) -> 
     }
     let reading = Reading::from_ref(&app);
     let bytes = reading.json(request).await?;
-    let options: DuplicateRequest =
-        if bytes.is_empty() && !typed { DuplicateRequest::default() } else { reading.parse(bytes).await? };
+    let options: DuplicateRequest = if bytes.bytes().is_empty() && !typed {
+        DuplicateRequest::default()
+    } else {
+        reading.parse(bytes).await?
+    };
     let opened = app.catalog.open(&id).await?;
     let mut scene = (*opened.scene).clone();
     scene.name = match options.name {

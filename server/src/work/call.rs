@@ -1,12 +1,13 @@
 //! Calls with one answer: a closure in, its result out.
 
-use super::job::{Caller, Ending, Stop};
+use super::job::{Asked, Caller, Ending, Stop};
 use super::kind::Kind;
 use super::{Pool, lock};
 use crate::base::metrics;
 use crate::base::problem::{Code, Problem};
 use experts::Cancel;
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 use tokio::sync::oneshot;
 
 /// Documents up to this many bytes are worked on at once: a queue would cost more than it saves.
@@ -49,12 +50,13 @@ impl Pool {
     /// The work's own problem, a full queue, a time limit, or shutdown.
     pub async fn run<T: Send + 'static>(
         self: &Arc<Self>,
-        kind: Kind,
+        asked: Asked,
         work: impl FnOnce(&Cancel) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
         let (sender, receiver) = oneshot::channel();
+        let kind = asked.kind;
         let answer = Arc::new(Answer(Mutex::new(Some(sender))));
-        let (_, _hold) = self.submit(kind, Caller::default(), |ticket| {
+        let (_, _hold) = self.submit(asked, |ticket| {
             let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
             let work = move || {
                 let result = work(&ticket.cancel);
@@ -80,18 +82,25 @@ impl Pool {
         if bytes <= SMALL_BYTES {
             return work();
         }
-        self.run(Kind::Document, move |_| work()).await
+        // Reading takes about this long a byte; the largest are cut where they are unpacked.
+        let cost = Duration::from_nanos(10 * bytes.min(64 << 20) as u64);
+        let asked = Asked { kind: Kind::Document, cost, caller: Caller::default() };
+        self.run(asked, move |_| work()).await
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Kind, Pool};
+    use super::super::{Asked, Caller, Kind, Pool};
     use crate::base::limits::Limits;
     use crate::base::problem::{Code, Problem};
-    use std::sync::Arc;
     use std::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::{Arc, Mutex};
     use std::time::Duration;
+
+    fn small(kind: Kind) -> Asked {
+        Asked { kind, cost: Duration::from_millis(1), caller: Caller::default() }
+    }
 
     fn pool(limits: Limits) -> Arc<Pool> {
         Pool::start(&Arc::new(limits)).unwrap()
@@ -100,13 +109,13 @@ mod tests {
     #[tokio::test]
     async fn a_call_gives_its_answer_its_problem_or_its_panic() {
         let pool = pool(Limits::default());
-        assert_eq!(pool.run(Kind::Score, |_| Ok(7)).await.unwrap(), 7);
-        let refused = pool.run::<()>(Kind::Score, |_| Err(Problem::new(Code::NotFound, "no"))).await;
+        assert_eq!(pool.run(small(Kind::Score), |_| Ok(7)).await.unwrap(), 7);
+        let refused = pool.run::<()>(small(Kind::Score), |_| Err(Problem::new(Code::NotFound, "no"))).await;
         assert_eq!(refused.unwrap_err().code, Code::NotFound);
         #[allow(clippy::panic, reason = "the worker must survive it")]
-        let broken = pool.run::<()>(Kind::Score, |_| panic!("on purpose")).await;
+        let broken = pool.run::<()>(small(Kind::Score), |_| panic!("on purpose")).await;
         assert_eq!(broken.unwrap_err().code, Code::Internal);
-        assert_eq!(pool.run(Kind::Score, |_| Ok(8)).await.unwrap(), 8, "the worker goes on");
+        assert_eq!(pool.run(small(Kind::Score), |_| Ok(8)).await.unwrap(), 8, "the worker goes on");
         pool.stop();
     }
 
@@ -122,13 +131,13 @@ mod tests {
                 }
                 Ok(())
             };
-            tokio::spawn(async move { pool.run(Kind::Place, work).await })
+            tokio::spawn(async move { pool.run(small(Kind::Place), work).await })
         };
         let running = hold(&release);
         tokio::time::sleep(Duration::from_millis(100)).await;
         let waiting = hold(&release);
         tokio::time::sleep(Duration::from_millis(100)).await;
-        let refused = pool.run(Kind::Place, |_| Ok(())).await.unwrap_err();
+        let refused = pool.run(small(Kind::Place), |_| Ok(())).await.unwrap_err();
         assert_eq!(refused.code, Code::Busy);
         assert!(refused.members.retry_after_s.is_some());
         assert_eq!(pool.document(1 << 20, || Ok(3)).await.unwrap(), 3);
@@ -149,10 +158,81 @@ mod tests {
             told.store(true, Ordering::Relaxed);
             Ok(())
         };
-        let late = pool.run(Kind::Export, work).await.unwrap_err();
+        let late = pool.run(small(Kind::Export), work).await.unwrap_err();
         assert_eq!((late.code, late.members.limit), (Code::GenerateTimeout, Some(0)));
         tokio::time::sleep(Duration::from_millis(100)).await;
         assert!(seen.load(Ordering::Relaxed), "the work was told to stop");
+        pool.stop();
+    }
+
+    /// Asks for work of so many milliseconds by a connection, and notes its name when it is done.
+    fn noted(
+        pool: &Arc<Pool>,
+        done: &Arc<Mutex<Vec<&'static str>>>,
+        (name, connection, ms): (&'static str, u64, u64),
+    ) -> tokio::task::JoinHandle<()> {
+        let (pool, done) = (Arc::clone(pool), Arc::clone(done));
+        let caller = Caller { connection: Some(connection), ..Caller::default() };
+        let asked = Asked { kind: Kind::Place, cost: Duration::from_millis(ms), caller };
+        let work = move |_: &experts::Cancel| {
+            std::thread::sleep(Duration::from_millis(40));
+            done.lock().unwrap().push(name);
+            Ok(())
+        };
+        tokio::spawn(async move { pool.run(asked, work).await.unwrap() })
+    }
+
+    #[tokio::test]
+    async fn callers_take_turns() {
+        let pool = pool(Limits { running: 1, ..Limits::default() });
+        let done = Arc::default();
+        let mut calls = Vec::new();
+        for call in [("a1", 1, 1), ("a2", 1, 1), ("a3", 1, 1), ("b1", 2, 1), ("b2", 2, 1)] {
+            calls.push(noted(&pool, &done, call));
+            tokio::time::sleep(Duration::from_millis(5)).await;
+        }
+        for call in calls {
+            call.await.unwrap();
+        }
+        assert_eq!(*done.lock().unwrap(), ["a1", "b1", "a2", "b2", "a3"]);
+        pool.stop();
+    }
+
+    #[tokio::test]
+    async fn a_long_call_lets_smaller_ones_of_others_go_first() {
+        let pool = pool(Limits { running: 1, ..Limits::default() });
+        let done: Arc<Mutex<Vec<&'static str>>> = Arc::default();
+        let (own, noting) = (Arc::clone(&pool), Arc::clone(&done));
+        let caller = Caller { connection: Some(1), ..Caller::default() };
+        let asked = Asked { kind: Kind::Generate, cost: Duration::from_secs(4), caller };
+        let (sender, receiver) = tokio::sync::oneshot::channel();
+        let answer = Arc::new(super::Answer(Mutex::new(Some(sender))));
+        let (_, hold) = pool
+            .submit(asked, |ticket| {
+                let (ticket, given) = (Arc::clone(ticket), Arc::clone(&answer));
+                let work = move || {
+                    for _ in 0..4 {
+                        std::thread::sleep(Duration::from_millis(40));
+                        own.let_smaller_go(&ticket);
+                    }
+                    noting.lock().unwrap().push("long");
+                    given.give(Ok(()));
+                };
+                (answer, Box::new(work))
+            })
+            .unwrap();
+        let waits = [("small", 2, 500), ("own", 1, 500), ("as long", 3, 3_000)];
+        let mut calls = Vec::new();
+        for call in waits {
+            calls.push(noted(&pool, &done, call));
+            tokio::time::sleep(Duration::from_millis(5)).await;
+        }
+        receiver.await.unwrap().unwrap();
+        for call in calls {
+            call.await.unwrap();
+        }
+        assert_eq!(*done.lock().unwrap(), ["small", "long", "as long", "own"]);
+        drop(hold);
         pool.stop();
     }
 }

@@ -23,19 +23,24 @@ impl Clients {
         Self { most: most.max(1), idle, seen: HashMap::new() }
     }
 
-    /// Notes a revision.
+    /// Whether a revision is newer than all before it.
     ///
     /// # Errors
     /// The highest revision so far, when this one is not above it.
-    pub fn advance(&mut self, client: &str, revision: u64, now: Instant) -> Result<(), u64> {
+    pub fn check(&self, client: &str, revision: u64, now: Instant) -> Result<(), u64> {
+        let remembered = |seen: &&Seen| now.duration_since(seen.at) <= self.idle;
+        match self.seen.get(client).filter(remembered) {
+            Some(seen) if revision <= seen.revision => Err(seen.revision),
+            _ => Ok(()),
+        }
+    }
+
+    /// Notes a revision that is newer.
+    pub fn advance(&mut self, client: &str, revision: u64, now: Instant) {
         let idle = self.idle;
         if let Some(seen) = self.seen.get_mut(client) {
-            let forgotten = now.duration_since(seen.at) > idle;
-            if revision <= seen.revision && !forgotten {
-                return Err(seen.revision);
-            }
             *seen = Seen { revision, at: now };
-            return Ok(());
+            return;
         }
         if self.seen.len() >= self.most {
             self.seen.retain(|_, seen| now.duration_since(seen.at) <= idle);
@@ -45,7 +50,6 @@ impl Clients {
             oldest.map(|name| self.seen.remove(&name));
         }
         self.seen.insert(client.to_owned(), Seen { revision, at: now });
-        Ok(())
     }
 }
 
@@ -58,12 +62,17 @@ mod tests {
     fn revisions_must_rise_until_forgotten() {
         let start = Instant::now();
         let mut clients = Clients::new(2, Duration::from_secs(10));
-        assert_eq!(clients.advance("a", 5, start), Ok(()));
-        assert_eq!(clients.advance("a", 5, start), Err(5));
-        assert_eq!(clients.advance("a", 6, start), Ok(()));
-        assert_eq!(clients.advance("b", 1, start + Duration::from_secs(1)), Ok(()));
-        assert_eq!(clients.advance("c", 1, start + Duration::from_secs(2)), Ok(()));
-        assert_eq!(clients.advance("a", 1, start + Duration::from_secs(3)), Ok(()), "forgotten for room");
-        assert_eq!(clients.advance("a", 1, start + Duration::from_secs(14)), Ok(()), "forgotten by time");
+        let mut advance = |client: &str, revision, at| -> Result<(), u64> {
+            clients.check(client, revision, at)?;
+            clients.advance(client, revision, at);
+            Ok(())
+        };
+        assert_eq!(advance("a", 5, start), Ok(()));
+        assert_eq!(advance("a", 5, start), Err(5));
+        assert_eq!(advance("a", 6, start), Ok(()));
+        assert_eq!(advance("b", 1, start + Duration::from_secs(1)), Ok(()));
+        assert_eq!(advance("c", 1, start + Duration::from_secs(2)), Ok(()));
+        assert_eq!(advance("a", 1, start + Duration::from_secs(3)), Ok(()), "forgotten for room");
+        assert_eq!(advance("a", 1, start + Duration::from_secs(14)), Ok(()), "forgotten by time");
     }
 }

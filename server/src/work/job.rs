@@ -1,6 +1,6 @@
 //! One job: who asked, what is to be done, and its one end.
 
-use super::kind::Kind;
+use super::kind::{Kind, Lane};
 use super::lock;
 use crate::base::metrics;
 use crate::base::problem::{Code, Problem};
@@ -18,6 +18,37 @@ pub struct Caller {
     pub job: Option<String>,
     /// Client whose newer revisions take over, and this revision.
     pub client: Option<(String, u64)>,
+    /// The connection it came by.
+    pub connection: Option<u64>,
+}
+
+impl Caller {
+    /// Who takes turns with others: the client where one is named, else the connection.
+    pub(super) fn party(&self) -> String {
+        match (&self.client, self.connection) {
+            (Some((client, _)), _) => client.clone(),
+            (None, Some(number)) => format!("#{number}"),
+            (None, None) => String::new(),
+        }
+    }
+}
+
+/// A call for work.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// What is to be done.
+    pub kind: Kind,
+    /// How long it will take one thread, about.
+    pub cost: Duration,
+    /// Who asks.
+    pub caller: Caller,
+}
+
+impl Asked {
+    /// Its queue.
+    pub fn lane(&self) -> Lane {
+        self.kind.lane(self.cost)
+    }
 }
 
 /// Why a job ends without its result.
@@ -81,16 +112,32 @@ impl Ticket {
 /// A job that waits or is worked on.
 pub struct Job {
     pub(super) kind: Kind,
+    pub(super) cost: Duration,
+    pub(super) party: String,
     pub(super) ticket: Arc<Ticket>,
     ending: Arc<dyn Ending>,
     work: Mutex<Option<Work>>,
     /// When a worker took it.
     began: Mutex<Option<Instant>>,
+    /// How long it has let others go first since.
+    paused: Mutex<Duration>,
 }
 
 impl Job {
-    pub(super) fn new(kind: Kind, ticket: Arc<Ticket>, ending: Arc<dyn Ending>, work: Work) -> Self {
-        Self { kind, ticket, ending, work: Mutex::new(Some(work)), began: Mutex::new(None) }
+    pub(super) fn new(
+        kind: Kind,
+        cost: Duration,
+        party: String,
+        ticket: Arc<Ticket>,
+        ending: Arc<dyn Ending>,
+        work: Work,
+    ) -> Self {
+        let (work, began, paused) = (Mutex::new(Some(work)), Mutex::default(), Mutex::default());
+        Self { kind, cost, party, ticket, ending, work, began, paused }
+    }
+
+    pub(super) fn lane(&self) -> Lane {
+        self.kind.lane(self.cost)
     }
 
     /// A worker takes it.
@@ -99,9 +146,20 @@ impl Job {
         lock(&self.work).take()
     }
 
+    /// The client that it works for.
+    pub(super) fn client(&self) -> Option<&str> {
+        self.ticket.client.as_ref().map(|client| client.0.as_str())
+    }
+
     /// How long a worker has been at it.
     pub(super) fn worked(&self) -> Duration {
-        lock(&self.began).map_or(Duration::ZERO, |began| began.elapsed())
+        let since = lock(&self.began).map_or(Duration::ZERO, |began| began.elapsed());
+        since.saturating_sub(*lock(&self.paused))
+    }
+
+    /// It let another go first for so long.
+    pub(super) fn paused(&self, time: Duration) {
+        *lock(&self.paused) += time;
     }
 
     pub(super) fn is_over(&self) -> bool {

@@ -1,12 +1,33 @@
 //! Sorts of work.
 
+use std::time::Duration;
+
+/// Calls that are expected to take longer wait among themselves.
+const PATIENT: Duration = Duration::from_millis(150);
+
 /// Which queue a job waits in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lane {
     /// Calls that people wait for.
-    Long,
+    Quick,
+    /// Calls that take long whoever waits.
+    Patient,
     /// Documents, which must be read before it is known what a call asks.
-    Short,
+    Document,
+}
+
+impl Lane {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Quick, Self::Patient, Self::Document];
+
+    /// Label of metrics.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Patient => "patient",
+            Self::Document => "document",
+        }
+    }
 }
 
 /// A sort of work.
@@ -51,8 +72,12 @@ impl Kind {
         }
     }
 
-    /// Its queue.
-    pub fn lane(self) -> Lane {
-        if self == Self::Document { Lane::Short } else { Lane::Long }
+    /// Queue of such work that is expected to take so long.
+    pub fn lane(self, cost: Duration) -> Lane {
+        match self {
+            Self::Document => Lane::Document,
+            _ if cost > PATIENT => Lane::Patient,
+            _ => Lane::Quick,
+        }
     }
 }

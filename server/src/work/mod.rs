@@ -1,8 +1,9 @@
 //! CPU work: fixed workers, bounded queues, latest wins, and every way to stop.
 //!
-//! There are two lanes. Long work (generations, placements, scores, files in and out) waits for one of
-//! the workers. Short work (reading and writing of documents) has threads of its own beside them, so that
-//! a newer revision is read, and a scene saved, while all workers are busy.
+//! There are three lanes with threads of their own. What is expected to take long (big generations, large
+//! files) never stands before what people wait for, and reading and writing of documents before neither, so
+//! that a newer revision is read, and a scene saved, while all workers are busy. Within a lane callers take
+//! turns, and a long call lets the smaller ones of others go first between its steps.
 //!
 //! A job ends exactly once, with what is first put into its [`Ending`]: its result, a newer revision,
 //! DELETE, a dropped connection, a time limit, or shutdown. All but the result set its [`Cancel`] too,
@@ -12,19 +13,19 @@ mod call;
 mod clients;
 mod job;
 mod kind;
+mod state;
+mod turns;
 
 pub use call::superseded;
-pub use job::{Caller, Ending, Stop, Ticket, Work};
-pub use kind::Kind;
+pub use job::{Asked, Caller, Ending, Stop, Ticket, Work};
+pub use kind::{Kind, Lane};
 
 use crate::base::id;
 use crate::base::limits::Limits;
 use crate::base::metrics;
 use crate::base::problem::{Code, Problem};
-use clients::Clients;
 use job::Job;
-use kind::Lane;
-use std::collections::{HashMap, VecDeque};
+use state::State;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -33,59 +34,6 @@ use std::time::{Duration, Instant};
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Jobs of one lane.
-#[derive(Default)]
-struct Traffic {
-    queue: VecDeque<Arc<Job>>,
-    running: usize,
-    /// Running mean of a job's time, seconds.
-    mean_s: f64,
-}
-
-struct State {
-    long: Traffic,
-    short: Traffic,
-    jobs: HashMap<String, Arc<Job>>,
-    clients: Clients,
-    closing: bool,
-}
-
-impl State {
-    fn lane(&mut self, lane: Lane) -> &mut Traffic {
-        match lane {
-            Lane::Long => &mut self.long,
-            Lane::Short => &mut self.short,
-        }
-    }
-
-    /// Ends what this client has running or queued.
-    fn supersede(&mut self, client: &str, revision: u64) {
-        let of_client = |job: &&Arc<Job>| job.ticket.client.as_ref().is_some_and(|c| c.0 == client);
-        let older: Vec<_> = self.jobs.values().filter(of_client).cloned().collect();
-        for job in older {
-            job.stop(Stop::Superseded(revision));
-            self.forget_queued(&job);
-        }
-    }
-
-    /// Takes a job that has ended out of its queue, if it still waits there.
-    fn forget_queued(&mut self, job: &Arc<Job>) {
-        let queue = &mut self.lane(job.kind.lane()).queue;
-        let before = queue.len();
-        queue.retain(|queued| !Arc::ptr_eq(queued, job));
-        if queue.len() < before {
-            self.jobs.remove(&job.ticket.id);
-        }
-        self.show();
-    }
-
-    fn show(&self) {
-        for (name, lane) in [("long", &self.long), ("short", &self.short)] {
-            metrics::load(name, lane.queue.len(), lane.running);
-        }
-    }
 }
 
 /// Shared by handlers and workers.
@@ -102,24 +50,18 @@ impl Pool {
     /// # Errors
     /// When the system gives no thread.
     pub fn start(limits: &Arc<Limits>) -> io::Result<Arc<Self>> {
-        let state = State {
-            long: Traffic { mean_s: 0.3, ..Traffic::default() },
-            short: Traffic { mean_s: 0.03, ..Traffic::default() },
-            jobs: HashMap::new(),
-            clients: Clients::new(limits.clients as usize, Duration::from_secs(limits.client_idle_s)),
-            closing: false,
-        };
         let pool = Arc::new(Self {
-            state: Mutex::new(state),
+            state: Mutex::new(State::new(limits)),
             arrived: Condvar::new(),
             limits: Arc::clone(limits),
             stopped: AtomicBool::new(false),
         });
         for number in 0..limits.workers() {
-            pool.spawn(format!("worker-{number}"), |pool| pool.work(&[Lane::Long, Lane::Short]))?;
+            pool.spawn(format!("worker-{number}"), |pool| pool.work(&[Lane::Quick, Lane::Document]))?;
+            pool.spawn(format!("patient-{number}"), |pool| pool.work(&[Lane::Patient]))?;
         }
         for number in 0..limits.readers() {
-            pool.spawn(format!("reader-{number}"), |pool| pool.work(&[Lane::Short]))?;
+            pool.spawn(format!("reader-{number}"), |pool| pool.work(&[Lane::Document]))?;
         }
         pool.spawn("watch".into(), Self::watch)?;
         Ok(pool)
@@ -133,16 +75,18 @@ impl Pool {
     /// Queues a job. `make` gives what is to be done and where its end goes.
     ///
     /// # Errors
-    /// `shutting-down`, `exists`, `stale-revision` or `busy`.
+    /// `shutting-down`, `exists`, `stale-revision` or `busy`; then nothing has changed, and the same revision may
+    /// be tried again.
     pub fn submit<E: Ending + 'static>(
         self: &Arc<Self>,
-        kind: Kind,
-        caller: Caller,
+        asked: Asked,
         make: impl FnOnce(&Arc<Ticket>) -> (Arc<E>, Work),
     ) -> Result<(Arc<E>, Handle), Problem> {
+        let (lane, party) = (asked.lane(), asked.caller.party());
+        let Asked { kind, cost, caller } = asked;
         let mut state = lock(&self.state);
         // Documents of calls that are under way are still read and written while the server closes.
-        let refused = state.closing && kind.lane() == Lane::Long;
+        let refused = state.closing && lane != Lane::Document;
         if refused || self.stopped.load(Ordering::Relaxed) {
             return Err(Problem::new(Code::ShuttingDown, "The server is about to stop.").retry_after(5));
         }
@@ -150,31 +94,48 @@ impl Pool {
         if state.jobs.contains_key(&id) {
             return Err(Problem::new(Code::Exists, "A job with this id is under way."));
         }
+        let now = Instant::now();
         if let Some((client, revision)) = &caller.client {
-            state.clients.advance(client, *revision, Instant::now()).map_err(|highest| {
+            state.clients.check(client, *revision, now).map_err(|highest| {
                 let detail = format!("Revision {revision} is not above {highest}.");
                 Problem::new(Code::StaleRevision, detail).with(|m| m.highest_revision = Some(highest))
             })?;
+        }
+        self.check_room(&mut state, lane, caller.client.as_ref().map(|client| client.0.as_str()))?;
+        if let Some((client, revision)) = &caller.client {
+            state.clients.advance(client, *revision, now);
             state.supersede(client, *revision);
         }
-        let running = state.long.running + state.short.running;
-        let lane = state.lane(kind.lane());
-        let waiting = lane.queue.len();
-        if waiting as u64 >= self.limits.queue {
-            let wait = (waiting as f64 * lane.mean_s).ceil().clamp(1.0, 30.0);
-            let detail = format!("{waiting} calls are waiting already.");
-            return Err(Problem::new(Code::Busy, detail).retry_after(wait as u64));
-        }
-        let ticket = Arc::new(Ticket::new(id, caller.client, waiting + running));
+        let before = state.lane(lane).queue.len() + state.running();
+        let ticket = Arc::new(Ticket::new(id, caller.client, before));
         let (ending, work) = make(&ticket);
-        let job = Arc::new(Job::new(kind, ticket, Arc::clone(&ending) as Arc<dyn Ending>, work));
-        lane.queue.push_back(Arc::clone(&job));
-        state.jobs.insert(job.ticket.id.clone(), Arc::clone(&job));
-        state.show();
+        let end = Arc::clone(&ending) as Arc<dyn Ending>;
+        let job = Arc::new(Job::new(kind, cost, party, ticket, end, work));
+        state.arrived(&job);
         drop(state);
         // All: a thread that does not take this lane must not swallow the call.
         self.arrived.notify_all();
         Ok((ending, Handle { job, pool: Arc::clone(self) }))
+    }
+
+    fn check_room(&self, state: &mut State, lane: Lane, client: Option<&str>) -> Result<(), Problem> {
+        let waiting = state.waiting_beside(lane, client);
+        if (waiting as u64) < self.limits.queue {
+            return Ok(());
+        }
+        let threads = if lane == Lane::Document { self.limits.readers() } else { self.limits.workers() };
+        let wait_s = state.lane(lane).wait_s(threads).ceil().clamp(1.0, 60.0);
+        let detail = format!("{waiting} calls are waiting already.");
+        Err(Problem::new(Code::Busy, detail).retry_after(wait_s as u64))
+    }
+
+    /// Refuses a call before anything is done for it where it would be refused afterwards: what a small call of
+    /// this client waits for is full.
+    ///
+    /// # Errors
+    /// `busy`.
+    pub fn expects(&self, client: Option<&str>) -> Result<(), Problem> {
+        self.check_room(&mut lock(&self.state), Lane::Quick, client)
     }
 
     /// Cancels a job by its id; unknown ids are nothing to do.
@@ -188,8 +149,8 @@ impl Pool {
 
     /// True when another call would be queued.
     pub fn has_room(&self) -> bool {
-        let state = lock(&self.state);
-        !state.closing && (state.long.queue.len() as u64) < self.limits.queue
+        let mut state = lock(&self.state);
+        !state.closing && (state.lane(Lane::Quick).queue.len() as u64) < self.limits.queue
     }
 
     /// Takes no more long work.
@@ -200,13 +161,7 @@ impl Pool {
     /// Ends everything under way and lets the workers go.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::Relaxed);
-        let jobs: Vec<_> = {
-            let mut state = lock(&self.state);
-            state.closing = true;
-            state.long.queue.clear();
-            state.short.queue.clear();
-            state.jobs.values().cloned().collect()
-        };
+        let jobs = lock(&self.state).close();
         for job in jobs {
             job.fail(Problem::new(Code::ShuttingDown, "The server is stopping.").retry_after(5));
         }
@@ -215,44 +170,52 @@ impl Pool {
 
     /// Works on jobs of these lanes, the first one first, until the pool stops.
     fn work(&self, lanes: &[Lane]) {
-        while let Some((job, work)) = self.take(lanes) {
-            let began = Instant::now();
-            metrics::work(job.kind.name(), "queue", job.ticket.elapsed().as_secs_f64());
-            if let Some(work) = work.filter(|_| !job.is_over()) {
-                // Work shares caches of plain values only, so they are usable after a panic.
-                if catch_unwind(AssertUnwindSafe(work)).is_err() {
-                    job.fail(Problem::internal(format!("a {} panicked", job.kind.noun())));
-                }
-            }
-            self.finished(&job, began.elapsed());
+        while let Some(job) = self.take(lanes) {
+            self.perform(&job);
         }
     }
 
     /// The next job to work on; `None` when the pool has stopped.
-    fn take(&self, lanes: &[Lane]) -> Option<(Arc<Job>, Option<Work>)> {
+    fn take(&self, lanes: &[Lane]) -> Option<Arc<Job>> {
         let mut state = lock(&self.state);
         loop {
             if self.stopped.load(Ordering::Relaxed) {
                 return None;
             }
-            if let Some(job) = lanes.iter().find_map(|lane| state.lane(*lane).queue.pop_front()) {
-                state.lane(job.kind.lane()).running += 1;
-                state.show();
-                let work = job.begin();
-                return Some((job, work));
+            if let Some(job) = lanes.iter().find_map(|lane| state.next(*lane, |_| true)) {
+                return Some(job);
             }
             state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
-    fn finished(&self, job: &Job, took: Duration) {
-        metrics::work(job.kind.name(), "work", took.as_secs_f64());
+    /// Works on a job that was taken out of its queue.
+    fn perform(&self, job: &Job) {
+        let began = Instant::now();
+        metrics::work(job.kind.name(), "queue", job.ticket.elapsed().as_secs_f64());
+        if let Some(work) = job.begin().filter(|_| !job.is_over()) {
+            // Work shares caches of plain values only, so they are usable after a panic.
+            if catch_unwind(AssertUnwindSafe(work)).is_err() {
+                job.fail(Problem::internal(format!("a {} panicked", job.kind.noun())));
+            }
+        }
+        metrics::work(job.kind.name(), "work", began.elapsed().as_secs_f64());
         let mut state = lock(&self.state);
         state.jobs.remove(&job.ticket.id);
-        let lane = state.lane(job.kind.lane());
-        lane.running -= 1;
-        lane.mean_s = 0.8 * lane.mean_s + 0.2 * took.as_secs_f64();
+        state.lane(job.lane()).finished(job, job.worked());
         state.show();
+    }
+
+    /// Between two steps of a long call: smaller ones of others that wait for its thread go first.
+    pub fn let_smaller_go(&self, ticket: &Ticket) {
+        let Some(own) = lock(&self.state).jobs.get(&ticket.id).cloned() else { return };
+        let began = Instant::now();
+        let goes = |job: &Job| job.party != own.party && 4 * job.cost <= own.cost;
+        while own.lane() == Lane::Patient && !self.stopped.load(Ordering::Relaxed) {
+            let Some(job) = lock(&self.state).next(Lane::Patient, goes) else { break };
+            self.perform(&job);
+        }
+        own.paused(began.elapsed());
     }
 
     /// Ends jobs that take too long or whose reader has stopped reading.

@@ -48,7 +48,7 @@ use workers::Workers;
 
 /// The three experts with what is known of maps. Cheap to share; calls may run at the same time.
 pub struct Generator {
-    experts: BTreeMap<AgentType, Expert>,
+    experts: Arc<BTreeMap<AgentType, Expert>>,
     info: BTreeMap<String, WeightsInfo>,
     maps: Arc<Maps>,
     workers: Workers,
@@ -78,7 +78,7 @@ impl Generator {
             experts.insert(agent_type, expert);
         }
         Ok(Self {
-            experts,
+            experts: Arc::new(experts),
             info,
             maps,
             workers: Workers::of_machine(),
@@ -100,6 +100,20 @@ impl Generator {
     #[must_use]
     pub fn with_threads(self, threads: usize) -> Self {
         Self { workers: Workers::new(threads), ..self }
+    }
+
+    /// The same experts and maps with threads of their own: calls of the one never wait for those of the other.
+    #[must_use]
+    pub fn beside(&self, threads: usize) -> Self {
+        Self {
+            experts: Arc::clone(&self.experts),
+            info: self.info.clone(),
+            maps: Arc::clone(&self.maps),
+            workers: Workers::new(threads),
+            clock: self.clock,
+            tuning: self.tuning.clone(),
+            tuning_hash: self.tuning_hash.clone(),
+        }
     }
 
     /// Measures answers' timings by a clock; without one they are zero.

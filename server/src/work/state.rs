@@ -1,0 +1,134 @@
+//! What the pool knows: who waits in which lane, who is worked on, and whose turn it is.
+
+use super::clients::Clients;
+use super::job::{Job, Stop};
+use super::kind::Lane;
+use super::turns::Turns;
+use crate::base::limits::Limits;
+use crate::base::metrics;
+use std::collections::{HashMap, VecDeque};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Jobs of one lane.
+#[derive(Default)]
+pub struct Traffic {
+    /// In the order of their arrival.
+    pub queue: VecDeque<Arc<Job>>,
+    /// How many are worked on.
+    pub running: usize,
+    /// Running mean of the time that jobs take, for each second expected.
+    pace: Option<f64>,
+}
+
+impl Traffic {
+    /// How long a new job would wait for one of so many threads, seconds.
+    pub fn wait_s(&self, threads: usize) -> f64 {
+        let waiting: f64 = self.queue.iter().map(|job| job.cost.as_secs_f64()).sum();
+        waiting * self.pace.unwrap_or(1.0) / threads.max(1) as f64
+    }
+
+    /// A job ended.
+    pub fn finished(&mut self, job: &Job, took: Duration) {
+        self.running -= 1;
+        let pace = took.as_secs_f64() / job.cost.as_secs_f64().max(1e-3);
+        self.pace = Some(self.pace.map_or(pace, |mean| 0.8 * mean + 0.2 * pace));
+    }
+}
+
+/// All lanes and jobs.
+pub struct State {
+    lanes: [Traffic; Lane::ALL.len()],
+    /// By id: those that wait and those that are worked on.
+    pub jobs: HashMap<String, Arc<Job>>,
+    /// Revisions of clients.
+    pub clients: Clients,
+    turns: Turns,
+    /// No more calls are taken.
+    pub closing: bool,
+}
+
+impl State {
+    /// Nobody is there.
+    pub fn new(limits: &Limits) -> Self {
+        let idle = Duration::from_secs(limits.client_idle_s);
+        Self {
+            lanes: Default::default(),
+            jobs: HashMap::new(),
+            clients: Clients::new(limits.clients as usize, idle),
+            turns: Turns::default(),
+            closing: false,
+        }
+    }
+
+    /// Jobs of a lane.
+    pub fn lane(&mut self, lane: Lane) -> &mut Traffic {
+        &mut self.lanes[lane as usize]
+    }
+
+    /// Jobs that are worked on.
+    pub fn running(&self) -> usize {
+        self.lanes.iter().map(|lane| lane.running).sum()
+    }
+
+    /// How many wait in a lane beside those of this client, which a newer revision of it would end.
+    pub fn waiting_beside(&mut self, lane: Lane, client: Option<&str>) -> usize {
+        let own = |job: &&Arc<Job>| client.is_some() && job.client() == client;
+        let queue = &self.lane(lane).queue;
+        queue.len() - queue.iter().filter(own).count()
+    }
+
+    /// A job waits from now on.
+    pub fn arrived(&mut self, job: &Arc<Job>) {
+        self.lane(job.lane()).queue.push_back(Arc::clone(job));
+        self.jobs.insert(job.ticket.id.clone(), Arc::clone(job));
+        self.show();
+    }
+
+    /// Takes the job of a lane out of its queue whose party was served longest ago, among those that fit.
+    pub fn next(&mut self, lane: Lane, fits: impl Fn(&Job) -> bool) -> Option<Arc<Job>> {
+        let of_lane = self.lanes[lane as usize].queue.iter().enumerate();
+        let fitting = of_lane.filter(|(_, job)| fits(job));
+        let (at, _) = fitting.min_by_key(|(_, job)| self.turns.last(&job.party))?;
+        let job = self.lane(lane).queue.remove(at)?;
+        self.turns.serve(&job.party);
+        self.lane(lane).running += 1;
+        self.show();
+        Some(job)
+    }
+
+    /// Ends what this client has running or queued.
+    pub fn supersede(&mut self, client: &str, revision: u64) {
+        let of_client = |job: &&Arc<Job>| job.client() == Some(client);
+        let older: Vec<_> = self.jobs.values().filter(of_client).cloned().collect();
+        for job in older {
+            job.stop(Stop::Superseded(revision));
+            self.forget_queued(&job);
+        }
+    }
+
+    /// Takes a job that has ended out of its queue, if it still waits there.
+    pub fn forget_queued(&mut self, job: &Arc<Job>) {
+        let queue = &mut self.lane(job.lane()).queue;
+        let before = queue.len();
+        queue.retain(|queued| !Arc::ptr_eq(queued, job));
+        if queue.len() < before {
+            self.jobs.remove(&job.ticket.id);
+        }
+        self.show();
+    }
+
+    /// Empties all queues and gives all jobs.
+    pub fn close(&mut self) -> Vec<Arc<Job>> {
+        self.closing = true;
+        self.lanes.iter_mut().for_each(|lane| lane.queue.clear());
+        self.jobs.values().cloned().collect()
+    }
+
+    /// Tells the metrics.
+    pub fn show(&self) {
+        for (lane, traffic) in Lane::ALL.iter().zip(&self.lanes) {
+            metrics::load(lane.name(), traffic.queue.len(), traffic.running);
+        }
+    }
+}
