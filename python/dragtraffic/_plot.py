@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import pandas
     from matplotlib.axes import Axes
 
     from ._scene import Scene
@@ -46,13 +47,22 @@ def plot(scene: Scene, ax: Axes | None, *, modes: bool) -> Axes:
         if agent in made:
             ax.annotate(str(agent), corners[0], fontsize=8, zorder=5)
     ax.set_aspect("equal")
-    if not frame.empty:
-        ax.set_xlim(frame["x_m"].min() - 10, frame["x_m"].max() + 10)
-        ax.set_ylim(frame["y_m"].min() - 10, frame["y_m"].max() + 10)
+    _look_at(frame[frame["agent"].isin(made)] if made else frame, ax)
     ax.set_xlabel("x, metres")
     ax.set_ylabel("y, metres")
     ax.set_title(scene.name)
     return ax
+
+
+def _look_at(rows: pandas.DataFrame, ax: Axes) -> None:
+    """Shows a square about these places, at least 80 m wide."""
+    if rows.empty:
+        return
+    low, high = rows[["x_m", "y_m"]].min(), rows[["x_m", "y_m"]].max()
+    half = max(40.0, float((high - low).max()) / 2 + 15.0)
+    x, y = (low + high) / 2
+    ax.set_xlim(x - half, x + half)
+    ax.set_ylim(y - half, y + half)
 
 
 def _draw_map(of: dict[str, Any], ax: Axes) -> None:

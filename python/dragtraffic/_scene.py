@@ -100,7 +100,7 @@ class Scene:
             "samples": samples,
             "modes": modes,
             "horizon": horizon_s,
-            "start": start_s,
+            "at": start_s,
             "replan": replan_s,
             "diversity": diversity,
             "steps": steps,
@@ -167,11 +167,12 @@ class Scene:
 
         text = run(["export", "-", "--format", "csv", "-o", "-"], self.bytes())
         words = {name: "string" for name in ("scene", "agent", "type", "mode")}
-        return pandas.read_csv(io.BytesIO(text), dtype=words)
+        frame = pandas.read_csv(io.BytesIO(text), dtype={**words, "sample": "Int64"})
+        return frame.assign(scene=self.name).astype({"scene": "string", "chosen": bool})
 
     def plot(self, ax: Axes | None = None, *, modes: bool = True) -> Axes:
-        """The scene from above: map, recorded tracks in grey, what is shown in colour and, with ``modes``, the
-        alternatives thinly. Needs pandas and matplotlib."""
+        """The scene from above, about those who have futures: map, recorded tracks in grey, what is shown in
+        colour and, with ``modes``, the alternatives thinly. Needs pandas and matplotlib."""
         from ._plot import plot
 
         return plot(self, ax, modes=modes)

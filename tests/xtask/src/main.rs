@@ -36,6 +36,7 @@ const CHECKS: &[Check] = &[
     ("machete", || tool("machete", &["machete"])),
     ("deny", || tool("deny", &["deny", "check", "licenses", "bans", "sources"])),
     ("package", || cargo(&[&["package", "--allow-dirty"][..], PACKAGES].concat())),
+    ("python", python),
     ("browser", browser),
 ];
 
@@ -119,6 +120,40 @@ fn tool(name: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
         return Ok(Outcome::Skipped(format!("{program} is not here; cargo install --locked {program}")));
     }
     cargo(arguments)
+}
+
+/// Types, tests and notebook of the Python module, over the program as it is built for tests.
+fn python() -> anyhow::Result<Outcome> {
+    let folder = root().join("target/python");
+    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let wanted = std::fs::read(root().join("python/requirements-test.txt"))?;
+    let stamp = folder.join("installed.txt");
+    if !std::fs::read(&stamp).is_ok_and(|installed| installed == wanted) {
+        let ready = |program: &Path, arguments: &[&str]| {
+            Command::new(program).args(arguments).current_dir(root()).status().is_ok_and(|s| s.success())
+        };
+        if !ready(Path::new("python3"), &["-m", "venv", "target/python"]) {
+            return Ok(Outcome::Skipped("python3 with venv is not here".into()));
+        }
+        if !ready(&own, &["-m", "pip", "install", "-q", "-r", "python/requirements-test.txt"]) {
+            return Ok(Outcome::Skipped("the packages of python/requirements-test.txt cannot be had".into()));
+        }
+        std::fs::write(&stamp, wanted)?;
+    }
+    if let Outcome::Failed(why) = cargo(&["build", "--workspace", "--locked"])? {
+        return Ok(Outcome::Failed(why));
+    }
+    let program = root().join(format!("target/debug/dragtraffic{}", std::env::consts::EXE_SUFFIX));
+    for module in ["mypy", "pytest"] {
+        let checked = run(Command::new(&own)
+            .args(["-m", module])
+            .env("DRAGTRAFFIC_BIN", &program)
+            .current_dir(root()))?;
+        if let Outcome::Failed(why) = checked {
+            return Ok(Outcome::Failed(why));
+        }
+    }
+    Ok(Outcome::Passed)
 }
 
 fn npm(folder: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
