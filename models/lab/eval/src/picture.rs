@@ -93,7 +93,7 @@ const SIDE_PX: f64 = 900.0;
 /// and what is wrong with it, goals as circles.
 pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, centre: Vec2) -> String {
     let mut out = format!(
-        "<svg xmlns='http://www.w3.org/2000/svg' width='{SIDE_PX}' height='{SIDE_PX}' style='background:#fff'>\n"
+        "<svg xmlns='http://www.w3.org/2000/svg' width='{SIDE_PX}' height='{SIDE_PX}' viewBox='0 0 {SIDE_PX} {SIDE_PX}' style='background:#fff'>\n"
     );
     let scale = SIDE_PX / (2.0 * HALF_M);
     let at = |p: Vec2| ((p.x - centre.x + HALF_M) * scale, (HALF_M - (p.y - centre.y)) * scale);

@@ -46,6 +46,12 @@ pub struct TrainArgs {
     /// Greatest learning rate.
     #[arg(long, default_value_t = 1e-3)]
     rate: f64,
+    /// Learning rate at the end; a hundredth of the greatest when absent.
+    #[arg(long)]
+    rate_end: Option<f64>,
+    /// Hidden numbers of a baseline's MLP of the condition; the paper has 1024.
+    #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=4096))]
+    condition_width: usize,
     /// What computes the networks. cuda is the first NVIDIA graphics card, in a program built with the feature
     /// cuda; only the CPU gives the same bits again.
     #[arg(long, value_enum, default_value = "cpu")]
@@ -109,7 +115,8 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
             let expert = kind.expert().map(str::to_owned).or(expert);
             let expert = expert
                 .ok_or_else(|| Failure::new(Exit::Usage, "--baseline paper: --expert says whose it is"))?;
-            let options = baselines::options(kind, records, stage, output);
+            let mut options = baselines::options(kind, records, stage, output);
+            options.architecture.condition_width = args.condition_width;
             baselines::train(&args.set(options, expert, stop), &mut report)
         }
     };
@@ -135,6 +142,7 @@ impl TrainArgs {
             steps: self.steps,
             batch: self.batch,
             rate: self.rate,
+            rate_end: self.rate_end,
             processor: self.device,
             threads: self.workers,
             seed: self.seed,
