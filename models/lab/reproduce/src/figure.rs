@@ -12,6 +12,7 @@ use anyhow::Result;
 use choose::{Found, Role};
 use experts::Engine;
 use lab_eval::Site;
+use lab_train::provenance::Provenance;
 use std::fmt::Write as _;
 
 /// File of the page in the folder of a run.
@@ -64,7 +65,7 @@ pub fn make(
 }
 
 /// One page with all panels.
-pub fn page(panels: &[Panel]) -> String {
+pub fn page(panels: &[Panel], sources: &Provenance) -> String {
     let mut out = String::from(
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Creating, editing, correcting</title>\n\
          <style>\nbody { font: 15px/1.4 sans-serif; margin: 24px; color: #1c2128; }\n\
@@ -88,7 +89,7 @@ pub fn page(panels: &[Panel]) -> String {
         .filter(|role| !panels.iter().any(|p| p.id.starts_with(role.id())))
         .map(|r| r.name())
         .collect();
-    out += "</main>\n";
+    let _ = writeln!(out, "</main>\n<p>Scenes from {}. Licence: {}.</p>", sources.words(), sources.licence());
     if !missing.is_empty() {
         let _ = writeln!(out, "<p>No scene of the tests shows: {}.</p>", missing.join("; "));
     }

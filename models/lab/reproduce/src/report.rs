@@ -75,6 +75,12 @@ impl Report<'_> {
             },
             self.seed,
         );
+        let _ = writeln!(
+            out,
+            "From {}. Licence of what was trained and drawn: {}.\n",
+            sets.sources.words(),
+            sets.sources.licence()
+        );
         out += &self.sets_table();
         out += &self.training();
         for sheet in self.sheets {
@@ -180,10 +186,10 @@ pub fn csv(sheet: &Sheet) -> String {
     for column in &sheet.columns {
         // A column named "paper" belongs to the one before it.
         if column == "paper" {
-            head.push(quoted(&format!("{last}, paper")));
+            head.push(quoted(&format!("{last} paper")));
         } else {
             last = column;
-            head.extend(["", ", low", ", high", ", n"].map(|part| quoted(&format!("{column}{part}"))));
+            head.extend(["", " low", " high", " n"].map(|part| quoted(&format!("{column}{part}"))));
         }
     }
     let mut out = head.join(",") + "\n";

@@ -84,7 +84,7 @@ pub fn run(options: &Options, engine: Engine, progress: &dyn Fn(&str)) -> Result
         let made = (&options.data, &options.sets, &sets);
         let panels = figure::make(made.0, made.1, made.2, &engine, options.seed, &options.stop, progress)?;
         let path = folder.join(FIGURE_FILE);
-        formats::files::replace(&path, figure::page(&panels).as_bytes())
+        formats::files::replace(&path, figure::page(&panels, &sets.sources).as_bytes())
             .with_context(|| format!("write {}", path.display()))?;
         progress(&format!("{} pictures in {}", panels.len(), path.display()));
     }

@@ -9,6 +9,7 @@ pub use cut::Cut;
 pub use files::{each_case, free_records_path, interactive, make, records_path};
 
 use anyhow::Result;
+use lab_train::provenance::Provenance;
 use lab_train::scenes::{Crop, read_scenes, scene_files};
 use scene::{AgentType, Scene};
 use serde::{Deserialize, Serialize};
@@ -245,6 +246,8 @@ pub struct Sets {
     pub unreadable: usize,
     /// Scenes read.
     pub scenes: usize,
+    /// Where they come from, with their licences.
+    pub sources: Provenance,
     /// Seconds that they last.
     pub seconds: f64,
     /// Intervals cut from them.

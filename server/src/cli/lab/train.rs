@@ -40,6 +40,9 @@ pub struct TrainArgs {
     /// Optimiser steps.
     #[arg(long, default_value_t = 3000)]
     steps: u64,
+    /// Times through the records, in place of steps.
+    #[arg(long, conflicts_with = "steps")]
+    epochs: Option<f64>,
     /// Records a step.
     #[arg(long, default_value_t = 64)]
     batch: usize,
@@ -90,10 +93,13 @@ fn word(agent_type: AgentType) -> String {
 ///
 /// # Errors
 /// Exit 1 with the reason.
-pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
+pub fn train(mut args: TrainArgs, common: &Common) -> Result<(), Failure> {
     let goes_on = args.resume && training::checkpoint_path(&args.output).exists();
     if !goes_on {
         output::keep(&args.output, args.force)?;
+    }
+    if let Some(epochs) = args.epochs {
+        args.steps = training::steps_of(&args.records, epochs, args.batch).map_err(failed)?;
     }
     let stop = interrupt::gently();
     let stage = args.stage.unwrap_or(Stage::Initializer);

@@ -4,7 +4,7 @@ use super::choose::{Found, Role};
 use anyhow::Result;
 use experts::placement::{Amount, PlaceRequest, Region};
 use experts::{Cancel, Engine, ReachReport, React, Request, Resolved};
-use lab_eval::picture::futures_svg;
+use lab_eval::picture::{futures_svg, marked_svg};
 use lab_eval::together::{asked, generated};
 use lab_eval::{Site, answer};
 use scene::geometry::{direction, rotate};
@@ -17,6 +17,8 @@ const CREATED: (usize, f64) = (28, 60.0);
 /// The paper's condition of case (d): metres ahead, and velocity along and across the heading.
 const AHEAD_M: f64 = 100.0;
 const VELOCITY_MPS: [f64; 2] = [20.0, -2.0];
+/// A picture's middle is at most so far from the start of whom it is about, metres.
+const MIDDLE_M: f64 = 45.0;
 /// An edited vehicle is to be where it was at this step only at the end.
 const EDITED_STEP: usize = 50;
 
@@ -54,7 +56,8 @@ pub(super) fn draw(found: &Found, site: &Site<'_>, engine: &Engine, seed: u64) -
         Role::Left => vec![logged("(a) Left turn at an intersection", Role::Left)?],
         Role::Right => vec![logged("(b) Right turn at an intersection", Role::Right)?],
         Role::Waiting => {
-            let first = logged("(c) A vehicle waits while people move around it", Role::Waiting)?;
+            let mut first = logged("(c) A vehicle waits while people move around it", Role::Waiting)?;
+            first.words += &format!(" On foot or bicycles near it, moving: {:.0}.", found.score);
             let mut scene = asked(site, true);
             let [along, across] = VELOCITY_MPS;
             scene.agents[who].conditions.goal = Goal {
@@ -153,7 +156,7 @@ fn panel(
         id: id.into(),
         title: title.into(),
         words: format!("{words} {reached} {}", faults(&sample)),
-        svg: futures_svg(&drawn, &shown(&sample), place(scene, who)),
+        svg: marked_svg(&drawn, &shown(&sample), middle(scene, who), Some(who)),
     })
 }
 
@@ -183,12 +186,17 @@ fn edited(
         id: id.into(),
         title: title.into(),
         words: format!("{words} {reached} {others} {}", faults(&sample)),
-        svg: futures_svg(scene, &shown(&sample), place(scene, who)),
+        svg: marked_svg(scene, &shown(&sample), middle(scene, who), Some(who)),
     })
 }
 
-fn place(scene: &Scene, who: &str) -> Vec2 {
-    scene.agent(who).and_then(|a| a.state_at(0)).map_or(Vec2::zeros(), |s| s.position())
+/// Somewhat on the way to the end that is asked for, so that both can be seen.
+fn middle(scene: &Scene, who: &str) -> Vec2 {
+    let agent = scene.agent(who);
+    let start = agent.and_then(|a| a.state_at(0)).map_or(Vec2::zeros(), |s| s.position());
+    let end = agent.and_then(|a| a.conditions.goal.position).unwrap_or(start);
+    let way = end - start;
+    start + way * (0.5_f64).min(MIDDLE_M / way.norm().max(1e-6))
 }
 
 /// Shown futures alone.
@@ -207,7 +215,10 @@ fn outcome(resolved: &Resolved, scene: &Scene, sample: &Sample, who: &str) -> St
     let way = match (start, end) {
         (Some(start), Some(end)) => {
             let local = |v: Vec2| rotate(v, -start.heading_rad);
-            let (moved, velocity) = (local(end.position() - start.position()), local(end.velocity()));
+            // Rounded here: nothing is "-0.0" m away.
+            let tidy = |v: Vec2| v.map(|x| (10.0 * x).round() / 10.0 + 0.0);
+            let moved = tidy(local(end.position() - start.position()));
+            let velocity = tidy(local(end.velocity()));
             format!(
                 "Road user {who} ends {:.1} m ahead and {:.1} m to the left, at {:.1} m/s along and {:.1} m/s across its \
                  first heading",

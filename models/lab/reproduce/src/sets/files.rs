@@ -36,6 +36,7 @@ pub fn free_records_path(folder: &Path) -> PathBuf {
 #[derive(Default)]
 struct OfFile {
     scenes: usize,
+    sources: Provenance,
     seconds: f64,
     intervals: usize,
     shared_places: usize,
@@ -83,6 +84,7 @@ pub fn make(
                 out.files += 1;
                 out.unreadable += usize::from(file.scenes == 0);
                 out.scenes += file.scenes;
+                out.sources.merge(&file.sources);
                 out.seconds += file.seconds;
                 out.intervals += file.intervals;
                 out.shared_places += file.shared_places;
@@ -134,6 +136,7 @@ fn of_file(
     let mut out = OfFile::default();
     for (index, scene) in scenes(path).iter().enumerate() {
         out.scenes += 1;
+        out.sources.add(scene);
         out.seconds += scene.time.steps.saturating_sub(1) as f64 * STEP_S;
         let (key, share) = share(scene, file.0, data, tests);
         let Some(share) = share else {

@@ -33,7 +33,7 @@ pub use error::TrainError;
 pub use fit::FitError;
 pub use metrics::Metrics;
 pub use processor::Processor;
-pub use run::{EVERYBODY, TrainOptions, TrainProgress, best_path, checkpoint_path, run};
+pub use run::{EVERYBODY, TrainOptions, TrainProgress, best_path, checkpoint_path, run, steps_of};
 pub use sample::{is_for_tests, is_held_out};
 pub use stages::Stage;
 

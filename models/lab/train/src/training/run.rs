@@ -16,7 +16,7 @@ use super::log::Log;
 use super::metrics::Metrics;
 use super::optim::{AdamW, rate};
 use super::processor::Processor;
-use super::sample::Split;
+use super::sample::{Split, is_held_out};
 use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
 use super::workers::{SHARD, Workers};
@@ -118,6 +118,16 @@ pub fn checkpoint_path(out: &Path) -> PathBuf {
     let mut path = out.as_os_str().to_owned();
     path.push(".checkpoint");
     path.into()
+}
+
+/// Steps that go so many times through the records that are trained on.
+///
+/// # Errors
+/// When records cannot be read.
+pub fn steps_of(records: &[PathBuf], epochs: f64, batch: usize) -> Result<u64, TrainError> {
+    let records = Records::load(records)?;
+    let known = (0..records.len()).filter(|i| !is_held_out(records.scene_of(*i).0)).count();
+    Ok((epochs * known as f64 / batch.max(1) as f64).ceil().max(1.0) as u64)
 }
 
 /// Where the weights with the least held-out loss of a run lie.
