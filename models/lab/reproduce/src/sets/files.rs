@@ -266,7 +266,7 @@ fn again(scene: &Scene, case: &TestCase, options: &SetOptions) -> Result<Cut> {
 /// The most interactive scenes of a set, at most so many: one of each interval, each known for the whole 9 s, with
 /// somebody of another type who comes near the same place in time.
 pub fn interactive(sets: &Sets, centre: Centre, most: usize) -> Vec<TestCase> {
-    let mut best: BTreeMap<((Part, usize), usize, usize), (Interest, &TestCase)> = BTreeMap::new();
+    let mut best: BTreeMap<_, (Interest, &TestCase)> = BTreeMap::new();
     for case in sets.tests.iter().filter(|case| case.centre == centre) {
         let Some(own) = case.interest.filter(|interest| interest.nearest_m < INTERACTIVE_M) else { continue };
         let place = best.entry((case.file, case.scene, case.start)).or_insert((own, case));
