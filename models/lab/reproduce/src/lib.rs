@@ -2,7 +2,7 @@
 //! figures beside, on whatever data there is; and its figure of creating, editing and correcting.
 //!
 //! ```text
-//! recordings -> sets (records, list of tests) -> methods (weights) -> quality, collisions -> report
+//! recordings -> sets (records, list of tests) -> training (weights) -> quality, collisions -> report
 //! ```
 //!
 //! Each step leaves its result in the folder of the run, and a run that goes on begins after the last one that is done.
@@ -18,13 +18,14 @@ mod run;
 mod sets;
 #[cfg(test)]
 mod tests;
+mod training;
 
 pub use collisions::CollisionOptions;
 pub use figure::FIGURE_FILE;
-pub use methods::{Length, Schedule, Trained};
 pub use report::TABLES_FILE;
 pub use run::{Options, OtherRun, Parts, forget, run};
 pub use sets::{Centre, Data, SetOptions, Sets};
+pub use training::{Length, Schedule, Trained};
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

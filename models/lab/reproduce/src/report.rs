@@ -1,8 +1,8 @@
 //! What a run found, as Markdown and CSV: how much data, how long it was trained, both tables.
 
-use crate::methods::Trained;
 use crate::paper;
 use crate::sets::{Centre, SetOptions, Sets, Shares};
+use crate::training::Trained;
 use anyhow::{Context, Result};
 use lab_eval::sheet::{Cell, Sheet};
 use std::fmt::Write as _;

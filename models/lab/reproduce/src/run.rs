@@ -2,10 +2,11 @@
 
 use crate::collisions::{self, CollisionOptions};
 use crate::figure::{self, FIGURE_FILE};
-use crate::methods::{Entrants, Schedule, Training};
+use crate::methods::Entrants;
 use crate::quality;
 use crate::report::Report;
 use crate::sets::{self, Data, Part, SetOptions, Sets};
+use crate::training::{Schedule, Training};
 use crate::{Stop, stopped};
 use anyhow::{Context, Result};
 use experts::Engine;

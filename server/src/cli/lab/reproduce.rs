@@ -58,8 +58,8 @@ pub struct ReproduceArgs {
           value_parser = RangedU64ValueParser::<usize>::new().range(1..=4096))]
     condition_width: usize,
     /// Epochs of the denoiser, of regressors, and of both together; the paper's unless --quick.
-    #[arg(long, value_name = "D,R,J", value_delimiter = ',', num_args = 3)]
-    epochs: Vec<f64>,
+    #[arg(long, value_name = "D,R,J", value_parser = epochs)]
+    epochs: Option<[f64; 3]>,
     /// Learning rate at first; the paper's is 3e-4.
     #[arg(long)]
     rate: Option<f64>,
@@ -98,6 +98,16 @@ fn interval(text: &str) -> Result<usize, String> {
     }
 }
 
+/// Three numbers with commas between them.
+fn epochs(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0))
+        .collect();
+    let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or_else(|| "three numbers above 0 expected, as in 100,150,40".into())
+}
+
 /// From recordings to the paper's tables and figure.
 ///
 /// # Errors
@@ -129,9 +139,9 @@ pub fn reproduce(args: ReproduceArgs, common: &Common) -> Result<(), Failure> {
 impl ReproduceArgs {
     fn options(&self, stop: lab_reproduce::Stop) -> Options {
         let base = if self.quick { Schedule::QUICK } else { Schedule::PAPER };
-        let [denoiser, regressor, joint] = match self.epochs.as_slice() {
-            &[d, r, j] => [d, r, j].map(Length::Epochs),
-            _ => [base.denoiser, base.regressor, base.joint],
+        let [denoiser, regressor, joint] = match self.epochs {
+            Some(epochs) => epochs.map(Length::Epochs),
+            None => [base.denoiser, base.regressor, base.joint],
         };
         let most = paper::INTERACTIVE.map(|(_, most)| most);
         Options {
