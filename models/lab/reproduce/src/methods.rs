@@ -68,7 +68,8 @@ pub enum Answerer<'a> {
 }
 
 impl Entrants {
-    /// Loads what was trained; `shipped` is used on one thread, as scenes are judged side by side.
+    /// Loads what was trained; for types that there was nothing to learn from, ours of the same records are the shipped
+    /// ones in whole scenes, and have no line of their own. `shipped` is used on one thread, as scenes are judged side by side.
     ///
     /// # Errors
     /// When weights cannot be read.
