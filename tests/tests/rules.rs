@@ -17,7 +17,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("lab-synthesize", &["scene", "formats"]),
     ("lab-train", &["scene", "formats", "experts"]),
     ("lab-eval", &["scene", "formats", "experts", "lab-train"]),
-    ("dragtraffic", &["scene", "formats", "experts", "lab-synthesize", "lab-train", "lab-eval"]),
+    ("lab-reproduce", &["scene", "formats", "experts", "lab-train", "lab-eval"]),
+    (
+        "dragtraffic",
+        &["scene", "formats", "experts", "lab-synthesize", "lab-train", "lab-eval", "lab-reproduce"],
+    ),
     ("tests", &[]),
     ("xtask", &[]),
 ];
@@ -147,7 +151,7 @@ fn only_the_labs_commands_of_the_server_know_the_lab() {
                 continue;
             }
             let text = std::fs::read_to_string(&path).unwrap_or_default();
-            for lab in ["lab_synthesize", "lab_train", "lab_eval"] {
+            for lab in ["lab_synthesize", "lab_train", "lab_eval", "lab_reproduce"] {
                 assert!(!text.contains(&format!("{lab}::")), "{} imports {lab}", path.display());
             }
         }

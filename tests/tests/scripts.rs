@@ -208,3 +208,34 @@ fn a_stopped_training_keeps_its_checkpoint_and_no_half_files() {
     assert!(names.iter().any(|name| name == "w.safetensors.checkpoint"), "{names:?}");
     assert!(!names.iter().any(|name| name.ends_with(".tmp") || name == "w.safetensors"), "{names:?}");
 }
+
+#[test]
+fn the_paper_is_reproduced_by_one_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |name: &str| root().join(format!("assets/scenes/demo-{name}.json"));
+    let data = ["arterial", "motorway", "residential", "roundabout"].map(|n| scene(n).display().to_string());
+    let out = folder.path().join("paper").display().to_string();
+    let own = demo();
+    let run = |more: &[&str], code: i32| {
+        let mut arguments = vec!["reproduce", "--test", &own, "--least-agents", "2", "-o", &out];
+        arguments.extend(data.iter().map(String::as_str));
+        arguments.extend(["--epochs", "0.1,0.1,0.1", "--batch", "8"]);
+        arguments.extend(more);
+        ends(&arguments, code)
+    };
+    let told = run(&[], 0);
+    assert!(told.contains("5 files, 5 scenes") && told.contains("Table II"), "{told}");
+    let read = |name: &str| std::fs::read_to_string(format!("{out}/{name}")).unwrap();
+    let tables = read("tables.md");
+    for part in ["| Vehicle | DragTraffic with Condition |", "| 9s | T.G. Mixture", "of 49884"] {
+        assert!(tables.contains(part), "{part}: {tables}");
+    }
+    assert!(read("figure.html").contains("<svg") && read("table-2.csv").contains("Rollout Interval"));
+    // Again, on what is there: nothing is trained, and the same comes out.
+    let told = run(&["--only", "tables"], 0);
+    assert!(!told.contains("steps") && read("tables.md") == tables, "{told}");
+    let told = run(&["--seed", "2"], 8);
+    assert!(told.contains("holds a run with another") && told.contains("--force"), "{told}");
+    run(&["--seed", "2", "--only", "figure", "--force"], 0);
+    assert!(!Path::new(&format!("{out}/weights")).exists());
+}

@@ -115,6 +115,10 @@ enum Command {
     /// Judge the experts on scenes: tables of quality, coherence, control, realism, variety and cost, pictures.
     #[command(after_help = examples!("dragtraffic eval recordings/ --tables 1,2 -o tables/", "dragtraffic eval recordings/ --tables 1,2,4 --baseline TrafficGen=trafficgen.safetensors -o tables/"))]
     Eval(lab::EvalArgs),
+    /// Reproduce the paper on recordings: its sets, its methods trained as it says, its two tables with its own figures
+    /// beside.
+    #[command(after_help = examples!("dragtraffic reproduce recordings/ --quick -o paper/", "dragtraffic reproduce training_20s/ --test validation/ --condition-width 1024 -o paper/"))]
+    Reproduce(lab::ReproduceArgs),
     /// Time answers: one drag, and whole scenes.
     #[command(after_help = examples!("dragtraffic bench recordings/", "dragtraffic bench recordings/ --scenes 20 --weights DIR"))]
     Bench(lab::BenchArgs),
@@ -133,8 +137,8 @@ pub fn run() -> ExitCode {
     };
     let common = cli.common;
     common.log();
-    // The server ends by itself, and training with a checkpoint.
-    if !matches!(cli.command, None | Some(Command::Serve(_) | Command::Train(_))) {
+    // The server ends by itself, and training with a checkpoint, alone or on the way to the paper's tables.
+    if !matches!(cli.command, None | Some(Command::Serve(_) | Command::Train(_) | Command::Reproduce(_))) {
         interrupt::watch();
     }
     let command = cli.command.unwrap_or(Command::Serve(cli.serve));
@@ -195,6 +199,7 @@ impl Command {
             Self::TrainPlacement(args) => lab::train_placement(args, common),
             Self::EvalPlace(args) => lab::eval_place(args, common),
             Self::Eval(args) => lab::eval(args, common),
+            Self::Reproduce(args) => lab::reproduce(args, common),
             Self::Bench(args) => lab::bench(args, common),
         }
     }

@@ -12,7 +12,9 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
-pub use tables::{ANCHOR, NEIGHBOUR, NEIGHBOUR_GOAL, OWN, OWN_GOAL, OWN_GOAL_POSITION};
+pub use tables::{
+    ANCHOR, NEIGHBOUR, NEIGHBOUR_GOAL, OWN, OWN_CONDITION, OWN_GOAL, OWN_GOAL_POSITION, OWN_GOAL_VALUES,
+};
 
 use crate::planning::{INSTANTS, MODES};
 use scene::KNOTS;

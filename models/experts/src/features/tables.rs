@@ -178,6 +178,18 @@ pub const ANCHOR: usize = <AnchorInputs as Block>::WIDTH;
 
 /// Which of the numbers about the road user itself speak of its goal: time, masks, values.
 pub const OWN_GOAL: Range<usize> = index_of!(Own, goal_time)..index_of!(Own, on_lane);
+/// The values among them, without time and masks.
+pub const OWN_GOAL_VALUES: Range<usize> = index_of!(Own, goal_ahead)..index_of!(Own, on_lane);
+/// Position ahead and left, heading as cosine and sine, and speed among those values; then the box's length and width.
+pub const OWN_CONDITION: [usize; 7] = [
+    index_of!(Own, goal_ahead),
+    index_of!(Own, goal_left),
+    index_of!(Own, goal_heading_cos),
+    index_of!(Own, goal_heading_sin),
+    index_of!(Own, goal_speed),
+    index_of!(Own, length),
+    index_of!(Own, width),
+];
 /// The mask bit of the goal's position among them.
 pub const OWN_GOAL_POSITION: usize = index_of!(Own, goal_position_fixed);
 /// Which of a neighbour's numbers speak of its goal.

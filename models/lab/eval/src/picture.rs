@@ -92,8 +92,18 @@ const SIDE_PX: f64 = 900.0;
 /// Lanes grey, edges dark, boxes at the start, log black, futures orange, the shown one red with its box each second
 /// and what is wrong with it, goals as circles.
 pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, centre: Vec2) -> String {
+    marked_svg(scene, futures, centre, None)
+}
+
+/// The same with a ring and its id at the start of one road user.
+pub fn marked_svg(
+    scene: &Scene,
+    futures: &BTreeMap<String, AgentFutures>,
+    centre: Vec2,
+    marked: Option<&str>,
+) -> String {
     let mut out = format!(
-        "<svg xmlns='http://www.w3.org/2000/svg' width='{SIDE_PX}' height='{SIDE_PX}' style='background:#fff'>\n"
+        "<svg xmlns='http://www.w3.org/2000/svg' width='{SIDE_PX}' height='{SIDE_PX}' viewBox='0 0 {SIDE_PX} {SIDE_PX}' style='background:#fff'>\n"
     );
     let scale = SIDE_PX / (2.0 * HALF_M);
     let at = |p: Vec2| ((p.x - centre.x + HALF_M) * scale, (HALF_M - (p.y - centre.y)) * scale);
@@ -177,6 +187,16 @@ pub fn futures_svg(scene: &Scene, futures: &BTreeMap<String, AgentFutures>, cent
                 "<circle cx='{x:.1}' cy='{y:.1}' r='5' fill='none' stroke='#00794c' stroke-width='2'/>"
             );
         }
+    }
+    if let Some(start) = marked.and_then(|id| scene.agent(id)).and_then(|agent| agent.state_at(0)) {
+        let ((x, y), id) = (at(start.position()), marked.unwrap_or_default());
+        let _ = writeln!(
+            out,
+            "<circle cx='{x:.1}' cy='{y:.1}' r='26' fill='none' stroke='#101828' stroke-width='2.5'/>\n\
+             <text x='{:.1}' y='{:.1}' font-size='22' font-weight='bold' fill='#101828'>{id}</text>",
+            x + 30.0,
+            y - 14.0
+        );
     }
     out.push_str("</svg>\n");
     out

@@ -16,7 +16,7 @@ pub const STRIDE: usize = 3;
 /// Moments looked at.
 pub const MOMENTS: usize = HORIZON_STEPS / STRIDE;
 /// Intersection over union above which the paper calls it a collision.
-const PAPER_IOU: f64 = 0.02;
+pub const PAPER_IOU: f64 = 0.02;
 /// A goal this near a road user's start asks for no motion, metres.
 const IN_PLACE_M: f64 = 0.3;
 /// A log that leaves its place by less than this stands, metres.
@@ -184,6 +184,11 @@ impl Boxes {
 
     /// First moment at which each pair of agents overlaps, and whether it ever does so in the paper's form.
     pub fn meetings(&self) -> Vec<Meeting> {
+        self.meetings_over(PAPER_IOU)
+    }
+
+    /// The same with another threshold of the intersection over union in the paper's form.
+    pub fn meetings_over(&self, threshold: f64) -> Vec<Meeting> {
         let mut out = Vec::new();
         for (k, (i, a)) in self.boxes.iter().enumerate() {
             for (j, b) in &self.boxes[k + 1..] {
@@ -191,7 +196,7 @@ impl Boxes {
                 let Some(first) = pairs().find(|(_, a, b)| overlaps(a, b, 0.0)).map(|p| p.0) else {
                     continue;
                 };
-                let paper = pairs().any(|(_, a, b)| iou(&a, &b) > PAPER_IOU);
+                let paper = pairs().any(|(_, a, b)| iou(&a, &b) > threshold);
                 out.push(Meeting { pair: (*i, *j), first, paper });
             }
         }
@@ -206,7 +211,7 @@ pub struct Meeting {
     pub pair: (usize, usize),
     /// Moment at which it begins, from 0.
     pub first: usize,
-    /// The boxes' intersection over union passes 0.02 at some moment.
+    /// The boxes' intersection over union passes the threshold at some moment, 0.02 unless told otherwise.
     pub paper: bool,
 }
 

@@ -41,12 +41,21 @@ pub struct TrainArgs {
     /// Optimiser steps.
     #[arg(long, default_value_t = 3000)]
     steps: u64,
+    /// Times through the records, in place of steps.
+    #[arg(long, conflicts_with = "steps")]
+    epochs: Option<f64>,
     /// Records a step.
     #[arg(long, default_value_t = 64)]
     batch: usize,
     /// Greatest learning rate.
     #[arg(long, default_value_t = 1e-3)]
     rate: f64,
+    /// Learning rate at the end; a hundredth of the greatest when absent.
+    #[arg(long)]
+    rate_end: Option<f64>,
+    /// Hidden numbers of a baseline's MLP of the condition; the paper has 1024.
+    #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=4096))]
+    condition_width: usize,
     /// What computes the networks. cuda is the first NVIDIA graphics card, in a program built with the feature
     /// cuda; only the CPU gives the same bits again.
     #[arg(long, value_enum, default_value = "cpu")]
@@ -85,10 +94,13 @@ fn word(agent_type: AgentType) -> String {
 ///
 /// # Errors
 /// Exit 1 with the reason.
-pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
+pub fn train(mut args: TrainArgs, common: &Common) -> Result<(), Failure> {
     let goes_on = args.resume && training::checkpoint_path(&args.output).exists();
     if !goes_on {
         output::keep(&args.output, args.force)?;
+    }
+    if let Some(epochs) = args.epochs {
+        args.steps = training::steps_of(&args.records, epochs, args.batch).map_err(failed)?;
     }
     let stop = interrupt::gently();
     let stage = args.stage.unwrap_or(Stage::Initializer);
@@ -113,7 +125,8 @@ pub fn train(args: TrainArgs, common: &Common) -> Result<(), Failure> {
             let expert = kind.expert().map(str::to_owned).or(expert);
             let expert = expert
                 .ok_or_else(|| Failure::new(Exit::Usage, "--baseline paper: --expert says whose it is"))?;
-            let options = baselines::options(kind, records, stage, output);
+            let mut options = baselines::options(kind, records, stage, output);
+            options.architecture.condition_width = args.condition_width;
             baselines::train(&args.set(options, expert, stop), &mut report)
         }
     };
@@ -139,6 +152,7 @@ impl TrainArgs {
             steps: self.steps,
             batch: self.batch,
             rate: self.rate,
+            rate_end: self.rate_end,
             processor: self.device,
             threads: self.workers,
             seed: self.seed,

@@ -8,7 +8,7 @@ mod prior;
 mod spline;
 
 pub use lane::intelligent_driver;
-pub use learned::{Together, learned};
+pub use learned::{Together, learned, replanned};
 pub use prior::{VARIATIONS, least_effort, varied};
 pub use spline::hermite;
 

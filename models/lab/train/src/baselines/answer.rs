@@ -3,15 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
-use candle_core::Device;
+use candle_core::{Device, Tensor};
 use experts::features::AgentFeatures;
 use experts::features::agent::plan_with;
 use experts::planning::MODES;
 use experts::planning::world::World;
-use scene::{Future, State};
+use scene::random::Key;
+use scene::{AgentType, Future, State};
 
+use super::encoder::Sight;
+use super::regressor::NUMBERS;
 use super::sight::{Points, forget_goals};
 use super::stages::{points, refine};
+use super::unet::STEPS;
 use super::{BaselineKind, Networks, curve};
 use crate::polylines::{Polylines, SeenPiece};
 use crate::training::{least, softmax};
@@ -22,6 +26,10 @@ pub struct Baseline {
     pub name: String,
     kind: BaselineKind,
     networks: Vec<Networks>,
+    /// It answers for types that it did not learn from.
+    for_all: bool,
+    /// Draws the noise of refinement.
+    seed: u64,
 }
 
 impl Baseline {
@@ -46,7 +54,22 @@ impl Baseline {
         }
         let first = networks.first();
         let kind = first.map(|n| n.plan.kind).with_context(|| format!("no weights in {}", path.display()))?;
-        Ok(Self { name: name.into(), kind, networks })
+        Ok(Self { name: name.into(), kind, networks, for_all: false, seed: 0 })
+    }
+
+    /// Answers for all types, whatever its one network learned from: what the paper's Table I asks of plain
+    /// TrafficGen.
+    #[must_use]
+    pub fn for_all_types(mut self) -> Self {
+        self.for_all = true;
+        self
+    }
+
+    /// Draws the noise of refinement by another seed.
+    #[must_use]
+    pub fn seeded(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
     }
 
     /// Small random networks for tests.
@@ -56,7 +79,7 @@ impl Baseline {
     /// When the tensor library fails.
     pub fn random(name: &str, kind: BaselineKind) -> Result<Self> {
         let networks = vec![Networks::small(kind, kind.expert().unwrap_or("vehicle"), 1)?];
-        Ok(Self { name: name.into(), kind, networks })
+        Ok(Self { name: name.into(), kind, networks, for_all: false, seed: 0 })
     }
 
     /// It sees goals; otherwise it answers only where there is none.
@@ -77,7 +100,11 @@ impl Baseline {
     ) -> Result<Vec<Vec<Future>>> {
         let mut out = vec![Vec::new(); agents.len()];
         for networks in &self.networks {
-            let types = networks.types()?;
+            let types: &[AgentType] = if self.for_all {
+                &[AgentType::Vehicle, AgentType::Pedestrian, AgentType::Cyclist]
+            } else {
+                networks.types()?
+            };
             let (mut slots, mut lines, mut features) = (Vec::new(), Vec::new(), Vec::<AgentFeatures>::new());
             for (slot, agent) in agents.iter().enumerate() {
                 let who = world.present.iter().find(|p| p.index == *agent);
@@ -95,10 +122,15 @@ impl Baseline {
             }
             let lines: Vec<&[SeenPiece]> = lines.iter().map(Vec::as_slice).collect();
             let features: Vec<&AgentFeatures> = features.iter().collect();
-            let seen = networks.regressor.see(&polylines.pieces, &lines, &features)?;
-            let regressed = networks.regressor.forward(&seen)?;
+            let sight =
+                Sight::stack(&networks.plan, &polylines.pieces, &lines, &features, networks.device())?;
+            let regressed = networks.regressor.forward(&sight)?;
             let found = match &networks.refiner {
-                Some(refiner) => refine(refiner, &seen, &regressed.points)?,
+                Some(refiner) => {
+                    let ids = slots.iter().map(|(_, who)| world.scene.agents[who.index].id.as_str());
+                    let fresh = self.fresh(ids, world.step, networks.device())?;
+                    refine(refiner, &refiner.context(&sight)?, &regressed.points, &fresh)?
+                }
                 None => regressed.points,
             };
             let scores = regressed.score.flatten_all()?.to_vec1::<f32>()?;
@@ -108,6 +140,26 @@ impl Baseline {
             }
         }
         Ok(out)
+    }
+
+    /// Noise of all refinement steps, each road user's its own: who is asked beside it changes nothing.
+    fn fresh<'a>(
+        &self,
+        ids: impl Iterator<Item = &'a str>,
+        step: usize,
+        device: &Device,
+    ) -> candle_core::Result<Vec<Tensor>> {
+        let mut draws: Vec<Vec<f32>> = vec![Vec::new(); STEPS];
+        let mut batch = 0;
+        for id in ids {
+            batch += 1;
+            let key = Key::default().number(self.seed).number(step as u64).words(&["leapfrog", id]);
+            let mut stream = key.stream();
+            for draw in &mut draws {
+                draw.extend((0..MODES * NUMBERS).map(|_| stream.normal() as f32));
+            }
+        }
+        draws.into_iter().map(|draw| Tensor::from_vec(draw, (batch, MODES, NUMBERS), device)).collect()
     }
 }
 

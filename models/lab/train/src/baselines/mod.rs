@@ -6,15 +6,18 @@
 //!   nothing is asked of them.
 //! * [`BaselineKind::TrafficGenConditional`]: one such network for all types, which sees the condition.
 //! * [`BaselineKind::Paper`] (DragTraffic, 2024): the same regressor with the condition, one for each type, and a
-//!   conditional diffusion model that refines its futures: a one-dimensional U-Net over the points, five
-//!   steps from the fifth level of noise of a hundred.
+//!   conditional diffusion model that refines its futures: a context encoder of its own and a one-dimensional U-Net over
+//!   the points, five leapfrog steps from the fifth level of noise of a hundred. It is trained as there: the denoiser
+//!   alone, then the initializer with the denoiser and its encoder frozen, then both.
 //!
-//! All see the road user itself, map pieces and neighbours as the experts do, but no routes. A future is 18
+//! All see the road user itself, map pieces and neighbours as the experts do, but no routes. The condition (position,
+//! velocity and heading at the end, and the box) goes through an MLP of its own. A future is 18
 //! points, one every half second, in the road user's frame at the start; [`curve`] makes states of them. A
 //! goal is something that the networks see, and nothing makes them meet it.
 
 mod answer;
 mod curve;
+mod encoder;
 mod loss;
 mod regressor;
 mod sight;
@@ -82,13 +85,24 @@ pub struct Plan {
     pub kind: BaselineKind,
     /// Widths and counts, as the experts have them.
     pub sizes: Architecture,
+    /// Hidden numbers of the condition's MLP; the paper has 1024.
+    pub condition_width: usize,
+}
+
+impl Plan {
+    /// The method at the experts' own width.
+    pub fn of(kind: BaselineKind) -> Self {
+        let sizes = Architecture::default();
+        Self { kind, condition_width: sizes.width, sizes }
+    }
 }
 
 #[cfg(any(test, feature = "samples"))]
 impl Plan {
     /// Small networks, for tests.
     fn small(kind: BaselineKind) -> Self {
-        Self { kind, sizes: Architecture { width: 32, gating_blocks: 2, ..Architecture::default() } }
+        let sizes = Architecture { width: 32, gating_blocks: 2, ..Architecture::default() };
+        Self { kind, sizes, condition_width: 32 }
     }
 }
 
@@ -112,9 +126,15 @@ struct Networks {
 impl Networks {
     fn build(plan: Plan, card: Card, mut p: Params) -> Result<Self, NetError> {
         plan.sizes.check()?;
-        let regressor = Regressor::new(&mut p, &plan.sizes)?;
+        if plan.condition_width == 0 {
+            return Err(NetError::Header {
+                member: HEADER,
+                reason: "condition_width is 0; 1 or more expected".into(),
+            });
+        }
+        let regressor = Regressor::new(&mut p, &plan)?;
         let refiner = match plan.kind {
-            BaselineKind::Paper => Some(Unet::new(&mut p, &plan.sizes)?),
+            BaselineKind::Paper => Some(Unet::new(&mut p, &plan)?),
             BaselineKind::TrafficGen | BaselineKind::TrafficGenConditional => None,
         };
         let (tensors, vars) = p.finish()?;
@@ -153,6 +173,11 @@ impl Networks {
             .map_err(|error| NetError::Format(error.to_string()))
     }
 
+    /// Where its tensors are.
+    fn device(&self) -> &Device {
+        self.tensors.values().next().map_or(&Device::Cpu, Tensor::device)
+    }
+
     /// Types that it answers for.
     fn types(&self) -> Result<&'static [AgentType], NetError> {
         match self.card.expert.as_str() {
@@ -170,7 +195,7 @@ impl Networks {
 
 /// Usual options of a baseline's training.
 pub fn options(kind: BaselineKind, records: Vec<PathBuf>, stage: Stage, out: PathBuf) -> TrainOptions<Plan> {
-    TrainOptions::of(records, stage, out, Plan { kind, sizes: Architecture::default() })
+    TrainOptions::of(records, stage, out, Plan::of(kind))
 }
 
 /// Trains a baseline and writes its weights; `report` gets each line. Gives the last validation.

@@ -8,10 +8,11 @@ use experts::net::{Card, NetError, Params, schedule};
 use experts::planning::MODES;
 use scene::random::Stream;
 
+use super::encoder::Sight;
 use super::loss::{self, UNIT_M};
-use super::regressor::{NUMBERS, Regressed, Seen};
+use super::regressor::{NUMBERS, Regressed};
 use super::sight::{Points, Truth, asks_for_a_place, forget_goals};
-use super::unet::{Unet, steps};
+use super::unet::{Context, STEPS, Unet};
 use super::{BaselineKind, Networks, Plan};
 use crate::polylines::SeenPiece;
 use crate::training::{Metrics, Record, Shard, Stage, Tools, TrainError, Trainee, index, seeded};
@@ -59,6 +60,16 @@ impl Trainee for Networks {
         self.plan.kind == BaselineKind::TrafficGenConditional
     }
 
+    /// As the paper trains: what is frozen has no share, and the joint stage trains all alike.
+    fn share(stage: Stage, name: &str) -> f64 {
+        let refiner = name.starts_with("refiner.");
+        match stage {
+            Stage::Denoiser => f64::from(u8::from(refiner)),
+            Stage::Initializer => f64::from(u8::from(!refiner)),
+            Stage::Joint => 1.0,
+        }
+    }
+
     fn loss(
         &self,
         _: &Tools,
@@ -67,16 +78,22 @@ impl Trainee for Networks {
         rng: &mut Stream,
     ) -> std::result::Result<(Tensor, Metrics), TrainError> {
         let mut metrics = Metrics::new(shard.records.len());
-        let seen = self.see(shard)?;
+        let sight = self.sight(shard)?;
         let truths: Vec<Truth> = shard.records.iter().map(Truth::of).collect();
-        let refiner = self.refiner.as_ref();
-        let loss = match (stage, refiner) {
-            (Stage::Denoiser, Some(refiner)) => denoiser(refiner, &seen, &truths, rng, &mut metrics)?,
-            (Stage::Joint, Some(refiner)) => {
-                let (first, regressed) = self.regressor(&seen, &truths, &mut metrics)?;
-                (first + joint(refiner, &seen, &truths, &regressed, rng, &mut metrics)?)?
+        let loss = match (stage, self.refiner.as_ref()) {
+            (Stage::Denoiser, Some(refiner)) => {
+                let seen = refiner.context(&sight)?;
+                estimation(refiner, &seen, &truths, rng, &mut metrics)?
             }
-            _ => self.regressor(&seen, &truths, &mut metrics)?.0,
+            (Stage::Joint, Some(refiner)) => {
+                let seen = refiner.context(&sight)?;
+                let noise = estimation(refiner, &seen, &truths, rng, &mut metrics)?;
+                let mut first = self.regressor.forward(&sight)?;
+                let fresh = fresh(rng, truths.len(), self.device())?;
+                first.points = refine(refiner, &seen, &first.points, &fresh)?;
+                (noise + pulled(&first, &truths, ["refined", "first"], &mut metrics)?)?
+            }
+            _ => pulled(&self.regressor.forward(&sight)?, &truths, ["min", "first"], &mut metrics)?,
         };
         Ok((loss, metrics))
     }
@@ -86,17 +103,25 @@ impl Trainee for Networks {
         _: &Tools,
         shard: &Shard,
         stage: Stage,
-        _: &mut Stream,
+        rng: &mut Stream,
     ) -> std::result::Result<Metrics, TrainError> {
         let mut metrics = Metrics::new(shard.records.len());
-        let seen = self.see(shard)?;
+        let sight = self.sight(shard)?;
         let truths: Vec<Truth> = shard.records.iter().map(Truth::of).collect();
-        let (_, regressed) = self.regressor(&seen, &truths, &mut metrics)?;
-        if let Some(refiner) = self.refiner.as_ref().filter(|_| stage != Stage::Initializer) {
-            let refined = refine(refiner, &seen, &regressed.points)?;
-            for (truth, futures) in truths.iter().zip(points(&refined)?) {
-                let ade = loss::squared(truth, &futures).ade;
-                metrics.add("refined", ade.into_iter().fold(f32::INFINITY, f32::min));
+        match (stage, self.refiner.as_ref()) {
+            (Stage::Denoiser, Some(refiner)) => {
+                estimation(refiner, &refiner.context(&sight)?, &truths, rng, &mut metrics)?;
+            }
+            (Stage::Joint, Some(refiner)) => {
+                let seen = refiner.context(&sight)?;
+                let mut first = self.regressor.forward(&sight)?;
+                nearest(&first, &truths, "min", &mut metrics)?;
+                let fresh = fresh(rng, truths.len(), self.device())?;
+                first.points = refine(refiner, &seen, &first.points, &fresh)?;
+                pulled(&first, &truths, ["refined", "first"], &mut metrics)?;
+            }
+            _ => {
+                pulled(&self.regressor.forward(&sight)?, &truths, ["min", "first"], &mut metrics)?;
             }
         }
         Ok(metrics)
@@ -104,46 +129,69 @@ impl Trainee for Networks {
 }
 
 impl Networks {
-    fn see(&self, shard: &Shard) -> Result<Seen> {
+    fn sight(&self, shard: &Shard) -> Result<Sight> {
         let mut agents: Vec<AgentFeatures> = shard.records.iter().map(|r| r.agent.clone()).collect();
         if !self.plan.kind.has_condition() {
             agents.iter_mut().for_each(forget_goals);
         }
         let seen: Vec<&[SeenPiece]> = shard.records.iter().map(|r| r.pieces.as_slice()).collect();
-        self.regressor.see(&shard.pieces, &seen, &agents.iter().collect::<Vec<_>>())
+        let agents: Vec<&AgentFeatures> = agents.iter().collect();
+        Sight::stack(&self.plan, &shard.pieces, &seen, &agents, self.device())
     }
+}
 
-    fn regressor(&self, seen: &Seen, truths: &[Truth], metrics: &mut Metrics) -> Result<(Tensor, Regressed)> {
-        let regressed = self.regressor.forward(seen)?;
-        let scores = regressed.score.flatten_all()?.to_vec1::<f32>()?;
-        let (mut pulls, mut nudges) = (Vec::with_capacity(truths.len()), Vec::with_capacity(truths.len()));
-        let all = truths.iter().zip(points(&regressed.points)?).zip(scores.as_chunks::<MODES>().0);
-        for ((truth, futures), score) in all {
-            let fared = loss::squared(truth, &futures);
-            let (likelihood, nudge) = index(score, fared.best);
-            let first = crate::training::least(&score.map(|score| -score));
-            metrics.add("loss", fared.loss + likelihood);
-            metrics.add("min", fared.ade.into_iter().fold(f32::INFINITY, f32::min));
-            metrics.add("first", fared.ade[first]);
-            metrics.add("score", likelihood);
-            pulls.push(fared.gradient);
-            nudges.push(nudge);
-        }
-        let loss = (seeded(&regressed.points, flat(&pulls))?
-            + seeded(&regressed.score, nudges.as_flattened().to_vec())?)?;
-        Ok((loss, regressed))
+/// The paper's L_MSE of the future nearest to the recording and L_NLL of its index. `names` are those of the least
+/// distance and of the most probable future's.
+fn pulled(
+    futures: &Regressed,
+    truths: &[Truth],
+    [least, first]: [&'static str; 2],
+    metrics: &mut Metrics,
+) -> Result<Tensor> {
+    let scores = futures.score.flatten_all()?.to_vec1::<f32>()?;
+    let (mut pulls, mut nudges) = (Vec::with_capacity(truths.len()), Vec::with_capacity(truths.len()));
+    let all = truths.iter().zip(points(&futures.points)?).zip(scores.as_chunks::<MODES>().0);
+    for ((truth, futures), score) in all {
+        let fared = loss::squared(truth, &futures);
+        let (likelihood, nudge) = index(score, fared.best);
+        let shown = crate::training::least(&score.map(|score| -score));
+        metrics.add("loss", fared.loss + likelihood);
+        metrics.add(least, fared.ade.into_iter().fold(f32::INFINITY, f32::min));
+        metrics.add(first, fared.ade[shown]);
+        metrics.add("score", likelihood);
+        pulls.push(fared.gradient);
+        nudges.push(nudge);
     }
+    seeded(&futures.points, flat(&pulls))? + seeded(&futures.score, nudges.as_flattened().to_vec())?
+}
+
+/// Least mean distance of six futures, as a figure alone.
+fn nearest(futures: &Regressed, truths: &[Truth], name: &'static str, metrics: &mut Metrics) -> Result<()> {
+    for (truth, futures) in truths.iter().zip(points(&futures.points)?) {
+        metrics.add(name, loss::squared(truth, &futures).ade.into_iter().fold(f32::INFINITY, f32::min));
+    }
+    Ok(())
 }
 
 /// Futures in metres after all refinement steps.
-pub(super) fn refine(refiner: &Unet, seen: &Seen, futures: &Tensor) -> Result<Tensor> {
-    refiner.walk(seen, &(futures / f64::from(UNIT_M))?, &steps())? * f64::from(UNIT_M)
+pub(super) fn refine(refiner: &Unet, seen: &Context, futures: &Tensor, fresh: &[Tensor]) -> Result<Tensor> {
+    refiner.leapfrog(seen, &(futures / f64::from(UNIT_M))?, fresh)? * f64::from(UNIT_M)
 }
 
-/// The noise in the recording is to be told. All modes are the recording, each with noise of its own.
-fn denoiser(
+/// Noise for all refinement steps of a batch.
+pub(super) fn fresh(rng: &mut Stream, batch: usize, device: &Device) -> Result<Vec<Tensor>> {
+    let mut draw = || {
+        let values: Vec<f32> = (0..batch * MODES * NUMBERS).map(|_| rng.normal() as f32).collect();
+        Tensor::from_vec(values, (batch, MODES, NUMBERS), device)
+    };
+    (0..STEPS).map(|_| draw()).collect()
+}
+
+/// The paper's L_NE: the noise in the recording is to be told. All modes are the recording, each with noise of its
+/// own.
+fn estimation(
     refiner: &Unet,
-    seen: &Seen,
+    seen: &Context,
     truths: &[Truth],
     rng: &mut Stream,
     metrics: &mut Metrics,
@@ -176,33 +224,9 @@ fn denoiser(
             *value = 2.0 * miss / count;
         }
         metrics.add("loss", total);
+        metrics.add("noise", total);
     }
     seeded(&output, gradient)
-}
-
-/// The refined winner is pulled to the recording, from one of the steps on the way.
-fn joint(
-    refiner: &Unet,
-    seen: &Seen,
-    truths: &[Truth],
-    regressed: &Regressed,
-    rng: &mut Stream,
-    metrics: &mut Metrics,
-) -> Result<Tensor> {
-    let steps = steps();
-    let taken = rng.below(steps.len());
-    let drafts = (regressed.points.detach() / f64::from(UNIT_M))?;
-    let unseen = Seen { vector: seen.vector.detach(), tokens: seen.tokens.detach(), mask: seen.mask.clone() };
-    let before = refiner.walk(&unseen, &drafts, &steps[..taken])?.detach();
-    let refined = (refiner.denoise(seen, &before, steps[taken].0)? * f64::from(UNIT_M))?;
-    let mut pulls = Vec::with_capacity(truths.len());
-    for (truth, futures) in truths.iter().zip(points(&refined)?) {
-        let fared = loss::squared(truth, &futures);
-        metrics.add("loss", fared.loss);
-        metrics.add("refined", fared.ade[fared.best]);
-        pulls.push(fared.gradient);
-    }
-    seeded(&refined, flat(&pulls))
 }
 
 /// A tensor of futures as arrays.

@@ -9,6 +9,7 @@ use experts::planning::world::World;
 use scene::routes::LaneGraph;
 use scene::{Goal, Scene, Vec2};
 
+use super::encoder::Sight;
 use super::regressor::NUMBERS;
 use super::sight::{Truth, forget_goals};
 use super::*;
@@ -55,11 +56,13 @@ fn shapes_are_those_of_six_futures() {
         tangent: Box::new([[[0.0; scene::KNOTS]; scene::KNOTS]; 2]),
     };
     let networks = random(BaselineKind::Paper, "vehicle", 1);
-    let seen = networks.regressor.see(&[], &[&[], &[]], &[&features, &features]).unwrap();
-    let regressed = networks.regressor.forward(&seen).unwrap();
+    let sight =
+        Sight::stack(&networks.plan, &[], &[&[], &[]], &[&features, &features], &Device::Cpu).unwrap();
+    let regressed = networks.regressor.forward(&sight).unwrap();
     assert_eq!(regressed.points.dims(), [2, MODES, NUMBERS]);
     assert_eq!(regressed.score.dims(), [2, MODES]);
     let refiner = networks.refiner.as_ref().unwrap();
+    let seen = refiner.context(&sight).unwrap();
     let noise = refiner.noise(&seen, &regressed.points, &[5, 100]).unwrap();
     assert_eq!(noise.dims(), [2, MODES, NUMBERS]);
     assert_eq!(unet::steps(), [(5, 4), (4, 3), (3, 2), (2, 1), (1, 0)]);
@@ -122,6 +125,16 @@ fn recordings_are_where_they_were() {
     }
 }
 
+/// Seeded scenes whose road users all have a condition.
+fn asked_scenes(count: usize) -> Vec<toy::ToyScene> {
+    let mut scenes = toy::scenes(count, 8, 7);
+    for record in scenes.iter_mut().flat_map(|(.., records)| records) {
+        let speed = record.agent.own[0];
+        record.agent.own[experts::features::OWN_GOAL_VALUES].fill(0.5 + 0.1 * speed);
+    }
+    scenes
+}
+
 fn options_of(folder: &Path, kind: BaselineKind, stage: Stage, steps: u64) -> TrainOptions<Plan> {
     let records = folder.join("toy.records");
     if !records.exists() {
@@ -156,7 +169,7 @@ fn losses_fall_and_runs_repeat() {
     let init = folder.path().join("Paper.safetensors");
     let joint = TrainOptions {
         init: Some(init.clone()),
-        ..options_of(folder.path(), BaselineKind::Paper, Stage::Joint, 60)
+        ..options_of(folder.path(), BaselineKind::Paper, Stage::Joint, 30)
     };
     let refined = train(&joint, &mut |_| ()).unwrap();
     assert!(mean(&refined, "refined") < 1.5 * mean(&refined, "min"), "{refined}");
@@ -164,12 +177,12 @@ fn losses_fall_and_runs_repeat() {
     let expected = std::fs::read(&joint.out).unwrap();
     let mut half = None;
     let stopped = TrainOptions {
-        validate_every: 30,
+        validate_every: 5,
         init: None,
-        ..options_of(folder.path(), BaselineKind::Paper, Stage::Joint, 60)
+        ..options_of(folder.path(), BaselineKind::Paper, Stage::Joint, 10)
     };
     train(&stopped, &mut |line| {
-        if let TrainProgress::Validation { step: 60, .. } = line {
+        if let TrainProgress::Validation { step: 10, .. } = line {
             half = Some(std::fs::read(training::checkpoint_path(&stopped.out)).unwrap());
         }
     })
@@ -185,10 +198,68 @@ fn losses_fall_and_runs_repeat() {
 }
 
 #[test]
+fn the_second_stage_leaves_denoiser_and_its_encoder_as_they_are_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    toy::write(&folder.path().join("toy.records"), &asked_scenes(20));
+    let trained = |stage: Stage, init: Option<PathBuf>, name: &str| {
+        let out = folder.path().join(name);
+        let of = options_of(folder.path(), BaselineKind::Paper, stage, 12);
+        train(&TrainOptions { init, out: out.clone(), ..of }, &mut |_| ()).unwrap();
+        (Networks::load(&std::fs::read(&out).unwrap(), false, &Device::Cpu).unwrap(), out)
+    };
+    let changed = |before: &Networks, after: &Networks, name: &str| {
+        let bits = |networks: &Networks| -> Vec<u32> {
+            let values = networks.tensors[name].flatten_all().unwrap().to_vec1::<f32>().unwrap();
+            values.into_iter().map(f32::to_bits).collect()
+        };
+        bits(before) != bits(after)
+    };
+    let (first, path) = trained(Stage::Denoiser, None, "first");
+    let (second, path) = trained(Stage::Initializer, Some(path), "second");
+    let (third, _) = trained(Stage::Joint, Some(path), "third");
+    let names: Vec<&String> = first.tensors.keys().collect();
+    assert!(names.iter().any(|name| name.starts_with("refiner.sight.")), "no encoder of its own");
+    for name in names {
+        let frozen = name.starts_with("refiner.");
+        assert_eq!(changed(&first, &second, name), !frozen, "{name}");
+        assert!(changed(&second, &third, name), "{name} takes no part in the joint stage");
+    }
+}
+
+#[test]
+fn the_condition_reaches_the_denoiser_at_each_step() {
+    let record: Record = toy::scenes(1, 1, 3).remove(0).2.remove(0);
+    let networks = random(BaselineKind::Paper, "vehicle", 3);
+    let mut asked = record.agent.clone();
+    asked.own[experts::features::OWN_GOAL_VALUES].fill(0.3);
+    let refiner = networks.refiner.as_ref().unwrap();
+    let noise = |agent: &AgentFeatures| {
+        let sight = Sight::stack(&networks.plan, &[], &[&[]], &[agent], &Device::Cpu).unwrap();
+        let futures = Tensor::zeros((1, MODES, NUMBERS), DType::F32, &Device::Cpu).unwrap();
+        let context = refiner.context(&sight).unwrap();
+        refiner.noise(&context, &futures, &[3]).unwrap().flatten_all().unwrap().to_vec1::<f32>().unwrap()
+    };
+    assert_ne!(noise(&record.agent), noise(&asked));
+    // A baseline without conditions sees none of it.
+    let blind = Sight::stack(&Plan::small(BaselineKind::TrafficGen), &[], &[&[]], &[&asked], &Device::Cpu);
+    assert!(random(BaselineKind::TrafficGen, "vehicle", 3).regressor.forward(&blind.unwrap()).is_ok());
+}
+
+#[test]
+fn the_conditions_width_is_a_choice() {
+    let plan = Plan { condition_width: 1024, ..Plan::of(BaselineKind::Paper) };
+    let card = random(BaselineKind::Paper, "vehicle", 1).card;
+    let networks = Networks::build(plan, card, Params::random(1, false, &Device::Cpu)).unwrap();
+    assert_eq!(networks.tensors["initializer.sight.condition.0.weight"].dims(), [8, 1024]);
+    assert_eq!(networks.tensors["refiner.asked.weight"].dims(), [1024, 128]);
+    assert!(networks.save().unwrap() == networks.save().unwrap());
+}
+
+#[test]
 fn every_variable_gets_a_gradient_in_its_stages() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("toy.records");
-    toy::write(&path, &toy::scenes(2, 8, 7));
+    toy::write(&path, &asked_scenes(2));
     let (tools, shard) = toy::shard(&path);
     let networks = random(BaselineKind::Paper, "vehicle", 3);
     toy::assert_gradients_by_stage(&networks, &tools, &shard);

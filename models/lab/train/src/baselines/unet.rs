@@ -1,22 +1,24 @@
-//! The paper's refiner: a one-dimensional U-Net over the points of a future that says the noise in them, with
-//! cross-attention to what the road user sees, its condition included.
+//! The paper's denoiser: an encoder of its own, and a one-dimensional U-Net over the points of a future that says the
+//! noise in them, with cross-attention to what the road user sees and to the user's condition at each step.
 
 use candle_core::{Result, Tensor};
 use experts::net::layers::{CrossBlock, Linear, Norm, RELU_GAIN};
 use experts::net::schedule::{self, LEVELS};
-use experts::net::{Architecture, Init, NetError, Params};
+use experts::net::{Init, NetError, Params};
 use experts::planning::{INSTANTS, MODES};
 
-use super::regressor::{NUMBERS, Seen};
+use super::Plan;
+use super::encoder::{Encoder, Seen, Sight};
+use super::regressor::NUMBERS;
 
 /// Level of noise at which the initializer's futures enter.
 const START: usize = 5;
 /// Steps from there.
-const STEPS: usize = 5;
+pub(super) const STEPS: usize = 5;
 /// Points that become one on the way down: 18 points, then 9, then 3.
 const POOLED: [usize; 2] = [2, 3];
 
-/// Level pairs of refinement.
+/// Level pairs of refinement, one level a step.
 pub(super) fn steps() -> Vec<(usize, usize)> {
     schedule::ddim(START, STEPS)
 }
@@ -64,8 +66,20 @@ impl Block {
     }
 }
 
-/// The refiner. Futures are in units of the loss here, [batch, MODES, NUMBERS].
+/// What the denoiser's own encoder says of a batch.
+pub(super) struct Context {
+    /// [batch, width]
+    pub(super) vector: Tensor,
+    /// The user's condition, then what is seen, [batch, tokens, width].
+    tokens: Tensor,
+    mask: Tensor,
+}
+
+/// The denoiser. Futures are in units of the loss here, [batch, MODES, NUMBERS].
 pub(super) struct Unet {
+    encoder: Encoder,
+    /// The encoded condition as a token.
+    asked: Linear,
     levels: Tensor,
     context: Linear,
     token_norm: Norm,
@@ -81,8 +95,8 @@ pub(super) struct Unet {
 }
 
 impl Unet {
-    pub(super) fn new(p: &mut Params, a: &Architecture) -> std::result::Result<Self, NetError> {
-        let d = a.width;
+    pub(super) fn new(p: &mut Params, plan: &Plan) -> std::result::Result<Self, NetError> {
+        let (a, d) = (&plan.sizes, plan.sizes.width);
         // Channels at 18, 9 and 3 points.
         let [c0, c1, c2] = [d / 4, d / 2, d];
         let linear = |p: &mut Params, name: &str, inputs, outputs| {
@@ -92,6 +106,8 @@ impl Unet {
             .map(|block| CrossBlock::new(p, &format!("refiner.attention.{block}"), d, a.heads))
             .collect::<std::result::Result<_, _>>()?;
         Ok(Self {
+            encoder: Encoder::new(p, "refiner.sight", plan)?,
+            asked: Linear::new(p, "refiner.asked", plan.condition_width, d, 1.0)?,
             levels: p.get("refiner.levels", &[LEVELS + 1, d], Init::Normal(0.5))?,
             context: Linear::new(p, "refiner.context", d, d, 1.0)?,
             token_norm: Norm::new(p, "refiner.token_norm", d)?,
@@ -107,8 +123,22 @@ impl Unet {
         })
     }
 
+    /// Reads a batch, once for all its steps.
+    pub(super) fn context(&self, sight: &Sight) -> Result<Context> {
+        let Seen { vector, tokens, mask, condition } = self.encoder.read(sight)?;
+        let (tokens, mask) = match condition {
+            Some(condition) => {
+                let asked = self.asked.forward(&condition)?.unsqueeze(1)?;
+                let open = Tensor::zeros((mask.dim(0)?, 1), mask.dtype(), mask.device())?;
+                (Tensor::cat(&[&asked, &tokens], 1)?, Tensor::cat(&[&open, &mask], 1)?)
+            }
+            None => (tokens, mask),
+        };
+        Ok(Context { vector, tokens: self.token_norm.forward(&tokens)?, mask })
+    }
+
     /// The noise in futures at levels, one a road user.
-    pub(super) fn noise(&self, seen: &Seen, futures: &Tensor, levels: &[usize]) -> Result<Tensor> {
+    pub(super) fn noise(&self, seen: &Context, futures: &Tensor, levels: &[usize]) -> Result<Tensor> {
         let batch = futures.dim(0)?;
         let (lines, device) = (batch * MODES, futures.device());
         let levels: Vec<u32> = levels.iter().map(|&level| level as u32).collect();
@@ -123,9 +153,8 @@ impl Unet {
         let points = INSTANTS / (POOLED[0] * POOLED[1]);
         let mut coarse = self.pool[1].forward(&middle.reshape((lines, points, ()))?)?;
         coarse = coarse.reshape((batch, MODES * points, ()))?;
-        let tokens = self.token_norm.forward(&seen.tokens)?;
         for block in &self.attention {
-            coarse = block.forward(&coarse, &tokens, &seen.mask)?;
+            coarse = block.forward(&coarse, &seen.tokens, &seen.mask)?;
         }
         let coarse = self.spread[1].forward(&coarse.reshape((lines, points, ()))?)?;
         let joined = Tensor::cat(&[&coarse.reshape(middle.shape())?, &middle], 2)?;
@@ -136,21 +165,60 @@ impl Unet {
         self.leave.forward(&self.norm.forward(&fine)?)?.reshape((batch, MODES, NUMBERS))
     }
 
-    /// The futures without the noise of one level for all.
-    pub(super) fn denoise(&self, seen: &Seen, futures: &Tensor, level: usize) -> Result<Tensor> {
-        let signal = schedule::signal(level);
-        let noise = self.noise(seen, futures, &vec![level; futures.dim(0)?])?;
-        (futures - (noise * (1.0 - signal).sqrt())?)? * (1.0 / signal.sqrt())
-    }
-
-    /// Goes some refinement steps without chance.
-    pub(super) fn walk(&self, seen: &Seen, futures: &Tensor, steps: &[(usize, usize)]) -> Result<Tensor> {
+    /// The leapfrog steps by the paper's update (its section on diffusion refinement): each takes off its share of the
+    /// estimated noise and, but for the last, adds fresh noise of the step's own variance. `fresh` has a draw a step.
+    pub(super) fn leapfrog(&self, seen: &Context, futures: &Tensor, fresh: &[Tensor]) -> Result<Tensor> {
+        let batch = futures.dim(0)?;
         let mut futures = futures.clone();
-        for &(from, to) in steps {
-            let step = schedule::step(from, to, 0.0);
-            let denoised = self.denoise(seen, &futures, from)?;
-            futures = ((denoised * step.denoised)? + (futures * step.residual)?)?;
+        for (i, (from, to)) in steps().into_iter().enumerate() {
+            let update = Update::between(from, to);
+            let noise = self.noise(seen, &futures, &vec![from; batch])?;
+            futures = ((futures - (noise * update.noise)?)? * update.scale)?;
+            if let Some(fresh) = fresh.get(i).filter(|_| to > 0) {
+                futures = (futures + (fresh * update.fresh)?)?;
+            }
         }
         Ok(futures)
+    }
+}
+
+/// What one step multiplies: `(x - noise * e) * scale + fresh * z`.
+#[derive(Clone, Copy, Debug)]
+struct Update {
+    scale: f64,
+    noise: f64,
+    fresh: f64,
+}
+
+impl Update {
+    /// Between neighbouring levels, with `alpha` the share of signal power that is left from one to the next.
+    fn between(from: usize, to: usize) -> Self {
+        let (signal, alpha) = (schedule::signal(from), schedule::signal(from) / schedule::signal(to));
+        Self {
+            scale: 1.0 / alpha.sqrt(),
+            noise: (1.0 - alpha) / (1.0 - signal).sqrt(),
+            fresh: (1.0 - alpha).sqrt(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_with_the_true_noise_leads_to_the_mean_of_the_level_below() {
+        // x = sqrt(a) x0 + sqrt(1 - a) e: what is left of e is what the reverse chain's mean has.
+        let (x0, e) = (2.0, -0.7);
+        for (from, to) in steps() {
+            let (a, b) = (schedule::signal(from), schedule::signal(to));
+            let update = Update::between(from, to);
+            let x = a.sqrt() * x0 + (1.0 - a).sqrt() * e;
+            let found = (x - update.noise * e) * update.scale;
+            let beta = 1.0 - a / b;
+            let mean = b.sqrt() * beta / (1.0 - a) * x0 + (a / b).sqrt() * (1.0 - b) / (1.0 - a) * x;
+            assert!((found - mean).abs() < 1e-9, "{from}: {found} {mean}");
+            assert!((update.fresh.powi(2) - beta).abs() < 1e-12);
+        }
     }
 }

@@ -1,17 +1,19 @@
 //! Training records from scenes: each road user of a kind, under a drawn choice of conditions, with
 //! what it really did in the coordinates of its anchors.
 
+mod cases;
 mod conditions;
 mod record;
 mod report;
 #[cfg(test)]
 mod tests;
 
+pub use cases::{Asked, CaseRecords};
 pub use report::{Fit, LeftOut, PlaceSplit, PrepareReport};
 
 use crate::polylines::Polylines;
 use crate::provenance::Provenance;
-use crate::scenes::{Crop, Cropped, mirrored, read_scenes, scene_files};
+use crate::scenes::{Crop, Cropped, mirrored, place_key, read_scenes, scene_files};
 use crate::training::{FitError, Record, Writer};
 use anyhow::Result;
 use conditions::Draws;
@@ -142,14 +144,6 @@ fn cropped_records(scene: Scene, options: &PrepareOptions) -> SceneRecords {
         }
     }
     out
-}
-
-/// Scenes of one place share a key: the source id without its window number.
-fn place_key(scene: &Scene) -> u64 {
-    let id = scene.meta.source_id.as_deref().unwrap_or(&scene.name);
-    let place = if id.starts_with("synth-") { id.rsplit_once('-').map_or(id, |p| p.0) } else { id };
-    let hash = blake3::hash(place.as_bytes());
-    hash.as_bytes()[..8].iter().fold(0, |key, byte| (key << 8) | u64::from(*byte))
 }
 
 fn scene_records(scene: &Scene, options: &PrepareOptions, out: &mut SceneRecords) {

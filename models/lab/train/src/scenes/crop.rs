@@ -29,12 +29,20 @@ impl Crop {
     pub const PAPER: Self = Self { side_m: Some(120.0), least_agents: 32 };
 
     /// Takes out who is not in the square at the first step.
-    pub fn apply(&self, mut scene: Scene) -> Cropped {
+    pub fn apply(&self, scene: Scene) -> Cropped {
+        self.about(scene, None)
+    }
+
+    /// The same with a road user of this index in the middle, in place of the ego.
+    pub fn about(&self, mut scene: Scene, middle: Option<usize>) -> Cropped {
         let before = scene.agents.len();
         if let Some(side_m) = self.side_m {
             let here = || scene.agents.iter().filter_map(|a| Some((a, a.state_at(0)?)));
-            let ego = here().find(|(a, _)| a.role.as_deref() == Some("ego")).or_else(|| here().next());
-            let middle = ego.map(|(_, state)| state);
+            let ego = || here().find(|(a, _)| a.role.as_deref() == Some("ego")).or_else(|| here().next());
+            let middle = match middle {
+                Some(index) => scene.agents.get(index).and_then(|agent| agent.state_at(0)),
+                None => ego().map(|(_, state)| state),
+            };
             scene.agents.retain(|agent| {
                 let (Some(state), Some(middle)) = (agent.state_at(0), middle) else { return false };
                 let local = rotate(state.position() - middle.position(), -middle.heading_rad);
@@ -89,6 +97,8 @@ mod tests {
         let mut strangers = whole.clone();
         strangers.agents[3].role = None;
         assert_eq!(ids(crop.apply(strangers)).0, ["first"]);
+        assert_eq!(ids(crop.about(whole.clone(), Some(3))).0, ["near", "corner", "ego"]);
+        assert_eq!(ids(crop.about(whole.clone(), Some(0))).0, ["first"]);
         assert_eq!(ids(Crop::default().apply(whole)).1, 0);
     }
 

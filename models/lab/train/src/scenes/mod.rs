@@ -2,9 +2,11 @@
 
 mod crop;
 mod mirror;
+mod stretch;
 
 pub use crop::{Crop, Cropped};
 pub use mirror::mirrored;
+pub use stretch::stretch;
 
 use anyhow::{Context, Result};
 use scene::{Conditions, Scene, SignalState, Track};
@@ -40,6 +42,14 @@ pub fn read_scenes(path: &Path) -> Result<Vec<Scene>> {
     let options = formats::ImportOptions { join_identities: false, ..formats::ImportOptions::default() };
     let imported = formats::registry::import(&bytes, &path.to_string_lossy(), "auto", &options);
     Ok(imported?.into_iter().filter_map(Result::ok).map(|(scene, _)| scene).collect())
+}
+
+/// Scenes of one place share a key: the source id without its window number.
+pub fn place_key(scene: &Scene) -> u64 {
+    let id = scene.meta.source_id.as_deref().unwrap_or(&scene.name);
+    let place = if id.starts_with("synth-") { id.rsplit_once('-').map_or(id, |p| p.0) } else { id };
+    let hash = blake3::hash(place.as_bytes());
+    hash.as_bytes()[..8].iter().fold(0, |key, byte| (key << 8) | u64::from(*byte))
 }
 
 /// A copy of a scene that knows nothing after its first step: one state for each road user, the lights as

@@ -27,6 +27,9 @@ pub(super) struct State<A> {
     pub(super) steps: u64,
     /// Top learning rate.
     pub(super) rate: f64,
+    /// The rate at the end; a hundredth of the top one without.
+    #[serde(default)]
+    pub(super) rate_end: Option<f64>,
     pub(super) minutes: Option<f64>,
     /// The refiner is shown the way downhill.
     pub(super) repulsion: bool,
@@ -98,7 +101,7 @@ pub(super) fn load<T: Trainee>(path: &Path, device: &Device) -> Result<Resumed<T
         }
         Ok(tensor)
     };
-    let mut adam = AdamW::new(trained.vars(), state.stage)?;
+    let mut adam = AdamW::new(trained.vars(), |name| T::share(state.stage, name))?;
     adam.step = state.step;
     for (name, var) in trained.vars() {
         let count = var.elem_count();
@@ -106,8 +109,9 @@ pub(super) fn load<T: Trainee>(path: &Path, device: &Device) -> Result<Resumed<T
         let mut values = |kind: &str| -> Result<Vec<f32>, TrainError> {
             Ok(take(kind, name, count)?.flatten_all()?.to_vec1::<f32>()?)
         };
-        let moments = Moments { first: values("first")?, second: values("second")?, mean: values("mean")? };
-        adam.moments.insert(name.clone(), moments);
+        let share = T::share(state.stage, name);
+        let (first, second, mean) = (values("first")?, values("second")?, values("mean")?);
+        adam.moments.insert(name.clone(), Moments { first, second, mean, share });
     }
     Ok(Resumed { state, trained, adam })
 }

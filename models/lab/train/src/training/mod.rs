@@ -33,13 +33,13 @@ pub use error::TrainError;
 pub use fit::FitError;
 pub use metrics::Metrics;
 pub use processor::Processor;
-pub use run::{TrainOptions, TrainProgress, best_path, checkpoint_path, run};
-pub use sample::is_held_out;
+pub use run::{EVERYBODY, TrainOptions, TrainProgress, best_path, checkpoint_path, run, steps_of};
+pub use sample::{is_for_tests, is_held_out};
 pub use stages::Stage;
 
 pub(crate) use loss::{index, least, softmax};
 pub(crate) use route::Placed;
-pub(crate) use run::{EVERYBODY, run_of};
+pub(crate) use run::run_of;
 pub(crate) use sample::Shard;
 pub(crate) use stages::{Tools, seeded};
 pub(crate) use trainee::Trainee;

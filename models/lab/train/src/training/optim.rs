@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use candle_core::{Tensor, Var};
 
 use super::TrainError;
-use super::stages::Stage;
 
 const BETA1: f64 = 0.9;
 const BETA2: f64 = 0.98;
@@ -25,24 +24,27 @@ pub(super) struct Moments {
     pub(super) first: Vec<f32>,
     pub(super) second: Vec<f32>,
     pub(super) mean: Vec<f32>,
+    /// Share of the rate.
+    pub(super) share: f64,
 }
 
 /// The optimiser's state.
 pub(super) struct AdamW {
     pub(super) moments: BTreeMap<String, Moments>,
     pub(super) step: u64,
-    stage: Stage,
 }
 
 impl AdamW {
-    pub(super) fn new(vars: &BTreeMap<String, Var>, stage: Stage) -> Result<Self, TrainError> {
+    /// At rest; `share` says with which share of the rate a parameter learns.
+    pub(super) fn new(vars: &BTreeMap<String, Var>, share: impl Fn(&str) -> f64) -> Result<Self, TrainError> {
         let mut moments = BTreeMap::new();
         for (name, var) in vars {
             let mean = var.as_tensor().flatten_all()?.to_vec1::<f32>()?;
             let zero = vec![0.0; mean.len()];
-            moments.insert(name.clone(), Moments { first: zero.clone(), second: zero, mean });
+            let share = share(name);
+            moments.insert(name.clone(), Moments { first: zero.clone(), second: zero, mean, share });
         }
-        Ok(Self { moments, step: 0, stage })
+        Ok(Self { moments, step: 0 })
     }
 
     /// One step; gives the length of the gradient before it was clipped.
@@ -62,7 +64,7 @@ impl AdamW {
         let clip = if length > CLIP { CLIP / length } else { 1.0 };
         self.step += 1;
         for (((name, var), moments), gradient) in vars.iter().zip(self.moments.values_mut()).zip(gradients) {
-            let rate = rate * share(self.stage, name);
+            let rate = rate * moments.share;
             let Some(gradient) = gradient.as_ref().filter(|_| rate > 0.0) else { continue };
             let decay = if name.ends_with(".weight") { DECAY } else { 0.0 };
             let mut values = var.as_tensor().flatten_all()?.to_vec1::<f32>()?;
@@ -72,10 +74,13 @@ impl AdamW {
         Ok(length)
     }
 
-    /// Moves the running mean of the weights.
+    /// Moves the running mean of the weights; what is frozen keeps its bits.
     pub(super) fn average(&mut self, vars: &BTreeMap<String, Var>) -> Result<(), TrainError> {
         let keep = MEAN.min((1.0 + self.step as f64) / (10.0 + self.step as f64)) as f32;
         for (var, moments) in vars.values().zip(self.moments.values_mut()) {
+            if moments.share == 0.0 {
+                continue;
+            }
             let values = var.as_tensor().flatten_all()?.to_vec1::<f32>()?;
             for (mean, value) in moments.mean.iter_mut().zip(values) {
                 *mean = keep * *mean + (1.0 - keep) * value;
@@ -117,22 +122,11 @@ fn update(values: &mut [f32], moments: &mut Moments, gradient: &[f32], rates: Ra
     }
 }
 
-/// Share of the rate that a parameter learns with in a stage.
-fn share(stage: Stage, name: &str) -> f64 {
-    let refiner = name.starts_with("refiner.");
-    match stage {
-        Stage::Denoiser => 1.0,
-        Stage::Initializer => f64::from(u8::from(!refiner)),
-        Stage::Joint if refiner => 1.0,
-        Stage::Joint => 0.2,
-    }
-}
-
-/// Rate at a share (0..1) of the training: a cosine to a hundredth, after a warm-up.
-pub(super) fn rate(top: f64, step: u64, warm_up: u64, progress: f64) -> f64 {
+/// Rate at a share (0..1) of the training: a cosine from the first to the second of these, after a warm-up.
+pub(super) fn rate((top, end): (f64, f64), step: u64, warm_up: u64, progress: f64) -> f64 {
     let warm = ((step + 1) as f64 / warm_up.max(1) as f64).min(1.0);
     let cosine = 0.5 * (1.0 + (std::f64::consts::PI * progress.clamp(0.0, 1.0)).cos());
-    top * warm * (0.01 + 0.99 * cosine)
+    warm * (end + (top - end) * cosine)
 }
 
 #[cfg(test)]
@@ -147,7 +141,7 @@ mod tests {
             ("a.weight".to_owned(), Var::ones(3, DType::F32, &Device::Cpu).unwrap()),
             ("b.bias".to_owned(), Var::ones(2, DType::F32, &Device::Cpu).unwrap()),
         ]);
-        let mut adam = AdamW::new(&vars, Stage::Denoiser).unwrap();
+        let mut adam = AdamW::new(&vars, |_| 1.0).unwrap();
         for _ in 0..500 {
             let gradients = vars.values().map(|v| Some(v.as_tensor().to_vec1::<f32>().unwrap())).collect();
             adam.apply(&vars, &gradients, 0.01).unwrap();
@@ -164,8 +158,9 @@ mod tests {
 
     #[test]
     fn the_rate_rises_then_falls() {
-        assert!(rate(1.0, 0, 100, 0.0) < 0.02);
-        assert!((rate(1.0, 100, 100, 0.0) - 1.0).abs() < 1e-9);
-        assert!((rate(1.0, 500, 100, 1.0) - 0.01).abs() < 1e-9);
+        let of = |step, progress| rate((1.0, 0.01), step, 100, progress);
+        assert!(of(0, 0.0) < 0.02);
+        assert!((of(100, 0.0) - 1.0).abs() < 1e-9);
+        assert!((of(500, 1.0) - 0.01).abs() < 1e-9);
     }
 }

@@ -16,7 +16,7 @@ use super::log::Log;
 use super::metrics::Metrics;
 use super::optim::{AdamW, rate};
 use super::processor::Processor;
-use super::sample::Split;
+use super::sample::{Split, is_held_out};
 use super::stages::{Stage, Tools};
 use super::trainee::Trainee;
 use super::workers::{SHARD, Workers};
@@ -24,7 +24,7 @@ use super::{Records, TrainError};
 use crate::provenance::Provenance;
 
 /// Name of networks for all types.
-pub(crate) const EVERYBODY: &str = "everybody";
+pub const EVERYBODY: &str = "everybody";
 /// Steps between two lines of a report.
 const REPORT: u64 = 100;
 /// Records held out that are used at most.
@@ -50,6 +50,8 @@ pub struct TrainOptions<A = Architecture> {
     pub batch: usize,
     /// Top learning rate.
     pub rate: f64,
+    /// Rate at the end; a hundredth of the top one without.
+    pub rate_end: Option<f64>,
     /// What computes the networks; only on the CPU does a run repeat bit for bit.
     pub processor: Processor,
     /// Threads on the CPU; the result does not depend on it.
@@ -95,6 +97,7 @@ impl<A> TrainOptions<A> {
             steps: 20_000,
             batch: 64,
             rate: 1e-3,
+            rate_end: None,
             processor: Processor::default(),
             threads: 1,
             out,
@@ -115,6 +118,16 @@ pub fn checkpoint_path(out: &Path) -> PathBuf {
     let mut path = out.as_os_str().to_owned();
     path.push(".checkpoint");
     path.into()
+}
+
+/// Steps that go so many times through the records that are trained on.
+///
+/// # Errors
+/// When records cannot be read.
+pub fn steps_of(records: &[PathBuf], epochs: f64, batch: usize) -> Result<u64, TrainError> {
+    let records = Records::load(records)?;
+    let known = (0..records.len()).filter(|i| !is_held_out(records.scene_of(*i).0)).count();
+    Ok((epochs * known as f64 / batch.max(1) as f64).ceil().max(1.0) as u64)
 }
 
 /// Where the weights with the least held-out loss of a run lie.
@@ -219,7 +232,8 @@ pub(crate) fn run_of<T: Trainee>(
             run.keep()?;
             return Err(TrainError::Stopped { step: run.adam.step });
         }
-        let rate = rate(options.rate, run.adam.step, options.steps.min(200), run.progress());
+        let ends = (options.rate, options.rate_end.unwrap_or(0.01 * options.rate));
+        let rate = rate(ends, run.adam.step, options.steps.min(200), run.progress());
         let batch = split.batch(options.seed, run.adam.step, options.batch);
         let (gradients, metrics) = workers.train(&run.trained, &batch, run.adam.step)?;
         let length = run.adam.apply(run.trained.vars(), &gradients, rate)?;
@@ -337,7 +351,7 @@ impl<'a, T: Trainee> Run<'a, T> {
             }
             None => {
                 let trained: T = first_weights(options, provenance, device)?;
-                let adam = AdamW::new(trained.vars(), options.stage)?;
+                let adam = AdamW::new(trained.vars(), |name| T::share(options.stage, name))?;
                 (trained, adam, 0.0)
             }
         };
@@ -399,6 +413,7 @@ impl<'a, T: Trainee> Run<'a, T> {
             batch: options.batch,
             steps: options.steps,
             rate: options.rate,
+            rate_end: options.rate_end,
             minutes: options.minutes,
             repulsion: options.refining.repulsion,
             step: self.adam.step,
@@ -467,6 +482,7 @@ fn same_run<A: PartialEq>(
         () if state.batch != options.batch => differs("batch"),
         () if state.steps != options.steps => differs("number of steps"),
         () if state.rate != options.rate => differs("rate"),
+        () if state.rate_end != options.rate_end => differs("rate at the end"),
         () if state.minutes != options.minutes => differs("number of minutes"),
         () if state.repulsion != options.refining.repulsion => differs("choice of what to leave out"),
         () if state.card.expert != options.expert => differs("expert"),

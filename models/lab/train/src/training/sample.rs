@@ -19,6 +19,13 @@ pub fn is_held_out(key: u64) -> bool {
     u64::from(hash.as_bytes()[0]) * HELD_OUT < 256
 }
 
+/// Whether scenes of this key are for tests alone where a tenth of the places is kept for them; none of those is held
+/// out for validation.
+pub fn is_for_tests(key: u64) -> bool {
+    let hash = blake3::hash(&key.to_le_bytes());
+    u64::from(hash.as_bytes()[0]) * HELD_OUT / 256 == 1
+}
+
 /// Records to train on with their chances, and records held out.
 pub(super) struct Split {
     train: Vec<usize>,

@@ -100,6 +100,16 @@ fn a_run_that_is_stopped_goes_on_as_if_it_had_not_been() {
 }
 
 #[test]
+fn epochs_count_what_is_trained_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = records(folder.path(), 30);
+    let loaded = Records::load(std::slice::from_ref(&path)).unwrap();
+    let known = (0..loaded.len()).filter(|i| !is_held_out(loaded.scene_of(*i).0)).count();
+    assert!(known < loaded.len());
+    assert_eq!(steps_of(&[path], 2.0, known).unwrap(), 2);
+}
+
+#[test]
 fn records_and_weights_of_another_expert_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     records(folder.path(), 30);

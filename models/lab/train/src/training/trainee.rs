@@ -13,8 +13,7 @@ use super::sample::Shard;
 use super::stages::{self, Stage, Tools};
 use super::{Record, TrainError};
 
-/// Networks with their losses. Parameters whose names begin with `refiner.` are trained in the stages
-/// [`Stage::Denoiser`] and [`Stage::Joint`] alone, all others slower in the latter.
+/// Networks with their losses. Which parameters a stage trains is told by their names: see [`Trainee::share`].
 pub(crate) trait Trainee: Sized + Sync {
     /// What decides the shapes of the tensors and what they mean.
     type Architecture: Clone + PartialEq + Serialize + DeserializeOwned;
@@ -45,6 +44,19 @@ pub(crate) trait Trainee: Sized + Sync {
     fn takes(&self, record: &Record) -> bool;
     /// Whether each file of records has the same chance to be drawn from, however many it holds.
     fn draws_files_evenly(&self) -> bool;
+
+    /// Share of the rate that a parameter learns with in a stage; what has none stays as it is, bit for bit. As the
+    /// experts have it: those under `refiner.` take no part in [`Stage::Initializer`], all others learn slower in
+    /// [`Stage::Joint`].
+    fn share(stage: Stage, name: &str) -> f64 {
+        let refiner = name.starts_with("refiner.");
+        match stage {
+            Stage::Denoiser => 1.0,
+            Stage::Initializer => f64::from(u8::from(!refiner)),
+            Stage::Joint if refiner => 1.0,
+            Stage::Joint => 0.2,
+        }
+    }
 
     /// A scalar whose backward pass gives the gradient of a stage's loss summed over the shard, and what
     /// was measured.

@@ -1,0 +1,59 @@
+//! The paper by one command: from a folder of recordings to its Tables I and II in their shape and order, with its own
+//! figures beside, on whatever data there is; and its figure of creating, editing and correcting.
+//!
+//! ```text
+//! recordings -> sets (records, list of tests) -> training (weights) -> quality, collisions -> report
+//! ```
+//!
+//! Each step leaves its result in the folder of the run, and a run that goes on begins after the last one that is done.
+//! The same data, settings and seed give the same files; the clock is read for the words of the progress alone.
+
+mod collisions;
+mod figure;
+mod methods;
+pub mod paper;
+mod quality;
+mod report;
+mod run;
+mod sets;
+#[cfg(test)]
+mod tests;
+mod training;
+
+pub use collisions::CollisionOptions;
+pub use figure::FIGURE_FILE;
+pub use report::TABLES_FILE;
+pub use run::{Options, OtherRun, Parts, forget, run};
+pub use sets::{Centre, Data, SetOptions, Sets};
+pub use training::{Length, Schedule, Trained};
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by others to end a run soon.
+pub type Stop = Arc<AtomicBool>;
+
+/// The run was asked to end; what is done is kept.
+#[derive(Clone, Copy, Debug, thiserror::Error)]
+#[error("stopped; the same command goes on from there")]
+pub struct Stopped;
+
+/// # Errors
+/// [`Stopped`] where the run was asked to end.
+fn stopped(stop: &Stop) -> anyhow::Result<()> {
+    if stop.load(Ordering::Relaxed) { Err(Stopped.into()) } else { Ok(()) }
+}
+
+/// A file with the place of a scene in it.
+type ScenePlace = ((sets::Part, usize), usize);
+
+/// Numbers of the scenes that cases come from: what figures are resampled by.
+fn scene_index(cases: &[sets::TestCase]) -> BTreeMap<ScenePlace, usize> {
+    let mut out = BTreeMap::new();
+    for case in cases {
+        let next = out.len();
+        out.entry(case.place()).or_insert(next);
+    }
+    out
+}

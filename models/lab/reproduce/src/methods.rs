@@ -1,0 +1,120 @@
+//! Whose futures stand in the tables.
+
+use crate::sets::{Centre, Sets};
+use crate::training::weights_path;
+use anyhow::{Context, Result};
+use experts::Generator;
+use experts::weights::Files;
+use lab_train::baselines::Baseline;
+use serde::Serialize;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A line of the tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// TrafficGen, of vehicles, without conditions, asked of all types.
+    TrafficGen,
+    /// TrafficGen of all types with the condition.
+    Mixture,
+    /// The paper's own.
+    Paper,
+    /// Our experts trained on the same records for as long.
+    OursTrained,
+    /// Our experts as they are shipped.
+    OursShipped,
+    /// A cubic spline to the end: what can be had without learning.
+    Spline,
+}
+
+impl Method {
+    /// In the order of the tables.
+    pub const ALL: [Self; 6] =
+        [Self::TrafficGen, Self::Mixture, Self::Paper, Self::OursTrained, Self::OursShipped, Self::Spline];
+
+    /// Name in the tables; the first three are the paper's.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TrafficGen => "TrafficGen",
+            Self::Mixture => "TrafficGen Mixture Training with Condition",
+            Self::Paper => "DragTraffic with Condition",
+            Self::OursTrained => "ours with condition, the same records and length of training",
+            Self::OursShipped => "ours with condition, as shipped",
+            Self::Spline => "cubic spline to the condition, no learning",
+        }
+    }
+}
+
+/// Who answers.
+pub struct Entrants {
+    trafficgen: Option<Baseline>,
+    mixture: Option<Baseline>,
+    paper: Option<Baseline>,
+    trained: Option<Generator>,
+    shipped: Generator,
+    /// Sets that there were records to learn from.
+    learned: [bool; 3],
+}
+
+/// How a method answers.
+pub enum Answerer<'a> {
+    /// A learned rival, and whether it is shown the condition.
+    Learned(&'a Baseline, bool),
+    /// Experts.
+    Ours(&'a Generator),
+    /// A formula.
+    Spline,
+}
+
+impl Entrants {
+    /// Loads what was trained; for types that there was nothing to learn from, ours of the same records are the shipped
+    /// ones in whole scenes, and have no line of their own. `shipped` is used on one thread, as scenes are judged side by side.
+    ///
+    /// # Errors
+    /// When weights cannot be read.
+    pub fn load(folder: &Path, sets: &Sets, shipped: Generator, seed: u64) -> Result<Self> {
+        let learned = Centre::ALL.map(|c| sets.sets[c.index()].judged.train > 0);
+        let baseline = |method: Method, name: &str| -> Result<Option<Baseline>> {
+            let file = weights_path(folder, name);
+            let path = if method == Method::Paper { folder.join("weights/paper") } else { file };
+            if !path.exists() {
+                return Ok(None);
+            }
+            Ok(Some(Baseline::load(method.name(), &path)?.seeded(seed)))
+        };
+        let trained = learned.iter().any(|l| *l).then(|| -> Result<Generator> {
+            let mut files = Files::built_in().experts;
+            for (centre, file) in
+                [Centre::Ego, Centre::Pedestrian, Centre::Cyclist].into_iter().zip(&mut files)
+            {
+                let path = weights_path(folder, &format!("ours/{}", centre.expert()));
+                if path.exists() {
+                    *file = std::fs::read(&path).with_context(|| format!("read {}", path.display()))?.into();
+                }
+            }
+            Ok(Generator::new(&files, Arc::default())?.with_threads(1))
+        });
+        Ok(Self {
+            trafficgen: baseline(Method::TrafficGen, "trafficgen")?.map(Baseline::for_all_types),
+            mixture: baseline(Method::Mixture, "mixture")?,
+            paper: baseline(Method::Paper, "paper")?,
+            trained: trained.transpose()?,
+            shipped: shipped.with_threads(1),
+            learned,
+        })
+    }
+
+    /// Who answers for a method about one type; nobody where there was nothing to learn from.
+    pub fn of(&self, method: Method, centre: Centre) -> Option<Answerer<'_>> {
+        let own = self.learned[centre.index()];
+        match method {
+            Method::TrafficGen => self.trafficgen.as_ref().map(|b| Answerer::Learned(b, false)),
+            Method::Mixture => self.mixture.as_ref().map(|b| Answerer::Learned(b, true)),
+            Method::Paper => self.paper.as_ref().filter(|_| own).map(|b| Answerer::Learned(b, true)),
+            Method::OursTrained => self.trained.as_ref().filter(|_| own).map(Answerer::Ours),
+            Method::OursShipped => Some(Answerer::Ours(&self.shipped)),
+            Method::Spline => Some(Answerer::Spline),
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! One run from recordings to tables.
+
+use crate::collisions::{self, CollisionOptions};
+use crate::figure::{self, FIGURE_FILE};
+use crate::methods::Entrants;
+use crate::quality;
+use crate::report::Report;
+use crate::sets::{self, Data, Part, SetOptions, Sets};
+use crate::training::{Schedule, Training};
+use crate::{Stop, stopped};
+use anyhow::{Context, Result};
+use experts::Engine;
+use scene::ContentHash;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Which results are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parts {
+    /// Tables I and II, and the trainings that they need.
+    pub tables: bool,
+    /// The page of pictures, with the weights as they are shipped.
+    pub figure: bool,
+}
+
+/// What to do.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Where the scenes are.
+    pub data: Data,
+    /// Folder of the run.
+    pub out: PathBuf,
+    /// How sets are cut.
+    pub sets: SetOptions,
+    /// How networks are trained.
+    pub schedule: Schedule,
+    /// Hidden numbers of the condition's MLP.
+    pub condition_width: usize,
+    /// How Table II is made.
+    pub collisions: CollisionOptions,
+    /// What is made.
+    pub parts: Parts,
+    /// Draws everything.
+    pub seed: u64,
+    /// Threads that share a step of training.
+    pub threads: usize,
+    /// Ends the run.
+    pub stop: Stop,
+}
+
+/// The folder holds a run with other settings.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{folder} holds a run with another {what}; give another folder, or --force to begin anew")]
+pub struct OtherRun {
+    /// Folder.
+    pub folder: String,
+    /// What is different.
+    pub what: String,
+}
+
+/// What decides the sets and the weights of a run.
+#[derive(Serialize)]
+struct Settings {
+    /// Hash of the names and sizes of all files.
+    data: String,
+    sets: SetOptions,
+    schedule: Schedule,
+    condition_width: usize,
+    seed: u64,
+}
+
+const SETTINGS_FILE: &str = "settings.json";
+const SETS_FILE: &str = "sets.json";
+
+/// Makes sets, pictures, weights and tables, as far as sets and weights are not there yet; gives the tables as Markdown.
+///
+/// # Errors
+/// [`OtherRun`] where the folder is another run's, [`crate::Stopped`] where it was asked to end, and what files and
+/// networks report.
+pub fn run(options: &Options, engine: Engine, progress: &dyn Fn(&str)) -> Result<String> {
+    let folder = options.out.as_path();
+    begin(options)?;
+    let sets = sets_of(options, progress)?;
+    if options.parts.figure {
+        let made = (&options.data, &options.sets, &sets);
+        let panels = figure::make(made.0, made.1, made.2, &engine, options.seed, &options.stop, progress)?;
+        let path = folder.join(FIGURE_FILE);
+        formats::files::replace(&path, figure::page(&panels, &sets.sources).as_bytes())
+            .with_context(|| format!("write {}", path.display()))?;
+        progress(&format!("{} pictures in {}", panels.len(), path.display()));
+    }
+    if !options.parts.tables {
+        return Ok(String::new());
+    }
+    let training = Training {
+        folder,
+        schedule: options.schedule,
+        condition_width: options.condition_width,
+        seed: options.seed,
+        threads: options.threads,
+        stop: &options.stop,
+    };
+    let trained = training.run(&sets, progress)?;
+    let entrants = Entrants::load(folder, &sets, engine.generator, options.seed)?;
+    let (data, cut, stop) = (&options.data, &options.sets, &options.stop);
+    let first = quality::table(data, cut, &sets, &entrants, options.seed, stop, progress)?;
+    let (second, interactive) =
+        collisions::table(data, cut, &sets, &entrants, options.collisions, stop, progress)?;
+    stopped(stop)?;
+    let report = Report {
+        options: cut,
+        sets: &sets,
+        own_tests: !data.test.is_empty(),
+        trained: &trained,
+        condition_width: options.condition_width,
+        seed: options.seed,
+        interactive,
+        sheets: &[first, second],
+    };
+    report.write(folder)?;
+    Ok(report.markdown())
+}
+
+/// Takes hold of the folder, or finds that it is this run's.
+fn begin(options: &Options) -> Result<()> {
+    let mut names = String::new();
+    for part in [Part::Data, Part::Test] {
+        for file in options.data.files(part)? {
+            let size = std::fs::metadata(&file).with_context(|| format!("read {}", file.display()))?.len();
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            names += &format!("{part:?} {name} {size}\n");
+        }
+    }
+    let settings = Settings {
+        data: ContentHash::of_bytes(names.as_bytes()).hex(),
+        sets: options.sets,
+        schedule: options.schedule,
+        condition_width: options.condition_width,
+        seed: options.seed,
+    };
+    let settings = serde_json::to_value(settings)?;
+    let path = options.out.join(SETTINGS_FILE);
+    if !path.exists() {
+        std::fs::create_dir_all(&options.out).with_context(|| format!("make {}", options.out.display()))?;
+        return write_json(&path, &settings);
+    }
+    let text = std::fs::read(&path).with_context(|| format!("read {}", path.display()))?;
+    let before: serde_json::Value = serde_json::from_slice(&text)
+        .with_context(|| format!("{}: settings of a run expected", path.display()))?;
+    let other = ["data", "sets", "schedule", "condition_width", "seed"]
+        .into_iter()
+        .find(|k| before[k] != settings[k]);
+    match other {
+        None => Ok(()),
+        Some(what) => {
+            let folder = options.out.display().to_string();
+            Err(OtherRun { folder, what: what.replace('_', " ") }.into())
+        }
+    }
+}
+
+/// The sets of a run, made where they are not there.
+fn sets_of(options: &Options, progress: &dyn Fn(&str)) -> Result<Sets> {
+    let path = options.out.join(SETS_FILE);
+    if path.exists() {
+        let text = std::fs::read(&path).with_context(|| format!("read {}", path.display()))?;
+        return serde_json::from_slice(&text)
+            .with_context(|| format!("{}: sets of a run expected", path.display()));
+    }
+    let records = options.out.join("records");
+    std::fs::create_dir_all(&records).with_context(|| format!("make {}", records.display()))?;
+    let made = sets::make(&options.data, &options.sets, &options.out, &options.stop, progress)?;
+    write_json(&path, &made)?;
+    Ok(made)
+}
+
+fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+    let text = format!("{}\n", serde_json::to_string_pretty(value)?);
+    formats::files::replace(path, text.as_bytes()).with_context(|| format!("write {}", path.display()))
+}
+
+/// Takes away what a run left in a folder, so that the next begins anew; other files stay, and so does a folder that is
+/// no run's.
+///
+/// # Errors
+/// When something cannot be removed.
+pub fn forget(folder: &Path) -> Result<()> {
+    if !folder.join(SETTINGS_FILE).exists() {
+        return Ok(());
+    }
+    for name in [SETTINGS_FILE, SETS_FILE] {
+        let path = folder.join(name);
+        if path.exists() {
+            std::fs::remove_file(&path).with_context(|| format!("remove {}", path.display()))?;
+        }
+    }
+    for name in ["records", "training", "weights"] {
+        let path = folder.join(name);
+        if path.exists() {
+            std::fs::remove_dir_all(&path).with_context(|| format!("remove {}", path.display()))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,263 @@
+//! The paper's three sets from recordings (its section on the dataset): 6 s intervals, a 120 m square with at least 32
+//! road users, centred on the ego, on cyclists and on pedestrians, 30 frames and a valid end, split by place.
+
+mod cut;
+mod files;
+mod interest;
+
+pub use cut::Cut;
+pub use files::{each_case, free_records_path, interactive, make, records_path};
+
+use anyhow::Result;
+use lab_train::provenance::Provenance;
+use lab_train::scenes::{Crop, read_scenes, scene_files};
+use scene::{AgentType, Scene};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Who is in the middle, which is also whose road users are judged: in the ego's squares all vehicles, in the others the
+/// one in the middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Centre {
+    /// The recording vehicle.
+    Ego,
+    /// Each pedestrian in turn.
+    Pedestrian,
+    /// Each cyclist in turn.
+    Cyclist,
+}
+
+impl Centre {
+    /// In the order of the paper's Table I.
+    pub const ALL: [Self; 3] = [Self::Ego, Self::Pedestrian, Self::Cyclist];
+
+    /// Place in [`Centre::ALL`].
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Whose motion is learned and judged.
+    pub fn judged(self) -> AgentType {
+        match self {
+            Self::Ego => AgentType::Vehicle,
+            Self::Pedestrian => AgentType::Pedestrian,
+            Self::Cyclist => AgentType::Cyclist,
+        }
+    }
+
+    /// Name of the expert, and of its files.
+    pub fn expert(self) -> &'static str {
+        match self {
+            Self::Ego => "vehicle",
+            Self::Pedestrian => "pedestrian",
+            Self::Cyclist => "cyclist",
+        }
+    }
+
+    /// Name of the set.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ego => "ego-centred",
+            Self::Pedestrian => "pedestrian-centred",
+            Self::Cyclist => "cyclist-centred",
+        }
+    }
+}
+
+/// How sets are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SetOptions {
+    /// Steps from the start of an interval to its end, and from one start to the next.
+    pub interval_steps: usize,
+    /// The square, and how many road users it must hold.
+    pub crop: Crop,
+    /// Frames after the first at which a judged road user is known, at least.
+    pub least_frames: usize,
+    /// Drawn ends of each road user that is learned from.
+    pub draws: usize,
+    /// Vehicles learned from in one of the ego's squares, at most.
+    pub most_vehicles: usize,
+    /// Draws ends and vehicles.
+    pub seed: u64,
+}
+
+/// Where the scenes are.
+#[derive(Clone, Debug)]
+pub struct Data {
+    /// Files or folders to learn from; a tenth of their places is kept for tests unless `test` has some.
+    pub data: Vec<PathBuf>,
+    /// Files or folders for tests alone.
+    pub test: Vec<PathBuf>,
+    /// Most files of each.
+    pub most_files: usize,
+}
+
+impl Data {
+    /// Files of one part, sorted, evenly thinned out to the most there may be.
+    ///
+    /// # Errors
+    /// When a folder cannot be listed or holds nothing.
+    pub fn files(&self, part: Part) -> Result<Vec<PathBuf>> {
+        let inputs = match part {
+            Part::Data => &self.data,
+            Part::Test => &self.test,
+        };
+        if inputs.is_empty() {
+            return Ok(Vec::new());
+        }
+        let files = scene_files(inputs)?;
+        let every = files.len().div_ceil(self.most_files.max(1)).max(1);
+        Ok(files.into_iter().step_by(every).collect())
+    }
+}
+
+/// Which of the inputs a file belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Part {
+    /// What is learned from.
+    Data,
+    /// For tests alone.
+    Test,
+}
+
+/// Scenes of a file; none of one that cannot be read.
+fn scenes(path: &Path) -> Vec<Scene> {
+    read_scenes(path).unwrap_or_default()
+}
+
+/// What a place is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Share {
+    /// Learned from.
+    Train,
+    /// Says which weights are kept.
+    Validation,
+    /// Judged.
+    Test,
+}
+
+/// How many of something in training, validation and test.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Shares {
+    pub train: usize,
+    pub validation: usize,
+    pub test: usize,
+}
+
+impl Shares {
+    fn add(&mut self, share: Share, count: usize) {
+        match share {
+            Share::Train => self.train += count,
+            Share::Validation => self.validation += count,
+            Share::Test => self.test += count,
+        }
+    }
+
+    /// All together.
+    pub fn all(&self) -> usize {
+        self.train + self.validation + self.test
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.train += other.train;
+        self.validation += other.validation;
+        self.test += other.test;
+    }
+}
+
+/// What one set came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SetCounts {
+    /// Squares looked at: an interval about the ego, or about one pedestrian or cyclist who may be judged.
+    pub squares: usize,
+    /// Those with fewer road users than asked for.
+    pub too_few: usize,
+    /// Those left with nobody to judge.
+    pub nobody: usize,
+    /// Cases: what is left.
+    pub cases: Shares,
+    /// Road users in them that are learned from or judged.
+    pub judged: Shares,
+    /// Training records made of them.
+    pub records: usize,
+}
+
+impl SetCounts {
+    fn merge(&mut self, other: &Self) {
+        self.squares += other.squares;
+        self.too_few += other.too_few;
+        self.nobody += other.nobody;
+        self.cases.merge(&other.cases);
+        self.judged.merge(&other.judged);
+        self.records += other.records;
+    }
+}
+
+/// What goes on between road users of different types.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Interest {
+    /// Pairs that come to one place within 3 s of each other.
+    pub encounters: usize,
+    /// How near the nearest pair comes, metres.
+    pub nearest_m: f64,
+}
+
+impl Interest {
+    /// The most interesting first.
+    fn order(&self, other: &Self) -> std::cmp::Ordering {
+        other.encounters.cmp(&self.encounters).then(self.nearest_m.total_cmp(&other.nearest_m))
+    }
+}
+
+/// One square that is judged, and where it is cut from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TestCase {
+    /// Part and place of its file in the sorted list.
+    pub file: (Part, usize),
+    /// Scene of the file.
+    pub scene: usize,
+    /// First step of the interval.
+    pub start: usize,
+    /// Set.
+    pub centre: Centre,
+    /// Who is in the middle, where it is not the ego.
+    pub middle: Option<String>,
+    /// How much goes on between road users; `None` where the recording ends before 9 s, and for the ego's squares.
+    pub interest: Option<Interest>,
+}
+
+impl TestCase {
+    /// Which scene of which file it is cut from.
+    pub fn place(&self) -> ((Part, usize), usize) {
+        (self.file, self.scene)
+    }
+}
+
+/// What the sets are.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sets {
+    /// Files looked at, and those that hold no scene.
+    pub files: usize,
+    /// Those of them that hold no scene that can be read.
+    pub unreadable: usize,
+    /// Scenes read.
+    pub scenes: usize,
+    /// Where they come from, with their licences.
+    pub sources: Provenance,
+    /// Seconds that they last.
+    pub seconds: f64,
+    /// Intervals cut from them.
+    pub intervals: usize,
+    /// Scenes left out of training because their place is among the tests.
+    pub shared_places: usize,
+    /// Places by what they are for.
+    pub places: Shares,
+    /// By [`Centre::ALL`].
+    pub sets: [SetCounts; 3],
+    /// What is judged.
+    pub tests: Vec<TestCase>,
+}

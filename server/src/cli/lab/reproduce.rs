@@ -1,0 +1,184 @@
+//! `dragtraffic reproduce`.
+
+use super::failed;
+use crate::cli::inputs::patterns;
+use crate::cli::{Common, Exit, Failure, interrupt, output};
+use clap::builder::RangedU64ValueParser;
+use clap::{Args, ValueEnum};
+use lab_reproduce::{
+    CollisionOptions, Data, Length, Options, OtherRun, Parts, Schedule, SetOptions, Stopped, paper,
+};
+use lab_train::scenes::Crop;
+use scene::{HORIZON_STEPS, STEP_S};
+use std::path::PathBuf;
+
+/// Files that a quick run takes of each input.
+const QUICK_FILES: usize = 150;
+/// Scenes that it chooses for Table II.
+const QUICK_SCENES: [usize; 2] = [16, 16];
+
+/// Flags of `reproduce`.
+#[derive(Args, Clone, Debug)]
+pub struct ReproduceArgs {
+    /// Files, folders or patterns of recordings in any format, such as Waymo Scenario TFRecords of 9 or 20 s. A tenth of their
+    /// places is held out for validation and, without --test, another tenth for the tests.
+    #[arg(required = true)]
+    data: Vec<PathBuf>,
+    /// Files, folders or patterns for the tests alone; their places are never learned from.
+    #[arg(long, value_name = "PATH")]
+    test: Vec<PathBuf>,
+    /// Folder of the run. The same command goes on with what is there.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Short trainings and few scenes: ten minutes on two cores.
+    #[arg(long)]
+    quick: bool,
+    /// Make the tables alone, or the figure alone.
+    #[arg(long, value_enum)]
+    only: Option<Only>,
+    /// Draws first weights, batches, noise and conditions.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Length of an interval, and from one start to the next, seconds.
+    #[arg(long, value_name = "SECONDS", default_value = "6", value_parser = interval)]
+    interval: usize,
+    /// Side of the square about the ego, a pedestrian or a cyclist, metres.
+    #[arg(long, value_name = "METRES", default_value_t = 120.0)]
+    crop: f64,
+    /// Least road users of a square at its first frame.
+    #[arg(long, value_name = "N", default_value_t = 32)]
+    least_agents: usize,
+    /// Least frames at which somebody who is judged is known.
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    frames: usize,
+    /// Intersection over union above which two boxes collide in Table II.
+    #[arg(long, default_value_t = lab_eval::together::PAPER_IOU)]
+    iou: f64,
+    /// Hidden numbers of the MLP of the condition; the paper has 1024.
+    #[arg(long, value_name = "N", default_value_t = 128,
+          value_parser = RangedU64ValueParser::<usize>::new().range(1..=4096))]
+    condition_width: usize,
+    /// Epochs of the denoiser, of regressors, and of both together; the paper's unless --quick.
+    #[arg(long, value_name = "D,R,J", value_parser = epochs)]
+    epochs: Option<[f64; 3]>,
+    /// Learning rate at first; the paper's is 3e-4.
+    #[arg(long)]
+    rate: Option<f64>,
+    /// Learning rate at the end; the paper's is 4e-5.
+    #[arg(long)]
+    rate_end: Option<f64>,
+    /// Records a step.
+    #[arg(long, value_name = "N")]
+    batch: Option<usize>,
+    /// Most files of the data and of the tests, evenly over their names.
+    #[arg(long, value_name = "N")]
+    files: Option<usize>,
+    /// Threads that share a step of training; the result does not depend on it.
+    #[arg(long, default_value_t = 2)]
+    workers: usize,
+    /// Begin anew, whatever run the folder holds.
+    #[arg(long)]
+    force: bool,
+}
+
+/// One of the results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Only {
+    /// Tables I and II.
+    Tables,
+    /// Creating, editing, correcting, and cases (a) to (d), with the weights as they are shipped.
+    Figure,
+}
+
+/// Seconds as steps.
+fn interval(text: &str) -> Result<usize, String> {
+    let steps = text.parse::<f64>().map(|seconds| (seconds / STEP_S).round());
+    match steps {
+        Ok(steps) if (30.0..=HORIZON_STEPS as f64).contains(&steps) => Ok(steps as usize),
+        _ => Err("3 to 9 seconds expected".into()),
+    }
+}
+
+/// Three numbers with commas between them.
+fn epochs(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0))
+        .collect();
+    let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or_else(|| "three numbers above 0 expected, as in 100,150,40".into())
+}
+
+/// From recordings to the paper's tables and figure.
+///
+/// # Errors
+/// Exit 1 with the reason, 7 without weights, 8 when the folder holds another run, 130 on Ctrl-C.
+pub fn reproduce(args: ReproduceArgs, common: &Common) -> Result<(), Failure> {
+    let args = ReproduceArgs { data: patterns(&args.data)?, test: patterns(&args.test)?, ..args };
+    let stop = interrupt::gently();
+    let engine = common.engine()?;
+    let options = args.options(stop);
+    if args.force {
+        lab_reproduce::forget(&options.out).map_err(failed)?;
+    }
+    let quiet = common.quiet;
+    let progress = |line: &str| {
+        if !quiet {
+            output::complain(line);
+        }
+    };
+    let text = lab_reproduce::run(&options, engine, &progress).map_err(|error| {
+        let exit = match () {
+            () if error.is::<Stopped>() => Exit::Interrupted,
+            () if error.is::<OtherRun>() => Exit::OutputExists,
+            () => Exit::Failure,
+        };
+        Failure::new(exit, format!("{error:#}"))
+    })?;
+    output::print(text.as_bytes())
+}
+
+impl ReproduceArgs {
+    fn options(&self, stop: lab_reproduce::Stop) -> Options {
+        let base = if self.quick { Schedule::QUICK } else { Schedule::PAPER };
+        let [denoiser, regressor, joint] = match self.epochs {
+            Some(epochs) => epochs.map(Length::Epochs),
+            None => [base.denoiser, base.regressor, base.joint],
+        };
+        let most = paper::INTERACTIVE.map(|(_, most)| most);
+        Options {
+            data: Data {
+                data: self.data.clone(),
+                test: self.test.clone(),
+                most_files: self.files.unwrap_or(if self.quick { QUICK_FILES } else { usize::MAX }),
+            },
+            out: self.output.clone(),
+            sets: SetOptions {
+                interval_steps: self.interval,
+                crop: Crop { side_m: Some(self.crop), least_agents: self.least_agents },
+                least_frames: self.frames,
+                draws: 2,
+                most_vehicles: 16,
+                seed: self.seed,
+            },
+            schedule: Schedule {
+                denoiser,
+                regressor,
+                joint,
+                rate: self.rate.unwrap_or(base.rate),
+                rate_end: self.rate_end.unwrap_or(base.rate_end),
+                batch: self.batch.unwrap_or(base.batch),
+            },
+            condition_width: self.condition_width,
+            collisions: CollisionOptions {
+                iou: self.iou,
+                most: if self.quick { QUICK_SCENES } else { most },
+                seed: self.seed,
+            },
+            parts: Parts { tables: self.only != Some(Only::Figure), figure: self.only != Some(Only::Tables) },
+            seed: self.seed,
+            threads: self.workers,
+            stop,
+        }
+    }
+}
