@@ -111,7 +111,7 @@ impl Generator {
             maps: Arc::clone(&self.maps),
             workers: Workers::new(threads),
             clock: self.clock,
-            tuning: self.tuning.clone(),
+            tuning: self.tuning,
             tuning_hash: self.tuning_hash.clone(),
         }
     }

@@ -24,6 +24,7 @@ pub struct Percentiles {
     pub calls: usize,
     pub p50_ms: f64,
     pub p95_ms: f64,
+    pub p99_ms: f64,
 }
 
 impl Percentiles {
@@ -31,7 +32,8 @@ impl Percentiles {
     pub fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
-        Self { calls: values.len(), p50_ms: at(0.5).unwrap_or(0.0), p95_ms: at(0.95).unwrap_or(0.0) }
+        let [p50_ms, p95_ms, p99_ms] = [0.5, 0.95, 0.99].map(|share| at(share).unwrap_or(0.0));
+        Self { calls: values.len(), p50_ms, p95_ms, p99_ms }
     }
 }
 

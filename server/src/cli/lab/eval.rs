@@ -1,6 +1,6 @@
 //! `dragtraffic eval` and `bench`.
 
-use super::{SceneArgs, failed, http_bench, print_json, scenes};
+use super::{SceneArgs, crowd_bench, failed, http_bench, print_json, scenes};
 use crate::cli::progress::Progress;
 use crate::cli::{Common, Exit, Failure, output};
 use clap::Args;
@@ -58,8 +58,15 @@ pub struct BenchArgs {
     #[command(flatten)]
     scenes: SceneArgs,
     /// Over HTTP: a server is started beside, and each call's time stands beside what the engine took of it.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "crowd")]
     http: bool,
+    /// So many callers at once, one number after the other, then one who drags beside the heaviest calls; on the
+    /// first scene, over HTTP.
+    #[arg(long, value_name = "CLIENTS", value_delimiter = ',')]
+    crowd: Vec<usize>,
+    /// How long each crowd stays, seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, requires = "crowd")]
+    seconds: f64,
 }
 
 /// Seconds as steps of the scene.
@@ -146,6 +153,9 @@ pub fn bench(args: BenchArgs, common: &Common) -> Result<(), Failure> {
     let scenes = scenes(&args.scenes)?;
     if args.http {
         return print_json(&http_bench::latency(&scenes, common)?);
+    }
+    if let (false, Some(scene)) = (args.crowd.is_empty(), scenes.first()) {
+        return print_json(&crowd_bench::strain(scene, &args.crowd, args.seconds, common)?);
     }
     let mut rows = Vec::new();
     for threads in [1, 2] {

@@ -1,10 +1,12 @@
 //! How experts are made and judged: the only folder that knows the lab. One file a command, or a pair.
 
+mod crowd_bench;
 mod eval;
 mod http_bench;
 mod placement;
 mod prepare;
 mod reproduce;
+mod served;
 mod statistics;
 mod synthesize;
 mod train;

@@ -1,0 +1,162 @@
+//! `dragtraffic bench --crowd`: many callers at once, and one who drags beside the heaviest calls there can be.
+
+use super::failed;
+use super::http_bench::longest_way;
+use super::served::{Connection, JSON, Served};
+use crate::cli::{Common, Failure};
+use formats::native::{MapForm, SceneDoc, write_doc};
+use lab_eval::cost::Percentiles;
+use scene::Scene;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Callers of the heaviest calls.
+const HEAVY: usize = 4;
+/// Drags beside them, and without them.
+const DRAGS: usize = 200;
+/// How often memory is looked at.
+const MINUTE: Duration = Duration::from_secs(60);
+
+/// What a crowd came to.
+#[derive(Debug, Serialize)]
+pub struct Crowd {
+    clients: usize,
+    seconds: f64,
+    answered_per_s: f64,
+    refused_per_s: f64,
+    /// Of those that were answered, milliseconds.
+    answer: Percentiles,
+    /// Memory of the server at each full minute and at the end, MB.
+    memory_mb: Vec<f64>,
+}
+
+/// One who drags, milliseconds.
+#[derive(Debug, Serialize)]
+pub struct Beside {
+    alone: Percentiles,
+    beside_heavy: Percentiles,
+}
+
+/// All of it, on one server.
+#[derive(Debug, Serialize)]
+pub struct Strain {
+    scene: String,
+    road_users: usize,
+    crowds: Vec<Crowd>,
+    drag: Beside,
+}
+
+/// Crowds of these sizes that ask for one road user's futures again and again, at once after a refusal too, for so
+/// long each; then one who drags, alone and beside four calls for everybody in 32 samples of 100 steps.
+pub fn strain(
+    scene: &Scene,
+    sizes: &[usize],
+    seconds: f64,
+    common: &Common,
+) -> Result<Option<Strain>, Failure> {
+    let Some(asked) = longest_way(scene) else { return Ok(None) };
+    let server = Served::start(common)?;
+    let doc = write_doc(&SceneDoc::from_scene(scene, MapForm::Inline));
+    let saved = Connection::open(server.port)?.post("/v1/scenes", JSON, &doc)?;
+    let saved: Value = serde_json::from_slice(&saved.body).map_err(failed)?;
+    let drag = json!({"scene_id": saved["id"], "agents": [asked], "score": false, "futures": "compact"});
+    let drag = drag.to_string().into_bytes();
+    let time = Duration::from_secs_f64(seconds);
+    let crowds: Result<_, Failure> = sizes.iter().map(|size| crowd(&server, &drag, *size, time)).collect();
+    let count = scene.counts()[..3].iter().sum::<usize>().min(128);
+    // As many samples as one reply may hold.
+    let samples = (500_000 / (90 * count.max(1))).clamp(1, 32);
+    let heavy = json!({
+        "scene_id": saved["id"], "agents": "all", "samples": samples, "modes": 1, "steps": 100, "score": false,
+    });
+    let drag = beside(&server, &drag, heavy.to_string().as_bytes())?;
+    let (scene, road_users) = (scene.name.clone(), scene.agents.len());
+    Ok(Some(Strain { scene, road_users, crowds: crowds?, drag }))
+}
+
+/// Times of answers in milliseconds and the number of refusals of one caller, until the crowd goes home.
+fn caller(port: u16, body: &[u8], over: &AtomicBool) -> Result<(Vec<f64>, usize), Failure> {
+    let (mut answers, mut refused) = (Vec::new(), 0);
+    let mut kept = Connection::open(port)?;
+    while !over.load(Ordering::Relaxed) {
+        let reply = kept.send("POST", "/v1/generate", JSON, body)?;
+        match reply.status {
+            200 => answers.push(reply.ms),
+            _ => refused += 1,
+        }
+        if reply.closes {
+            kept = Connection::open(port)?;
+        }
+    }
+    Ok((answers, refused))
+}
+
+fn crowd(server: &Served, body: &[u8], clients: usize, time: Duration) -> Result<Crowd, Failure> {
+    let (over, began) = (AtomicBool::new(false), Instant::now());
+    let mut memory_mb = Vec::new();
+    let (answers, refused) = std::thread::scope(|scope| {
+        let callers: Vec<_> =
+            (0..clients).map(|_| scope.spawn(|| caller(server.port, body, &over))).collect();
+        while began.elapsed() < time {
+            std::thread::sleep(MINUTE.min(time.saturating_sub(began.elapsed())));
+            memory_mb.extend(server.memory_mb());
+        }
+        over.store(true, Ordering::Relaxed);
+        let (mut answers, mut refused) = (Vec::new(), 0);
+        for caller in callers {
+            // A caller whose thread ended otherwise has said why already.
+            let (of_one, no) = caller.join().unwrap_or_else(|_| Ok((Vec::new(), 0)))?;
+            answers.extend(of_one);
+            refused += no;
+        }
+        Ok::<_, Failure>((answers, refused))
+    })?;
+    let seconds = began.elapsed().as_secs_f64();
+    Ok(Crowd {
+        clients,
+        seconds,
+        answered_per_s: answers.len() as f64 / seconds,
+        refused_per_s: refused as f64 / seconds,
+        answer: Percentiles::of(answers),
+        memory_mb,
+    })
+}
+
+fn drags(server: &Served, body: &[u8]) -> Result<Percentiles, Failure> {
+    let mut kept = Connection::open(server.port)?;
+    let mut times = Vec::with_capacity(DRAGS);
+    for _ in 0..DRAGS {
+        let reply = kept.post("/v1/generate", JSON, body)?;
+        times.push(reply.ms);
+        if reply.closes {
+            kept = Connection::open(server.port)?;
+        }
+    }
+    Ok(Percentiles::of(times))
+}
+
+fn beside(server: &Served, drag: &[u8], heavy: &[u8]) -> Result<Beside, Failure> {
+    let alone = drags(server, drag)?;
+    let over = Arc::new(AtomicBool::new(false));
+    for _ in 0..HEAVY {
+        let (port, heavy, over) = (server.port, heavy.to_vec(), Arc::clone(&over));
+        // They end with the server, in the middle of their calls.
+        std::thread::spawn(move || {
+            while !over.load(Ordering::Relaxed) {
+                let asked =
+                    Connection::open(port).and_then(|mut own| own.send("POST", "/v1/generate", JSON, &heavy));
+                // One that is refused or takes too long asks again.
+                if asked.map_or(true, |reply| reply.status != 200) {
+                    std::thread::sleep(Duration::from_millis(200));
+                }
+            }
+        });
+    }
+    std::thread::sleep(Duration::from_secs(2));
+    let beside_heavy = drags(server, drag)?;
+    over.store(true, Ordering::Relaxed);
+    Ok(Beside { alone, beside_heavy })
+}
