@@ -317,8 +317,8 @@ fn http_cases() -> Vec<Case> {
         case(
             "PUT of nothing with If-Match",
             put("/v1/scenes/gone").header("if-match", "*").body(one),
-            404,
-            "not-found",
+            412,
+            "stale-etag",
         ),
         case(
             "DELETE without precondition",

@@ -143,3 +143,34 @@ fn another_user_of_the_machine_is_not_let_in() {
     assert!(reply.starts_with("HTTP/1.1 401") && reply.contains("another user"), "{reply}");
     assert!(as_nobody(&server, "/healthz").unwrap().starts_with("HTTP/1.1 200"));
 }
+
+#[cfg(unix)]
+#[test]
+fn files_of_the_data_folder_stay_in_their_bounds() {
+    let (outside, folder) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let scene = |source: &str, id: &str| {
+        let mut scene = street(2, 20);
+        (scene["meta"]["source"], scene["meta"]["source_id"]) = (json!(source), json!(id));
+        scene.to_string()
+    };
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("taken.json"), scene("demo", "crossing")).unwrap();
+    std::fs::write(at("own.json"), scene("mine", "own")).unwrap();
+    std::fs::write(outside.path().join("secret.json"), scene("mine", "secret")).unwrap();
+    std::os::unix::fs::symlink(outside.path().join("secret.json"), at("link.json")).unwrap();
+    std::fs::File::create(at("huge.json")).unwrap().set_len(3 << 30).unwrap();
+    let flags = ["--limit", "cached_scene_bytes=1", "--data", folder.path().to_str().unwrap()];
+    let server = Server::start(&flags).unwrap();
+    let status = |id: &str| server.get(&format!("/v1/scenes/{id}")).unwrap().status;
+    let began = Instant::now();
+    while status("file-taken-0") != 200 || status("mine-own") != 200 {
+        assert!(began.elapsed() < Duration::from_secs(20), "the folder was not read");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert_eq!(status("mine-secret"), 404, "a link leads out of the folder");
+    let demo = server.get("/v1/scenes/demo-crossing").unwrap().json();
+    assert_eq!(demo["agents"].as_array().unwrap().len(), 44, "the example is as it was");
+    std::fs::remove_file(at("own.json")).unwrap();
+    let gone = server.get("/v1/scenes/mine-own").unwrap();
+    assert_eq!((gone.status, gone.code().as_str()), (404, "not-found"));
+}

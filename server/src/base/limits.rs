@@ -64,6 +64,10 @@ limits! {
     shutdown_s = 10, "time running work gets when the server stops";
 }
 
+/// Bounds without which nothing could be answered.
+const NEVER_ZERO: [&str; 6] =
+    ["connections", "header_bytes", "header_fields", "uri_bytes", "body_rate", "body_bytes"];
+
 /// Most joint scenes of a call.
 pub const SAMPLES: u64 = 32;
 /// Most alternatives kept per road user.
@@ -99,6 +103,9 @@ impl Limits {
             let names: Vec<_> = Self::default().table().iter().map(|row| row.0).collect();
             format!("no limit is named \"{name}\"; there are {}", names.join(", "))
         })?;
+        if number == 0 && NEVER_ZERO.contains(&name) {
+            return Err(format!("limit {name}: 1 or more expected"));
+        }
         *slot = number;
         Ok(())
     }
@@ -146,6 +153,7 @@ mod tests {
         assert_eq!(limits.queue, 3);
         assert!(limits.set("queue").is_err());
         assert!(limits.set("queue=-1").is_err());
+        assert!(limits.set("connections=0").unwrap_err().contains("1 or more"));
         assert!(limits.set("tail=1").unwrap_err().contains("queue"));
     }
 }

@@ -82,6 +82,9 @@ async fn serve(args: ServeArgs, common: &Common) -> Result<(), Failure> {
         limits.running = threads;
     }
     let limits = Arc::new(limits);
+    if let Some(folder) = args.data.as_ref().filter(|folder| !folder.is_dir()) {
+        return Err(Failure::new(Exit::Usage, format!("--data {}: no such folder", folder.display())));
+    }
     let token = args.token_file.as_deref().map(read_token).transpose()?;
     let listener = listen(&args, token.is_some()).await?;
     let address = listener.local_addr()?;

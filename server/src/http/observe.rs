@@ -83,6 +83,8 @@ fn written(mut response: Response, method: &Method, path: &str, id: &str) -> Res
     let headers = response.headers_mut();
     headers.remove(header::CONTENT_LENGTH);
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));
+    // HEAD tells the length of what GET would answer.
+    headers.insert(header::CONTENT_LENGTH, HeaderValue::from(body.len()));
     *response.body_mut() = if method == Method::HEAD { Body::empty() } else { Body::from(body) };
     response
 }

@@ -1,5 +1,6 @@
 //! `/v1/generate`: conditions to futures.
 
+use super::openapi::one_scene;
 use super::scene_ref::{AboutScene, SceneRef, Subject};
 use crate::app::App;
 use crate::base::id::is_id;
@@ -87,6 +88,7 @@ pub enum KeptFutures {
 /// Body of a generation. Exactly one of `scene` and `scene_id` is given.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = one_scene)]
 pub struct GenerateRequest {
     /// The scene itself; its map may be `{"ref":"sha256:HEX"}`.
     #[serde(default)]

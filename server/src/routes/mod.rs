@@ -21,7 +21,7 @@ use crate::app::App;
 use crate::base::problem::Problem;
 use crate::http::{embed, observe};
 use axum::Router;
-use axum::response::{IntoResponse, Response};
+use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::get;
 use std::any::Any;
 use utoipa_axum::router::OpenApiRouter;
@@ -53,6 +53,7 @@ fn pages() -> Router<App> {
     Router::new()
         .route("/openapi.json", get(docs::document))
         .route("/docs", get(docs::reference))
+        .route("/docs/", get(|| async { Redirect::permanent("/docs") }))
         .route("/docs/problems", get(docs::problems))
         .route("/docs/style.css", get(docs::style))
 }

@@ -35,8 +35,37 @@ pub fn document() -> Value {
     document["servers"] = json!([{"url": "/", "description": "the server that gave this document"}]);
     let token = json!({"type": "http", "scheme": "bearer", "description": "with --token-file only"});
     document["security"] = json!([{}, {"token": []}]);
+    tidy(&mut document);
     document["components"] = json!({"schemas": schemas(), "securitySchemes": {"token": token}});
     document
+}
+
+/// What the paths' macros cannot say: a body is needed but for a copy, documents have a media type of their own too,
+/// and an uploaded file may come in a form.
+fn tidy(document: &mut Value) {
+    let operations = document["paths"].as_object_mut().into_iter().flat_map(|paths| paths.values_mut());
+    for operation in operations.flat_map(|item| item.as_object_mut().into_iter().flat_map(Map::values_mut)) {
+        let id = operation["operationId"].as_str().unwrap_or_default().to_owned();
+        let Some(body) = operation.get_mut("requestBody").and_then(Value::as_object_mut) else { continue };
+        body.insert("required".into(), json!(id != "duplicateScene"));
+        let Some(content) = body.get_mut("content").and_then(Value::as_object_mut) else { continue };
+        if let (Some(json), "createScene" | "replaceScene" | "exportUnsaved") =
+            (content.get("application/json").cloned(), id.as_str())
+        {
+            content.insert("application/vnd.dragtraffic.scene+json".into(), json);
+        }
+        if id == "importScenes" {
+            let part = json!({"type": "string", "format": "binary"});
+            let form =
+                json!({"type": "object", "required": ["file"], "properties": {"file": part, "net": part}});
+            content.insert("multipart/form-data".into(), json!({"schema": form}));
+        }
+    }
+}
+
+/// A scene, or the id of one: exactly one of the two members is given.
+pub fn one_scene(schema: &mut schemars::Schema) {
+    schema.insert("oneOf".into(), json!([{"required": ["scene"]}, {"required": ["scene_id"]}]));
 }
 
 /// Pretty text with a last newline, as it is committed.
@@ -139,6 +168,30 @@ mod tests {
             }
         }
         assert_eq!(document["openapi"], "3.1.0");
+    }
+
+    #[test]
+    fn bodies_and_preconditions_that_are_needed_are_said_to_be() {
+        let document = super::document();
+        for item in document["paths"].as_object().unwrap().values() {
+            for (method, operation) in item.as_object().unwrap() {
+                let id = operation["operationId"].as_str().unwrap();
+                if let Some(body) = operation.get("requestBody") {
+                    assert_eq!(body["required"], id != "duplicateScene", "{id}");
+                }
+                if matches!(method.as_str(), "patch" | "delete") && id != "cancelJob" {
+                    let parameters = operation["parameters"].as_array().unwrap();
+                    let tag = parameters.iter().find(|p| p["name"] == "If-Match").unwrap();
+                    assert_eq!(tag["required"], true, "{id}");
+                }
+            }
+        }
+        for name in ["GenerateRequest", "PlaceBody", "ScoreRequest"] {
+            let one = &document["components"]["schemas"][name]["oneOf"];
+            assert_eq!(one.as_array().map(Vec::len), Some(2), "{name}");
+        }
+        let forms = &document["paths"]["/v1/import"]["post"]["requestBody"]["content"];
+        assert!(forms["multipart/form-data"]["schema"]["properties"]["net"].is_object());
     }
 
     #[test]

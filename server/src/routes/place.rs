@@ -1,5 +1,6 @@
 //! `/v1/place`: road users where there are none yet.
 
+use super::openapi::one_scene;
 use super::scene_ref::{AboutScene, SceneRef, Subject, WithScene};
 use crate::app::App;
 use crate::base::problem::{Code, Problem};
@@ -73,6 +74,7 @@ pub struct DensityDoc {
 /// Body of a placement. Exactly one of `scene` and `scene_id` is given.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = one_scene)]
 pub struct PlaceBody {
     /// The scene itself; its map may be `{"ref":"sha256:HEX"}`.
     #[serde(default)]

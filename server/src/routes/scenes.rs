@@ -231,7 +231,11 @@ pub async fn replace(State(app): State<App>, Id(id): Id, request: Request) -> Re
     writable(&app, &id)?;
     let Json(doc) = Json::<SceneDoc>::from_request(request, &app).await?;
     let scene = app.catalog.scene_of(doc).await?;
-    let written = app.catalog.save(&id, expect, scene).await?;
+    let written = app.catalog.save(&id, expect, scene).await.map_err(|problem| match problem.code {
+        // PUT could make it: then it is the precondition that fails (RFC 9110, 13.1.1).
+        Code::NotFound => Problem::new(Code::StaleEtag, "There is no scene to replace under this id."),
+        _ => problem,
+    })?;
     let status = if written.created { StatusCode::CREATED } else { StatusCode::OK };
     Ok(saved(status, id, written.etag))
 }
@@ -276,7 +280,7 @@ refusals!(Unrenamed: CHANGES BODY SCENE WORK,
 
 /// Renames a scene, or changes its tags or notes (RFC 7396 merge patch).
 #[utoipa::path(patch, path = "/v1/scenes/{id}", operation_id = "renameScene", tag = "scenes",
-    params(("id" = String, Path), ("If-Match" = Option<String>, Header)),
+    params(("id" = String, Path), ("If-Match" = String, Header)),
     request_body(content = ref("#/components/schemas/ScenePatch"),
         content_type = "application/merge-patch+json", example = json!({"name": "left turn, late"})),
     responses((status = 200, description = "changed", body = ref("#/components/schemas/Saved")), Unrenamed))]
@@ -313,7 +317,7 @@ refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnl
 
 /// Deletes a scene.
 #[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",
-    params(("id" = String, Path), ("If-Match" = Option<String>, Header)),
+    params(("id" = String, Path), ("If-Match" = String, Header)),
     responses((status = 204, description = "deleted"), Undeleted))]
 pub async fn remove(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<StatusCode, Problem> {
     let tags = if_match(&headers).ok_or_else(precondition_required)?;

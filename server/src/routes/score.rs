@@ -1,5 +1,6 @@
 //! `/v1/score`: collisions, near misses, off-road driving, kinematics, goals.
 
+use super::openapi::one_scene;
 use super::scene_ref::{AboutScene, SceneRef, Subject, WithScene};
 use crate::app::App;
 use crate::base::problem::Problem;
@@ -82,6 +83,7 @@ pub enum Log {
 /// Body of a score. Exactly one of `scene` and `scene_id` is given.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = one_scene)]
 pub struct ScoreRequest {
     /// The scene itself.
     #[serde(default)]

@@ -10,13 +10,13 @@ use super::transfer;
 use crate::base::cache::Cache;
 use crate::base::clock;
 use crate::base::id;
-use crate::base::problem::Problem;
+use crate::base::problem::{Code, Problem};
 use crate::work::Pool;
 use formats::native;
 use rust_embed::RustEmbed;
 use scene::{ContentHash, LaneMap, Scene, Shared};
 use std::collections::BTreeMap;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock};
 use std::time::SystemTime;
@@ -29,6 +29,8 @@ struct DemoScenes;
 
 /// Most files taken from the data folder.
 const MOST_FILES: usize = 5_000;
+/// Largest file taken from it.
+const MOST_BYTES: u64 = 256 << 20;
 
 #[derive(Clone, Debug)]
 enum Place {
@@ -167,7 +169,15 @@ impl Library {
                 return;
             }
         };
-        let mut files: Vec<PathBuf> = listed.flatten().map(|f| f.path()).filter(|p| p.is_file()).collect();
+        let Ok(own) = folder.canonicalize() else { return };
+        let inside = |path: &PathBuf| {
+            let real = path.canonicalize().is_ok_and(|real| real.starts_with(&own) && real.is_file());
+            if !real {
+                tracing::debug!(file = %path.display(), "no file of the data folder");
+            }
+            real
+        };
+        let mut files: Vec<PathBuf> = listed.flatten().map(|f| f.path()).filter(inside).collect();
         files.sort();
         files.truncate(MOST_FILES);
         for path in files {
@@ -176,7 +186,12 @@ impl Library {
                     let modified =
                         path.metadata().and_then(|m| m.modified()).unwrap_or(SystemTime::UNIX_EPOCH);
                     for (index, scene) in scenes.iter().enumerate() {
-                        let id = file_id(&path, scene, index);
+                        // What is there already stays: neither a demo nor another file is replaced.
+                        let ids = [file_id(&path, scene, index), name_id(&path, index)];
+                        let Some(id) = ids.into_iter().find(|id| !self.has(id)) else {
+                            tracing::warn!(file = %path.display(), "its scene's id is taken");
+                            continue;
+                        };
                         self.add(id, scene, Place::File(path.clone(), index), &bytes, modified);
                     }
                 }
@@ -193,18 +208,29 @@ fn read(place: &Place) -> Result<Scene, Problem> {
             Ok(native::read(&file.data)?)
         }
         Place::File(path, index) => {
-            let (_, mut scenes) = read_file(path).map_err(Problem::internal)?;
-            if *index < scenes.len() {
-                Ok(scenes.swap_remove(*index))
-            } else {
-                Err(Problem::internal("a file of the data folder has changed"))
+            let changed = |error: String| {
+                tracing::info!(file = %path.display(), %error, "gone or changed");
+                Problem::new(
+                    Code::NotFound,
+                    "The file of this scene is gone from the data folder, or has changed.",
+                )
+            };
+            let (_, mut scenes) = read_file(path).map_err(changed)?;
+            if *index >= scenes.len() {
+                return Err(changed("it holds fewer scenes than before".into()));
             }
+            Ok(scenes.swap_remove(*index))
         }
     }
 }
 
 fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(format!("larger than {MOST_BYTES} bytes"));
+    }
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let read = transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
     let read = read.map_err(|problem| problem.detail)?;
@@ -213,9 +239,15 @@ fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
 
 /// `womd-<scenario id>` where the source has an id, else a name made from the file's.
 fn file_id(path: &Path, scene: &Scene, index: usize) -> String {
-    let source = if scene.meta.source.is_empty() { "file" } else { &scene.meta.source };
+    match (&scene.meta.source_id, scene.meta.source.as_str()) {
+        (Some(own), "") => id::cleaned(&format!("file-{own}")),
+        (Some(own), source) => id::cleaned(&format!("{source}-{own}")),
+        (None, _) => name_id(path, index),
+    }
+}
+
+/// A name made from the file's.
+fn name_id(path: &Path, index: usize) -> String {
     let stem = path.file_name().unwrap_or_default().to_string_lossy();
-    let stem = stem.split('.').next().unwrap_or_default();
-    let own = scene.meta.source_id.clone().unwrap_or_else(|| format!("{stem}-{index}"));
-    id::cleaned(&format!("{source}-{own}"))
+    id::cleaned(&format!("file-{}-{index}", stem.split('.').next().unwrap_or_default()))
 }

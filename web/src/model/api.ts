@@ -1313,7 +1313,7 @@ export interface components {
              * @default chosen
              */
             stream_modes?: components["schemas"]["StreamModes"];
-        };
+        } & (unknown | unknown);
         /**
          * GeneratedDoc
          * @description What the generator added to a scene.
@@ -2088,7 +2088,7 @@ export interface components {
             types?: {
                 [key: string]: number;
             } | null;
-        };
+        } & (unknown | unknown);
         /**
          * PlaceReply
          * @description What was placed.
@@ -2815,7 +2815,7 @@ export interface components {
             trajectories?: {
                 [key: string]: components["schemas"]["TrajectoryDoc"];
             };
-        };
+        } & (unknown | unknown);
         /**
          * ShownDoc
          * @description The future that was shown last.
@@ -3605,9 +3605,10 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody?: {
+        requestBody: {
             content: {
                 "application/json": components["schemas"]["Scene"];
+                "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
             };
         };
         responses: {
@@ -3797,7 +3798,7 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody?: {
+        requestBody: {
             content: {
                 /**
                  * @example {
@@ -4057,6 +4058,12 @@ export interface operations {
         requestBody: {
             content: {
                 "application/octet-stream": number[];
+                "multipart/form-data": {
+                    /** Format: binary */
+                    file: string;
+                    /** Format: binary */
+                    net?: string;
+                };
             };
         };
         responses: {
@@ -4752,7 +4759,7 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody?: {
+        requestBody: {
             content: {
                 /**
                  * @example {
@@ -5119,9 +5126,10 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody?: {
+        requestBody: {
             content: {
                 "application/json": components["schemas"]["Scene"];
+                "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
             };
         };
         responses: {
@@ -5504,9 +5512,10 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: {
+        requestBody: {
             content: {
                 "application/json": components["schemas"]["Scene"];
+                "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
             };
         };
         responses: {
@@ -5749,8 +5758,8 @@ export interface operations {
     deleteScene: {
         parameters: {
             query?: never;
-            header?: {
-                "If-Match"?: string | null;
+            header: {
+                "If-Match": string;
             };
             path: {
                 id: string;
@@ -5903,15 +5912,15 @@ export interface operations {
     renameScene: {
         parameters: {
             query?: never;
-            header?: {
-                "If-Match"?: string | null;
+            header: {
+                "If-Match": string;
             };
             path: {
                 id: string;
             };
             cookie?: never;
         };
-        requestBody?: {
+        requestBody: {
             content: {
                 /**
                  * @example {
@@ -6552,7 +6561,7 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody?: {
+        requestBody: {
             content: {
                 /**
                  * @example {

@@ -142,6 +142,10 @@ fn another_programs_file_and_a_damaged_one_are_left_alone() {
     connection.pragma_update(None, "application_id", 0).unwrap();
     drop(connection);
     drop(open("own").unwrap());
+    // Its threads close the file a moment later, and with it the log beside it.
+    while folder.path().join("own-wal").exists() {
+        std::thread::yield_now();
+    }
     let mut bytes = std::fs::read(&path).unwrap();
     let half = bytes.len() / 2;
     bytes[half..].fill(0x5a);
