@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{Notify, OnceCell, watch};
+use tokio::sync::{Notify, watch};
 
 /// Heads up to this size reach our own check, which answers with a problem document.
 const HEAD_BUFFER: usize = 128 << 10;
@@ -182,21 +182,14 @@ async fn connection(
     let _ = stream.set_nodelay(true);
     let counted = Arc::clone(place);
     let ends = stream.peer_addr().ok().zip(stream.local_addr().ok());
-    // Looked up once, and only for those who ask for something.
-    let strangers = Arc::new(OnceCell::new());
+    let strangers = ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
     let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
-        let asks = move || ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
-        let look_up = move || async move { tokio::task::spawn_blocking(asks).await.unwrap_or(false) };
-        let (number, router, strangers) = (counted.number, router.clone(), Arc::clone(&strangers));
+        request.extensions_mut().insert(Connection { number: counted.number, strangers });
         let busy = Busy::new(&counted);
         let place = Arc::clone(&counted);
-        async move {
-            let strangers = *strangers.get_or_init(look_up).await;
-            request.extensions_mut().insert(Connection { number, strangers });
-            let request = request.map(|body| axum::body::Body::new(Arriving { body, place }));
-            let reply = tower::ServiceExt::oneshot(router, request).await;
-            reply.map(|reply| reply.map(|body| Counted { body, busy }))
-        }
+        let request = request.map(|body| axum::body::Body::new(Arriving { body, place }));
+        let reply = tower::ServiceExt::oneshot(router.clone(), request);
+        async move { reply.await.map(|reply| reply.map(|body| Counted { body, busy })) }
     });
     let mut http = hyper::server::conn::http1::Builder::new();
     http.timer(TokioTimer::new())

@@ -1,21 +1,34 @@
 //! Whose connection it is: on this machine's own addresses every user of it can connect.
 //!
-//! Linux lists the sockets of a network namespace with their owners in `/proc/net/tcp` and `tcp6`: the line
-//! whose local address is our peer's is its end of the connection.
+//! Linux tells the owner of one socket by its two addresses (sock_diag(7)): the one whose local address is our
+//! peer's is its end of the connection.
 
-use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
+use std::net::SocketAddr;
 
 /// True when the other end of a connection is known to belong to another user of this machine than this
 /// process and root. Where that cannot be told (another system, another namespace) it is false.
 pub fn is_strangers(peer: SocketAddr, own: SocketAddr) -> bool {
-    let known = || Some((own_user()?, owner_of(peer, own)?));
+    // A mapped address is one of the older protocol at its own end.
+    let plain = |address: SocketAddr| SocketAddr::new(address.ip().to_canonical(), address.port());
+    let known = || Some((own_user()?, owner_of(plain(peer), plain(own))?));
     peer.ip().to_canonical().is_loopback() && known().is_some_and(|(us, them)| them != us && them != 0)
 }
 
 #[cfg(target_os = "linux")]
 fn own_user() -> Option<u32> {
-    use std::os::unix::fs::MetadataExt;
-    Some(std::fs::metadata("/proc/self").ok()?.uid())
+    Some(rustix::process::geteuid().as_raw())
+}
+
+/// Owner of the socket at `local` that is connected with `remote`.
+#[cfg(target_os = "linux")]
+fn owner_of(local: SocketAddr, remote: SocketAddr) -> Option<u32> {
+    use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketFlags, SocketType, netlink};
+    let (family, flags) = (AddressFamily::NETLINK, SocketFlags::CLOEXEC);
+    let socket = rustix::net::socket_with(family, SocketType::DGRAM, flags, Some(netlink::SOCK_DIAG)).ok()?;
+    rustix::net::send(&socket, &question(local, remote), SendFlags::empty()).ok()?;
+    let mut answer = [0; 1024];
+    let (length, _) = rustix::net::recv(&socket, &mut answer, RecvFlags::DONTWAIT).ok()?;
+    owner_in(answer.get(..length)?)
 }
 
 #[cfg(not(target_os = "linux"))]
@@ -23,38 +36,49 @@ fn own_user() -> Option<u32> {
     None
 }
 
-fn owner_of(peer: SocketAddr, own: SocketAddr) -> Option<u32> {
-    let tables = ["/proc/net/tcp", "/proc/net/tcp6"];
-    tables.iter().find_map(|table| owner_in(&std::fs::read_to_string(table).ok()?, peer, own))
+#[cfg(not(target_os = "linux"))]
+fn owner_of(_: SocketAddr, _: SocketAddr) -> Option<u32> {
+    None
 }
 
-/// Owner of the socket at `local` that is connected with `remote`, by a table of sockets.
-fn owner_in(table: &str, local: SocketAddr, remote: SocketAddr) -> Option<u32> {
-    let same = |text: &str, address: SocketAddr| {
-        socket(text).is_some_and(|(ip, port)| ip == address.ip().to_canonical() && port == address.port())
+/// SOCK_DIAG_BY_FAMILY: type of questions about sockets, and of their answers.
+const BY_FAMILY: u16 = 20;
+
+/// A netlink header (16 bytes) and an `inet_diag_req_v2` (56) about one TCP socket in whatever state.
+fn question(local: SocketAddr, remote: SocketAddr) -> Vec<u8> {
+    const REQUEST: u16 = 1;
+    const ANY_STATE: u32 = u32::MAX;
+    let family = if local.is_ipv4() { 2u8 } else { 10 };
+    let address = |address: SocketAddr| match address.ip() {
+        std::net::IpAddr::V4(ip) => [&ip.octets()[..], &[0; 12]].concat(),
+        std::net::IpAddr::V6(ip) => ip.octets().to_vec(),
     };
-    table.lines().skip(1).find_map(|line| {
-        let fields: Vec<&str> = line.split_ascii_whitespace().collect();
-        let ours = same(fields.get(1)?, local) && same(fields.get(2)?, remote);
-        ours.then(|| fields.get(7)?.parse().ok())?
-    })
+    let body = [
+        // Family, TCP, no further attributes, padding.
+        &[family, 6, 0, 0][..],
+        &ANY_STATE.to_ne_bytes(),
+        &local.port().to_be_bytes(),
+        &remote.port().to_be_bytes(),
+        &address(local),
+        &address(remote),
+        // Any interface, and no cookie.
+        &[0; 4],
+        &[0xff; 8],
+    ]
+    .concat();
+    let length = (16 + body.len()) as u32;
+    // Length, type, flags, number and port.
+    let head =
+        [&length.to_ne_bytes()[..], &BY_FAMILY.to_ne_bytes(), &REQUEST.to_ne_bytes(), &[0; 8]].concat();
+    [head, body].concat()
 }
 
-/// An address as the tables have it: words of the IP in the machine's byte order, then the port, hexadecimal.
-fn socket(text: &str) -> Option<(IpAddr, u16)> {
-    let (ip, port) = text.split_once(':')?;
-    let port = u16::from_str_radix(port, 16).ok()?;
-    let word = |at: usize| Some(u32::from_str_radix(ip.get(at..at + 8)?, 16).ok()?.to_ne_bytes());
-    let ip = match ip.len() {
-        8 => IpAddr::V4(Ipv4Addr::from(word(0)?)),
-        32 => {
-            let words = [word(0)?, word(8)?, word(16)?, word(24)?];
-            let bytes: [u8; 16] = words.concat().try_into().ok()?;
-            IpAddr::V6(Ipv6Addr::from(bytes)).to_canonical()
-        }
-        _ => return None,
-    };
-    Some((ip, port))
+/// The user id in an answer: a netlink header and an `inet_diag_msg`. `None` for an error.
+fn owner_in(answer: &[u8]) -> Option<u32> {
+    let word = |at: usize| Some(<[u8; 4]>::try_from(answer.get(at..at + 4)?).ok()?);
+    let kind = u16::from_ne_bytes(answer.get(4..6)?.try_into().ok()?);
+    // Behind the header: family, state, timer, retries (4), the socket (48), expiry and two queues (12).
+    (kind == BY_FAMILY).then(|| word(16 + 64).map(u32::from_ne_bytes))?
 }
 
 #[cfg(test)]
@@ -62,28 +86,25 @@ mod tests {
     use super::{is_strangers, owner_in};
     use std::net::{TcpListener, TcpStream};
 
-    const TABLE: &str = "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode
-   0: 0100007F:1F90 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 1 1
-   1: 0100007F:D431 0100007F:1F90 01 00000000:00000000 00:00000000 00000000 65534        0 2 1
-   2: 0000000000000000FFFF00000100007F:D432 0000000000000000FFFF00000100007F:1F90 01 0:0 00:0 0  1001        0 3 1
-";
-
-    #[cfg(target_endian = "little")]
+    #[cfg(target_os = "linux")]
     #[test]
-    fn the_other_end_is_found_by_both_addresses() {
-        let own = "127.0.0.1:8080".parse().unwrap();
-        let owner = |peer: &str| owner_in(TABLE, peer.parse().unwrap(), own);
-        assert_eq!(owner("127.0.0.1:54321"), Some(65534));
-        assert_eq!(owner("127.0.0.1:54322"), Some(1001), "mapped into the newer protocol");
-        assert_eq!(owner("127.0.0.1:54323"), None);
-        assert_eq!(owner_in("nonsense\n1: 2 3\n", own, own), None);
+    fn ones_own_connections_are_known_and_no_strangers() {
+        for address in ["127.0.0.1:0", "[::1]:0"] {
+            // The newer protocol is not everywhere.
+            let Ok(listener) = TcpListener::bind(address) else { continue };
+            let client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+            let (peer, own) = (client.local_addr().unwrap(), listener.local_addr().unwrap());
+            assert_eq!(super::owner_of(peer, own), super::own_user(), "{address}");
+            assert!(!is_strangers(peer, own));
+            drop(client);
+        }
+        let nobody = "127.0.0.1:9".parse().unwrap();
+        assert_eq!(super::owner_of(nobody, nobody), None);
     }
 
     #[test]
-    fn ones_own_connections_are_no_strangers() {
-        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-        let client = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
-        let (peer, own) = (client.local_addr().unwrap(), listener.local_addr().unwrap());
-        assert!(!is_strangers(peer, own));
+    fn errors_and_short_answers_tell_nothing() {
+        let error = [&36u32.to_ne_bytes()[..], &2u16.to_ne_bytes(), &[0; 94]].concat();
+        assert_eq!((owner_in(&error), owner_in(&[]), owner_in(&[20, 0, 0, 0, 20, 0])), (None, None, None));
     }
 }

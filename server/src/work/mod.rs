@@ -39,7 +39,8 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Shared by handlers and workers.
 pub struct Pool {
     state: Mutex<State>,
-    arrived: Condvar,
+    /// One for the threads of each lane: whoever is woken for nothing takes a core from whom it was woken by.
+    arrived: [Condvar; Lane::ALL.len()],
     limits: Arc<Limits>,
     stopped: AtomicBool,
 }
@@ -52,7 +53,7 @@ impl Pool {
     pub fn start(limits: &Arc<Limits>) -> io::Result<Arc<Self>> {
         let pool = Arc::new(Self {
             state: Mutex::new(State::new(limits)),
-            arrived: Condvar::new(),
+            arrived: Default::default(),
             limits: Arc::clone(limits),
             stopped: AtomicBool::new(false),
         });
@@ -112,9 +113,11 @@ impl Pool {
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
         let job = Arc::new(Job::new(kind, cost, party, ticket, end, work));
         state.arrived(&job);
+        // A worker reads documents too, while all readers are at it.
+        let reads = lane == Lane::Document && state.idle[Lane::Document as usize] == 0;
+        let wakes = if reads { Lane::Quick } else { lane };
         drop(state);
-        // All: a thread that does not take this lane must not swallow the call.
-        self.arrived.notify_all();
+        self.arrived[wakes as usize].notify_one();
         Ok((ending, Handle { job, pool: Arc::clone(self) }))
     }
 
@@ -165,7 +168,7 @@ impl Pool {
         for job in jobs {
             job.fail(Problem::new(Code::ShuttingDown, "The server is stopping.").retry_after(5));
         }
-        self.arrived.notify_all();
+        self.arrived.iter().for_each(Condvar::notify_all);
     }
 
     /// Works on jobs of these lanes, the first one first, until the pool stops.
@@ -185,7 +188,11 @@ impl Pool {
             if let Some(job) = lanes.iter().find_map(|lane| state.next(*lane, |_| true)) {
                 return Some(job);
             }
-            state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
+            // Threads wait by the first of their lanes.
+            let own = lanes.first().map_or(0, |lane| *lane as usize);
+            state.idle[own] += 1;
+            state = self.arrived[own].wait(state).unwrap_or_else(PoisonError::into_inner);
+            state.idle[own] -= 1;
         }
     }
 

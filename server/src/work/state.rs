@@ -44,6 +44,8 @@ pub struct State {
     /// Revisions of clients.
     pub clients: Clients,
     turns: Turns,
+    /// Threads that wait, by the first lane that they take.
+    pub idle: [usize; Lane::ALL.len()],
     /// No more calls are taken.
     pub closing: bool,
 }
@@ -57,6 +59,7 @@ impl State {
             jobs: HashMap::new(),
             clients: Clients::new(limits.clients as usize, idle),
             turns: Turns::default(),
+            idle: [0; Lane::ALL.len()],
             closing: false,
         }
     }
