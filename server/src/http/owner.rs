@@ -75,7 +75,7 @@ fn question(local: SocketAddr, remote: SocketAddr) -> Vec<u8> {
 
 /// The user id in an answer: a netlink header and an `inet_diag_msg`. `None` for an error.
 fn owner_in(answer: &[u8]) -> Option<u32> {
-    let word = |at: usize| Some(<[u8; 4]>::try_from(answer.get(at..at + 4)?).ok()?);
+    let word = |at: usize| <[u8; 4]>::try_from(answer.get(at..at + 4)?).ok();
     let kind = u16::from_ne_bytes(answer.get(4..6)?.try_into().ok()?);
     // Behind the header: family, state, timer, retries (4), the socket (48), expiry and two queues (12).
     (kind == BY_FAMILY).then(|| word(16 + 64).map(u32::from_ne_bytes))?
