@@ -5,7 +5,7 @@
 use formats::registry::FORMATS;
 use formats::{ExportOptions, ImportOptions};
 use proptest::prelude::*;
-use scene::map::{Lane, LaneType, TypedLine};
+use scene::map::{Lane, TypedLine};
 use scene::score::{Drivable, ScoreInput};
 use scene::{
     Agent, AgentFutures, AgentType, Conditions, Future, Generated, Goal, LaneMap, Sample, Scene, Signal,
@@ -72,23 +72,13 @@ fn fitting(mut conditions: Conditions, agent_type: AgentType) -> Conditions {
 }
 
 fn map() -> LaneMap {
-    let points = |y: f64| vec![Vec2::new(-60.0, y), Vec2::new(60.0, y)].into();
-    let lane = |id: &str, y: f64| Lane {
+    let points = |y: f64| vec![Vec2::new(-60.0, y), Vec2::new(60.0, y)];
+    let lane = |id: &str, y: f64| Lane::street(id, points(y));
+    let edge = |id: &str, y: f64| TypedLine {
         id: id.into(),
-        lane_type: LaneType::SurfaceStreet,
-        points: points(y),
-        width_m: None,
-        left_boundary: Vec::new(),
-        right_boundary: Vec::new(),
-        speed_limit_mps: None,
-        predecessors: Vec::new(),
-        successors: Vec::new(),
-        left_neighbors: Vec::new(),
-        right_neighbors: Vec::new(),
-        interpolating: false,
+        line_type: "boundary".into(),
+        points: points(y).into(),
     };
-    let edge =
-        |id: &str, y: f64| TypedLine { id: id.into(), line_type: "boundary".into(), points: points(y) };
     LaneMap {
         lanes: vec![lane("100", 0.0), lane("101", 3.5)],
         road_edges: vec![edge("301", -2.0), edge("302", 5.5)],

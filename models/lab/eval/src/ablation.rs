@@ -6,7 +6,7 @@ use super::roads::OffRoad;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::table::Table;
-use super::{Case, Judged, Site, Subset, answer};
+use super::{Case, Judged, Site, Subset};
 use anyhow::Result;
 use experts::{Generator, Request, Shown};
 use rayon::prelude::*;
@@ -115,7 +115,7 @@ fn found(
     seed: u64,
 ) -> Result<Option<Found>> {
     let log = site.log(case);
-    let answer = answer(generator, without.request(site, case, subset, seed))?;
+    let answer = generator.answer(without.request(site, case, subset, seed))?;
     let Some(futures) = answer.samples.first().and_then(|s| s.agents.get(&log.id)) else { return Ok(None) };
     let Some(shown) = futures.modes.get(futures.chosen) else { return Ok(None) };
     let m = measure(log, case, subset, &futures.modes, futures.chosen);

@@ -6,7 +6,7 @@ use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::table::Table;
 use super::together::STRIDE;
-use super::{Case, Judged, Site, Subset, answer};
+use super::{Case, Judged, Site, Subset};
 use anyhow::Result;
 use experts::{Answer, Generator, ReachReport, React, Request};
 use lab_train::quantile;
@@ -190,8 +190,8 @@ fn drag(
     seed: u64,
 ) -> Result<Drag> {
     let id = &site.log(case).id;
-    let answered = answer(generator, request(site.blind.clone(), case, goal, seed))?;
-    let again = answer(generator, request(site.blind.clone(), case, nudged, seed))?;
+    let answered = generator.answer(request(site.blind.clone(), case, goal, seed))?;
+    let again = generator.answer(request(site.blind.clone(), case, nudged, seed))?;
     let (states, other) = (shown(&answered, id), shown(&again, id));
     let apart = states.iter().zip(other).map(|(a, b)| (a.position() - b.position()).norm());
     let jump_m = apart.fold(0.0, f64::max);
@@ -233,7 +233,7 @@ fn hits(generator: &Generator, site: &Site<'_>, case: &Case, goal: Goal, seed: u
     for (hit, react) in out.iter_mut().zip([React::Nobody, React::Everyone]) {
         let mut request = request(site.scene.clone(), case, goal, seed);
         request.react = react;
-        let answer = answer(generator, request)?;
+        let answer = generator.answer(request)?;
         *hit = answer.samples.first().is_some_and(|sample| meets_anybody(site.scene, case.agent, sample));
     }
     Ok(out)

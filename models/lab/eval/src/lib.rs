@@ -46,7 +46,7 @@ pub use run::{EvalOptions, run};
 pub use table::Table;
 pub use tables::TABLES;
 
-use experts::{Answer, GenerateError, Generator, Request};
+use experts::Generator;
 use lab_train::baselines::Baseline;
 
 /// Weights under judgement.
@@ -64,12 +64,4 @@ pub struct Entrants<'a> {
     pub judged: &'a [Judged],
     /// Their learned rivals.
     pub baselines: &'a [Baseline],
-}
-
-/// Runs a call to its end.
-///
-/// # Errors
-/// What the call reports.
-pub fn answer(generator: &Generator, request: Request) -> Result<Answer, GenerateError> {
-    generator.answer(request)
 }

@@ -2,7 +2,7 @@
 
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
-use super::{Judged, Site, answer};
+use super::{Judged, Site};
 use anyhow::Result;
 use experts::{Generator, Request};
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ fn drifts(generator: &Generator, site: &Site<'_>, seed: u64) -> Result<Vec<f64>>
     let mut request = Request::new(Arc::new(site.blind.clone()));
     request.agents = Some(parked.iter().map(|a| a.id.clone()).collect());
     request.seed = seed;
-    let answer = answer(generator, request)?;
+    let answer = generator.answer(request)?;
     let Some(sample) = answer.samples.first() else { return Ok(Vec::new()) };
     let drift = |agent: &&Agent| {
         let (start, futures) = (agent.state_at(0)?, sample.agents.get(&agent.id)?);

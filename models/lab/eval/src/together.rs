@@ -1,7 +1,7 @@
 //! Whole scenes: everybody that can move generated together, and who overlaps whom.
 
 use super::measure::at;
-use super::{Site, Subset, answer};
+use super::{Site, Subset};
 use anyhow::Result;
 use experts::{Generator, Request, Stages};
 use scene::geometry::obb::{OrientedBox, iou, overlaps};
@@ -109,7 +109,7 @@ pub fn scenes(generator: &Generator, site: &Site<'_>, ask: Ask) -> Result<Vec<Sa
     request.agents = Some(ids);
     (request.steps, request.diversity, request.stages) = (ask.steps, ask.diversity, ask.stages);
     (request.samples, request.seed, request.replan_steps) = (ask.samples, ask.seed, ask.replan_steps);
-    Ok(answer(generator, request)?.samples)
+    Ok(generator.answer(request)?.samples)
 }
 
 /// Everybody's states at steps 1 ..= 90, by agent of the scene; `None` for those that are not generated.

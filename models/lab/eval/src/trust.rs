@@ -7,7 +7,7 @@ use super::picture::{futures_svg, who};
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::table::{Made, Table};
-use super::{Case, Judged, Site, answer};
+use super::{Case, Judged, Site};
 use anyhow::Result;
 use experts::request::ShownLast;
 use experts::{Answer, Generator, React, Request};
@@ -149,7 +149,7 @@ fn worst(
             let case = &site.cases[drag.case];
             let request = asked(site, case, drag.goal, seed);
             let scene = request.scene.clone();
-            let answer = answer(generator, request)?;
+            let answer = generator.answer(request)?;
             let futures = answer.samples.into_iter().next().map(|s| s.agents).unwrap_or_default();
             let name = format!("{name}-{}.svg", who(site, &site.log(case).id));
             Ok((name, futures_svg(&scene, &futures, case.start.position())))
@@ -186,13 +186,13 @@ fn drag(
 ) -> Result<Drag> {
     let case = &site.cases[index];
     let log = site.log(case);
-    let first = answer(generator, asked(site, case, goal, seed))?;
+    let first = generator.answer(asked(site, case, goal, seed))?;
     let futures = futures(&first, &log.id);
     let shown = futures.and_then(|f| f.modes.get(f.chosen));
     let nudged = Goal { position: goal.position.map(|p| p + nudge), ..goal };
     let mut again = asked(site, case, nudged, seed);
     again.shown = shown.map(|s| (log.id.clone(), last_shown(s))).into_iter().collect();
-    let again = answer(generator, again)?;
+    let again = generator.answer(again)?;
     let after = self::futures(&again, &log.id).and_then(|f| f.modes.get(f.chosen));
     let states = shown.map_or(&[][..], |f| &f.states);
     let apart = states.iter().zip(after.map_or(&[][..], |f| &f.states));
@@ -351,7 +351,7 @@ fn before_red(generator: &Generator, sites: &[Site<'_>], seed: u64) -> Result<Ve
             }
             let mut request = Request::new(std::sync::Arc::new(site.scene.clone()));
             (request.agents, request.seed) = (Some(ids.clone()), seed);
-            let answer = answer(generator, request)?;
+            let answer = generator.answer(request)?;
             let runs = |f: &Future| f.about.faults.iter().any(|f| f.kind == FaultKind::RedLight);
             let waiting = |id: &AgentId| {
                 let futures = futures(&answer, id)?;

@@ -5,7 +5,7 @@ use super::quality::request;
 use super::sheet::{Cell, Form, Sheet};
 use super::stats::{Bootstrap, Value};
 use super::table::Table;
-use super::{Case, Judged, Site, Subset, answer, type_name};
+use super::{Case, Judged, Site, Subset, type_name};
 use anyhow::Result;
 use experts::{Generator, Request};
 use rayon::prelude::*;
@@ -138,7 +138,7 @@ fn of_case(
     let mut request = ask(site, case, subset, seed);
     request.diversity = diversity;
     let again = Request { seed: seed + 1, ..request.clone() };
-    let (answer, again) = (answer(generator, request)?, answer(generator, again)?);
+    let (answer, again) = (generator.answer(request)?, generator.answer(again)?);
     let of = |answer: &experts::Answer| answer.samples.first().and_then(|s| s.agents.get(&log.id)).cloned();
     let (Some(futures), Some(again)) = (of(&answer), of(&again)) else { return Ok(None) };
     let futures = &futures;
@@ -207,7 +207,7 @@ fn crossing(generator: &Generator, site: &Site<'_>, case: &Case, seed: u64) -> R
     }
     let mut request = ask(site, case, Subset::None, seed);
     request.samples = SAMPLES;
-    let answer = answer(generator, request)?;
+    let answer = generator.answer(request)?;
     let id = &site.log(case).id;
     let taken: Vec<usize> = answer
         .samples

@@ -12,7 +12,7 @@ use super::parked::parked;
 use super::picture;
 use super::rivals::{Rival, learned};
 use super::table::{Made, Table, Trial};
-use super::{Case, Entrants, Site, Subset, answer};
+use super::{Case, Entrants, Site, Subset};
 use anyhow::Result;
 use experts::{Generator, ReachReport, Request};
 use rayon::prelude::*;
@@ -208,7 +208,7 @@ pub fn alone(
     seed: u64,
 ) -> Result<Option<(AgentFutures, bool)>> {
     let id = &site.log(case).id;
-    let answer = answer(generator, request(site.asked(case, subset), id, refined, seed))?;
+    let answer = generator.answer(request(site.asked(case, subset), id, refined, seed))?;
     let reach = answer.resolved.get(id).map(|r| &r.reach);
     let reported = matches!(reach, Some(ReachReport::Unreachable { .. }));
     let sample = answer.samples.into_iter().next();

@@ -4,9 +4,9 @@ use super::choose::{Found, Role};
 use anyhow::Result;
 use experts::placement::{Amount, PlaceRequest, Region};
 use experts::{Cancel, Engine, ReachReport, React, Request, Resolved};
+use lab_eval::Site;
 use lab_eval::picture::{futures_svg, marked_svg};
 use lab_eval::together::{asked, generated};
-use lab_eval::{Site, answer};
 use scene::geometry::{direction, rotate};
 use scene::{AgentFutures, Goal, HORIZON_STEPS, STEP_S, Sample, Scene, Vec2, wrap_angle};
 use std::collections::{BTreeMap, BTreeSet};
@@ -117,7 +117,7 @@ fn creating(site: &Site<'_>, engine: &Engine, seed: u64) -> Result<Panel> {
     );
     let mut request = Request::new(Arc::new(scene.clone()));
     (request.agents, request.seed) = (Some(all), seed);
-    let done = answer(&engine.generator, request)?;
+    let done = engine.generator.answer(request)?;
     let sample = done.samples.into_iter().next().unwrap_or_default();
     Ok(Panel {
         id: "creating".into(),
@@ -140,7 +140,7 @@ fn panel(
 ) -> Result<Panel> {
     let mut request = Request::new(Arc::new(scene.clone()));
     (request.agents, request.seed) = (Some(everybody.clone()), seed);
-    let done = answer(&engine.generator, request)?;
+    let done = engine.generator.answer(request)?;
     let sample = done.samples.into_iter().next().unwrap_or_default();
     let reached = done.resolved.get(who).map(|r| outcome(r, scene, &sample, who)).unwrap_or_default();
     let mut drawn = log.clone();
@@ -173,7 +173,7 @@ fn edited(
     let mut request = Request::new(Arc::new(scene.clone()));
     (request.agents, request.seed) = (Some(BTreeSet::from([who.clone()])), seed);
     request.react = if react { React::Everyone } else { React::Nobody };
-    let done = answer(&engine.generator, request)?;
+    let done = engine.generator.answer(request)?;
     let sample = done.samples.into_iter().next().unwrap_or_default();
     let reached = done.resolved.get(who).map(|r| outcome(r, scene, &sample, who)).unwrap_or_default();
     let others = match sample.agents.len().saturating_sub(1) {
