@@ -6,10 +6,10 @@ use super::outbox::End;
 use super::{Task, kept, scoring};
 use crate::base::metrics;
 use crate::base::problem::Problem;
-use crate::scenes::Standings;
 use crate::work::Kind;
 use experts::weights::EXPERTS;
 use experts::{Answer, Draft, Event, GenerateError, Generator};
+use scene::score::ScoreInput;
 use scene::{Sample, Scene};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -44,9 +44,12 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
                 }
             }
             Ok(Event::Final(answer)) => {
-                let mut body = final_body(&task, &scene, &answer, queued);
-                if task.score {
-                    add_scores(&mut body, &scene, &answer, generator, task.standings.as_deref());
+                let whole = (task.with_kept || task.score).then(|| whole(&scene, &answer.samples));
+                let shown = whole.as_ref().filter(|_| task.with_kept).unwrap_or(&answer.samples);
+                let mut body = final_body(&task, shown, &answer, queued);
+                if let Some(whole) = whole.as_ref().filter(|_| task.score) {
+                    let changed = answer.samples.iter().map(|sample| sample.agents.len());
+                    add_scores(&mut body, &scene, whole.iter().zip(changed), generator, &task);
                 }
                 if feed.send(body, Some(End::Final)) {
                     metrics::ended(Kind::Generate.name(), "final");
@@ -73,7 +76,7 @@ fn expert_of(agent: &scene::Agent) -> Option<&'static str> {
     EXPERTS.iter().find(|(agent_type, _)| *agent_type == agent.kind()).map(|(_, name)| *name)
 }
 
-fn final_body(task: &Task, scene: &Scene, answer: &Answer, queued: Duration) -> FinalBody {
+fn final_body(task: &Task, shown: &[Sample], answer: &Answer, queued: Duration) -> FinalBody {
     let t = &answer.timings;
     metrics::phase("encode", t.encode_ms / 1e3);
     metrics::phase("initial", t.initial_ms / 1e3);
@@ -88,7 +91,7 @@ fn final_body(task: &Task, scene: &Scene, answer: &Answer, queued: Duration) -> 
     };
     FinalBody {
         windows: answer.windows,
-        samples: answer.samples.iter().map(|sample| answered(task, scene, sample)).collect(),
+        samples: shown.iter().map(|sample| SampleBody::new(sample, task.form)).collect(),
         resolved: answer.resolved.clone(),
         scores: None,
         warnings: answer.warnings.clone(),
@@ -97,27 +100,28 @@ fn final_body(task: &Task, scene: &Scene, answer: &Answer, queued: Duration) -> 
     }
 }
 
-/// A sample as it is answered: beside the new futures those that were kept, where they are asked for.
-fn answered(task: &Task, scene: &Scene, sample: &Sample) -> SampleBody {
-    if !task.with_kept {
-        return SampleBody::new(sample, task.form);
-    }
-    let mut all = sample.clone();
-    kept::fill(scene, &mut all);
-    SampleBody::new(&all, task.form)
+/// The samples with the futures that were kept beside the new ones.
+fn whole(scene: &Scene, samples: &[Sample]) -> Vec<Sample> {
+    let mut samples = samples.to_vec();
+    samples.iter_mut().for_each(|sample| kept::fill(scene, sample));
+    samples
 }
 
-fn add_scores(
+/// Scores whole samples, each with the number of road users that changed in it.
+fn add_scores<'a>(
     body: &mut FinalBody,
     scene: &Scene,
-    answer: &Answer,
+    samples: impl Iterator<Item = (&'a Sample, usize)>,
     generator: &Generator,
-    standings: Option<&Standings>,
+    task: &Task,
 ) {
     let began = Instant::now();
     let drivable = generator.maps().drivable(&scene.map);
-    let score = |sample| scoring::sample(scene, sample, &drivable, standings);
-    let scores: Vec<_> = answer.samples.iter().map(score).collect();
+    let score = |(sample, changed)| {
+        let input = ScoreInput::of_sample(scene, Some(sample), &drivable);
+        scoring::of(&input, changed, task.standings.as_deref())
+    };
+    let scores: Vec<_> = samples.map(score).collect();
     body.timing.score_ms = round(began.elapsed().as_secs_f64() * 1e3);
     body.scores = Some(scores);
 }

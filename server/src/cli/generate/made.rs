@@ -6,10 +6,11 @@ use crate::base::limits::Limits;
 use crate::cli::inputs::Source;
 use crate::cli::score::figures::Figures;
 use crate::cli::{Exit, Failure};
-use crate::generation::{kept, scoring};
-use experts::{Cancel, Event, Generator, Resolved, Warning};
+use crate::generation::kept;
+use experts::{Generator, Resolved, Warning};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::scenarios::{Casting, Template};
+use scene::score::ScoreInput;
 use scene::{Generated, Scene};
 use std::collections::BTreeMap;
 use std::time::{Duration, UNIX_EPOCH};
@@ -84,14 +85,7 @@ impl Maker<'_> {
         };
         let actor =
             task.request.agents.as_ref().filter(|ids| ids.len() == 1).and_then(|ids| ids.first().cloned());
-        let mut answer = None;
-        for event in self.generator.start(task.request, Cancel::default()).map_err(failed)? {
-            if let Event::Final(last) = event.map_err(failed)? {
-                answer = Some(last);
-            }
-        }
-        let answer =
-            answer.ok_or_else(|| Failure::new(Exit::Failure, "the generator ended without an answer"))?;
+        let answer = self.generator.answer(task.request).map_err(failed)?;
         let all_samples = answer.samples.len();
         let mut samples = Vec::new();
         let mut numbers = Vec::new();
@@ -102,7 +96,8 @@ impl Maker<'_> {
             others = sample.agents.keys().filter(|id| !own.contains(id)).cloned().collect();
             let figures = self.scored.then(|| {
                 let drivable = self.generator.maps().drivable(&scene.map);
-                Figures::new(&scoring::sample(&scene, &sample, &drivable, None), actor.as_deref())
+                let input = ScoreInput::of_sample(&scene, Some(&sample), &drivable);
+                Figures::new(&scene::score::score(&input), actor.as_deref())
             });
             let wanted = |figures: &Figures| args.filter.as_ref().is_none_or(|filter| filter.holds(figures));
             if figures.as_ref().is_none_or(wanted) {
