@@ -13,14 +13,15 @@ mod work;
 
 use std::process::ExitCode;
 
-/// Freed memory is kept for the next tensor: candle allocates each operation's output.
+/// Freed memory is kept for the next tensor: candle allocates each operation's output. What nobody has asked for
+/// again after ten seconds goes back to the system, so that a large import is not paid for ever after.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 /// What the numeric libraries read when they start. One thread a call: scenes and calls are cut over
 /// workers, and candle's own threads cost more than they give at this size.
 const SETTINGS: [(&str, &str); 3] =
-    [("CANDLE_NUM_THREADS", "1"), ("RAYON_NUM_THREADS", "1"), ("MIMALLOC_PURGE_DELAY", "-1")];
+    [("CANDLE_NUM_THREADS", "1"), ("RAYON_NUM_THREADS", "1"), ("MIMALLOC_PURGE_DELAY", "10000")];
 
 fn main() -> ExitCode {
     with_settings();

@@ -48,8 +48,9 @@ const HOUSES: &[House] = &[
         name: "formats",
         sources: "models/formats/src",
         floors: &[
-            &["limits", "loss", "files"],
+            &["limits", "loss", "files", "source"],
             &["problem"],
+            &["unpack"],
             &["format", "identities"],
             &["native", "womd", "sumo", "table"],
             &["registry"],

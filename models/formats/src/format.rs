@@ -3,9 +3,11 @@
 use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
 use crate::problem::{Imported, ReadError};
+use crate::source::Source;
 use scene::Scene;
 use serde::Serialize;
 use std::io;
+use std::sync::Arc;
 
 /// What people and programs need to know about a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, schemars::JsonSchema)]
@@ -30,7 +32,7 @@ pub struct Info {
 }
 
 /// How to read a file of any format.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct ImportOptions {
     /// Scenes to pass over.
     pub skip: usize,
@@ -44,7 +46,7 @@ pub struct ImportOptions {
     pub join_identities: bool,
     /// The network that a recording belongs to, for formats whose info has `takes_net`: a SUMO `net.xml`,
     /// plain or gzip. Faults in it are reported under [`NET_POINTER`].
-    pub net: Option<Vec<u8>>,
+    pub net: Option<Arc<dyn Source>>,
 }
 
 /// Pointer of faults in [`ImportOptions::net`].
@@ -97,16 +99,29 @@ pub struct Exported {
     pub losses: Vec<Loss>,
 }
 
+/// Scenes of a file one by one, each read when it is asked for; one that is broken does not stop the others.
+pub type Scenes<'a> = Box<dyn Iterator<Item = Result<Imported, ReadError>> + 'a>;
+
+/// A file that holds one scene, or none that can be read.
+pub(crate) fn one<'a>(scene: Result<Imported, ReadError>) -> Scenes<'a> {
+    Box::new(std::iter::once(scene))
+}
+
 /// A reader and writer of one format.
 pub trait Format: Sync {
     /// The table's row.
     fn info(&self) -> Info;
 
-    /// How sure it is that a file is its own: 0 not at all, 1 by name, 2 by content.
+    /// How sure it is that a file that begins so is its own: 0 not at all, 1 by name, 2 by content.
     fn sniff(&self, head: &[u8], name: &str) -> u8;
 
-    /// Reads all scenes of a file; one that is broken does not stop the others. Never empty.
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>>;
+    /// Reads the scenes of a file.
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a>;
+
+    /// Reads all scenes of a file in memory.
+    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+        self.scenes(&bytes, options).collect()
+    }
 
     /// Writes scenes.
     ///

@@ -33,10 +33,13 @@ pub mod loss;
 pub mod native;
 pub mod problem;
 pub mod registry;
+pub mod source;
 pub mod sumo;
 pub mod table;
+mod unpack;
 pub mod womd;
 
-pub use format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER};
+pub use format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes};
 pub use loss::Loss;
 pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning, never_null, pointer_token};
+pub use source::Source;

@@ -1,9 +1,10 @@
 //! One table of formats, for the server, the command line and the documentation.
 
-use crate::format::{Format, ImportOptions};
+use crate::format::{Format, ImportOptions, Scenes};
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::source::{Source, head};
 use crate::sumo::formats::{SumoFcd, SumoNet};
 use crate::table::Table;
 use crate::womd::format::Womd;
@@ -16,13 +17,13 @@ pub fn by_id(id: &str) -> Option<&'static dyn Format> {
     FORMATS.iter().copied().find(|format| format.info().id == id)
 }
 
-/// The format that a file most likely has. `name` is a label only; it is never opened.
+/// The format that a file that begins so most likely has. `name` is a label only; it is never opened.
 pub fn sniff(bytes: &[u8], name: &str) -> Option<&'static dyn Format> {
     let scored = FORMATS.iter().map(|format| (format.sniff(bytes, name), *format));
     scored.filter(|(score, _)| *score > 0).max_by_key(|(score, _)| *score).map(|(_, format)| format)
 }
 
-/// Reads a file of the given format (`auto` looks at its content and name).
+/// Reads a file in memory of the given format (`auto` looks at its content and name).
 ///
 /// # Errors
 /// `format-unknown`; faults of single scenes are in the list.
@@ -32,13 +33,28 @@ pub fn import(
     format: &str,
     options: &ImportOptions,
 ) -> Result<Vec<Result<Imported, ReadError>>, ReadError> {
-    let found = if format == "auto" { sniff(bytes, name) } else { by_id(format) };
-    let Some(found) = found else {
-        let known: Vec<&str> = FORMATS.iter().map(|f| f.info()).filter(|f| f.import).map(|f| f.id).collect();
-        let detail = format!("not a file of a known format ({})", known.join(", "));
-        return Err(FieldProblem::new("", code::FORMAT_UNKNOWN, detail).into());
-    };
-    Ok(found.import(bytes, options))
+    Ok(scenes(&bytes, name, format, options)?.collect())
+}
+
+/// The same, one scene after another: each is read when it is asked for.
+///
+/// # Errors
+/// `format-unknown`.
+pub fn scenes<'a>(
+    file: &'a dyn Source,
+    name: &str,
+    format: &str,
+    options: &'a ImportOptions,
+) -> Result<Scenes<'a>, ReadError> {
+    let found = if format == "auto" { sniff(&head(file), name) } else { by_id(format) };
+    Ok(found.ok_or_else(unknown)?.scenes(file, options))
+}
+
+/// `format-unknown`.
+pub fn unknown() -> ReadError {
+    let known: Vec<&str> = FORMATS.iter().map(|f| f.info()).filter(|f| f.import).map(|f| f.id).collect();
+    let detail = format!("not a file of a known format ({})", known.join(", "));
+    FieldProblem::new("", code::FORMAT_UNKNOWN, detail).into()
 }
 
 /// Loss codes as the header `Dragtraffic-Loss` lists them.

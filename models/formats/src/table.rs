@@ -1,9 +1,10 @@
 //! Motion as one long table: a line for each road user, future and step, as notebooks and spreadsheets take it.
 //! Written, never read.
 
-use crate::format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info};
+use crate::format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one};
 use crate::loss::{Loss, code};
-use crate::problem::{FieldProblem, Imported, ReadError, code as problem};
+use crate::problem::{FieldProblem, code as problem};
+use crate::source::Source;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use scene::{Agent, AgentType, Conditions, STEP_S, Scene, State, Subtype};
@@ -38,9 +39,9 @@ impl Format for Table {
         0
     }
 
-    fn import(&self, _: &[u8], _: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+    fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
         let detail = "csv is written, never read: it has neither map nor boxes";
-        vec![Err(FieldProblem::new("", problem::FORMAT_UNKNOWN, detail).into())]
+        one(Err(FieldProblem::new("", problem::FORMAT_UNKNOWN, detail).into()))
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

@@ -11,6 +11,7 @@ use formats::{Imported, ReadError};
 use scene::map::LaneType;
 use scene::{AgentType, Scene, SignalState};
 use std::io::Write;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const NET: &str = include_str!("fixtures/street.net.xml");
@@ -24,7 +25,7 @@ fn gzip(data: &[u8]) -> Vec<u8> {
 }
 
 fn with_net() -> ImportOptions {
-    ImportOptions { net: Some(NET.into()), ..ImportOptions::default() }
+    ImportOptions { net: Some(Arc::new(NET.as_bytes().to_vec())), ..ImportOptions::default() }
 }
 
 fn import(bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
@@ -218,6 +219,7 @@ fn bad_files_are_refused_precisely() {
     let mut wrong = Vec::new();
     for (name, bytes, net, code, detail) in bad_files() {
         let start = Instant::now();
+        let net = net.map(|net| Arc::new(net) as Arc<dyn formats::Source>);
         let options = ImportOptions { net, ..ImportOptions::default() };
         let format = registry::sniff(&bytes, "upload").map_or("sumo-net", |f| f.info().id);
         let results = registry::import(&bytes, "upload", format, &options).unwrap();

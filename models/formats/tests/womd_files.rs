@@ -91,7 +91,7 @@ fn written_messages_are_those_of_the_real_files() {
     let mut count = 0;
     for path in ["womd/val", "formats/waymo"].into_iter().flat_map(files) {
         let bytes = std::fs::read(&path).unwrap();
-        for record in womd::RecordReader::new(&bytes[..], Options::default()).unwrap() {
+        for record in womd::RecordReader::new(&bytes[..], &Options::default()).unwrap() {
             let record = record.unwrap();
             let real = Scenario::decode(&record.data[..]).unwrap();
             let (scene, warnings) = womd::read_record(&record, &Options::default()).unwrap();

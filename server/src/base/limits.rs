@@ -32,8 +32,9 @@ limits! {
     json_decoded_bytes = 64 << 20, "JSON body after Content-Encoding is undone";
     import_encoded_bytes = 256 << 20, "uploaded file as it arrives";
     import_decoded_bytes = 256 << 20, "uploaded file after Content-Encoding is undone";
-    body_bytes = 512 << 20, "all bodies that are in memory, before and after Content-Encoding is undone";
-    uploads = 4, "files that are uploaded at the same time";
+    body_bytes = 512 << 20, "all bodies that are in memory: uploads as they arrived, others after Content-Encoding is undone too, long replies of imports";
+    uploads = 4, "files that are uploaded or imported at the same time";
+    imports = 2, "files that are imported at the same time; one place is never taken by large ones";
     expansion_ratio = 100, "decoded to encoded size, beyond the first MiB";
     header_bytes = 16 << 10, "names and values of all header fields";
     header_fields = 64, "header fields of a request";
@@ -65,8 +66,8 @@ limits! {
 }
 
 /// Bounds without which nothing could be answered.
-const NEVER_ZERO: [&str; 6] =
-    ["connections", "header_bytes", "header_fields", "uri_bytes", "body_rate", "body_bytes"];
+const NEVER_ZERO: [&str; 7] =
+    ["connections", "imports", "header_bytes", "header_fields", "uri_bytes", "body_rate", "body_bytes"];
 
 /// Most joint scenes of a call.
 pub const SAMPLES: u64 = 32;

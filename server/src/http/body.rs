@@ -3,9 +3,10 @@
 //! The encoded bytes are bounded while they arrive, the decoded ones while they are unpacked, so a
 //! small body can never become a large one in memory.
 
+use super::upload::Upload;
 use crate::base::limits::Limits;
 use crate::base::problem::{Code, Problem};
-use crate::work::Pool;
+use crate::work::{Lane, Pool};
 use axum::body::{Body, Bytes};
 use axum::extract::{FromRef, FromRequest, Request};
 use axum::http::{HeaderMap, header};
@@ -13,10 +14,10 @@ use axum::response::{IntoResponse, Response};
 use http_body_util::BodyExt;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::io::Read;
+use std::io::{self, Read};
 use std::sync::Arc;
 use std::time::Duration;
-use tokio::sync::{OwnedSemaphorePermit, Semaphore, SemaphorePermit};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::Instant;
 
 /// Growth below this size is never too much.
@@ -36,20 +37,26 @@ pub struct Reading {
     pub room: Arc<Room>,
 }
 
-/// Room for the bodies of all requests, in memory and among the uploads.
+/// Room for the bodies of all requests, in memory, among the uploads and among the imports.
 #[derive(Debug)]
 pub struct Room {
     bytes: Arc<Semaphore>,
-    uploads: Semaphore,
+    uploads: Arc<Semaphore>,
+    imports: Arc<Semaphore>,
+    /// Those of the imports that take long: small ones never wait for all of these.
+    long_imports: Arc<Semaphore>,
 }
 
 impl Room {
     /// As much as the limits say.
     pub fn new(limits: &Limits) -> Self {
         let of = |number: u64| (number as usize).min(Semaphore::MAX_PERMITS);
+        let places = |number: u64| Arc::new(Semaphore::new(of(number)));
         Self {
-            bytes: Arc::new(Semaphore::new(of(limits.body_bytes))),
-            uploads: Semaphore::new(of(limits.uploads)),
+            bytes: places(limits.body_bytes),
+            uploads: places(limits.uploads),
+            imports: places(limits.imports),
+            long_imports: places(limits.imports.saturating_sub(1).max(1)),
         }
     }
 
@@ -57,9 +64,32 @@ impl Room {
     ///
     /// # Errors
     /// `busy` when all are taken.
-    fn upload(&self) -> Result<SemaphorePermit<'_>, Problem> {
+    fn upload(&self) -> Result<OwnedSemaphorePermit, Problem> {
         let busy = |_| Problem::new(Code::Busy, "Other files are being uploaded.").retry_after(5);
-        self.uploads.try_acquire().map_err(busy)
+        Arc::clone(&self.uploads).try_acquire_owned().map_err(busy)
+    }
+
+    /// A place among the imports, when it is free: what becomes of a file takes memory too.
+    ///
+    /// # Errors
+    /// A defect.
+    pub async fn import(&self, lane: Lane) -> Result<[Option<OwnedSemaphorePermit>; 2], Problem> {
+        let long = match lane {
+            Lane::Patient => Some(Arc::clone(&self.long_imports).acquire_owned().await),
+            Lane::Quick | Lane::Document => None,
+        };
+        let place = Arc::clone(&self.imports).acquire_owned().await;
+        Ok([long.transpose().map_err(Problem::internal)?, Some(place.map_err(Problem::internal)?)])
+    }
+
+    /// Room for bytes that are kept.
+    ///
+    /// # Errors
+    /// `busy` when they do not fit.
+    pub fn keep(&self, bytes: usize) -> Result<Kept, Problem> {
+        let mut kept = Kept::default();
+        self.grow(&mut kept.room, bytes)?;
+        Ok(kept)
     }
 
     /// Adds so many bytes to what is held.
@@ -79,11 +109,80 @@ impl Room {
     }
 }
 
+/// Room that is taken until this is dropped.
+#[derive(Debug, Default)]
+pub struct Kept {
+    room: Option<OwnedSemaphorePermit>,
+    /// Among the uploads.
+    place: Option<OwnedSemaphorePermit>,
+}
+
+/// Bytes in the order of their arrival. They are never moved: a list that grows is copied, and longer than it
+/// need be.
+#[derive(Debug, Default)]
+pub(super) struct Blocks(Vec<Vec<u8>>);
+
+impl Blocks {
+    const BLOCK: usize = 1 << 20;
+
+    fn push(&mut self, mut data: &[u8]) {
+        while !data.is_empty() {
+            let full = self.0.last().is_none_or(|block| block.len() >= Self::BLOCK);
+            if full {
+                // All but the first are filled, as a rule.
+                self.0.push(Vec::with_capacity(if self.0.is_empty() { 0 } else { Self::BLOCK }));
+            }
+            let Some(block) = self.0.last_mut() else { return };
+            let (now, later) = data.split_at(data.len().min(Self::BLOCK - block.len()));
+            block.extend_from_slice(now);
+            data = later;
+        }
+    }
+
+    pub fn len(&self) -> u64 {
+        self.0.iter().map(|block| block.len() as u64).sum()
+    }
+
+    pub fn starts_with(&self, head: &[u8]) -> bool {
+        self.0.first().is_some_and(|block| block.starts_with(head))
+    }
+
+    pub fn reader(&self) -> impl Read + Send + '_ {
+        let mut blocks = self.0.iter();
+        BlockReader { now: blocks.next().map_or(&[][..], Vec::as_slice), blocks }
+    }
+
+    fn joined(mut self) -> Bytes {
+        match self.0.pop() {
+            Some(only) if self.0.is_empty() => only.into(),
+            Some(last) => {
+                self.0.push(last);
+                self.0.concat().into()
+            }
+            None => Bytes::new(),
+        }
+    }
+}
+
+struct BlockReader<'a> {
+    now: &'a [u8],
+    blocks: std::slice::Iter<'a, Vec<u8>>,
+}
+
+impl Read for BlockReader<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.now.is_empty() {
+            self.now = self.blocks.next().map_or(&[][..], Vec::as_slice);
+        }
+        self.now.read(buffer)
+    }
+}
+
 /// A body in memory, with the room that it takes.
 #[derive(Debug, Default)]
 pub struct Held {
     bytes: Bytes,
-    _room: Option<OwnedSemaphorePermit>,
+    _kept: Kept,
 }
 
 impl Held {
@@ -158,19 +257,21 @@ impl Reading {
         self.read(request, bounds).await
     }
 
-    /// Reads and unpacks an uploaded file.
+    /// Takes in an uploaded file, which is unpacked later.
     ///
     /// # Errors
-    /// Every limit of such a body.
-    pub async fn upload(&self, request: Request) -> Result<Held, Problem> {
-        let _place = self.room.upload()?;
+    /// Every limit of such a body as it arrives.
+    pub async fn upload(&self, request: Request) -> Result<Upload, Problem> {
+        let place = self.room.upload()?;
         let bounds = Bounds {
             encoded: self.limits.import_encoded_bytes,
             decoded: self.limits.import_decoded_bytes,
             ratio: self.limits.expansion_ratio,
             time: Duration::from_secs(self.limits.import_read_s),
         };
-        self.read(request, bounds).await
+        let (encoded, encoding, mut kept) = self.arrived(request, bounds).await?;
+        kept.place = Some(place);
+        Ok(Upload::new(encoded, encoding, bounds, kept))
     }
 
     /// Parses JSON, away from the network threads when it is long.
@@ -184,6 +285,23 @@ impl Reading {
     }
 
     async fn read(&self, request: Request, bounds: Bounds) -> Result<Held, Problem> {
+        let (encoded, encoding, kept) = self.arrived(request, bounds).await?;
+        match encoding {
+            Encoding::Identity => Ok(Held { bytes: encoded.joined(), _kept: kept }),
+            // A few bytes can decode to many, so even the smallest goes to the pool.
+            _ => {
+                let room = Arc::clone(&self.room);
+                let unpack = move || {
+                    let _kept = kept;
+                    unpack(&encoded, encoding, bounds, &room)
+                };
+                self.pool.document(usize::MAX, unpack).await
+            }
+        }
+    }
+
+    /// A body as it is sent.
+    async fn arrived(&self, request: Request, bounds: Bounds) -> Result<(Blocks, Encoding, Kept), Problem> {
         let encoding = encoding_of(request.headers())?;
         let length = request.headers().get(header::CONTENT_LENGTH);
         let declared: Option<u64> = length.and_then(|v| v.to_str().ok()?.parse().ok());
@@ -191,27 +309,19 @@ impl Reading {
             return Err(too_large(bounds.encoded));
         }
         let encoded = tokio::time::timeout(bounds.time, self.collect(request.into_body(), bounds.encoded));
-        let encoded = encoded.await.map_err(|_| {
+        let (encoded, kept) = encoded.await.map_err(|_| {
             let detail = format!("The body did not arrive within {} s.", bounds.time.as_secs());
             Problem::new(Code::BodyTimeout, detail)
         })??;
-        match encoding {
-            Encoding::Identity => Ok(encoded),
-            // A few bytes can decode to many, so even the smallest goes to the pool.
-            _ => {
-                let room = Arc::clone(&self.room);
-                let unpack = move || unpack(&encoded.bytes, encoding, bounds, &room);
-                self.pool.document(usize::MAX, unpack).await
-            }
-        }
+        Ok((encoded, encoding, kept))
     }
 
     /// A body as it arrives, no slower than it must.
-    async fn collect(&self, mut body: Body, limit: u64) -> Result<Held, Problem> {
-        let (mut bytes, mut room) = (Vec::new(), None);
+    async fn collect(&self, mut body: Body, limit: u64) -> Result<(Blocks, Kept), Problem> {
+        let (mut blocks, mut kept, mut size) = (Blocks::default(), Kept::default(), 0);
         let began = Instant::now();
         loop {
-            let allowed_s = self.limits.body_grace_s + bytes.len() as u64 / self.limits.body_rate.max(1);
+            let allowed_s = self.limits.body_grace_s + size / self.limits.body_rate.max(1);
             let late = |_| {
                 let detail = format!("The body came slower than {} bytes a second.", self.limits.body_rate);
                 Problem::new(Code::BodyTimeout, detail).limit(self.limits.body_rate)
@@ -220,26 +330,27 @@ impl Reading {
             let Some(frame) = frame.await.map_err(late)? else { break };
             let frame = frame.map_err(|_| Problem::new(Code::BadHeader, "The body broke off."))?;
             let Ok(data) = frame.into_data() else { continue };
-            if (bytes.len() + data.len()) as u64 > limit {
+            size += data.len() as u64;
+            if size > limit {
                 return Err(too_large(limit));
             }
-            self.room.grow(&mut room, data.len())?;
-            bytes.extend_from_slice(&data);
+            self.room.grow(&mut kept.room, data.len())?;
+            blocks.push(&data);
         }
-        Ok(Held { bytes: bytes.into(), _room: room })
+        Ok((blocks, kept))
     }
 }
 
-#[derive(Clone, Copy)]
-struct Bounds {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
     encoded: u64,
     decoded: u64,
     ratio: u64,
     time: Duration,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Encoding {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
     Identity,
     Gzip,
     Zstd,
@@ -266,44 +377,77 @@ fn too_large(limit: u64) -> Problem {
     Problem::new(Code::BodyTooLarge, format!("The body may have {limit} bytes.")).limit(limit)
 }
 
-fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds, room: &Room) -> Result<Held, Problem> {
-    let broken = |error: std::io::Error| {
-        Problem::new(Code::MalformedFile, format!("The body cannot be decoded: {error}."))
-            .with(|m| (m.offset, m.reason) = (Some(0), Some(error.to_string())))
-    };
-    let mut reader: Box<dyn Read + '_> = match encoding {
-        Encoding::Zstd => {
-            let mut decoder = zstd::stream::read::Decoder::new(encoded).map_err(broken)?;
-            // A frame may ask for gigabytes of window; 8 MiB is what level 19 uses.
-            decoder.window_log_max(23).map_err(broken)?;
-            Box::new(decoder)
-        }
-        _ => Box::new(flate2::read::MultiGzDecoder::new(encoded)),
-    };
-    let (mut decoded, mut held) = (Vec::new(), None);
-    let mut chunk = vec![0; 64 << 10];
-    loop {
-        let count = reader.read(&mut chunk).map_err(broken)?;
-        let Some(data) = chunk.get(..count).filter(|data| !data.is_empty()) else { break };
-        room.grow(&mut held, data.len())?;
-        decoded.extend_from_slice(data);
-        let size = decoded.len() as u64;
-        if size > bounds.decoded {
+/// A body that is unpacked while it is read, under its bounds.
+pub(super) struct Unfolding<'a> {
+    inner: Box<dyn Read + Send + 'a>,
+    bounds: Bounds,
+    encoded: u64,
+    /// `None` for what has the size that it came with.
+    decoded: Option<u64>,
+}
+
+fn undecodable(error: &io::Error) -> Problem {
+    Problem::new(Code::MalformedFile, format!("The body cannot be decoded: {error}."))
+        .with(|m| (m.offset, m.reason) = (Some(0), Some(error.to_string())))
+}
+
+impl<'a> Unfolding<'a> {
+    /// `size`: encoded bytes.
+    pub fn new(
+        encoded: impl Read + Send + 'a,
+        size: u64,
+        encoding: Encoding,
+        bounds: Bounds,
+    ) -> Result<Self, Problem> {
+        let inner: Box<dyn Read + Send + 'a> = match encoding {
+            Encoding::Identity => Box::new(encoded),
+            Encoding::Gzip => Box::new(flate2::read::MultiGzDecoder::new(encoded)),
+            Encoding::Zstd => {
+                let mut decoder = zstd::stream::read::Decoder::new(encoded).map_err(|e| undecodable(&e))?;
+                // A frame may ask for gigabytes of window; 8 MiB is what level 19 uses.
+                decoder.window_log_max(23).map_err(|e| undecodable(&e))?;
+                Box::new(decoder)
+            }
+        };
+        let decoded = (encoding != Encoding::Identity).then_some(0);
+        Ok(Self { inner, bounds, encoded: size, decoded })
+    }
+
+    /// Fills the buffer, in part or as a whole; 0 at the end.
+    pub fn next(&mut self, buffer: &mut [u8]) -> Result<usize, Problem> {
+        let count = self.inner.read(buffer).map_err(|error| undecodable(&error))?;
+        let (Some(size), bounds) = (&mut self.decoded, self.bounds) else { return Ok(count) };
+        *size += count as u64;
+        if *size > bounds.decoded {
             let detail = format!("The body may decode to {} bytes.", bounds.decoded);
             return Err(Problem::new(Code::DecodedTooLarge, detail).limit(bounds.decoded));
         }
-        if size > FREE_EXPANSION && size > bounds.ratio.saturating_mul(encoded.len() as u64) {
+        if *size > FREE_EXPANSION && *size > bounds.ratio.saturating_mul(self.encoded) {
             let detail = format!("The body may grow {} times when decoded.", bounds.ratio);
             return Err(Problem::new(Code::ExpansionTooHigh, detail).limit(bounds.ratio));
         }
+        Ok(count)
     }
-    Ok(Held { bytes: decoded.into(), _room: held })
+}
+
+fn unpack(encoded: &Blocks, encoding: Encoding, bounds: Bounds, room: &Room) -> Result<Held, Problem> {
+    let mut reader = Unfolding::new(encoded.reader(), encoded.len(), encoding, bounds)?;
+    let (mut decoded, mut kept) = (Vec::new(), Kept::default());
+    let mut chunk = vec![0; 64 << 10];
+    loop {
+        let count = reader.next(&mut chunk)?;
+        let Some(data) = chunk.get(..count).filter(|data| !data.is_empty()) else { break };
+        room.grow(&mut kept.room, data.len())?;
+        decoded.extend_from_slice(data);
+    }
+    Ok(Held { bytes: decoded.into(), _kept: kept })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Bounds, Encoding, Room, unpack};
+    use super::{Blocks, Bounds, Encoding, Held, Room};
     use crate::base::limits::Limits;
+    use crate::base::problem::Problem;
     use std::io::Write;
     use std::time::Duration;
 
@@ -314,6 +458,25 @@ mod tests {
         let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
         encoder.write_all(data).unwrap();
         encoder.finish().unwrap()
+    }
+
+    fn unpack(encoded: &[u8], encoding: Encoding, bounds: Bounds, room: &Room) -> Result<Held, Problem> {
+        let mut blocks = Blocks::default();
+        blocks.push(encoded);
+        super::unpack(&blocks, encoding, bounds, room)
+    }
+
+    #[test]
+    fn blocks_keep_what_came() {
+        use std::io::Read;
+        let bytes: Vec<u8> = (0..3_000_001u32).map(|i| (i % 251) as u8).collect();
+        let mut blocks = Blocks::default();
+        bytes.chunks(77_777).for_each(|data| blocks.push(data));
+        let mut read = Vec::new();
+        blocks.reader().read_to_end(&mut read).unwrap();
+        assert!(read == bytes && blocks.len() == bytes.len() as u64);
+        assert!(blocks.0.iter().all(|block| block.capacity() <= 2 * Blocks::BLOCK));
+        assert_eq!(blocks.joined(), bytes);
     }
 
     fn code(encoded: &[u8], encoding: Encoding) -> &'static str {

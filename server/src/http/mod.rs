@@ -8,3 +8,5 @@ pub mod guard;
 pub mod net;
 pub mod observe;
 mod owner;
+pub mod packed;
+pub mod upload;

@@ -3,20 +3,24 @@
 use crate::app::App;
 use crate::base::problem::{Code, Problem, ProblemDoc};
 use crate::base::{id, metrics};
-use crate::http::body::{self, JsonText, Reading};
+use crate::http::body::{self, JsonText, Reading, Room};
 use crate::http::extract::{Connection, Params};
+use crate::http::packed::{PackedText, TextPacker};
+use crate::http::upload::{self, Upload};
 use crate::scenes::store::{Expect, PackedScene};
 use crate::scenes::{Counts, Facts, record, transfer};
 use crate::work::{Asked, Kind};
-use axum::body::Bytes;
-use axum::extract::{FromRef, FromRequest, Multipart, Request, State};
+use axum::extract::{FromRef, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use experts::Cancel;
+use formats::Source;
 use formats::native::{MapForm, SceneDoc};
 use scene::licence::is_noncommercial;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Query of an import.
@@ -50,41 +54,26 @@ const UPLOADS: &[&str] = &[
 ];
 const MULTIPART: &str = "multipart/form-data";
 
-/// What was uploaded.
-#[derive(Default)]
-struct Upload {
-    file: Bytes,
+/// A file to be read.
+struct File {
+    file: Arc<dyn Source>,
     /// Name that the file was given: a label, nothing is opened.
     label: Option<String>,
     /// The network that the file belongs to.
-    net: Option<Vec<u8>>,
+    net: Option<Arc<dyn Source>>,
 }
 
-/// The parts `file` and, where there is one, `net` of a form.
-async fn form_of(request: Request) -> Result<Upload, Problem> {
-    let broken = |error: String| Problem::new(Code::MalformedFile, error).with(|m| m.offset = Some(0));
-    let form = Multipart::from_request(request, &()).await;
-    let mut form = form.map_err(|error| broken(error.body_text()))?;
-    let mut file = None;
-    let mut upload = Upload::default();
-    while let Some(part) = form.next_field().await.map_err(|error| broken(error.body_text()))? {
-        let name = part.name().map(str::to_owned);
-        let label = part.file_name().map(str::to_owned);
-        match name.as_deref() {
-            Some("file") if file.is_none() => {
-                upload.label = label;
-                file = Some(part.bytes().await.map_err(|error| broken(error.body_text()))?);
-            }
-            Some("net") if upload.net.is_none() => {
-                let bytes = part.bytes().await.map_err(|error| broken(error.body_text()))?;
-                upload.net = Some(bytes.to_vec());
-            }
-            _ => {}
-        }
+impl File {
+    /// What was uploaded: a file, or the parts `file` and, where there is one, `net` of a form of this type.
+    fn of(upload: &Arc<Upload>, form: Option<&str>) -> Result<Self, Problem> {
+        let Some(content_type) = form else {
+            return Ok(Self { file: Arc::<Upload>::clone(upload), label: None, net: None });
+        };
+        let missing = || Problem::field("/file", Code::InvalidField, "the form needs a part named file");
+        let [file, net] = upload::parts(upload, content_type, ["file", "net"])?;
+        let (file, label) = file.ok_or_else(missing)?;
+        Ok(Self { file: Arc::new(file), label, net: net.map(|(net, _)| Arc::new(net) as Arc<dyn Source>) })
     }
-    upload.file =
-        file.ok_or_else(|| Problem::field("/file", Code::InvalidField, "the form needs a part named file"))?;
-    Ok(upload)
 }
 
 /// One scene of a file.
@@ -130,18 +119,21 @@ pub struct ImportReply {
     skipped: Vec<SkippedRecord>,
 }
 
-/// A file that was read, its scenes ready to be stored.
-struct Ready {
-    reply: ImportReply,
-    /// Rows in the order of the reply's scenes; none in a dry run.
-    rows: Vec<(String, PackedScene)>,
+/// A file that was read.
+enum Ready {
+    /// Scenes to be stored, in the order of the reply.
+    Store(ImportReply, Vec<(String, PackedScene)>),
+    /// The reply of a dry run, and the name of the format.
+    Tried(PackedText, &'static str),
 }
 
 /// What the worker is to do with a file.
 struct Order {
-    upload: Upload,
+    upload: Arc<Upload>,
+    /// Content-Type of a form.
+    form: Option<String>,
     format: Option<String>,
-    name: String,
+    name: Option<String>,
     /// Scenes to pass over, and how many to take.
     window: (usize, usize),
     most: usize,
@@ -164,85 +156,155 @@ pub async fn import(
 ) -> Result<Response, Problem> {
     let media_type = body::media_type(request.headers(), UPLOADS)?;
     let wanted = params.index.as_deref().map(range).transpose()?;
-    let (mut parts, unread) = request.into_parts();
-    let body = Reading::from_ref(&app).upload(Request::from_parts(parts.clone(), unread)).await?;
-    let bytes = body.bytes();
-    let mut upload = if media_type == MULTIPART {
-        parts.headers.remove(header::CONTENT_ENCODING);
-        form_of(Request::from_parts(parts, bytes.into())).await?
-    } else {
-        Upload { file: bytes, ..Upload::default() }
-    };
+    let content_type = request.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok());
+    let form = content_type.filter(|_| media_type == MULTIPART).map(str::to_owned);
+    let upload = Arc::new(Reading::from_ref(&app).upload(request).await?);
     let most = app.limits.import_scenes as usize;
+    let format = params.format.filter(|f| f != "auto");
+    let label = known(format.as_deref().unwrap_or("auto"));
+    // Readers take about this long a byte.
+    let cost = Duration::from_nanos(20 * upload.expected_bytes());
+    let asked = Asked { kind: Kind::Import, cost, caller: connection.into() };
     let order = Order {
-        format: params.format.filter(|f| f != "auto"),
-        name: params.name.or_else(|| upload.label.take()).unwrap_or_default(),
-        window: wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1))),
         upload,
+        form,
+        format,
+        name: params.name,
+        window: wanted.map_or((0, most + 1), |range| (range.start, range.len().min(most + 1))),
         most,
         dry_run: params.dry_run,
         refuse_nc: app.refuse_nc,
     };
-    // Readers take about this long a byte.
-    let cost = Duration::from_nanos(20 * order.upload.file.len() as u64);
-    let asked = Asked { kind: Kind::Import, cost, caller: connection.into() };
-    let format = known(order.format.as_deref().unwrap_or("auto"));
-    let work = move |_: &_| {
-        let _body = body;
-        order.run()
+    let place = app.room.import(asked.lane()).await?;
+    let room = Arc::clone(&app.room);
+    let work = move |cancel: &Cancel| {
+        let _place = place;
+        order.run(&room, cancel)
     };
-    let ready = app.pool.run(asked, work).await;
-    let Ready { mut reply, rows } = ready.inspect_err(|_| metrics::transfer(false, format, "error"))?;
+    let ready = app.pool.run(asked, work).await.inspect_err(|_| metrics::transfer(false, label, "error"))?;
+    let (mut reply, rows) = match ready {
+        Ready::Tried(text, format) => {
+            metrics::transfer(false, format, "done");
+            return Ok(text.into_response());
+        }
+        Ready::Store(reply, rows) => (reply, rows),
+    };
     for (scene, (id, row)) in reply.scenes.iter_mut().zip(rows) {
         scene.etag = Some(app.catalog.store.put(&id, Expect::Absent, row).await?.etag);
         scene.id = Some(id);
     }
     metrics::transfer(false, reply.format, "done");
     let first = reply.scenes.first().and_then(|scene| scene.id.clone());
-    let bytes = if params.dry_run { usize::MAX } else { 0 };
-    let text = app.pool.document(bytes, move || JsonText::of(&reply)).await?;
-    Ok(match (params.dry_run, first) {
-        (true, _) => text.into_response(),
-        (false, Some(id)) => {
+    let text = JsonText::of(&reply)?;
+    Ok(match first {
+        Some(id) => {
             (StatusCode::CREATED, [(header::LOCATION, format!("/v1/scenes/{id}"))], text).into_response()
         }
-        (false, None) => (StatusCode::CREATED, text).into_response(),
+        None => (StatusCode::CREATED, text).into_response(),
     })
 }
 
 impl Order {
     /// Reads the file and makes its scenes ready: nothing is stored unless all of them can be.
-    fn run(self) -> Result<Ready, Problem> {
-        let Upload { file, net, .. } = self.upload;
-        let (skip, count) = self.window;
-        let read = transfer::read(&file, self.format.as_deref(), &self.name, skip, count, net)?;
-        if read.scenes.len() > self.most {
-            let most = self.most;
+    fn run(self, room: &Room, cancel: &Cancel) -> Result<Ready, Problem> {
+        let ready = self.read(room, cancel);
+        // A body that is broken is told before what was made of it.
+        self.upload.check()?;
+        ready
+    }
+
+    fn read(&self, room: &Room, cancel: &Cancel) -> Result<Ready, Problem> {
+        let File { file, label, net } = File::of(&self.upload, self.form.as_deref())?;
+        let name = self.name.clone().or(label).unwrap_or_default();
+        let wanted = transfer::Wanted::of(&file, self.format.as_deref(), &name, net, self.window)?;
+        let format = wanted.format;
+        let mut taken = Taken::new(self, format)?;
+        let skipped = wanted.each(&file, |imported| {
+            if cancel.is_cancelled() {
+                return Err(Problem::new(Code::Cancelled, "The job was cancelled."));
+            }
+            taken.take(imported)
+        })?;
+        let skipped = skipped.iter();
+        let skipped =
+            skipped.map(|(index, problem)| SkippedRecord { index: *index, problem: problem.doc(None, None) });
+        taken.ready(skipped.collect(), room)
+    }
+}
+
+/// Scenes of a file so far. Of each only what is stored or replied is kept, in compressed form.
+struct Taken<'o> {
+    order: &'o Order,
+    format: &'static str,
+    count: usize,
+    refused: Option<Problem>,
+    scenes: Vec<ImportedScene>,
+    rows: Vec<(String, PackedScene)>,
+    text: TextPacker,
+}
+
+/// The reply's text about its scenes begins behind this.
+const SCENES: &str = "\"scenes\":[";
+
+impl<'o> Taken<'o> {
+    fn new(order: &'o Order, format: &'static str) -> Result<Self, Problem> {
+        let (scenes, rows, text) = (Vec::new(), Vec::new(), TextPacker::new()?);
+        Ok(Self { order, format, count: 0, refused: None, scenes, rows, text })
+    }
+
+    fn take(&mut self, imported: transfer::Imported) -> Result<(), Problem> {
+        let transfer::Imported { scene, warnings } = imported;
+        self.count += 1;
+        if self.count > self.order.most {
+            let most = self.order.most;
             let detail = format!(
                 "The file has more than {most} scenes; take some with index, or use the command line."
             );
             return Err(Problem::field("/query/index", Code::OutOfRange, detail).limit(most as u64));
         }
-        let (mut scenes, mut rows) = (Vec::new(), Vec::new());
-        for transfer::Imported { scene, warnings } in read.scenes {
-            if self.refuse_nc && scene.licence().is_some_and(|licence| is_noncommercial(&licence)) {
-                return Err(Problem::new(Code::LicenceRefused, "The source is for non-commercial use only."));
-            }
-            let facts = Facts::of(&scene);
-            let name = scene.name.clone();
-            let doc = self.dry_run.then(|| SceneDoc::from_scene(&scene, MapForm::Inline));
-            if !self.dry_run {
-                let id = id::fresh();
-                let row = record::of_scene(scene, &id)?.packed()?;
-                rows.push((id, row));
-            }
-            let (counts, steps) = (facts.counts, facts.steps);
-            scenes.push(ImportedScene { id: None, etag: None, name, warnings, counts, steps, scene: doc });
+        if self.order.refuse_nc && scene.licence().is_some_and(|licence| is_noncommercial(&licence)) {
+            let detail = "The source is for non-commercial use only.";
+            self.refused.get_or_insert_with(|| Problem::new(Code::LicenceRefused, detail));
         }
-        let skipped = read.skipped.iter();
-        let skipped =
-            skipped.map(|(index, problem)| SkippedRecord { index: *index, problem: problem.doc(None, None) });
-        Ok(Ready { reply: ImportReply { format: read.format, scenes, skipped: skipped.collect() }, rows })
+        if self.refused.is_some() {
+            return Ok(());
+        }
+        let facts = Facts::of(&scene);
+        let (counts, steps, name) = (facts.counts, facts.steps, scene.name.clone());
+        let mut imported = ImportedScene { id: None, etag: None, name, warnings, counts, steps, scene: None };
+        if self.order.dry_run {
+            imported.scene = Some(SceneDoc::from_scene(&scene, MapForm::Inline));
+            drop(scene);
+            if self.count == 1 {
+                self.text.push(format!("{{\"format\":\"{}\",{SCENES}", self.format).as_bytes())?;
+            } else {
+                self.text.push(b",")?;
+            }
+            return self.text.push_json(&imported);
+        }
+        let id = id::fresh();
+        let row = record::of_scene(scene, &id)?.packed()?;
+        self.rows.push((id, row));
+        self.scenes.push(imported);
+        Ok(())
+    }
+
+    fn ready(mut self, skipped: Vec<SkippedRecord>, room: &Room) -> Result<Ready, Problem> {
+        if let Some(refused) = self.refused {
+            return Err(refused);
+        }
+        let reply = ImportReply { format: self.format, scenes: self.scenes, skipped };
+        if !self.order.dry_run {
+            return Ok(Ready::Store(reply, self.rows));
+        }
+        // The text of a reply without scenes, from the end of their list on where some are written.
+        let text = serde_json::to_string(&reply).map_err(Problem::internal)?;
+        let rest = match text.split_once(SCENES) {
+            Some((_, rest)) if self.count > 0 => rest,
+            _ => &text,
+        };
+        self.text.push(rest.as_bytes())?;
+        Ok(Ready::Tried(self.text.finish(room)?, self.format))
     }
 }
 

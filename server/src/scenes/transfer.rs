@@ -3,9 +3,10 @@
 
 use crate::base::problem::{Code, Problem};
 use formats::registry::{self, FORMATS};
-use formats::{ExportOptions, ExportedMotion, ImportOptions, NET_POINTER};
+use formats::{ExportOptions, ExportedMotion, ImportOptions, NET_POINTER, Source, source};
 use scene::Scene;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// One scene of a file.
 pub struct Imported {
@@ -17,8 +18,6 @@ pub struct Imported {
 
 /// What a file gave.
 pub struct Read {
-    /// Id of the format.
-    pub format: &'static str,
     /// Scenes in order.
     pub scenes: Vec<Imported>,
     /// Records that are no scenes: position and reason.
@@ -84,28 +83,76 @@ pub fn read(
     most: usize,
     net: Option<Vec<u8>>,
 ) -> Result<Read, Problem> {
-    let id = match format {
-        Some(format) => known(format),
-        None => registry::sniff(bytes, name).map_or("auto", |format| format.info().id),
-    };
-    let format = names().into_iter().find(|known| *known == id).unwrap_or("auto");
-    if net.is_some() && registry::by_id(id).is_some_and(|format| !format.info().takes_net) {
-        let detail = format!("a file of format {id} comes without a network");
-        return Err(Problem::field(NET_POINTER, Code::InvalidField, detail));
-    }
-    let options = ImportOptions { skip, max_scenes: most, net, ..ImportOptions::default() };
+    let net = net.map(|net| Arc::new(net) as Arc<dyn Source>);
+    let wanted = Wanted::of(&bytes, format, name, net, (skip, most))?;
     let mut scenes = Vec::new();
-    let mut skipped = Vec::new();
-    for (index, result) in registry::import(bytes, name, id, &options)?.into_iter().enumerate() {
-        match result {
-            Ok((scene, warnings)) => scenes.push(Imported { scene, warnings }),
-            Err(error) => skipped.push((skip + index, Problem::from(error))),
+    let skipped = wanted.each(&bytes, |imported| {
+        scenes.push(imported);
+        Ok(())
+    })?;
+    Ok(Read { scenes, skipped })
+}
+
+/// What is to be read out of a file.
+pub struct Wanted {
+    /// Id of the format.
+    pub format: &'static str,
+    options: ImportOptions,
+}
+
+impl Wanted {
+    /// Recognises a file from its content when `format` is `None`. `window`: scenes to pass over, and the most to
+    /// take.
+    ///
+    /// # Errors
+    /// `format-unknown`, or `invalid-field` for a network beside a file that takes none.
+    pub fn of(
+        file: &dyn Source,
+        format: Option<&str>,
+        name: &str,
+        net: Option<Arc<dyn Source>>,
+        (skip, most): (usize, usize),
+    ) -> Result<Self, Problem> {
+        let found = match format {
+            Some(format) => registry::by_id(known(format)),
+            None => registry::sniff(&source::head(file), name),
+        };
+        let info = found.ok_or_else(registry::unknown)?.info();
+        if net.is_some() && !info.takes_net {
+            let detail = format!("a file of format {} comes without a network", info.id);
+            return Err(Problem::field(NET_POINTER, Code::InvalidField, detail));
         }
+        let options = ImportOptions { skip, max_scenes: most, net, ..ImportOptions::default() };
+        Ok(Self { format: info.id, options })
     }
-    if scenes.is_empty() && !skipped.is_empty() {
-        return Err(skipped.swap_remove(0).1);
+
+    /// Hands each scene to `take` before the next one is read; gives the records that are no scenes: position and
+    /// reason.
+    ///
+    /// # Errors
+    /// Why not one scene of the file can be read, and what `take` reports.
+    pub fn each(
+        &self,
+        file: &dyn Source,
+        mut take: impl FnMut(Imported) -> Result<(), Problem>,
+    ) -> Result<Vec<(usize, Problem)>, Problem> {
+        let (mut skipped, mut taken) = (Vec::new(), false);
+        let scenes = registry::scenes(file, "", self.format, &self.options)?;
+        for (index, result) in scenes.enumerate() {
+            match result {
+                Ok((scene, warnings)) => take(Imported { scene, warnings })?,
+                Err(error) => {
+                    skipped.push((self.options.skip + index, Problem::from(error)));
+                    continue;
+                }
+            }
+            taken = true;
+        }
+        if !taken && !skipped.is_empty() {
+            return Err(skipped.swap_remove(0).1);
+        }
+        Ok(skipped)
     }
-    Ok(Read { format, scenes, skipped })
 }
 
 /// Writes a scene as a file.

@@ -228,8 +228,14 @@ impl Pool {
     /// Ends jobs that take too long or whose reader has stopped reading.
     fn watch(&self) {
         let seconds = Duration::from_secs;
+        let mut rounds = 0u64;
         while !self.stopped.load(Ordering::Relaxed) {
             std::thread::sleep(Duration::from_millis(100));
+            rounds += 1;
+            if rounds.is_multiple_of(50) {
+                // The allocator gives memory back when it is asked for some: in a server at rest, here.
+                drop(std::hint::black_box(Vec::<u8>::with_capacity(1 << 20)));
+            }
             let jobs: Vec<_> = lock(&self.state).jobs.values().cloned().collect();
             for job in jobs {
                 let limit = if job.worked() > seconds(self.limits.generate_s) {

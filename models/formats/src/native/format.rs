@@ -1,7 +1,7 @@
 //! The native form as a format among others.
 
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info};
-use crate::problem::{Imported, ReadError};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::source::Source;
 use scene::Scene;
 use std::io;
 
@@ -32,14 +32,13 @@ impl Format for NativeJson {
         u8::from(object && name.to_ascii_lowercase().ends_with(".json"))
     }
 
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
-        let result = super::read(bytes).map(|mut scene| {
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        one(super::read_from(file).map(|mut scene| {
             if let Some(licence) = &options.licence {
                 scene.meta.licence = Some(licence.clone());
             }
             (scene, Vec::new())
-        });
-        vec![result]
+        }))
     }
 
     fn export(&self, scenes: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {

@@ -2,9 +2,13 @@
 
 use super::objects::Objects;
 use crate::problem::{FieldProblem, ReadError, code, pointer_token};
+use crate::source::Source;
+use crate::unpack;
 use serde::de::DeserializeOwned;
+use serde_json::Deserializer;
 use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
+use std::io::{self, BufReader, Read};
 
 /// Longest message: it may quote the document.
 const MAX_DETAIL: usize = 300;
@@ -16,19 +20,76 @@ const MAX_DETAIL: usize = 300;
 /// f64 and nesting over 128); `invalid-field` with a JSON pointer for a wrong type, an unknown,
 /// missing or repeated member.
 pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, ReadError> {
-    let mut parser = serde_json::Deserializer::from_slice(bytes);
-    match T::deserialize(Objects(&mut parser)).and_then(|value| parser.end().map(|()| value)) {
-        Ok(value) => Ok(value),
-        // The plain parser is twice as fast; the one that tracks places runs only for a fault.
-        Err(error) => Err(locate::<T>(bytes, &error)),
+    parse(|| Ok(Deserializer::from_slice(bytes)))
+}
+
+/// Most bytes of a document that is read as a whole, which is faster.
+const WHOLE_BYTES: u64 = 8 << 20;
+
+/// The text of a document.
+pub(super) enum Text<'a> {
+    /// All of it.
+    Whole(Vec<u8>),
+    /// More than should be in memory beside what becomes of it.
+    Long(Long<'a>),
+}
+
+/// Text that is parsed while it is read.
+pub(super) struct Long<'a>(&'a dyn Source);
+
+impl<'a> Text<'a> {
+    /// Of a file.
+    ///
+    /// # Errors
+    /// `malformed-file` when it cannot be read.
+    pub fn of(file: &'a dyn Source) -> Result<Self, ReadError> {
+        let mut bytes = Vec::new();
+        let read = file.open().and_then(|input| input.take(WHOLE_BYTES + 1).read_to_end(&mut bytes));
+        read.map_err(|error| unpack::fault(&error, bytes.len() as u64))?;
+        Ok(if bytes.len() as u64 > WHOLE_BYTES { Self::Long(Long(file)) } else { Self::Whole(bytes) })
     }
 }
 
-fn locate<T: DeserializeOwned>(bytes: &[u8], error: &serde_json::Error) -> ReadError {
-    if error.classify() != Category::Data {
-        return ReadError::malformed_json(error.line(), error.column(), reason(error));
+impl<'a> Long<'a> {
+    /// From the beginning.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn open(&self) -> io::Result<BufReader<Box<dyn Read + Send + 'a>>> {
+        Ok(BufReader::with_capacity(64 << 10, self.0.open()?))
     }
-    let mut parser = serde_json::Deserializer::from_slice(bytes);
+
+    /// As [`from_json`].
+    ///
+    /// # Errors
+    /// Those of [`from_json`], and `malformed-file` when it cannot be read.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, ReadError> {
+        let open = || self.open().map(Deserializer::from_reader);
+        parse(|| open().map_err(|error| unpack::fault(&error, 0)))
+    }
+}
+
+/// Parses text that can be read again to find a fault's place.
+fn parse<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
+    open: impl Fn() -> Result<Deserializer<R>, ReadError>,
+) -> Result<T, ReadError> {
+    let mut parser = open()?;
+    match T::deserialize(Objects(&mut parser)).and_then(|value| parser.end().map(|()| value)) {
+        Ok(value) => Ok(value),
+        // The plain parser is twice as fast; the one that tracks places runs only for a fault.
+        Err(error) => Err(locate::<R, T>(open()?, &error)),
+    }
+}
+
+fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
+    mut parser: Deserializer<R>,
+    error: &serde_json::Error,
+) -> ReadError {
+    match error.classify() {
+        Category::Data => {}
+        Category::Io => return unpack::fault(&io::Error::other(reason(error)), 0),
+        _ => return ReadError::malformed_json(error.line(), error.column(), reason(error)),
+    }
     let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(Objects(&mut parser)) {
         Err(error) => (pointer_of(error.path()), plain_words(error.inner())),
         Ok(_) => (String::new(), plain_words(error)),
@@ -83,4 +144,35 @@ fn pointer_of(path: &Path) -> String {
         }
     }
     pointer
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::SceneDoc;
+    use super::{Long, from_json};
+
+    #[test]
+    fn a_long_text_has_the_same_faults_in_the_same_places() {
+        let text = include_str!("../../tests/fixtures/junction.scene.json");
+        let lines = text.replace(',', ",\n ");
+        let mut different = Vec::new();
+        for whole in [text.as_bytes(), lines.as_bytes()] {
+            for i in 0..400usize {
+                let mut bytes = whole.to_vec();
+                let at = i * 7_919 % bytes.len();
+                match i % 4 {
+                    0 => bytes.truncate(at),
+                    1 => bytes[at] = b"{}[]\",:xe-\n\xff"[i / 4 % 12],
+                    2 => bytes.insert(at, b"{}[]\",:0e-\n\x01"[i / 4 % 12]),
+                    _ => drop(bytes.remove(at)),
+                }
+                let long = Long(&bytes).parse::<SceneDoc>();
+                let short = from_json::<SceneDoc>(&bytes);
+                if long != short {
+                    different.push((i, at, long.err(), short.err()));
+                }
+            }
+        }
+        assert!(different.is_empty(), "{} differ: {:?}", different.len(), different.first());
+    }
 }

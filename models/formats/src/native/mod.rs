@@ -32,6 +32,7 @@ pub use resolve::{Context, MAX_COORDINATE_M, MAX_GOAL_DISTANCE_M, Ranges, Window
 pub use value::{MAX_MEMBERS, MAX_SAFE_INTEGER, Members, PointDoc, PointsDoc, round_m, round_rad};
 
 use crate::problem::{Kind, ReadError};
+use crate::source::Source;
 use scene::Scene;
 use serde::Deserialize;
 
@@ -52,17 +53,34 @@ pub fn read(bytes: &[u8]) -> Result<Scene, ReadError> {
 /// `malformed-json`, `invalid-field`, or `unsupported-version` when members are unknown because the
 /// document is of a later version.
 pub fn read_doc(bytes: &[u8]) -> Result<SceneDoc, ReadError> {
-    #[derive(Deserialize)]
-    struct Head {
-        version: u64,
+    from_json::<SceneDoc>(bytes).map_err(|error| of_version(error, || serde_json::from_slice(bytes).ok()))
+}
+
+/// As [`read`], of a document that may be too long to be in memory beside its scene.
+///
+/// # Errors
+/// Those of [`read`], and `malformed-file` when it cannot be read.
+pub fn read_from(file: &dyn Source) -> Result<Scene, ReadError> {
+    let doc = match json::Text::of(file)? {
+        json::Text::Whole(bytes) => read_doc(&bytes),
+        json::Text::Long(text) => text
+            .parse::<SceneDoc>()
+            .map_err(|error| of_version(error, || serde_json::from_reader(text.open().ok()?).ok())),
+    };
+    doc?.into_scene(|_| None)
+}
+
+#[derive(Deserialize)]
+struct Head {
+    version: u64,
+}
+
+/// Says of a document with unknown members that it is of a later version, where it is.
+fn of_version(error: ReadError, head: impl FnOnce() -> Option<Head>) -> ReadError {
+    if error.kind != Kind::Invalid {
+        return error;
     }
-    from_json::<SceneDoc>(bytes).map_err(|error| {
-        if error.kind != Kind::Invalid {
-            return error;
-        }
-        let head = serde_json::from_slice::<Head>(bytes).ok();
-        head.and_then(|head| document::check_version(head.version).err()).unwrap_or(error)
-    })
+    head().and_then(|head| document::check_version(head.version).err()).unwrap_or(error)
 }
 
 /// Writes a scene document with its map inline. Equal scenes give equal bytes.

@@ -3,10 +3,12 @@
 
 use super::import_fcd::{Common, NOW_STEP, STEPS, Windows};
 use super::rows::Rows;
-use super::{import_net, unpack, xml};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NET_POINTER};
+use super::{import_net, xml};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NET_POINTER, Scenes, one};
 use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{FieldProblem, Imported, ReadError};
+use crate::source::Source;
+use crate::unpack;
 use scene::{Meta, Origin, Scene, Timing};
 use std::collections::BTreeMap;
 use std::io;
@@ -45,11 +47,11 @@ impl Format for SumoNet {
         u8::from(name.ends_with(".net.xml") || name.ends_with(".net.xml.gz"))
     }
 
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
         if options.skip > 0 || options.max_scenes == 0 {
-            return Vec::new();
+            return Box::new(std::iter::empty());
         }
-        vec![net_scene(bytes, options)]
+        one(net_scene(file, options))
     }
 
     fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
@@ -57,8 +59,8 @@ impl Format for SumoNet {
     }
 }
 
-fn net_scene(bytes: &[u8], options: &ImportOptions) -> Result<Imported, ReadError> {
-    let net = import_net::read(bytes)?;
+fn net_scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+    let net = import_net::read(file)?;
     let scene = Scene {
         id: None,
         name: "SUMO network".into(),
@@ -107,15 +109,15 @@ impl Format for SumoFcd {
         u8::from(self.info().extensions.iter().any(|end| name.ends_with(end)))
     }
 
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
-        let net = match options.net.as_deref().map(import_net::read).transpose() {
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        let net = match options.net.as_ref().map(|net| import_net::read(net)).transpose() {
             Ok(net) => net,
-            Err(error) => return vec![Err(error.under(NET_POINTER))],
+            Err(error) => return one(Err(error.under(NET_POINTER))),
         };
-        let common = Common { net: net.as_ref(), licence: options.licence.clone() };
-        match Rows::open(bytes, MAX_DECODED_BYTES) {
-            Ok(rows) => Windows::new(rows, common).skip(options.skip).take(options.max_scenes).collect(),
-            Err(error) => vec![Err(error)],
+        let common = Common { net, licence: options.licence.clone() };
+        match Rows::open(file, MAX_DECODED_BYTES) {
+            Ok(rows) => Box::new(Windows::new(rows, common).skip(options.skip).take(options.max_scenes)),
+            Err(error) => one(Err(error)),
         }
     }
 

@@ -25,8 +25,8 @@ const MAX_USERS: usize = 50_000;
 const BESIDE_M: f64 = 500.0;
 
 /// What scenes have in common.
-pub(super) struct Common<'n> {
-    pub net: Option<&'n NetScene>,
+pub(super) struct Common {
+    pub net: Option<NetScene>,
     pub licence: Option<String>,
 }
 
@@ -44,7 +44,7 @@ type Key = (String, bool);
 /// Scenes of a recording, one a window in which anybody is seen.
 pub(super) struct Windows<'a> {
     rows: Rows<'a>,
-    common: Common<'a>,
+    common: Common,
     users: BTreeMap<Key, User>,
     samples: usize,
     /// Number and time of the time step that is being read.
@@ -61,7 +61,7 @@ pub(super) struct Windows<'a> {
 }
 
 impl<'a> Windows<'a> {
-    pub fn new(rows: Rows<'a>, common: Common<'a>) -> Self {
+    pub fn new(rows: Rows<'a>, common: Common) -> Self {
         Self {
             rows,
             common,
@@ -180,8 +180,8 @@ impl<'a> Windows<'a> {
             return None;
         }
         let middle = middle(all.iter().map(|(_, _, at)| *at));
-        let origin = self.common.net.map_or(middle.map(f64::round), |net| net.origin);
-        let mut warnings = self.common.net.map_or_else(Vec::new, |net| net.warnings.clone());
+        let origin = self.common.net.as_ref().map_or(middle.map(f64::round), |net| net.origin);
+        let mut warnings = self.common.net.as_ref().map_or_else(Vec::new, |net| net.warnings.clone());
         let kept = self.kept(&all, middle, origin, &mut warnings);
         let mut ids = Ids::default();
         let mut agents = Vec::new();
@@ -222,8 +222,8 @@ impl<'a> Windows<'a> {
                 ..Meta::default()
             },
             time: Timing { steps, now_step: NOW_STEP.min(steps - 1) },
-            map: self.common.net.map_or_else(Shared::default, |net| net.map.clone()),
-            signals: self.common.net.map_or_else(Vec::new, |net| net.signals(start_s, steps)),
+            map: self.common.net.as_ref().map_or_else(Shared::default, |net| net.map.clone()),
+            signals: self.common.net.as_ref().map_or_else(Vec::new, |net| net.signals(start_s, steps)),
             agents,
             generated: None,
             extra: BTreeMap::new(),
@@ -242,7 +242,7 @@ impl<'a> Windows<'a> {
         origin: Vec2,
         warnings: &mut Vec<Warning>,
     ) -> Vec<(&'u Key, &'u User)> {
-        if let Some(net) = self.common.net {
+        if let Some(net) = &self.common.net {
             let beside =
                 |(_, _, at): &&(&Key, &User, Vec2)| ((at - net.origin).abs() - net.half).max() > BESIDE_M;
             let count = all.iter().filter(beside).count();

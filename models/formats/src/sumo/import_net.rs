@@ -4,9 +4,10 @@ use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane, too_large};
 use super::polyline::length;
 use super::programs::Program;
-use super::unpack;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS};
 use crate::problem::{FieldProblem, ReadError, Warning, code};
+use crate::source::Source;
+use crate::unpack::{self, Bounds};
 use scene::map::LaneMap;
 use scene::{MAX_COORDINATE_M, STEP_S, Shared, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
@@ -36,8 +37,9 @@ pub(super) struct NetScene {
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `invalid-field` with the line for a
 /// value that cannot be read, `cannot-represent` for another sort of file or one without lanes,
 /// `map-too-large` and `out-of-range` for what no scene can hold.
-pub(super) fn read(bytes: &[u8]) -> Result<NetScene, ReadError> {
-    let mut net = Net::read_from(unpack::open(bytes, MAX_BYTES))?;
+pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
+    let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
+    let mut net = Net::read_from(input.map_err(|error| unpack::fault(&error, 0))?)?;
     let (origin, half) = check_net(&net)?;
     for lane in &mut net.lanes {
         lane.shape.iter_mut().for_each(|p| *p -= origin);

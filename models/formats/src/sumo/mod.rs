@@ -18,7 +18,6 @@ pub mod polyline;
 pub mod programs;
 mod rows;
 pub mod signals;
-mod unpack;
 mod window;
 mod xml;
 

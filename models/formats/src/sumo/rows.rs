@@ -1,10 +1,12 @@
 //! FCD as a stream of rows, from XML (`fcd-export`, SUMO's default) and from CSV.
 
+use super::SumoError;
 use super::fcd::Columns;
 use super::import_net::MAX_SOURCE_M;
 use super::xml::{Element, Event, Scanner};
-use super::{SumoError, unpack};
 use crate::problem::ReadError;
+use crate::source::Source;
+use crate::unpack::{self, Bounds};
 use scene::Vec2;
 use std::io::{BufRead, Read};
 
@@ -55,10 +57,12 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// `cannot-represent` for a file that is no FCD; the faults of its first bytes.
-    pub fn open(bytes: &'a [u8], most: u64) -> Result<Self, ReadError> {
-        let head = unpack::head(bytes);
+    pub fn open(file: &'a dyn Source, most: u64) -> Result<Self, ReadError> {
+        let open = || file.open().map_err(|error| unpack::fault(&error, 0));
+        let head = unpack::head(open()?);
         let first = head.iter().find(|b| !b.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(b));
-        let input = unpack::open(bytes, most);
+        let input = unpack::open(open()?, Bounds::of(most)).map_err(|error| unpack::fault(&error, 0))?;
+        let input: Box<dyn BufRead + 'a> = Box::new(input);
         if matches!(first, None | Some(b'<')) {
             let scanner = Scanner::new(input, MAX_ROW);
             return Ok(Self::Xml(XmlRows { scanner, root: false, time_s: None, pending: None }));

@@ -11,8 +11,9 @@
 //! neither depth nor attributes, so lines, bounds, the root and what is left open at the end would still be
 //! ours to check.
 
-use super::{SumoError, unpack};
+use super::SumoError;
 use crate::problem::ReadError;
+use crate::unpack;
 use std::io::{self, BufRead};
 
 /// Deepest nesting that is read; SUMO's files have up to four levels.

@@ -1,8 +1,8 @@
 //! Scenario records as a format among others.
 
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info};
-use crate::identities;
-use crate::problem::{Imported, ReadError};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::source::Source;
+use crate::{identities, unpack};
 use scene::Scene;
 use std::io;
 
@@ -32,7 +32,7 @@ impl Format for Womd {
         u8::from(!json && name.to_ascii_lowercase().contains("tfrecord"))
     }
 
-    fn import(&self, bytes: &[u8], options: &ImportOptions) -> Vec<Result<Imported, ReadError>> {
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
         let join = options.join_identities;
         let options = super::Options {
             skip: options.skip,
@@ -41,11 +41,19 @@ impl Format for Womd {
             verify_crc: options.verify,
             ..super::Options::default()
         };
-        let mut read = super::read_all(bytes, &options);
-        for (scene, warnings) in read.iter_mut().flatten().filter(|_| join) {
-            warnings.extend(identities::join(scene));
-        }
-        read
+        let records = file.open().map_err(|error| unpack::fault(&error, 0));
+        let records = match records.and_then(|input| super::Records::new(input, options)) {
+            Ok(records) => records,
+            Err(error) => return one(Err(error)),
+        };
+        Box::new(records.map(move |read| {
+            read.map(|(mut scene, mut warnings)| {
+                if join {
+                    warnings.extend(identities::join(&mut scene));
+                }
+                (scene, warnings)
+            })
+        }))
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

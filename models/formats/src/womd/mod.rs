@@ -75,7 +75,7 @@ impl<R: Read> Records<R> {
     /// # Errors
     /// `malformed-file` when the reader fails.
     pub fn new(input: R, options: Options) -> Result<Self, ReadError> {
-        let reader = RecordReader::new(input, options.clone())?;
+        let reader = RecordReader::new(input, &options)?;
         Ok(Self { reader, options, given: 0 })
     }
 }

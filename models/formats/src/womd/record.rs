@@ -3,14 +3,14 @@
 //! stream is bounded in size and in ratio.
 
 use super::Options;
-use crate::problem::{ReadError, code};
-use flate2::read::MultiGzDecoder;
+use crate::problem::ReadError;
+use crate::unpack::{self, Bounds, Unpacked};
 use std::io::{self, BufReader, Read, Write};
 
 /// Most bytes of one record.
 pub const MAX_RECORD_BYTES: u64 = 128 << 20;
-/// The expansion ratio is looked at after this many decoded bytes.
-const RATIO_FROM: u64 = 1 << 20;
+/// Bytes of a record that are read at first.
+const PIECE: u64 = 1 << 20;
 
 /// CRC-32C, rotated and offset as TFRecord does, so that the CRC of data that holds CRCs is useful.
 pub fn masked_crc(bytes: &[u8]) -> u32 {
@@ -31,44 +31,13 @@ pub fn write_record(out: &mut impl Write, data: &[u8]) -> io::Result<()> {
 
 /// True when these first bytes of a file are a TFRecord frame, plain or in gzip.
 pub fn looks_like(head: &[u8]) -> bool {
-    let framed = |head: &[u8]| match head.split_first_chunk::<8>() {
+    let decoded = unpack::head(head);
+    match decoded.split_first_chunk::<8>() {
         Some((length, rest)) => {
             rest.first_chunk::<4>().is_some_and(|crc| masked_crc(length) == u32::from_le_bytes(*crc))
         }
         None => false,
-    };
-    if !is_gzip(head) {
-        return framed(head);
     }
-    let mut decoded = Vec::new();
-    // A cut-off head ends in an error after the bytes that could be decoded.
-    let _ = MultiGzDecoder::new(head).take(12).read_to_end(&mut decoded);
-    framed(&decoded)
-}
-
-fn is_gzip(head: &[u8]) -> bool {
-    head.starts_with(&[0x1f, 0x8b])
-}
-
-/// Counts what goes through.
-struct Counted<R> {
-    inner: R,
-    count: u64,
-}
-
-impl<R: Read> Read for Counted<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let n = self.inner.read(buffer)?;
-        self.count += n as u64;
-        Ok(n)
-    }
-}
-
-type Head<R> = io::Chain<io::Cursor<Vec<u8>>, R>;
-
-enum Source<R: Read> {
-    Plain(BufReader<Counted<Head<R>>>),
-    Gzip(Box<MultiGzDecoder<Counted<Head<R>>>>),
 }
 
 /// One record's data and where its frame begins in the decoded stream.
@@ -82,9 +51,9 @@ pub struct Record {
 
 /// Reads records one by one from a plain or gzip stream.
 pub struct RecordReader<R: Read> {
-    source: Source<R>,
+    input: BufReader<Unpacked<R>>,
     offset: u64,
-    options: Options,
+    verify_crc: bool,
     ended: bool,
 }
 
@@ -99,18 +68,10 @@ impl<R: Read> RecordReader<R> {
     ///
     /// # Errors
     /// `malformed-file` when the reader fails.
-    pub fn new(mut input: R, options: Options) -> Result<Self, ReadError> {
-        let mut head = Vec::new();
-        let read = input.by_ref().take(2).read_to_end(&mut head);
-        read.map_err(|error| ReadError::malformed(0, format!("cannot read: {error}")))?;
-        let gzip = is_gzip(&head);
-        let input = Counted { inner: io::Cursor::new(head).chain(input), count: 0 };
-        let source = if gzip {
-            Source::Gzip(Box::new(MultiGzDecoder::new(input)))
-        } else {
-            Source::Plain(BufReader::new(input))
-        };
-        Ok(Self { source, offset: 0, options, ended: false })
+    pub fn new(input: R, options: &Options) -> Result<Self, ReadError> {
+        let bounds = Bounds { decoded: options.max_decoded_bytes, expansion: options.max_expansion };
+        let input = unpack::open(input, bounds).map_err(|error| unpack::fault(&error, 0))?;
+        Ok(Self { input, offset: 0, verify_crc: options.verify_crc, ended: false })
     }
 
     /// True when nothing can follow: the end, or a fault in the framing.
@@ -122,42 +83,21 @@ impl<R: Read> RecordReader<R> {
     fn fill(&mut self, buffer: &mut Vec<u8>, wanted: u64) -> Result<(), ReadError> {
         let mut left = wanted;
         while left > 0 {
-            // In pieces, so that bounds are looked at while a bomb unfolds.
-            let piece = left.min(RATIO_FROM);
+            // In pieces, so that no more is reserved than about as much again as has come.
+            let piece = left.min(PIECE.max(buffer.len() as u64));
             let before = buffer.len();
-            let result = match &mut self.source {
-                Source::Plain(source) => source.take(piece).read_to_end(buffer),
-                Source::Gzip(source) => source.take(piece).read_to_end(buffer),
-            };
+            buffer.reserve_exact(piece as usize);
+            let result = self.input.by_ref().take(piece).read_to_end(buffer);
             let got = (buffer.len() - before) as u64;
             self.offset += got;
             result.map_err(|error| {
                 self.ended = true;
-                ReadError::malformed(self.offset, format!("cannot decompress or read: {error}"))
+                unpack::fault(&error, self.offset)
             })?;
-            self.check_bounds()?;
             if got < piece {
                 return Ok(());
             }
             left -= piece;
-        }
-        Ok(())
-    }
-
-    fn check_bounds(&mut self) -> Result<(), ReadError> {
-        let limit = self.options.max_decoded_bytes;
-        if self.offset > limit {
-            self.ended = true;
-            let detail = format!("more than {limit} bytes once decompressed");
-            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, limit, detail));
-        }
-        let Source::Gzip(source) = &self.source else { return Ok(()) };
-        let encoded = source.get_ref().count.max(1);
-        let limit = self.options.max_expansion;
-        if self.offset > RATIO_FROM && self.offset / encoded > limit {
-            self.ended = true;
-            let detail = format!("decompresses to more than {limit} times its size");
-            return Err(ReadError::too_large(code::EXPANSION_TOO_HIGH, limit, detail));
         }
         Ok(())
     }
@@ -182,7 +122,7 @@ impl<R: Read> RecordReader<R> {
         let start = self.offset;
         let head = self.exactly(8, "length")?;
         let crc = self.exactly(4, "length checksum")?;
-        if self.options.verify_crc && masked_crc(&head).to_le_bytes() != crc[..] {
+        if self.verify_crc && masked_crc(&head).to_le_bytes() != crc[..] {
             self.ended = true;
             let detail = "the checksum of a record's length does not match: broken, or not a TFRecord file";
             return Err(Stop::Fault(ReadError::malformed(start, detail)));
@@ -196,7 +136,7 @@ impl<R: Read> RecordReader<R> {
         let offset = self.offset;
         let data = self.exactly(length, "data")?;
         let crc = self.exactly(4, "data checksum")?;
-        if self.options.verify_crc && masked_crc(&data).to_le_bytes() != crc[..] {
+        if self.verify_crc && masked_crc(&data).to_le_bytes() != crc[..] {
             let detail = format!("the checksum of a record of {length} bytes does not match");
             return Err(Stop::Fault(ReadError::malformed(offset, detail)));
         }

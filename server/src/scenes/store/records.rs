@@ -47,21 +47,41 @@ impl SceneRecord {
     /// # Errors
     /// When the compressor fails.
     pub fn packed(self) -> Result<PackedScene, Problem> {
-        let pack = |json: &Vec<u8>| zstd::encode_all(json.as_slice(), LEVEL).map_err(Problem::internal);
-        let (body, map_body) = (pack(&self.json)?, self.map.json.as_ref().map(pack).transpose()?);
-        let tags = serde_json::to_string(&self.tags).map_err(Problem::internal)?;
-        Ok(PackedScene { record: self, tags, body, map_body })
+        let pack = |json: Vec<u8>| zstd::encode_all(json.as_slice(), LEVEL).map_err(Problem::internal);
+        let Self { name, tags, parent_id, meta, json, map } = self;
+        let MapRecord { sha, polylines, points, json: map_json } = map;
+        let map_bytes = map_json.as_ref().map_or(0, Vec::len);
+        let map =
+            PackedMap { sha, polylines, points, bytes: map_bytes, body: map_json.map(pack).transpose()? };
+        let tags = serde_json::to_string(&tags).map_err(Problem::internal)?;
+        let hash = ContentHash::of_bytes(&json);
+        Ok(PackedScene { name, tags, parent_id, meta, hash, body: pack(json)?, map })
     }
 }
 
-/// A scene ready to be written.
+/// A scene ready to be written; its text is there in compressed form alone.
 #[derive(Clone, Debug)]
 pub struct PackedScene {
-    record: SceneRecord,
+    name: String,
     /// JSON array.
     tags: String,
+    parent_id: Option<String>,
+    meta: String,
+    /// Of the text.
+    hash: ContentHash,
     body: Vec<u8>,
-    map_body: Option<Vec<u8>>,
+    map: PackedMap,
+}
+
+#[derive(Clone, Debug)]
+struct PackedMap {
+    sha: String,
+    polylines: usize,
+    points: usize,
+    /// Of the text.
+    bytes: usize,
+    /// `None` for a map that is stored already.
+    body: Option<Vec<u8>>,
 }
 
 /// A map of the store, without its content.
@@ -166,7 +186,6 @@ impl Store {
     /// Writes a scene under an id; checks the precondition in the same transaction.
     pub async fn put(&self, id: &str, expect: Expect, scene: PackedScene) -> Result<Written, StoreError> {
         let (id, limits) = (id.to_owned(), Arc::clone(&self.limits));
-        let PackedScene { record, tags, body, map_body } = scene;
         let written = self
             .write(move |tx| {
                 let stored = current(tx, &id)?;
@@ -178,12 +197,16 @@ impl Store {
                     }
                 }
                 let before = stored.as_ref().map_or(0, |s| s.bytes);
-                let map_bytes = map_body.as_ref().map_or(0, Vec::len) as u64;
-                make_room(tx, (body.len() as u64).saturating_sub(before) + map_bytes, limits.store_bytes)?;
-                keep_map(tx, &record.map, map_body.as_deref())?;
+                let map_bytes = scene.map.body.as_ref().map_or(0, Vec::len) as u64;
+                make_room(
+                    tx,
+                    (scene.body.len() as u64).saturating_sub(before) + map_bytes,
+                    limits.store_bytes,
+                )?;
+                keep_map(tx, &scene.map)?;
                 let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
-                let etag = etag(rev, &record.json);
-                save(tx, (&id, rev, &etag), &record, &tags, &body)?;
+                let etag = etag(rev, &scene.hash);
+                save(tx, (&id, rev, &etag), &scene)?;
                 Ok(Written { etag, created: stored.is_none() })
             })
             .await?;
@@ -302,8 +325,8 @@ fn check(expect: &Expect, stored: Option<&Stored>) -> Result<(), StoreError> {
     }
 }
 
-fn keep_map(tx: &Transaction<'_>, map: &MapRecord, packed: Option<&[u8]>) -> Result<(), StoreError> {
-    let (Some(json), Some(packed)) = (&map.json, packed) else {
+fn keep_map(tx: &Transaction<'_>, map: &PackedMap) -> Result<(), StoreError> {
+    let Some(body) = &map.body else {
         let sql = "UPDATE maps SET used_at = ?2 WHERE sha = ?1";
         let found = tx.execute(sql, rusqlite::params![map.sha, seconds_now()])?;
         return if found == 1 { Ok(()) } else { Err(StoreError::Missing) };
@@ -313,8 +336,8 @@ fn keep_map(tx: &Transaction<'_>, map: &MapRecord, packed: Option<&[u8]>) -> Res
     tx.execute(
         sql,
         named_params! {
-            ":sha": map.sha, ":bytes": as_i64(json.len()), ":polylines": as_i64(map.polylines),
-            ":points": as_i64(map.points), ":body": packed, ":now": seconds_now(),
+            ":sha": map.sha, ":bytes": as_i64(map.bytes), ":polylines": as_i64(map.polylines),
+            ":points": as_i64(map.points), ":body": body, ":now": seconds_now(),
         },
     )?;
     Ok(())
@@ -323,9 +346,7 @@ fn keep_map(tx: &Transaction<'_>, map: &MapRecord, packed: Option<&[u8]>) -> Res
 fn save(
     tx: &Transaction<'_>,
     (id, rev, etag): (&str, i64, &str),
-    record: &SceneRecord,
-    tags: &str,
-    body: &[u8],
+    scene: &PackedScene,
 ) -> Result<(), StoreError> {
     let sql = "INSERT INTO scenes (id, rev, etag, name, tags, parent_id, map_sha, meta, body, created_at, updated_at)
         VALUES (:id, :rev, :etag, :name, :tags, :parent, :map, :meta, :body, :now, :now)
@@ -334,8 +355,8 @@ fn save(
     tx.execute(
         sql,
         named_params! {
-            ":id": id, ":rev": rev, ":etag": etag, ":name": record.name, ":tags": tags,
-            ":parent": record.parent_id, ":map": record.map.sha, ":meta": record.meta, ":body": body,
+            ":id": id, ":rev": rev, ":etag": etag, ":name": scene.name, ":tags": scene.tags,
+            ":parent": scene.parent_id, ":map": scene.map.sha, ":meta": scene.meta, ":body": scene.body,
             ":now": clock::now(),
         },
     )?;
@@ -343,8 +364,8 @@ fn save(
 }
 
 /// Strong ETag of a revision of a scene.
-pub fn etag(rev: i64, json: &[u8]) -> String {
-    let hash = ContentHash::of_bytes(json).hex();
+fn etag(rev: i64, text: &ContentHash) -> String {
+    let hash = text.hex();
     format!("\"{rev}-{}\"", hash.get(..16).unwrap_or_default())
 }
 

@@ -1,0 +1,46 @@
+//! Where the bytes of a file come from: memory, or something that unfolds while it is read.
+
+use std::fmt;
+use std::io::{self, Read};
+use std::sync::Arc;
+
+/// Most bytes by which a file is recognised.
+const HEAD: u64 = 128 << 10;
+
+/// A file that can be read from its beginning more than once: to recognise it, to read it, and again to find
+/// the place of a fault.
+pub trait Source: fmt::Debug + Send + Sync {
+    /// Its bytes from the first one on.
+    ///
+    /// # Errors
+    /// When they cannot be read.
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>>;
+}
+
+impl Source for &[u8] {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        Ok(Box::new(*self))
+    }
+}
+
+impl Source for Vec<u8> {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        Ok(Box::new(self.as_slice()))
+    }
+}
+
+impl<S: Source + ?Sized> Source for Arc<S> {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        (**self).open()
+    }
+}
+
+/// The first bytes of a file, by which it is recognised.
+pub fn head(file: &dyn Source) -> Vec<u8> {
+    let mut head = Vec::new();
+    // A broken file is recognised by what comes before the fault.
+    if let Ok(input) = file.open() {
+        let _ = input.take(HEAD).read_to_end(&mut head);
+    }
+    head
+}

@@ -1,0 +1,131 @@
+//! Bytes of a file, plain or gzip, unfolded under bounds while they are read.
+
+use crate::limits::MAX_EXPANSION;
+use crate::problem::{ReadError, code};
+use flate2::read::MultiGzDecoder;
+use std::io::{self, BufReader, Read};
+
+/// The expansion ratio is looked at after this many decoded bytes.
+const RATIO_FROM: u64 = 1 << 20;
+/// Bytes that are decoded at a time.
+const PIECE: usize = 64 << 10;
+
+/// How much a file may hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    /// Most bytes once decoded.
+    pub decoded: u64,
+    /// Greatest ratio of decoded to encoded bytes, after the first MiB.
+    pub expansion: u64,
+}
+
+impl Bounds {
+    /// So many decoded bytes, at the usual ratio.
+    pub fn of(decoded: u64) -> Self {
+        Self { decoded, expansion: MAX_EXPANSION }
+    }
+}
+
+/// A bound that was met while decoding; travels inside an `io::Error`.
+#[derive(Debug, thiserror::Error)]
+#[error("{detail}")]
+struct Excess {
+    code: &'static str,
+    limit: u64,
+    detail: String,
+}
+
+/// Counts what goes through.
+struct Counted<R> {
+    inner: R,
+    count: u64,
+}
+
+impl<R: Read> Read for Counted<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let n = self.inner.read(buffer)?;
+        self.count += n as u64;
+        Ok(n)
+    }
+}
+
+type Whole<R> = Counted<io::Chain<io::Cursor<Vec<u8>>, R>>;
+
+enum Inner<R: Read> {
+    Plain(Whole<R>),
+    Gzip(Box<MultiGzDecoder<Whole<R>>>),
+}
+
+/// Decoded bytes of a file.
+pub(crate) struct Unpacked<R: Read> {
+    inner: Inner<R>,
+    decoded: u64,
+    bounds: Bounds,
+}
+
+impl<R: Read> Read for Unpacked<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let left = self.bounds.decoded.saturating_sub(self.decoded);
+        // One byte more than may be there tells the end of a file from one that is too large.
+        let most = usize::try_from(left).unwrap_or(usize::MAX).clamp(1, buffer.len().max(1));
+        let buffer = buffer.get_mut(..most).unwrap_or_default();
+        let n = match &mut self.inner {
+            Inner::Plain(inner) => inner.read(buffer)?,
+            Inner::Gzip(inner) => inner.read(buffer)?,
+        };
+        self.decoded += n as u64;
+        let excess = |code, limit, detail| Err(io::Error::other(Excess { code, limit, detail }));
+        if self.decoded > self.bounds.decoded {
+            let limit = self.bounds.decoded;
+            return excess(
+                code::DECODED_TOO_LARGE,
+                limit,
+                format!("more than {limit} bytes once decompressed"),
+            );
+        }
+        let Inner::Gzip(inner) = &self.inner else { return Ok(n) };
+        let limit = self.bounds.expansion;
+        if self.decoded > RATIO_FROM && self.decoded / inner.get_ref().count.max(1) > limit {
+            let detail = format!("decompresses to more than {limit} times its size");
+            return excess(code::EXPANSION_TOO_HIGH, limit, detail);
+        }
+        Ok(n)
+    }
+}
+
+/// True for the first bytes of a gzip file (RFC 1952, 2.3.1).
+fn is_gzip(bytes: &[u8]) -> bool {
+    bytes.starts_with(&[0x1f, 0x8b])
+}
+
+/// Opens a file; its first bytes tell gzip from plain.
+///
+/// # Errors
+/// When these cannot be read.
+pub(crate) fn open<R: Read>(mut input: R, bounds: Bounds) -> io::Result<BufReader<Unpacked<R>>> {
+    let mut head = Vec::new();
+    input.by_ref().take(2).read_to_end(&mut head)?;
+    let gzip = is_gzip(&head);
+    let whole = Counted { inner: io::Cursor::new(head).chain(input), count: 0 };
+    let inner = if gzip { Inner::Gzip(Box::new(MultiGzDecoder::new(whole))) } else { Inner::Plain(whole) };
+    Ok(BufReader::with_capacity(PIECE, Unpacked { inner, decoded: 0, bounds }))
+}
+
+/// The first bytes once decoded, for recognising a file; what cannot be decoded is left out.
+pub(crate) fn head(input: impl Read) -> Vec<u8> {
+    const HEAD: u64 = 32 << 10;
+    let mut decoded = Vec::new();
+    // A broken file is recognised by what comes before the fault.
+    if let Ok(input) = open(input, Bounds::of(1 << 20)) {
+        let _ = input.take(HEAD).read_to_end(&mut decoded);
+    }
+    decoded
+}
+
+/// A fault of [`open`] or its reader, `offset` decoded bytes into the file.
+pub(crate) fn fault(error: &io::Error, offset: u64) -> ReadError {
+    match error.get_ref().and_then(|inner| inner.downcast_ref::<Excess>()) {
+        Some(excess) => ReadError::too_large(excess.code, excess.limit, excess.detail.clone()),
+        None => ReadError::malformed(offset, format!("cannot decompress or read: {error}")),
+    }
+}

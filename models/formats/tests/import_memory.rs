@@ -1,0 +1,191 @@
+//! What reading takes of memory, counted at the allocator: scenes come one by one out of a file that unfolds while
+//! it is read. One test in a process of its own, since all that is allocated is counted.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test stops at the first surprise")]
+
+use flate2::Compression;
+use flate2::read::MultiGzDecoder;
+use flate2::write::GzEncoder;
+use formats::{ImportOptions, Source, registry, womd};
+use peak_alloc::PeakAlloc;
+use scene::{Agent, AgentType, LaneMap, Scene, State, Subtype};
+use std::fmt::Write as _;
+use std::io::{self, Read, Write};
+
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
+
+const MIB: usize = 1 << 20;
+
+/// A file in a gzip wrapping of its own, as a body with Content-Encoding is.
+#[derive(Debug)]
+struct Wrapped(Vec<u8>);
+
+impl Source for Wrapped {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        Ok(Box::new(MultiGzDecoder::new(self.0.as_slice())))
+    }
+}
+
+fn gzip(text: &[u8]) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(text).unwrap();
+    encoder.finish().unwrap()
+}
+
+/// Parts of a file that come again and again, compressed without ever being there as a whole.
+fn repeated(head: &[u8], item: &[u8], count: usize, tail: &[u8]) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(head).unwrap();
+    (0..count).for_each(|_| encoder.write_all(item).unwrap());
+    encoder.write_all(tail).unwrap();
+    encoder.finish().unwrap()
+}
+
+/// Digits that do not pack well.
+fn noise(seed: u64, i: u64) -> f64 {
+    let mixed = (seed << 32 | i).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    ((mixed ^ mixed >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 44) as f64 / 1048.576
+}
+
+fn busy(agents: u64, steps: u64) -> Scene {
+    let state = |agent: u64, step: u64| State {
+        x_m: noise(agent, step),
+        y_m: noise(agent + 1_000, step),
+        heading_rad: noise(agent, step + 1_000) / 1_000.0,
+        vx_mps: noise(agent + 2_000, step) / 100.0,
+        vy_mps: 0.0,
+    };
+    let agents = (0..agents).map(|agent| {
+        let states = (0..steps).map(|step| Some(state(agent, step))).collect();
+        Agent::bare(&agent.to_string(), AgentType::Vehicle, Subtype::Car, states)
+    });
+    Scene::bare("busy", LaneMap::default(), agents.collect())
+}
+
+fn records(count: usize) -> Vec<u8> {
+    let mut file = Vec::new();
+    womd::write(&[&busy(200, 91)], &mut file, false, formats::ExportedMotion::Log).unwrap();
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+    (0..count).for_each(|_| encoder.write_all(&file).unwrap());
+    encoder.finish().unwrap()
+}
+
+fn fcd(steps: u64, cars: u64) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(b"<fcd-export>").unwrap();
+    for step in 0..steps {
+        let mut text = format!("<timestep time=\"{:.1}\">\n", step as f64 / 10.0);
+        for car in 0..cars {
+            writeln!(
+                text,
+                "<vehicle id=\"{car}\" x=\"{:.2}\" y=\"{car}.00\" angle=\"90.00\" type=\"car\" \
+                 speed=\"{:.2}\" pos=\"{:.2}\" lane=\"edge{}_0\"/>",
+                step as f64 + car as f64 * 3.0,
+                noise(car, step) / 100.0,
+                noise(step, car),
+                car % 20
+            )
+            .unwrap();
+        }
+        text.push_str("</timestep>\n");
+        encoder.write_all(text.as_bytes()).unwrap();
+    }
+    encoder.write_all(b"</fcd-export>").unwrap();
+    encoder.finish().unwrap()
+}
+
+fn net(edges: usize) -> Vec<u8> {
+    let mut text = String::from("<net>");
+    for edge in 0..edges {
+        let y = edge as f64 * 4.0 - 8_000.0;
+        let shape: Vec<String> = (0..40)
+            .map(|i| format!("{:.2},{:.2}", f64::from(i) * 4.0, y + noise(7, i as u64) / 1_000.0))
+            .collect();
+        write!(
+            text,
+            "<edge id=\"e{edge}\" from=\"a{edge}\" to=\"b{edge}\"><lane id=\"e{edge}_0\" index=\"0\" speed=\"13.9\" \
+             length=\"160\" shape=\"{}\"/></edge>",
+            shape.join(" ")
+        )
+        .unwrap();
+    }
+    text.push_str("</net>");
+    gzip(text.as_bytes())
+}
+
+/// Reads a file, one scene after another: how many there are, the first fault, and the most bytes that were
+/// allocated beside the file.
+fn read(file: &dyn Source, format: &str) -> (usize, Option<&'static str>, usize) {
+    let before = ALLOCATOR.current_usage();
+    ALLOCATOR.reset_peak_usage();
+    let options = ImportOptions::default();
+    let (mut count, mut fault) = (0, None);
+    for read in registry::scenes(file, "", format, &options).unwrap() {
+        match read {
+            Ok(_) => count += 1,
+            Err(error) => fault = fault.or(Some(error.code())),
+        }
+    }
+    (count, fault, ALLOCATOR.peak_usage() - before)
+}
+
+#[test]
+fn reading_takes_little_beside_the_file() {
+    let native = formats::native::write(&busy(256, 600));
+    let record = |item: &[u8]| {
+        let mut file = Vec::new();
+        womd::write_record(&mut file, item).unwrap();
+        file
+    };
+    let own = r#"{"format":"dragtraffic.scene","version":1,"time":{"steps":9},"#;
+    let agents = format!("{own}\"map\":{{}},\"agents\":[{{}}");
+    let zeros = vec![0; 120 * MIB];
+    // Scenes, the first fault, and most MiB beside the file. Files that are no bombs keep to 8 x their bytes + 64.
+    let files: Vec<(&str, &str, Box<dyn Source>, usize, Option<&str>, usize)> = vec![
+        ("native", "dragtraffic", Box::new(Wrapped(gzip(&native))), 1, None, 64),
+        ("records", "womd", Box::new(records(100)), 100, None, 24),
+        ("records, wrapped", "womd", Box::new(Wrapped(gzip(&records(100)))), 100, None, 24),
+        ("fcd", "sumo-fcd", Box::new(fcd(1_820, 200)), 20, None, 24),
+        ("net", "sumo-net", Box::new(net(4_000)), 1, None, 160),
+        (
+            "white space",
+            "dragtraffic",
+            Box::new(Wrapped(repeated(own.as_bytes(), &[b' '; MIB], 256, b"\"map\":{}}"))),
+            1,
+            None,
+            24,
+        ),
+        (
+            "agents",
+            "dragtraffic",
+            Box::new(Wrapped(repeated(agents.as_bytes(), br#",{"id":"a","type":"other"}"#, 4 << 20, b"]}"))),
+            0,
+            Some("invalid-field"),
+            24,
+        ),
+        ("a record of zeros", "womd", Box::new(gzip(&record(&zeros))), 0, Some("expansion-too-high"), 24),
+        (
+            "records of zeros",
+            "womd",
+            Box::new(repeated(&[], &record(&zeros[..8 * MIB]), 4, &[])),
+            0,
+            Some("expansion-too-high"),
+            24,
+        ),
+        (
+            "empty steps",
+            "sumo-fcd",
+            Box::new(repeated(b"<fcd-export>", &[b' '; MIB], 512, b"</fcd-export>")),
+            0,
+            Some("expansion-too-high"),
+            8,
+        ),
+    ];
+    drop(zeros);
+    for (name, format, file, scenes, fault, most) in files {
+        let (count, found, peak) = read(&*file, format);
+        println!("{name:20} peak {:7.2} MiB, {count} scenes {found:?}", peak as f64 / MIB as f64);
+        assert_eq!((count, found), (scenes, fault), "{name}");
+        assert!(peak <= most * MIB, "{name}: {peak} bytes");
+    }
+}

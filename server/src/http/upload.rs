@@ -1,0 +1,204 @@
+//! Uploaded files: kept as they came, and unpacked while they are read, once more for each reading. Not even the
+//! parts of a form are put together.
+
+use super::body::{Blocks, Bounds, Encoding, Kept, Unfolding};
+use crate::base::problem::{Code, Problem};
+use axum::body::Bytes;
+use formats::Source;
+use futures_util::stream;
+use multer::{Field, Multipart};
+use std::future::Future;
+use std::io::{self, Read};
+use std::pin::pin;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::task::{Context, Poll, Waker};
+
+/// Bytes that are unpacked at a time.
+const PIECE: usize = 64 << 10;
+
+/// An uploaded body, with the room that it takes.
+#[derive(Debug)]
+pub struct Upload {
+    encoded: Blocks,
+    encoding: Encoding,
+    bounds: Bounds,
+    /// What was found while unpacking.
+    fault: Mutex<Option<Problem>>,
+    /// Somebody has come to its end.
+    read: AtomicBool,
+    _kept: Kept,
+}
+
+impl Upload {
+    pub(super) fn new(encoded: Blocks, encoding: Encoding, bounds: Bounds, kept: Kept) -> Self {
+        let (fault, read) = (Mutex::default(), AtomicBool::new(false));
+        Self { encoded, encoding, bounds, fault, read, _kept: kept }
+    }
+
+    /// Bytes that are to be expected once it is unpacked, a guess for the time that it takes.
+    pub fn expected_bytes(&self) -> u64 {
+        const GROWTH: u64 = 6;
+        let packed = self.encoding != Encoding::Identity || self.encoded.starts_with(&[0x1f, 0x8b]);
+        self.encoded.len() * if packed { GROWTH } else { 1 }
+    }
+
+    fn reader(&self) -> Result<Unpacking<'_>, Problem> {
+        let inner = Unfolding::new(self.encoded.reader(), self.encoded.len(), self.encoding, self.bounds)?;
+        Ok(Unpacking { upload: self, inner })
+    }
+
+    fn found(&self, fault: Problem) -> io::Error {
+        let told = io::Error::other(fault.detail.clone());
+        self.fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(fault);
+        told
+    }
+
+    /// Says what is wrong with the body itself, be it behind all that was read of it.
+    ///
+    /// # Errors
+    /// `malformed-file`, `decoded-too-large`, `expansion-too-high`.
+    pub fn check(&self) -> Result<(), Problem> {
+        let found = || self.fault.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(fault) = found() {
+            return Err(fault);
+        }
+        if self.encoding == Encoding::Identity || self.read.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        // Whatever went wrong here is found.
+        let _ = io::copy(&mut self.reader()?, &mut io::sink());
+        found().map_or(Ok(()), Err)
+    }
+}
+
+impl Source for Upload {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        Ok(Box::new(self.reader().map_err(|fault| self.found(fault))?))
+    }
+}
+
+struct Unpacking<'a> {
+    upload: &'a Upload,
+    inner: Unfolding<'a>,
+}
+
+impl Read for Unpacking<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.inner.next(buffer).map_err(|fault| self.upload.found(fault))?;
+        if count == 0 && !buffer.is_empty() {
+            self.upload.read.store(true, Ordering::Relaxed);
+        }
+        Ok(count)
+    }
+}
+
+/// A part of an uploaded form.
+#[derive(Debug)]
+pub struct Part {
+    form: Arc<Upload>,
+    boundary: String,
+    /// Position in the form.
+    index: usize,
+}
+
+fn broken(error: impl ToString) -> Problem {
+    Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
+}
+
+/// The first part of each of these names in a form, with the name of its file.
+///
+/// # Errors
+/// `malformed-file`.
+pub fn parts<const N: usize>(
+    form: &Arc<Upload>,
+    content_type: &str,
+    names: [&str; N],
+) -> Result<[Option<(Part, Option<String>)>; N], Problem> {
+    let boundary = multer::parse_boundary(content_type)
+        .map_err(|_| broken("Invalid `boundary` for `multipart/form-data` request"))?;
+    let mut found = [const { None }; N];
+    let mut read = form_of(form, &boundary).map_err(broken)?;
+    while let Some(mut field) = now(read.next_field()).map_err(broken)? {
+        let place = names.iter().position(|name| Some(*name) == field.name());
+        if let Some(slot @ None) = place.and_then(|at| found.get_mut(at)) {
+            let part = Part { form: Arc::clone(form), boundary: boundary.clone(), index: field.index() };
+            *slot = Some((part, field.file_name().map(str::to_owned)));
+        }
+        while now(field.chunk()).map_err(broken)?.is_some() {}
+    }
+    Ok(found)
+}
+
+/// A form that is unpacked piece by piece.
+fn form_of<'a>(form: &'a Upload, boundary: &str) -> io::Result<Multipart<'a>> {
+    let reader = form.open()?;
+    // The parser takes in whatever is ready, so after each piece there is none for once.
+    let pieces = stream::unfold((reader, false), |(mut reader, pause)| async move {
+        if pause {
+            pause_once().await;
+        }
+        let mut piece = vec![0; PIECE];
+        match reader.read(&mut piece) {
+            Ok(0) => None,
+            Ok(count) => {
+                piece.truncate(count);
+                Some((Ok(Bytes::from(piece)), (reader, true)))
+            }
+            Err(error) => Some((Err(error), (reader, true))),
+        }
+    });
+    Ok(Multipart::new(pieces, boundary))
+}
+
+async fn pause_once() {
+    let mut paused = false;
+    std::future::poll_fn(
+        |_| {
+            if std::mem::replace(&mut paused, true) { Poll::Ready(()) } else { Poll::Pending }
+        },
+    )
+    .await;
+}
+
+/// The result of what waits for nothing but its next poll.
+fn now<F: Future>(future: F) -> F::Output {
+    let mut future = pin!(future);
+    loop {
+        if let Poll::Ready(result) = future.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+            return result;
+        }
+    }
+}
+
+impl Source for Part {
+    fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
+        let mut form = form_of(&self.form, &self.boundary)?;
+        while let Some(mut field) = now(form.next_field()).map_err(io::Error::other)? {
+            if field.index() == self.index {
+                return Ok(Box::new(PartReader { field, piece: Bytes::new() }));
+            }
+            while now(field.chunk()).map_err(io::Error::other)?.is_some() {}
+        }
+        Err(io::ErrorKind::UnexpectedEof.into())
+    }
+}
+
+struct PartReader<'a> {
+    field: Field<'a>,
+    piece: Bytes,
+}
+
+impl Read for PartReader<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        while self.piece.is_empty() {
+            match now(self.field.chunk()).map_err(io::Error::other)? {
+                Some(piece) => self.piece = piece,
+                None => return Ok(0),
+            }
+        }
+        let piece = self.piece.split_to(self.piece.len().min(buffer.len()));
+        buffer.iter_mut().zip(piece.iter()).for_each(|(to, from)| *to = *from);
+        Ok(piece.len())
+    }
+}
