@@ -5,7 +5,7 @@ use crate::base::problem::{Code, Problem, ProblemDoc};
 use crate::base::{id, metrics};
 use crate::http::body::{self, JsonText, Reading};
 use crate::http::extract::{Connection, Params};
-use crate::scenes::store::{Expect, PackedScene};
+use crate::scenes::store::PackedScene;
 use crate::scenes::{Counts, Facts, record, transfer};
 use crate::work::{Asked, Kind};
 use axum::body::Bytes;
@@ -149,7 +149,7 @@ struct Order {
     refuse_nc: bool,
 }
 
-refusals!(Refused: CHANGES BODY QUERY SCENE WORK, FormatUnknown, LicenceRefused, StoreFull);
+refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK, FormatUnknown, LicenceRefused, StoreFull);
 
 /// Stores the scenes of a file.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),
@@ -193,9 +193,10 @@ pub async fn import(
     };
     let ready = app.pool.run(asked, work).await;
     let Ready { mut reply, rows } = ready.inspect_err(|_| metrics::transfer(false, format, "error"))?;
-    for (scene, (id, row)) in reply.scenes.iter_mut().zip(rows) {
-        scene.etag = Some(app.catalog.store.put(&id, Expect::Absent, row).await?.etag);
-        scene.id = Some(id);
+    let ids: Vec<String> = rows.iter().map(|(id, _)| id.clone()).collect();
+    let etags = if rows.is_empty() { Vec::new() } else { app.catalog.store.put_new(rows).await? };
+    for (scene, (id, etag)) in reply.scenes.iter_mut().zip(ids.into_iter().zip(etags)) {
+        (scene.id, scene.etag) = (Some(id), Some(etag));
     }
     metrics::transfer(false, reply.format, "done");
     let first = reply.scenes.first().and_then(|scene| scene.id.clone());

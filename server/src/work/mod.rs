@@ -13,7 +13,10 @@ mod call;
 mod clients;
 mod job;
 mod kind;
+#[cfg(all(test, feature = "shuttle"))]
+mod schedules;
 mod state;
+mod sync;
 mod turns;
 
 pub use call::superseded;
@@ -28,9 +31,10 @@ use job::Job;
 use state::State;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
+use sync::atomic::{AtomicBool, Ordering};
+use sync::{Condvar, Mutex, MutexGuard, thread};
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -70,7 +74,7 @@ impl Pool {
 
     fn spawn(self: &Arc<Self>, name: String, run: impl FnOnce(&Self) + Send + 'static) -> io::Result<()> {
         let pool = Arc::clone(self);
-        std::thread::Builder::new().name(name).spawn(move || run(&pool)).map(drop)
+        thread::Builder::new().name(name).spawn(move || run(&pool)).map(drop)
     }
 
     /// Queues a job. `make` gives what is to be done and where its end goes.
@@ -229,7 +233,7 @@ impl Pool {
     fn watch(&self) {
         let seconds = Duration::from_secs;
         while !self.stopped.load(Ordering::Relaxed) {
-            std::thread::sleep(Duration::from_millis(100));
+            thread::sleep(Duration::from_millis(100));
             let jobs: Vec<_> = lock(&self.state).jobs.values().cloned().collect();
             for job in jobs {
                 let limit = if job.worked() > seconds(self.limits.generate_s) {
