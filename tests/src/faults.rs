@@ -92,7 +92,7 @@ pub struct Disk {
     folder: PathBuf,
     plan: PathBuf,
     file: File,
-    _own: TempDir,
+    own: TempDir,
 }
 
 /// Words of the plan, by their place in the file.
@@ -115,7 +115,7 @@ impl Disk {
         let plan = own.path().join("plan");
         let file = File::options().read(true).write(true).create_new(true).open(&plan)?;
         file.set_len(WORDS * 8)?;
-        Ok(Self { folder: folder.canonicalize()?, plan, file, _own: own })
+        Ok(Self { folder: folder.canonicalize()?, plan, file, own })
     }
 
     /// Lets a program use this disk.
@@ -126,6 +126,21 @@ impl Disk {
         program.env("LD_PRELOAD", library()?);
         program.env("FAULTS_PLAN", &self.plan).env("FAULTS_FOLDER", &self.folder);
         Ok(())
+    }
+
+    /// A file that is none of the disk's, for what programs say under faults: there is a lot of it.
+    ///
+    /// # Errors
+    /// When it cannot be made.
+    pub fn log(&self) -> std::io::Result<File> {
+        File::options().append(true).create(true).open(self.own.path().join("log"))
+    }
+
+    /// The end of that file.
+    pub fn last_words(&self) -> String {
+        let said = std::fs::read(self.own.path().join("log")).unwrap_or_default();
+        let said = String::from_utf8_lossy(&said[said.len().saturating_sub(2_000)..]).into_owned();
+        format!("the program's last words: {}", said.trim())
     }
 
     fn set(&self, word: u64, value: u64) -> anyhow::Result<()> {

@@ -117,8 +117,8 @@ impl Pool {
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
         let job = Arc::new(Job::new(kind, cost, party, ticket, end, work));
         state.arrived(&job);
-        // A worker reads documents too, while all readers are at it.
-        let reads = lane == Lane::Document && state.idle[Lane::Document as usize] == 0;
+        // A worker reads documents too, while all readers are at it or have been called for others already.
+        let reads = lane == Lane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
         let wakes = if reads { Lane::Quick } else { lane };
         drop(state);
         self.arrived[wakes as usize].notify_one();

@@ -313,7 +313,10 @@ fn side_by_side(pool: &Arc<Pool>, calls: &[(Kind, u64)]) {
 fn all_threads_work_while_there_is_work_for_them() {
     explore(|| {
         let pool = pool(2, 8);
-        side_by_side(&pool, &[(Kind::Score, 1), (Kind::Score, 1), (Kind::Generate, 900), (Kind::Document, 1)]);
+        side_by_side(
+            &pool,
+            &[(Kind::Score, 1), (Kind::Score, 1), (Kind::Generate, 900), (Kind::Document, 1)],
+        );
         close(&pool);
     });
 }

@@ -247,8 +247,9 @@ fn score(common: &Common, random: &mut Random) -> anyhow::Result<()> {
 /// A file comes in, is looked at, and goes.
 fn import(common: &Common, random: &mut Random) -> anyhow::Result<()> {
     let file = street(1 + random.below(10) as usize, 30).to_string();
-    let request =
-        Request::new("POST", "/v1/import").header("content-type", "application/octet-stream").body(file);
+    let request = Request::new("POST", "/v1/import?format=dragtraffic")
+        .header("content-type", "application/octet-stream")
+        .body(file);
     let Some(reply) = common.ask("import", &request, &[])? else { return Ok(()) };
     let made: Value = reply.json()["scenes"][0].clone();
     let (Some(id), Some(etag)) = (made["id"].as_str(), made["etag"].as_str()) else {

@@ -9,7 +9,7 @@ use crate::scenes::street;
 use crate::writers::{self, Outcome, Tally, Writer};
 use anyhow::{Context, bail, ensure};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// Writers that take turns: the calls of a round come in one order.
 const WRITERS: u64 = 3;
@@ -65,7 +65,8 @@ pub fn faults(count: u64, seed: u64, tell: Tell<'_>) -> anyhow::Result<Report> {
     trial.restart()?;
     while trial.report.failed < count {
         let round = trial.report.rounds;
-        trial.round().with_context(|| format!("round {round} of seed {seed}"))?;
+        let done = trial.round();
+        done.with_context(|| format!("round {round} of seed {seed}\n{}", trial.disk.last_words()))?;
         trial.report.rounds += 1;
         trial.report.failed = trial.disk.failed()?;
         if round % 50 == 49 {
@@ -98,8 +99,7 @@ impl Trial {
         let data = self.folder.path().join("data");
         let data = data.to_str().context("a folder with a plain name")?;
         let mut command = Server::command(&self.db(), &["--data", data, "--limit", "cached_scene_bytes=1"]);
-        // Faults are told there, by the dozen.
-        command.stderr(Stdio::null());
+        command.stderr(self.disk.log()?);
         self.disk.put_under(&mut command)?;
         Ok(command)
     }

@@ -10,7 +10,7 @@ use crate::writers::{self, Outcome, Writer};
 use anyhow::{Context, bail, ensure};
 use serde_json::json;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
 const WRITERS: u64 = 4;
@@ -106,7 +106,8 @@ pub fn schedules(count: u64, seed: u64, tell: Tell<'_>) -> anyhow::Result<u64> {
         for (at, step) in steps.iter().enumerate() {
             stage.step(*step).with_context(|| {
                 let past: Vec<String> = steps[..=at].iter().map(|step| format!("  {step:?}")).collect();
-                format!("{}\nagain with: cargo xtask soak schedule --seed {seed} --count 1", past.join("\n"))
+                let (past, said) = (past.join("\n"), stage.disk.last_words());
+                format!("{past}\n{said}\nagain with: cargo xtask soak schedule --seed {seed} --count 1")
             })?;
             done += 1;
         }
@@ -146,8 +147,7 @@ impl Stage {
     fn start(&mut self) -> anyhow::Result<()> {
         self.disk_is(None)?;
         let mut command = Server::command(&self.db(), &[]);
-        // Faults are told there, by the dozen.
-        command.stderr(Stdio::null());
+        command.stderr(self.disk.log()?);
         self.disk.put_under(&mut command)?;
         let server = Server::launch(command)?;
         writers::compare(&mut self.crowd, &server)?;

@@ -74,12 +74,14 @@ impl From<StoreError> for Problem {
     }
 }
 
-/// A failure of what lies below the database library, or of others that hold the file: not of this program.
+/// A failure of what lies below the database library, or of others that hold the file: not of this program. Pages
+/// that the disk does not give are "corrupt" to that library.
 fn is_of_the_disk(code: ErrorCode) -> bool {
     matches!(
         code,
         ErrorCode::SystemIoFailure
             | ErrorCode::CannotOpen
+            | ErrorCode::DatabaseCorrupt
             | ErrorCode::ReadOnly
             | ErrorCode::PermissionDenied
             | ErrorCode::DatabaseBusy
