@@ -215,7 +215,8 @@ impl Trial {
         std::fs::create_dir_all(&copies)?;
         let copy = copies.join("copy.sqlite");
         let call = [Call::Write, Call::Sync, Call::Rename, Call::Read][self.random.below(4) as usize];
-        let how = if self.random.below(2) == 0 { How::Full } else { How::Broken };
+        let can_be_full = call != Call::Read && self.random.below(2) == 0;
+        let how = if can_be_full { How::Full } else { How::Broken };
         self.disk.fails(Fault { call, how, before: self.random.below(12), failing: u64::MAX })?;
         let mut command = Command::new(program());
         command.args(["backup", "--db"]).arg(self.db()).arg("-o").arg(&copy);

@@ -61,10 +61,7 @@ fn fill(source: &Connection, partial: &Path) -> Result<u64, StoreError> {
     target.pragma_update(None, "synchronous", "OFF")?;
     all_pages(source, &mut target)?;
     target.pragma_update(None, "journal_mode", "DELETE")?;
-    let found: String = target.query_row("PRAGMA integrity_check(1)", [], |row| row.get(0))?;
-    if found != "ok" {
-        return Err(StoreError::Broken(found));
-    }
+    migrations::look_through(&target, "integrity_check")?;
     if target.prepare("PRAGMA foreign_key_check")?.exists([])? {
         return Err(StoreError::Broken("a scene has lost its map".into()));
     }

@@ -53,11 +53,20 @@ pub fn check(connection: &Connection) -> Result<(), StoreError> {
     if id != OURS && !(id == 0 && fits) {
         return Err(StoreError::Foreign);
     }
-    let found: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
-    if found != "ok" {
-        return Err(StoreError::Broken(found));
+    look_through(connection, "quick_check")
+}
+
+/// Has the database library look for damage.
+///
+/// # Errors
+/// [`StoreError::Broken`] with the first that it finds, in one line.
+pub fn look_through(connection: &Connection, pragma: &str) -> Result<(), StoreError> {
+    let found: String = connection.query_row(&format!("PRAGMA {pragma}(1)"), [], |row| row.get(0))?;
+    if found == "ok" {
+        return Ok(());
     }
-    Ok(())
+    let lines: Vec<&str> = found.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    Err(StoreError::Broken(lines.join(" ")))
 }
 
 /// Brings a file up to date in one transaction, after a copy beside it.
