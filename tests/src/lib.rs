@@ -1,10 +1,16 @@
 //! What the end-to-end tests share: the real program, a plain HTTP client, small scenes.
 
 pub mod contract;
+#[cfg(target_os = "linux")]
+pub mod faults;
 pub mod http;
 pub mod program;
+pub mod random;
 pub mod rooms;
 pub mod scenes;
+#[cfg(target_os = "linux")]
+pub mod soak;
+pub mod writers;
 
 pub use http::{Reply, Request};
 pub use program::Server;

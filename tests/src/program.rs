@@ -31,12 +31,19 @@ pub fn program() -> &'static Path {
 
 /// The program beside the tests, when nothing it is made from has changed since.
 fn current() -> Option<PathBuf> {
-    let tests = std::env::current_exe().ok()?;
-    let program = tests.parent()?.parent()?.join("dragtraffic");
-    let built = program.metadata().and_then(|m| m.modified()).ok()?;
     let sources = ["Cargo.lock", "server", "models", "assets/scenes", "web/src", "web/index.html"];
-    let changed = sources.iter().filter_map(|source| newest(&root().join(source))).max()?;
-    (changed < built).then_some(program)
+    let sources: Vec<PathBuf> = sources.iter().map(|source| root().join(source)).collect();
+    built("dragtraffic", &sources)
+}
+
+/// What cargo has put under this name beside the tests, when none of its sources has changed since.
+pub(crate) fn built(name: &str, sources: &[impl AsRef<Path>]) -> Option<PathBuf> {
+    let own = std::env::current_exe().ok()?;
+    // Tests lie in a folder of their own, programs beside it.
+    let path = own.ancestors().skip(1).take(2).map(|folder| folder.join(name)).find(|path| path.is_file())?;
+    let made = path.metadata().and_then(|m| m.modified()).ok()?;
+    let changed = sources.iter().filter_map(|source| newest(source.as_ref())).max();
+    changed.is_none_or(|changed| changed < made).then_some(path)
 }
 
 /// Latest change of a file, or of any file below a folder.
@@ -103,13 +110,22 @@ impl Server {
     /// # Errors
     /// When it does not say its address.
     pub fn start_at(db: &Path, flags: &[&str]) -> anyhow::Result<Self> {
-        let mut child = Command::new(program())
-            .args(["serve", "--port", "0", "--log-level", "warn", "--db"])
-            .arg(db)
-            .args(flags)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .spawn()?;
+        Self::launch(Self::command(db, flags))
+    }
+
+    /// The call that starts one on a given store.
+    pub fn command(db: &Path, flags: &[&str]) -> Command {
+        let mut command = Command::new(program());
+        command.args(["serve", "--port", "0", "--log-level", "warn", "--db"]).arg(db).args(flags);
+        command
+    }
+
+    /// Starts one by a call that was made ready.
+    ///
+    /// # Errors
+    /// When it does not say its address.
+    pub fn launch(mut command: Command) -> anyhow::Result<Self> {
+        let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
         let out = child.stdout.take().context("no stdout")?;
         let mut line = String::new();
         BufReader::new(out).read_line(&mut line)?;
@@ -170,6 +186,22 @@ impl Server {
             line.strip_prefix(name).is_some_and(|rest| rest.starts_with('{') || rest.starts_with(' '))
         });
         Ok(lines.filter_map(|line| line.rsplit(' ').next()?.parse::<f64>().ok()).sum())
+    }
+
+    /// Memory that it holds, bytes (Linux).
+    ///
+    /// # Errors
+    /// When it is gone, or the system does not tell.
+    pub fn memory(&self) -> anyhow::Result<u64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.pid()))?;
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).context("no VmRSS")?;
+        let kib: u64 = line.trim().trim_end_matches(" kB").parse()?;
+        Ok(kib << 10)
+    }
+
+    /// True while it runs.
+    pub fn is_up(&mut self) -> bool {
+        matches!(self.child.try_wait(), Ok(None))
     }
 
     /// Process id.

@@ -34,7 +34,9 @@ const HOMES: &[(&str, &[&str])] = &[
     ("rand_distr", &["scene"]),
     ("blake3", &["scene", "lab-train"]),
     ("axum", &["dragtraffic"]),
-    ("rusqlite", &["dragtraffic"]),
+    // Tests look into the store with the library itself.
+    ("rusqlite", &["dragtraffic", "tests"]),
+    ("shuttle", &["dragtraffic"]),
     ("hyper", &["dragtraffic"]),
     ("prost", &["formats"]),
     // XML is read by the scanner of `formats::sumo`, which says why.

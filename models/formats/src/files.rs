@@ -61,6 +61,11 @@ impl Whole {
         Ok(Self { target, partial: Some(partial), file: BufWriter::new(file) })
     }
 
+    /// Where it lies until it is finished, for those who write it by its name; `None` for a device or a pipe.
+    pub fn partial(&self) -> Option<&Path> {
+        self.partial.as_deref()
+    }
+
     /// Puts the file in its place.
     ///
     /// # Errors

@@ -74,6 +74,7 @@ codes! {
     NonFiniteOutput "non-finite-output" 500 "Expert gave no number" "An expert gave NaN or Infinity; `step` and `agent` say where. Nothing of it is sent.";
     Busy "busy" 503 "Busy" "The queue is full. Retry-After says when to ask again.";
     NotReady "not-ready" 503 "Not ready" "`failing` lists what is not ready.";
+    StoreUnavailable "store-unavailable" 503 "Store out of reach" "The disk refuses to read or write saved scenes. What was answered with success is kept; Retry-After says when to ask again.";
     ShuttingDown "shutting-down" 503 "Shutting down" "The server is about to stop.";
     GenerateTimeout "generate-timeout" 504 "Took too long" "The work took longer than `limit` seconds.";
     StoreFull "store-full" 507 "Store is full" "The store holds as many scenes or bytes as it may.";

@@ -1,5 +1,6 @@
 //! The command line. Results go to stdout, everything else to stderr.
 
+mod backup;
 mod common;
 mod convert;
 mod document;
@@ -64,6 +65,9 @@ enum Command {
     /// Serve the editor and the HTTP API (the default).
     #[command(after_help = examples!("dragtraffic serve --open", "dragtraffic serve --data recordings/ --port 9000"))]
     Serve(serve::ServeArgs),
+    /// Copy the saved scenes, also while a server works on them.
+    #[command(after_help = examples!("dragtraffic backup -o scenes-monday.sqlite", "dragtraffic backup --db scenes.sqlite -o copies/scenes.sqlite --force"))]
+    Backup(backup::BackupArgs),
     /// Generate futures of scenes.
     #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=ahead:40,left:3.5,time:4 --react -o out.json", "dragtraffic generate scenes/ --template brake,cut-in --seeds 20 --where 'actor.min_ttc_s < 1.5 && collisions == 0' -o found/"))]
     Generate(Box<generate::GenerateArgs>),
@@ -182,6 +186,7 @@ impl Command {
     fn run(self, common: &Common) -> Result<(), Failure> {
         match self {
             Self::Serve(args) => serve::run(args, common),
+            Self::Backup(args) => backup::run(args, common),
             Self::Generate(args) => generate::run(*args, common),
             Self::Place(args) => place::run(args, common),
             Self::Convert(args) => convert::convert(args, common),

@@ -197,7 +197,7 @@ fn read_token(path: &Path) -> Result<String, Failure> {
 }
 
 /// `dragtraffic/scenes.sqlite` in the user's data folder, else in this folder.
-fn default_db() -> Result<PathBuf, Failure> {
+pub(super) fn default_db() -> Result<PathBuf, Failure> {
     let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
     let data = variable("XDG_DATA_HOME").or_else(|| variable("HOME").map(|home| home.join(".local/share")));
     let Some(folder) = data.map(|data| data.join("dragtraffic")) else {

@@ -38,8 +38,8 @@ impl Default for ExportParams {
     }
 }
 
-refusals!(Refused: QUERY WORK, NotFound, FormatUnknown, CannotRepresent);
-refusals!(Unwritten: CHANGES BODY SCENE WORK, FormatUnknown, CannotRepresent);
+refusals!(Refused: QUERY STORE WORK, NotFound, FormatUnknown, CannotRepresent);
+refusals!(Unwritten: CHANGES BODY SCENE STORE WORK, FormatUnknown, CannotRepresent);
 
 /// Exports a scene of this server.
 #[utoipa::path(get, path = "/v1/scenes/{id}/export", operation_id = "exportScene", tag = "files",

@@ -240,7 +240,7 @@ impl AboutScene for GenerateRequest {
     }
 }
 
-refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK,
+refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK,
     NotAcceptable, Exists, Superseded, StaleRevision, ReplyTooLarge, NonFiniteOutput);
 
 /// Generates futures. The reply is a stream of events (NDJSON or SSE) or the last event alone (JSON),

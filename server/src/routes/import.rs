@@ -7,7 +7,7 @@ use crate::http::body::{self, JsonText, Reading, Room};
 use crate::http::extract::{Connection, Params};
 use crate::http::packed::{PackedText, TextPacker};
 use crate::http::upload::{self, Upload};
-use crate::scenes::store::{Expect, PackedScene};
+use crate::scenes::store::PackedScene;
 use crate::scenes::{Counts, Facts, record, transfer};
 use crate::work::{Asked, Kind};
 use axum::extract::{FromRef, Request, State};
@@ -141,7 +141,7 @@ struct Order {
     refuse_nc: bool,
 }
 
-refusals!(Refused: CHANGES BODY QUERY SCENE WORK, FormatUnknown, LicenceRefused, StoreFull);
+refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK, FormatUnknown, LicenceRefused, StoreFull);
 
 /// Stores the scenes of a file.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),
@@ -189,9 +189,10 @@ pub async fn import(
         }
         Ready::Store(reply, rows) => (reply, rows),
     };
-    for (scene, (id, row)) in reply.scenes.iter_mut().zip(rows) {
-        scene.etag = Some(app.catalog.store.put(&id, Expect::Absent, row).await?.etag);
-        scene.id = Some(id);
+    let ids: Vec<String> = rows.iter().map(|(id, _)| id.clone()).collect();
+    let etags = if rows.is_empty() { Vec::new() } else { app.catalog.store.put_new(rows).await? };
+    for (scene, (id, etag)) in reply.scenes.iter_mut().zip(ids.into_iter().zip(etags)) {
+        (scene.id, scene.etag) = (Some(id), Some(etag));
     }
     metrics::transfer(false, reply.format, "done");
     let first = reply.scenes.first().and_then(|scene| scene.id.clone());

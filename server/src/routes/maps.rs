@@ -30,8 +30,8 @@ pub struct MapList {
     maps: Vec<MapItem>,
 }
 
-refusals!(Refused:);
-refusals!(Unread: WORK, NotFound);
+refusals!(Refused: STORE);
+refusals!(Unread: STORE WORK, NotFound);
 
 /// Lists the maps of saved scenes.
 #[utoipa::path(get, path = "/v1/maps", operation_id = "listMaps", tag = "maps",

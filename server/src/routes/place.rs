@@ -150,7 +150,7 @@ impl AboutScene for PlaceBody {
     }
 }
 
-refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK);
+refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
 
 /// Places road users on a map: vehicles on lanes and parked at kerbs, people on crosswalks and pavements,
 /// cyclists on bike lanes or on the right. Boxes keep 0.1 m apart and all centres lie in the region. Fewer

@@ -44,6 +44,8 @@ pub const SCENE: &[Code] = &[
 ];
 /// Operations that take a scene or the id of one.
 pub const SCENE_REF: &[Code] = &[Code::NotFound, Code::StaleEtag];
+/// Operations that look into the store.
+pub const STORE: &[Code] = &[Code::StoreUnavailable];
 /// Operations that read query parameters.
 pub const QUERY: &[Code] = &[Code::InvalidField, Code::OutOfRange];
 /// Operations whose work may wait for a worker.

@@ -49,7 +49,7 @@ pub struct SceneList {
     next: Option<String>,
 }
 
-refusals!(Unlisted: QUERY);
+refusals!(Unlisted: QUERY STORE);
 
 /// Lists scenes without their content: saved ones, demos, and those of the data folder.
 #[utoipa::path(get, path = "/v1/scenes", operation_id = "listScenes", tag = "scenes", params(ListParams),
@@ -141,7 +141,7 @@ pub enum MapParam {
     Ref,
 }
 
-refusals!(Unread: QUERY WORK, NotFound);
+refusals!(Unread: QUERY STORE WORK, NotFound);
 
 /// Reads a scene.
 #[utoipa::path(get, path = "/v1/scenes/{id}", operation_id = "readScene", tag = "scenes",
@@ -200,7 +200,7 @@ fn saved(status: StatusCode, id: String, etag: String) -> Response {
     (status, head, axum::Json(Saved { id, etag })).into_response()
 }
 
-refusals!(Uncreated: CHANGES BODY SCENE WORK, Exists, StoreFull);
+refusals!(Uncreated: CHANGES BODY SCENE STORE WORK, Exists, StoreFull);
 
 /// Saves a new scene; the id of the document is ignored.
 #[utoipa::path(post, path = "/v1/scenes", operation_id = "createScene", tag = "scenes",
@@ -213,7 +213,7 @@ pub async fn create(State(app): State<App>, Json(doc): Json<SceneDoc>) -> Result
     Ok(saved(StatusCode::CREATED, id, written.etag))
 }
 
-refusals!(Unreplaced: CHANGES BODY SCENE WORK,
+refusals!(Unreplaced: CHANGES BODY SCENE STORE WORK,
     NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
 
 /// Replaces a scene (If-Match) or makes one under the client's own id (If-None-Match: *).
@@ -275,7 +275,7 @@ fn present<'de, D: serde::Deserializer<'de>, T: Deserialize<'de>>(
     Option::deserialize(d).map(Some)
 }
 
-refusals!(Unrenamed: CHANGES BODY SCENE WORK,
+refusals!(Unrenamed: CHANGES BODY SCENE STORE WORK,
     NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
 
 /// Renames a scene, or changes its tags or notes (RFC 7396 merge patch).
@@ -313,7 +313,7 @@ pub async fn rename(State(app): State<App>, Id(id): Id, request: Request) -> Res
     Ok(saved(StatusCode::OK, id, written.etag))
 }
 
-refusals!(Undeleted: CHANGES, NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
+refusals!(Undeleted: CHANGES STORE, NotFound, StaleEtag, PreconditionRequired, ReadOnly, StoreFull);
 
 /// Deletes a scene.
 #[utoipa::path(delete, path = "/v1/scenes/{id}", operation_id = "deleteScene", tag = "scenes",
@@ -334,7 +334,7 @@ pub struct DuplicateRequest {
     name: Option<String>,
 }
 
-refusals!(Uncopied: CHANGES BODY WORK, NotFound, StoreFull);
+refusals!(Uncopied: CHANGES BODY STORE WORK, NotFound, StoreFull);
 
 /// Copies a scene, read-only ones too; `meta.parent_id` names the original.
 #[utoipa::path(post, path = "/v1/scenes/{id}/duplicate", operation_id = "duplicateScene", tag = "scenes",

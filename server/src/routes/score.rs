@@ -114,7 +114,7 @@ impl AboutScene for ScoreRequest {
     }
 }
 
-refusals!(Refused: CHANGES BODY SCENE SCENE_REF WORK);
+refusals!(Refused: CHANGES BODY SCENE SCENE_REF STORE WORK);
 
 /// Scores a scene: chosen futures or the given motion, and the log of the rest.
 #[utoipa::path(post, path = "/v1/score", operation_id = "score", tag = "score",

@@ -2,11 +2,12 @@
 
 use super::job::{Asked, Caller, Ending, Stop};
 use super::kind::Kind;
+use super::sync::Mutex;
 use super::{Pool, lock};
 use crate::base::metrics;
 use crate::base::problem::{Code, Problem};
 use experts::Cancel;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::oneshot;
 
@@ -89,7 +90,7 @@ impl Pool {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(feature = "shuttle")))]
 mod tests {
     use super::super::{Asked, Caller, Kind, Pool};
     use crate::base::limits::Limits;

@@ -2,10 +2,11 @@
 
 use super::kind::{Kind, Lane};
 use super::lock;
+use super::sync::Mutex;
 use crate::base::metrics;
 use crate::base::problem::{Code, Problem};
 use experts::Cancel;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What a worker does. It ends the job itself unless it is stopped.

@@ -13,7 +13,10 @@ mod call;
 mod clients;
 mod job;
 mod kind;
+#[cfg(all(test, feature = "shuttle"))]
+mod schedules;
 mod state;
+mod sync;
 mod turns;
 
 pub use call::superseded;
@@ -28,9 +31,10 @@ use job::Job;
 use state::State;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
+use sync::atomic::{AtomicBool, Ordering};
+use sync::{Condvar, Mutex, MutexGuard, thread};
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -70,7 +74,7 @@ impl Pool {
 
     fn spawn(self: &Arc<Self>, name: String, run: impl FnOnce(&Self) + Send + 'static) -> io::Result<()> {
         let pool = Arc::clone(self);
-        std::thread::Builder::new().name(name).spawn(move || run(&pool)).map(drop)
+        thread::Builder::new().name(name).spawn(move || run(&pool)).map(drop)
     }
 
     /// Queues a job. `make` gives what is to be done and where its end goes.
@@ -113,8 +117,8 @@ impl Pool {
         let end = Arc::clone(&ending) as Arc<dyn Ending>;
         let job = Arc::new(Job::new(kind, cost, party, ticket, end, work));
         state.arrived(&job);
-        // A worker reads documents too, while all readers are at it.
-        let reads = lane == Lane::Document && state.idle[Lane::Document as usize] == 0;
+        // A worker reads documents too, while all readers are at it or have been called for others already.
+        let reads = lane == Lane::Document && state.lane(lane).queue.len() > state.idle[lane as usize];
         let wakes = if reads { Lane::Quick } else { lane };
         drop(state);
         self.arrived[wakes as usize].notify_one();
@@ -230,7 +234,7 @@ impl Pool {
         let seconds = Duration::from_secs;
         let mut rounds = 0u64;
         while !self.stopped.load(Ordering::Relaxed) {
-            std::thread::sleep(Duration::from_millis(100));
+            thread::sleep(Duration::from_millis(100));
             rounds += 1;
             if rounds.is_multiple_of(50) {
                 // The allocator gives memory back when it is asked for some: in a server at rest, here.

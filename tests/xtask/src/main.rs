@@ -1,10 +1,13 @@
 //! `cargo xtask test`: sets up what the checks need and runs all of them.
 //! `cargo xtask golden`: shows how the answers of the shipped weights differ from the golden ones.
+//! `cargo xtask soak NAME`: trials that go on for as long as one likes.
 //!
 //! `cargo xtask test NAME…` runs some. What is missing on this machine (a browser) is skipped with a
 //! printed reason; a check that fails does not stop the others.
 
 #![allow(clippy::print_stdout, reason = "it talks to people")]
+
+mod soak;
 
 use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
@@ -30,6 +33,7 @@ const CHECKS: &[Check] = &[
     ("clippy", || cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])),
     ("wasm", wasm),
     ("test", || cargo(&["test", "--workspace", "--locked"])),
+    ("schedules", soak::schedules),
     ("openapi", || drift("openapi", "assets/openapi.json")),
     ("schema", || drift("schema", "assets/schema/scene.v1.schema.json")),
     ("domain", || drift("domain", "assets/domain.json")),
@@ -50,11 +54,13 @@ fn main() -> ExitCode {
         Some((command, names)) if command == "test" => test(names),
         Some((command, [])) if command == "golden" => golden("review"),
         Some((command, [flag])) if command == "golden" && flag == "--accept" => golden("accept"),
+        Some((command, rest)) if command == "soak" => soak::run(rest),
         _ => {
             let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
             let names = names.join(", ");
             eprintln!(
-                "usage: cargo xtask test [NAME…]\n       cargo xtask golden [--accept]\nchecks: {names}"
+                "usage: cargo xtask test [NAME…]\n       cargo xtask golden [--accept]\n       \
+                 cargo xtask soak clients|kills|faults|schedule [--minutes N | --count N] [--seed S]\nchecks: {names}"
             );
             ExitCode::from(2)
         }

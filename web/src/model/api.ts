@@ -2158,7 +2158,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -3772,7 +3772,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -3780,7 +3780,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -4020,7 +4020,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -4028,7 +4028,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -4236,7 +4236,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -4244,7 +4244,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -4596,6 +4596,18 @@ export interface operations {
                     };
                 };
             };
+            /** @description store-unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable";
+                    };
+                };
+            };
         };
     };
     readMap: {
@@ -4733,7 +4745,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -4741,7 +4753,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -4971,7 +4983,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -4979,7 +4991,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -5121,6 +5133,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable";
                     };
                 };
             };
@@ -5293,7 +5317,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -5301,7 +5325,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -5481,7 +5505,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -5489,7 +5513,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -5724,7 +5748,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -5732,7 +5756,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -5899,6 +5923,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "internal";
+                    };
+                };
+            };
+            /** @description store-unavailable */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "store-unavailable";
                     };
                 };
             };
@@ -6127,7 +6163,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -6135,7 +6171,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -6350,7 +6386,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -6358,7 +6394,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -6535,7 +6571,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -6543,7 +6579,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };
@@ -6756,7 +6792,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description busy, shutting-down */
+            /** @description store-unavailable, busy, shutting-down */
             503: {
                 headers: {
                     [name: string]: unknown;
@@ -6764,7 +6800,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "busy" | "shutting-down";
+                        code?: "store-unavailable" | "busy" | "shutting-down";
                     };
                 };
             };

@@ -1,6 +1,6 @@
 //! The schema and its history. `user_version` says how many steps a file has taken.
 
-use super::StoreError;
+use super::{StoreError, backup};
 use rusqlite::Connection;
 use std::path::Path;
 
@@ -53,11 +53,20 @@ pub fn check(connection: &Connection) -> Result<(), StoreError> {
     if id != OURS && !(id == 0 && fits) {
         return Err(StoreError::Foreign);
     }
-    let found: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
-    if found != "ok" {
-        return Err(StoreError::Broken(found));
+    look_through(connection, "quick_check")
+}
+
+/// Has the database library look for damage.
+///
+/// # Errors
+/// [`StoreError::Broken`] with the first that it finds, in one line.
+pub fn look_through(connection: &Connection, pragma: &str) -> Result<(), StoreError> {
+    let found: String = connection.query_row(&format!("PRAGMA {pragma}(1)"), [], |row| row.get(0))?;
+    if found == "ok" {
+        return Ok(());
     }
-    Ok(())
+    let lines: Vec<&str> = found.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    Err(StoreError::Broken(lines.join(" ")))
 }
 
 /// Brings a file up to date in one transaction, after a copy beside it.
@@ -65,26 +74,35 @@ pub fn check(connection: &Connection) -> Result<(), StoreError> {
 /// # Errors
 /// When the file is newer, or a step fails; the file is then as before.
 pub fn run(connection: &mut Connection, path: &Path) -> Result<(), StoreError> {
+    take(STEPS, connection, path)
+}
+
+/// Takes those of these steps that a file has not taken yet.
+fn take(steps: &[&str], connection: &mut Connection, path: &Path) -> Result<(), StoreError> {
     let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
-    if version > LATEST {
+    let latest = steps.len() as i64;
+    if version > latest {
         return Err(StoreError::Newer(version));
     }
     let id: i32 = connection.pragma_query_value(None, "application_id", |row| row.get(0))?;
-    if version == LATEST && id == OURS {
+    if version == latest && id == OURS {
         return Ok(());
     }
-    if version > 0 && version < LATEST {
+    if version > 0 && version < latest {
         let copy = path.with_extension(format!("v{version}.sqlite"));
         if !copy.exists() {
-            connection.execute("VACUUM INTO ?1", [copy.to_string_lossy()])?;
+            backup::copy(connection, &copy)?;
         }
     }
     let transaction = connection.transaction()?;
-    for step in STEPS.iter().skip(usize::try_from(version).unwrap_or(0)) {
+    for step in steps.iter().skip(usize::try_from(version).unwrap_or(0)) {
         transaction.execute_batch(step)?;
     }
-    transaction.pragma_update(None, "user_version", LATEST)?;
+    transaction.pragma_update(None, "user_version", latest)?;
     transaction.pragma_update(None, "application_id", OURS)?;
     transaction.commit()?;
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

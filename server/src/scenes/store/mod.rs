@@ -4,16 +4,19 @@
 //! its own: nothing else runs on them. A write is answered after its commit, so a reply of success
 //! survives a power cut.
 
+mod backup;
+mod error;
 mod list;
 mod migrations;
 mod records;
 mod reserve;
 
+pub use backup::backup;
+pub use error::StoreError;
 pub use list::{Page, Sort};
 pub use records::{Expect, MapRecord, PackedScene, SceneRecord, SceneSummary, StoredMap, Written};
 
 use crate::base::limits::Limits;
-use crate::base::problem::{Code, Problem};
 use reserve::Reserve;
 use rusqlite::{Connection, OpenFlags};
 use std::path::Path;
@@ -22,67 +25,6 @@ use std::time::Duration;
 use tokio::sync::oneshot;
 
 const READERS: usize = 4;
-
-/// Why the store refused or failed.
-#[derive(Debug, thiserror::Error)]
-pub enum StoreError {
-    /// The database library reports this.
-    #[error("{0}")]
-    Sqlite(#[from] rusqlite::Error),
-    /// A stored body cannot be read.
-    #[error("stored body: {0}")]
-    Body(#[from] std::io::Error),
-    /// The system gives no thread.
-    #[error("no thread for the store: {0}")]
-    Thread(std::io::Error),
-    /// Written by a later version of the program.
-    #[error("the file has schema {0}, this program knows up to {known}", known = migrations::LATEST)]
-    Newer(i64),
-    /// The file holds something else than scenes.
-    #[error("the file is another program's database; choose another one with --db")]
-    Foreign,
-    /// The database library finds the file damaged.
-    #[error("the file is damaged: {0}")]
-    Broken(String),
-    /// The precondition names another version.
-    #[error("the scene has changed in the meantime")]
-    Stale {
-        /// ETag of the stored scene.
-        etag: String,
-        /// RFC 3339.
-        updated_at: String,
-    },
-    /// Nothing has this id.
-    #[error("no such scene")]
-    Missing,
-    /// A limit is reached.
-    #[error("the store is full: {0}")]
-    Full(String),
-    /// The writer thread has ended.
-    #[error("the store is closed")]
-    Closed,
-}
-
-impl From<StoreError> for Problem {
-    fn from(error: StoreError) -> Self {
-        let text = error.to_string();
-        match error {
-            StoreError::Stale { etag, updated_at } => {
-                let detail = "The stored scene is another than the one you read.";
-                Self::new(Code::StaleEtag, detail)
-                    .with(|m| (m.etag, m.updated_at) = (Some(etag), Some(updated_at)))
-            }
-            StoreError::Missing => Self::new(Code::NotFound, "No scene has this id."),
-            StoreError::Full(what) => Self::new(Code::StoreFull, what),
-            StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _))
-                if e.code == rusqlite::ErrorCode::DiskFull =>
-            {
-                Self::new(Code::StoreFull, "The disk is full.")
-            }
-            _ => Self::internal(text),
-        }
-    }
-}
 
 type Work = Box<dyn FnOnce(&mut Connection) + Send>;
 
@@ -97,20 +39,13 @@ pub struct Store {
     reserve: Arc<Reserve>,
 }
 
-impl StoreError {
-    /// The disk has no room.
-    fn is_disk_full(&self) -> bool {
-        matches!(self, Self::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == rusqlite::ErrorCode::DiskFull)
-    }
-}
-
 impl Store {
     /// Opens or makes the file and brings its schema up to date.
     ///
     /// # Errors
     /// When the file cannot be opened, is no database, is damaged, another program's, or of a later version.
     pub fn open(path: &Path, limits: &Arc<Limits>) -> Result<Self, StoreError> {
-        reserve::make_private(path)?;
+        reserve::make_private(path).map_err(StoreError::File)?;
         let mut connection = Connection::open(path)?;
         migrations::check(&connection)?;
         prepare(&connection)?;

@@ -1,6 +1,7 @@
 //! Rows of the store, and the questions asked of it.
 
 use super::{Store, StoreError};
+use crate::base::limits::Limits;
 use crate::base::problem::Problem;
 use crate::base::{clock, metrics};
 use rusqlite::{OptionalExtension, Row, Transaction, named_params};
@@ -186,32 +187,20 @@ impl Store {
     /// Writes a scene under an id; checks the precondition in the same transaction.
     pub async fn put(&self, id: &str, expect: Expect, scene: PackedScene) -> Result<Written, StoreError> {
         let (id, limits) = (id.to_owned(), Arc::clone(&self.limits));
-        let written = self
-            .write(move |tx| {
-                let stored = current(tx, &id)?;
-                check(&expect, stored.as_ref())?;
-                if stored.is_none() {
-                    let count: i64 = tx.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
-                    if count.unsigned_abs() >= limits.stored_scenes {
-                        return Err(StoreError::Full(format!("{count} scenes are stored.")));
-                    }
-                }
-                let before = stored.as_ref().map_or(0, |s| s.bytes);
-                let map_bytes = scene.map.body.as_ref().map_or(0, Vec::len) as u64;
-                make_room(
-                    tx,
-                    (scene.body.len() as u64).saturating_sub(before) + map_bytes,
-                    limits.store_bytes,
-                )?;
-                keep_map(tx, &scene.map)?;
-                let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
-                let etag = etag(rev, &scene.hash);
-                save(tx, (&id, rev, &etag), &scene)?;
-                Ok(Written { etag, created: stored.is_none() })
-            })
-            .await?;
+        let written = self.write(move |tx| put(tx, &limits, &id, &expect, &scene)).await?;
         self.tell_size().await;
         Ok(written)
+    }
+
+    /// Writes new scenes, all of them or none; their ETags in the same order.
+    pub async fn put_new(&self, scenes: Vec<(String, PackedScene)>) -> Result<Vec<String>, StoreError> {
+        let limits = Arc::clone(&self.limits);
+        let put_one = move |tx: &Transaction<'_>, (id, scene): &(String, PackedScene)| {
+            put(tx, &limits, id, &Expect::Absent, scene).map(|written| written.etag)
+        };
+        let etags = self.write(move |tx| scenes.iter().map(|scene| put_one(tx, scene)).collect()).await?;
+        self.tell_size().await;
+        Ok(etags)
     }
 
     /// Deletes a scene, on a full disk too: the room that is kept for that is given up then.
@@ -228,7 +217,9 @@ impl Store {
             Err(error) if error.is_disk_full() && self.reserve.give_up() => {
                 delete(id.to_owned(), expect).await?;
                 // Without this the log would take the room that is kept for the next delete.
-                self.empty_log().await?;
+                if let Err(error) = self.empty_log().await {
+                    tracing::warn!(%error, "the log keeps its room");
+                }
                 self.reserve.restore();
             }
             done => done?,
@@ -290,6 +281,31 @@ impl Store {
             tracing::warn!(%error, "the store's size cannot be told");
         }
     }
+}
+
+fn put(
+    tx: &Transaction<'_>,
+    limits: &Limits,
+    id: &str,
+    expect: &Expect,
+    scene: &PackedScene,
+) -> Result<Written, StoreError> {
+    let stored = current(tx, id)?;
+    check(expect, stored.as_ref())?;
+    if stored.is_none() {
+        let count: i64 = tx.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
+        if count.unsigned_abs() >= limits.stored_scenes {
+            return Err(StoreError::Full(format!("{count} scenes are stored.")));
+        }
+    }
+    let before = stored.as_ref().map_or(0, |s| s.bytes);
+    let map_bytes = scene.map.body.as_ref().map_or(0, Vec::len) as u64;
+    make_room(tx, (scene.body.len() as u64).saturating_sub(before) + map_bytes, limits.store_bytes)?;
+    keep_map(tx, &scene.map)?;
+    let rev = stored.as_ref().map_or(1, |s| s.rev + 1);
+    let etag = etag(rev, &scene.hash);
+    save(tx, (id, rev, &etag), scene)?;
+    Ok(Written { etag, created: stored.is_none() })
 }
 
 struct Stored {

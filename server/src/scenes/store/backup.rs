@@ -1,0 +1,93 @@
+//! A copy of the store, taken while others read and write.
+
+use super::reserve::make_private;
+use super::{StoreError, migrations, open_reader};
+use formats::files::Whole;
+use rusqlite::Connection;
+use rusqlite::backup::{Backup, StepResult};
+use std::fs::File;
+use std::io;
+use std::path::Path;
+use std::time::Duration;
+
+/// How often a file that is held by others is tried again, and after which time.
+const TRIES: usize = 50;
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// What a copy holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Copied {
+    /// Saved scenes.
+    pub scenes: u64,
+    /// Size of the file.
+    pub bytes: u64,
+}
+
+/// Copies a store as it is at one moment: every write that was answered before is in it, later ones are not or
+/// whole. The copy is one file without a log, for its owner alone, and is there only when it was found sound.
+///
+/// # Errors
+/// When the file is none of ours, is damaged, or one of the two cannot be read or written.
+pub fn backup(from: &Path, to: &Path) -> Result<Copied, StoreError> {
+    let source = open_reader(from)?;
+    migrations::check(&source)?;
+    copy(&source, to)
+}
+
+/// Copies what a connection sees, under the same promises.
+///
+/// # Errors
+/// As [`backup`].
+pub(super) fn copy(source: &Connection, to: &Path) -> Result<Copied, StoreError> {
+    let version: i64 = source.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    if version == 0 {
+        return Err(StoreError::Empty);
+    }
+    let whole = Whole::create(to).map_err(StoreError::File)?;
+    let no_file = || StoreError::File(io::Error::other("a plain file is expected for the copy"));
+    let partial = whole.partial().ok_or_else(no_file)?;
+    make_private(partial).map_err(StoreError::File)?;
+    let scenes = fill(source, partial)?;
+    whole.finish().map_err(StoreError::File)?;
+    let bytes = sync_name(to).map_err(StoreError::File)?;
+    Ok(Copied { scenes, bytes })
+}
+
+/// Fills an empty file and looks through it; the number of scenes.
+fn fill(source: &Connection, partial: &Path) -> Result<u64, StoreError> {
+    let mut target = Connection::open(partial)?;
+    // Nobody sees the file before it is whole and on the disk.
+    target.pragma_update(None, "journal_mode", "OFF")?;
+    target.pragma_update(None, "synchronous", "OFF")?;
+    all_pages(source, &mut target)?;
+    target.pragma_update(None, "journal_mode", "DELETE")?;
+    migrations::look_through(&target, "integrity_check")?;
+    if target.prepare("PRAGMA foreign_key_check")?.exists([])? {
+        return Err(StoreError::Broken("a scene has lost its map".into()));
+    }
+    let scenes: i64 = target.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
+    Ok(scenes.unsigned_abs())
+}
+
+/// All pages in one step, under one read lock. In several steps the copy would begin anew with each write of
+/// another process, and never end on a busy server.
+fn all_pages(source: &Connection, target: &mut Connection) -> Result<(), StoreError> {
+    let copying = Backup::new(source, target)?;
+    for _ in 0..TRIES {
+        if copying.step(-1)? == StepResult::Done {
+            return Ok(());
+        }
+        std::thread::sleep(PAUSE);
+    }
+    Err(StoreError::File(io::Error::other("another program holds the file")))
+}
+
+/// Puts the name of a new file on the disk; the file's size.
+fn sync_name(path: &Path) -> io::Result<u64> {
+    let path = path.canonicalize()?;
+    #[cfg(unix)]
+    if let Some(folder) = path.parent() {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(path.metadata()?.len())
+}

@@ -1,0 +1,98 @@
+//! What can go wrong with the store, and what callers are told.
+
+use super::migrations;
+use crate::base::problem::{Code, Problem};
+use rusqlite::ErrorCode;
+
+/// Why the store refused or failed.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The database library reports this.
+    #[error("{0}")]
+    Sqlite(#[from] rusqlite::Error),
+    /// A stored body cannot be read.
+    #[error("stored body: {0}")]
+    Body(#[from] std::io::Error),
+    /// A file cannot be made or changed.
+    #[error("{0}")]
+    File(std::io::Error),
+    /// Nothing was ever kept in the file.
+    #[error("the file is empty")]
+    Empty,
+    /// The system gives no thread.
+    #[error("no thread for the store: {0}")]
+    Thread(std::io::Error),
+    /// Written by a later version of the program.
+    #[error("the file has schema {0}, this program knows up to {known}", known = migrations::LATEST)]
+    Newer(i64),
+    /// The file holds something else than scenes.
+    #[error("the file is another program's database; choose another one with --db")]
+    Foreign,
+    /// The database library finds the file damaged.
+    #[error("the file is damaged: {0}")]
+    Broken(String),
+    /// The precondition names another version.
+    #[error("the scene has changed in the meantime")]
+    Stale {
+        /// ETag of the stored scene.
+        etag: String,
+        /// RFC 3339.
+        updated_at: String,
+    },
+    /// Nothing has this id.
+    #[error("no such scene")]
+    Missing,
+    /// A limit is reached.
+    #[error("the store is full: {0}")]
+    Full(String),
+    /// The writer thread has ended.
+    #[error("the store is closed")]
+    Closed,
+}
+
+impl From<StoreError> for Problem {
+    fn from(error: StoreError) -> Self {
+        let text = error.to_string();
+        match error {
+            StoreError::Stale { etag, updated_at } => {
+                let detail = "The stored scene is another than the one you read.";
+                Self::new(Code::StaleEtag, detail)
+                    .with(|m| (m.etag, m.updated_at) = (Some(etag), Some(updated_at)))
+            }
+            StoreError::Missing => Self::new(Code::NotFound, "No scene has this id."),
+            StoreError::Full(what) => Self::new(Code::StoreFull, what),
+            StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull => {
+                Self::new(Code::StoreFull, "The disk is full.")
+            }
+            StoreError::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if is_of_the_disk(e.code) => {
+                tracing::error!(error = text, "the disk of the store fails");
+                let detail = "The disk refuses to read or write saved scenes.";
+                Self::new(Code::StoreUnavailable, detail).retry_after(2)
+            }
+            _ => Self::internal(text),
+        }
+    }
+}
+
+/// A failure of what lies below the database library, or of others that hold the file: not of this program. Pages
+/// that the disk does not give are "corrupt" to that library.
+fn is_of_the_disk(code: ErrorCode) -> bool {
+    matches!(
+        code,
+        ErrorCode::SystemIoFailure
+            | ErrorCode::CannotOpen
+            | ErrorCode::DatabaseCorrupt
+            | ErrorCode::ReadOnly
+            | ErrorCode::PermissionDenied
+            | ErrorCode::DatabaseBusy
+            | ErrorCode::DatabaseLocked
+            | ErrorCode::FileLockingProtocolFailed
+    )
+}
+
+impl StoreError {
+    /// The disk has no room.
+    pub(super) fn is_disk_full(&self) -> bool {
+        matches!(self, Self::Sqlite(rusqlite::Error::SqliteFailure(e, _)) if e.code == ErrorCode::DiskFull)
+    }
+}

@@ -1,0 +1,68 @@
+//! Trials for as long as one likes: `cargo xtask soak`.
+
+#![allow(clippy::print_stdout, reason = "it talks to people")]
+
+use clap::Parser;
+
+/// Trials of the real program without an end of their own.
+#[derive(Parser)]
+#[command(name = "cargo xtask soak")]
+struct Cli {
+    /// What is tried.
+    #[arg(value_enum)]
+    name: Name,
+    /// How long clients work, minutes.
+    #[arg(long, default_value_t = 60.0, conflicts_with = "count")]
+    minutes: f64,
+    /// How many kills, failing calls or schedules; 1000, 2000 and 200 unless told.
+    #[arg(long)]
+    count: Option<u64>,
+    /// What everything is drawn by.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Name {
+    /// Clients of all sorts at the same time; memory stays flat.
+    Clients,
+    /// Kills while six writers work; nothing answered is lost.
+    Kills,
+    /// Calls to the disk that fail; nothing answered is lost, and the server says so, stays up and recovers.
+    Faults,
+    /// All of it in an order drawn by the seed, which can be done again.
+    Schedule,
+}
+
+#[cfg(target_os = "linux")]
+fn main() -> anyhow::Result<()> {
+    use dragtraffic_tests::soak::{clients, faults, kills, schedule};
+    use std::time::Duration;
+
+    let Cli { name, minutes, count, seed } = Cli::parse();
+    let tell = |line: &str| println!("{line}");
+    match name {
+        Name::Clients => {
+            let report = clients::clients(Duration::from_secs_f64(60.0 * minutes), seed, &tell)?;
+            println!("{report}");
+            report.flat()?;
+        }
+        Name::Kills => println!("{:?}", kills::kills(count.unwrap_or(1_000), seed, &tell)?),
+        Name::Faults => println!("{:?}", faults::faults(count.unwrap_or(2_000), seed, &tell)?),
+        Name::Schedule => {
+            let count = count.unwrap_or(200);
+            if count == 1 {
+                schedule::steps(seed).iter().for_each(|step| println!("{step:?}"));
+            }
+            println!("{} steps", schedule::schedules(count, seed, &tell)?);
+        }
+    }
+    println!("passed");
+    Ok(())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn main() {
+    let Cli { .. } = Cli::parse();
+    println!("skipped: faults of the disk and readings of memory need Linux");
+}
