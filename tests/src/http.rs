@@ -69,7 +69,7 @@ impl Request {
     }
 
     /// The bytes on the wire.
-    fn bytes(&self, address: SocketAddr) -> Vec<u8> {
+    pub fn bytes(&self, address: SocketAddr) -> Vec<u8> {
         let mut head = format!("{} {} HTTP/1.1\r\n", self.method, self.path);
         if self.host {
             head.push_str(&format!("host: {address}\r\n"));
@@ -177,7 +177,11 @@ impl Reply {
         }
     }
 
-    fn read(reader: &mut impl BufRead, no_body: bool) -> anyhow::Result<Self> {
+    /// Reads one off a connection; `no_body` for one to HEAD.
+    ///
+    /// # Errors
+    /// When there is none, or a part of one.
+    pub fn read(reader: &mut impl BufRead, no_body: bool) -> anyhow::Result<Self> {
         let mut reply = Self::head(reader)?;
         if no_body || reply.status == 204 || reply.status == 304 {
             return Ok(reply);

@@ -98,17 +98,34 @@ impl Server {
         anyhow::bail!("demo-crossing is not listed")
     }
 
+    /// Starts one with an empty store that keeps its access lines for [`Server::log`].
+    ///
+    /// # Errors
+    /// When it does not say its address.
+    pub fn with_log(flags: &[&str]) -> anyhow::Result<Self> {
+        let folder = tempfile::tempdir()?;
+        let log = std::fs::File::create(folder.path().join("log"))?;
+        let mut server = Self::spawn(&folder.path().join("scenes.sqlite"), flags, "info", log.into())?;
+        server.folder = Some(folder);
+        Ok(server)
+    }
+
     /// Starts one on a given store.
     ///
     /// # Errors
     /// When it does not say its address.
     pub fn start_at(db: &Path, flags: &[&str]) -> anyhow::Result<Self> {
+        Self::spawn(db, flags, "warn", Stdio::inherit())
+    }
+
+    fn spawn(db: &Path, flags: &[&str], level: &str, log: Stdio) -> anyhow::Result<Self> {
         let mut child = Command::new(program())
-            .args(["serve", "--port", "0", "--log-level", "warn", "--db"])
+            .args(["serve", "--port", "0", "--log-level", level, "--db"])
             .arg(db)
             .args(flags)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
+            .stderr(log)
             .spawn()?;
         let out = child.stdout.take().context("no stdout")?;
         let mut line = String::new();
@@ -170,6 +187,15 @@ impl Server {
             line.strip_prefix(name).is_some_and(|rest| rest.starts_with('{') || rest.starts_with(' '))
         });
         Ok(lines.filter_map(|line| line.rsplit(' ').next()?.parse::<f64>().ok()).sum())
+    }
+
+    /// What it has logged, when it was started to keep that.
+    ///
+    /// # Errors
+    /// When it was not.
+    pub fn log(&self) -> anyhow::Result<String> {
+        let folder = self.folder.as_ref().context("no folder")?;
+        Ok(std::fs::read_to_string(folder.path().join("log"))?)
     }
 
     /// Process id.

@@ -8,3 +8,4 @@ pub mod guard;
 pub mod net;
 pub mod observe;
 mod owner;
+mod wire;

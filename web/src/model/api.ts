@@ -2158,7 +2158,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -3292,7 +3292,7 @@ export interface operations {
                     "application/json": components["schemas"]["Health"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3300,7 +3300,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -3325,6 +3325,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -3396,7 +3408,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3404,7 +3416,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -3429,6 +3441,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -3500,7 +3524,7 @@ export interface operations {
                     "application/json": components["schemas"]["Health"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3508,7 +3532,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -3533,6 +3557,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -3628,7 +3664,7 @@ export interface operations {
                     "application/octet-stream": number[];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3636,7 +3672,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -3664,7 +3700,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -3672,7 +3708,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -3840,7 +3876,7 @@ export interface operations {
                     "text/event-stream": components["schemas"]["Event"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3848,7 +3884,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -3900,7 +3936,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -3908,7 +3944,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -4092,7 +4128,7 @@ export interface operations {
                     "application/json": components["schemas"]["ImportReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4100,7 +4136,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -4128,7 +4164,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -4136,7 +4172,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -4292,7 +4328,7 @@ export interface operations {
                     "application/json": components["schemas"]["Info"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4300,7 +4336,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4325,6 +4361,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4396,7 +4444,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4404,7 +4452,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4441,6 +4489,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4512,7 +4572,7 @@ export interface operations {
                     "application/json": components["schemas"]["MapList"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4520,7 +4580,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4545,6 +4605,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4625,7 +4697,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4633,7 +4705,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4670,6 +4742,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4803,7 +4887,7 @@ export interface operations {
                     "application/json": components["schemas"]["PlaceReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4811,7 +4895,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -4851,7 +4935,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -4859,7 +4943,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -5028,7 +5112,7 @@ export interface operations {
                     "application/json": components["schemas"]["SceneList"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5036,7 +5120,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -5061,6 +5145,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -5149,7 +5245,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5157,7 +5253,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -5185,7 +5281,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -5193,7 +5289,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -5361,7 +5457,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5369,7 +5465,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -5406,6 +5502,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -5544,7 +5652,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5552,7 +5660,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -5592,7 +5700,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -5600,7 +5708,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -5782,7 +5890,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5790,7 +5898,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -5827,6 +5935,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -5947,7 +6067,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5955,7 +6075,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -5995,7 +6115,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -6003,7 +6123,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -6194,7 +6314,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6202,7 +6322,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -6242,7 +6362,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -6250,7 +6370,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -6415,7 +6535,7 @@ export interface operations {
                     "application/octet-stream": number[];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6423,7 +6543,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -6460,6 +6580,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -6588,7 +6720,7 @@ export interface operations {
                     "application/json": components["schemas"]["ScoreReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6596,7 +6728,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -6636,7 +6768,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -6644,7 +6776,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
