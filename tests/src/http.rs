@@ -15,6 +15,7 @@ pub struct Request {
     headers: Vec<(String, String)>,
     body: Vec<u8>,
     host: bool,
+    keep: bool,
     length: Option<String>,
 }
 
@@ -27,6 +28,7 @@ impl Request {
             headers: Vec::new(),
             body: Vec::new(),
             host: true,
+            keep: false,
             length: None,
         }
     }
@@ -45,6 +47,13 @@ impl Request {
     #[must_use]
     pub fn without_host(mut self) -> Self {
         self.host = false;
+        self
+    }
+
+    /// Leaves the connection open for further requests.
+    #[must_use]
+    pub fn keep(mut self) -> Self {
+        self.keep = true;
         self
     }
 
@@ -82,7 +91,7 @@ impl Request {
         if sized && !self.headers.iter().any(|h| h.0.eq_ignore_ascii_case("transfer-encoding")) {
             head.push_str(&format!("content-length: {length}\r\n"));
         }
-        head.push_str("connection: close\r\n\r\n");
+        head.push_str(if self.keep { "\r\n" } else { "connection: close\r\n\r\n" });
         [head.as_bytes(), &self.body].concat()
     }
 

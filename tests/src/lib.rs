@@ -2,7 +2,9 @@
 
 pub mod contract;
 pub mod http;
+pub mod mutation;
 pub mod program;
+pub mod requests;
 pub mod rooms;
 pub mod scenes;
 

@@ -32,7 +32,10 @@ pub fn program() -> &'static Path {
 /// The program beside the tests, when nothing it is made from has changed since.
 fn current() -> Option<PathBuf> {
     let tests = std::env::current_exe().ok()?;
-    let program = tests.parent()?.parent()?.join("dragtraffic");
+    // Tests lie in a folder of their own beneath it, programs of the tests beside it.
+    let mut folders = tests.ancestors().skip(1).take(2);
+    let program =
+        folders.find_map(|folder| Some(folder.join("dragtraffic")).filter(|program| program.is_file()))?;
     let built = program.metadata().and_then(|m| m.modified()).ok()?;
     let sources = ["Cargo.lock", "server", "models", "assets/scenes", "web/src", "web/index.html"];
     let changed = sources.iter().filter_map(|source| newest(&root().join(source))).max()?;
@@ -77,8 +80,17 @@ impl Server {
     /// # Errors
     /// When it does not say its address within ten seconds.
     pub fn start(flags: &[&str]) -> anyhow::Result<Self> {
+        Self::of(program(), flags)
+    }
+
+    /// Starts one of a given program with an empty store.
+    ///
+    /// # Errors
+    /// When it does not say its address.
+    pub fn of(program: &Path, flags: &[&str]) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
-        let mut server = Self::start_at(&folder.path().join("scenes.sqlite"), flags)?;
+        let db = folder.path().join("scenes.sqlite");
+        let mut server = Self::spawn(program, &db, flags, "warn", Stdio::inherit())?;
         server.folder = Some(folder);
         Ok(server)
     }
@@ -105,7 +117,8 @@ impl Server {
     pub fn with_log(flags: &[&str]) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
         let log = std::fs::File::create(folder.path().join("log"))?;
-        let mut server = Self::spawn(&folder.path().join("scenes.sqlite"), flags, "info", log.into())?;
+        let mut server =
+            Self::spawn(program(), &folder.path().join("scenes.sqlite"), flags, "info", log.into())?;
         server.folder = Some(folder);
         Ok(server)
     }
@@ -115,11 +128,11 @@ impl Server {
     /// # Errors
     /// When it does not say its address.
     pub fn start_at(db: &Path, flags: &[&str]) -> anyhow::Result<Self> {
-        Self::spawn(db, flags, "warn", Stdio::inherit())
+        Self::spawn(program(), db, flags, "warn", Stdio::inherit())
     }
 
-    fn spawn(db: &Path, flags: &[&str], level: &str, log: Stdio) -> anyhow::Result<Self> {
-        let mut child = Command::new(program())
+    fn spawn(program: &Path, db: &Path, flags: &[&str], level: &str, log: Stdio) -> anyhow::Result<Self> {
+        let mut child = Command::new(program)
             .args(["serve", "--port", "0", "--log-level", level, "--db"])
             .arg(db)
             .args(flags)

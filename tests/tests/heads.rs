@@ -108,11 +108,10 @@ fn heads_that_cannot_be_read_are_refused_like_everything_else() {
 #[test]
 fn a_refused_head_behind_other_requests_is_answered_after_them() {
     let server = Server::start(&[]).unwrap();
-    let long = Request::new("GET", "/openapi.json").bytes(server.address);
-    let long = String::from_utf8(long).unwrap().replace("connection: close\r\n", "");
+    let long = Request::new("GET", "/openapi.json").keep().bytes(server.address);
     for (what, head, status, code) in unreadable(&server) {
         let mut stream = connect(&server);
-        let _ = stream.write_all(&[fine(&server).as_bytes(), long.as_bytes(), &head].concat());
+        let _ = stream.write_all(&[fine(&server).as_bytes(), &long, &head].concat());
         let mut reader = BufReader::new(stream);
         assert_eq!(Reply::read(&mut reader, false).unwrap().status, 200, "{what}");
         let document = Reply::read(&mut reader, false).unwrap();
@@ -158,13 +157,12 @@ fn work_stops_when_a_reader_leaves_who_has_sent_more() {
     body["agents"] = json!("all");
     (body["steps"], body["samples"], body["score"]) = (json!(100), json!(16), json!(false));
     // An answer in one piece: nothing is written meanwhile, whose failure would tell.
-    let ask = Request::new("POST", "/v1/generate").json(&body).bytes(server.address);
-    let ask = String::from_utf8(ask).unwrap().replace("connection: close\r\n", "");
+    let ask = Request::new("POST", "/v1/generate").json(&body).keep().bytes(server.address);
     // Once so little that the server has read it all, once more than it reads ahead.
     for behind in [1, 1_000] {
         let gone = server.metric(CANCELLED).unwrap();
         let mut stream = connect(&server);
-        stream.write_all(ask.as_bytes()).unwrap();
+        stream.write_all(&ask).unwrap();
         stream.write_all(fine(&server).repeat(behind).as_bytes()).unwrap();
         let began = Instant::now();
         while server.metric(RUNNING).unwrap() < 1.0 {
