@@ -27,6 +27,7 @@ pub struct ImportParams {
     /// A name of the formats table; recognised from the content when absent or `auto`.
     format: Option<String>,
     /// Records to take, such as `0..9` (both ends), or one number.
+    #[param(pattern = "^[0-9]+(\\.\\.[0-9]+)?$")]
     index: Option<String>,
     /// Give the scenes back and store nothing.
     dry_run: bool,
@@ -149,7 +150,7 @@ struct Order {
     refuse_nc: bool,
 }
 
-refusals!(Refused: CHANGES BODY QUERY SCENE WORK, FormatUnknown, LicenceRefused, StoreFull);
+refusals!(Refused: CHANGES BODY QUERY SCENE WORK, FormatUnknown, CannotRepresent, LicenceRefused, StoreFull);
 
 /// Stores the scenes of a file.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),

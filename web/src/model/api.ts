@@ -1320,7 +1320,11 @@ export interface components {
              * @default chosen
              */
             stream_modes?: components["schemas"]["StreamModes"];
-        } & (unknown | unknown);
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
         /**
          * GeneratedDoc
          * @description What the generator added to a scene.
@@ -2095,7 +2099,11 @@ export interface components {
             types?: {
                 [key: string]: number;
             } | null;
-        } & (unknown | unknown);
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
         /**
          * PlaceReply
          * @description What was placed.
@@ -2822,7 +2830,11 @@ export interface components {
             trajectories?: {
                 [key: string]: components["schemas"]["TrajectoryDoc"];
             };
-        } & (unknown | unknown);
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
         /**
          * ShownDoc
          * @description The future that was shown last.
@@ -3661,7 +3673,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": number[];
+                    "application/octet-stream": string;
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "text/csv": string;
                 };
             };
             /** @description bad-header, bad-host, malformed-json, malformed-file */
@@ -4236,7 +4250,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, licence-refused */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent, licence-refused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4244,7 +4258,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "licence-refused";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused";
                     };
                 };
             };
@@ -5447,7 +5461,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Scene"];
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
                 };
             };
             /** @description not changed */
@@ -6532,7 +6546,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": number[];
+                    "application/octet-stream": string;
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "text/csv": string;
                 };
             };
             /** @description bad-header, bad-host */
