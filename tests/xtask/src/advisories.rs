@@ -15,7 +15,7 @@ pub fn check() -> anyhow::Result<Outcome> {
         let why = "the RustSec database cannot be fetched, and there is no copy of it here";
         return Ok(Outcome::Skipped(why.into()));
     };
-    let outcome = cargo(&["deny", "check", "--disable-fetch", "advisories"])?;
+    let outcome = cargo(&["deny", "--offline", "check", "advisories"])?;
     Ok(match outcome {
         Outcome::Passed if !fetched => {
             Outcome::Told(format!("by the copy of {} alone, since none can be fetched", date_of(&copy)?))
