@@ -10,8 +10,11 @@ use scene::routes::LaneGraph;
 use scene::score::{Drivable, ScoreInput, score};
 use scene::{AgentType, Scene, State};
 
-/// Every reader by the name of its corpus in `fuzz/corpus`. Each says whether the input was read.
-pub const TARGETS: &[(&str, fn(&[u8]) -> bool)] = &[
+/// What must hold for any bytes; it says whether they were read, and panics where a promise is broken.
+pub type Check = fn(&[u8]) -> bool;
+
+/// Every reader by the name of its corpus in `fuzz/corpus`.
+pub const TARGETS: &[(&str, Check)] = &[
     ("native", native),
     ("map", map),
     ("conditions", conditions),
