@@ -1,6 +1,8 @@
-//! Any bytes as conditions: no panic, and what is resolved is within its ranges.
+//! `formats::checks` says what must hold for any bytes.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|bytes: &[u8]| formats::checks::conditions(bytes));
+fuzz_target!(|bytes: &[u8]| {
+    formats::checks::conditions(bytes);
+});

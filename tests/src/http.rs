@@ -15,6 +15,7 @@ pub struct Request {
     headers: Vec<(String, String)>,
     body: Vec<u8>,
     host: bool,
+    keep: bool,
     length: Option<String>,
 }
 
@@ -27,6 +28,7 @@ impl Request {
             headers: Vec::new(),
             body: Vec::new(),
             host: true,
+            keep: false,
             length: None,
         }
     }
@@ -45,6 +47,13 @@ impl Request {
     #[must_use]
     pub fn without_host(mut self) -> Self {
         self.host = false;
+        self
+    }
+
+    /// Leaves the connection open for further requests.
+    #[must_use]
+    pub fn keep(mut self) -> Self {
+        self.keep = true;
         self
     }
 
@@ -69,7 +78,7 @@ impl Request {
     }
 
     /// The bytes on the wire.
-    fn bytes(&self, address: SocketAddr) -> Vec<u8> {
+    pub fn bytes(&self, address: SocketAddr) -> Vec<u8> {
         let mut head = format!("{} {} HTTP/1.1\r\n", self.method, self.path);
         if self.host {
             head.push_str(&format!("host: {address}\r\n"));
@@ -82,7 +91,7 @@ impl Request {
         if sized && !self.headers.iter().any(|h| h.0.eq_ignore_ascii_case("transfer-encoding")) {
             head.push_str(&format!("content-length: {length}\r\n"));
         }
-        head.push_str("connection: close\r\n\r\n");
+        head.push_str(if self.keep { "\r\n" } else { "connection: close\r\n\r\n" });
         [head.as_bytes(), &self.body].concat()
     }
 
@@ -177,7 +186,11 @@ impl Reply {
         }
     }
 
-    fn read(reader: &mut impl BufRead, no_body: bool) -> anyhow::Result<Self> {
+    /// Reads one off a connection; `no_body` for one to HEAD.
+    ///
+    /// # Errors
+    /// When there is none, or a part of one.
+    pub fn read(reader: &mut impl BufRead, no_body: bool) -> anyhow::Result<Self> {
         let mut reply = Self::head(reader)?;
         if no_body || reply.status == 204 || reply.status == 304 {
             return Ok(reply);

@@ -4,8 +4,10 @@ pub mod contract;
 #[cfg(target_os = "linux")]
 pub mod faults;
 pub mod http;
+pub mod mutation;
 pub mod program;
 pub mod random;
+pub mod requests;
 pub mod rooms;
 pub mod scenes;
 #[cfg(target_os = "linux")]

@@ -84,8 +84,17 @@ impl Server {
     /// # Errors
     /// When it does not say its address within ten seconds.
     pub fn start(flags: &[&str]) -> anyhow::Result<Self> {
+        Self::of(program(), flags)
+    }
+
+    /// Starts one of a given program with an empty store.
+    ///
+    /// # Errors
+    /// When it does not say its address.
+    pub fn of(program: &Path, flags: &[&str]) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
-        let mut server = Self::start_at(&folder.path().join("scenes.sqlite"), flags)?;
+        let db = folder.path().join("scenes.sqlite");
+        let mut server = Self::launch(Self::command_of(program, &db, flags))?;
         server.folder = Some(folder);
         Ok(server)
     }
@@ -105,6 +114,20 @@ impl Server {
         anyhow::bail!("demo-crossing is not listed")
     }
 
+    /// Starts one with an empty store that keeps its access lines for [`Server::log`].
+    ///
+    /// # Errors
+    /// When it does not say its address.
+    pub fn with_log(flags: &[&str]) -> anyhow::Result<Self> {
+        let folder = tempfile::tempdir()?;
+        let log = std::fs::File::create(folder.path().join("log"))?;
+        let mut command = Self::command(&folder.path().join("scenes.sqlite"), flags);
+        command.args(["--log-level", "info"]).stderr(log);
+        let mut server = Self::launch(command)?;
+        server.folder = Some(folder);
+        Ok(server)
+    }
+
     /// Starts one on a given store.
     ///
     /// # Errors
@@ -115,8 +138,12 @@ impl Server {
 
     /// The call that starts one on a given store.
     pub fn command(db: &Path, flags: &[&str]) -> Command {
-        let mut command = Command::new(program());
-        command.args(["serve", "--port", "0", "--log-level", "warn", "--db"]).arg(db).args(flags);
+        Self::command_of(program(), db, flags)
+    }
+
+    fn command_of(program: &Path, db: &Path, flags: &[&str]) -> Command {
+        let mut command = Command::new(program);
+        command.args(["serve", "--port", "0", "--db"]).arg(db).args(flags).env("DRAGTRAFFIC_LOG", "warn");
         command
     }
 
@@ -202,6 +229,15 @@ impl Server {
     /// True while it runs.
     pub fn is_up(&mut self) -> bool {
         matches!(self.child.try_wait(), Ok(None))
+    }
+
+    /// What it has logged, when it was started to keep that.
+    ///
+    /// # Errors
+    /// When it was not.
+    pub fn log(&self) -> anyhow::Result<String> {
+        let folder = self.folder.as_ref().context("no folder")?;
+        Ok(std::fs::read_to_string(folder.path().join("log"))?)
     }
 
     /// Process id.

@@ -9,14 +9,9 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-/// Real Waymo Open Motion scenes beside the repository, when this machine has them.
+/// Real Waymo Open Motion scenes, when this machine has them.
 fn womd() -> Option<PathBuf> {
-    let folder = root().join("../shared/data/womd/val");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no Waymo Open Motion scenes at {}", folder.display());
-    None
+    samples::folder("womd/val", ".tfrecord")
 }
 
 fn upload(path: &str, body: Vec<u8>) -> Request {

@@ -22,7 +22,8 @@ const ARROWS: &[(&str, &[&str])] = &[
         "dragtraffic",
         &["scene", "formats", "experts", "lab-synthesize", "lab-train", "lab-eval", "lab-reproduce"],
     ),
-    ("tests", &[]),
+    ("samples", &[]),
+    ("tests", &["formats"]),
     ("xtask", &[]),
 ];
 /// Libraries with one home: name, and the crates that may import it.

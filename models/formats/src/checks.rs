@@ -1,4 +1,4 @@
-//! What must hold for any input whatever. Fuzz targets and a plain test over their corpus run these;
+//! What must hold for any input whatever. Fuzz targets and plain tests over their corpus run these;
 //! a broken promise panics.
 #![allow(clippy::panic, clippy::expect_used, reason = "a panic is how a promise is reported broken")]
 
@@ -6,18 +6,55 @@ use crate::format::{ExportedMotion, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
 use crate::registry;
 use crate::womd::{self, Options};
-use scene::{AgentType, State};
+use scene::routes::LaneGraph;
+use scene::score::{Drivable, ScoreInput, score};
+use scene::{AgentType, Scene, State};
+
+/// What must hold for any bytes; it says whether they were read, and panics where a promise is broken.
+pub type Check = fn(&[u8]) -> bool;
+
+/// Every reader by the name of its corpus in `fuzz/corpus`.
+pub const TARGETS: &[(&str, Check)] = &[
+    ("native", native),
+    ("map", map),
+    ("conditions", conditions),
+    ("womd", womd),
+    ("sumo-net", |bytes| sumo("sumo-net", bytes)),
+    ("sumo-fcd", |bytes| sumo("sumo-fcd", bytes)),
+    ("sumo-pair", sumo_pair),
+    ("sniff", sniff),
+];
 
 /// A document that is read writes back to an equal scene, and then to the same bytes.
 ///
 /// # Panics
 /// When it does not.
-pub fn native(bytes: &[u8]) {
-    let Ok(scene) = native::read(bytes) else { return };
+pub fn native(bytes: &[u8]) -> bool {
+    let Ok(scene) = native::read(bytes) else { return false };
     let written = native::write(&scene);
     let again = native::read(&written).expect("what was written is read");
     // Futures are rounded by the first writing; from then on nothing changes.
     assert_eq!(native::write(&again), written, "writing is not stable");
+    true
+}
+
+/// Whatever map a document has, its lane graph is built, it is known where it can be driven, and its road users
+/// are scored there.
+///
+/// # Panics
+/// When something cannot be worked out.
+pub fn map(bytes: &[u8]) -> bool {
+    let Ok(scene) = native::read(bytes) else { return false };
+    works(&scene);
+    true
+}
+
+/// What is worked out about every scene that is opened.
+fn works(scene: &Scene) {
+    LaneGraph::new(&scene.map);
+    let drivable = Drivable::new(&scene.map);
+    let chosen = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
+    score(&ScoreInput::of_sample(scene, chosen, &drivable));
 }
 
 /// A record that is read writes back to an equal scene. Checksums are not looked at, so that a
@@ -25,44 +62,73 @@ pub fn native(bytes: &[u8]) {
 ///
 /// # Panics
 /// When it does not.
-pub fn womd(bytes: &[u8]) {
+pub fn womd(bytes: &[u8]) -> bool {
     let options =
         Options { verify_crc: false, max_scenes: 4, max_decoded_bytes: 16 << 20, ..Options::default() };
+    let mut read = false;
     for (scene, _) in womd::read_all(bytes, &options).into_iter().flatten() {
         let mut file = Vec::new();
         womd::write(&[&scene], &mut file, false, ExportedMotion::Log).expect("a vector takes all");
         let mut list = womd::read_all(&file, &Options::default());
         assert!(matches!(list.pop(), Some(Ok(_))), "what was written is not read");
+        works(&scene);
+        read = true;
     }
+    read
 }
 
 /// A network or a recording of SUMO that is read is a scene that the native format holds.
 ///
 /// # Panics
 /// When it is not.
-pub fn sumo(bytes: &[u8]) {
-    let options = ImportOptions { max_scenes: 4, ..ImportOptions::default() };
-    for format in ["sumo-net", "sumo-fcd"] {
-        let format = registry::by_id(format).expect("the format is in the table");
-        for (scene, _) in format.import(bytes, &options).into_iter().flatten() {
-            native::read(&native::write(&scene)).expect("what was written is read");
-        }
+pub fn sumo(format: &str, bytes: &[u8]) -> bool {
+    imported(format, bytes, None)
+}
+
+/// A recording and, before it and a zero byte, the network it belongs to.
+///
+/// # Panics
+/// When a scene is read that the native format does not hold.
+pub fn sumo_pair(bytes: &[u8]) -> bool {
+    let mut parts = bytes.splitn(2, |byte| *byte == 0);
+    let (net, file) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
+    imported("sumo-fcd", file, Some(net.to_vec()))
+}
+
+fn imported(format: &str, bytes: &[u8], net: Option<Vec<u8>>) -> bool {
+    let options = ImportOptions { max_scenes: 4, net, ..ImportOptions::default() };
+    let format = registry::by_id(format).expect("the format is in the table");
+    let mut read = false;
+    for (scene, _) in format.import(bytes, &options).into_iter().flatten() {
+        native::read(&native::write(&scene)).expect("what was written is read");
+        works(&scene);
+        read = true;
     }
+    read
+}
+
+/// A file of an unknown format, as it is uploaded: what it is told to be, it is read as.
+///
+/// # Panics
+/// When a scene is read that the native format does not hold.
+pub fn sniff(bytes: &[u8]) -> bool {
+    registry::sniff(bytes, "").is_some_and(|format| imported(format.info().id, bytes, None))
 }
 
 /// Conditions that resolve are within their ranges and resolve to themselves when written.
 ///
 /// # Panics
 /// When they are not.
-pub fn conditions(bytes: &[u8]) {
-    let Ok(doc) = native::from_json::<ConditionsDoc>(bytes) else { return };
+pub fn conditions(bytes: &[u8]) -> bool {
+    let Ok(doc) = native::from_json::<ConditionsDoc>(bytes) else { return false };
     let start = State { x_m: 3.0, y_m: -7.0, heading_rad: 2.5, vx_mps: 4.0, vy_mps: 0.0 };
     let context = Context {
         agent_type: AgentType::Vehicle,
         start: Some(start),
         window: Window { start_s: 0.0, horizon_s: 9.0 },
     };
-    let Ok(resolved) = doc.resolve("", &context) else { return };
+    let Ok(resolved) = doc.resolve("", &context) else { return false };
     let again = ConditionsDoc::from_conditions(&resolved).resolve("", &context);
     assert_eq!(again.as_ref(), Ok(&resolved), "resolved conditions do not resolve to themselves");
+    true
 }

@@ -12,20 +12,12 @@ use formats::womd::proto::{ObjectState, Scenario, Track};
 use formats::womd::{self, Options};
 use prost::Message;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
-/// Files of `../shared/data/FOLDER`, sorted; empty with a printed reason when the folder is absent.
-fn files(folder: &str) -> Vec<PathBuf> {
-    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(folder);
-    let Ok(entries) = std::fs::read_dir(&shared) else {
-        println!("skipped: no folder {}", shared.display());
-        return Vec::new();
-    };
-    let mut list: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    list.retain(|path| path.to_string_lossy().contains(".tfrecord"));
-    list.sort();
-    list
+/// Records of a folder of samples.
+fn files(folder: &str) -> Option<Vec<PathBuf>> {
+    samples::files(folder, ".tfrecord")
 }
 
 #[test]
@@ -33,7 +25,7 @@ fn every_real_file_is_read_and_comes_back_equal() {
     let mut count = 0;
     let mut warned: BTreeMap<&str, usize> = BTreeMap::new();
     let mut slowest = (0.0f64, PathBuf::new());
-    for path in ["womd/train", "womd/val", "formats/waymo"].into_iter().flat_map(files) {
+    for path in ["womd/train", "womd/val", "formats/waymo"].into_iter().filter_map(files).flatten() {
         let bytes = std::fs::read(&path).unwrap();
         assert!(womd::looks_like(&bytes), "{}", path.display());
         let start = Instant::now();
@@ -89,7 +81,7 @@ fn same_states(a: &Track, b: &Track, sizes_vary: bool) -> bool {
 #[test]
 fn written_messages_are_those_of_the_real_files() {
     let mut count = 0;
-    for path in ["womd/val", "formats/waymo"].into_iter().flat_map(files) {
+    for path in ["womd/val", "formats/waymo"].into_iter().filter_map(files).flatten() {
         let bytes = std::fs::read(&path).unwrap();
         for record in womd::RecordReader::new(&bytes[..], &Options::default()).unwrap() {
             let record = record.unwrap();
@@ -125,7 +117,7 @@ fn written_messages_are_those_of_the_real_files() {
 
 #[test]
 fn truncated_and_flipped_real_files_never_panic() {
-    let Some(path) = files("womd/val").into_iter().next() else { return };
+    let Some(path) = files("womd/val").and_then(|files| files.into_iter().next()) else { return };
     let bytes = std::fs::read(&path).unwrap();
     let (scene, _) = womd::read_all(&bytes, &Options::default()).remove(0).unwrap();
     let mut plain = Vec::new();

@@ -43,6 +43,7 @@ codes! {
     NotFound "not-found" 404 "Not found" "Nothing has this address or id.";
     MethodNotAllowed "method-not-allowed" 405 "Method not allowed" "The Allow header lists the methods that this address knows.";
     NotAcceptable "not-acceptable" 406 "No acceptable representation" "None of the media types in Accept can be given.";
+    HeadTimeout "head-timeout" 408 "Head too slow" "The request line and the header fields did not arrive in time.";
     BodyTimeout "body-timeout" 408 "Body too slow" "The body did not arrive in time.";
     Exists "exists" 409 "Exists already" "Something with this id exists already.";
     Superseded "superseded" 409 "Overtaken by a newer revision" "The same client sent a newer revision; `by_revision` names it.";

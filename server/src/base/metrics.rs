@@ -17,14 +17,12 @@ pub fn install() -> Result<PrometheusHandle, String> {
         .map_err(|error| error.to_string())
 }
 
-/// One finished request.
-pub fn request(route: &str, method: &Method, status: StatusCode, seconds: f64) {
-    let method = match *method {
-        Method::GET | Method::HEAD | Method::POST | Method::PUT | Method::PATCH | Method::DELETE => {
-            method.to_string()
-        }
-        _ => "OTHER".to_owned(),
-    };
+/// One finished request; no method where that could not be read.
+pub fn request(route: &str, method: Option<&Method>, status: StatusCode, seconds: f64) {
+    const KNOWN: [Method; 6] =
+        [Method::GET, Method::HEAD, Method::POST, Method::PUT, Method::PATCH, Method::DELETE];
+    let known = method.filter(|method| KNOWN.contains(method));
+    let method = known.map_or("OTHER", Method::as_str).to_owned();
     let labels = [("route", route.to_owned()), ("method", method), ("status", status.as_str().to_owned())];
     counter!("dragtraffic_http_requests_total", &labels).increment(1);
     histogram!("dragtraffic_http_request_seconds", "route" => route.to_owned()).record(seconds);

@@ -5,7 +5,7 @@ pub mod events;
 mod feed;
 pub mod kept;
 mod outbox;
-mod run;
+pub mod run;
 pub mod scoring;
 pub mod stream;
 

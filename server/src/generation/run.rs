@@ -48,14 +48,7 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
                 }
             }
             Ok(Event::Final(answer)) => {
-                let whole = (task.with_kept || task.score).then(|| whole(&scene, &answer.samples));
-                let shown = whole.as_ref().filter(|_| task.with_kept).unwrap_or(&answer.samples);
-                let mut body = final_body(&task, shown, &answer, queued);
-                if let Some(whole) = whole.as_ref().filter(|_| task.score) {
-                    let changed = answer.samples.iter().map(|sample| sample.agents.len());
-                    add_scores(&mut body, &scene, whole.iter().zip(changed), generator, &task);
-                }
-                if feed.send(body, Some(End::Final)) {
+                if feed.send(answered(&task, &answer, queued, generator), Some(End::Final)) {
                     metrics::ended(Kind::Generate.name(), "final");
                 }
                 return;
@@ -78,6 +71,19 @@ fn count(scene: &Scene, draft: &Draft) {
 /// Name of the expert that an agent runs on.
 fn expert_of(agent: &scene::Agent) -> Option<&'static str> {
     EXPERTS.iter().find(|(agent_type, _)| *agent_type == agent.kind()).map(|(_, name)| *name)
+}
+
+/// What is told of an answer: its samples, and their scores where they are wanted.
+pub fn answered(task: &Task, answer: &Answer, queued: Duration, generator: &Generator) -> FinalBody {
+    let scene = &task.request.scene;
+    let whole = (task.with_kept || task.score).then(|| whole(scene, &answer.samples));
+    let shown = whole.as_ref().filter(|_| task.with_kept).unwrap_or(&answer.samples);
+    let mut body = final_body(task, shown, answer, queued);
+    if let Some(whole) = whole.as_ref().filter(|_| task.score) {
+        let changed = answer.samples.iter().map(|sample| sample.agents.len());
+        add_scores(&mut body, scene, whole.iter().zip(changed), generator, task);
+    }
+    body
 }
 
 fn final_body(task: &Task, shown: &[Sample], answer: &Answer, queued: Duration) -> FinalBody {

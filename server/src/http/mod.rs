@@ -10,3 +10,4 @@ pub mod observe;
 mod owner;
 pub mod packed;
 pub mod upload;
+mod wire;

@@ -2,17 +2,18 @@
 //!
 //! `axum::serve` sets no timer, so a client that dribbles its head would hold a connection for ever.
 //! Here hyper's HTTP/1 builder runs with a timer, and when all places are taken the connection that
-//! has waited longest without a request makes room.
+//! has waited longest without a request makes room. A client that has left is noticed whatever it sent before.
 
 use super::extract::Connection;
-use super::owner;
+use super::wire::{self, Socket, Wire};
+use super::{observe, owner};
 use crate::base::limits::Limits;
 use axum::Router;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use std::future::Future;
-use std::pin::pin;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::pin::{Pin, pin};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::net::{TcpListener, TcpStream};
@@ -23,13 +24,15 @@ const HEAD_BUFFER: usize = 128 << 10;
 /// Header fields up to this number reach our own check.
 const HEAD_FIELDS: usize = 512;
 
+/// Time between two looks at all connections.
+const LOOK: Duration = Duration::from_millis(250);
 /// Before that it cannot be told how fast a body arrives.
 const ARRIVING_GRACE: Duration = Duration::from_secs(1);
 
 /// One open connection, as the table sees it.
 struct Place {
     number: u64,
-    requests: AtomicUsize,
+    socket: Arc<Socket>,
     idle_since: Mutex<Instant>,
     /// When the reply under way was last asked for more; `None` without one.
     asked: Mutex<Option<Instant>>,
@@ -64,14 +67,19 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+impl Place {
+    fn is_busy(&self) -> bool {
+        self.socket.requests.load(Ordering::Relaxed) > 0
+    }
+}
+
 impl Table {
     /// A place for a new connection: where there is none, that of the one longest idle, else of the one whose
     /// request arrives slowest. `None` when all are taken by requests that are worked on.
-    fn enter(&self, most: usize) -> Option<Arc<Place>> {
+    fn enter(&self, stream: TcpStream, most: usize) -> Option<Arc<Place>> {
         let mut places = lock(&self.places);
         if places.len() >= most {
-            let idle = |p: &&Arc<Place>| p.requests.load(Ordering::Relaxed) == 0;
-            let oldest = places.iter().filter(idle).min_by_key(|p| *lock(&p.idle_since));
+            let oldest = places.iter().filter(|p| !p.is_busy()).min_by_key(|p| *lock(&p.idle_since));
             let slow = |p: &Arc<Place>| Some((lock(&p.arriving).and_then(Progress::rate)?, Arc::clone(p)));
             let slowest = || places.iter().filter_map(slow).min_by_key(|(rate, _)| *rate).map(|(_, p)| p);
             let leaves = oldest.cloned().or_else(slowest)?;
@@ -80,7 +88,7 @@ impl Table {
         }
         let place = Arc::new(Place {
             number: self.next.fetch_add(1, Ordering::Relaxed),
-            requests: AtomicUsize::new(0),
+            socket: Arc::new(Socket::new(stream)),
             idle_since: Mutex::new(Instant::now()),
             asked: Mutex::new(None),
             arriving: Mutex::new(None),
@@ -96,6 +104,13 @@ impl Table {
         lock(&self.places).iter().filter(stalled).for_each(|p| p.close.notify_one());
     }
 
+    /// Closes connections that their clients have ended while a request was worked on. What they sent behind it
+    /// keeps hyper from reading on, so that it would not notice.
+    fn close_left(&self) {
+        let left = |p: &&Arc<Place>| p.is_busy() && p.socket.is_left();
+        lock(&self.places).iter().filter(left).for_each(|p| p.close.notify_one());
+    }
+
     fn leave(&self, number: u64) {
         lock(&self.places).retain(|p| p.number != number);
     }
@@ -106,7 +121,7 @@ struct Busy(Arc<Place>);
 
 impl Busy {
     fn new(place: &Arc<Place>) -> Self {
-        place.requests.fetch_add(1, Ordering::Relaxed);
+        place.socket.requests.fetch_add(1, Ordering::Relaxed);
         Self(Arc::clone(place))
     }
 }
@@ -115,7 +130,7 @@ impl Drop for Busy {
     fn drop(&mut self) {
         *lock(&self.0.idle_since) = Instant::now();
         *lock(&self.0.asked) = None;
-        self.0.requests.fetch_sub(1, Ordering::Relaxed);
+        self.0.socket.requests.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
@@ -133,14 +148,15 @@ pub async fn serve(
     let (closing, closed) = watch::channel(false);
     // A stream asks again at each heartbeat, so a longer silence is the reader's.
     let stalled = Duration::from_secs(limits.stalled_s.max(limits.heartbeat_s + 1));
-    let mut look = tokio::time::interval(Duration::from_secs(1));
-    let header_time = Duration::from_secs(limits.header_read_s.max(1));
+    let mut look = tokio::time::interval(LOOK);
+    let limits = Arc::new(limits.clone());
     let mut stop = pin!(stop);
     loop {
         let accepted = tokio::select! {
             () = &mut stop => break,
             _ = look.tick() => {
                 table.close_stalled(stalled);
+                table.close_left();
                 continue;
             }
             accepted = listener.accept() => accepted,
@@ -154,10 +170,11 @@ pub async fn serve(
                 continue;
             }
         };
-        let Some(place) = table.enter(limits.connections as usize) else { continue };
+        let Some(place) = table.enter(stream, limits.connections as usize) else { continue };
         let (table, router, closed) = (Arc::clone(&table), router.clone(), closed.clone());
+        let limits = Arc::clone(&limits);
         tokio::spawn(async move {
-            connection(stream, router, &place, closed, header_time).await;
+            connection(router, &place, closed, &limits).await;
             table.leave(place.number);
         });
     }
@@ -171,17 +188,10 @@ pub async fn serve(
     }
 }
 
-async fn connection(
-    stream: TcpStream,
-    router: Router,
-    place: &Arc<Place>,
-    mut closed: watch::Receiver<bool>,
-    header_time: Duration,
-) {
-    // Events are small and must leave at once.
-    let _ = stream.set_nodelay(true);
+async fn connection(router: Router, place: &Arc<Place>, mut closed: watch::Receiver<bool>, limits: &Limits) {
+    let socket = &place.socket;
     let counted = Arc::clone(place);
-    let ends = stream.peer_addr().ok().zip(stream.local_addr().ok());
+    let ends = socket.stream().peer_addr().ok().zip(socket.stream().local_addr().ok());
     let strangers = ends.is_some_and(|(peer, own)| owner::is_strangers(peer, own));
     let service = tower::service_fn(move |mut request: hyper::Request<hyper::body::Incoming>| {
         request.extensions_mut().insert(Connection { number: counted.number, strangers });
@@ -193,24 +203,27 @@ async fn connection(
     });
     let mut http = hyper::server::conn::http1::Builder::new();
     http.timer(TokioTimer::new())
-        .header_read_timeout(header_time)
+        .header_read_timeout(Duration::from_secs(limits.header_read_s.max(1)))
         .max_headers(HEAD_FIELDS)
         .max_buf_size(HEAD_BUFFER);
-    let served = http.serve_connection(TokioIo::new(stream), TowerToHyperService::new(service));
-    let mut served = pin!(served);
+    let wire = TokioIo::new(Wire(Arc::clone(socket)));
+    let mut served = http.serve_connection(wire, TowerToHyperService::new(service));
     let mut draining = false;
     loop {
         tokio::select! {
-            result = served.as_mut() => {
-                if let Err(error) = result {
-                    tracing::debug!(%error, "connection ended");
-                }
+            result = &mut served => {
+                let Err(error) = result else { return };
+                tracing::debug!(%error, "connection ended");
+                let unread = served.into_parts().read_buf;
+                let Some(problem) = wire::refusal(socket, &error, limits, &unread) else { return };
+                let since = *lock(&place.idle_since);
+                wire::refuse(socket, observe::unread(problem, since.elapsed().as_secs_f64())).await;
                 return;
             }
             () = place.close.notified() => return,
             _ = closed.changed(), if !draining => {
                 draining = true;
-                served.as_mut().graceful_shutdown();
+                Pin::new(&mut served).graceful_shutdown();
             }
         }
     }
@@ -227,10 +240,10 @@ impl hyper::body::Body for Arriving {
     type Error = hyper::Error;
 
     fn poll_frame(
-        mut self: std::pin::Pin<&mut Self>,
+        mut self: Pin<&mut Self>,
         context: &mut std::task::Context<'_>,
     ) -> std::task::Poll<Option<Result<hyper::body::Frame<bytes::Bytes>, hyper::Error>>> {
-        let polled = std::pin::Pin::new(&mut self.body).poll_frame(context);
+        let polled = Pin::new(&mut self.body).poll_frame(context);
         let mut arriving = lock(&self.place.arriving);
         let progress = arriving.get_or_insert(Progress { began: Instant::now(), bytes: 0 });
         match &polled {
@@ -270,11 +283,11 @@ impl hyper::body::Body for Counted {
     type Error = axum::Error;
 
     fn poll_frame(
-        mut self: std::pin::Pin<&mut Self>,
+        mut self: Pin<&mut Self>,
         context: &mut std::task::Context<'_>,
     ) -> std::task::Poll<Option<Result<hyper::body::Frame<bytes::Bytes>, axum::Error>>> {
         *lock(&self.busy.0.asked) = Some(Instant::now());
-        std::pin::Pin::new(&mut self.body).poll_frame(context)
+        Pin::new(&mut self.body).poll_frame(context)
     }
 
     fn is_end_stream(&self) -> bool {

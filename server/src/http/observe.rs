@@ -15,6 +15,8 @@ use std::time::{Duration, Instant};
 
 /// How long a caller is kept who is told to come back.
 const REFUSAL_PAUSE: Duration = Duration::from_millis(100);
+/// Stands for the route of what has none.
+const NO_ROUTE: &str = "(none)";
 /// Header that names a request in logs and problems.
 pub const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 /// What pages may load: this server's own files and nothing else.
@@ -38,14 +40,14 @@ pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> 
     let method = request.method().clone();
     let path = request.uri().path().to_owned();
     let route =
-        request.extensions().get::<MatchedPath>().map_or("(none)".to_owned(), |p| p.as_str().to_owned());
+        request.extensions().get::<MatchedPath>().map_or(NO_ROUTE.to_owned(), |p| p.as_str().to_owned());
     let foreign = gate.guard.foreign_origin(&request);
     let response = match guard::check(&gate.guard, &gate.limits, &request) {
         Ok(()) if foreign.is_some() && method == Method::OPTIONS => guard::preflight(),
         Ok(()) => next.run(request).await,
         Err(refusal) => refusal.into_response(),
     };
-    let mut response = written(response, &method, &path, &id);
+    let mut response = written(response, &method, Some(&path), &id);
     dress(response.headers_mut(), &path, &id);
     if let Some(origin) = foreign {
         guard::allow_cross_origin(response.headers_mut(), origin);
@@ -56,20 +58,36 @@ pub async fn observe(State(gate): State<Gate>, request: Request, next: Next) -> 
         tokio::time::sleep(REFUSAL_PAUSE).await;
     }
     let seconds = began.elapsed().as_secs_f64();
-    metrics::request(&route, &method, status, seconds);
+    metrics::request(&route, Some(&method), status, seconds);
     tracing::info!(target: "access", %method, route, status = status.as_u16(), ms = seconds * 1e3, request_id = id);
+    response
+}
+
+/// The refusal of a head that could not be read, so that no route, method or id of it is known.
+pub fn unread(problem: Problem, seconds: f64) -> Response {
+    let id = new_id();
+    let mut response = written(problem.into_response(), &Method::GET, None, &id);
+    dress(response.headers_mut(), "/v1/", &id);
+    let status = response.status();
+    metrics::request(NO_ROUTE, None, status, seconds);
+    let ms = seconds * 1e3;
+    tracing::info!(target: "access", method = "OTHER", route = NO_ROUTE, status = status.as_u16(), ms, request_id = id);
     response
 }
 
 fn request_id(headers: &HeaderMap) -> String {
     match headers.get(REQUEST_ID).and_then(|v| v.to_str().ok()).filter(|given| id::is_id(given)) {
         Some(given) => given.to_owned(),
-        None => uuid::Uuid::now_v7().simple().to_string(),
+        None => new_id(),
     }
 }
 
+fn new_id() -> String {
+    uuid::Uuid::now_v7().simple().to_string()
+}
+
 /// Turns a refusal into its problem document; other replies pass.
-fn written(mut response: Response, method: &Method, path: &str, id: &str) -> Response {
+fn written(mut response: Response, method: &Method, path: Option<&str>, id: &str) -> Response {
     let status = response.status();
     let problem = match response.extensions_mut().remove::<Problem>() {
         Some(problem) => problem,
@@ -79,7 +97,7 @@ fn written(mut response: Response, method: &Method, path: &str, id: &str) -> Res
     if problem.code.status() == 500 {
         tracing::error!(code = problem.code.name(), detail = problem.detail, request_id = id, "refused");
     }
-    let body = problem.doc(Some(path), Some(id)).text();
+    let body = problem.doc(path, Some(id)).text();
     let headers = response.headers_mut();
     headers.remove(header::CONTENT_LENGTH);
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));

@@ -28,7 +28,7 @@ pub struct ExportParams {
     /// Which sample of the generated futures; the chosen one when absent.
     sample: Option<usize>,
     /// `chosen` futures, or the `log` alone.
-    #[param(default = "chosen", value_type = String)]
+    #[param(default = "chosen", value_type = String, pattern = "^(chosen|log)$")]
     mode: Motion,
 }
 

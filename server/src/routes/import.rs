@@ -31,6 +31,7 @@ pub struct ImportParams {
     /// A name of the formats table; recognised from the content when absent or `auto`.
     format: Option<String>,
     /// Records to take, such as `0..9` (both ends), or one number.
+    #[param(pattern = "^[0-9]+(\\.\\.[0-9]+)?$")]
     index: Option<String>,
     /// Give the scenes back and store nothing.
     dry_run: bool,
@@ -141,7 +142,8 @@ struct Order {
     refuse_nc: bool,
 }
 
-refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK, FormatUnknown, LicenceRefused, StoreFull);
+refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
+    FormatUnknown, CannotRepresent, LicenceRefused, StoreFull);
 
 /// Stores the scenes of a file.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),

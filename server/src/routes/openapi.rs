@@ -41,11 +41,16 @@ pub fn document() -> Value {
 }
 
 /// What the paths' macros cannot say: a body is needed but for a copy, documents have a media type of their own too,
-/// and an uploaded file may come in a form.
+/// an uploaded file may come in a form, and an export has its format's media type.
 fn tidy(document: &mut Value) {
     let operations = document["paths"].as_object_mut().into_iter().flat_map(|paths| paths.values_mut());
     for operation in operations.flat_map(|item| item.as_object_mut().into_iter().flat_map(Map::values_mut)) {
         let id = operation["operationId"].as_str().unwrap_or_default().to_owned();
+        if let Some(content) = operation.pointer_mut("/responses/200/content").and_then(Value::as_object_mut)
+            && matches!(id.as_str(), "exportScene" | "exportUnsaved")
+        {
+            content.extend(exported());
+        }
         let Some(body) = operation.get_mut("requestBody").and_then(Value::as_object_mut) else { continue };
         body.insert("required".into(), json!(id != "duplicateScene"));
         let Some(content) = body.get_mut("content").and_then(Value::as_object_mut) else { continue };
@@ -63,9 +68,21 @@ fn tidy(document: &mut Value) {
     }
 }
 
-/// A scene, or the id of one: exactly one of the two members is given.
+/// The media types of files that are written; text and bytes are told apart by them alone.
+fn exported() -> Map<String, Value> {
+    let written = formats::registry::FORMATS.iter().map(|format| format.info()).filter(|info| info.export);
+    let content = |media_type: &'static str| match media_type {
+        formats::native::MEDIA_TYPE => json!({"schema": {"$ref": "#/components/schemas/Scene"}}),
+        _ => json!({"schema": {"type": "string", "format": "binary"}}),
+    };
+    written.map(|info| (info.media_type.to_owned(), content(info.media_type))).collect()
+}
+
+/// A scene, or the id of one: exactly one of the two members is given, and not as null.
 pub fn one_scene(schema: &mut schemars::Schema) {
-    schema.insert("oneOf".into(), json!([{"required": ["scene"]}, {"required": ["scene_id"]}]));
+    let given =
+        |member: &str| json!({"required": [member], "properties": {member: {"not": {"type": "null"}}}});
+    schema.insert("oneOf".into(), json!([given("scene"), given("scene_id")]));
 }
 
 /// Pretty text with a last newline, as it is committed.

@@ -9,7 +9,9 @@ use utoipa::openapi::{Ref, RefOr, Response, ResponseBuilder};
 
 /// Any operation: what is looked at before a handler is.
 pub const ANYWHERE: &[Code] = &[
+    Code::BadHeader,
     Code::BadHost,
+    Code::HeadTimeout,
     Code::HostNotAllowed,
     Code::Unauthorized,
     Code::CrossSite,
@@ -23,7 +25,6 @@ pub const CHANGES: &[Code] = &[Code::BadOrigin];
 pub const BODY: &[Code] = &[
     Code::MalformedJson,
     Code::MalformedFile,
-    Code::BadHeader,
     Code::BodyTimeout,
     Code::BodyTooLarge,
     Code::DecodedTooLarge,

@@ -31,7 +31,7 @@ pub struct ListParams {
     /// Scene that the listed ones are variants of.
     parent: Option<String>,
     /// `updated` or `name`, with `-` before it for falling order.
-    #[param(default = "-updated")]
+    #[param(default = "-updated", pattern = "^-?(updated|name)$")]
     sort: String,
 }
 
@@ -146,7 +146,8 @@ refusals!(Unread: QUERY STORE WORK, NotFound);
 /// Reads a scene.
 #[utoipa::path(get, path = "/v1/scenes/{id}", operation_id = "readScene", tag = "scenes",
     params(("id" = String, Path), ReadParams),
-    responses((status = 200, description = "the scene", body = ref("#/components/schemas/Scene")),
+    responses((status = 200, description = "the scene", body = ref("#/components/schemas/Scene"),
+            content_type = "application/vnd.dragtraffic.scene+json"),
         (status = 304, description = "not changed"), Unread))]
 pub async fn read(
     State(app): State<App>,

@@ -34,7 +34,8 @@ pub struct Standings {
 }
 
 impl Standings {
-    fn new(scene: Arc<Scene>) -> Self {
+    /// Of a scene that stays open.
+    pub fn new(scene: Arc<Scene>) -> Self {
         Self { scene, known: Mutex::default() }
     }
 

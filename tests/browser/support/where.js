@@ -27,14 +27,18 @@ export function missing() {
   return why;
 }
 
-/** A recorded scenario file from beside the checkout, or null. */
+/**
+ * A recorded scenario file, or null. DRAGTRAFFIC_SAMPLES says that there are some in its folder; without it they
+ * may lie beside the checkout.
+ */
 export function recordedFile() {
-  const folder = here('../../../../shared/data/womd/val');
-  const name =
-    existsSync(folder) &&
-    readdirSync(folder)
-      .sort()
-      .find((n) => n.endsWith('.tfrecord.gz'));
+  const said = process.env.DRAGTRAFFIC_SAMPLES;
+  const folder = said ? `${said}/womd/val` : here('../../../../shared/data/womd/val');
+  if (!said && !existsSync(folder)) return null;
+  const name = readdirSync(folder)
+    .sort()
+    .find((n) => n.endsWith('.tfrecord.gz'));
+  if (said && !name) throw new Error(`DRAGTRAFFIC_SAMPLES is set, but ${folder} has no .tfrecord.gz`);
   return name ? { path: `${folder}/${name}`, name } : null;
 }
 

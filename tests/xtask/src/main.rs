@@ -1,12 +1,20 @@
 //! `cargo xtask test`: sets up what the checks need and runs all of them.
 //! `cargo xtask golden`: shows how the answers of the shipped weights differ from the golden ones.
 //! `cargo xtask soak NAME`: trials that go on for as long as one likes.
+//! `cargo xtask dependencies`: shows which crates came and went since the list of them was committed.
+//! `cargo xtask fuzz`: readers and requests, with inputs that nobody thought of.
+//! `cargo xtask schemathesis`: the API against its document, with many examples.
 //!
 //! `cargo xtask test NAME…` runs some. What is missing on this machine (a browser) is skipped with a
 //! printed reason; a check that fails does not stop the others.
 
 #![allow(clippy::print_stdout, reason = "it talks to people")]
 
+mod advisories;
+mod dependencies;
+mod figures;
+mod fuzzing;
+mod schemathesis;
 mod soak;
 
 use anyhow::{Context, bail};
@@ -17,6 +25,8 @@ use std::time::Instant;
 /// How a check ended.
 enum Outcome {
     Passed,
+    /// Passed, with something to tell.
+    Told(String),
     Skipped(String),
     Failed(String),
 }
@@ -39,8 +49,12 @@ const CHECKS: &[Check] = &[
     ("domain", || drift("domain", "assets/domain.json")),
     ("machete", || tool("machete", &["machete"])),
     ("deny", || tool("deny", &["deny", "check", "licenses", "bans", "sources"])),
+    ("advisories", advisories::check),
+    ("dependencies", dependencies::check),
     ("package", || cargo(&[&["package", "--allow-dirty"][..], PACKAGES].concat())),
     ("python", python),
+    ("schemathesis", schemathesis::check),
+    ("figures", figures::drag),
     ("browser", browser),
 ];
 
@@ -55,12 +69,20 @@ fn main() -> ExitCode {
         Some((command, [])) if command == "golden" => golden("review"),
         Some((command, [flag])) if command == "golden" && flag == "--accept" => golden("accept"),
         Some((command, rest)) if command == "soak" => soak::run(rest),
+        Some((command, [])) if command == "dependencies" => alone(dependencies::check()),
+        Some((command, [flag])) if command == "dependencies" && flag == "--accept" => {
+            alone(dependencies::accept())
+        }
+        Some((command, rest)) if command == "fuzz" => alone(fuzzing::command(rest)),
+        Some((command, rest)) if command == "schemathesis" => alone(schemathesis::command(rest)),
         _ => {
             let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
             let names = names.join(", ");
             eprintln!(
                 "usage: cargo xtask test [NAME…]\n       cargo xtask golden [--accept]\n       \
-                 cargo xtask soak clients|kills|faults|schedule [--minutes N | --count N] [--seed S]\nchecks: {names}"
+                 cargo xtask soak clients|kills|faults|schedule [--minutes N | --count N] [--seed S]\n       \
+                 cargo xtask dependencies [--accept]\n       cargo xtask fuzz [TARGET…] [--seconds N] [--seed S]\n       \
+                 cargo xtask schemathesis [--examples N] [--seed S]\nchecks: {names}"
             );
             ExitCode::from(2)
         }
@@ -81,6 +103,7 @@ fn test(names: &[String]) -> ExitCode {
         let outcome = check().unwrap_or_else(|error| Outcome::Failed(format!("{error:#}")));
         let text = match outcome {
             Outcome::Passed => "passed".to_owned(),
+            Outcome::Told(what) => format!("passed: {what}"),
             Outcome::Skipped(why) => format!("skipped: {why}"),
             Outcome::Failed(why) => {
                 failed = true;
@@ -91,6 +114,25 @@ fn test(names: &[String]) -> ExitCode {
     }
     println!("\n{}", lines.join("\n"));
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// A single piece of work, outside the list of checks.
+fn alone(outcome: anyhow::Result<Outcome>) -> ExitCode {
+    match outcome {
+        Ok(Outcome::Passed) => ExitCode::SUCCESS,
+        Ok(Outcome::Told(what)) => {
+            println!("{what}");
+            ExitCode::SUCCESS
+        }
+        Ok(Outcome::Skipped(why) | Outcome::Failed(why)) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("{error:#}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// Prints what changed in the golden answers; `accept` keeps it.
@@ -120,32 +162,45 @@ fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
 
 /// Runs a cargo tool that is installed apart; without it the check is skipped.
 fn tool(name: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
+    missing_tool(name).map_or_else(|| cargo(arguments), |why| Ok(Outcome::Skipped(why)))
+}
+
+/// Why a cargo tool cannot be run here.
+fn missing_tool(name: &str) -> Option<String> {
     let program = format!("cargo-{name}");
     let found = Command::new(&program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    if !found.is_ok_and(|status| status.success()) {
-        return Ok(Outcome::Skipped(format!("{program} is not here; cargo install --locked {program}")));
+    let missing = !found.is_ok_and(|status| status.success());
+    missing.then(|| format!("{program} is not here; cargo install --locked {program}"))
+}
+
+/// A virtual environment of its own under `target`, with the packages of a file of requirements; else why not.
+fn virtual_environment(name: &str, requirements: &str) -> anyhow::Result<Result<PathBuf, String>> {
+    let folder = root().join("target").join(name);
+    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let wanted = std::fs::read(root().join(requirements))?;
+    let stamp = folder.join("installed.txt");
+    if !std::fs::read(&stamp).is_ok_and(|installed| installed == wanted) {
+        let ready = |program: &Path, arguments: &[&std::ffi::OsStr]| {
+            Command::new(program).args(arguments).current_dir(root()).status().is_ok_and(|s| s.success())
+        };
+        if !ready(Path::new("python3"), &["-m".as_ref(), "venv".as_ref(), folder.as_ref()]) {
+            return Ok(Err("python3 with venv is not here".into()));
+        }
+        let install = ["-m", "pip", "install", "-q", "-r", requirements];
+        if !ready(&own, &install.map(std::ffi::OsStr::new)) {
+            return Ok(Err(format!("the packages of {requirements} cannot be had")));
+        }
+        std::fs::write(&stamp, wanted)?;
     }
-    cargo(arguments)
+    Ok(Ok(own))
 }
 
 /// Types, tests and notebook of the Python module, over the program as it is built for tests.
 fn python() -> anyhow::Result<Outcome> {
-    let folder = root().join("target/python");
-    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let wanted = std::fs::read(root().join("python/requirements-test.txt"))?;
-    let stamp = folder.join("installed.txt");
-    if !std::fs::read(&stamp).is_ok_and(|installed| installed == wanted) {
-        let ready = |program: &Path, arguments: &[&str]| {
-            Command::new(program).args(arguments).current_dir(root()).status().is_ok_and(|s| s.success())
-        };
-        if !ready(Path::new("python3"), &["-m", "venv", "target/python"]) {
-            return Ok(Outcome::Skipped("python3 with venv is not here".into()));
-        }
-        if !ready(&own, &["-m", "pip", "install", "-q", "-r", "python/requirements-test.txt"]) {
-            return Ok(Outcome::Skipped("the packages of python/requirements-test.txt cannot be had".into()));
-        }
-        std::fs::write(&stamp, wanted)?;
-    }
+    let own = match virtual_environment("python", "python/requirements-test.txt")? {
+        Ok(own) => own,
+        Err(why) => return Ok(Outcome::Skipped(why)),
+    };
     if let Outcome::Failed(why) = cargo(&["build", "--workspace", "--locked"])? {
         return Ok(Outcome::Failed(why));
     }
@@ -200,6 +255,17 @@ fn drift(command: &str, file: &str) -> anyhow::Result<Outcome> {
     run(Command::new(program()?).args([command, "--check", file]).current_dir(root()))
 }
 
+/// A program of the tests, built as `cargo test --workspace` does.
+fn built(name: &str) -> anyhow::Result<PathBuf> {
+    if let Outcome::Failed(why) =
+        cargo(&["build", "--workspace", "--locked", "--bin", name, "--bin", "dragtraffic"])?
+    {
+        bail!(why);
+    }
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
+    Ok(target.join("debug").join(format!("{name}{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// The program that `cargo test --workspace` has built, else built now.
 fn program() -> anyhow::Result<PathBuf> {
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
@@ -247,7 +313,7 @@ fn chromium() -> anyhow::Result<Option<String>> {
     };
     apt(&["update", "-q"])?;
     match apt(&["install", "-y", "-q", "--no-install-recommends", "chromium"])? {
-        Outcome::Passed => Ok(on_path()),
+        Outcome::Passed | Outcome::Told(_) => Ok(on_path()),
         Outcome::Failed(why) | Outcome::Skipped(why) => bail!("chromium could not be installed: {why}"),
     }
 }

@@ -1320,7 +1320,11 @@ export interface components {
              * @default chosen
              */
             stream_modes?: components["schemas"]["StreamModes"];
-        } & (unknown | unknown);
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
         /**
          * GeneratedDoc
          * @description What the generator added to a scene.
@@ -2095,7 +2099,11 @@ export interface components {
             types?: {
                 [key: string]: number;
             } | null;
-        } & (unknown | unknown);
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
         /**
          * PlaceReply
          * @description What was placed.
@@ -2158,7 +2166,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -2822,7 +2830,11 @@ export interface components {
             trajectories?: {
                 [key: string]: components["schemas"]["TrajectoryDoc"];
             };
-        } & (unknown | unknown);
+        } & ({
+            scene: unknown;
+        } | {
+            scene_id: unknown;
+        });
         /**
          * ShownDoc
          * @description The future that was shown last.
@@ -3292,7 +3304,7 @@ export interface operations {
                     "application/json": components["schemas"]["Health"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3300,7 +3312,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -3325,6 +3337,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -3396,7 +3420,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3404,7 +3428,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -3429,6 +3453,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -3500,7 +3536,7 @@ export interface operations {
                     "application/json": components["schemas"]["Health"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3508,7 +3544,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -3533,6 +3569,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -3625,10 +3673,12 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": number[];
+                    "application/octet-stream": string;
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "text/csv": string;
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3636,7 +3686,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -3664,7 +3714,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -3672,7 +3722,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -3840,7 +3890,7 @@ export interface operations {
                     "text/event-stream": components["schemas"]["Event"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -3848,7 +3898,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -3900,7 +3950,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -3908,7 +3958,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -4092,7 +4142,7 @@ export interface operations {
                     "application/json": components["schemas"]["ImportReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4100,7 +4150,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -4128,7 +4178,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -4136,7 +4186,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -4200,7 +4250,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, licence-refused */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent, licence-refused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4208,7 +4258,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "licence-refused";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused";
                     };
                 };
             };
@@ -4292,7 +4342,7 @@ export interface operations {
                     "application/json": components["schemas"]["Info"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4300,7 +4350,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4325,6 +4375,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4396,7 +4458,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4404,7 +4466,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4441,6 +4503,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4512,7 +4586,7 @@ export interface operations {
                     "application/json": components["schemas"]["MapList"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4520,7 +4594,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4545,6 +4619,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4637,7 +4723,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4645,7 +4731,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -4682,6 +4768,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -4815,7 +4913,7 @@ export interface operations {
                     "application/json": components["schemas"]["PlaceReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -4823,7 +4921,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -4863,7 +4961,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -4871,7 +4969,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -5040,7 +5138,7 @@ export interface operations {
                     "application/json": components["schemas"]["SceneList"];
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5048,7 +5146,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -5073,6 +5171,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "cross-site";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -5173,7 +5283,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5181,7 +5291,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -5209,7 +5319,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -5217,7 +5327,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -5375,7 +5485,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Scene"];
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
                 };
             };
             /** @description not changed */
@@ -5385,7 +5495,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5393,7 +5503,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -5430,6 +5540,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -5568,7 +5690,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5576,7 +5698,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -5616,7 +5738,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -5624,7 +5746,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -5806,7 +5928,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5814,7 +5936,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -5851,6 +5973,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -5983,7 +6117,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -5991,7 +6125,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -6031,7 +6165,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -6039,7 +6173,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -6230,7 +6364,7 @@ export interface operations {
                     "application/json": components["schemas"]["Saved"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6238,7 +6372,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -6278,7 +6412,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -6286,7 +6420,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };
@@ -6448,10 +6582,12 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": number[];
+                    "application/octet-stream": string;
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "text/csv": string;
                 };
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6459,7 +6595,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -6496,6 +6632,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
@@ -6624,7 +6772,7 @@ export interface operations {
                     "application/json": components["schemas"]["ScoreReply"];
                 };
             };
-            /** @description bad-host, malformed-json, malformed-file, bad-header */
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6632,7 +6780,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host" | "malformed-json" | "malformed-file" | "bad-header";
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
                     };
                 };
             };
@@ -6672,7 +6820,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description body-timeout */
+            /** @description head-timeout, body-timeout */
             408: {
                 headers: {
                     [name: string]: unknown;
@@ -6680,7 +6828,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "body-timeout";
+                        code?: "head-timeout" | "body-timeout";
                     };
                 };
             };

@@ -5,10 +5,13 @@ use super::lists::bounded;
 use super::value::{Members, check_integer, round_m, round_rad};
 use crate::problem::Problems;
 use scene::judge::{About, Fault, Manoeuvre, Reaction, Relation};
-use scene::{AgentFutures, Future, Generated, Sample, State};
+use scene::{AgentFutures, Future, Generated, MAX_COORDINATE_M, Sample, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// Greatest speed of a future along x and along y, as of a track.
+const MAX_SPEED_MPS: f64 = 150.0;
 
 /// One possible motion as columns, one value a step from `first_step`, without gaps. Rounded to
 /// 0.001 m, 0.0001 rad and 0.001 m/s.
@@ -135,6 +138,18 @@ impl FutureDoc {
             problems.invalid(format!("{pointer}/{name}"), detail);
         }
         problems.range(&format!("{pointer}/probability"), (0.0, 1.0), self.probability);
+        // A future may go on a little beyond where a track may be.
+        let far_m = 2.0 * MAX_COORDINATE_M;
+        for (name, column, most) in [
+            ("x_m", &self.x_m, far_m),
+            ("y_m", &self.y_m, far_m),
+            ("vx_mps", &self.vx_mps, MAX_SPEED_MPS),
+            ("vy_mps", &self.vy_mps, MAX_SPEED_MPS),
+        ] {
+            if let Some((i, value)) = column.iter().enumerate().find(|(_, value)| value.abs() > most) {
+                problems.range(&format!("{pointer}/{name}/{i}"), (-most, most), *value);
+            }
+        }
         let last_step = 100_000;
         problems.range(&format!("{pointer}/first_step"), (0.0, f64::from(last_step)), self.first_step as f64);
         let values =

@@ -3,7 +3,6 @@
 
 use lab_eval::measure::{following, mean_distance_m};
 use scene::{Agent, AgentType, HORIZON_STEPS};
-use std::path::Path;
 
 /// Mean distance of the rollout of the fitted knots from a vehicle's track; `None` for one that is not
 /// seen throughout, does not move, or reverses.
@@ -22,11 +21,7 @@ fn fit_error_m(agent: &Agent) -> Option<f64> {
 
 #[test]
 fn fitted_knots_follow_real_vehicles() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/data/womd/train");
-    if !folder.is_dir() {
-        println!("skipped: no recorded scenes in {}", folder.display());
-        return;
-    }
+    let Some(folder) = samples::folder("womd/train", ".tfrecord") else { return };
     let files = lab_train::scenes::scene_files(&[folder]).unwrap();
     let scenes = files.iter().flat_map(|f| lab_train::scenes::read_scenes(f).unwrap());
     let mut errors: Vec<f64> =

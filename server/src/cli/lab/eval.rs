@@ -57,7 +57,8 @@ pub struct EvalArgs {
 pub struct BenchArgs {
     #[command(flatten)]
     scenes: SceneArgs,
-    /// Over HTTP: a server is started beside, and each call's time stands beside what the engine took of it.
+    /// Over HTTP: a server is started beside, and each call's time stands beside that of the same request answered
+    /// in this process.
     #[arg(long, conflicts_with = "crowd")]
     http: bool,
     /// So many callers at once, one number after the other, then one who drags beside the heaviest calls; on the

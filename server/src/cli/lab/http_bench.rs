@@ -1,13 +1,20 @@
-//! `dragtraffic bench --http`: calls over a real socket, with the engine's own time beside them.
+//! `dragtraffic bench --http`: calls over a real socket, and the same requests answered in this process.
 
 use super::failed;
 use super::served::{Connection, JSON, NDJSON, Served};
+use crate::base::limits::Limits;
 use crate::cli::{Common, Failure};
+use crate::generation::{Task, run};
+use crate::routes::generate::GenerateRequest;
+use crate::scenes::Standings;
+use experts::{Cancel, Event, Generator};
 use formats::native::{MapForm, SceneDoc, write_doc};
 use lab_eval::cost::Percentiles;
 use scene::{AgentType, Scene};
 use serde::Serialize;
 use serde_json::{Value, json};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Calls of each kind on each scene; two more come first and are not counted.
 const CALLS: usize = 30;
@@ -21,18 +28,24 @@ pub struct HttpLatency {
     what: &'static str,
     /// From the first byte sent to the last one read.
     http: Percentiles,
-    /// What the engine did meanwhile, as the reply tells it.
+    /// The same request in this process, from its start to the answer with its scores where it asks for them.
     engine: Percentiles,
     /// To the first futures, of calls that stream.
     #[serde(skip_serializing_if = "Option::is_none")]
     first: Option<Percentiles>,
+    /// To the first futures in this process, of the same calls.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    engine_first: Option<Percentiles>,
     /// Of the last reply.
     bytes: usize,
 }
 
-/// Saves each scene on a server of its own and asks for one road user's futures there, again and again.
+/// Saves each scene on a server of its own and asks for one road user's futures there, again and again, and then
+/// in this process. A release lets the others react and is scored.
 pub fn latency(scenes: &[Scene], common: &Common) -> Result<Vec<HttpLatency>, Failure> {
     let server = Served::start(common)?;
+    let generator = common.generator()?;
+    generator.warm_up();
     let mut kept = Connection::open(server.port)?;
     let mut rows = Vec::new();
     for scene in scenes {
@@ -40,6 +53,8 @@ pub fn latency(scenes: &[Scene], common: &Common) -> Result<Vec<HttpLatency>, Fa
         let doc = write_doc(&SceneDoc::from_scene(scene, MapForm::Inline));
         let saved: Value =
             serde_json::from_slice(&kept.post("/v1/scenes", "*/*", &doc)?.body).map_err(failed)?;
+        let open = Arc::new(scene.clone());
+        let standings = Arc::new(Standings::new(Arc::clone(&open)));
         let lean = json!({"scene_id": saved["id"], "agents": [asked], "futures": "compact"});
         let with = |more: &[(&str, Value)]| {
             let mut body = lean.clone();
@@ -55,38 +70,73 @@ pub fn latency(scenes: &[Scene], common: &Common) -> Result<Vec<HttpLatency>, Fa
             ("release, streamed", NDJSON, with(&[("react", json!(true)), all])),
         ];
         for (what, accept, body) in kinds {
-            rows.push(timed(&mut kept, server.port, scene, what, (accept, &body))?);
+            let request: GenerateRequest = serde_json::from_slice(&body).map_err(failed)?;
+            let task = request.task(&open, &Limits::default(), &generator);
+            let task = task.map_err(|problem| failed(Refused(problem.detail)))?;
+            let task = Task { standings: Some(Arc::clone(&standings)), ..task };
+            let engine = Alone { generator: &generator, task };
+            rows.push(timed(&mut kept, server.port, scene, what, (accept, &body), &engine)?);
         }
     }
     Ok(rows)
 }
 
+#[derive(Debug, thiserror::Error)]
+#[error("the request is refused: {0}")]
+struct Refused(String);
+
+/// A request answered in this process, without a socket, a queue or text.
+struct Alone<'a> {
+    generator: &'a Generator,
+    task: Task,
+}
+
+impl Alone<'_> {
+    /// Milliseconds to the first futures and to the answer.
+    fn call(&self) -> Result<(f64, f64), Failure> {
+        let began = Instant::now();
+        let ms = || began.elapsed().as_secs_f64() * 1e3;
+        let (mut first, mut whole) = (f64::NAN, f64::NAN);
+        for event in self.generator.start(self.task.request.clone(), Cancel::default()).map_err(failed)? {
+            match event.map_err(failed)? {
+                Event::Accepted(_) => {}
+                Event::Draft(_) => first = first.min(ms()),
+                Event::Final(answer) => {
+                    std::hint::black_box(run::answered(&self.task, &answer, Duration::ZERO, self.generator));
+                    whole = ms();
+                }
+            }
+        }
+        Ok((first, whole))
+    }
+}
+
+/// Calls over the socket and in this process by turns, so that what else the machine does meets both.
 fn timed(
     kept: &mut Connection,
     port: u16,
     scene: &Scene,
     what: &'static str,
     (accept, body): (&str, &[u8]),
+    alone: &Alone<'_>,
 ) -> Result<HttpLatency, Failure> {
-    let (mut http, mut engine, mut first, mut bytes) = (Vec::new(), Vec::new(), Vec::new(), 0);
+    let (mut http, mut engine, mut bytes) = (Vec::new(), Vec::new(), 0);
+    let (mut first, mut engine_first) = (Vec::new(), Vec::new());
     for call in 0..CALLS + 2 {
         let reply = kept.post("/v1/generate", accept, body)?;
         if reply.closes {
             *kept = Connection::open(port)?;
         }
-        let line = reply.body.trim_ascii_end().rsplit(|byte| *byte == b'\n').next().unwrap_or_default();
-        let last: Value = serde_json::from_slice(line).map_err(failed)?;
-        let ms = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-        let timing = &last["timing"];
-        let steps: f64 = timing["step_ms"].as_array().into_iter().flatten().map(ms).sum();
-        let own = ms(&timing["encode_ms"]) + ms(&timing["initial_ms"]) + steps + ms(&timing["choice_ms"]);
+        let (own_first, own) = alone.call()?;
         if call >= 2 {
             http.push(reply.ms);
             engine.push(own);
             first.extend(reply.first_ms);
+            engine_first.extend(reply.first_ms.map(|_| own_first));
             bytes = reply.body.len();
         }
     }
+    let some = |values: Vec<f64>| (!values.is_empty()).then(|| Percentiles::of(values));
     Ok(HttpLatency {
         scene: scene.name.clone(),
         road_users: scene.agents.len(),
@@ -94,7 +144,8 @@ fn timed(
         what,
         http: Percentiles::of(http),
         engine: Percentiles::of(engine),
-        first: (!first.is_empty()).then(|| Percentiles::of(first)),
+        first: some(first),
+        engine_first: some(engine_first),
         bytes,
     })
 }

@@ -1,0 +1,43 @@
+//! The API held against its own document by Schemathesis: examples, borders, drawn bodies good and bad, and chains
+//! of calls. `tests/schemathesis.toml` says what is checked, and why something is not.
+
+use crate::{Outcome, built, root, run, virtual_environment};
+use anyhow::{Context, bail};
+use std::process::Command;
+
+const REQUIREMENTS: &str = "tests/schemathesis-requirements.txt";
+const CONFIG: &str = "tests/schemathesis.toml";
+/// Examples of an operation in the check of every merge, and their seed.
+const EXAMPLES: u64 = 20;
+const SEED: u64 = 1;
+
+/// A few examples of each operation.
+pub fn check() -> anyhow::Result<Outcome> {
+    examples(EXAMPLES, SEED)
+}
+
+/// As many examples as asked for.
+pub fn command(arguments: &[String]) -> anyhow::Result<Outcome> {
+    let (mut number, mut seed) = (500, SEED);
+    for pair in arguments.chunks(2) {
+        let value = pair.get(1).and_then(|text| text.parse().ok());
+        let value = value.with_context(|| format!("{} takes a number", pair.concat()))?;
+        match pair.first().map(String::as_str) {
+            Some("--examples") => number = value,
+            Some("--seed") => seed = value,
+            _ => bail!("cargo xtask schemathesis [--examples N] [--seed S]"),
+        }
+    }
+    examples(number, seed)
+}
+
+fn examples(number: u64, seed: u64) -> anyhow::Result<Outcome> {
+    let own = match virtual_environment("schemathesis", REQUIREMENTS)? {
+        Ok(own) => own,
+        Err(why) => return Ok(Outcome::Skipped(why)),
+    };
+    println!("{number} examples of each operation, seed {seed}");
+    let mut api = Command::new(built("api")?);
+    api.arg(own.with_file_name("schemathesis")).args([CONFIG, &number.to_string(), &seed.to_string()]);
+    run(api.current_dir(root()))
+}
