@@ -47,7 +47,7 @@ pub(super) fn copy(source: &Connection, to: &Path) -> Result<Copied, StoreError>
     let no_file = || StoreError::File(io::Error::other("a plain file is expected for the copy"));
     let partial = whole.partial().ok_or_else(no_file)?;
     make_private(partial).map_err(StoreError::File)?;
-    let scenes = fill(source, partial)?;
+    let scenes = fill(source, partial).inspect_err(|_| clear(partial))?;
     whole.finish().map_err(StoreError::File)?;
     let bytes = sync_name(to).map_err(StoreError::File)?;
     Ok(Copied { scenes, bytes })
@@ -67,6 +67,16 @@ fn fill(source: &Connection, partial: &Path) -> Result<u64, StoreError> {
     }
     let scenes: i64 = target.query_row("SELECT count(*) FROM scenes", [], |row| row.get(0))?;
     Ok(scenes.unsigned_abs())
+}
+
+/// Removes what the database library has left beside a copy that came to nothing.
+fn clear(partial: &Path) {
+    for end in ["-wal", "-shm", "-journal"] {
+        let mut name = partial.as_os_str().to_owned();
+        name.push(end);
+        // Most of them are not there.
+        let _ = std::fs::remove_file(name);
+    }
 }
 
 /// All pages in one step, under one read lock. In several steps the copy would begin anew with each write of
