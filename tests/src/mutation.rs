@@ -2,6 +2,7 @@
 //!
 //! The n-th input of a seed is the same for ever, so that a finding is told by two numbers.
 
+use crate::random::Random;
 use anyhow::{Context, ensure};
 use std::path::Path;
 
@@ -102,7 +103,7 @@ impl Corpus {
 
     /// The n-th input of a seed.
     pub fn input(&self, seed: u64, n: u64) -> Vec<u8> {
-        let mut dice = Dice::new(seed, n);
+        let mut dice = Random::of_part(seed, n);
         let mut bytes = dice.pick(&self.files).clone();
         // Half of them have one fault, which is then seen by itself.
         let changes = if dice.below(2) == 0 { 1 } else { 2 + dice.below(MOST_CHANGES - 1) };
@@ -113,16 +114,16 @@ impl Corpus {
         bytes
     }
 
-    fn change(&self, bytes: &mut Vec<u8>, dice: &mut Dice) {
+    fn change(&self, bytes: &mut Vec<u8>, dice: &mut Random) {
         let at = dice.index(bytes.len() + 1);
         let span = at..bytes.len().min(at + 1 + dice.small());
         match dice.below(18) {
             0 => bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 1 << dice.below(8)),
-            1 => bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte = dice.next() as u8),
+            1 => bytes.iter_mut().skip(at).take(1).for_each(|byte| *byte = dice.any() as u8),
             2 => bytes.truncate(at),
             3 => drop(bytes.drain(span)),
             4 => {
-                let noise: Vec<u8> = (0..dice.small()).map(|_| dice.next() as u8).collect();
+                let noise: Vec<u8> = (0..dice.small()).map(|_| dice.any() as u8).collect();
                 bytes.splice(at..at, noise);
             }
             5 => {
@@ -164,7 +165,7 @@ impl Corpus {
     }
 
     /// Replaces the first token from a drawn place on that has a replacement.
-    fn replace(&self, bytes: &mut Vec<u8>, dice: &mut Dice, with: impl Fn(&[u8]) -> Option<Vec<u8>>) {
+    fn replace(&self, bytes: &mut Vec<u8>, dice: &mut Random, with: impl Fn(&[u8]) -> Option<Vec<u8>>) {
         let found: Vec<(usize, usize)> =
             spans(bytes).iter().map(|token| (offset(bytes, token), token.len())).collect();
         let from = dice.index(found.len().max(1));
@@ -199,46 +200,10 @@ fn varint(mut value: u64) -> Vec<u8> {
     bytes
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Dice(u64);
-
-impl Dice {
-    fn new(seed: u64, n: u64) -> Self {
-        let mut dice = Self(seed);
-        let mixed = dice.next();
-        Self(mixed ^ n.wrapping_mul(0x9e37_79b9_7f4a_7c15))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, end: u64) -> u64 {
-        self.next() % end.max(1)
-    }
-
-    fn index(&mut self, length: usize) -> usize {
-        self.below(length as u64) as usize
-    }
-
-    /// Mostly few, sometimes many.
-    fn small(&mut self) -> usize {
-        let most = 1 << self.below(10);
-        self.index(most)
-    }
-
-    #[allow(clippy::indexing_slicing, reason = "lists that are drawn from are never empty")]
-    fn pick<'a, T>(&mut self, list: &'a [T]) -> &'a T {
-        &list[self.index(list.len())]
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Corpus, Dice, spans, varint};
+    use super::{Corpus, spans, varint};
+    use crate::random::Random;
 
     #[test]
     fn inputs_come_again_and_differ() {
@@ -257,7 +222,7 @@ mod tests {
         assert_eq!(spans(br#"{"a_b":-1.5e+3}"#), [&b"a_b"[..], b"-1.5e+3"]);
         assert_eq!(varint(300), [0xac, 2]);
         assert_eq!(varint(u64::MAX).len(), 10);
-        let mut dice = Dice::new(1, 2);
+        let mut dice = Random::of_part(1, 2);
         assert!((0..100).all(|_| dice.index(3) < 3));
     }
 }

@@ -30,4 +30,21 @@ impl Random {
     pub fn below(&mut self, end: u64) -> u64 {
         self.any().checked_rem(end).unwrap_or(0)
     }
+
+    /// A place in a list of this length; 0 in an empty one.
+    pub fn index(&mut self, length: usize) -> usize {
+        self.below(length as u64) as usize
+    }
+
+    /// A number below 1000, mostly a small one.
+    pub fn small(&mut self) -> usize {
+        let most = 1 << self.below(10);
+        self.index(most)
+    }
+
+    /// One of a list, which must not be empty.
+    #[allow(clippy::indexing_slicing, reason = "lists that are drawn from are never empty")]
+    pub fn pick<'a, T>(&mut self, list: &'a [T]) -> &'a T {
+        &list[self.index(list.len())]
+    }
 }

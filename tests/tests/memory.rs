@@ -37,7 +37,7 @@ fn record(number: u64) -> Vec<u8> {
     };
     let agents = (0..200).map(|agent| {
         let states = (0..91).map(|i| state(agent, i)).collect();
-        Agent::bare(&agent.to_string(), AgentType::Vehicle, Subtype::Car, states)
+        Agent::bare(agent.to_string(), AgentType::Vehicle, Subtype::Car, states)
     });
     let scene = Scene::bare("busy", LaneMap::default(), agents.collect());
     let mut file = Vec::new();

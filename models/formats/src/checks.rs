@@ -5,10 +5,12 @@
 use crate::format::{ExportedMotion, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
 use crate::registry;
+use crate::source::Source;
 use crate::womd::{self, Options};
 use scene::routes::LaneGraph;
 use scene::score::{Drivable, ScoreInput, score};
 use scene::{AgentType, Scene, State};
+use std::sync::Arc;
 
 /// What must hold for any bytes; it says whether they were read, and panics where a promise is broken.
 pub type Check = fn(&[u8]) -> bool;
@@ -92,10 +94,11 @@ pub fn sumo(format: &str, bytes: &[u8]) -> bool {
 pub fn sumo_pair(bytes: &[u8]) -> bool {
     let mut parts = bytes.splitn(2, |byte| *byte == 0);
     let (net, file) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
-    imported("sumo-fcd", file, Some(net.to_vec()))
+    imported("sumo-fcd", file, Some(net))
 }
 
-fn imported(format: &str, bytes: &[u8], net: Option<Vec<u8>>) -> bool {
+fn imported(format: &str, bytes: &[u8], net: Option<&[u8]>) -> bool {
+    let net = net.map(|net| Arc::new(net.to_vec()) as Arc<dyn Source>);
     let options = ImportOptions { max_scenes: 4, net, ..ImportOptions::default() };
     let format = registry::by_id(format).expect("the format is in the table");
     let mut read = false;

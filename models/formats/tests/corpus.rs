@@ -50,7 +50,9 @@ fn corpus_and_fixtures_keep_the_promises() {
     let mut count = 0;
     for path in all {
         let bytes = std::fs::read(&path).unwrap();
-        checks::TARGETS.iter().for_each(|(_, check)| drop(check(&bytes)));
+        for (_, check) in checks::TARGETS {
+            check(&bytes);
+        }
         count += 1;
     }
     println!("{count} inputs");

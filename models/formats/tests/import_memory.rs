@@ -57,7 +57,7 @@ fn busy(agents: u64, steps: u64) -> Scene {
     };
     let agents = (0..agents).map(|agent| {
         let states = (0..steps).map(|step| Some(state(agent, step))).collect();
-        Agent::bare(&agent.to_string(), AgentType::Vehicle, Subtype::Car, states)
+        Agent::bare(agent.to_string(), AgentType::Vehicle, Subtype::Car, states)
     });
     Scene::bare("busy", LaneMap::default(), agents.collect())
 }
@@ -129,6 +129,9 @@ fn read(file: &dyn Source, format: &str) -> (usize, Option<&'static str>, usize)
     (count, fault, ALLOCATOR.peak_usage() - before)
 }
 
+/// Name, format, file; scenes, the first fault, and most MiB beside the file.
+type Tried = (&'static str, &'static str, Box<dyn Source>, usize, Option<&'static str>, usize);
+
 #[test]
 fn reading_takes_little_beside_the_file() {
     let native = formats::native::write(&busy(256, 600));
@@ -140,8 +143,8 @@ fn reading_takes_little_beside_the_file() {
     let own = r#"{"format":"dragtraffic.scene","version":1,"time":{"steps":9},"#;
     let agents = format!("{own}\"map\":{{}},\"agents\":[{{}}");
     let zeros = vec![0; 120 * MIB];
-    // Scenes, the first fault, and most MiB beside the file. Files that are no bombs keep to 8 x their bytes + 64.
-    let files: Vec<(&str, &str, Box<dyn Source>, usize, Option<&str>, usize)> = vec![
+    // Files that are no bombs keep to 8 x their bytes + 64.
+    let files: Vec<Tried> = vec![
         ("native", "dragtraffic", Box::new(Wrapped(gzip(&native))), 1, None, 64),
         ("records", "womd", Box::new(records(100)), 100, None, 24),
         ("records, wrapped", "womd", Box::new(Wrapped(gzip(&records(100)))), 100, None, 24),

@@ -358,9 +358,9 @@ proptest! {
         edits in proptest::collection::vec((any::<usize>(), any::<u8>(), any::<u8>()), 1..6),
     ) {
         let net = mutated(include_bytes!("fixtures/street.net.xml"), &edits);
-        formats::checks::sumo(&net);
-        formats::checks::sumo(&mutated(include_bytes!("fixtures/street.fcd.xml"), &edits));
-        formats::checks::sumo(&mutated(include_bytes!("fixtures/street.fcd.csv"), &edits));
+        formats::checks::sumo("sumo-net", &net);
+        formats::checks::sumo("sumo-fcd", &mutated(include_bytes!("fixtures/street.fcd.xml"), &edits));
+        formats::checks::sumo("sumo-fcd", &mutated(include_bytes!("fixtures/street.fcd.csv"), &edits));
     }
 
     #[test]

@@ -106,7 +106,10 @@ fn broken(error: impl ToString) -> Problem {
     Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
 }
 
-/// The first part of each of these names in a form, with the name of its file.
+/// A part, and the name of its file where it has one.
+pub type NamedPart = (Part, Option<String>);
+
+/// The first part of each of these names in a form.
 ///
 /// # Errors
 /// `malformed-file`.
@@ -114,7 +117,7 @@ pub fn parts<const N: usize>(
     form: &Arc<Upload>,
     content_type: &str,
     names: [&str; N],
-) -> Result<[Option<(Part, Option<String>)>; N], Problem> {
+) -> Result<[Option<NamedPart>; N], Problem> {
     let boundary = multer::parse_boundary(content_type)
         .map_err(|_| broken("Invalid `boundary` for `multipart/form-data` request"))?;
     let mut found = [const { None }; N];
