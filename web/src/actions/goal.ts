@@ -1,5 +1,5 @@
 // Goal and futures: what is asked of the selected road user, which future it takes, and working everything out.
-import { canChange, hasGoal, touched, type Agent } from '../model/scene';
+import { canChange, changedByHand, hasGoal, type Agent } from '../model/scene';
 import { clearGoal, resetAgent, setSeed, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
 import type { Editor } from '../edit/editor';
@@ -145,6 +145,6 @@ export const goal = inGroup('Goal and futures', [
     keys: ['Shift+R'],
     icon: 'undo',
     help: 'This road user as it was recorded',
-    ...onAgent((_, a) => (touched(a) ? resetAgent(a) : null)),
+    ...onAgent((_, a) => (changedByHand(a) ? resetAgent(a) : null)),
   },
 ]);

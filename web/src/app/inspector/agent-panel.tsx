@@ -1,6 +1,6 @@
 // The inspector of one road user: verdict on the goal, start, goal, six futures, who changed.
 import { useComputed } from '@preact/signals';
-import { canChange, hasGoal, startPose, touched, type Agent } from '../../model/scene';
+import { canChange, changedByHand, hasGoal, startPose, type Agent } from '../../model/scene';
 import { seconds } from '../../model/units';
 import { laneWords } from '../../edit/snap';
 import { useApp } from '../parts/app-context';
@@ -96,7 +96,7 @@ function Warnings({ agent }: { agent: LiveAgent }) {
 
 function Foot({ agent }: { agent: LiveAgent }) {
   const goal = useComputed(() => hasGoal(agent.value.goal)).value;
-  const changed = useComputed(() => touched(agent.value)).value;
+  const changed = useComputed(() => changedByHand(agent.value) && !agent.value.placed).value;
   return (
     <div class="sect foot">
       {goal ? (
