@@ -5,7 +5,8 @@ import { LETTERS } from '../model/futures';
 import type { Editor } from '../edit/editor';
 import * as moves from '../edit/moves';
 import { leaveToCross, roadWay } from '../edit/ways-out';
-import { activePart, hasScene, inGroup, onAgent, type Action } from './action';
+import { clearGoals } from '../edit/several';
+import { activePart, hasScene, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
 
 const LARGEST_NEW_SEED = 9999;
@@ -61,7 +62,7 @@ export const goal = inGroup('Goal and futures', [
     keys: ['Shift+G'],
     icon: 'x',
     help: 'The generator decides again',
-    ...onAgent((_, a) => (hasGoal(a.goal) ? clearGoal(a) : null)),
+    ...onSome((_, all) => (all.length > 1 ? clearGoals(all) : hasGoal(all[0].goal) ? clearGoal(all[0]) : null)),
   },
   {
     id: 'toggle-field',
@@ -85,7 +86,7 @@ export const goal = inGroup('Goal and futures', [
   {
     id: 'free-speed',
     label: 'Speed free',
-    keys: ['Backspace'],
+    keys: ['Shift+Backspace'],
     help: 'Speed of the active part',
     ...onAgent((c, a) => {
       const part = activePart(c);

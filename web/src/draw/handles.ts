@@ -76,6 +76,21 @@ export function paintHandles(
   return h;
 }
 
+/** The speed arrow alone, without a handle to drag; gives its tip. */
+export function paintSpeed(
+  g: CanvasRenderingContext2D,
+  v: View,
+  a: Sized,
+  p: Pose,
+  colour: string,
+  free: boolean,
+): Vec {
+  const h = handlePoints(v, a, p);
+  haloLine(g, h.nose, h.tip, colour, 1.8, free);
+  arrowHead(g, h.tip, p.heading, { colour, freeSpeed: free, tick: 1 }, 0.7);
+  return h.tip;
+}
+
 function haloLine(g: CanvasRenderingContext2D, a: Vec, b: Vec, colour: string, width: number, free?: boolean): void {
   g.beginPath();
   g.moveTo(a[0], a[1]);

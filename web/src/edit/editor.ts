@@ -15,6 +15,7 @@ import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import type { ToolName } from './gestures/tools';
 import { Notices } from './notices';
+import { Placement } from './placement';
 import { Playhead } from './playhead';
 
 export type Part = 'start' | 'goal';
@@ -61,6 +62,12 @@ export interface MeasuredLine {
   readonly b: Vec;
 }
 
+/** What a marquee or a lasso goes round, in metres, and whom it takes. */
+export interface Sweep {
+  readonly outline: readonly Vec[];
+  readonly ids: readonly string[];
+}
+
 /** A change of the document that was committed: its name, whom it is about, and whether undo or redo made it. */
 export interface Step {
   readonly name: string;
@@ -77,6 +84,7 @@ export class Editor {
   readonly answers = new Answers();
   readonly playhead = new Playhead();
   readonly notices = new Notices();
+  readonly placement = new Placement();
 
   readonly #scene = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);
@@ -88,6 +96,7 @@ export class Editor {
   readonly #layers = signal<Layers>({ futures: true, log: false, lanes: false, labels: false });
   readonly #tool = signal<ToolName>('select');
   readonly #measure = signal<MeasuredLine | null>(null);
+  readonly #sweep = signal<Sweep | null>(null);
   readonly #showBefore = signal(true);
   readonly #showForeseen = signal(true);
   readonly #drag = signal<DragInfo | null>(null);
@@ -114,6 +123,7 @@ export class Editor {
   readonly tool: ReadonlySignal<ToolName> = this.#tool;
   /** Ends of the measuring line, in metres. */
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
+  readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
   /** Are the paths before the last change shown beside the new ones? */
   readonly showBefore: ReadonlySignal<boolean> = this.#showBefore;
   /** Are the others' answers shown on the picture while a handle is dragged? */
@@ -198,6 +208,8 @@ export class Editor {
       this.#selectedEvent.value = null;
       this.answers.open(scene, saved);
       this.playhead.rewind();
+      this.placement.stop();
+      this.#sweep.value = null;
       this.notices.hide();
       this.#nameSteps();
     });
@@ -391,11 +403,16 @@ export class Editor {
     batch(() => {
       this.#tool.value = tool;
       this.#measure.value = null;
+      this.placement.stop();
     });
   }
 
   measureBetween(line: MeasuredLine | null): void {
     this.#measure.value = line;
+  }
+
+  sweepOver(sweep: Sweep | null): void {
+    this.#sweep.value = sweep;
   }
 
   pickEvent(event: TrafficEvent | null): void {

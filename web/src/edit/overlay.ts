@@ -17,6 +17,7 @@ import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
+import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
 
 type G = CanvasRenderingContext2D;
@@ -36,6 +37,7 @@ export class Overlay {
   private readonly verdicts: VerdictOverlay;
   private readonly events: EventsOverlay;
   private readonly ghosts: GhostOverlay;
+  private readonly several: SeveralOverlay;
 
   constructor(
     private readonly editor: Editor,
@@ -48,6 +50,7 @@ export class Overlay {
     this.verdicts = new VerdictOverlay(editor, this.labels);
     this.changes = new ChangesOverlay(editor, this.labels, poseNow);
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
+    this.several = new SeveralOverlay(editor, this.labels, poseNow);
   }
 
   /** Where the time tag was painted, for the pointer. */
@@ -90,6 +93,7 @@ export class Overlay {
     if (e.showBefore.value) this.changes.paintBefore(g, v);
     this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
+    this.several.paint(g, v);
     this.ghosts.paintLabels(g, v);
     this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);
@@ -103,7 +107,7 @@ export class Overlay {
       [left, v.h - 52, 400, 52],
       [v.w - 160, v.h - 52, 160, 52],
       [v.w - 260, 0, 260, 52],
-      [0, 0, 62, 170],
+      [0, 0, 62, 430],
       [left ? 62 : 0, 0, left, left ? v.h : 0],
     ];
   }
@@ -131,7 +135,7 @@ export class Overlay {
   private paintHover(g: G, v: View): void {
     const { editor: e } = this;
     const id = e.hover.value;
-    const a = id && id !== e.selection.value ? e.scene.value!.agents.get(id) : null;
+    const a = id && !e.selected.value.includes(id) ? e.scene.value!.agents.get(id) : null;
     const p = a && this.poseNow(a);
     if (!a || !p || e.drag.value) return;
     const t = e.time.value;

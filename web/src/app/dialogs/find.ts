@@ -18,7 +18,7 @@ const MOST = 60;
 const MOST_ROAD_USERS = 8;
 const MOST_SCENES = 6;
 /** Groups that stand under the name of the selected road user. */
-const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move'];
+const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move', 'Edit'];
 
 export function find(c: Context, typed: string): Entry[] {
   const query = typed.trim().toLowerCase();

@@ -1,0 +1,187 @@
+// Where somebody new would stand: snapped to the lane under the pointer, with its heading and its speed.
+import { insidePolygon, makeLine, pointAt, wrapAngle, type Pose, type Vec } from '../model/geometry';
+import { topSpeed } from '../model/domain';
+import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
+import type { Lane, LaneMap } from '../model/lanemap';
+import { newcomer, type Newcomer } from '../model/newcomer';
+import type { Scene } from '../model/scene';
+import { inTheWay, standing, type Footprint } from './room';
+import { laneWords, lanesFor, snapToLane } from './snap';
+
+/** What is about to be placed. */
+export interface Ghost {
+  readonly who: Newcomer;
+  /** Does it touch nobody? */
+  readonly fits: boolean;
+}
+
+/** Ghosts on the picture, and a word beside the last of them. */
+export interface Ghosts {
+  readonly all: readonly Ghost[];
+  readonly words: string;
+  readonly lane: string | null;
+}
+
+/** How road users are spread by one gesture. */
+export type Spread = 'one' | 'line' | 'area';
+
+export interface PlacingChoice {
+  readonly kind: PlacedKind;
+  readonly size: Preset;
+  readonly spread: Spread;
+  readonly count: number;
+}
+
+export const LEAST_COUNT = 2;
+export const MOST_COUNT = 100;
+
+export const firstChoice = (kind: PlacedKind): PlacingChoice => ({
+  kind,
+  size: PRESETS[kind][0],
+  spread: 'one',
+  count: 20,
+});
+
+/** Nearest lane, its heading, and the speed that is driven there. */
+export function snapNewcomer(
+  scene: Scene,
+  n: Pick<Newcomer, 'kind' | 'pose'>,
+  zoom: number,
+): { x: number; y: number; heading: number; lane: Lane | null } {
+  const { x, y, heading } = n.pose;
+  const s = snapToLane(scene.map, { type: typeOfKind(n.kind) } as never, x, y, null, zoom, null);
+  return { x: s.x, y: s.y, heading: s.laneHeading ?? heading, lane: s.lane };
+}
+
+/** A lane has its limit; who rides or walks there keeps to the own pace. */
+function speedOn(lane: Lane | null, { kind, size }: PlacingChoice): number {
+  const own = size.speed;
+  const on = typeOfKind(kind) === 'vehicle' ? (lane?.limit ?? own) : own;
+  return Math.min(on, topSpeed({ type: typeOfKind(kind), subtype: size.subtype }));
+}
+
+interface Wish {
+  readonly zoom: number;
+  /** Set by hand. */
+  readonly heading?: number | null;
+  /** Lets go of lanes. */
+  readonly free?: boolean;
+}
+
+/** Who would stand at a place. */
+export function ghostAt(
+  scene: Scene,
+  choice: PlacingChoice,
+  [x, y]: Vec,
+  wish: Wish,
+): Newcomer & { lane: Lane | null } {
+  const raw: Pose = { x, y, heading: wish.heading ?? 0, speed: 0 };
+  const plain = { ...raw, lane: null as Lane | null };
+  const s =
+    wish.free || !lanesFor({ type: typeOfKind(choice.kind) })
+      ? plain
+      : snapNewcomer(scene, { kind: choice.kind, pose: raw }, wish.zoom);
+  const own = wish.heading ?? (s.lane ? s.heading : onFootHeading(scene.map, choice.kind, s.x, s.y));
+  const pose = { x: s.x, y: s.y, heading: wrapAngle(own), speed: speedOn(s.lane, choice) };
+  return { ...newcomer(choice.kind, choice.size, pose), lane: s.lane };
+}
+
+/** On a crosswalk one walks across the road: along its longer side. */
+function onFootHeading(map: LaneMap, kind: PlacedKind, x: number, y: number): number {
+  const walk = kind === 'pedestrian' ? map.crosswalks.find((p) => insidePolygon(x, y, p)) : undefined;
+  return walk ? longSide(walk) : 0;
+}
+
+function longSide(poly: readonly Vec[]): number {
+  let best = 0,
+    heading = 0;
+  poly.forEach(([x, y], i) => {
+    const [nx, ny] = poly[(i + 1) % poly.length];
+    const d = Math.hypot(nx - x, ny - y);
+    if (d > best) {
+      best = d;
+      heading = Math.atan2(ny - y, nx - x);
+    }
+  });
+  return heading;
+}
+
+/** `4.7 × 2.0 m · westbound lane` */
+export const placeWords = (scene: Scene, n: Newcomer): string => {
+  const { x, y, heading } = n.pose;
+  const where = laneWords(scene.map, { type: typeOfKind(n.kind) }, x, y, heading);
+  return `${n.length.toFixed(1)} × ${n.width.toFixed(1)} m · ${where}`;
+};
+
+/** Each with whether it touches somebody, also one of those before it. */
+function fitted(scene: Scene, all: readonly Newcomer[]): Ghost[] {
+  const taken: Footprint[] = standing(scene);
+  return all.map((who) => {
+    const fits = !inTheWay(who, taken);
+    if (fits) taken.push(who);
+    return { who, fits };
+  });
+}
+
+export function ghostsFor(scene: Scene, all: readonly Newcomer[], words: string, lane: string | null = null): Ghosts {
+  return { all: fitted(scene, all), words, lane };
+}
+
+// -------------------------------------------------------------- several at once
+
+/** Evenly along a line from one place to another. */
+export function alongLine(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, zoom: number): Newcomer[] {
+  const line = makeLine([a, b]);
+  const way = Math.atan2(b[1] - a[1], b[0] - a[0]);
+  const keepsLane = lanesFor({ type: typeOfKind(choice.kind) }) !== null;
+  return Array.from({ length: choice.count }, (_, i) => {
+    const p = pointAt(line, choice.count > 1 ? (line.length * i) / (choice.count - 1) : 0);
+    const on = ghostAt(scene, choice, [p.x, p.y], { zoom });
+    const heading = on.lane || !keepsLane ? on.pose.heading : way;
+    return withWay(on, choice, heading || way, i);
+  });
+}
+
+/** Spread over a rectangle between two corners: always the same for the same rectangle. */
+export function overArea(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, zoom: number): Newcomer[] {
+  const x0 = Math.min(a[0], b[0]),
+    y0 = Math.min(a[1], b[1]),
+    w = Math.abs(b[0] - a[0]),
+    h = Math.abs(b[1] - a[1]);
+  const taken: Footprint[] = standing(scene);
+  const out: Newcomer[] = [];
+  // Points that keep clear of each other better than chance does; those that have no room are passed over.
+  for (let k = 1; out.length < choice.count && k < choice.count * TRIES; k++) {
+    const on = ghostAt(scene, choice, [x0 + w * radicalInverse(k, 2), y0 + h * radicalInverse(k, 3)], { zoom });
+    if (on.pose.x < x0 || on.pose.x > x0 + w || on.pose.y < y0 || on.pose.y > y0 + h) continue;
+    const who = withWay(on, choice, on.pose.heading, out.length);
+    if (inTheWay(who, taken)) continue;
+    taken.push(who);
+    out.push(who);
+  }
+  return out;
+}
+
+const TRIES = 12;
+
+/** Digits of a whole number mirrored at the point: evenly spread between 0 and 1. */
+function radicalInverse(k: number, base: number): number {
+  let v = 0,
+    f = 1;
+  for (let n = k; n > 0; n = Math.floor(n / base)) {
+    f /= base;
+    v += f * (n % base);
+  }
+  return v;
+}
+
+/** Those on foot come from both sides. */
+function withWay(n: Newcomer, { kind }: PlacingChoice, heading: number, i: number): Newcomer {
+  const turn = kind === 'pedestrian' && i % 2 ? Math.PI : 0;
+  return newcomerTurned(n, wrapAngle(heading + turn));
+}
+
+const newcomerTurned = (n: Newcomer, heading: number): Newcomer => {
+  const { kind, subtype, length, width, pose, goal, note, does } = n;
+  return { kind, subtype, length, width, pose: { ...pose, heading }, goal, note, does };
+};
