@@ -6,6 +6,7 @@ import { freeOnes } from '../edit/copying';
 import * as moves from '../edit/moves';
 import * as several from '../edit/several';
 import { rad } from '../model/geometry';
+import { placedBy } from './place';
 import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from './action';
 
 type Move = (e: Editor, a: Agent, part: Part) => Command | null;
@@ -34,12 +35,15 @@ const move = (
   help,
   icon,
   when: (c) => {
-    if (ghost && c.editor.placement.ghosts.value) return true;
+    if (ghost && placedBy(c)) return true;
     return all && c.editor.selected.value.length > 1 ? hasSomeFree(c) : hasFree(c);
   },
   run(c) {
     const { editor } = c;
-    if (ghost?.(editor)) return;
+    if (ghost && placedBy(c)) {
+      ghost(editor);
+      return;
+    }
     const many = all && editor.selected.peek().length > 1;
     const free = many ? freeOnes(editor) : [];
     const a = editor.agent.peek();

@@ -94,12 +94,17 @@ export function removeSelected(editor: Editor): void {
 export const lockedWords = (n: number): string =>
   n === 1 ? 'Locked. Ctrl L unlocks.' : `All ${n} are locked. Ctrl L unlocks.`;
 
+/** Says how many of the selected are locked, where some are. */
+export function sayLocked(editor: Editor): void {
+  const all = editor.chosenOnes;
+  const locked = all.filter((a) => a.locked).length;
+  if (!locked) return;
+  const some = locked < all.length;
+  editor.notices.show({ text: some ? `${locked} locked stay${locked > 1 ? '' : 's'}.` : lockedWords(locked) });
+}
+
 /** Those of the selected that may be moved; says so where some of them are locked. */
 export function freeOnes(editor: Editor): ReturnType<typeof movable> {
-  const all = editor.chosenOnes;
-  const free = movable(all);
-  const locked = all.filter((a) => a.locked).length;
-  if (locked)
-    editor.notices.show({ text: free.length ? `${locked} locked stay${locked > 1 ? '' : 's'}.` : lockedWords(locked) });
-  return free;
+  sayLocked(editor);
+  return movable(editor.chosenOnes);
 }

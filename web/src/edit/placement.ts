@@ -39,7 +39,7 @@ export class Placement {
 
   /** The ghost again, after a key. */
   again(scene: Scene, dx: number, dy: number): boolean {
-    if (!this.#at || !this.#last || !this.#ghosts.peek()) return false;
+    if (!this.#at || !this.#last) return false;
     const { kind, zoom, free } = this.#last;
     this.pointAt(scene, kind, [this.#at[0] + dx, this.#at[1] + dy], zoom, free);
     return true;
@@ -62,6 +62,7 @@ export class Placement {
       this.#ghosts.value = null;
       this.#heading = null;
       this.#at = null;
+      this.#last = null;
     });
   }
 }

@@ -42,6 +42,10 @@ export const firstChoice = (kind: PlacedKind): PlacingChoice => ({
   count: 20,
 });
 
+/** Whoever is placed is drawn to a lane from further away than whoever is dragged, metres. */
+const SNAP_M = 4;
+const SNAP_PX = 14;
+
 /** Nearest lane, its heading, and the speed that is driven there. */
 export function snapNewcomer(
   scene: Scene,
@@ -49,7 +53,15 @@ export function snapNewcomer(
   zoom: number,
 ): { x: number; y: number; heading: number; lane: Lane | null } {
   const { x, y, heading } = n.pose;
-  const s = snapToLane(scene.map, { type: typeOfKind(n.kind) } as never, x, y, null, zoom, null);
+  const s = snapToLane(
+    scene.map,
+    { type: typeOfKind(n.kind) } as never,
+    x,
+    y,
+    null,
+    Math.min(zoom, SNAP_PX / SNAP_M),
+    null,
+  );
   return { x: s.x, y: s.y, heading: s.laneHeading ?? heading, lane: s.lane };
 }
 

@@ -3,6 +3,7 @@ import { batch } from '@preact/signals-core';
 import { clamp, deg, rad, type Vec } from '../../model/geometry';
 import type { Command } from '../../model/commands';
 import { startPose, type Agent } from '../../model/scene';
+import { sayLocked } from '../copying';
 import type { FrameHandle } from '../hit';
 import { middleOf, moveAll, spreadAll, turnAll } from '../several';
 import type { Chart, State } from './chart';
@@ -50,6 +51,7 @@ export class DraggingSeveral implements State {
   enter(): void {
     const { editor, surface } = this.chart;
     editor.beginDrag({ part: 'start', handle: this.what === 'turn' ? 'heading' : 'body' });
+    sayLocked(editor);
     surface.setCursor({ move: 'grabbing', turn: 'crosshair', spread: 'resize' }[this.what]);
     surface.invalidate('agents');
   }

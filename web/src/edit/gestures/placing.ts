@@ -33,6 +33,8 @@ export function placeGhost(editor: Editor): void {
   const put = (who: Newcomer): void => {
     const now = editor.scene.peek();
     if (now) editor.run(addThem(now, [who], 'placed'));
+    // Until the pointer moves on, a ghost would only cover the new one.
+    editor.placement.show(null);
   };
   if (ghost.fits) {
     put(ghost.who);
@@ -182,7 +184,7 @@ const place = <K extends PlacedKind>(kind: K, key: string) => ({
   label: `Place a ${KIND_NAMES[kind].toLowerCase()}`,
   key,
   icon: kind,
-  help: 'Click where it should start; several in a row, until Esc',
+  help: `Click where the ${KIND_NAMES[kind].toLowerCase()} should start; several in a row, until Esc`,
   cursor: 'crosshair',
   picks: false,
   places: kind,
