@@ -63,6 +63,13 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
   ],
 };
 
+const ABOUT: Record<MenuOn, string> = {
+  'road user': 'Actions for this road user',
+  several: 'Actions for these road users',
+  goal: 'Actions for this goal',
+  ground: 'Actions for this place',
+};
+
 const EDGE_PX = 6;
 
 export function ContextMenu() {
@@ -74,22 +81,22 @@ export function ContextMenu() {
 }
 
 function Box({ menu }: { menu: Open }) {
-  const { ui } = useApp();
+  const { stage, ui } = useApp();
   const box = useRef<HTMLDivElement>(null);
   const before = useRef(document.activeElement);
-  const at = useSignal<{ left: string; top: string }>({ left: `${menu.x}px`, top: `${menu.y}px` });
+  const picture = stage.element.getBoundingClientRect();
+  const [x, y] = [menu.x + picture.left, menu.y + picture.top];
+  const at = useSignal<{ left: string; top: string }>({ left: `${x}px`, top: `${y}px` });
   const items = (): HTMLElement[] => [
     ...box.current!.querySelectorAll<HTMLElement>(':scope > button, :scope > .more > button'),
   ];
 
   useLayoutEffect(() => {
     const el = box.current!;
-    const room = el.parentElement!.getBoundingClientRect();
     // Beside the pointer where there is room, else on its other side; never out of the window.
-    const left =
-      menu.x + el.offsetWidth + EDGE_PX > room.width ? Math.max(EDGE_PX, menu.x - el.offsetWidth) : menu.x + 2;
-    const lowest = innerHeight - room.top - el.offsetHeight - EDGE_PX;
-    at.value = { left: `${left}px`, top: `${Math.max(EDGE_PX - room.top, Math.min(menu.y, lowest))}px` };
+    const left = x + el.offsetWidth + EDGE_PX > innerWidth ? Math.max(EDGE_PX, x - el.offsetWidth) : x + 2;
+    const lowest = innerHeight - el.offsetHeight - EDGE_PX;
+    at.value = { left: `${left}px`, top: `${Math.max(EDGE_PX, Math.min(y, lowest))}px` };
     items()[0]?.focus({ preventScroll: true });
   }, []);
   useEffect(() => {
@@ -129,7 +136,7 @@ function Box({ menu }: { menu: Open }) {
       ref={box}
       class="menu ctx"
       role="menu"
-      aria-label={`Actions for ${menu.on === 'ground' ? 'this place' : menu.on === 'several' ? 'these road users' : `this ${menu.on}`}`}
+      aria-label={ABOUT[menu.on]}
       style={at.value}
       onClick={(e) => {
         if ((e.target as Element).closest('[data-action]')) ui.closeContextMenu();
@@ -153,14 +160,19 @@ function Box({ menu }: { menu: Open }) {
 function openSub(button: HTMLElement): void {
   const sub = button.parentElement?.querySelector<HTMLElement>('.submenu button');
   if (!sub) return;
-  button.setAttribute('aria-expanded', 'true');
-  sub.focus();
+  button.parentElement!.dataset.open = '';
+  sub.focus({ preventScroll: true });
 }
 
 /** Opens on hover, on a click, with the arrow to the right, and stays while the focus is in it. */
 function Sub({ name, icon, items }: Exclude<Entry, string | null>) {
   return (
-    <div class="more">
+    <div
+      class="more"
+      onFocusOut={(e) => {
+        if (!e.currentTarget.contains(e.relatedTarget as Node | null)) delete e.currentTarget.dataset.open;
+      }}
+    >
       <button type="button" class="btn" aria-haspopup="menu" onClick={(e) => openSub(e.currentTarget)}>
         <Icon name={icon} size={16} />
         {name}

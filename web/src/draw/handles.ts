@@ -84,11 +84,16 @@ export function paintSpeed(
   p: Pose,
   colour: string,
   free: boolean,
+  /** No longer than this, in pixels: in a crowd the way matters and the length would hide the next. */
+  most = Infinity,
 ): Vec {
-  const h = handlePoints(v, a, p);
-  haloLine(g, h.nose, h.tip, colour, 1.8, free);
-  arrowHead(g, h.tip, p.heading, { colour, freeSpeed: free, tick: 1 }, 0.7);
-  return h.tip;
+  const { nose, tip } = handlePoints(v, a, p);
+  const length = Math.hypot(tip[0] - nose[0], tip[1] - nose[1]);
+  const k = Math.min(1, most / Math.max(1, length));
+  const end: Vec = [nose[0] + (tip[0] - nose[0]) * k, nose[1] + (tip[1] - nose[1]) * k];
+  haloLine(g, nose, end, colour, 1.8, free);
+  arrowHead(g, end, p.heading, { colour, freeSpeed: free, tick: 1 }, most < Infinity ? 0.5 : 0.7);
+  return end;
 }
 
 function haloLine(g: CanvasRenderingContext2D, a: Vec, b: Vec, colour: string, width: number, free?: boolean): void {

@@ -260,8 +260,10 @@ export class Editor {
     if (before.roster === scene.roster) return;
     const came = [...scene.agents.keys()].filter((id) => !before.agents.has(id));
     const stay = this.#selected.peek().filter((id) => scene.agents.has(id));
-    if (came.length) this.#selected.value = came;
-    else if (stay.length < this.#selected.peek().length) this.#selected.value = stay.length ? stay : NOBODY;
+    if (came.length) {
+      this.#selected.value = came;
+      this.placement.show(null);
+    } else if (stay.length < this.#selected.peek().length) this.#selected.value = stay.length ? stay : NOBODY;
     const hovered = this.#hover.peek();
     if (hovered && !scene.agents.has(hovered)) this.#hover.value = null;
   }

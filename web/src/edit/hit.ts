@@ -49,7 +49,7 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   const a = c.editor.agent.value;
   if (a && canChange(a)) {
     if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by road' };
-    const grip = gripAt(c, a, x, y);
+    const grip = a.locked ? null : gripAt(c, a, x, y);
     if (grip) return { kind: 'grip', grip };
     if (c.roadSign?.flag && onFlag(c.roadSign.flag, x, y)) return { kind: 'by road' };
     for (const chip of c.chips)

@@ -20,6 +20,9 @@ type G = CanvasRenderingContext2D;
 const CORNER_PX = 8;
 /** Beyond so many each one's own way would hide the others'. */
 const MOST_WAYS = 24;
+/** More than these are a crowd, whose arrows are kept short, pixels. */
+const CROWD = 8;
+const SHORT_PX = 14;
 
 const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind), parked: false });
 
@@ -63,7 +66,9 @@ export class SeveralOverlay {
       paintRing(g, v, a, p, a.locked ? c['ink-3'] : c.select, 1.6, 3, a.locked ? [3, 3] : []);
     }
     if (atStart && v.z > 3)
-      for (const [a, p] of shown) if (p.speed > 0.2) paintSpeed(g, v, a, p, c.select, a.start.speed === null);
+      for (const [a, p] of shown)
+        if (p.speed > 0.2)
+          paintSpeed(g, v, a, p, c.select, a.start.speed === null, all.length > CROWD ? SHORT_PX : Infinity);
     const frame = frameAround(e, v);
     if (frame && !e.playing.value) this.#paintFrame(g, frame, kindsWords(all.map((a) => a.kind)), atStart);
   }

@@ -3,7 +3,7 @@ import type { Pose } from '../model/geometry';
 import { endPose, endsBefore, poseAt } from '../model/motion';
 import { comparedWithLog } from '../model/changes';
 import type { Futures } from '../model/futures';
-import { canChange, startPose, touched, type Agent } from '../model/scene';
+import { canChange, canMove, startPose, touched, type Agent } from '../model/scene';
 import { metres, num, seconds, speedLabel } from '../model/units';
 import { Labels, pill, tag, type Rect } from '../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../draw/handles';
@@ -165,7 +165,7 @@ export class Overlay {
       const [l] = sizeOnScreen(a, v.z);
       this.labels.block(v.x(now.x) - l / 2 - 4, v.y(now.y) - 14, l + 8, 28);
     }
-    if (atStart && start && canChange(a)) {
+    if (atStart && start && canMove(a)) {
       const h = paintHandles(g, this.labels, v, a, start, {
         colour: c.select,
         freeHeading: a.start.heading === null,

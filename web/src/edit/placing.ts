@@ -1,8 +1,8 @@
 // Where somebody new would stand: snapped to the lane under the pointer, with its heading and its speed.
-import { insidePolygon, makeLine, pointAt, wrapAngle, type Pose, type Vec } from '../model/geometry';
+import { insidePolygon, makeLine, pointAt, project, wrapAngle, type Pose, type Vec } from '../model/geometry';
 import { topSpeed } from '../model/domain';
 import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
-import type { Lane, LaneMap } from '../model/lanemap';
+import { nearestLanes, type Lane, type LaneMap } from '../model/lanemap';
 import { newcomer, type Newcomer } from '../model/newcomer';
 import type { Scene } from '../model/scene';
 import { inTheWay, standing, type Footprint } from './room';
@@ -98,10 +98,17 @@ export function ghostAt(
   return { ...newcomer(choice.kind, choice.size, pose), lane: s.lane };
 }
 
-/** On a crosswalk one walks across the road: along its longer side. */
+/** This near to a crosswalk one is on the way over it, metres. */
+const NEAR_CROSSWALK_M = 4;
+
+/** On a crosswalk and at its ends one walks across the road, else along the pavement where there is one. */
 function onFootHeading(map: LaneMap, kind: PlacedKind, x: number, y: number): number {
-  const walk = kind === 'pedestrian' ? map.crosswalks.find((p) => insidePolygon(x, y, p)) : undefined;
-  return walk ? longSide(walk) : 0;
+  if (kind !== 'pedestrian') return 0;
+  const near = map.crosswalks
+    .map((p) => ({ p, d: insidePolygon(x, y, p) ? 0 : project(makeLine([...p, p[0]]), x, y).d }))
+    .sort((m, n) => m.d - n.d)[0];
+  if (near && near.d < NEAR_CROSSWALK_M) return longSide(near.p);
+  return nearestLanes(map, x, y, null, NEAR_CROSSWALK_M, (l) => l.kind === 'walk')[0]?.heading ?? 0;
 }
 
 function longSide(poly: readonly Vec[]): number {
@@ -150,7 +157,7 @@ export function alongLine(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, z
     const p = pointAt(line, choice.count > 1 ? (line.length * i) / (choice.count - 1) : 0);
     const on = ghostAt(scene, choice, [p.x, p.y], { zoom });
     const heading = on.lane || !keepsLane ? on.pose.heading : way;
-    return withWay(on, choice, heading || way, i);
+    return turned(on, heading || way);
   });
 }
 
@@ -166,7 +173,7 @@ export function overArea(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, zo
   for (let k = 1; out.length < choice.count && k < choice.count * TRIES; k++) {
     const on = ghostAt(scene, choice, [x0 + w * radicalInverse(k, 2), y0 + h * radicalInverse(k, 3)], { zoom });
     if (on.pose.x < x0 || on.pose.x > x0 + w || on.pose.y < y0 || on.pose.y > y0 + h) continue;
-    const who = withWay(on, choice, on.pose.heading, out.length);
+    const who = turned(on, bothWays(choice.kind, on.pose, x0 + w / 2, y0 + h / 2));
     if (inTheWay(who, taken)) continue;
     taken.push(who);
     out.push(who);
@@ -187,13 +194,19 @@ function radicalInverse(k: number, base: number): number {
   return v;
 }
 
-/** Those on foot come from both sides. */
-function withWay(n: Newcomer, { kind }: PlacingChoice, heading: number, i: number): Newcomer {
-  const turn = kind === 'pedestrian' && i % 2 ? Math.PI : 0;
-  return newcomerTurned(n, wrapAngle(heading + turn));
+/** Those on foot come from both sides, and keep to the right of each other. */
+function bothWays(kind: PlacedKind, { x, y, heading }: Pose, mx: number, my: number): number {
+  const left = -(x - mx) * Math.sin(heading) + (y - my) * Math.cos(heading);
+  return kind === 'pedestrian' && left > 0 ? wrapAngle(heading + Math.PI) : heading;
 }
 
-const newcomerTurned = (n: Newcomer, heading: number): Newcomer => {
-  const { kind, subtype, length, width, pose, goal, note, does } = n;
-  return { kind, subtype, length, width, pose: { ...pose, heading }, goal, note, does };
-};
+const turned = ({ kind, subtype, length, width, pose, goal, note, does }: Newcomer, heading: number): Newcomer => ({
+  kind,
+  subtype,
+  length,
+  width,
+  pose: { ...pose, heading: wrapAngle(heading) },
+  goal,
+  note,
+  does,
+});

@@ -32,7 +32,7 @@ export class SceneFile {
     return this.stored && this.#roster === scene.roster;
   }
 
-  /** The server holds this version: who is in it, and whose conditions it knows, so that freed ones are sent as free. */
+  /** The server holds this version: who is in it, and whose conditions it knows: freed ones are sent as free. */
   noteStored(json: SceneJson): void {
     this.#roster = rosterOfJson(json);
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);

@@ -15,6 +15,8 @@ export function num(value: number, decimals = 1): string {
 }
 
 export const metres = (v: number, decimals = v < 10 ? 1 : 0): string => `${num(v, decimals)} m`;
+/** The length or width of a road user: what is smaller than a metre has its centimetres. */
+export const sizeText = (v: number): string => num(v, v < 1 && Math.abs(v * 10 - Math.round(v * 10)) > 1e-6 ? 2 : 1);
 export const seconds = (v: number): string => `${num(v, 1)} s`;
 export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), unit === 'm/s' ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;

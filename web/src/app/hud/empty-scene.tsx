@@ -26,7 +26,7 @@ export function EmptyScene() {
 function Card({ scene }: { scene: string }) {
   const c = useApp();
   return (
-    <section class="card nobody" aria-label="Nobody is here yet">
+    <section class={`card nobody ${c.ui.drawer.value ? 'shift' : ''}`} aria-label="Nobody is here yet">
       <button type="button" class="btn i" aria-label="Close" onClick={() => c.ui.hideEmpty(scene)}>
         <Icon name="x" size={16} />
       </button>

@@ -6,7 +6,6 @@ import { placedBy } from '../../actions/place';
 import { actionOf } from '../../actions/registry';
 import { TOOLS } from '../../edit/gestures/tools';
 import type { Spread } from '../../edit/placing';
-import { ContextMenu } from '../context-menu';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Banner } from './banner';
@@ -46,7 +45,6 @@ export function Hud() {
       {editor.dragging.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
       <PlacePanel />
       <EmptyScene />
-      <ContextMenu />
       <Coach />
       <Toast />
       <Banner />

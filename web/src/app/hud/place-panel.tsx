@@ -2,7 +2,7 @@
 import { useComputed } from '@preact/signals';
 import { rangesOf } from '../../model/domain';
 import { KIND_NAMES, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/kinds';
-import { num } from '../../model/units';
+import { sizeText } from '../../model/units';
 import { placedBy } from '../../actions/place';
 import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/placing';
 import { useApp } from '../parts/app-context';
@@ -52,7 +52,7 @@ function Panel({ kind }: { kind: PlacedKind }) {
             <Icon name={kind} size={18} />
             {p.label}
             <small>
-              {num(p.length, 1)} × {num(p.width, 1)} m
+              {sizeText(p.length)} × {sizeText(p.width)} m
             </small>
           </button>
         ))}
@@ -109,7 +109,7 @@ function OwnSize({ kind, name, set }: { kind: PlacedKind; name: 'length' | 'widt
       step={0.1}
       range={() => rangesOf({ type: typeOfKind(kind) })[`${name}_m`]}
       value={() => placement.choice(kind).size[name]}
-      text={() => num(placement.choice(kind).size[name], 1)}
+      text={() => sizeText(placement.choice(kind).size[name])}
       set={set}
     />
   );

@@ -5,7 +5,7 @@ import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/geometry';
 import { rangesOf, topSpeed } from '../../model/domain';
 import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/kinds';
 import { hasGoal, type GoalSpec } from '../../model/scene';
-import { fromUnit, num, speedText, toUnit } from '../../model/units';
+import { fromUnit, num, sizeText, speedText, toUnit } from '../../model/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
 import { goalTime, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
 import { setKind } from '../../edit/several';
@@ -335,7 +335,7 @@ function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' |
       step={0.1}
       value={() => agent.value[name]}
       range={() => rangesOf(agent.value)[`${name}_m`]}
-      text={() => num(agent.value[name], 1)}
+      text={() => sizeText(agent.value[name])}
       set={set}
     />
   );

@@ -94,7 +94,7 @@ function About({ scene }: { scene: Scene }) {
 /** The same ways out as on the picture, for when that was closed. */
 function Ways() {
   return (
-    <div class="foot">
+    <div class="offers">
       {['place-first', 'fill', 'import-log'].map((id) => (
         <ActionButton key={id} id={id} class="line" size={15} />
       ))}

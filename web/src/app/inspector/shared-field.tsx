@@ -4,7 +4,7 @@ import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import { clamp, deg, rad, wrapAngle } from '../../model/geometry';
 import { rangesOf, topSpeed } from '../../model/domain';
 import { startPose, type Agent } from '../../model/scene';
-import { fromUnit, num, readTyped, speedText, toUnit, type Quantity } from '../../model/units';
+import { fromUnit, num, readTyped, sizeText, speedText, toUnit, type Quantity } from '../../model/units';
 import type { Command } from '../../model/commands';
 import type { Editor } from '../../edit/editor';
 import { goalTime } from '../../edit/moves';
@@ -72,7 +72,7 @@ function sizeField(name: 'length' | 'width'): Shared {
     unit: () => 'm',
     quantity: () => 'length',
     of: (a) => a[name],
-    text: (v) => num(v, 1),
+    text: sizeText,
     range: (all) => inAll(all, (a) => rangesOf(a)[`${name}_m`]),
     command: (all, to, fold) =>
       several.setAll(all, 'start', name, (a) => clamp(to(a[name]), ...rangesOf(a)[`${name}_m`]), word, fold),
