@@ -5,7 +5,8 @@ import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kind
 import { nearestLanes, type Lane, type LaneMap } from '../model/lanemap';
 import { newcomer, type Newcomer } from '../model/newcomer';
 import type { Scene } from '../model/scene';
-import { inTheWay, standing, type Footprint } from './room';
+import type { Footprint } from '../model/boxes';
+import { inTheWay, standing } from './room';
 import { laneWords, lanesFor, snapToLane } from './snap';
 
 /** What is about to be placed. */

@@ -3,10 +3,11 @@ import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { KIND_NAMES, kindsWords, PLACED_KINDS } from '../../model/kinds';
 import { doing, hasGoal, startPose, type Agent, type AgentType, type Others } from '../../model/scene';
-import { num, speedLabel } from '../../model/units';
+import { num, seconds, speedLabel } from '../../model/units';
 import { actionOf, perform } from '../../actions/registry';
 import * as several from '../../edit/several';
-import { smallestGap } from '../../edit/room';
+import { closestOf, gapNow } from '../../model/closest';
+import { poseShown } from '../../edit/frame';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -215,20 +216,62 @@ function Rule({ all }: { all: Live }) {
 
 const firstOf = (scene: Parameters<typeof doing>[0], all: readonly Agent[]): Others => doing(scene, all[0]);
 
+/** When the two of them come closest that come closest; a click goes there. */
+function ClosestLine({ those }: { those: Live }) {
+  const { editor } = useApp();
+  const found = useComputed(() => {
+    const scene = editor.scene.value;
+    if (!scene || editor.dragging.value || editor.motion.value.stale) return null;
+    return closestOf(
+      those.value.map((a) => [a, editor.motionFor(a)] as const),
+      scene.duration,
+    );
+  }).value;
+  if (!found) return null;
+  const { a, b, gap, time } = found;
+  return (
+    <button
+      type="button"
+      class="closest"
+      title="Go there"
+      onClick={() => {
+        editor.playhead.pause();
+        editor.setTime(time);
+      }}
+    >
+      <span class="grow">
+        {a.name} and {b.name}: {gap > 0.005 ? `${num(gap, 1)} m` : 'they touch'}
+      </span>
+      <span class="mut">at {seconds(time)}</span>
+    </button>
+  );
+}
+
 const LISTED = 8;
 
 function Who({ those }: { those: Live }) {
   const c = useApp();
   const { editor } = c;
-  const gap = useComputed(() => smallestGap(those.value)).value;
+  // While a hand moves them nothing is compared.
+  const gap = useComputed(() =>
+    editor.dragging.value
+      ? null
+      : gapNow(
+          those.value.flatMap((a) => {
+            const pose = poseShown(editor, a);
+            return pose ? [{ pose, length: a.length, width: a.width }] : [];
+          }),
+        ),
+  ).value;
   const shown = those.value.slice(0, LISTED);
   const more = those.value.length - shown.length;
   return (
     <section class="sect last">
       <h3>
         Who
-        <small>{gap === null ? '' : `smallest gap ${num(gap, 1)} m`}</small>
+        <small>{gap === null ? '' : `smallest gap ${num(gap, 1)} m now`}</small>
       </h3>
+      <ClosestLine those={those} />
       {shown.map((a) => {
         const p = startPose(a);
         return (
