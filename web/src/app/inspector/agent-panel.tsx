@@ -88,9 +88,10 @@ function NameField({ agent }: { agent: LiveAgent }) {
   const input = useRef<HTMLInputElement>(null);
   const name = useComputed(() => agent.value.name);
   const done = () => {
-    const typed = input.current!.value.trim();
+    if (!input.current) return;
+    const typed = input.current.value.trim();
     if (typed !== name.peek()) editor.run(callIt(agent.peek(), typed || null));
-    input.current!.value = name.peek();
+    input.current.value = name.peek();
   };
   return (
     <h2>
@@ -171,7 +172,8 @@ function NoteSection({ agent }: { agent: LiveAgent }) {
         maxlength={2000}
         value={note}
         onBlur={() => {
-          const typed = area.current!.value.trim();
+          if (!area.current) return;
+          const typed = area.current.value.trim();
           if (typed !== note.peek()) editor.run(noteOn(agent.peek(), typed));
         }}
         onKeyDown={(e) => {

@@ -223,7 +223,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
           bad.value = null;
         }}
         onBlur={() => {
-          if (commit()) return;
+          if (!input.current || commit()) return;
           show();
           setTimeout(() => (bad.value = null), 4000);
         }}

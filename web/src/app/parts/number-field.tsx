@@ -133,7 +133,8 @@ export function NumberField(p: NumberFieldProps) {
           bad.value = null;
         }}
         onBlur={() => {
-          if (!commit()) leave();
+          // A field that is taken off the page with the focus in it hears of that last.
+          if (input.current && !commit()) leave();
         }}
         onKeyDown={keyDown}
       />
