@@ -6,7 +6,7 @@ import type { Editor } from '../edit/editor';
 import * as moves from '../edit/moves';
 import { leaveToCross, roadWay } from '../edit/ways-out';
 import { clearGoals } from '../edit/several';
-import { activePart, hasScene, inGroup, onAgent, onSome, type Action } from './action';
+import { activePart, hasFree, hasScene, hasSomeFree, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
 
 const LARGEST_NEW_SEED = 9999;
@@ -44,6 +44,20 @@ const futures = [...LETTERS].map((letter, i) => ({
   ...onAgent((c, a) => moves.pickFuture(c.editor, a, i)),
 }));
 
+const clearing: Pick<Action, 'when' | 'run'> = {
+  ...onSome((_, all) => (all.length > 1 ? clearGoals(all) : clearGoal(all[0]))),
+  when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : 'No goal is set.'),
+};
+
+const resetting: Pick<Action, 'when' | 'run'> = {
+  ...onAgent((_, a) => resetAgent(a)),
+  when: (c) => {
+    const a = c.editor.agent.value;
+    if (!a || a.locked) return hasFree(c);
+    return a.placed ? 'Nothing of it was recorded.' : changedByHand(a) ? true : 'It is as it was recorded.';
+  },
+};
+
 export const goal = inGroup('Goal and futures', [
   {
     id: 'set-goal',
@@ -62,7 +76,7 @@ export const goal = inGroup('Goal and futures', [
     keys: ['Shift+G'],
     icon: 'x',
     help: 'The generator decides again',
-    ...onSome((_, all) => (all.length > 1 ? clearGoals(all) : hasGoal(all[0].goal) ? clearGoal(all[0]) : null)),
+    ...clearing,
   },
   {
     id: 'toggle-field',
@@ -146,6 +160,6 @@ export const goal = inGroup('Goal and futures', [
     keys: ['Shift+R'],
     icon: 'undo',
     help: 'This road user as it was recorded',
-    ...onAgent((_, a) => (changedByHand(a) ? resetAgent(a) : null)),
+    ...resetting,
   },
 ]);

@@ -131,7 +131,7 @@ function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChil
           </ActionButton>
         </div>
       ) : null}
-      <fieldset class="plain" disabled={locked}>
+      <fieldset class="fields" disabled={locked}>
         {children}
       </fieldset>
     </>
