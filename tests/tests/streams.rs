@@ -76,6 +76,24 @@ fn three_representations_have_equal_samples() {
 }
 
 #[test]
+fn drafts_closer_than_asked_are_left_out() {
+    let server = Server::start(&[]).unwrap();
+    let mut body = generate(4);
+    let names = |body: &Value| {
+        let list = ndjson(&server.send(&ask(body, "application/x-ndjson")).unwrap().text());
+        let names: Vec<String> = list.iter().map(|e| e["event"].as_str().unwrap().to_owned()).collect();
+        (names, list.last().unwrap()["samples"].clone())
+    };
+    let (all, samples) = names(&body);
+    assert_eq!(all, ["accepted", "initial", "step", "step", "step", "step", "step", "final"]);
+    body["draft_interval_ms"] = json!(1000);
+    assert_eq!(names(&body), (["accepted", "initial", "final"].map(str::to_owned).to_vec(), samples));
+    body["draft_interval_ms"] = json!(1001);
+    let reply = server.post("/v1/generate", &body).unwrap();
+    assert_eq!((reply.status, &reply.json()["errors"][0]["pointer"]), (422, &json!("/draft_interval_ms")));
+}
+
+#[test]
 fn twenty_seconds_are_planned_window_after_window() {
     let server = Server::start(&[]).unwrap();
     let mut body = generate(4);

@@ -31,6 +31,8 @@ pub struct Task {
     pub streams: bool,
     /// All alternatives in drafts, not the chosen ones alone.
     pub all_modes: bool,
+    /// Steps that follow the draft sent before sooner than this are left out.
+    pub draft_interval: Duration,
     /// How futures are written.
     pub form: FuturesForm,
     /// Score each sample.

@@ -29,6 +29,7 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
         Ok(generation) => generation,
         Err(error) => return fail(error.into()),
     };
+    let mut last_draft: Option<Instant> = None;
     for event in generation {
         others();
         match event {
@@ -39,7 +40,10 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
             }
             Ok(Event::Draft(draft)) => {
                 count(&scene, &draft);
-                if task.streams {
+                let soon = |sent: Instant| draft.step > 0 && sent.elapsed() < task.draft_interval;
+                let soon = last_draft.is_some_and(soon);
+                if task.streams && !soon {
+                    last_draft = Some(Instant::now());
                     feed.send(DraftBody::new(&draft, task.all_modes, task.form), None);
                 }
             }

@@ -51,7 +51,6 @@ async fn first(reader: Reader, form: Form, heartbeat: Duration) -> Response {
     let headers = response.headers_mut();
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(form.media_type()));
     headers.insert("x-accel-buffering", HeaderValue::from_static("no"));
-    headers.insert(header::CONNECTION, HeaderValue::from_static("close"));
     response
 }
 

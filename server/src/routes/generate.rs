@@ -166,6 +166,11 @@ pub struct GenerateRequest {
     /// What drafts carry.
     #[serde(default)]
     stream_modes: StreamModes,
+    /// `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
+    /// all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
+    #[serde(default)]
+    #[schemars(range(max = 1000))]
+    draft_interval_ms: u64,
     /// How futures are written, in drafts and in `final`.
     #[serde(default)]
     futures: FuturesForm,
@@ -295,7 +300,18 @@ impl GenerateRequest {
         let all_modes = self.stream_modes == StreamModes::All;
         let (form, score) = (self.futures, self.score);
         let with_kept = self.kept_futures == KeptFutures::Answered;
-        Ok(Task { request, all_modes, form, score, with_kept, head, streams: true, standings: None })
+        let draft_interval = Duration::from_millis(self.draft_interval_ms);
+        Ok(Task {
+            request,
+            all_modes,
+            draft_interval,
+            form,
+            score,
+            with_kept,
+            head,
+            streams: true,
+            standings: None,
+        })
     }
 
     /// A future that is kept answers something else than what the scene says with this call's conditions.
@@ -340,6 +356,7 @@ impl GenerateRequest {
             ("/modes", 1.0, limits::MODES as f64, self.modes as f64),
             ("/diversity", 0.0, 2.0, self.diversity),
             ("/steps", 0.0, 100.0, self.steps as f64),
+            ("/draft_interval_ms", 0.0, 1000.0, self.draft_interval_ms as f64),
         ];
         let outside = numbers.into_iter().filter(|(_, min, max, got)| !(got >= min && got <= max));
         let mut faults: Vec<_> =

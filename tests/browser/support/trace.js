@@ -1,10 +1,6 @@
 // The browser's own record of what happened when. Times are milliseconds of its monotonic clock.
 
-const CATEGORIES = [
-  'devtools.timeline',
-  'disabled-by-default-devtools.timeline',
-  'disabled-by-default-devtools.timeline.frame',
-];
+const CATEGORIES = ['devtools.timeline', 'disabled-by-default-devtools.timeline', 'blink', 'viz'];
 
 /** Runs `work` under a trace and gives what happened: pointer events, frames begun and frames drawn. */
 export async function traced(browser, page, work) {
@@ -51,19 +47,34 @@ class Trace {
     const dispatched = (type) => times('EventDispatch', (v) => v.args.data?.type === type);
     this.moves = dispatched('pointermove');
     this.releases = dispatched('pointerup');
-    this.begun = times('FireAnimationFrame');
-    this.committed = events
-      .filter((v) => v.name === 'Commit' && v.ph === 'X')
-      .map((v) => ({ at: v.ts / 1000, done: (v.ts + v.dur) / 1000 }))
+    this.drawn = times('Display::DrawAndSwap');
+    const spans = (name) =>
+      events
+        .filter((v) => v.name === name && v.ph === 'X')
+        .map((v) => ({ at: v.ts / 1000, done: (v.ts + v.dur) / 1000, event: v }))
+        .sort((a, b) => a.at - b.at);
+    const canvases = spans('OffscreenCanvasRenderingContext2D::FinalizeFrame');
+    this.finished = canvases.map((c) => c.done);
+    // What the page told the worker that paints, and when it had painted it.
+    const painter = canvases[0]?.event;
+    const handled = new Map(
+      spans('HandlePostMessage')
+        .filter((h) => h.event.tid === painter?.tid && h.event.pid === painter?.pid)
+        .map((h) => [h.event.args.data?.traceId, h.done]),
+    );
+    const frames = spans('FireAnimationFrame');
+    this.told = events
+      .filter((v) => v.name === 'SchedulePostMessage' && handled.has(v.args.data?.traceId))
+      .map((v) => ({ at: v.ts / 1000, painted: handled.get(v.args.data.traceId) }))
+      .map((t) => ({ ...t, begun: frames.find((f) => f.at <= t.at && t.at <= f.done)?.at ?? t.at }))
       .sort((a, b) => a.at - b.at);
-    this.drawn = times('DrawFrame');
   }
 
-  /** When the first frame was on screen that was begun at or after a time; null when there was none. */
+  /** When the first picture was on screen that was begun at or after a time; null when there was none. */
   shownAfter(time) {
-    const begun = this.begun.find((t) => t >= time);
-    const commit = begun === undefined ? undefined : this.committed.find((c) => c.at >= begun);
-    return (commit && (this.drawn.find((t) => t >= commit.done) ?? null)) || null;
+    const told = this.told.find((t) => t.begun >= time);
+    const finished = told && this.finished.find((t) => t >= told.painted);
+    return (finished && (this.drawn.find((t) => t >= finished) ?? null)) || null;
   }
 }
 

@@ -1,4 +1,5 @@
 // What is wrong on a line itself: the stretch in red under white dashes, and the ground it crosses hatched.
+import type { Pen, Sprite } from './pen';
 import { isValidAt, STEP_S, type Motion } from '../model/motion';
 import { colours, paletteStamp } from './theme';
 import type { View } from './view';
@@ -39,7 +40,7 @@ function length(at: (i: number) => [number, number], i0: number, i1: number): nu
   return s;
 }
 
-function trace(g: CanvasRenderingContext2D, pts: readonly (readonly [number, number])[]): void {
+function trace(g: Pen, pts: readonly (readonly [number, number])[]): void {
   pts.forEach(([x, y], i) => (i ? g.lineTo(x, y) : g.moveTo(x, y)));
 }
 
@@ -50,7 +51,7 @@ export interface BrokenStyle {
   readonly alpha: number;
 }
 
-export function paintBroken(g: CanvasRenderingContext2D, v: View, s: Stretch, style: BrokenStyle): void {
+export function paintBroken(g: Pen, v: View, s: Stretch, style: BrokenStyle): void {
   const { halo } = colours();
   const pts = pointsOf(v, s);
   if (pts.length < 2) return;
@@ -75,40 +76,36 @@ export function paintBroken(g: CanvasRenderingContext2D, v: View, s: Stretch, st
 }
 
 /** The ground under stretches, as wide as the road user; where several cross it, it is hatched once. */
-export function paintGround(g: CanvasRenderingContext2D, v: View, stretches: readonly Stretch[], width: number): void {
+export function paintGround(g: Pen, v: View, stretches: readonly Stretch[], width: number): void {
   if (!stretches.length) return;
   g.beginPath();
   for (const s of stretches) trace(g, pointsOf(v, s));
   g.lineCap = 'butt';
   g.lineJoin = 'round';
   g.lineWidth = Math.max(10, width * v.z);
-  g.strokeStyle = hatching(g, v.dpr) ?? colours().collision;
+  g.strokeTiles(hatching(v.dpr), 1 / v.dpr);
   g.stroke();
 }
 
-let made: { key: string; pattern: CanvasPattern | null } | null = null;
-
 /** Diagonal lines on a pale ground, six pixels apart. */
-function hatching(g: CanvasRenderingContext2D, dpr: number): CanvasPattern | null {
-  const key = `${paletteStamp()}:${dpr}`;
-  if (made?.key === key) return made.pattern;
+function hatching(dpr: number): Sprite {
   const n = Math.max(4, Math.round(6 * dpr));
-  const tile = document.createElement('canvas');
-  tile.width = tile.height = n;
-  const t = tile.getContext('2d')!;
-  t.fillStyle = t.strokeStyle = colours().collision;
-  t.globalAlpha = 0.16;
-  t.fillRect(0, 0, n, n);
-  t.globalAlpha = 0.7;
-  t.lineWidth = 1.3 * dpr;
-  t.beginPath();
-  for (const x of [-n, 0, n]) {
-    t.moveTo(x - 1, n + 1);
-    t.lineTo(x + n + 1, -1);
-  }
-  t.stroke();
-  const pattern = g.createPattern(tile, 'repeat');
-  pattern?.setTransform(new DOMMatrix().scale(1 / dpr));
-  made = { key, pattern };
-  return pattern;
+  return {
+    key: `hatching|${dpr}|${paletteStamp()}`,
+    width: n,
+    height: n,
+    paint(g) {
+      g.fillStyle = g.strokeStyle = colours().collision;
+      g.globalAlpha = 0.16;
+      g.fillRect(0, 0, n, n);
+      g.globalAlpha = 0.7;
+      g.lineWidth = 1.3 * dpr;
+      g.beginPath();
+      for (const x of [-n, 0, n]) {
+        g.moveTo(x - 1, n + 1);
+        g.lineTo(x + n + 1, -1);
+      }
+      g.stroke();
+    },
+  };
 }

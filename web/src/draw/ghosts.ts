@@ -1,13 +1,12 @@
 // What somebody would do, drawn so that it never looks as if it were done: a dashed box where it would wait or be
 // slowest, with its brake lights on, and ticks along its path that lie closer the harder it brakes.
+import type { Pen } from './pen';
 import type { OnLine } from '../model/geometry';
 import { poseAt, type Motion } from '../model/motion';
 import { outline, sizeOnScreen, type Sized } from './sprites';
 import { trail } from './strokes';
 import { colours } from './theme';
 import type { View } from './view';
-
-type G = CanvasRenderingContext2D;
 
 const PATH_PX = 2.4;
 const TICK_PX = 6;
@@ -28,7 +27,7 @@ export interface GhostStyle {
 }
 
 /** The way from one scene time to another. */
-export function paintWay(g: G, v: View, m: Motion, from: number, to: number, s: GhostStyle): void {
+export function paintWay(g: Pen, v: View, m: Motion, from: number, to: number, s: GhostStyle): void {
   trail(g, v, m, { colour: s.colour, width: PATH_PX, alpha: s.alpha, halo: true, from, to, cap: 'butt' });
   if (!s.brakes) return;
   const c = colours();
@@ -79,7 +78,7 @@ function braking(m: Motion, t: number): number {
   return a && b ? (Math.abs(a.speed) - Math.abs(b.speed)) / 0.6 : 0;
 }
 
-export function paintWaiting(g: G, v: View, a: Sized, p: OnLine, s: GhostStyle): void {
+export function paintWaiting(g: Pen, v: View, a: Sized, p: OnLine, s: GhostStyle): void {
   const c = colours();
   const [l, w] = sizeOnScreen(a, v.z);
   g.save();
@@ -114,7 +113,7 @@ export function paintWaiting(g: G, v: View, a: Sized, p: OnLine, s: GhostStyle):
 }
 
 /** Two at the rear; somebody on a bicycle or on foot has one. */
-function lamps(g: G, l: number, w: number, colour: string, halo: string): void {
+function lamps(g: Pen, l: number, w: number, colour: string, halo: string): void {
   const aside = w > 12 ? [-w * 0.36, w * 0.36] : [0];
   for (const y of aside) {
     g.beginPath();

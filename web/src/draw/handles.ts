@@ -1,5 +1,6 @@
 // The handles of a selected road user: ring, heading tiller behind, speed arrow ahead, goal flag. Filled is
 // fixed, hollow is free. Constant size on screen at every zoom.
+import type { Pen } from './pen';
 import type { OnLine, Pose, Vec } from '../model/geometry';
 import type { AgentType } from '../model/scene';
 import { outline, roundRect, sizeOnScreen, type Sized } from './sprites';
@@ -46,14 +47,7 @@ export interface HandleStyle {
   tick: number;
 }
 
-export function paintHandles(
-  g: CanvasRenderingContext2D,
-  labels: Labels,
-  v: View,
-  a: Sized,
-  p: Pose,
-  s: HandleStyle,
-): HandlePoints {
+export function paintHandles(g: Pen, labels: Labels, v: View, a: Sized, p: Pose, s: HandleStyle): HandlePoints {
   const k = s.scale ?? 1;
   const h = handlePoints(v, a, p, k);
   const c = Math.cos(p.heading),
@@ -78,7 +72,7 @@ export function paintHandles(
 
 /** The speed arrow alone, without a handle to drag; gives its tip. */
 export function paintSpeed(
-  g: CanvasRenderingContext2D,
+  g: Pen,
   v: View,
   a: Sized,
   p: Pose,
@@ -96,7 +90,7 @@ export function paintSpeed(
   return end;
 }
 
-function haloLine(g: CanvasRenderingContext2D, a: Vec, b: Vec, colour: string, width: number, free?: boolean): void {
+function haloLine(g: Pen, a: Vec, b: Vec, colour: string, width: number, free?: boolean): void {
   g.beginPath();
   g.moveTo(a[0], a[1]);
   g.lineTo(b[0], b[1]);
@@ -111,7 +105,7 @@ function haloLine(g: CanvasRenderingContext2D, a: Vec, b: Vec, colour: string, w
   g.setLineDash([]);
 }
 
-function knob(g: CanvasRenderingContext2D, [x, y]: Vec, colour: string, free: boolean, r: number): void {
+function knob(g: Pen, [x, y]: Vec, colour: string, free: boolean, r: number): void {
   const c = colours();
   const ring = (radius: number) => {
     g.beginPath();
@@ -135,7 +129,7 @@ function knob(g: CanvasRenderingContext2D, [x, y]: Vec, colour: string, free: bo
 }
 
 /** Marks along the arrow, so that its length can be read as a speed. */
-function ticks(g: CanvasRenderingContext2D, h: HandlePoints, p: Pose, s: HandleStyle, pxPerMps: number): void {
+function ticks(g: Pen, h: HandlePoints, p: Pose, s: HandleStyle, pxPerMps: number): void {
   const c = Math.cos(p.heading),
     n = Math.sin(p.heading);
   const length = Math.hypot(h.tip[0] - h.nose[0], h.tip[1] - h.nose[1]);
@@ -151,7 +145,7 @@ function ticks(g: CanvasRenderingContext2D, h: HandlePoints, p: Pose, s: HandleS
   }
 }
 
-function arrowHead(g: CanvasRenderingContext2D, [x, y]: Vec, heading: number, s: HandleStyle, k: number): void {
+function arrowHead(g: Pen, [x, y]: Vec, heading: number, s: HandleStyle, k: number): void {
   const c = colours();
   g.save();
   g.translate(x, y);
@@ -177,14 +171,7 @@ function arrowHead(g: CanvasRenderingContext2D, [x, y]: Vec, heading: number, s:
 
 export const FLAG_HEIGHT = 36;
 
-export function paintFlag(
-  g: CanvasRenderingContext2D,
-  labels: Labels,
-  x: number,
-  y: number,
-  colour: string,
-  free: boolean,
-): void {
+export function paintFlag(g: Pen, labels: Labels, x: number, y: number, colour: string, free: boolean): void {
   const c = colours();
   g.save();
   g.lineCap = g.lineJoin = 'round';
@@ -230,7 +217,7 @@ export function paintFlag(
 }
 
 /** A dotted string with the hand at its end, in pixels. */
-export function paintString(g: CanvasRenderingContext2D, from: Vec, hand: Vec): void {
+export function paintString(g: Pen, from: Vec, hand: Vec): void {
   const c = colours();
   const line = (colour: string, width: number, dash: number[]) => {
     g.beginPath();
@@ -256,7 +243,7 @@ export function paintString(g: CanvasRenderingContext2D, from: Vec, hand: Vec): 
 
 /** Ring around a box: selection, collision. */
 export function paintRing(
-  g: CanvasRenderingContext2D,
+  g: Pen,
   v: View,
   a: Sized,
   p: OnLine,
@@ -282,7 +269,7 @@ export function paintRing(
 
 /** A box in outline: goals, ghosts, "before". An arrow inside tells the front. */
 export function paintGhost(
-  g: CanvasRenderingContext2D,
+  g: Pen,
   v: View,
   a: Sized,
   p: OnLine,

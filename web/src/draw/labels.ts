@@ -1,5 +1,6 @@
 // Labels on pills. Each takes the first free place around its object; those that find none are left out,
 // except the ones that must be read.
+import type { Pen } from './pen';
 import { clamp } from '../model/geometry';
 import { colours, font } from './theme';
 import { roundRect } from './sprites';
@@ -107,31 +108,27 @@ function places(w: number, h: number, s: PillStyle): readonly Offset[] {
 }
 
 const widths = new Map<string, number>();
-function textWidth(g: CanvasRenderingContext2D, f: string, text: string): number {
+let ruler: CanvasRenderingContext2D | null = null;
+
+function textWidth(f: string, text: string): number {
   const key = f + text;
   let w = widths.get(key);
   if (w === undefined) {
     if (widths.size > 2000) widths.clear();
-    g.font = f;
-    widths.set(key, (w = Math.ceil(g.measureText(text).width)));
+    ruler ??= document.createElement('canvas').getContext('2d')!;
+    ruler.font = f;
+    widths.set(key, (w = Math.ceil(ruler.measureText(text).width)));
   }
   return w;
 }
 
-export function pill(
-  g: CanvasRenderingContext2D,
-  labels: Labels,
-  x: number,
-  y: number,
-  text: string,
-  s: PillStyle = {},
-): Rect | null {
+export function pill(g: Pen, labels: Labels, x: number, y: number, text: string, s: PillStyle = {}): Rect | null {
   if (labels.outside(x, y)) return null;
   const c = colours();
   const f = font(s.weight ?? 600, 11);
   const h = s.height ?? 20,
     icon = s.icon ? 15 : 0;
-  const w = textWidth(g, f, text) + 14 + icon;
+  const w = textWidth(f, text) + 14 + icon;
   const r = labels.place(x, y, w, h, places(w, h, s), s.must ?? true);
   if (!r) return null;
   if (s.leader) leaderLine(g, x, y, r, s.leader);
@@ -157,7 +154,7 @@ export function pill(
   return r;
 }
 
-function leaderLine(g: CanvasRenderingContext2D, x: number, y: number, r: Rect, colour: string): void {
+function leaderLine(g: Pen, x: number, y: number, r: Rect, colour: string): void {
   g.beginPath();
   g.moveTo(x, y);
   g.lineTo(clamp(x, r.x + 6, r.x + r.w - 6), clamp(y, r.y, r.y + r.h));
@@ -169,7 +166,7 @@ function leaderLine(g: CanvasRenderingContext2D, x: number, y: number, r: Rect, 
   g.stroke();
 }
 
-export function paintIcon(g: CanvasRenderingContext2D, kind: PillIcon, x: number, y: number, colour: string): void {
+export function paintIcon(g: Pen, kind: PillIcon, x: number, y: number, colour: string): void {
   g.beginPath();
   g.strokeStyle = g.fillStyle = colour;
   g.lineCap = 'round';
@@ -211,12 +208,6 @@ export function paintIcon(g: CanvasRenderingContext2D, kind: PillIcon, x: number
 }
 
 /** A pill at a place given as a pair. */
-export function tag(
-  g: CanvasRenderingContext2D,
-  labels: Labels,
-  [x, y]: readonly [number, number],
-  text: string,
-  s: PillStyle,
-): void {
+export function tag(g: Pen, labels: Labels, [x, y]: readonly [number, number], text: string, s: PillStyle): void {
   pill(g, labels, x, y, text, s);
 }

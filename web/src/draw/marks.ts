@@ -1,4 +1,5 @@
 // Small marks beside road users: the pennant at a goal, the lock of one that is not to be moved.
+import type { Pen } from './pen';
 import { roundRect } from './sprites';
 import { colours, type ColourName } from './theme';
 
@@ -16,7 +17,7 @@ export const onPennant = (p: Pennant, x: number, y: number): boolean =>
   x > p.x - 6 && x < p.x + WIDTH + 4 && y > p.y - HEIGHT - 4 && y < p.y + 6;
 
 /** A flag with its foot on the goal, in the colour of its owner. */
-export function paintPennant(g: CanvasRenderingContext2D, { x, y }: Pennant, colour: ColourName): void {
+export function paintPennant(g: Pen, { x, y }: Pennant, colour: ColourName): void {
   const c = colours();
   const top = y - HEIGHT;
   const cloth = (): void => {
@@ -55,7 +56,7 @@ export function paintPennant(g: CanvasRenderingContext2D, { x, y }: Pennant, col
 }
 
 /** A small lock on a disc. */
-export function paintLock(g: CanvasRenderingContext2D, x: number, y: number): void {
+export function paintLock(g: Pen, x: number, y: number): void {
   const c = colours();
   g.beginPath();
   g.arc(x, y, 7, 0, Math.PI * 2);

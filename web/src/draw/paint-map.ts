@@ -1,4 +1,5 @@
 // The road: ground, kerbs, asphalt, bike lanes, crosswalks, lines, arrows. Drawn in metres under one transform.
+import type { Pen } from './pen';
 import { pointAt, wrapAngle, type Box, type Vec } from '../model/geometry';
 import { nearestLanes, turnOf, type Lane, type LaneMap } from '../model/lanemap';
 import { Layer } from './tiles';
@@ -86,7 +87,7 @@ export class MapPicture {
     return false;
   }
 
-  paint(g: CanvasRenderingContext2D, v: View, showLanes: boolean): void {
+  paint(g: Pen, v: View, showLanes: boolean): void {
     const c = colours();
     const box = v.box(8);
     const px = 1 / v.z;
@@ -107,7 +108,7 @@ export class MapPicture {
     if (showLanes) this.paintLaneCentres(g, box, px);
   }
 
-  private strokeBands(g: CanvasRenderingContext2D, box: Box, colour: string, extra: number, withBikes = true): void {
+  private strokeBands(g: Pen, box: Box, colour: string, extra: number, withBikes = true): void {
     g.lineCap = 'butt';
     for (const [w, layer] of this.openRoads) this.strokeAll(g, layer, box, colour, w + extra);
     if (withBikes) for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, colour, w + extra);
@@ -115,14 +116,7 @@ export class MapPicture {
     for (const [w, layer] of this.roads) this.strokeAll(g, layer, box, colour, w + extra);
   }
 
-  private strokeAll(
-    g: CanvasRenderingContext2D,
-    layer: Layer,
-    box: Box,
-    colour: string,
-    width: number,
-    dash: number[] = [],
-  ): void {
+  private strokeAll(g: Pen, layer: Layer, box: Box, colour: string, width: number, dash: number[] = []): void {
     g.strokeStyle = colour;
     g.lineWidth = width;
     g.setLineDash(dash);
@@ -131,7 +125,7 @@ export class MapPicture {
   }
 
   /** Nobody draws pavements in a lane map; a broad band beside the carriageway stands for them. */
-  private paintSidewalk(g: CanvasRenderingContext2D, box: Box, px: number): void {
+  private paintSidewalk(g: Pen, box: Box, px: number): void {
     const c = colours();
     const wide = 3.4;
     for (const [extra, colour] of [
@@ -144,7 +138,7 @@ export class MapPicture {
     }
   }
 
-  private paintSurface(g: CanvasRenderingContext2D, box: Box, px: number): void {
+  private paintSurface(g: Pen, box: Box, px: number): void {
     const c = colours();
     // Without kerb lines in the map, the rim of a slightly wider band is the kerb.
     if (this.kerbs.empty) {
@@ -160,13 +154,13 @@ export class MapPicture {
     this.bumps.fill(g, box);
   }
 
-  private paintBikeLanes(g: CanvasRenderingContext2D, box: Box): void {
+  private paintBikeLanes(g: Pen, box: Box): void {
     g.lineCap = 'butt';
     for (const [w, layer] of this.bike) this.strokeAll(g, layer, box, colours()['map-bike'], w);
     g.lineCap = 'round';
   }
 
-  private paintCrosswalks(g: CanvasRenderingContext2D, v: View): void {
+  private paintCrosswalks(g: Pen, v: View): void {
     const c = colours();
     for (const s of this.stripes) {
       const length = Math.hypot(s.b[0] - s.a[0], s.b[1] - s.a[1]);
@@ -184,7 +178,7 @@ export class MapPicture {
     g.globalAlpha = 1;
   }
 
-  private paintLines(g: CanvasRenderingContext2D, box: Box, px: number): void {
+  private paintLines(g: Pen, box: Box, px: number): void {
     const c = colours();
     for (const [style, layer] of this.lines) {
       const yellow = style.includes('y');
@@ -202,7 +196,7 @@ export class MapPicture {
     }
   }
 
-  private paintArrows(g: CanvasRenderingContext2D, box: Box): void {
+  private paintArrows(g: Pen, box: Box): void {
     const c = colours();
     g.strokeStyle = g.fillStyle = c['map-line'];
     g.lineWidth = 0.16;
@@ -216,7 +210,7 @@ export class MapPicture {
     }
   }
 
-  private paintLaneCentres(g: CanvasRenderingContext2D, box: Box, px: number): void {
+  private paintLaneCentres(g: Pen, box: Box, px: number): void {
     const c = colours();
     g.globalAlpha = 0.75;
     this.strokeAll(g, this.outlines, box, c['line-strong'], 1.1 * px, [6 * px, 5 * px]);
@@ -319,7 +313,7 @@ function hasNeighbour(map: LaneMap, lane: Lane): boolean {
   );
 }
 
-function paintArrow(g: CanvasRenderingContext2D, ways: string): void {
+function paintArrow(g: Pen, ways: string): void {
   const head = (x: number, y: number, turn: number) => {
     g.save();
     g.translate(x, y);

@@ -1,4 +1,5 @@
 // Traffic signals at the stop line. Red is a solid bar, green a row of dots, so that colour is not needed.
+import type { Pen } from './pen';
 import { pointAt } from '../model/geometry';
 import { STEP_S } from '../model/motion';
 import type { Scene, Signal } from '../model/scene';
@@ -20,7 +21,7 @@ function stateAt(s: Signal, t: number): Light {
         : 'unknown';
 }
 
-export function paintSignals(g: CanvasRenderingContext2D, v: View, scene: Scene, t: number): void {
+export function paintSignals(g: Pen, v: View, scene: Scene, t: number): void {
   if (v.z < 3) return;
   const c = colours();
   const paint: Record<Light, string> = { stop: c.collision, caution: c.near, go: c.ok, unknown: c['ink-3'] };
@@ -56,7 +57,7 @@ export function paintSignals(g: CanvasRenderingContext2D, v: View, scene: Scene,
 }
 
 function bar(
-  g: CanvasRenderingContext2D,
+  g: Pen,
   x: number,
   y: number,
   heading: number,
@@ -88,7 +89,7 @@ function bar(
   g.globalAlpha = 1;
 }
 
-function disc(g: CanvasRenderingContext2D, x: number, y: number, r: number, light: Light, colour: string): void {
+function disc(g: Pen, x: number, y: number, r: number, light: Light, colour: string): void {
   const c = colours();
   g.beginPath();
   g.arc(x, y, Math.min(r, 6), 0, Math.PI * 2);

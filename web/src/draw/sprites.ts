@@ -1,4 +1,5 @@
 // Road users as small pictures, painted once per kind, size and zoom step and then only stamped.
+import type { Pen, Sprite } from './pen';
 import type { Agent, Kind } from '../model/scene';
 import type { OnLine } from '../model/geometry';
 import { colours, paletteStamp, type ColourName } from './theme';
@@ -33,29 +34,27 @@ export function boxOnScreen(v: View, a: Sized, p: OnLine): { x: number; y: numbe
   return { x: v.x(p.x) - w / 2, y: v.y(p.y) - h / 2, w, h };
 }
 
-const cache = new Map<string, HTMLCanvasElement>();
 const PAD = 3;
 
-function sprite(a: Sized, z: number, dpr: number, active: boolean): HTMLCanvasElement {
+function sprite(a: Sized, z: number, dpr: number, active: boolean): Sprite {
   const [l, w] = sizeOnScreen(a, z);
   const L = Math.round(l * 2) / 2,
     W = Math.round(w * 2) / 2;
   const colour = active && a.parked ? 'vehicle' : colourKey(a);
-  const key = `${a.kind}|${colour}|${L}|${W}|${dpr}|${a.mini ? 'm' : ''}${paletteStamp()}`;
-  let s = cache.get(key);
-  if (s) return s;
-  if (cache.size > 400) cache.clear();
-  s = document.createElement('canvas');
-  s.width = Math.ceil((L + PAD * 2) * dpr);
-  s.height = Math.ceil((W + PAD * 2) * dpr);
-  const g = s.getContext('2d')!;
-  g.setTransform(dpr, 0, 0, dpr, s.width / 2, s.height / 2);
-  paintBody(g, a.kind, L, W, colour, a.mini ? 1 : 2.4);
-  cache.set(key, s);
-  return s;
+  const width = Math.ceil((L + PAD * 2) * dpr),
+    height = Math.ceil((W + PAD * 2) * dpr);
+  return {
+    key: `${a.kind}|${colour}|${L}|${W}|${dpr}|${a.mini ? 'm' : ''}${paletteStamp()}`,
+    width,
+    height,
+    paint(g) {
+      g.setTransform(dpr, 0, 0, dpr, width / 2, height / 2);
+      paintBody(g, a.kind, L, W, colour, a.mini ? 1 : 2.4);
+    },
+  };
 }
 
-export function stamp(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine, active = false): void {
+export function stamp(g: Pen, v: View, a: Sized, p: OnLine, active = false): void {
   const s = sprite(a, v.z, v.dpr, active);
   const w = s.width / v.dpr,
     h = s.height / v.dpr;
@@ -63,15 +62,15 @@ export function stamp(g: CanvasRenderingContext2D, v: View, a: Sized, p: OnLine,
     n = Math.sin(p.heading);
   // Screen y points down, so the rotation is the other way round.
   g.setTransform(v.dpr * c, -v.dpr * n, v.dpr * n, v.dpr * c, v.dpr * v.x(p.x), v.dpr * v.y(p.y));
-  g.drawImage(s, -w / 2, -h / 2, w, h);
+  g.stamp(s, -w / 2, -h / 2, w, h);
 }
 
-export function roundRect(g: CanvasRenderingContext2D, x: number, y: number, w: number, h: number, r: number): void {
+export function roundRect(g: Pen, x: number, y: number, w: number, h: number, r: number): void {
   g.beginPath();
   g.roundRect(x, y, w, h, Math.max(0, Math.min(r, w / 2, h / 2)));
 }
 
-export function outline(g: CanvasRenderingContext2D, kind: Kind, L: number, W: number): void {
+export function outline(g: Pen, kind: Kind, L: number, W: number): void {
   const soft =
     kind === 'pedestrian'
       ? W * 0.42
@@ -83,14 +82,7 @@ export function outline(g: CanvasRenderingContext2D, kind: Kind, L: number, W: n
   roundRect(g, -L / 2, -W / 2, L, W, soft);
 }
 
-function paintBody(
-  g: CanvasRenderingContext2D,
-  kind: Kind,
-  L: number,
-  W: number,
-  colour: ReturnType<typeof colourKey>,
-  halo: number,
-): void {
+function paintBody(g: Pen, kind: Kind, L: number, W: number, colour: ReturnType<typeof colourKey>, halo: number): void {
   const c = colours();
   g.lineJoin = 'round';
   outline(g, kind, L, W);
@@ -104,22 +96,22 @@ function paintBody(
   PARTS[kind](g, L, W);
 }
 
-const disc = (g: CanvasRenderingContext2D, x: number, y: number, r: number): void => {
+const disc = (g: Pen, x: number, y: number, r: number): void => {
   g.beginPath();
   g.arc(x, y, r, 0, Math.PI * 2);
   g.fill();
 };
-const pane = (g: CanvasRenderingContext2D, x: number, y: number, w: number, h: number, r = 1): void => {
+const pane = (g: Pen, x: number, y: number, w: number, h: number, r = 1): void => {
   roundRect(g, x, y, w, h, r);
   g.fill();
 };
-const rider = (g: CanvasRenderingContext2D, L: number, W: number): void => {
+const rider = (g: Pen, L: number, W: number): void => {
   disc(g, -L * 0.05, 0, Math.max(1.9, W * 0.33));
   g.fillRect(L * 0.2, -W / 2, Math.max(1.4, L * 0.08), W);
 };
 
 /** What tells the front from the rear: head, handlebar, windscreen, cab. */
-const PARTS: Record<Kind, (g: CanvasRenderingContext2D, L: number, W: number) => void> = {
+const PARTS: Record<Kind, (g: Pen, L: number, W: number) => void> = {
   pedestrian: (g, L, W) => disc(g, L * 0.17, 0, W * 0.2),
   cyclist: rider,
   motorcycle: rider,

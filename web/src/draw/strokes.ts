@@ -1,4 +1,5 @@
 // Lines on the map: every one has a halo, one dot per second, and a dash that says how sure it is.
+import type { Pen } from './pen';
 import { isValidAt, type Motion } from '../model/motion';
 import type { Futures } from '../model/futures';
 import { LETTERS } from '../model/futures';
@@ -19,7 +20,7 @@ export interface TrailStyle {
   cap?: CanvasLineCap;
 }
 
-function tracePath(g: CanvasRenderingContext2D, v: View, m: Motion, i0: number, i1: number): void {
+function tracePath(g: Pen, v: View, m: Motion, i0: number, i1: number): void {
   g.beginPath();
   let pen = false;
   for (let i = Math.max(0, i0); i <= i1 && i < m.x.length; i++) {
@@ -35,7 +36,7 @@ function tracePath(g: CanvasRenderingContext2D, v: View, m: Motion, i0: number, 
   }
 }
 
-export function trail(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailStyle): void {
+export function trail(g: Pen, v: View, m: Motion, s: TrailStyle): void {
   const i0 = Math.round((s.from ?? 0) * 10) - m.first,
     i1 = Math.round((s.to ?? 99) * 10) - m.first;
   const alpha = s.alpha ?? 1;
@@ -58,7 +59,7 @@ export function trail(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailS
   g.globalAlpha = 1;
 }
 
-function secondDots(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailStyle, i0: number, i1: number): void {
+function secondDots(g: Pen, v: View, m: Motion, s: TrailStyle, i0: number, i1: number): void {
   const every = v.z > 12 ? 5 : 10;
   g.fillStyle = s.colour;
   g.strokeStyle = colours().halo;
@@ -75,7 +76,7 @@ function secondDots(g: CanvasRenderingContext2D, v: View, m: Motion, s: TrailSty
 }
 
 export function polyline(
-  g: CanvasRenderingContext2D,
+  g: Pen,
   v: View,
   pts: readonly Vec[],
   colour: string,
@@ -118,7 +119,7 @@ function settledDash(f: Futures, outdated: boolean): number[] {
   return left <= 0 ? [] : left >= f.steps * 0.5 ? [2, 5] : [8, 4];
 }
 
-export function paintFutures(g: CanvasRenderingContext2D, v: View, f: Futures, s: FuturesStyle): void {
+export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void {
   const max = Math.max(...f.modes.map((m) => m.probability));
   const dash = settledDash(f, s.outdated ?? false);
   for (const i of drawOrder(f.modes.length, s.chosen)) {
@@ -180,7 +181,7 @@ function lastInView(v: View, m: Motion): [number, number] | null {
 
 /** Letters at the ends of the futures; returns where they are, for clicks. */
 export function paintChips(
-  g: CanvasRenderingContext2D,
+  g: Pen,
   labels: Labels,
   v: View,
   f: Futures,
@@ -220,7 +221,7 @@ export function paintChips(
   return out;
 }
 
-function letterDisc(g: CanvasRenderingContext2D, x: number, y: number, r: number, i: number, chosen: boolean): void {
+function letterDisc(g: Pen, x: number, y: number, r: number, i: number, chosen: boolean): void {
   g.beginPath();
   g.arc(x, y, r, 0, Math.PI * 2);
   g.fillStyle = modeColour(i);

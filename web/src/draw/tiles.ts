@@ -1,8 +1,9 @@
-// Map geometry as Path2D pieces of about 64 m: a repaint strokes a few dozen paths instead of thousands.
+// Map geometry as shapes of about 64 m: a repaint strokes a few dozen paths instead of thousands.
 import { boxesMeet, emptyBox, growBox, type Box, type Vec } from '../model/geometry';
+import { Shape, type Pen } from './pen';
 
 interface Tile {
-  readonly path: Path2D;
+  readonly shape: Shape;
   readonly box: Box;
 }
 
@@ -21,19 +22,15 @@ export class Layer {
     if (pts.length < 2) return;
     const mid = pts[pts.length >> 1];
     const tile = this.tile(`${Math.floor(mid[0] / SIZE)},${Math.floor(mid[1] / SIZE)}`);
-    pts.forEach((p, i) => {
-      if (i) tile.path.lineTo(p[0], p[1]);
-      else tile.path.moveTo(p[0], p[1]);
-      growBox(tile.box, p[0], p[1]);
-    });
-    if (closed) tile.path.closePath();
+    tile.shape.add(pts, closed);
+    for (const [x, y] of pts) growBox(tile.box, x, y);
   }
 
-  stroke(g: CanvasRenderingContext2D, view: Box): void {
-    for (const t of this.visible(view)) g.stroke(t.path);
+  stroke(g: Pen, view: Box): void {
+    for (const t of this.visible(view)) g.strokeShape(t.shape);
   }
-  fill(g: CanvasRenderingContext2D, view: Box, rule: CanvasFillRule = 'nonzero'): void {
-    for (const t of this.visible(view)) g.fill(t.path, rule);
+  fill(g: Pen, view: Box, rule: CanvasFillRule = 'nonzero'): void {
+    for (const t of this.visible(view)) g.fillShape(t.shape, rule);
   }
 
   private *visible(view: Box): Generator<Tile> {
@@ -44,7 +41,7 @@ export class Layer {
 
   private tile(key: string): Tile {
     let t = this.tiles.get(key);
-    if (!t) this.tiles.set(key, (t = { path: new Path2D(), box: emptyBox() }));
+    if (!t) this.tiles.set(key, (t = { shape: new Shape(), box: emptyBox() }));
     return t;
   }
 }

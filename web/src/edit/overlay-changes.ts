@@ -1,4 +1,5 @@
 // What the overlay shows of everybody: who changed since the last change.
+import type { Pen } from '../draw/pen';
 import type { Pose } from '../model/geometry';
 import { poseAt } from '../model/motion';
 import type { Agent } from '../model/scene';
@@ -9,8 +10,6 @@ import { trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-
-type G = CanvasRenderingContext2D;
 
 /** More labels than these would hide what they are about; the list has them all. */
 export const LABELS = 3;
@@ -23,7 +22,7 @@ export class ChangesOverlay {
   ) {}
 
   /** Dashed: where the others would have gone before the last change. */
-  paintBefore(g: G, v: View): void {
+  paintBefore(g: Pen, v: View): void {
     const { editor: e } = this;
     const scene = e.scene.value!;
     const c = colours();
@@ -52,7 +51,7 @@ export class ChangesOverlay {
     }
   }
 
-  paintChangeLabels(g: G, v: View): void {
+  paintChangeLabels(g: Pen, v: View): void {
     const { editor: e } = this;
     if (!e.showBefore.value || e.playing.value) return;
     for (const ch of e.changes.value.slice(0, LABELS)) {

@@ -1,4 +1,5 @@
 // Events on the overlay: rings around those in one at the playhead, and a label at the one that is picked.
+import type { Pen } from '../draw/pen';
 import type { TrafficEvent } from '../model/events';
 import type { Pose } from '../model/geometry';
 import type { Agent } from '../model/scene';
@@ -8,8 +9,6 @@ import { paintRing } from '../draw/handles';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-
-type G = CanvasRenderingContext2D;
 
 /** An event is shown this long before and after it. */
 const NEAR_S = 0.45;
@@ -21,7 +20,7 @@ export class EventsOverlay {
     private readonly poseNow: (a: Agent) => Pose | null,
   ) {}
 
-  paint(g: G, v: View): void {
+  paint(g: Pen, v: View): void {
     const { editor: e } = this;
     const picked = e.selectedEvent.value;
     const t = e.time.value;
@@ -35,14 +34,14 @@ export class EventsOverlay {
     }
   }
 
-  private rings(g: G, v: View, ev: TrafficEvent): void {
+  private rings(g: Pen, v: View, ev: TrafficEvent): void {
     for (const a of ev.b ? [ev.a, ev.b] : [ev.a]) {
       const p = this.poseNow(this.editor.scene.value!.agents.get(a.id) ?? a);
       if (p) paintRing(g, v, a, p, colourOf(ev), 2, 3);
     }
   }
 
-  private cross(g: G, v: View, ev: TrafficEvent): void {
+  private cross(g: Pen, v: View, ev: TrafficEvent): void {
     const c = colours();
     const [x, y] = v.to(ev.at[0], ev.at[1]);
     g.beginPath();
@@ -64,7 +63,7 @@ export class EventsOverlay {
     return faults.some((f) => f.kind === ev.what && Math.abs(f.time - ev.time) < NEAR_S);
   }
 
-  private label(g: G, v: View, ev: TrafficEvent): void {
+  private label(g: Pen, v: View, ev: TrafficEvent): void {
     const text =
       ev.kind === 'collision'
         ? `Collision · ${ev.title}`

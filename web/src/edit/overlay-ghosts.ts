@@ -1,4 +1,5 @@
 // What the overlay shows of the others while a handle is dragged: where each would wait or be slowest if one let go.
+import type { Pen } from '../draw/pen';
 import type { Change } from '../model/changes';
 import type { Pose } from '../model/geometry';
 import { STEP_S } from '../model/motion';
@@ -11,8 +12,6 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { LABELS } from './overlay-changes';
-
-type G = CanvasRenderingContext2D;
 
 /** Nearer to its own box than this share of its length, a ghost is an outline only. */
 const OVER_ITSELF = 0.6;
@@ -38,7 +37,7 @@ export class GhostOverlay {
   }
 
   /** Ways, real boxes and ghosts, those most affected on top. */
-  paint(g: G, v: View): void {
+  paint(g: Pen, v: View): void {
     const { editor: e } = this;
     const foreseen = e.showForeseen.value ? (e.foreseen.value ?? []) : [];
     this.shown = this.fades.next(foreseen, performance.now(), this.calm.matches);
@@ -75,7 +74,7 @@ export class GhostOverlay {
   }
 
   /** One small cause for each of those most affected, and their names at their own boxes. */
-  paintLabels(g: G, v: View): void {
+  paintLabels(g: Pen, v: View): void {
     const first = this.shown.filter((s) => s.here).slice(0, LABELS);
     for (const { ghost: c, alpha } of first) {
       const at = [v.x(c.place.x), v.y(c.place.y)] as const;
@@ -86,7 +85,7 @@ export class GhostOverlay {
     for (const { ghost: c } of first) this.name(g, v, c);
   }
 
-  private name(g: G, v: View, c: Change): void {
+  private name(g: Pen, v: View, c: Change): void {
     const a = this.agentOf(c);
     const p = a && (this.poseNow(a) ?? c.place);
     if (!a || !p) return;

@@ -1,4 +1,5 @@
 // The goal of the selected road user on the overlay: flag, handles, how far it can get, and labels of a drag.
+import type { Pen } from '../draw/pen';
 import type { Pose } from '../model/geometry';
 import { shortfall } from '../model/reach';
 import { startPose, type Agent } from '../model/scene';
@@ -11,8 +12,6 @@ import type { View } from '../draw/view';
 import type { Editor, Lag } from './editor';
 import { outOfReach, type OutOfReach } from './goal-verdict';
 
-type G = CanvasRenderingContext2D;
-
 export class GoalOverlay {
   /** Where the time tag was painted, for the pointer. */
   timeTag: { x: number; y: number; w: number; h: number } | null = null;
@@ -22,7 +21,7 @@ export class GoalOverlay {
     private readonly labels: Labels,
   ) {}
 
-  paintLaneGlow(g: G, v: View): void {
+  paintLaneGlow(g: Pen, v: View): void {
     const d = this.editor.drag.value;
     const lane = d?.laneId ? this.editor.scene.value!.map.lanes.get(d.laneId) : null;
     if (lane)
@@ -46,7 +45,7 @@ export class GoalOverlay {
   }
 
   /** How far it gets, and what lies beyond. */
-  paintReach(g: G, v: View, a: Agent): void {
+  paintReach(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const r = e.localReach.value;
     if (!r || r.kind === 'ok' || !a.goal.pos || !outOfReach(this.editor, a)) return;
@@ -63,7 +62,7 @@ export class GoalOverlay {
     }
   }
 
-  paintGoal(g: G, v: View, a: Agent, goal: Pose & { set: boolean }): void {
+  paintGoal(g: Pen, v: View, a: Agent, goal: Pose & { set: boolean }): void {
     const { editor: e } = this;
     const c = colours();
     const [x, y] = v.to(goal.x, goal.y);
@@ -125,7 +124,7 @@ export class GoalOverlay {
     if (goal.set && r) this.timeTag = r;
   }
 
-  private paintNearest(g: G, v: View, a: Agent, nearest: OutOfReach['nearest']): void {
+  private paintNearest(g: Pen, v: View, a: Agent, nearest: OutOfReach['nearest']): void {
     if (!nearest) return;
     const c = colours();
     paintGhost(g, v, a, nearest, c.goal, c['goal-soft'], [], 2);
@@ -135,7 +134,7 @@ export class GoalOverlay {
   }
 
   /** After the handles, which would cover it. */
-  labelNearest(g: G, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>): void {
+  labelNearest(g: Pen, v: View, a: Agent, nearest: NonNullable<OutOfReach['nearest']>): void {
     const c = colours();
     const x = v.x(nearest.x),
       y = v.y(nearest.y);
@@ -162,7 +161,7 @@ export class GoalOverlay {
   }
 
   /** A dotted string from the flag to the hand, as long as a kerb holds the flag back. */
-  private paintLag(g: G, v: View, { from, to, touch }: Lag): void {
+  private paintLag(g: Pen, v: View, { from, to, touch }: Lag): void {
     const hand = v.to(to[0], to[1]);
     paintString(g, v.to(from[0], from[1]), hand);
     const tries = [
@@ -173,7 +172,7 @@ export class GoalOverlay {
     tag(g, this.labels, hand, touch ? 'Hold to pass' : 'Alt passes', { tries });
   }
 
-  dragLabels(g: G, v: View, a: Agent, goal: Pose | null): void {
+  dragLabels(g: Pen, v: View, a: Agent, goal: Pose | null): void {
     const d = this.editor.drag.value;
     if (!d || d.grip.handle !== 'body') return;
     const c = colours();

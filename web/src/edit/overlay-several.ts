@@ -7,6 +7,7 @@ import type { Agent } from '../model/scene';
 import { speedLabel } from '../model/units';
 import { paintRing, paintSpeed } from '../draw/handles';
 import { tag, type Labels } from '../draw/labels';
+import type { Pen } from '../draw/pen';
 import { sizeOnScreen, stamp, type Sized } from '../draw/sprites';
 import { polyline, trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
@@ -14,8 +15,6 @@ import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { frameAround, type Frame } from './frame';
 import type { Ghosts } from './placing';
-
-type G = CanvasRenderingContext2D;
 
 const CORNER_PX = 8;
 /** Beyond so many each one's own way would hide the others'. */
@@ -33,7 +32,7 @@ export class SeveralOverlay {
     private readonly poseNow: (a: Agent) => Pose | null,
   ) {}
 
-  paint(g: G, v: View): void {
+  paint(g: Pen, v: View): void {
     const { editor: e } = this;
     if (e.selected.value.length > 1) this.#paintMembers(g, v);
     if (e.sweep.value) this.#paintSweep(g, v, e.sweep.value.outline, e.sweep.value.ids);
@@ -41,7 +40,7 @@ export class SeveralOverlay {
     if (ghosts) this.#paintGhosts(g, v, ghosts);
   }
 
-  #paintMembers(g: G, v: View): void {
+  #paintMembers(g: Pen, v: View): void {
     const { editor: e } = this;
     const c = colours();
     const all = e.chosenOnes;
@@ -73,12 +72,13 @@ export class SeveralOverlay {
     if (frame && !e.playing.value) this.#paintFrame(g, frame, kindsWords(all.map((a) => a.kind)), atStart);
   }
 
-  #paintFrame(g: G, { box, corners, knob }: Frame, words: string, handles: boolean): void {
+  #paintFrame(g: Pen, { box, corners, knob }: Frame, words: string, handles: boolean): void {
     const c = colours();
     g.lineWidth = 1.5;
     g.strokeStyle = c.focus;
     g.setLineDash([5, 4]);
-    g.strokeRect(box.x, box.y, box.w, box.h);
+    square(g, box.x, box.y, box.w, box.h);
+    g.stroke();
     g.setLineDash([]);
     this.labels.block(box.x, box.y - 2, box.w, 4);
     if (handles) {
@@ -88,8 +88,9 @@ export class SeveralOverlay {
       g.stroke();
       g.fillStyle = c.surface;
       for (const [x, y] of corners) {
-        g.fillRect(x - CORNER_PX / 2, y - CORNER_PX / 2, CORNER_PX, CORNER_PX);
-        g.strokeRect(x - CORNER_PX / 2, y - CORNER_PX / 2, CORNER_PX, CORNER_PX);
+        square(g, x - CORNER_PX / 2, y - CORNER_PX / 2, CORNER_PX, CORNER_PX);
+        g.fill();
+        g.stroke();
       }
       g.beginPath();
       g.arc(knob[0], knob[1], 6, 0, Math.PI * 2);
@@ -111,7 +112,7 @@ export class SeveralOverlay {
     });
   }
 
-  #paintSweep(g: G, v: View, outline: readonly Vec[], ids: readonly string[]): void {
+  #paintSweep(g: Pen, v: View, outline: readonly Vec[], ids: readonly string[]): void {
     const { editor: e } = this;
     const c = colours();
     g.beginPath();
@@ -134,7 +135,7 @@ export class SeveralOverlay {
     }
   }
 
-  #paintGhosts(g: G, v: View, { all, words, lane }: Ghosts): void {
+  #paintGhosts(g: Pen, v: View, { all, words, lane }: Ghosts): void {
     const { editor: e } = this;
     const c = colours();
     const scene = e.scene.value!;
@@ -181,6 +182,16 @@ export class SeveralOverlay {
       ...(one && blocked ? { bg: c.collision, fg: c['on-collision'] } : {}),
     });
   }
+}
+
+/** The outline of a rectangle, to be filled or stroked. */
+function square(g: Pen, x: number, y: number, w: number, h: number): void {
+  g.beginPath();
+  g.moveTo(x, y);
+  g.lineTo(x + w, y);
+  g.lineTo(x + w, y + h);
+  g.lineTo(x, y + h);
+  g.closePath();
 }
 
 const onScreen = (v: View, p: { x: number; y: number }): boolean => {

@@ -1,5 +1,6 @@
 // What is wrong with the futures of the selected road user, on the lines themselves: stretches, ground, and a word
 // at each place.
+import type { Pen } from '../draw/pen';
 import type { Fault } from '../model/about';
 import { faultPlaces, type FaultPlace } from '../model/fault-places';
 import type { Futures } from '../model/futures';
@@ -15,8 +16,6 @@ import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { roadWay } from './ways-out';
 
-type G = CanvasRenderingContext2D;
-
 /** More places than these are counted, not named. */
 const NAMED = 3;
 
@@ -30,14 +29,14 @@ export class VerdictOverlay {
   ) {}
 
   /** Under the paths: the ground that the shown one crosses and should not. */
-  paintGround(g: G, v: View, a: Agent, f: Futures, visible: readonly number[]): void {
+  paintGround(g: Pen, v: View, a: Agent, f: Futures, visible: readonly number[]): void {
     const crossed = (fault: Fault): boolean => fault.kind === 'over_median' || fault.kind === 'off_road';
     const shown = visible.length === 1 ? visible : visible.filter((i) => i === this.editor.chosen.value);
     paintGround(g, v, stretchesOf(f, shown, crossed), a.width);
   }
 
   /** On the paths: the stretches themselves. */
-  paintStretches(g: G, v: View, f: Futures, visible: readonly number[]): void {
+  paintStretches(g: Pen, v: View, f: Futures, visible: readonly number[]): void {
     const c = colours();
     const chosen = this.editor.chosen.value;
     const most = Math.max(...f.modes.map((m) => m.probability));
@@ -57,13 +56,13 @@ export class VerdictOverlay {
   }
 
   /** One word at each place; a red path never goes without. */
-  paintWords(g: G, v: View, f: Futures, visible: readonly number[]): void {
+  paintWords(g: Pen, v: View, f: Futures, visible: readonly number[]): void {
     const inView = (p: FaultPlace): boolean => !this.labels.outside(v.x(p.fault.at[0]), v.y(p.fault.at[1]));
     const places = faultPlaces(f, visible, this.editor.chosen.value).filter(inView);
     if (places.length) this.labels.avoiding(pathBoxes(v, f, visible), () => this.placeWords(g, v, places));
   }
 
-  private placeWords(g: G, v: View, places: readonly FaultPlace[]): void {
+  private placeWords(g: Pen, v: View, places: readonly FaultPlace[]): void {
     const nameOf = nameIn(this.editor.scene.peek()!);
     places.slice(0, NAMED).forEach((p) => {
       const [x, y] = v.to(p.fault.at[0], p.fault.at[1]);
@@ -78,7 +77,7 @@ export class VerdictOverlay {
   }
 
   /** Under the paths: the way by the road, out of a goal that is reached against the rules. */
-  paintRoadBand(g: G, v: View, a: Agent): void {
+  paintRoadBand(g: Pen, v: View, a: Agent): void {
     const way = roadWay(this.editor, a);
     if (!way) return;
     polyline(g, v, way.path, colours().goal, Math.max(6, a.width * 1.5 * v.z), 0.2, [], 'round');
@@ -87,7 +86,7 @@ export class VerdictOverlay {
   }
 
   /** Where it leads to, hollow: a click takes it. */
-  paintRoadWay(g: G, v: View, a: Agent): void {
+  paintRoadWay(g: Pen, v: View, a: Agent): void {
     const way = roadWay(this.editor, a);
     if (!way) return;
     const c = colours();

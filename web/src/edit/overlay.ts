@@ -1,4 +1,5 @@
 // The overlay: selection, handles, futures, labels, ghosts, events. The only canvas a drag frame paints.
+import type { Pen } from '../draw/pen';
 import type { Pose } from '../model/geometry';
 import { endPose, endsBefore, poseAt } from '../model/motion';
 import { comparedWithLog } from '../model/changes';
@@ -19,8 +20,6 @@ import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
-
-type G = CanvasRenderingContext2D;
 
 /** Alpha of the refinement steps left behind, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
@@ -68,7 +67,7 @@ export class Overlay {
     return this.ghosts.fading;
   }
 
-  paint(g: G, v: View): void {
+  paint(g: Pen, v: View): void {
     const { editor: e } = this;
     const scene = e.scene.value;
     this.chips = [];
@@ -112,7 +111,7 @@ export class Overlay {
     ];
   }
 
-  private paintMeasure(g: G, v: View): void {
+  private paintMeasure(g: Pen, v: View): void {
     const m = this.editor.measure.value;
     if (!m) return;
     const c = colours();
@@ -132,7 +131,7 @@ export class Overlay {
     );
   }
 
-  private paintHover(g: G, v: View): void {
+  private paintHover(g: Pen, v: View): void {
     const { editor: e } = this;
     const id = e.hover.value;
     const a = id && !e.selected.value.includes(id) ? e.scene.value!.agents.get(id) : null;
@@ -145,7 +144,7 @@ export class Overlay {
     paintRing(g, v, a, p, colours().select, 1.5);
   }
 
-  private paintSelected(g: G, v: View, a: Agent): void {
+  private paintSelected(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const c = colours();
     const start = startPose(a);
@@ -193,7 +192,7 @@ export class Overlay {
     this.goal.dragLabels(g, v, a, goal);
   }
 
-  private paintSix(g: G, v: View, a: Agent): void {
+  private paintSix(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const f = e.futures.value;
     if (!f) return;
@@ -237,14 +236,14 @@ export class Overlay {
     return touched(a) && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
   }
 
-  private paintWords(g: G, v: View, a: Agent): void {
+  private paintWords(g: Pen, v: View, a: Agent): void {
     const f = this.editor.futures.value;
     if (!f || !this.editor.layers.value.futures) return;
     this.verdicts.paintRoadWay(g, v, a);
     this.verdicts.paintWords(g, v, f, this.judged(a, f));
   }
 
-  private paintLetters(g: G, v: View, a: Agent): void {
+  private paintLetters(g: Pen, v: View, a: Agent): void {
     const f = this.editor.futures.value;
     if (f && !f.sketch && this.editor.layers.value.futures)
       this.chips = paintChips(
@@ -275,7 +274,7 @@ export class Overlay {
     });
   }
 
-  private paintLog(g: G, v: View, a: Agent, now: Pose | null): void {
+  private paintLog(g: Pen, v: View, a: Agent, now: Pose | null): void {
     const { editor: e } = this;
     const c = colours();
     const m = e.motionFor(a);

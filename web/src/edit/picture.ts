@@ -1,4 +1,5 @@
 // What is on the canvases for the present state of the editor. A drag frame paints the overlay alone.
+import type { Pen } from '../draw/pen';
 import { effect } from '@preact/signals-core';
 import { mixPose, type Pose } from '../model/geometry';
 import { isStill, poseAt } from '../model/motion';
@@ -17,8 +18,6 @@ import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { Overlay } from './overlay';
 import { laneWords } from './snap';
-
-type G = CanvasRenderingContext2D;
 
 const REACT_MS = 320;
 
@@ -81,8 +80,11 @@ export class Picture {
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
+      void e.draft.value;
+      stage.soon('overlay');
+    });
+    effect(() => {
       void [
-        e.draft.value,
         e.changes.value,
         e.foreseen.value,
         e.showForeseen.value,
@@ -101,7 +103,7 @@ export class Picture {
     });
   }
 
-  private paintMap(g: G, v: View): void {
+  private paintMap(g: Pen, v: View): void {
     if (this.map) this.map.paint(g, v, this.editor.layers.value.lanes);
     else {
       g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
@@ -127,7 +129,7 @@ export class Picture {
     return old ? mixPose(old, p, 1 - (1 - k) ** 3) : p;
   }
 
-  private paintAgents(g: G, v: View): void {
+  private paintAgents(g: Pen, v: View): void {
     const { editor: e } = this;
     const scene = e.scene.value;
     if (!scene) return;
@@ -157,7 +159,7 @@ export class Picture {
   }
 
   /** Pennants at the goals of all who are not selected alone, and locks. */
-  private paintMarks(g: G, v: View, shown: [Agent, Pose][]): void {
+  private paintMarks(g: Pen, v: View, shown: [Agent, Pose][]): void {
     const { editor: e } = this;
     this.pennants = [];
     if (v.z < 2) return;
@@ -179,7 +181,7 @@ export class Picture {
     return m !== a.log && !isStill(m);
   }
 
-  private softTrail(g: G, v: View, a: Agent): void {
+  private softTrail(g: Pen, v: View, a: Agent): void {
     if (a.parked || v.z < 3) return;
     const t = this.editor.time.value;
     trail(g, v, this.editor.motionFor(a), {
@@ -193,7 +195,7 @@ export class Picture {
     });
   }
 
-  private nameLabels(g: G, v: View, shown: [Agent, Pose][]): void {
+  private nameLabels(g: Pen, v: View, shown: [Agent, Pose][]): void {
     if (v.z < 5) return;
     const names: Rect[] = [];
     const labels = new Labels(v.w, v.h);

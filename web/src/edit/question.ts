@@ -28,6 +28,9 @@ export interface Wanted {
   readonly drafts?: 'all' | 'chosen';
 }
 
+/** A draft that stays for less than a picture on the screen would not be seen. */
+const FRAME_MS = 16;
+
 export class Questions {
   /** The scene as the last questions of a drag asked about it: the hero's own, and what the others would do. */
   readonly #last = new Map<boolean, { set: MotionSet; rest: string; scene: SceneJson }>();
@@ -62,6 +65,7 @@ export class Questions {
       diversity: scene.diversity,
       steps: DEFAULTS.steps,
       stream_modes: w.drafts ?? 'all',
+      draft_interval_ms: FRAME_MS,
       // What it knows of the others it has itself.
       kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,

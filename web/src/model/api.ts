@@ -1206,6 +1206,13 @@ export interface components {
              */
             diversity?: number;
             /**
+             * Format: uint64
+             * @description `step` events that come sooner than this after the draft sent before are left out, in milliseconds; 0 sends
+             *     all. A page that draws sixty pictures a second has no use for more than one in 16 ms.
+             * @default 0
+             */
+            draft_interval_ms?: number;
+            /**
              * @description With `scene_id`: refuse when the scene has changed.
              * @default null
              */

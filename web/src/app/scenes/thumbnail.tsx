@@ -8,6 +8,7 @@ import { isMapRef } from '../../model/json';
 import { readScene } from '../../model/read';
 import { isRecorded, startPose, type Scene } from '../../model/scene';
 import { MapPicture } from '../../draw/paint-map';
+import { paintOn } from '../../draw/replay';
 import { stamp } from '../../draw/sprites';
 import { paletteStamp } from '../../draw/theme';
 import { View } from '../../draw/view';
@@ -88,12 +89,12 @@ function paint(canvas: HTMLCanvasElement, { scene, map }: Painted, width: number
   v.h = height;
   v.dpr = PX_PER_PX;
   v.fit(busyBox(scene), 4, 0.3);
-  const g = canvas.getContext('2d')!;
-  map.paint(g, v, false);
-  for (const a of scene.agents.values()) {
-    const p = startPose(a);
-    if (p) stamp(g, v, mini(a), p);
-  }
-  g.setTransform(1, 0, 0, 1, 0, 0);
+  paintOn(canvas.getContext('2d')!, (pen) => {
+    map.paint(pen, v, false);
+    for (const a of scene.agents.values()) {
+      const p = startPose(a);
+      if (p) stamp(pen, v, mini(a), p);
+    }
+  });
   canvas.dataset.done = String(paletteStamp());
 }

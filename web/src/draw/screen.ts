@@ -1,0 +1,92 @@
+// What is seen of the scene: three canvases that a worker paints, or the page itself where a browser has no canvas for
+// workers.
+import { Easel, LAYERS, type Canvases, type LayerName, type Picture, type Size, type Shift } from './easel';
+import { Recording, Vocabulary } from './recording';
+
+export type ToEasel = { canvases: Canvases } | { picture: Picture };
+/** A picture is on the canvases; or letters look otherwise now than they did. */
+export type FromEasel = 'shown' | 'fonts';
+
+/** So many pictures may be on their way: one is painted while the next is recorded. */
+const AHEAD = 2;
+
+export class Screen {
+  #words = new Vocabulary();
+  #recording = new Recording(this.#words);
+  #worker: Worker | null = null;
+  #easel: Easel | null = null;
+  #onWay = 0;
+  #canvases: HTMLCanvasElement[] = [];
+
+  /** `onFree`: the next picture may come; `onLost`: everything is to be painted anew. */
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly onFree: () => void,
+    private readonly onLost: () => void,
+  ) {
+    const canvases = this.#hang();
+    const canHandOver = typeof Worker !== 'undefined' && 'transferControlToOffscreen' in canvases.map;
+    if (canHandOver) this.#employ(canvases);
+    else this.#easel = new Easel(canvases);
+  }
+
+  /** As many pictures are on their way as may be. */
+  get busy(): boolean {
+    return this.#onWay >= AHEAD;
+  }
+
+  /** What `paint` draws, to be shown. */
+  record(paint: (pen: Recording) => void): Float64Array {
+    paint(this.#recording);
+    return this.#recording.take();
+  }
+
+  show(size: Size, layers: Partial<Record<LayerName, Float64Array>>, shift: Shift): void {
+    const picture: Picture = { size, layers, shift, news: this.#words.news() };
+    if (this.#easel) return this.#easel.show(picture);
+    this.#onWay++;
+    const moved = [
+      ...Object.values(layers).map((ops) => ops.buffer),
+      ...picture.news.shapes.flatMap((s) => [s.points.buffer, s.ends.buffer]),
+      ...picture.news.sprites.map((s) => s.ops.buffer),
+    ] as ArrayBuffer[];
+    this.#worker!.postMessage({ picture } satisfies ToEasel, moved);
+  }
+
+  /** New canvases in place of old ones. */
+  #hang(): Record<LayerName, HTMLCanvasElement> {
+    for (const c of this.#canvases) c.remove();
+    const made = LAYERS.map((name) => {
+      const c = document.createElement('canvas');
+      c.className = `layer ${name}`;
+      c.setAttribute('aria-hidden', 'true');
+      return [name, c] as const;
+    });
+    this.#canvases = made.map(([, c]) => c);
+    this.element.prepend(...this.#canvases);
+    return Object.fromEntries(made) as Record<LayerName, HTMLCanvasElement>;
+  }
+
+  #employ(canvases: Record<LayerName, HTMLCanvasElement>): void {
+    const worker = new Worker(new URL('./easel.worker.ts', import.meta.url), { type: 'module' });
+    this.#worker = worker;
+    worker.onmessage = ({ data }: MessageEvent<FromEasel>) => {
+      if (data === 'fonts') return this.onLost();
+      this.#onWay--;
+      this.onFree();
+    };
+    // Canvases that were handed over do not come back: the page paints on new ones.
+    worker.onerror = () => {
+      worker.terminate();
+      this.#worker = null;
+      this.#onWay = 0;
+      this.#words = new Vocabulary();
+      this.#recording = new Recording(this.#words);
+      this.#easel = new Easel(this.#hang());
+      this.onLost();
+    };
+    const off = LAYERS.map((name) => [name, canvases[name].transferControlToOffscreen()] as const);
+    const handed = Object.fromEntries(off) as Record<LayerName, OffscreenCanvas>;
+    worker.postMessage({ canvases: handed } satisfies ToEasel, Object.values(handed));
+  }
+}

@@ -1,0 +1,173 @@
+// What is recorded on the page is what is played elsewhere.
+import fc from 'fast-check';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { Shape, type Pen, type Sprite } from '../src/draw/pen';
+import { Recording, Vocabulary } from '../src/draw/recording';
+import { Player, type Canvas2D } from '../src/draw/replay';
+
+type Call = [name: string, ...args: unknown[]];
+
+class FakePath {
+  readonly calls: Call[] = [];
+  moveTo = (...a: number[]) => this.calls.push(['moveTo', ...a]);
+  lineTo = (...a: number[]) => this.calls.push(['lineTo', ...a]);
+  closePath = () => this.calls.push(['closePath']);
+}
+
+/** Notes every call and every property that is set. */
+function listener(): { g: Canvas2D; calls: Call[] } {
+  const calls: Call[] = [];
+  const g = new Proxy(
+    {},
+    {
+      get:
+        (_, name: string) =>
+        (...args: unknown[]) => {
+          calls.push([name, ...args.map((a) => (a instanceof FakePath ? a.calls : a))]);
+        },
+      set: (_, name: string, value) => {
+        calls.push([name, value]);
+        return true;
+      },
+    },
+  );
+  return { g: g as Canvas2D, calls };
+}
+
+class FakeCanvas {
+  readonly heard = listener();
+  constructor(
+    readonly width: number,
+    readonly height: number,
+  ) {}
+  getContext() {
+    return this.heard.g;
+  }
+}
+
+const real = { Path2D: globalThis.Path2D, OffscreenCanvas: globalThis.OffscreenCanvas };
+beforeAll(() => Object.assign(globalThis, { Path2D: FakePath, OffscreenCanvas: FakeCanvas }));
+afterAll(() => Object.assign(globalThis, real));
+
+const n = fc.double({ min: -1e7, max: 1e7, noNaN: true });
+const text = fc.string({ maxLength: 12 });
+const call = (name: string, ...args: fc.Arbitrary<unknown>[]): fc.Arbitrary<Call> =>
+  fc.tuple(...args).map((a): Call => [name, ...a]);
+const METHODS = fc.oneof(
+  ...['beginPath', 'closePath', 'stroke', 'fill', 'save', 'restore'].map((m) => call(m)),
+  ...['moveTo', 'lineTo', 'translate'].map((m) => call(m, n, n)),
+  call('rotate', n),
+  ...['quadraticCurveTo', 'fillRect'].map((m) => call(m, n, n, n, n)),
+  call('arc', n, n, n, n, n, fc.boolean()),
+  call('ellipse', n, n, n, n, n, n, n),
+  call('roundRect', n, n, n, n, n),
+  call('setTransform', n, n, n, n, n, n),
+  call('fillText', text, n, n),
+  call('setLineDash', fc.array(n, { maxLength: 4 })),
+);
+const PROPERTIES = fc.oneof(
+  ...['lineWidth', 'globalAlpha', 'shadowBlur', 'shadowOffsetY'].map((p) => call(p, n)),
+  ...['lineCap', 'lineJoin', 'font', 'textAlign', 'textBaseline', 'shadowColor', 'strokeStyle', 'fillStyle'].map((p) =>
+    call(p, text),
+  ),
+);
+
+function draw(pen: Pen, calls: readonly Call[]): void {
+  for (const [name, ...args] of calls) {
+    const pens = pen as unknown as Record<string, unknown>;
+    if (typeof pens[name] === 'function') (pens[name] as (...a: unknown[]) => void).apply(pen, args);
+    else pens[name] = args[0];
+  }
+}
+
+describe('recordings', () => {
+  it('are played call for call', () => {
+    fc.assert(
+      fc.property(fc.array(fc.oneof(METHODS, PROPERTIES), { maxLength: 200 }), (calls) => {
+        const words = new Vocabulary();
+        const recording = new Recording(words);
+        draw(recording, calls);
+        const ops = recording.take();
+        const player = new Player();
+        player.learn(words.news());
+        const heard = listener();
+        player.play(heard.g, ops);
+        expect(heard.calls).toEqual(calls);
+      }),
+    );
+  });
+
+  it('tell shapes, sprites and texts once', () => {
+    const words = new Vocabulary();
+    const recording = new Recording(words);
+    const shape = new Shape();
+    shape.add(
+      [
+        [0, 1],
+        [2, 3],
+      ],
+      true,
+    );
+    shape.add(
+      [
+        [4, 5],
+        [6, 7],
+      ],
+      false,
+    );
+    const sprite: Sprite = { key: 'car', width: 9, height: 4, paint: (pen) => pen.fillRect(1, 2, 3, 4) };
+    const player = new Player();
+    const round = () => {
+      recording.fillStyle = 'red';
+      recording.strokeShape(shape);
+      recording.fillShape(shape, 'evenodd');
+      recording.stamp(sprite, 1, 2, 3, 4);
+      const ops = recording.take();
+      const news = words.news();
+      player.learn(news);
+      const heard = listener();
+      player.play(heard.g, ops);
+      return { news, calls: heard.calls };
+    };
+    const first = round();
+    expect([first.news.texts, first.news.shapes.length, first.news.sprites.length]).toEqual([['red'], 1, 1]);
+    const path = [['moveTo', 0, 1], ['lineTo', 2, 3], ['closePath'], ['moveTo', 4, 5], ['lineTo', 6, 7]];
+    expect(first.calls.slice(0, 3)).toEqual([
+      ['fillStyle', 'red'],
+      ['stroke', path],
+      ['fill', path, 'evenodd'],
+    ]);
+    const [, stamped, ...where] = first.calls[3] as [string, FakeCanvas, ...number[]];
+    expect([stamped.width, stamped.height, stamped.heard.calls, where]).toEqual([
+      9,
+      4,
+      [['fillRect', 1, 2, 3, 4]],
+      [1, 2, 3, 4],
+    ]);
+    const second = round();
+    expect([second.news.texts, second.news.shapes, second.news.sprites]).toEqual([[], [], []]);
+    expect(second.calls.slice(0, 3)).toEqual(first.calls.slice(0, 3));
+  });
+
+  it('begin afresh where too much has been told', () => {
+    const words = new Vocabulary();
+    const recording = new Recording(words);
+    const player = new Player();
+    const say = (from: number) => {
+      for (let i = 0; i < 1500; i++) recording.fillText(`text ${from + i}`, 0, 0);
+      const ops = recording.take();
+      const news = words.news();
+      player.learn(news);
+      const heard = listener();
+      player.play(heard.g, ops);
+      return { afresh: news.afresh, last: heard.calls.at(-1)![1] };
+    };
+    expect([0, 1500, 3000, 4500, 0].map(say)).toEqual([
+      { afresh: true, last: 'text 1499' },
+      { afresh: false, last: 'text 2999' },
+      { afresh: false, last: 'text 4499' },
+      { afresh: true, last: 'text 5999' },
+      { afresh: false, last: 'text 1499' },
+    ]);
+  });
+});
