@@ -99,6 +99,35 @@ journeys('several at once', (stage) => {
     await e.key('Backspace');
     await e.settled();
     assert.equal((await e.roadUsers()).length, before);
+
+    // Who came into an example is there again after a reload, as all other changes are.
+    await e.key('Control+z');
+    await e.settled();
+    const cast = await names(e);
+    assert.equal(cast.length, before + 1);
+    await e.page.reload();
+    await e.ready();
+    await e.settled();
+    assert.deepEqual(await names(e), cast);
+  });
+
+  it('moves the picture with Space held, and plays with Space alone', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const before = await e.view();
+    const { mouse, keyboard } = e.page;
+    await mouse.move(700, 200);
+    await keyboard.down('Space');
+    await mouse.down();
+    await mouse.move(760, 240, { steps: 4 });
+    await mouse.up();
+    await keyboard.up('Space');
+    await e.frames(3);
+    const after = await e.view();
+    assert.ok(Math.abs((before.cx - after.cx) * after.zoom - 60) < 2);
+    assert.ok((await e.text('.tm')).startsWith('0.0'), 'it does not play');
+    await e.key('Space');
+    await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.3);
   });
 
   it('opens menus with the right button and with keys, and does what they say', { timeout: 90_000 }, async () => {
@@ -142,6 +171,7 @@ journeys('several at once', (stage) => {
     const number = walker.name.match(/\d+/)[0];
     assert.equal(await e.text('.ih h2'), `Cyclist ${number}`);
     assert.equal(e.wire.last().body.conditions[walker.id].type, 'cyclist');
+    assert.ok(e.wire.last().event('final'), 'and it is answered');
     await e.key('Control+z');
     await e.settled();
     assert.equal(await e.text('.ih h2'), walker.name);

@@ -31,18 +31,18 @@ function nearestFirst(c: Context): string[] {
   const [x, y] = v.from(v.w / 2, v.h / 2);
   return [...(c.editor.scene.value?.agents.values() ?? [])]
     .filter(canChange)
-    .map((a) => ({ id: a.id, d: Math.hypot((a.logStart?.x ?? 0) - x, (a.logStart?.y ?? 0) - y) }))
+    .map((a) => ({ id: a.id, d: Math.hypot((startPose(a)?.x ?? 0) - x, (startPose(a)?.y ?? 0) - y) }))
     .sort((p, q) => p.d - q.d)
     .map((p) => p.id);
 }
 
-let walk: { ids: string[]; scene: string | undefined } | null = null;
+let walk: { ids: string[]; cast: string } | null = null;
 
 function walkTo(c: Context, step: 1 | -1): void {
-  const scene = c.editor.scene.value?.id;
+  const cast = `${c.editor.scene.value?.id} ${c.editor.scene.value?.roster}`;
   const selected = c.editor.selection.value;
   // The order is kept while one walks, or the next key would jump back to the middle.
-  if (!walk || walk.scene !== scene || !selected) walk = { ids: nearestFirst(c), scene };
+  if (!walk || walk.cast !== cast || !selected) walk = { ids: nearestFirst(c), cast };
   const { ids } = walk;
   const at = ids.indexOf(selected ?? '');
   const id = ids[at < 0 ? (step > 0 ? 0 : ids.length - 1) : (at + step + ids.length) % ids.length];

@@ -343,8 +343,10 @@ export class Editor {
     this.selectAll(id === null ? NOBODY : [id]);
   }
 
-  selectAll(ids: readonly string[]): void {
+  selectAll(wanted: readonly string[]): void {
     const now = this.#selected.peek();
+    const here = this.#scene.peek()?.agents;
+    const ids = wanted.filter((id) => here?.has(id));
     if (ids.length === now.length && ids.every((id, i) => id === now[i])) return;
     batch(() => {
       this.#selected.value = Object.freeze([...ids]);

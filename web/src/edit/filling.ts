@@ -12,9 +12,15 @@ import { addThem, tooMany } from './several';
 /** About so many are put on a map. */
 const USUAL = 40;
 
-export async function fill(editor: Editor, file: SceneFile, client: Client): Promise<void> {
+/** Fills a map. Where somebody is there already it asks first. */
+export async function fill(editor: Editor, file: SceneFile, client: Client, sure = false): Promise<void> {
   const scene = editor.scene.peek();
   if (!scene || !file.raw) return;
+  if (scene.agents.size && !sure) {
+    const action = { label: `Add ${USUAL}`, run: () => void fill(editor, file, client, true) };
+    editor.notices.show({ text: `Put about ${USUAL} more road users on the map?`, action });
+    return;
+  }
   const full = tooMany(scene, 1);
   if (full) {
     editor.notices.show({ text: full });

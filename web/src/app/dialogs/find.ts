@@ -59,7 +59,7 @@ function actions(c: Context, query: string): Entry[] {
 
 const possibleEntry = { keys: [], off: false } as const;
 
-function roadUsers({ editor, stage }: Context, query: string): Entry[] {
+function roadUsers({ editor, reveal }: Context, query: string): Entry[] {
   return [...(editor.scene.peek()?.agents.values() ?? [])]
     .filter((a) => a.name.toLowerCase().includes(query) || a.id === query)
     .slice(0, MOST_ROAD_USERS)
@@ -71,9 +71,7 @@ function roadUsers({ editor, stage }: Context, query: string): Entry[] {
       icon: a.kind,
       run() {
         editor.select(a.id);
-        if (!a.logStart) return;
-        stage.view.centre(a.logStart.x, a.logStart.y);
-        stage.viewChanged();
+        reveal([a.id]);
       },
     }));
 }
