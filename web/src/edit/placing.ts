@@ -134,8 +134,8 @@ export const placeWords = (scene: Scene, n: Newcomer): string => {
 };
 
 /** Each with whether it touches somebody, also one of those before it. */
-function fitted(scene: Scene, all: readonly Newcomer[]): Ghost[] {
-  const taken: Footprint[] = standing(scene);
+function fitted(there: readonly Footprint[], all: readonly Newcomer[]): Ghost[] {
+  const taken: Footprint[] = [...there];
   return all.map((who) => {
     const fits = !inTheWay(who, taken);
     if (fits) taken.push(who);
@@ -144,22 +144,35 @@ function fitted(scene: Scene, all: readonly Newcomer[]): Ghost[] {
 }
 
 export function ghostsFor(scene: Scene, all: readonly Newcomer[], words: string, lane: string | null = null): Ghosts {
-  return { all: fitted(scene, all), words, lane };
+  return { all: fitted(standing(scene), all), words, lane };
 }
 
 // -------------------------------------------------------------- several at once
 
-/** Evenly along a line from one place to another. */
+/** Where there is no room for all of them along a line, places are looked for at this distance, metres. */
+const LOOK_M = 0.4;
+
+/** Evenly along a line from one place to another; as many as there is room for where that is not enough for all. */
 export function alongLine(scene: Scene, choice: PlacingChoice, a: Vec, b: Vec, zoom: number): Newcomer[] {
   const line = makeLine([a, b]);
   const way = Math.atan2(b[1] - a[1], b[0] - a[0]);
-  const keepsLane = lanesFor({ type: typeOfKind(choice.kind) }) !== null;
-  return Array.from({ length: choice.count }, (_, i) => {
-    const p = pointAt(line, choice.count > 1 ? (line.length * i) / (choice.count - 1) : 0);
+  const at = (along: number): Newcomer => {
+    const p = pointAt(line, along);
     const on = ghostAt(scene, choice, [p.x, p.y], { zoom });
-    const heading = on.lane || !keepsLane ? on.pose.heading : way;
-    return turned(on, heading || way);
-  });
+    return turned(on, on.lane || choice.kind === 'pedestrian' ? on.pose.heading || way : way);
+  };
+  const even = Array.from({ length: choice.count }, (_, i) => at((line.length * i) / Math.max(1, choice.count - 1)));
+  const taken = standing(scene);
+  if (fitted(taken, even).every((g) => g.fits)) return even;
+  const out: Newcomer[] = [];
+  const full: Footprint[] = [...taken];
+  for (let along = 0; along <= line.length && out.length < choice.count; along += LOOK_M) {
+    const who = at(along);
+    if (inTheWay(who, full)) continue;
+    full.push(who);
+    out.push(who);
+  }
+  return out;
 }
 
 /** Spread over a rectangle between two corners: always the same for the same rectangle. */
