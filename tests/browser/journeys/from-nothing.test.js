@@ -78,6 +78,8 @@ journeys('from nothing', (stage) => {
 
     // Its pennant stays when somebody else is selected, and leads back to it.
     await leaveField(e);
+    await e.key('z');
+    await e.settled();
     await e.choose(first.id);
     const [px, py] = await e.at(gx, gy);
     assert.ok(await e.open([px + 5, py - 14], 4), 'the pennant is in view');
