@@ -85,4 +85,4 @@ export function withKeptEdits(scene: Scene): Scene | null {
 }
 
 /** What somebody is called who came with a new id. */
-export const nameOfNew = (json: AgentJson): string => `${KIND_NAMES[kindOf(json)]} ${numberIn(json.id) ?? json.id}`;
+const nameOfNew = (json: AgentJson): string => `${KIND_NAMES[kindOf(json)]} ${numberIn(json.id) ?? json.id}`;
