@@ -110,7 +110,7 @@ const face = (s: Scene): string =>
   sceneKey(s) + s.issued + JSON.stringify(Array.from(s.agents.values(), (a) => ({ ...a, log: null, source: null })));
 
 describe('commands about who is there', () => {
-  it('are undone exactly by their inverse', () => {
+  it('are undone exactly by their inverse', { timeout: 3_600_000 }, () => {
     const scene = crossing();
     fc.assert(
       fc.property(makers, pick, (make, which) => {
