@@ -33,6 +33,15 @@ export const scene = inGroup('Scene', [
     run: (c) => c.chooseFiles(),
   },
   {
+    id: 'import-log',
+    label: 'Import a log',
+    keys: ['O'],
+    icon: 'file',
+    help: 'Scenario record or saved scene. Or drop the file here.',
+    onOffer: (c) => c.editor.scene.value?.agents.size === 0,
+    run: (c) => c.chooseFiles(),
+  },
+  {
     id: 'save-copy',
     label: 'Save a copy',
     keys: ['Ctrl+S'],

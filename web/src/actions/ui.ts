@@ -1,6 +1,14 @@
 // What of the page is open: the drawer, a dialog, a menu, the hint; and light or dark.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
+import type { MenuOn } from '../edit/gestures/chart';
 import { keep, recall } from '../net/storage';
+
+/** A menu at a place of the picture, in pixels of it. */
+export interface ContextMenu {
+  readonly x: number;
+  readonly y: number;
+  readonly on: MenuOn;
+}
 
 export type Dialog = 'palette' | 'shortcuts';
 export type Theme = 'light' | 'dark';
@@ -12,6 +20,8 @@ export class Ui {
   readonly #drawer = signal(true);
   readonly #dialog = signal<Dialog | null>(null);
   readonly #menu = signal<string | null>(null);
+  readonly #contextMenu = signal<ContextMenu | null>(null);
+  readonly #emptyHidden = signal<string | null>(null);
   readonly #deleting = signal<string | null>(null);
   readonly #eventsPanel = signal(false);
   readonly #coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
@@ -20,6 +30,9 @@ export class Ui {
   readonly drawer: ReadonlySignal<boolean> = this.#drawer;
   readonly dialog: ReadonlySignal<Dialog | null> = this.#dialog;
   readonly menu: ReadonlySignal<string | null> = this.#menu;
+  readonly contextMenu: ReadonlySignal<ContextMenu | null> = this.#contextMenu;
+  /** Id of the empty scene whose offers were closed. */
+  readonly emptyHidden: ReadonlySignal<string | null> = this.#emptyHidden;
   /** Id of the scene that is about to be deleted. */
   readonly deleting: ReadonlySignal<string | null> = this.#deleting;
   readonly eventsPanel: ReadonlySignal<boolean> = this.#eventsPanel;
@@ -45,6 +58,19 @@ export class Ui {
 
   closeMenu(): void {
     this.#menu.value = null;
+  }
+
+  openContextMenu(menu: ContextMenu): void {
+    this.#menu.value = null;
+    this.#contextMenu.value = menu;
+  }
+
+  closeContextMenu(): void {
+    this.#contextMenu.value = null;
+  }
+
+  hideEmpty(scene: string): void {
+    this.#emptyHidden.value = scene;
   }
 
   askToDelete(id: string | null): void {

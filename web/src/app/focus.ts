@@ -21,3 +21,12 @@ export function focusGroup(step: 1 | -1): void {
   const at = groups.findIndex((g) => g.contains(document.activeElement));
   groups[(at + step + groups.length) % groups.length]?.querySelector<HTMLElement>(FIRST)?.focus();
 }
+
+/** The name or the note of the selected road user; the field may appear with the next frame. */
+export function focusText(which: 'name' | 'note'): void {
+  requestAnimationFrame(() => {
+    const el = document.querySelector<HTMLInputElement>(`[data-text="${which}"]`);
+    el?.focus();
+    el?.select();
+  });
+}

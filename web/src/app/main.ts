@@ -5,7 +5,9 @@ import '../styles/panels.css';
 import { effect } from '@preact/signals-core';
 import type { Context } from '../actions/context';
 import { Ui } from '../actions/ui';
+import { Copying } from '../edit/copying';
 import { Editor } from '../edit/editor';
+import { fill } from '../edit/filling';
 import { Generation } from '../edit/generation';
 import { Gestures } from '../edit/gestures/pointer';
 import { Importing } from '../edit/importing';
@@ -19,10 +21,11 @@ import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
 import { HttpGenerator } from '../net/http-generator';
 import { recall } from '../net/storage';
+import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
-import { focusAgent, focusField, focusGroup } from './focus';
+import { focusAgent, focusField, focusGroup, focusText } from './focus';
 import { followView } from './hud/view-tick';
-import { fitScene, followSelected, lookAtOpened } from './look';
+import { fitScene, followSelected, lookAtOpened, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
 import { drawPage } from './shell';
 import { coach, reportCrashes, waitForServer } from './watching';
@@ -56,12 +59,18 @@ function makeParts(): Context {
   const gestures = new Gestures(stage, editor, picture, generation);
   const playback = new Playback(editor, stage);
   const chooseFiles = fileChooser((files) => void importing.files(files));
-  const parts = { editor, generation, scenes, library, file, saving, importing, playback, gestures, picture };
+  const copying = new Copying(editor);
+  const parts = { copying, editor, generation, scenes, library, file, saving, importing, playback, gestures, picture };
   const c: Context = {
     ...parts,
     stage,
     client,
     ui,
+    clipboard: clipboardOf(() => c),
+    reveal: (ids) => reveal(c, ids),
+    focusText,
+    openMenu: () => openMenu(c),
+    fill: () => fill(editor, file, client),
     chooseFiles,
     focusField,
     focusGroup,
@@ -96,6 +105,7 @@ function connect(c: Context): void {
   effect(() => {
     stage.view.inset = { ...INSET, left: ui.drawer.value ? INSET_LEFT.drawer : INSET_LEFT.rail };
   });
+  gestures.onMenu = (at, on) => ui.openContextMenu({ ...at, on });
   library.onOpen = () => {
     lookAtOpened(c);
     ui.showEvents(false);
@@ -124,5 +134,6 @@ connect(c);
 drawPage(c, document.getElementById('app')!);
 reportCrashes(c);
 listenToPage(c);
+listenToClipboard(c);
 coach(c);
 void openFirst(c);

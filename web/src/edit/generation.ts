@@ -3,9 +3,9 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
 import type { MotionSet } from '../model/futures';
-import { canChange, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
+import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
-import { trackJson } from '../model/write';
+import { castJson, trackJson } from '../model/write';
 import { Away } from '../net/client';
 import type { Generator, Handlers, Question, SceneRef } from '../net/generator';
 import { Absence } from './absence';
@@ -270,7 +270,7 @@ export class Generation implements Previews {
     const shown = this.#shown(scene);
     if (editor.motion.peek().stale) editor.answers.settle(scene, shown, null);
     const scored = [...scene.agents.values()].filter(
-      (a) => shown.driving.has(a.id) || (scene.others === 'still' && canChange(a)),
+      (a) => canChange(a) && (shown.driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
     );
     const trajectories = Object.fromEntries(scored.map((a) => [a.id, trackJson(motionOf(scene, shown, a))]));
     try {
@@ -295,8 +295,10 @@ export class Generation implements Previews {
   }
 
   #stored(scene: Scene): SceneRef {
-    const { raw, map, stored } = this.file;
-    return stored ? { id: scene.id } : { scene: { ...raw!, map: map!, generated: null } };
+    const { file } = this;
+    if (file.holds(scene)) return { id: scene.id };
+    const map = file.mapRef ? { ref: file.mapRef } : file.map!;
+    return { scene: { ...file.raw!, agents: castJson(scene), map, generated: null } };
   }
 
   // -------------------------------------------------------------- absence

@@ -45,7 +45,7 @@ export class Saving {
   /** A document change was committed. */
   changed(scene: Scene): void {
     if (!this.file.raw || scene === this.#opened) return;
-    const kept = keepEdits(scene);
+    const kept = keepEdits(scene, this.file.raw);
     const own = this.list.isOwn(scene.id);
     if (kept === 'full') this.#state.value = 'full';
     else if (!own) this.#state.value = kept === 'kept' ? 'local' : 'example';
@@ -89,7 +89,7 @@ export class Saving {
   }
 
   #saved(scene: Scene, body: SceneJson): void {
-    this.file.noteConditions(body);
+    this.file.noteStored(body);
     const now = this.editor.scene.peek();
     if (now && versionOf(now) === versionOf(scene)) {
       forgetEdits(scene.id);

@@ -127,6 +127,15 @@ export interface EditorJson {
   length_s?: number;
   replan_s?: number;
   picked?: Record<string, number>;
+  names?: Record<string, string>;
+  notes?: Record<string, string>;
+  locked?: string[];
+  /** What single road users do while others change. */
+  does?: Record<string, string>;
+  /** Who was put there and not recorded. */
+  placed?: string[];
+  /** The subtype that was recorded, of those that have been given another. */
+  was?: Record<string, string>;
 }
 export interface SceneJson {
   format?: string;

@@ -18,7 +18,7 @@ const MOST = 60;
 const MOST_ROAD_USERS = 8;
 const MOST_SCENES = 6;
 /** Groups that stand under the name of the selected road user. */
-const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move'];
+const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move', 'Edit'];
 
 export function find(c: Context, typed: string): Entry[] {
   const query = typed.trim().toLowerCase();
@@ -59,7 +59,7 @@ function actions(c: Context, query: string): Entry[] {
 
 const possibleEntry = { keys: [], off: false } as const;
 
-function roadUsers({ editor, stage }: Context, query: string): Entry[] {
+function roadUsers({ editor, reveal }: Context, query: string): Entry[] {
   return [...(editor.scene.peek()?.agents.values() ?? [])]
     .filter((a) => a.name.toLowerCase().includes(query) || a.id === query)
     .slice(0, MOST_ROAD_USERS)
@@ -71,9 +71,7 @@ function roadUsers({ editor, stage }: Context, query: string): Entry[] {
       icon: a.kind,
       run() {
         editor.select(a.id);
-        if (!a.logStart) return;
-        stage.view.centre(a.logStart.x, a.logStart.y);
-        stage.viewChanged();
+        reveal([a.id]);
       },
     }));
 }
