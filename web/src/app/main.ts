@@ -7,6 +7,7 @@ import type { Context } from '../actions/context';
 import { Ui } from '../actions/ui';
 import { Editor } from '../edit/editor';
 import { Generation } from '../edit/generation';
+import { Journal } from '../edit/journal';
 import { Gestures } from '../edit/gestures/pointer';
 import { Importing } from '../edit/importing';
 import { Library } from '../edit/library';
@@ -18,6 +19,7 @@ import { SceneList } from '../edit/scene-list';
 import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
 import { HttpGenerator } from '../net/http-generator';
+import { BrowserStepStore, PassingStepStore } from '../net/step-store';
 import { recall } from '../net/storage';
 import { fileChooser } from './file-chooser';
 import { focusAgent, focusField, focusGroup } from './focus';
@@ -44,8 +46,9 @@ function makeParts(): Context {
   const editor = new Editor();
   const scenes = new SceneList(client);
   const file = new SceneFile(editor);
-  const saving = new Saving(editor, file, scenes, client);
-  const library = new Library(editor, file, saving, scenes, client);
+  const journal = new Journal(typeof indexedDB === 'undefined' ? new PassingStepStore() : new BrowserStepStore());
+  const saving = new Saving(editor, file, scenes, client, journal);
+  const library = new Library(editor, file, saving, scenes, client, journal);
   const importing = new Importing(editor, library, scenes, client);
   const generation = new Generation(editor, file, saving, new HttpGenerator(client), new HttpGenerator(client));
   const main = document.createElement('main');
@@ -96,8 +99,8 @@ function connect(c: Context): void {
   effect(() => {
     stage.view.inset = { ...INSET, left: ui.drawer.value ? INSET_LEFT.drawer : INSET_LEFT.rail };
   });
-  library.onOpen = () => {
-    lookAtOpened(c);
+  library.onOpen = (_, again) => {
+    if (!again) lookAtOpened(c);
     ui.showEvents(false);
     // Events of the log; with changes from last time the answer to them brings its own.
     if (!editor.motion.peek().stale) void generation.score();

@@ -16,6 +16,7 @@ const SAVED: Record<SaveState, string> = {
   local: 'Saved on this computer',
   conflict: 'Changed elsewhere',
   full: 'No room to save',
+  off: 'Not saved',
 };
 
 export function TopBar() {

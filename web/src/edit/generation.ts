@@ -3,6 +3,7 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
 import type { MotionSet } from '../model/futures';
+import { drawAnew } from '../model/commands';
 import { canChange, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { trackJson } from '../model/write';
@@ -176,10 +177,8 @@ export class Generation implements Previews {
 
   /** The Generate button: everybody anew. */
   generateAll(): void {
-    if (!this.editor.scene.peek()) return;
-    this.editor.answers.outdate();
-    const step = { name: 'Everybody worked out anew', agent: null, undo: false };
-    this.#ask({ agents: 'all', react: false, step });
+    const scene = this.editor.scene.peek();
+    if (scene) this.editor.run(drawAnew(scene));
   }
 
   /** Asks at once whether the generator is back. */

@@ -100,7 +100,9 @@ export function resetAll(scene: Scene): Command {
   return patchAgents('Everybody back to the log', patches);
 }
 
-type ScenePatch = Partial<Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration'>>;
+type ScenePatch = Partial<
+  Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration' | 'drawn'>
+>;
 
 function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
   return {
@@ -121,6 +123,9 @@ export const setDiversity = (diversity: number): Command =>
 export const setOthers = (others: Others): Command =>
   patchScene({ react: 'Others react', log: 'Others replay the log', still: 'Others hold still' }[others], { others });
 export const setReplan = (replan: Replan): Command => patchScene(`Planned anew each ${replan} s`, { replan });
+
+/** Everybody worked out anew. */
+export const drawAnew = (scene: Scene): Command => patchScene('Everybody worked out anew', { drawn: scene.drawn + 1 });
 
 /** How much is worked out. Goals that would come after the end come at the end. */
 export function setLength(scene: Scene, length: Length): Command {

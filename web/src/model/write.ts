@@ -133,6 +133,7 @@ export function writeScene(
       others: scene.others,
       length_s: scene.length,
       replan_s: scene.replan,
+      ...(scene.drawn ? { drawn: scene.drawn } : {}),
       ...picks(scene),
     },
   };

@@ -9,6 +9,7 @@ export function Banner() {
   const away = useComputed(() => editor.away.value !== null).value;
   if (editor.notices.crash.value) return <Crash details={editor.notices.crash.value} />;
   if (away) return <Away />;
+  if (editor.lock.value) return <Locked />;
   if (saving.conflict.value) return <Conflict />;
   if (library.openError.value) return <NotOpened why={library.openError.value} />;
   return null;
@@ -77,6 +78,16 @@ function Conflict() {
     <Box icon="warn" title="This scene was changed elsewhere." words={words}>
       <Button label="Keep this version" run={() => void saving.keepMine()} />
       <Button label="Open the other one" run={() => void library.takeTheirs()} />
+    </Box>
+  );
+}
+
+function Locked() {
+  const { editor } = useApp();
+  const lock = editor.lock.value!;
+  return (
+    <Box icon="lock" title={lock.words} words="You can look, play and select.">
+      <Button label={lock.label} run={() => lock.run()} />
     </Box>
   );
 }
