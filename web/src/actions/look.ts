@@ -46,9 +46,7 @@ function walkTo(c: Context, step: 1 | -1): void {
 }
 
 function zoom(c: Context, factor: number): void {
-  const v = c.stage.view;
-  v.zoomAt(v.w / 2, v.h / 2, factor);
-  c.stage.viewChanged();
+  c.stage.glide.by((v) => v.zoomAt(v.w / 2, v.h / 2, factor));
 }
 
 function zoomToSelection(c: Context): void {
@@ -61,8 +59,7 @@ function zoomToSelection(c: Context): void {
     y0: Math.min(p.y, g.y) - AROUND_M,
     y1: Math.max(p.y, g.y) + AROUND_M,
   };
-  c.stage.view.fit(box, CLOSEST);
-  c.stage.viewChanged();
+  c.stage.glide.by((v) => v.fit(box, CLOSEST));
 }
 
 const layer = (name: keyof Layers, label: string, key: string, help: string): Omit<Action, 'group'> => ({
@@ -101,6 +98,14 @@ export const look = inGroup('Select and look', [
     help: 'The whole map in view',
     when: hasScene,
     run: (c) => c.fit(),
+  },
+  {
+    id: 'back-to-scene',
+    label: 'Back to the scene',
+    icon: 'fit',
+    help: 'Where things move',
+    when: hasScene,
+    run: (c) => c.lookAtScene(),
   },
   {
     id: 'zoom-selection',

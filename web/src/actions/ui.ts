@@ -2,33 +2,43 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { keep, recall } from '../net/storage';
 
-export type Dialog = 'palette' | 'shortcuts';
+export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export';
+/** What stands at the left edge of the picture. */
+export type Drawer = 'scenes' | 'history';
 export type Theme = 'light' | 'dark';
 
 const systemTheme = (): Theme =>
   typeof matchMedia !== 'undefined' && matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 
 export class Ui {
-  readonly #drawer = signal(true);
+  readonly #drawer = signal<Drawer | null>('scenes');
   readonly #dialog = signal<Dialog | null>(null);
   readonly #menu = signal<string | null>(null);
-  readonly #deleting = signal<string | null>(null);
+  readonly #aimed = signal<string | null>(null);
+  readonly #renaming = signal<string | null>(null);
   readonly #eventsPanel = signal(false);
   readonly #coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
   readonly #theme = signal<Theme>(recall<Theme>('theme') ?? systemTheme());
 
-  readonly drawer: ReadonlySignal<boolean> = this.#drawer;
+  readonly drawer: ReadonlySignal<Drawer | null> = this.#drawer;
   readonly dialog: ReadonlySignal<Dialog | null> = this.#dialog;
   readonly menu: ReadonlySignal<string | null> = this.#menu;
-  /** Id of the scene that is about to be deleted. */
-  readonly deleting: ReadonlySignal<string | null> = this.#deleting;
+  /** Id of the scene in the list that actions are about; the open one when none is. */
+  readonly aimed: ReadonlySignal<string | null> = this.#aimed;
+  /** Id of the scene in the list that is being given a name. */
+  readonly renaming: ReadonlySignal<string | null> = this.#renaming;
   readonly eventsPanel: ReadonlySignal<boolean> = this.#eventsPanel;
   /** Step of the hint for the first minute; 0 when it is closed. */
   readonly coach: ReadonlySignal<number> = this.#coach;
   readonly theme: ReadonlySignal<Theme> = this.#theme;
 
-  showDrawer(open: boolean): void {
-    this.#drawer.value = open;
+  showDrawer(drawer: Drawer | null): void {
+    this.#drawer.value = drawer;
+    this.#aimed.value = this.#renaming.value = null;
+  }
+
+  toggleDrawer(drawer: Drawer): void {
+    this.showDrawer(this.#drawer.peek() === drawer ? null : drawer);
   }
 
   openDialog(dialog: Dialog): void {
@@ -47,8 +57,13 @@ export class Ui {
     this.#menu.value = null;
   }
 
-  askToDelete(id: string | null): void {
-    this.#deleting.value = id;
+  /** Actions on scenes are about this one from now on. */
+  aimAt(id: string | null): void {
+    this.#aimed.value = id;
+  }
+
+  renameScene(id: string | null): void {
+    this.#renaming.value = id;
   }
 
   showEvents(open: boolean): void {

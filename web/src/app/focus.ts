@@ -21,3 +21,9 @@ export function focusGroup(step: 1 | -1): void {
   const at = groups.findIndex((g) => g.contains(document.activeElement));
   groups[(at + step + groups.length) % groups.length]?.querySelector<HTMLElement>(FIRST)?.focus();
 }
+
+export function focusName(): void {
+  const name = document.querySelector<HTMLInputElement>('.title input');
+  name?.focus();
+  name?.select();
+}

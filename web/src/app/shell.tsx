@@ -6,6 +6,7 @@ import { HandleSliders } from './access/handle-sliders';
 import { LiveRegion } from './access/live-region';
 import { RoadUsers } from './access/road-users';
 import { Dialogs } from './dialogs/dialogs';
+import { HistoryPanel } from './history/panel';
 import { Hud } from './hud/hud';
 import { Inspector } from './inspector/inspector';
 import { AppProvider, useApp } from './parts/app-context';
@@ -36,14 +37,15 @@ export function drawPage(c: Context, root: HTMLElement): void {
 
 function OverPicture() {
   const { editor, ui } = useApp();
-  const drawer = useComputed(() => ui.drawer.value && editor.scene.value !== null).value;
+  const drawer = useComputed(() => (editor.scene.value ? ui.drawer.value : null)).value;
   return (
     <>
       <Empty />
       <RoadUsers />
       <HandleSliders />
       <Hud />
-      {drawer ? <Drawer /> : null}
+      {drawer === 'scenes' ? <Drawer /> : null}
+      {drawer === 'history' ? <HistoryPanel /> : null}
     </>
   );
 }

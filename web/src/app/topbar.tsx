@@ -5,7 +5,7 @@ import { DEFAULTS } from '../model/domain';
 import { rename, setDiversity, setSeed } from '../model/commands';
 import { isRecorded } from '../model/scene';
 import type { SaveState } from '../edit/saving';
-import { ExportButton, Menu, MenuButton } from './menu';
+import { Menu, MenuButton } from './menu';
 import { useApp } from './parts/app-context';
 import { ActionButton, IconButton } from './parts/buttons';
 
@@ -43,7 +43,8 @@ export function TopBar() {
           <ActionButton id="palette" withKey size={16}>
             <span class="mut">Actions</span>
           </ActionButton>
-          <ExportButton />
+          <ActionButton id="share" size={16} />
+          <ActionButton id="export" class="line" size={16} />
         </>
       ) : null}
       <IconButton id="theme" />

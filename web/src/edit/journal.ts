@@ -109,6 +109,14 @@ export class Journal {
     return this.#writing;
   }
 
+  /** A scene that is not open has another version on the server, with the same in it. */
+  async noteVersion(scene: string, was: string | null, etag: string | null): Promise<void> {
+    const kept = await this.read(scene);
+    const synced = kept?.place.synced;
+    if (!kept || !synced || !etag || (was !== null && synced.etag !== was)) return;
+    await this.store.append({ ...kept.place, synced: { ...synced, etag } }, null).catch(() => undefined);
+  }
+
   forget(scene: string): Promise<void> {
     return this.store.forget(scene).catch(() => undefined);
   }

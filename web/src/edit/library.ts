@@ -1,4 +1,4 @@
-// Scenes as a whole: opened, copied, renamed, removed.
+// Scenes are opened here: from the server, with what this computer keeps of them, if it is this tab's turn.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { Away, Refused, type Client } from '../net/client';
 import { keep } from '../net/storage';
@@ -51,7 +51,7 @@ export class Library {
   }
 
   async open(id: string): Promise<void> {
-    await this.#written();
+    await this.written();
     this.#openError.value = null;
     const turn = ++this.#opening;
     try {
@@ -73,6 +73,23 @@ export class Library {
     const fetched = await this.#fetch(id).catch(() => ({ json: raw, map, etag: this.saving.etag }));
     const mine = await this.#turns.goTo(id);
     if (turn === this.#opening) await this.#adopt(fetched, mine, true);
+  }
+
+  /** Shows a scene that is not on the server, to be looked at. */
+  async show(json: SceneJson, lock: Lock): Promise<void> {
+    await this.written();
+    this.#opening++;
+    this.#turns.leave();
+    this.journal.letGo();
+    const scene = readScene(json);
+    this.file.adopt(json, json.map as MapJson, false);
+    const saved = readGenerated(json, scene);
+    batch(() => {
+      this.editor.open(scene, saved);
+      this.editor.lockWith(lock);
+    });
+    this.saving.opened(scene, null, 'same');
+    this.#show(scene, saved !== null, false);
   }
 
   /** Asks the tab that has this scene for it. */
@@ -112,6 +129,7 @@ export class Library {
     this.file.adopt(json, map, true);
     this.file.mapRef = this.#mapRefOf(json);
     keep('last-scene', scene.id);
+    this.list.noteOpened(scene.id);
     const current = standing === 'fresh' || standing === 'same';
     const saved = current ? readGenerated(json, scene) : null;
     const { selection, time } = editor;
@@ -174,11 +192,11 @@ export class Library {
   /** Before another tab takes over, everything is written, and nothing new begins. */
   async #handOver(): Promise<void> {
     this.#lock();
-    await this.#written();
+    await this.written();
   }
 
   /** Steps are kept and saved, unless the server takes its time: then they are saved the next time. */
-  async #written(): Promise<void> {
+  async written(): Promise<void> {
     const late = new Promise((resolve) => setTimeout(resolve, WRITTEN_WITHIN_MS));
     await Promise.race([this.saving.flush(), late]);
     await this.journal.flush();
@@ -197,43 +215,6 @@ export class Library {
       if (etag) this.journal.synced(etag, this.editor.history?.head ?? null);
     } catch (e) {
       this.#failed(e);
-    }
-  }
-
-  // -------------------------------------------------------------- scenes
-
-  /** An own copy of what is on screen; from then on it saves itself. */
-  async saveCopy(): Promise<void> {
-    const { editor } = this;
-    const scene = editor.scene.peek();
-    const body = this.file.complete();
-    if (!scene || !body) return;
-    const name = this.list.isOwn(scene.id) ? `${scene.name}, copy` : `${scene.name}, edited`;
-    try {
-      const { id } = await this.client.create({ ...body, name });
-      await this.list.refresh().catch(() => undefined);
-      await this.open(id);
-      editor.notices.show({ text: `Saved as “${name}”.` });
-    } catch (e) {
-      const why =
-        e instanceof Refused ? e.message : 'the server is not answering. Your changes are kept on this computer.';
-      editor.notices.show({ text: `Not saved: ${why}` });
-    }
-  }
-
-  async remove(id: string): Promise<void> {
-    const { editor, list } = this;
-    const item = list.find(id);
-    try {
-      const etag = item?.etag ?? (await this.client.scene(id)).etag ?? '*';
-      await this.client.remove(id, etag);
-      await this.journal.forget(id);
-      await list.refresh();
-      editor.notices.show({ text: `“${item?.name ?? id}” deleted.` });
-      const next = list.list.peek()[0];
-      if (editor.scene.peek()?.id === id && next) await this.open(next.id);
-    } catch (e) {
-      editor.notices.show({ text: `Not deleted: ${(e as Error).message}` });
     }
   }
 }

@@ -40,8 +40,8 @@ function differences<T extends object>(a: T, b: T, skip: readonly string[]): { b
   return { back, forth };
 }
 
-/** What the recording says of a road user does not change with the document. */
-const RECORDED: readonly string[] = ['log', 'logStart'];
+/** What the file says of a road user does not change with the document. */
+const RECORDED: readonly string[] = ['log', 'logStart', 'source'];
 
 export function diffOf(before: Scene, after: Scene): SceneDiff {
   const agents: AgentDiff[] = [];

@@ -1,19 +1,25 @@
 // Which dialog is open.
 import { useApp } from '../parts/app-context';
-import { ConfirmDelete } from './confirm-delete';
+import { Later } from '../parts/later';
 import { ImportReport } from './import-report';
 import { Palette } from './palette';
+import { SaveAs } from './save-as';
 import { Shortcuts } from './shortcuts';
+
+const share = () => import('../outward/share').then((m) => m.default);
+const exporting = () => import('../outward/export').then((m) => m.default);
 
 export function Dialogs() {
   const { importing, ui } = useApp();
   const verdicts = importing.verdicts.value;
-  const deleting = ui.deleting.value;
+  const dialog = ui.dialog.value;
   return (
     <>
-      {ui.dialog.value === 'palette' ? <Palette /> : null}
-      {ui.dialog.value === 'shortcuts' ? <Shortcuts /> : null}
-      {deleting ? <ConfirmDelete id={deleting} /> : null}
+      {dialog === 'palette' ? <Palette /> : null}
+      {dialog === 'shortcuts' ? <Shortcuts /> : null}
+      {dialog === 'save-as' ? <SaveAs /> : null}
+      {dialog === 'share' ? <Later load={share} /> : null}
+      {dialog === 'export' ? <Later load={exporting} /> : null}
       {verdicts ? <ImportReport verdicts={verdicts} /> : null}
     </>
   );

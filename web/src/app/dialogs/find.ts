@@ -72,8 +72,8 @@ function roadUsers({ editor, stage }: Context, query: string): Entry[] {
       run() {
         editor.select(a.id);
         if (!a.logStart) return;
-        stage.view.centre(a.logStart.x, a.logStart.y);
-        stage.viewChanged();
+        const { x, y } = a.logStart;
+        stage.glide.by((v) => v.centre(x, y));
       },
     }));
 }

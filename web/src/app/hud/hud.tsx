@@ -9,6 +9,7 @@ import { Coach, Toast } from './messages';
 import { HoverCard } from './hover-card';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
+import { WayBack } from './way-back';
 
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
@@ -32,6 +33,7 @@ export function Hud() {
         <ScaleBar />
       </div>
       {editor.dragging.value ? <DragHelp /> : <ZoomBar />}
+      <WayBack />
       <Coach />
       <Toast />
       <Banner />
