@@ -94,6 +94,7 @@ export class Generation implements Previews {
     const { editor } = this;
     const a = editor.agent.peek();
     const m = editor.motion.peek();
+    if (a && canChange(a) && this.#absence.now) this.#sketch(id, true);
     if (!a || !canChange(a) || m.futures.has(id) || m.stale) return;
     this.#ask({ agents: [id], react: false, step: null }, true);
   }
