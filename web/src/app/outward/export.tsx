@@ -5,7 +5,7 @@ import type { Context } from '../../actions/context';
 import { exported, save, slug, whyNot, type ExportedFile } from '../../edit/download';
 import { film, filmEnding, filmKind } from '../../edit/outward/film';
 import { reportPage } from '../../edit/outward/report-page';
-import { svgOf } from '../../edit/outward/svg';
+import { SvgPen } from '../../draw/svg-pen';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
@@ -36,6 +36,12 @@ const named = (c: Context, blob: Blob, ending: string): ExportedFile => ({
   losses: [],
 });
 
+function pictureOf({ stage }: Context): HTMLCanvasElement {
+  const canvas = document.createElement('canvas');
+  stage.paintOn(canvas, ['map', 'agents', 'overlay'], FINE);
+  return canvas;
+}
+
 const PLAIN: Kind[] = [
   ofServer('dragtraffic', 'Saved scene', '.json', 'layers'),
   ofServer('womd', 'Scenario record', '.tfrecord', 'file'),
@@ -57,7 +63,7 @@ function kindsFor(c: Context): Kind[] {
       icon: 'report',
       tag: 'to read, not to edit',
       make: async () => {
-        const picture = stage.picture(['map', 'agents', 'overlay'], FINE).toDataURL('image/png');
+        const picture = pictureOf(c).toDataURL('image/png');
         const page = reportPage({
           scene,
           motion: editor.motion.peek(),
@@ -77,7 +83,7 @@ function kindsFor(c: Context): Kind[] {
       icon: 'image',
       tag: view,
       make: async () => {
-        const canvas = stage.picture(['map', 'agents', 'overlay'], FINE);
+        const canvas = pictureOf(c);
         const blob = await new Promise<Blob | null>((done) => canvas.toBlob(done, 'image/png'));
         return blob && named(c, blob, 'png');
       },
@@ -88,8 +94,14 @@ function kindsFor(c: Context): Kind[] {
       ending: '.svg',
       icon: 'image',
       tag: view,
-      make: async () =>
-        named(c, new Blob([svgOf(scene, editor.motion.peek(), time, stage.view)], { type: 'image/svg+xml' }), 'svg'),
+      make: async () => {
+        const pen = new SvgPen();
+        stage.paintWith(pen, ['map', 'agents', 'overlay']);
+        const { w, h, z } = stage.view;
+        const about = `${z.toFixed(2)} px a metre; x east, y north`;
+        const drawing = pen.file(w, h, `${scene.name}, ${time.toFixed(1)} s`, about);
+        return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
+      },
     },
     ...(moving
       ? [

@@ -25,8 +25,10 @@ export async function film(
   const before = editor.time.peek();
   editor.playhead.pause();
   editor.setTime(0);
-  const canvas = stage.picture(['map']);
-  const map = stage.picture(['map']);
+  const map = document.createElement('canvas');
+  stage.paintOn(map, ['map']);
+  const { width, height } = map;
+  const canvas = Object.assign(document.createElement('canvas'), { width, height });
   const g = canvas.getContext('2d', { alpha: false })!;
   const recorder = new MediaRecorder(canvas.captureStream(FRAMES_PER_S), {
     mimeType: kind,
@@ -35,14 +37,14 @@ export async function film(
   const parts: Blob[] = [];
   recorder.ondataavailable = (e) => parts.push(e.data);
   const ended = new Promise<void>((resolve) => (recorder.onstop = () => resolve()));
-  await frame();
   recorder.start();
   const began = performance.now();
   for (let t = 0; t < duration && !stop.aborted; t = (performance.now() - began) / 1000) {
     editor.setTime(Math.min(duration, t));
     await frame();
+    g.setTransform(1, 0, 0, 1, 0, 0);
     g.drawImage(map, 0, 0);
-    g.drawImage(stage.layer('agents'), 0, 0);
+    stage.paintOn(canvas, ['agents']);
     progress(Math.min(1, t / duration));
   }
   recorder.stop();
@@ -51,6 +53,4 @@ export async function film(
   return stop.aborted ? null : new Blob(parts, { type: kind.split(';')[0] });
 }
 
-/** Painted: the stage paints in an animation frame, and this comes after it. */
-const frame = (): Promise<void> =>
-  new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
+const frame = (): Promise<unknown> => new Promise(requestAnimationFrame);
