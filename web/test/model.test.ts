@@ -7,7 +7,7 @@ import { furthestReach, leastReach, localReach } from '../src/model/reach';
 import { parseTyped, num, speedLabel } from '../src/model/units';
 import { endPose, lastStep, poseAt, motionFrom, straightOn } from '../src/model/motion';
 import { readGenerated, readScene, SceneError } from '../src/model/read';
-import { conditionOf, generatedJson, stillAgents, writeScene } from '../src/model/write';
+import { castJson, conditionOf, generatedJson, withStill, writeScene } from '../src/model/write';
 import { choose, setGoal, setLength, setReplan, setStart } from '../src/model/commands';
 import { emptyMotion, placesLike, readFutures, type MotionSet } from '../src/model/futures';
 import { findChanges, motionOf } from '../src/model/changes';
@@ -291,9 +291,7 @@ describe('others held still', () => {
     const a = s.agents.get('late')!;
     expect(a.logStart).toBeNull();
     expect(poseAt(motionOf(s, emptyMotion(''), a), 5)).toBeNull();
-    expect(stillAgents({ ...json, agents: [...json.agents, late] }, s, new Set(['1'])).map((x) => x.id)).not.toContain(
-      'late',
-    );
+    expect(withStill(s, castJson(s), new Set(['1'])).map((x) => x.id)).not.toContain('late');
     expect(
       readEvents(s, {
         ...emptyMotion(''),

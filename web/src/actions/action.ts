@@ -1,12 +1,22 @@
 // An action: one thing a user can do, with everything that buttons, menus, palette and shortcut sheet say of it.
 import type { Agent } from '../model/scene';
-import { canChange } from '../model/scene';
+import { canChange, canMove } from '../model/scene';
+import { freeOnes } from '../edit/copying';
 import type { Command } from '../model/commands';
 import type { Part } from '../edit/editor';
 import type { Context } from './context';
 
 /** In the order of the shortcut sheet. */
-export const GROUPS = ['Select and look', 'Move', 'Goal and futures', 'Time', 'Scene', 'Everything'] as const;
+export const GROUPS = [
+  'Select and look',
+  'Place',
+  'Edit',
+  'Move',
+  'Goal and futures',
+  'Time',
+  'Scene',
+  'Everything',
+] as const;
 export type Group = (typeof GROUPS)[number];
 
 export interface Action {
@@ -16,6 +26,8 @@ export interface Action {
   readonly help: string;
   readonly keys?: readonly string[];
   readonly icon?: string;
+  /** The browser hears its keys itself, and tells the page by an event of its own. */
+  readonly native?: true;
   /** Where its keys work: everywhere, or only while no text field has the focus. */
   readonly context?: 'always';
   /** Its keys are its own while a handle is dragged; at other times they are another action's. */
@@ -39,16 +51,48 @@ export const hasAgent = (c: Context): true | string => {
   return !a ? 'Select a road user first.' : canChange(a) ? true : 'This one can be looked at, not changed.';
 };
 
+/** One road user is selected, and not locked. */
+export const hasFree = (c: Context): true | string => {
+  const can = hasAgent(c);
+  return can !== true ? can : c.editor.agent.value!.locked ? LOCKED : true;
+};
+
+const LOCKED = 'It is locked. Ctrl L unlocks.';
+
+/** At least one is selected. */
+export const hasSome = (c: Context): true | string =>
+  c.editor.selected.value.length ? true : 'Select road users first.';
+
+/** At least one of the selected may be moved and changed. */
+export const hasSomeFree = (c: Context): true | string => {
+  const all = c.editor.chosenOnes;
+  if (!all.length) return 'Select road users first.';
+  if (all.some(canMove)) return true;
+  return all.some((a) => a.locked) ? LOCKED : 'This one can be looked at, not changed.';
+};
+
+/** Does a command on all that are selected and may be changed. */
+export function onSome(make: (c: Context, all: readonly Agent[]) => Command | null): Pick<Action, 'when' | 'run'> {
+  return {
+    when: hasSomeFree,
+    run(c) {
+      const all = freeOnes(c.editor);
+      const command = all.length ? make(c, all) : null;
+      if (command) c.editor.run(command);
+    },
+  };
+}
+
 /** The part that keys move. */
 export const activePart = (c: Context): Part => c.editor.focusPart.value;
 
 /** Does a command on the selected road user, when there is one and the command makes sense. */
 export function onAgent(make: (c: Context, a: Agent) => Command | null): Pick<Action, 'when' | 'run'> {
   return {
-    when: hasAgent,
+    when: hasFree,
     run(c) {
       const a = c.editor.agent.value;
-      const command = a && canChange(a) ? make(c, a) : null;
+      const command = a && canMove(a) ? make(c, a) : null;
       if (command) c.editor.run(command);
     },
   };

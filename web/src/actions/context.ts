@@ -1,4 +1,5 @@
 // What an action may touch, and what a panel shows.
+import type { Copying } from '../edit/copying';
 import type { Editor } from '../edit/editor';
 import type { Library } from '../edit/library';
 import type { Importing } from '../edit/importing';
@@ -32,8 +33,19 @@ export interface Context {
   readonly picture: Picture;
   readonly stage: Stage;
   readonly client: Client;
+  readonly copying: Copying;
   readonly ui: Ui;
+  /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
+  readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;
+  /** Brings road users into the picture, where they are not in it. */
+  reveal(ids: readonly string[]): void;
+  /** Puts the cursor into the name or the note of the selected road user. */
+  focusText(which: 'name' | 'note'): void;
+  /** Opens the menu of what is selected, beside it. */
+  openMenu(): void;
+  /** Puts road users on the whole map, as the generator would have them there. */
+  fill(): Promise<void>;
   focusField(part: 'start' | 'goal', field: string): void;
   focusGroup(step: 1 | -1): void;
   focusAgent(id: string): void;

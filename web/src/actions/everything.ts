@@ -5,7 +5,8 @@ import type { Context } from './context';
 /** Esc: what is nearest goes first, one thing a press. */
 function letGo({ editor, gestures, importing, ui }: Context): void {
   if (gestures.cancel()) return;
-  if (ui.dialog.value || ui.menu.value) {
+  if (ui.dialog.value || ui.menu.value || ui.contextMenu.value) {
+    ui.closeContextMenu();
     ui.closeDialog();
     ui.closeMenu();
   } else if (ui.drawer.value === 'history') ui.showDrawer(null);

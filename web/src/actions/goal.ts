@@ -1,11 +1,12 @@
 // Goal and futures: what is asked of the selected road user, which future it takes, and working everything out.
-import { canChange, hasGoal, touched, type Agent } from '../model/scene';
+import { canChange, changedByHand, hasGoal, type Agent } from '../model/scene';
 import { clearGoal, resetAgent, setSeed, type Command } from '../model/commands';
 import { LETTERS } from '../model/futures';
 import type { Editor } from '../edit/editor';
 import * as moves from '../edit/moves';
 import { leaveToCross, roadWay } from '../edit/ways-out';
-import { activePart, hasScene, inGroup, onAgent, type Action } from './action';
+import { clearGoals } from '../edit/several';
+import { activePart, hasFree, hasScene, hasSomeFree, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
 
 const LARGEST_NEW_SEED = 9999;
@@ -43,6 +44,20 @@ const futures = [...LETTERS].map((letter, i) => ({
   ...onAgent((c, a) => moves.pickFuture(c.editor, a, i)),
 }));
 
+const clearing: Pick<Action, 'when' | 'run'> = {
+  ...onSome((_, all) => (all.length > 1 ? clearGoals(all) : clearGoal(all[0]))),
+  when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : 'No goal is set.'),
+};
+
+const resetting: Pick<Action, 'when' | 'run'> = {
+  ...onAgent((_, a) => resetAgent(a)),
+  when: (c) => {
+    const a = c.editor.agent.value;
+    if (!a || a.locked) return hasFree(c);
+    return a.placed ? 'Nothing of it was recorded.' : changedByHand(a) ? true : 'It is as it was recorded.';
+  },
+};
+
 export const goal = inGroup('Goal and futures', [
   {
     id: 'set-goal',
@@ -61,7 +76,7 @@ export const goal = inGroup('Goal and futures', [
     keys: ['Shift+G'],
     icon: 'x',
     help: 'The generator decides again',
-    ...onAgent((_, a) => (hasGoal(a.goal) ? clearGoal(a) : null)),
+    ...clearing,
   },
   {
     id: 'toggle-field',
@@ -85,7 +100,7 @@ export const goal = inGroup('Goal and futures', [
   {
     id: 'free-speed',
     label: 'Speed free',
-    keys: ['Backspace'],
+    keys: ['Shift+Backspace'],
     help: 'Speed of the active part',
     ...onAgent((c, a) => {
       const part = activePart(c);
@@ -145,6 +160,6 @@ export const goal = inGroup('Goal and futures', [
     keys: ['Shift+R'],
     icon: 'undo',
     help: 'This road user as it was recorded',
-    ...onAgent((_, a) => (touched(a) ? resetAgent(a) : null)),
+    ...resetting,
   },
 ]);

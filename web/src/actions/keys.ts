@@ -6,6 +6,7 @@ const NAMES: Record<string, string> = {
   ' ': 'Space',
   Escape: 'Esc',
   Delete: 'Del',
+  ContextMenu: 'Menu',
   ArrowUp: 'Up',
   ArrowDown: 'Down',
   ArrowLeft: 'Left',
@@ -32,8 +33,8 @@ export function keyOf(e: KeyLike): string {
   else if (key === '+') shift = shift && e.code === 'Equal';
   else if (key === '?') shift = false;
   else if (/^[a-z]$/i.test(key)) key = key.toUpperCase();
-  // Alt changes what a digit key types on some keyboards; its place does not change.
-  const digit = e.altKey && /^Digit(\d)$/.exec(e.code ?? '');
+  // Alt and Shift change what a digit key types; its place does not change.
+  const digit = (e.altKey || e.shiftKey) && /^Digit(\d)$/.exec(e.code ?? '');
   if (digit) key = digit[1];
   return [e.ctrlKey || e.metaKey ? 'Ctrl' : '', e.altKey ? 'Alt' : '', shift ? 'Shift' : '', key]
     .filter(Boolean)

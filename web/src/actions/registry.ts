@@ -2,14 +2,18 @@
 // shortcut sheet and tooltips are made from it.
 import type { Action } from './action';
 import type { Context } from './context';
+import { edit } from './edit';
 import { everything } from './everything';
 import { goal } from './goal';
 import { look } from './look';
 import { movement } from './move';
+import { place } from './place';
 import { scene } from './scene';
 import { time } from './time';
 
-export const ACTIONS: readonly Action[] = Object.freeze([look, movement, goal, time, scene, everything].flat());
+export const ACTIONS: readonly Action[] = Object.freeze(
+  [look, place, edit, movement, goal, time, scene, everything].flat(),
+);
 
 const byId = new Map(ACTIONS.map((a) => [a.id, a]));
 const keysOf = (actions: readonly Action[]): ReadonlyMap<string, Action> =>
@@ -23,7 +27,7 @@ export function actionOf(id: string): Action {
   return a;
 }
 
-const byKeyOnOffer = keysOf(ACTIONS.filter((a) => a.onOffer));
+const onOffer = ACTIONS.filter((a) => a.onOffer);
 
 interface Now {
   readonly dragging?: boolean;
@@ -32,8 +36,8 @@ interface Now {
 
 /** The action of a key, by what goes on at the moment. */
 export function actionForKey(key: string, { dragging = false, offers }: Now = {}): Action | undefined {
-  const offered = byKeyOnOffer.get(key);
-  if (offered && offers?.(offered)) return offered;
+  const offered = offers && onOffer.find((a) => a.keys?.includes(key) && offers(a));
+  if (offered) return offered;
   return (dragging ? byKeyWhileDragging.get(key) : undefined) ?? byKey.get(key);
 }
 export const possible = (c: Context, a: Action): true | string => a.when?.(c) ?? true;

@@ -68,6 +68,15 @@ export const scene = inGroup('Scene', [
     run: (c) => c.chooseFiles(),
   },
   {
+    id: 'import-log',
+    label: 'Import a log',
+    keys: ['O'],
+    icon: 'file',
+    help: 'Scenario record or saved scene. Or drop the file here.',
+    onOffer: (c) => c.editor.scene.value?.agents.size === 0,
+    run: (c) => c.chooseFiles(),
+  },
+  {
     id: 'save-copy',
     label: 'Save a copy',
     keys: ['Ctrl+S'],
@@ -98,7 +107,7 @@ export const scene = inGroup('Scene', [
   {
     id: 'rename-scene',
     label: 'Rename scene',
-    keys: ['F2'],
+    keys: ['Shift+F2'],
     icon: 'pencil',
     help: 'Another name for it',
     when: own,

@@ -1,10 +1,18 @@
 // What of the page is open: the drawer, a dialog, a menu, the hint; and light or dark.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
+import type { MenuOn } from '../edit/gestures/chart';
 import { keep, recall } from '../net/storage';
 
 export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export';
 /** What stands at the left edge of the picture. */
 export type Drawer = 'scenes' | 'history';
+/** A menu at a place of the picture, in pixels of it. */
+export interface ContextMenu {
+  readonly x: number;
+  readonly y: number;
+  readonly on: MenuOn;
+}
+
 export type Theme = 'light' | 'dark';
 
 const systemTheme = (): Theme =>
@@ -16,6 +24,8 @@ export class Ui {
   readonly #menu = signal<string | null>(null);
   readonly #aimed = signal<string | null>(null);
   readonly #renaming = signal<string | null>(null);
+  readonly #contextMenu = signal<ContextMenu | null>(null);
+  readonly #emptyHidden = signal<string | null>(null);
   readonly #eventsPanel = signal(false);
   readonly #coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
   readonly #theme = signal<Theme>(recall<Theme>('theme') ?? systemTheme());
@@ -27,6 +37,9 @@ export class Ui {
   readonly aimed: ReadonlySignal<string | null> = this.#aimed;
   /** Id of the scene in the list that is being given a name. */
   readonly renaming: ReadonlySignal<string | null> = this.#renaming;
+  readonly contextMenu: ReadonlySignal<ContextMenu | null> = this.#contextMenu;
+  /** Id of the empty scene whose offers were closed. */
+  readonly emptyHidden: ReadonlySignal<string | null> = this.#emptyHidden;
   readonly eventsPanel: ReadonlySignal<boolean> = this.#eventsPanel;
   /** Step of the hint for the first minute; 0 when it is closed. */
   readonly coach: ReadonlySignal<number> = this.#coach;
@@ -64,6 +77,19 @@ export class Ui {
 
   renameScene(id: string | null): void {
     this.#renaming.value = id;
+  }
+
+  openContextMenu(menu: ContextMenu): void {
+    this.#menu.value = null;
+    this.#contextMenu.value = menu;
+  }
+
+  closeContextMenu(): void {
+    this.#contextMenu.value = null;
+  }
+
+  hideEmpty(scene: string): void {
+    this.#emptyHidden.value = scene;
   }
 
   showEvents(open: boolean): void {

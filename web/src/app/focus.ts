@@ -27,3 +27,12 @@ export function focusName(): void {
   name?.focus();
   name?.select();
 }
+
+/** The name or the note of the selected road user; the field may appear with the next frame. */
+export function focusText(which: 'name' | 'note'): void {
+  requestAnimationFrame(() => {
+    const el = document.querySelector<HTMLInputElement>(`[data-text="${which}"]`);
+    el?.focus();
+    el?.select();
+  });
+}

@@ -2,7 +2,9 @@
 // where it looked when a step was done.
 import type { Context } from '../actions/context';
 import { busyBox, openingCentre } from '../model/busy';
+import { boxOf } from '../model/geometry';
 import type { Camera, HistoryStep } from '../model/history';
+import { poseShown } from '../edit/frame';
 import { poseAt } from '../model/motion';
 import { startPose, type Agent } from '../model/scene';
 
@@ -74,4 +76,41 @@ function inView({ editor, stage }: Context, a: Agent): boolean {
   const box = stage.view.box(-20);
   const places = [startPose(a), editor.goalPose(a)].filter((p) => p !== null);
   return places.every((p) => p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1);
+}
+
+/** This near to a panel or to the edge somebody is as good as out of the picture, pixels. */
+const EDGE_PX = 24;
+/** So much room around several that are brought into the picture, metres, and not closer than this. */
+const AROUND_M = 12;
+
+/** Brings road users into the picture, where they are not in it. */
+export function reveal({ editor, stage }: Context, ids: readonly string[]): void {
+  const scene = editor.scene.peek();
+  const ps = ids.flatMap((id) => {
+    const a = scene?.agents.get(id);
+    return (a && poseShown(editor, a)) ?? [];
+  });
+  const v = stage.view;
+  const { left, right, top, bottom } = v.inset;
+  const seen = (p: { x: number; y: number }): boolean => {
+    const x = v.x(p.x),
+      y = v.y(p.y);
+    return x > left + EDGE_PX && x < v.w - right - EDGE_PX && y > top + EDGE_PX && y < v.h - bottom - EDGE_PX;
+  };
+  if (!ps.length || ps.every(seen)) return;
+  const b = boxOf(ps.map((p) => [p.x, p.y] as const));
+  if (ps.length === 1) v.centre(ps[0].x, ps[0].y);
+  else v.fit({ x0: b.x0 - AROUND_M, y0: b.y0 - AROUND_M, x1: b.x1 + AROUND_M, y1: b.y1 + AROUND_M }, v.z);
+  stage.viewChanged();
+}
+
+/** The menu of what is selected, at the first of them; else that of the ground, in the middle. */
+export function openMenu(c: Context): void {
+  const { editor, stage, ui } = c;
+  const [first, ...more] = editor.chosenOnes;
+  if (first) reveal(c, [first.id]);
+  const p = first && poseShown(editor, first);
+  const v = stage.view;
+  const at = p ? { x: v.x(p.x) + EDGE_PX, y: v.y(p.y) } : { x: v.w / 2, y: v.h / 3 };
+  ui.openContextMenu({ ...at, on: !first ? 'ground' : more.length ? 'several' : 'road user' });
 }

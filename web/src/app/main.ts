@@ -5,7 +5,9 @@ import '../styles/panels.css';
 import { effect } from '@preact/signals-core';
 import type { Context } from '../actions/context';
 import { Ui } from '../actions/ui';
+import { Copying } from '../edit/copying';
 import { Editor } from '../edit/editor';
+import { fill } from '../edit/filling';
 import { Generation } from '../edit/generation';
 import { Journal } from '../edit/journal';
 import { Gestures } from '../edit/gestures/pointer';
@@ -23,10 +25,11 @@ import { Client } from '../net/client';
 import { HttpGenerator } from '../net/http-generator';
 import { BrowserStepStore, PassingStepStore } from '../net/step-store';
 import { recall } from '../net/storage';
+import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
-import { focusAgent, focusField, focusGroup, focusName } from './focus';
+import { focusAgent, focusField, focusGroup, focusName, focusText } from './focus';
 import { followView, gliding } from './hud/view-tick';
-import { fitScene, followSelected, lookAtOpened, lookWhereItWas } from './look';
+import { fitScene, followSelected, lookAtOpened, lookWhereItWas, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
 import { drawPage } from './shell';
 import { coach, reportCrashes, waitForServer } from './watching';
@@ -63,7 +66,9 @@ function makeParts(): Context {
   const gestures = new Gestures(stage, editor, picture, generation);
   const playback = new Playback(editor, stage);
   const chooseFiles = fileChooser((files) => void importing.files(files));
+  const copying = new Copying(editor);
   const parts = {
+    copying,
     editor,
     generation,
     scenes,
@@ -83,6 +88,11 @@ function makeParts(): Context {
     stage,
     client,
     ui,
+    clipboard: clipboardOf(() => c),
+    reveal: (ids) => reveal(c, ids),
+    focusText,
+    openMenu: () => openMenu(c),
+    fill: () => fill(editor, file, client),
     chooseFiles,
     focusField,
     focusGroup,
@@ -122,6 +132,7 @@ function connect(c: Context): void {
     stage.view.inset = { ...INSET, left: INSET_LEFT[drawer ?? 'rail'] };
     stage.element.dataset.drawer = drawer ?? '';
   });
+  gestures.onMenu = (at, on) => ui.openContextMenu({ ...at, on });
   sharing.onOpened = (at) => {
     if (!at) return;
     Object.assign(stage.view, at.camera);
@@ -158,5 +169,6 @@ connect(c);
 drawPage(c, document.getElementById('app')!);
 reportCrashes(c);
 listenToPage(c);
+listenToClipboard(c);
 coach(c);
 void openFirst(c);

@@ -5,12 +5,20 @@ import { actionForKey, perform } from '../actions/registry';
 import type { Action } from '../actions/action';
 
 export function listenToPage(c: Context): void {
+  let space: { panned: number } | null = null;
   addEventListener('keydown', (e) => {
     const now = { dragging: c.editor.dragging.peek(), offers: (a: Action) => a.onOffer!(c) };
     const a = e.defaultPrevented ? undefined : actionForKey(keyOf(e), now);
-    if (!a || belongsToPage(c, e, a)) return;
+    if (!a || a.native || belongsToPage(c, e, a)) return;
     e.preventDefault();
-    perform(c, a.id);
+    // With Space held the picture is moved; only where it was not is playback meant.
+    if (a.id === 'play' && e.key === ' ') space = e.repeat ? space : { panned: c.gestures.pannedWithSpace };
+    else perform(c, a.id);
+  });
+  addEventListener('keyup', (e) => {
+    if (e.key !== ' ' || !space) return;
+    if (space.panned === c.gestures.pannedWithSpace) perform(c, 'play');
+    space = null;
   });
   addEventListener('click', leaveButton);
   takeDrops(c);
@@ -20,6 +28,7 @@ export function listenToPage(c: Context): void {
 function belongsToPage({ editor, ui }: Context, e: KeyboardEvent, a: Action): boolean {
   const target = e.target as HTMLElement;
   const input = target instanceof HTMLInputElement ? target : null;
+  if (target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return a.context !== 'always';
   if (input && input.type !== 'range' && a.context !== 'always' && !undoesInField(input, a)) return true;
   if (ui.dialog.peek() && a.context !== 'always') return true;
   // Tab walks through road users only from the picture; elsewhere it is the browser's.

@@ -5,6 +5,7 @@ import type { Context } from '../actions/context';
 import { HandleSliders } from './access/handle-sliders';
 import { LiveRegion } from './access/live-region';
 import { RoadUsers } from './access/road-users';
+import { ContextMenu } from './context-menu';
 import { Dialogs } from './dialogs/dialogs';
 import { HistoryPanel } from './history/panel';
 import { Hud } from './hud/hud';
@@ -56,6 +57,7 @@ function Around() {
       <Inspector />
       <Timeline />
       <Dialogs />
+      <ContextMenu />
       <LiveRegion />
     </>
   );

@@ -70,6 +70,26 @@ export function paintHandles(g: Pen, labels: Labels, v: View, a: Sized, p: Pose,
   return h;
 }
 
+/** The speed arrow alone, without a handle to drag; gives its tip. */
+export function paintSpeed(
+  g: Pen,
+  v: View,
+  a: Sized,
+  p: Pose,
+  colour: string,
+  free: boolean,
+  /** No longer than this, in pixels: in a crowd the way matters and the length would hide the next. */
+  most = Infinity,
+): Vec {
+  const { nose, tip } = handlePoints(v, a, p);
+  const length = Math.hypot(tip[0] - nose[0], tip[1] - nose[1]);
+  const k = Math.min(1, most / Math.max(1, length));
+  const end: Vec = [nose[0] + (tip[0] - nose[0]) * k, nose[1] + (tip[1] - nose[1]) * k];
+  haloLine(g, nose, end, colour, 1.8, free);
+  arrowHead(g, end, p.heading, { colour, freeSpeed: free, tick: 1 }, most < Infinity ? 0.5 : 0.7);
+  return end;
+}
+
 function haloLine(g: Pen, a: Vec, b: Vec, colour: string, width: number, free?: boolean): void {
   g.beginPath();
   g.moveTo(a[0], a[1]);

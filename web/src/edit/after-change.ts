@@ -1,5 +1,5 @@
 // What is asked of the generator once the document is changed: who is worked out anew, and who answers them.
-import { canChange, GOAL_TIME, touched, type Scene } from '../model/scene';
+import { canChange, doing, GOAL_TIME, type Scene } from '../model/scene';
 import type { Editor, Step } from './editor';
 import type { Wanted } from './question';
 
@@ -10,22 +10,50 @@ export function askedAfter(editor: Editor, scene: Scene, step: Step): Asked {
   if (step.everybody) return { agents: 'all', react: false, step };
   const mine = editor.touchedIds(scene);
   if (!mine.length) return 'nothing';
-  if (scene.others !== 'react') return askedAlone(editor, scene, mine, step);
+  const others = othersThatAnswer(scene);
+  if (others === 'nobody') return askedAlone(editor, scene, mine, step);
   const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
-  const rest = [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
-  if (subject && subject.chosen !== null && editor.motion.peek().futures.has(subject.id)) {
+  const known = editor.motion.peek().futures;
+  if (subject && subject.chosen !== null && known.has(subject.id)) {
+    const rest = others === 'all' ? free(scene) : others;
     if (!rest.length) return 'known';
     // Past its 9 s a picked future goes on only where it is kept beside everybody else's.
     if (scene.length > GOAL_TIME) return { agents: rest, react: false, step, kept: new Set(picked) };
     // It is kept as it is; whoever meets it answers it, and all others go on as they do.
     const { id } = subject;
-    const react = picked.length > 1 ? rest : true;
+    const react = picked.length > 1 || others !== 'all' ? rest : true;
     return { agents: [id], pinned: [id], react, step, kept: new Set(picked) };
   }
-  const first = subject && touched(subject) ? subject.id : mine[0];
-  const react = picked.length ? rest.filter((id) => id !== first) : true;
-  return { agents: [first], react, step, kept: new Set(picked.filter((id) => id !== first)) };
+  const asked = whoIsAsked(scene, mine, known, subject ? [subject.id] : (step.several ?? []));
+  const rest = (others === 'all' ? free(scene) : others).filter((id) => !asked.includes(id));
+  const react = picked.length || others !== 'all' ? rest : true;
+  return { agents: asked, react, step, kept: new Set(picked.filter((id) => !asked.includes(id))) };
+}
+
+/** Those that may take another way: present, and nobody has picked a future for them. */
+const free = (scene: Scene): string[] =>
+  [...scene.agents.values()].filter((a) => canChange(a) && a.chosen === null).map((a) => a.id);
+
+/** Who answers to a change: all, nobody, or those of whom that was said. */
+function othersThatAnswer(scene: Scene): 'all' | 'nobody' | string[] {
+  const own = [...scene.agents.values()].some((a) => a.does !== null && a.does !== scene.others);
+  if (!own) return scene.others === 'react' ? 'all' : 'nobody';
+  const ids = free(scene).filter((id) => doing(scene, scene.agents.get(id)!) === 'react');
+  return ids.length ? ids : 'nobody';
+}
+
+/** Whom the change is about, and those of whom nothing is known yet; else the first that was ever asked something. */
+function whoIsAsked(
+  scene: Scene,
+  mine: readonly string[],
+  known: ReadonlyMap<string, unknown>,
+  changed: readonly string[],
+): string[] {
+  const open = mine.filter((id) => scene.agents.get(id)!.placed && !known.has(id));
+  const about = changed.filter((id) => mine.includes(id));
+  const all = [...new Set([...about, ...open])].filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
+  return all.length ? all : [mine[0]];
 }
 
 /** The others keep to the log or stand: only those that were asked something are worked out. */

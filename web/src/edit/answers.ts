@@ -125,7 +125,11 @@ export class Answers {
   documentChanged(scene: Scene, fresh: string | null): void {
     const key = sceneKey(scene);
     const known = this.#cache.get(key);
+    const now = this.#motion.peek();
+    // A name or a note is nothing that the generator knows of.
+    if (now.key === key && !now.stale) return;
     batch(() => {
+      this.#forgetGone(scene);
       this.#changes.value = [];
       this.#remark.value = null;
       if (known) {
@@ -139,6 +143,17 @@ export class Answers {
       const driving = keeps ? new Set([...m.driving, keeps]) : m.driving;
       this.#motion.value = { ...m, key, stale: true, fresh: keeps, driving };
     });
+  }
+
+  /** Who has gone from the scene has no motion any more. */
+  #forgetGone(scene: Scene): void {
+    const m = this.#motion.peek();
+    const d = this.#draft.peek();
+    if (d && !scene.agents.has(d.id)) this.#draft.value = null;
+    if (![...m.futures.keys()].some((id) => !scene.agents.has(id))) return;
+    const here = <T>(of: ReadonlyMap<string, T>) => new Map([...of].filter(([id]) => scene.agents.has(id)));
+    const driving = new Set([...m.driving].filter((id) => scene.agents.has(id)));
+    this.#motion.value = { ...m, futures: here(m.futures), reach: here(m.reach), driving };
   }
 
   /** Takes over what was worked out for the document as it is now; says who changed, but for those in `except`. */

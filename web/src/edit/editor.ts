@@ -15,6 +15,7 @@ import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import type { ToolName } from './gestures/tools';
 import { Notices } from './notices';
+import { Placement } from './placement';
 import { Playhead } from './playhead';
 
 export type Part = 'start' | 'goal';
@@ -61,10 +62,18 @@ export interface MeasuredLine {
   readonly b: Vec;
 }
 
+/** What a marquee or a lasso goes round, in metres, and whom it takes. */
+export interface Sweep {
+  readonly outline: readonly Vec[];
+  readonly ids: readonly string[];
+}
+
 /** A change of the document that was committed: its name, whom it is about, and whether undo or redo made it. */
 export interface Step {
   readonly name: string;
   readonly agent: string | null;
+  /** Whom it is about, where that is not one alone. */
+  readonly several?: readonly string[];
   readonly undo: boolean;
   /** Everybody is to be worked out anew. */
   readonly everybody?: boolean;
@@ -77,15 +86,17 @@ export interface Lock {
   run(): void;
 }
 
+const NOBODY: readonly string[] = Object.freeze([]);
 const NO_EVENTS: readonly TrafficEvent[] = [];
 
 export class Editor {
   readonly answers = new Answers();
   readonly playhead = new Playhead();
   readonly notices = new Notices();
+  readonly placement = new Placement();
 
   readonly #scene = signal<Scene | null>(null);
-  readonly #selection = signal<string | null>(null);
+  readonly #selected = signal<readonly string[]>(NOBODY);
   readonly #hover = signal<string | null>(null);
   readonly #hoverFuture = signal<number | null>(null);
   readonly #hoverGrip = signal<Grip | null>(null);
@@ -94,6 +105,7 @@ export class Editor {
   readonly #layers = signal<Layers>({ futures: true, log: false, lanes: false, labels: false });
   readonly #tool = signal<ToolName>('select');
   readonly #measure = signal<MeasuredLine | null>(null);
+  readonly #sweep = signal<Sweep | null>(null);
   readonly #showBefore = signal(true);
   readonly #showForeseen = signal(true);
   readonly #drag = signal<DragInfo | null>(null);
@@ -108,8 +120,10 @@ export class Editor {
   #history: History | null = null;
 
   readonly scene: ReadonlySignal<Scene | null> = this.#scene;
-  /** Id of the selected road user. */
-  readonly selection: ReadonlySignal<string | null> = this.#selection;
+  /** Ids of all that are selected, in the order in which they were taken. */
+  readonly selected: ReadonlySignal<readonly string[]> = this.#selected;
+  /** Id of the selected road user; null where none is selected, or several. */
+  readonly selection = computed(() => (this.selected.value.length === 1 ? this.selected.value[0] : null));
   readonly hover: ReadonlySignal<string | null> = this.#hover;
   readonly hoverFuture: ReadonlySignal<number | null> = this.#hoverFuture;
   readonly hoverGrip: ReadonlySignal<Grip | null> = this.#hoverGrip;
@@ -120,6 +134,7 @@ export class Editor {
   readonly tool: ReadonlySignal<ToolName> = this.#tool;
   /** Ends of the measuring line, in metres. */
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
+  readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
   /** Are the paths before the last change shown beside the new ones? */
   readonly showBefore: ReadonlySignal<boolean> = this.#showBefore;
   /** Are the others' answers shown on the picture while a handle is dragged? */
@@ -213,12 +228,14 @@ export class Editor {
       this.#lock.value = null;
       this.#snappedHeadings.clear();
       this.#scene.value = scene;
-      this.#selection.value = null;
+      this.#selected.value = NOBODY;
       this.#hover.value = null;
       this.#drag.value = null;
       this.#selectedEvent.value = null;
       this.answers.open(scene, saved);
       this.playhead.rewind();
+      this.placement.stop();
+      this.#sweep.value = null;
       this.notices.hide();
       this.#nameSteps();
     });
@@ -288,9 +305,12 @@ export class Editor {
   }
 
   #committed(scene: Scene, before: Scene, name: string, undo: boolean): void {
-    const agent = changedAgent(before, scene);
+    const changed = changedAgents(before, scene);
+    const agent = changed.length === 1 ? changed[0] : null;
+    const several = changed.length > 1 ? changed : undefined;
     batch(() => {
       this.#scene.value = scene;
+      this.#followCast(before, scene);
       this.#nameSteps();
       this.#selectedEvent.value = null;
       // A scene may have become shorter.
@@ -298,7 +318,20 @@ export class Editor {
       this.answers.documentChanged(scene, agent && onlyPicked(before, scene, agent) ? agent : null);
     });
     const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;
-    this.onCommit?.(scene, { name, agent, undo, ...(everybody ? { everybody } : {}) });
+    this.onCommit?.(scene, { name, agent, several, undo, ...(everybody ? { everybody } : {}) });
+  }
+
+  /** Who has come is selected, who has gone is not. */
+  #followCast(before: Scene, scene: Scene): void {
+    if (before.roster === scene.roster) return;
+    const came = [...scene.agents.keys()].filter((id) => !before.agents.has(id));
+    const stay = this.#selected.peek().filter((id) => scene.agents.has(id));
+    if (came.length) {
+      this.#selected.value = came;
+      this.placement.show(null);
+    } else if (stay.length < this.#selected.peek().length) this.#selected.value = stay.length ? stay : NOBODY;
+    const hovered = this.#hover.peek();
+    if (hovered && !scene.agents.has(hovered)) this.#hover.value = null;
   }
 
   #nameSteps(): void {
@@ -375,9 +408,16 @@ export class Editor {
   // -------------------------------------------------------------- what one looks at
 
   select(id: string | null): void {
-    if (id === this.#selection.peek()) return;
+    this.selectAll(id === null ? NOBODY : [id]);
+  }
+
+  selectAll(wanted: readonly string[]): void {
+    const now = this.#selected.peek();
+    const here = this.#scene.peek()?.agents;
+    const ids = wanted.filter((id) => here?.has(id));
+    if (ids.length === now.length && ids.every((id, i) => id === now[i])) return;
     batch(() => {
-      this.#selection.value = id;
+      this.#selected.value = Object.freeze([...ids]);
       this.#hoverFuture.value = null;
       this.#selectedEvent.value = null;
       this.#focusPart.value = 'start';
@@ -385,7 +425,20 @@ export class Editor {
     });
     const a = this.agent.peek();
     if (a) this.notices.say(`${a.name} selected.`);
-    this.onSelect?.(id);
+    else if (ids.length) this.notices.say(`${ids.length} road users selected.`);
+    this.onSelect?.(this.selection.peek());
+  }
+
+  /** Adds one to those that are selected, or takes it away. */
+  toggleSelected(id: string): void {
+    const now = this.#selected.peek();
+    this.selectAll(now.includes(id) ? now.filter((o) => o !== id) : [...now, id]);
+  }
+
+  /** The road users that are selected, as the document has them. */
+  get chosenOnes(): Agent[] {
+    const scene = this.scene.value;
+    return this.selected.value.flatMap((id) => scene?.agents.get(id) ?? []);
   }
 
   pointAt({ agent = null, future = null, grip = null }: Pointed): void {
@@ -422,11 +475,16 @@ export class Editor {
     batch(() => {
       this.#tool.value = tool;
       this.#measure.value = null;
+      this.placement.stop();
     });
   }
 
   measureBetween(line: MeasuredLine | null): void {
     this.#measure.value = line;
+  }
+
+  sweepOver(sweep: Sweep | null): void {
+    this.#sweep.value = sweep;
   }
 
   pickEvent(event: TrafficEvent | null): void {
@@ -488,7 +546,9 @@ function onlyPicked(before: Scene, after: Scene, id: string): boolean {
     a.goal === b.goal &&
     a.length === b.length &&
     a.width === b.width &&
+    a.does === b.does &&
     a.chosen !== b.chosen &&
+    before.roster === after.roster &&
     before.seed === after.seed &&
     before.diversity === after.diversity &&
     before.others === after.others &&
@@ -497,7 +557,7 @@ function onlyPicked(before: Scene, after: Scene, id: string): boolean {
   );
 }
 
-function changedAgent(before: Scene, after: Scene): string | null {
-  for (const [id, a] of after.agents) if (before.agents.get(id) !== a) return id;
-  return null;
+function changedAgents(before: Scene, after: Scene): string[] {
+  const gone = [...before.agents.keys()].filter((id) => !after.agents.has(id));
+  return [...[...after.agents].filter(([id, a]) => before.agents.get(id) !== a).map(([id]) => id), ...gone];
 }

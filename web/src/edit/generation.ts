@@ -4,9 +4,9 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
 import type { MotionSet } from '../model/futures';
 import { drawAnew } from '../model/commands';
-import { canChange, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
+import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
-import { trackJson } from '../model/write';
+import { castJson, trackJson } from '../model/write';
 import { Away } from '../net/client';
 import type { Generator, Handlers, Question, SceneRef } from '../net/generator';
 import { Absence } from './absence';
@@ -167,7 +167,8 @@ export class Generation implements Previews {
     } else if (this.#absence.now) {
       this.#absence.wait();
       if (step.agent) this.#sketch(step.agent, true);
-    } else {
+    } else if (step.everybody && !step.undo) this.#workOut(step);
+    else {
       const rested = (this.#rested = this.#begin());
       this.#rest = setTimeout(() => {
         this.#workOut(step);
@@ -270,7 +271,7 @@ export class Generation implements Previews {
     const shown = this.#shown(scene);
     if (editor.motion.peek().stale) editor.answers.settle(scene, shown, null);
     const scored = [...scene.agents.values()].filter(
-      (a) => shown.driving.has(a.id) || (scene.others === 'still' && canChange(a)),
+      (a) => canChange(a) && (shown.driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
     );
     const trajectories = Object.fromEntries(scored.map((a) => [a.id, trackJson(motionOf(scene, shown, a))]));
     try {
@@ -295,8 +296,10 @@ export class Generation implements Previews {
   }
 
   #stored(scene: Scene): SceneRef {
-    const { raw, map, stored } = this.file;
-    return stored ? { id: scene.id } : { scene: { ...raw!, map: map!, generated: null } };
+    const { file } = this;
+    if (file.holds(scene)) return { id: scene.id };
+    const map = file.mapRef ? { ref: file.mapRef } : file.map!;
+    return { scene: { ...file.raw!, agents: castJson(scene), map, generated: null } };
   }
 
   // -------------------------------------------------------------- absence

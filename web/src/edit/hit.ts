@@ -1,6 +1,5 @@
 // What lies under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
 import { insideBox, type Vec } from '../model/geometry';
-import { poseAt } from '../model/motion';
 import { canChange, startPose, type Agent } from '../model/scene';
 import { FLAG_HEIGHT, handlePoints } from '../draw/handles';
 import type { Rect } from '../draw/labels';
@@ -9,13 +8,21 @@ import type { Chip } from '../draw/strokes';
 import type { View } from '../draw/view';
 import type { Editor, Grip } from './editor';
 import type { RoadSign } from './overlay-verdicts';
+import { frameAround, poseShown } from './frame';
+import { onPennant, type Pennant } from '../draw/marks';
 
 export type Hit =
   | { kind: 'grip'; grip: Grip }
   | { kind: 'future'; index: number }
   | { kind: 'by road' }
   | { kind: 'agent'; id: string; pile: string[] }
+  | { kind: 'frame'; handle: FrameHandle }
+  /** The small flag at the goal of somebody who is not selected. */
+  | { kind: 'pennant'; id: string }
   | { kind: 'none' };
+
+/** What one can do with the frame around several: move them, turn them, spread them. */
+export type FrameHandle = 'move' | 'turn' | 'spread';
 
 export const NOTHING: Hit = { kind: 'none' };
 
@@ -34,6 +41,7 @@ export interface HitContext {
   chips: readonly Chip[];
   timeTag: Rect | null;
   roadSign: RoadSign | null;
+  pennants: readonly Pennant[];
   touch: boolean;
 }
 
@@ -41,7 +49,7 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   const a = c.editor.agent.value;
   if (a && canChange(a)) {
     if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by road' };
-    const grip = gripAt(c, a, x, y);
+    const grip = a.locked ? null : gripAt(c, a, x, y);
     if (grip) return { kind: 'grip', grip };
     if (c.roadSign?.flag && onFlag(c.roadSign.flag, x, y)) return { kind: 'by road' };
     for (const chip of c.chips)
@@ -49,12 +57,31 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
     if (c.editor.layers.value.futures && futureAt(c, c.editor.chosen.value, x, y))
       return { kind: 'future', index: c.editor.chosen.value };
   }
+  const handle = frameHandleAt(c, x, y);
+  if (handle && handle !== 'move') return { kind: 'frame', handle };
   const pile = agentsAt(c, x, y);
   if (pile.length) return { kind: 'agent', id: pile[0], pile };
+  if (handle) return { kind: 'frame', handle };
+  const pennant = c.pennants.find((p) => onPennant(p, x, y));
+  if (pennant) return { kind: 'pennant', id: pennant.id };
   const f = c.editor.futures.value;
   if (a && f && c.editor.layers.value.futures)
     for (let i = 0; i < f.modes.length; i++) if (futureAt(c, i, x, y)) return { kind: 'future', index: i };
   return NOTHING;
+}
+
+/** The knob turns, the corners spread, the edge moves. */
+function frameHandleAt(c: HitContext, x: number, y: number): FrameHandle | null {
+  const f = frameAround(c.editor, c.view);
+  if (!f || c.editor.time.value > 0.05) return null;
+  const r = c.touch ? 22 : 10;
+  if (near(f.knob, x, y, r)) return 'turn';
+  if (f.corners.some((p) => near(p, x, y, r))) return 'spread';
+  const { box: b } = f;
+  const edge = c.touch ? 14 : 5;
+  const within = (grow: number): boolean =>
+    x > b.x - grow && x < b.x + b.w + grow && y > b.y - grow && y < b.y + b.h + grow;
+  return within(edge) && !within(-edge) ? 'move' : null;
 }
 
 function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
@@ -88,10 +115,9 @@ export function agentsAt(c: HitContext, x: number, y: number): string[] {
   const scene = c.editor.scene.value;
   if (!scene) return [];
   const [wx, wy] = c.view.from(x, y);
-  const t = c.editor.time.value;
   const found: Agent[] = [];
   for (const a of scene.agents.values()) {
-    const p = t < 0.05 ? (startPose(a) ?? poseAt(c.editor.motionFor(a), t)) : poseAt(c.editor.motionFor(a), t);
+    const p = poseShown(c.editor, a);
     if (!p || Math.abs(p.x - wx) > 20 + a.length || Math.abs(p.y - wy) > 20 + a.length) continue;
     if (onBox(c.view, a, p, x, y)) found.push(a);
   }

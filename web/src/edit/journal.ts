@@ -3,6 +3,7 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { History, replay, type HistoryChange, type KeptHistory } from '../model/history';
 import { isComplete, stateOf, withState, type SceneState } from '../model/scene-diff';
 import { sceneKey, type Scene } from '../model/scene';
+import { ofAgents } from '../model/write';
 import { isFull, type KeptScene, type StepStore, type Synced } from '../net/step-store';
 
 /** `kept`: on this computer. `full`: there is no room. `off`: this browser keeps nothing for this page. */
@@ -38,7 +39,9 @@ export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: 
   return { scene, history, standing: standingOf(file, scene, history) };
 }
 
-const versionOf = (scene: Scene): string => sceneKey(scene) + scene.name;
+/** What is to be saved of a scene: what is asked, and what people call things. */
+const versionOf = (scene: Scene): string =>
+  sceneKey(scene) + scene.name + JSON.stringify(ofAgents(scene.agents.values()));
 
 /** A page that ended right after it had saved could not note that: the server's version is then one of its steps. */
 function standingOf(file: Scene, scene: Scene, history: KeptHistory): Standing {

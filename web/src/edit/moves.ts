@@ -12,7 +12,7 @@ import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
 
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
-const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
+export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
 export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
 const FIELD_WORDS = { pos: 'position', heading: 'heading', speed: 'speed' } as const;
 
@@ -48,6 +48,8 @@ export function toggleField(e: Editor, a: Agent, part: Part, field: Field): Comm
   const shown = shownPose(e, a, part);
   e.touchField(part, field);
   const free = spec[field] !== null;
+  // Nobody but the user knows where somebody is who was put here.
+  if (free && a.placed && part === 'start' && field === 'pos') return null;
   const value = free || !shown ? null : field === 'pos' ? freeze([shown.x, shown.y]) : shown[field];
   if (!free && value === null) return null;
   const c = withField(a, part, { [field]: value } as Partial<GoalSpec>);

@@ -4,7 +4,14 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 export interface Toast {
   readonly text: string;
   readonly undo?: boolean;
-  readonly action?: { label: string; run: () => void };
+  readonly action?: ToastAction;
+  /** Another way out beside it. */
+  readonly second?: ToastAction;
+}
+
+export interface ToastAction {
+  readonly label: string;
+  readonly run: () => void;
 }
 
 export interface Spoken {

@@ -71,7 +71,7 @@ export class GoalOverlay {
     paintGhost(g, v, a, goal, colour, bad ? c['near-soft'] : c['goal-soft'], goal.set && !bad ? [] : [4, 3]);
     const drag = e.drag.value?.grip;
     const unit = e.unitOf(a);
-    if (goal.set) {
+    if (goal.set && !a.locked) {
       const h = paintHandles(g, this.labels, v, a, goal, {
         colour,
         freeHeading: a.goal.heading === null,

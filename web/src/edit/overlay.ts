@@ -4,7 +4,7 @@ import type { Pose } from '../model/geometry';
 import { endPose, endsBefore, poseAt } from '../model/motion';
 import { comparedWithLog } from '../model/changes';
 import type { Futures } from '../model/futures';
-import { canChange, startPose, touched, type Agent } from '../model/scene';
+import { canChange, canMove, startPose, touched, type Agent } from '../model/scene';
 import { metres, num, seconds, speedLabel } from '../model/units';
 import { Labels, pill, tag, type Rect } from '../draw/labels';
 import { paintGhost, paintHandles, paintRing } from '../draw/handles';
@@ -18,6 +18,7 @@ import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
+import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
 
 /** Alpha of the refinement steps left behind, newest first. */
@@ -35,6 +36,7 @@ export class Overlay {
   private readonly verdicts: VerdictOverlay;
   private readonly events: EventsOverlay;
   private readonly ghosts: GhostOverlay;
+  private readonly several: SeveralOverlay;
 
   constructor(
     private readonly editor: Editor,
@@ -47,6 +49,7 @@ export class Overlay {
     this.verdicts = new VerdictOverlay(editor, this.labels);
     this.changes = new ChangesOverlay(editor, this.labels, poseNow);
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
+    this.several = new SeveralOverlay(editor, this.labels, poseNow);
   }
 
   /** Where the time tag was painted, for the pointer. */
@@ -89,6 +92,7 @@ export class Overlay {
     if (e.showBefore.value) this.changes.paintBefore(g, v);
     this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
+    this.several.paint(g, v);
     this.ghosts.paintLabels(g, v);
     this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);
@@ -102,7 +106,7 @@ export class Overlay {
       [left, v.h - 52, 400, 52],
       [v.w - 160, v.h - 52, 160, 52],
       [v.w - 260, 0, 260, 52],
-      [0, 0, 62, 170],
+      [0, 0, 62, 430],
       [left ? 62 : 0, 0, left, left ? v.h : 0],
     ];
   }
@@ -130,7 +134,7 @@ export class Overlay {
   private paintHover(g: Pen, v: View): void {
     const { editor: e } = this;
     const id = e.hover.value;
-    const a = id && id !== e.selection.value ? e.scene.value!.agents.get(id) : null;
+    const a = id && !e.selected.value.includes(id) ? e.scene.value!.agents.get(id) : null;
     const p = a && this.poseNow(a);
     if (!a || !p || e.drag.value) return;
     const t = e.time.value;
@@ -160,7 +164,7 @@ export class Overlay {
       const [l] = sizeOnScreen(a, v.z);
       this.labels.block(v.x(now.x) - l / 2 - 4, v.y(now.y) - 14, l + 8, 28);
     }
-    if (atStart && start && canChange(a)) {
+    if (atStart && start && canMove(a)) {
       const h = paintHandles(g, this.labels, v, a, start, {
         colour: c.select,
         freeHeading: a.start.heading === null,

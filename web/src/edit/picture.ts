@@ -7,6 +7,7 @@ import { motionOf } from '../model/changes';
 import { isRecorded, startPose, type Agent } from '../model/scene';
 import { speedLabel } from '../model/units';
 import { Labels, pill, type Rect } from '../draw/labels';
+import { paintLock, paintPennant, type Pennant } from '../draw/marks';
 import { boxOnScreen, colourKey, sizeOnScreen, stamp } from '../draw/sprites';
 import { trail } from '../draw/strokes';
 import { paintSignals } from '../draw/signals';
@@ -26,6 +27,8 @@ export class Picture {
   /** Where road users and their names were painted last, for the labels over them. */
   private boxes: Rect[] = [];
   private names: Rect[] = [];
+  /** Where pennants were painted last, for the pointer. */
+  pennants: Pennant[] = [];
   private reactFrom: { motion: Editor['motion']['value']; at: number } | null = null;
 
   constructor(
@@ -66,7 +69,7 @@ export class Picture {
       stage.invalidate('map');
     });
     effect(() => {
-      void [e.selection.value, e.layers.value, e.time.value, e.dragging.value, e.playing.value, e.selectedEvent.value];
+      void [e.selected.value, e.layers.value, e.time.value, e.dragging.value, e.playing.value, e.selectedEvent.value];
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
@@ -92,6 +95,8 @@ export class Picture {
         e.localReach.value,
         e.liveReach.value,
         e.measure.value,
+        e.sweep.value,
+        e.placement.ghosts.value,
         e.notices.toast.value,
       ];
       stage.invalidate('overlay');
@@ -131,9 +136,10 @@ export class Picture {
     const dragging = e.drag.value !== null;
     paintSignals(g, v, scene, e.time.value);
     const box = v.box(40);
+    const selected = new Set(e.selected.value);
     const shown: [Agent, Pose][] = [];
     for (const a of scene.agents.values()) {
-      if (a.id === e.selection.value) continue;
+      if (selected.has(a.id)) continue;
       const p = this.poseNow(a);
       if (p && p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1) shown.push([a, p]);
     }
@@ -141,15 +147,32 @@ export class Picture {
     shown.sort(
       (p, q) => Number(q[0].parked) - Number(p[0].parked) || q[0].length * q[0].width - p[0].length * p[0].width,
     );
-    if (e.layers.value.futures && !e.selection.value && !e.playing.value)
-      for (const [a] of shown) this.softTrail(g, v, a);
+    if (e.layers.value.futures && !selected.size && !e.playing.value) for (const [a] of shown) this.softTrail(g, v, a);
     g.globalAlpha = dragging ? 0.62 : 1;
     for (const [a, p] of shown) stamp(g, v, a, p, a.parked && this.drives(a));
     g.globalAlpha = 1;
     g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    this.paintMarks(g, v, shown);
     this.names = [];
     if (e.layers.value.labels || v.z > 16) this.nameLabels(g, v, shown);
     this.boxes = shown.map(([a, p]) => boxOnScreen(v, a, p));
+  }
+
+  /** Pennants at the goals of all who are not selected alone, and locks. */
+  private paintMarks(g: Pen, v: View, shown: [Agent, Pose][]): void {
+    const { editor: e } = this;
+    this.pennants = [];
+    if (v.z < 2) return;
+    for (const a of e.scene.value!.agents.values()) {
+      if (!a.goal.pos || a.id === e.selection.value) continue;
+      const [x, y] = v.to(...a.goal.pos);
+      if (x < -20 || y < -20 || x > v.w + 20 || y > v.h + 30) continue;
+      const pennant = { id: a.id, x, y };
+      paintPennant(g, pennant, colourKey(a));
+      this.pennants.push(pennant);
+    }
+    if (v.z < 6) return;
+    for (const [a, p] of shown) if (a.locked) paintLock(g, v.x(p.x), v.y(p.y));
   }
 
   /** One that was parked in the log, and drives now. */
@@ -197,7 +220,7 @@ export class Picture {
   hoverWords(): { title: string; line: string } | null {
     const { editor: e } = this;
     const id = e.hover.value;
-    const a = id && id !== e.selection.value ? e.scene.value?.agents.get(id) : null;
+    const a = id && !e.selected.value.includes(id) ? e.scene.value?.agents.get(id) : null;
     const p = a && this.poseNow(a);
     if (!a || !p || e.drag.value) return null;
     const where = a.parked ? 'parked' : laneWords(e.scene.value!.map, a, p.x, p.y, p.heading);

@@ -3,8 +3,8 @@
 import { DEFAULTS } from '../model/domain';
 import type { ConditionJson, MapJson, MapRef, SceneJson } from '../model/json';
 import type { Futures, MotionSet } from '../model/futures';
-import { GOAL_TIME, type Scene } from '../model/scene';
-import { conditionOf, generatedJson, isEmptyCondition, stillAgents } from '../model/write';
+import { doing, GOAL_TIME, type Scene } from '../model/scene';
+import { castJson, conditionOf, generatedJson, isEmptyCondition, withStill } from '../model/write';
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Editor, Step } from './editor';
@@ -80,12 +80,13 @@ export class Questions {
 
   #reference(scene: Scene, set: MotionSet, w: Wanted, preview: boolean): SceneRef {
     const { file } = this;
-    const asStored = file.stored && !set.driving.size && !w.kept?.size && scene.others !== 'still';
+    const asStored = file.holds(scene) && !set.driving.size && !w.kept?.size && !someStill(scene);
     if (asStored) return { id: scene.id };
     const map = file.mapRef ? { ref: file.mapRef } : file.map!;
     if (!preview) return { scene: this.#written(scene, set, w, map) };
     // A drag asks sixty times a second about the same surroundings.
-    const rest = JSON.stringify([scene.others, [...(w.kept ?? [])]]);
+    const does = [...scene.agents.values()].flatMap((a) => (a.does ? [a.id, a.does] : []));
+    const rest = JSON.stringify([scene.others, does, scene.roster, [...(w.kept ?? [])]]);
     const last = this.#last.get(w.step !== null);
     if (last && last.set === set && last.rest === rest) return { scene: last.scene };
     const written = this.#written(scene, set, w, map);
@@ -97,7 +98,8 @@ export class Questions {
     const raw = this.file.raw!;
     const kept = [...set.futures].filter(([id]) => set.driving.has(id) || w.kept?.has(id));
     const moving = new Set(this.editor.touchedIds(scene));
-    const agents = scene.others === 'still' ? stillAgents(raw, scene, moving) : raw.agents;
+    const cast = castJson(scene);
+    const agents = someStill(scene) ? withStill(scene, cast, moving) : cast;
     return {
       ...raw,
       map,
@@ -109,6 +111,9 @@ export class Questions {
     };
   }
 }
+
+const someStill = (s: Scene): boolean =>
+  s.others === 'still' || [...s.agents.values()].some((a) => doing(s, a) === 'still');
 
 /** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
 function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {

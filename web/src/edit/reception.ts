@@ -20,7 +20,7 @@ import type { Fault } from '../model/about';
 import { findChanges } from '../model/changes';
 import { firstPose } from '../model/read';
 import { withMeetingsOf } from '../model/rejudge';
-import { nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { doing, nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
 import { whyAnother, whyNot } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
@@ -264,7 +264,7 @@ export class Reception {
   /** Those that were asked something are no others, also when only the mode of the others was changed. */
   #subjects(scene: Scene, step: Step | null): Set<string> {
     const { editor } = this;
-    const subjects = new Set(step?.agent ? [step.agent] : editor.touchedIds(scene));
+    const subjects = new Set(step?.agent ? [step.agent] : (step?.several ?? editor.touchedIds(scene)));
     const selected = editor.selection.peek();
     if (selected) subjects.add(selected);
     return subjects;
@@ -310,7 +310,10 @@ export class Reception {
     const before = editor.motion.peek();
     const answers = this.#futuresOf(scene, e, keep);
     // A look at somebody's futures from before the change is no longer true.
-    const stillTrue = (id: string) => before.driving.has(id) || w.kept?.has(id) || touched(scene.agents.get(id)!);
+    const stillTrue = (id: string) => {
+      const a = scene.agents.get(id);
+      return a !== undefined && (before.driving.has(id) || w.kept?.has(id) || touched(a));
+    };
     const futures = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
     const score = readScore(e.scores?.[0]);
     // Those that go on as they did may meet others than before.
@@ -321,8 +324,11 @@ export class Reception {
       const modes = f.modes.map((m, i) => (i === shown ? withMeetingsOf(score!, id, m) : m));
       if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
     }
-    const everybody = scene.others === 'react' || w.agents === 'all';
-    const driving = new Set(everybody ? [...before.driving, ...answers.keys()] : []);
+    const drives = (id: string) => {
+      const a = scene.agents.get(id);
+      return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
+    };
+    const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
     for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
     const reach = new Map(before.reach);
     for (const [id, resolved] of Object.entries(e.resolved)) {
@@ -347,7 +353,7 @@ export class Reception {
   settled(step: Step, ms: number): void {
     const { editor } = this;
     const changes = editor.changes.peek();
-    editor.answers.report({ kind: 'settled', ms, adapted: step.agent ? changes.length : null });
+    editor.answers.report({ kind: 'settled', ms, adapted: step.agent || step.several ? changes.length : null });
     if (step.undo) return;
     const scene = editor.scene.peek()!;
     const events = editor.events.peek();

@@ -17,6 +17,7 @@ export function outcome(
   const own = hits.find((e) => e.a.id === step.agent || e.b?.id === step.agent);
   const other = own?.a.id === step.agent ? own?.b : own?.a;
   const hit = own && other ? ` It hits ${other.name} at ${seconds(own.time)}.` : '';
+  if (step.several && n > 0) return `${step.name}. ${n} other${n === 1 ? '' : 's'} changed.`;
   if (!step.agent || scene.others !== 'react') return `${step.name}.${hit}`;
   if (n === 0) return `${step.name}.${hit || (hits.length ? '' : ' Nobody else had to change.')}`;
   return `${step.name}. ${n} other${n === 1 ? '' : 's'} changed.${hit}`;

@@ -114,7 +114,7 @@ export class Saving {
       const etag = await this.#put(scene.id, body, force);
       if (this.editor.scene.peek()?.id !== scene.id) return;
       this.#etag = etag;
-      this.file.noteConditions(body);
+      this.file.noteStored(body);
       if (etag) this.journal.synced(etag, step);
       if (this.editor.scene.peek() === scene) this.#server.value = 'saved';
       void this.list.refresh().catch(() => undefined);

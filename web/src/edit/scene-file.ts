@@ -1,5 +1,7 @@
 // The open scene as a file: as it came, and as it is written back with the user's changes in it.
 import type { MapJson, SceneJson } from '../model/json';
+import { rosterOfJson } from '../model/read';
+import type { Scene } from '../model/scene';
 import { generatedJson, writeScene } from '../model/write';
 import type { Editor } from './editor';
 
@@ -12,6 +14,8 @@ export class SceneFile {
   /** Does the server know this scene by its id? */
   stored = false;
   #withConditions = new Set<string>();
+  /** Who is in the version that the server holds. */
+  #roster: string | null = null;
 
   constructor(private readonly editor: Editor) {}
 
@@ -20,11 +24,17 @@ export class SceneFile {
     this.map = map;
     this.mapRef = null;
     this.stored = stored;
-    this.noteConditions(json);
+    this.noteStored(json);
   }
 
-  /** The server holds this version: whose conditions it knows, so that freed ones are sent as free. */
-  noteConditions(json: SceneJson): void {
+  /** Does the server hold a scene of these road users under the id of this one? */
+  holds(scene: Scene): boolean {
+    return this.stored && this.#roster === scene.roster;
+  }
+
+  /** The server holds this version: who is in it, and whose conditions it knows: freed ones are sent as free. */
+  noteStored(json: SceneJson): void {
+    this.#roster = rosterOfJson(json);
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
     this.#withConditions = new Set(asked.map((a) => a.id));
   }

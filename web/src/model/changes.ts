@@ -5,7 +5,7 @@ import type { Pose } from './geometry';
 import type { ReactionJson } from './json';
 import { answersAhead, guessReaction, reactionWords, type Answered, type Reaction } from './reaction';
 import type { Agent, Scene } from './scene';
-import { GOAL_TIME, startPose, staysAway } from './scene';
+import { doing, GOAL_TIME, startPose, staysAway } from './scene';
 import { heldStill, nowhere, straightOn } from './motion';
 import { num } from './units';
 
@@ -45,12 +45,25 @@ export function motionOf(scene: Scene, set: MotionSet, a: Agent): Motion {
 function knownMotion(scene: Scene, set: MotionSet, a: Agent): Motion {
   const f = set.driving.has(a.id) ? set.futures.get(a.id) : undefined;
   if (f?.modes.length) return f.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)].motion;
-  if (scene.others === 'still' && a.type !== 'other') {
-    const p = startPose(a);
-    if (p) return heldStill(p, Math.max(scene.steps, Math.round(scene.duration / STEP_S) + 1));
+  // Until the generator has decided, who was put here stands there.
+  if (a.placed || (doing(scene, a) === 'still' && a.type !== 'other')) {
     if (staysAway(scene, a)) return nowhere;
+    return standing(scene, a);
   }
   return a.log;
+}
+
+const stand = new WeakMap<Agent, Motion>();
+
+function standing(scene: Scene, a: Agent): Motion {
+  const p = startPose(a);
+  if (!p) return a.log;
+  const steps = Math.max(scene.steps, Math.round(scene.duration / STEP_S) + 1);
+  const known = stand.get(a);
+  if (known?.x.length === steps) return known;
+  const m = heldStill(p, steps);
+  stand.set(a, m);
+  return m;
 }
 
 interface Moved {

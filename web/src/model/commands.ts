@@ -1,16 +1,22 @@
 // Every change of the document is a command with an exact inverse.
+import { KIND_NAMES } from './kinds';
+import { kindOf } from './read';
 import {
   durationOf,
   freeGoal,
+  kindChanged,
   logStartSpec,
+  numberIn,
   withAgents,
   type Agent,
   type GoalSpec,
+  type Kind,
   type Length,
   type Others,
   type Replan,
   type Scene,
   type StartSpec,
+  withRoster,
 } from './scene';
 
 export interface Command {
@@ -22,10 +28,24 @@ export interface Command {
   readonly fold?: string;
 }
 
-type AgentPatch = Partial<Pick<Agent, 'start' | 'goal' | 'chosen' | 'length' | 'width'>>;
-const PATCHABLE = ['start', 'goal', 'chosen', 'length', 'width'] as const;
+const PATCHABLE = [
+  'start',
+  'goal',
+  'chosen',
+  'length',
+  'width',
+  'type',
+  'kind',
+  'subtype',
+  'name',
+  'called',
+  'note',
+  'locked',
+  'does',
+] as const;
+export type AgentPatch = Partial<Pick<Agent, (typeof PATCHABLE)[number]>>;
 
-function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatch>, fold?: string): Command {
+export function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatch>, fold?: string): Command {
   return {
     name,
     fold,
@@ -35,7 +55,10 @@ function patchAgents(name: string, patches: ReadonlyMap<string, AgentPatch>, fol
         const a = scene.agents.get(id);
         if (a) changed.push({ ...a, ...patch });
       }
-      return changed.length ? withAgents(scene, changed) : scene;
+      if (!changed.length) return scene;
+      const next = withAgents(scene, changed);
+      const recast = [...patches.values()].some((p) => 'type' in p || 'kind' in p || 'subtype' in p);
+      return recast ? withRoster(next, next.agents) : next;
     },
     invert(scene) {
       const back = new Map<string, AgentPatch>();
@@ -78,27 +101,73 @@ export const choose = (a: Agent, index: number | null, letter: string): Command 
   );
 export const clearGoal = (a: Agent): Command =>
   one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });
-export const resetAgent = (a: Agent): Command =>
-  one(`${a.name} back to the log`, a.id, {
-    start: logStartSpec(a.logStart),
-    goal: freeGoal(),
-    chosen: null,
-    length: a.logSize[0],
-    width: a.logSize[1],
-  });
+
+/** As it was recorded. Who was put here has no log and loses what it was asked on its way alone. */
+function recorded(a: Agent): AgentPatch {
+  if (a.placed) return { goal: freeGoal(), chosen: null };
+  const kind: AgentPatch = kindChanged(a) ? { type: a.logType, subtype: a.logSubtype, ...kindOfLog(a) } : {};
+  const [length, width] = a.logSize;
+  return { start: logStartSpec(a.logStart), goal: freeGoal(), chosen: null, length, width, ...kind };
+}
+
+function kindOfLog(a: Agent): Pick<Agent, 'kind' | 'name'> {
+  const [length_m, width_m] = a.logSize;
+  const kind = kindOf({ type: a.logType, subtype: a.logSubtype ?? undefined, length_m, width_m });
+  return { kind, name: nameAs(a, kind) };
+}
+
+/** Its name, were it of another kind: the number stays. */
+export const nameAs = (a: Pick<Agent, 'name' | 'called'>, kind: Kind): string =>
+  a.called ?? `${KIND_NAMES[kind]} ${/\d+$/.exec(a.name)?.[0] ?? ''}`.trim();
+
+export const resetAgent = (a: Agent): Command => one(`${a.name} back to the log`, a.id, recorded(a));
 
 export function resetAll(scene: Scene): Command {
-  const patches = new Map<string, AgentPatch>();
-  for (const a of scene.agents.values())
-    patches.set(a.id, {
-      start: logStartSpec(a.logStart),
-      goal: freeGoal(),
-      chosen: null,
-      length: a.logSize[0],
-      width: a.logSize[1],
-    });
+  const patches = new Map(
+    [...scene.agents.values()].filter((a) => !a.placed && !a.locked).map((a) => [a.id, recorded(a)]),
+  );
   return patchAgents('Everybody back to the log', patches);
 }
+
+// -------------------------------------------------------------- who is in the scene
+
+interface Recast {
+  readonly put: readonly Agent[];
+  readonly drop: readonly string[];
+  /** The order to keep, where it matters; else those who come new come last. */
+  readonly order?: readonly string[];
+  readonly issued: number;
+}
+
+function recast(name: string, { put, drop, order, issued }: Recast): Command {
+  return {
+    name,
+    apply(scene) {
+      const agents = new Map(scene.agents);
+      for (const id of drop) agents.delete(id);
+      for (const a of put) agents.set(a.id, Object.freeze(a));
+      const rest = new Set(agents.keys());
+      const first = (order ?? []).filter((id) => rest.delete(id));
+      const sorted = order ? new Map([...first, ...rest].map((id) => [id, agents.get(id)!])) : agents;
+      return withRoster(scene, sorted, issued);
+    },
+    invert(scene) {
+      const back = [...drop, ...put.map((a) => a.id)].flatMap((id) => scene.agents.get(id) ?? []);
+      const gone = put.filter((a) => !scene.agents.has(a.id)).map((a) => a.id);
+      return recast(name, { put: back, drop: gone, order: [...scene.agents.keys()], issued: scene.issued });
+    },
+  };
+}
+
+/** New road users; their ids come from `newIds`. */
+export function addAgents(scene: Scene, agents: readonly Agent[], name: string): Command {
+  const issued = Math.max(scene.issued, ...agents.map((a) => Number(numberIn(a.id) ?? 0)));
+  return recast(name, { put: agents, drop: [], issued });
+}
+
+/** They go with everything that is known of them, and come back with it. */
+export const removeAgents = (scene: Scene, ids: readonly string[], name: string): Command =>
+  recast(name, { put: [], drop: ids.filter((id) => scene.agents.has(id)), issued: scene.issued });
 
 type ScenePatch = Partial<
   Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration' | 'drawn'>
@@ -141,7 +210,7 @@ export function setLength(scene: Scene, length: Length): Command {
 }
 
 /** Two commands as one step. */
-function both(first: Command, second: Command): Command {
+export function both(first: Command, second: Command): Command {
   return {
     name: first.name,
     apply: (scene) => second.apply(first.apply(scene)),

@@ -128,6 +128,15 @@ export interface EditorJson {
   replan_s?: number;
   drawn?: number;
   picked?: Record<string, number>;
+  names?: Record<string, string>;
+  notes?: Record<string, string>;
+  locked?: string[];
+  /** What single road users do while others change. */
+  does?: Record<string, string>;
+  /** Who was put there and not recorded. */
+  placed?: string[];
+  /** The subtype that was recorded, of those that have been given another. */
+  was?: Record<string, string>;
 }
 export interface SceneJson {
   format?: string;

@@ -5,11 +5,14 @@ import {
   type AgentFuturesJson,
   type AgentJson,
   type ConditionJson,
+  type EditorJson,
   type MapJson,
   type SceneJson,
+  type TrackJson,
 } from './json';
 import { DEFAULTS } from './domain';
 import { isStill, motionFrom, poseAtStep, type Motion } from './motion';
+import { KIND_NAMES } from './kinds';
 import { emptyMotion, readFutures, withNames, type Futures, type MotionSet } from './futures';
 import {
   durationOf,
@@ -17,8 +20,10 @@ import {
   GOAL_TIME,
   logStartSpec,
   nameIn,
+  numberIn,
   readLength,
   readReplan,
+  rosterOf,
   sceneKey,
   startPose,
   type Agent,
@@ -42,10 +47,10 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   if (!source) throw new SceneError('The map of this scene is not here.');
   const map = buildMap(source);
   const steps =
-    json.time?.steps ?? Math.max(1, ...json.agents.map((a) => (a.track.first_step ?? 0) + a.track.x_m.length));
+    json.time?.steps ?? Math.max(1, ...json.agents.map((a) => (a.track?.first_step ?? 0) + (a.track?.x_m.length ?? 0)));
   const agents = new Map<string, Agent>();
   const names = namer(json.agents);
-  for (const a of json.agents) agents.set(a.id, readAgent(a, map, names(a), json));
+  for (const a of json.agents) agents.set(a.id, readAgent(a, map, names(a), json.x_editor ?? {}));
   const ed = json.x_editor ?? {};
   const length = readLength(ed.length_s);
   return Object.freeze({
@@ -64,6 +69,8 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
       states: s.states,
     })),
     agents,
+    roster: rosterOf(agents.values()),
+    issued: Math.max(0, ...Array.from(agents.keys(), (id) => Number(numberIn(id) ?? 0))),
     seed: ed.seed ?? DEFAULTS.seed,
     diversity: ed.diversity ?? DEFAULTS.diversity,
     others: readOthers(ed.others),
@@ -71,27 +78,67 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   });
 }
 
-const readOthers = (v: string | undefined): Others => (v === 'log' || v === 'still' ? v : 'react');
+/** The roster of a document, as `Scene.roster` has it. */
+export const rosterOfJson = (json: SceneJson): string =>
+  json.agents
+    .map((a) => {
+      const type = typeOf(a.conditions?.type ?? a.type);
+      return `${a.id}:${type}:${a.subtype ?? kindOf({ ...a, type })}`;
+    })
+    .join(' ');
 
-function readAgent(json: AgentJson, map: LaneMap, name: string, scene: SceneJson): Agent {
-  const log = motionFrom(json.track);
-  const logStart = poseAtStep(log, 0);
-  const type = (['vehicle', 'pedestrian', 'cyclist'].includes(json.type) ? json.type : 'other') as AgentType;
-  const kind = kindOf(json);
+const readOthers = (v: string | undefined): Others => (v === 'log' || v === 'still' ? v : 'react');
+const readDoes = (v: unknown): Others | null => (v === 'log' || v === 'still' || v === 'react' ? v : null);
+
+const typeOf = (t: string | null | undefined): AgentType =>
+  (['vehicle', 'pedestrian', 'cyclist'].includes(t ?? '') ? t : 'other') as AgentType;
+
+const NO_TRACK: TrackJson = { x_m: [], y_m: [], heading_rad: [] };
+
+/** Somebody of whom nothing but a fixed start is said. */
+function startTrack({ start: s }: ConditionJson): TrackJson | null {
+  if (s?.x_m == null || s.y_m == null) return null;
+  const h = s.heading_rad ?? 0,
+    v = s.speed_mps ?? 0;
+  return { x_m: [s.x_m], y_m: [s.y_m], heading_rad: [h], vx_mps: [v * Math.cos(h)], vy_mps: [v * Math.sin(h)] };
+}
+
+/** One state and a fixed start is how road users look that were put there. */
+function isPlaced(json: AgentJson, log: Motion, ed: EditorJson): boolean {
+  const single = log.valid.length === 1 && log.valid[0][0] === 0 && log.valid[0][1] === 1;
+  return single && json.type !== 'other' && (json.conditions?.start?.x_m != null || !!ed.placed?.includes(json.id));
+}
+
+/** `name`: what it is called unless it was given a name. */
+export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: EditorJson = {}): Agent {
   const c = json.conditions ?? {};
-  const picked = scene.x_editor?.picked?.[json.id];
+  const log = motionFrom(json.track?.x_m?.length ? json.track : (startTrack(c) ?? json.track ?? NO_TRACK));
+  const logStart = poseAtStep(log, 0);
+  const placed = isPlaced(json, log, ed);
+  const type = c.type ? typeOf(c.type) : typeOf(json.type);
+  const picked = ed.picked?.[json.id];
+  const called = ed.names?.[json.id] || null;
+  const subtype = json.subtype ?? null;
   return Object.freeze({
     id: json.id,
     type,
-    kind,
-    subtype: json.subtype ?? null,
-    name,
+    kind: kindOf({ ...json, type }),
+    subtype,
+    name: called ?? name,
+    called,
+    note: ed.notes?.[json.id] ?? '',
+    locked: !!ed.locked?.includes(json.id),
+    does: readDoes(ed.does?.[json.id]),
     length: c.length_m ?? json.length_m,
     width: c.width_m ?? json.width_m,
     logSize: [json.length_m, json.width_m] as const,
+    logType: typeOf(json.type),
+    logSubtype: ed.was?.[json.id] ?? subtype,
+    placed,
+    source: json,
     log,
     logStart,
-    parked: type === 'vehicle' && isStill(log) && offLanes(map, firstSeen(log)),
+    parked: type === 'vehicle' && !placed && isStill(log) && offLanes(map, firstSeen(log)),
     ego: json.role === 'ego',
     start: readStart(c, logStart),
     goal: readGoal(c),
@@ -158,7 +205,7 @@ function offLanes(map: LaneMap, p: Pose | null): boolean {
   return !p || nearestLanes(map, p.x, p.y, null, 1.6, (l) => l.kind === 'road').length === 0;
 }
 
-function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
+export function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: number }): Kind {
   if (a.type === 'pedestrian' || a.type === 'cyclist') return a.type;
   if (a.type !== 'vehicle') return 'other';
   switch (a.subtype) {
@@ -180,27 +227,17 @@ function kindOf(a: { type: string; subtype?: string; length_m: number; width_m: 
   return a.length_m > 11 ? 'bus' : a.length_m > 6.6 ? 'truck' : 'car';
 }
 
-const KIND_NAMES: Record<Kind, string> = {
-  car: 'Car',
-  truck: 'Truck',
-  bus: 'Bus',
-  motorcycle: 'Motorcycle',
-  cyclist: 'Cyclist',
-  pedestrian: 'Pedestrian',
-  other: 'Object',
-};
-
 /** Names carry the number in the id where that is short and unique, else a count of their own. */
 function namer(all: readonly AgentJson[]): (a: AgentJson) => string {
   const digits = new Map<string, number>();
-  const key = (a: AgentJson) => /(\d{1,5})$/.exec(a.id)?.[1];
+  const key = (a: AgentJson) => numberIn(a.id);
   for (const a of all) {
     const k = key(a);
     if (k) digits.set(k, (digits.get(k) ?? 0) + 1);
   }
   const count = new Map<Kind, number>();
   return (a) => {
-    const kind = kindOf(a);
+    const kind = kindOf({ ...a, type: a.conditions?.type ?? a.type });
     const k = key(a);
     if (k && digits.get(k) === 1) return `${KIND_NAMES[kind]} ${k}`;
     const n = (count.get(kind) ?? 0) + 1;

@@ -2,6 +2,7 @@
 // is not part of it, it is looked up by the document's key (see futures.ts).
 import type { LaneMap } from './lanemap';
 import { DEFAULTS } from './domain';
+import type { AgentJson } from './json';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 import { STEP_S, type Motion } from './motion';
 
@@ -28,9 +29,22 @@ export interface Agent {
   /** What the scene's author calls it; the kind is a guess from the size where nothing is said. */
   readonly subtype: string | null;
   readonly name: string;
+  /** The name that was given by hand; null where the kind and the number are the name. */
+  readonly called: string | null;
+  readonly note: string;
+  /** Refuses to be moved, changed and removed. */
+  readonly locked: boolean;
+  /** What it does while others change, where that is another thing than what the scene says of all. */
+  readonly does: Others | null;
   readonly length: number;
   readonly width: number;
   readonly logSize: readonly [number, number];
+  readonly logType: AgentType;
+  readonly logSubtype: string | null;
+  /** Put here by hand or by a program: nothing of it was recorded, so the generator decides all that it does. */
+  readonly placed: boolean;
+  /** As it came in the file; null for one that was put here since. */
+  readonly source: AgentJson | null;
   readonly log: Motion;
   /** State at 0 s in the log; null when the road user appears later. */
   readonly logStart: Pose | null;
@@ -63,6 +77,10 @@ export interface Scene {
   readonly map: LaneMap;
   readonly signals: readonly Signal[];
   readonly agents: ReadonlyMap<string, Agent>;
+  /** Who is in the scene and of which kind, as text: equal for equal casts. */
+  readonly roster: string;
+  /** The largest number that an id has ever had here: who comes new gets a larger one, also after somebody went. */
+  readonly issued: number;
   readonly seed: number;
   readonly diversity: number;
   readonly others: Others;
@@ -112,15 +130,42 @@ export const sameSpec = (a: StartSpec, b: StartSpec): boolean =>
 
 const startChanged = (a: Agent): boolean => !sameSpec(a.start, logStartSpec(a.logStart));
 export const sizeChanged = (a: Agent): boolean => a.length !== a.logSize[0] || a.width !== a.logSize[1];
+export const kindChanged = (a: Agent): boolean => a.type !== a.logType || a.subtype !== a.logSubtype;
 
-/** Has the user asked anything of this road user? */
-export const touched = (a: Agent): boolean => hasGoal(a.goal) || a.chosen !== null || startChanged(a) || sizeChanged(a);
+/** Has the user asked anything of this road user that the log could take back? */
+export const changedByHand = (a: Agent): boolean =>
+  hasGoal(a.goal) || a.chosen !== null || startChanged(a) || sizeChanged(a) || kindChanged(a);
+
+/** Is anything asked of this road user? One without a log has nothing else to follow. */
+export const touched = (a: Agent): boolean => a.placed || changedByHand(a);
 
 export function withAgents(scene: Scene, changes: Iterable<Agent>): Scene {
   const agents = new Map(scene.agents);
   for (const a of changes) agents.set(a.id, Object.freeze(a));
   return Object.freeze({ ...scene, agents });
 }
+
+const subtypeOf = (a: Pick<Agent, 'subtype' | 'kind'>): string => a.subtype ?? a.kind;
+export const rosterOf = (agents: Iterable<Agent>): string =>
+  Array.from(agents, (a) => `${a.id}:${a.type}:${subtypeOf(a)}`).join(' ');
+
+/** Another cast; the road users in the order they are given. */
+export function withRoster(scene: Scene, agents: ReadonlyMap<string, Agent>, issued = scene.issued): Scene {
+  return Object.freeze({ ...scene, agents, roster: rosterOf(agents.values()), issued });
+}
+
+/** The number at the end of an id, where it is short enough to be read. */
+export const numberIn = (id: string): string | undefined => /(\d{1,5})$/.exec(id)?.[1];
+
+/** Ids of their own for `n` who come new. */
+export function newIds(scene: Scene, n: number): string[] {
+  const ids: string[] = [];
+  for (let k = scene.issued + 1; ids.length < n; k++) if (!scene.agents.has(String(k))) ids.push(String(k));
+  return ids;
+}
+
+/** What a road user does while others change. */
+export const doing = (s: Scene, a: Agent): Others => a.does ?? s.others;
 
 /** Text that names everything the generator's answer depends on; equal keys, equal answers. */
 export function sceneKey(scene: Scene): string {
@@ -133,8 +178,11 @@ export function sceneKey(scene: Scene): string {
     scene.replan,
     scene.drawn,
   ];
-  for (const a of scene.agents.values())
+  parts.push(scene.roster);
+  for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
+    if (a.does) parts.push([a.id, a.does]);
+  }
   return JSON.stringify(parts);
 }
 
@@ -143,9 +191,9 @@ const MADE = ['drawn', 'placed', 'synthetic', 'sumo', 'demo', 'generated'];
 /** Recorded maps know nothing of what lies beside the road; made ones are drawn with grass and pavement. */
 export const isRecorded = (source: string): boolean => !MADE.includes(source);
 
-/** With the others held still nobody comes in from outside: it would run into those that stand. */
+/** Held still nobody comes in from outside: it would run into those that stand. */
 export const staysAway = (s: Scene, a: Agent): boolean =>
-  s.others === 'still' && a.type !== 'other' && a.logStart === null;
+  doing(s, a) === 'still' && a.type !== 'other' && a.logStart === null;
 
 /** What road users are called, by id; null for one that is not there. */
 export const nameIn =
@@ -154,3 +202,6 @@ export const nameIn =
     s.agents.get(id)?.name ?? null;
 
 export const canChange = (a: Agent): boolean => a.type !== 'other' && a.logStart !== null;
+
+/** May it be moved and asked things? */
+export const canMove = (a: Agent): boolean => canChange(a) && !a.locked;

@@ -15,11 +15,13 @@ export function num(value: number, decimals = 1): string {
 }
 
 export const metres = (v: number, decimals = v < 10 ? 1 : 0): string => `${num(v, decimals)} m`;
+/** The length or width of a road user: what is smaller than a metre has its centimetres. */
+export const sizeText = (v: number): string => num(v, v < 1 && Math.abs(v * 10 - Math.round(v * 10)) > 1e-6 ? 2 : 1);
 export const seconds = (v: number): string => `${num(v, 1)} s`;
 export const speedText = (mps: number, unit: SpeedUnit): string => num(toUnit(mps, unit), unit === 'm/s' ? 1 : 0);
 export const speedLabel = (mps: number, unit: SpeedUnit): string => `${speedText(mps, unit)} ${unit}`;
 
-export type Quantity = 'length' | 'angle' | 'time' | SpeedUnit;
+export type Quantity = 'count' | 'length' | 'angle' | 'time' | SpeedUnit;
 
 const UNITS: Record<string, (v: number, as: Quantity) => number | null> = {
   m: (v, as) => (as === 'length' ? v : null),
@@ -55,6 +57,29 @@ export function parseTyped(text: string, as: Quantity): number | null {
   if (value === null) return null;
   if (!m[2]) return value;
   return UNITS[m[2].toLowerCase()]?.(value, as) ?? null;
+}
+
+/**
+ * What was typed as a change of what is there: `+5` adds, `-=5` takes away, `*1.1` and `/2` scale; everything else is
+ * a value of its own. Null when it cannot be understood.
+ */
+export function readTyped(text: string, as: Quantity): ((now: number) => number) | null {
+  const m = /^\s*(\+=?|-=|\u2212=|[*×/])\s*(.+)$/.exec(text);
+  const v = parseTyped(m ? m[2] : text, as);
+  if (v === null) return null;
+  switch (m?.[1][0]) {
+    case undefined:
+      return () => v;
+    case '+':
+      return (now) => now + v;
+    case '*':
+    case '×':
+      return (now) => now * v;
+    case '/':
+      return v === 0 ? null : (now) => now / v;
+    default:
+      return (now) => now - v;
+  }
 }
 
 /** Sums and products without eval: the page's security policy forbids it, and rightly so. */

@@ -3,6 +3,7 @@ import type {
   AgentFuturesJson,
   AgentJson,
   ConditionJson,
+  EditorJson,
   GeneratedJson,
   GoalJson,
   MapJson,
@@ -17,6 +18,8 @@ import {
   GOAL_TIME,
   hasGoal,
   sameSpec,
+  doing,
+  kindChanged,
   logStartSpec,
   sizeChanged,
   startPose,
@@ -29,11 +32,13 @@ import type { Futures } from './futures';
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
 export function conditionOf(a: Agent): ConditionJson {
   const c: ConditionJson = {};
-  if (sizeChanged(a)) {
+  // What was put here says all of itself: the motion that it has in the file is its start alone.
+  if (a.type !== a.logType && !a.placed && a.type !== 'other') c.type = a.type;
+  if (sizeChanged(a) || a.placed) {
     c.length_m = a.length;
     c.width_m = a.width;
   }
-  if (!sameSpec(a.start, logStartSpec(a.logStart))) {
+  if (a.placed || !sameSpec(a.start, logStartSpec(a.logStart))) {
     const s: StartJson = { heading_rad: a.start.heading, speed_mps: a.start.speed };
     s.x_m = a.start.pos?.[0] ?? null;
     s.y_m = a.start.pos?.[1] ?? null;
@@ -110,6 +115,34 @@ export function generatedJson(
   };
 }
 
+/** One state, for somebody of whom nothing else is known. */
+function startTrack(a: Agent): TrackJson {
+  const p = startPose(a)!;
+  const [x, y, h, v] = [round(p.x, 1000), round(p.y, 1000), round(p.heading, 10000), Math.abs(p.speed)];
+  const velocity = { vx_mps: [round(v * Math.cos(h), 1000)], vy_mps: [round(v * Math.sin(h), 1000)] };
+  return { first_step: 0, valid: [[0, 1]], x_m: [x], y_m: [y], heading_rad: [h], ...velocity };
+}
+
+/** A road user as it stands in the file, its conditions left as they came. */
+function agentJson(a: Agent): AgentJson {
+  if (!a.placed && a.source) return kindChanged(a) && a.subtype ? { ...a.source, subtype: a.subtype } : a.source;
+  return {
+    ...a.source,
+    id: a.id,
+    type: a.type,
+    ...(a.subtype ? { subtype: a.subtype } : {}),
+    length_m: a.length,
+    width_m: a.width,
+    track: startTrack(a),
+  };
+}
+
+/** Everybody in the scene, as a question sends them; conditions go beside it. */
+export const castJson = (scene: Scene): AgentJson[] => [...scene.agents.values()].map(agentJson);
+
+/** A road user as a whole: for files and for copies. */
+export const wholeAgentJson = (a: Agent): AgentJson => ({ ...agentJson(a), conditions: conditionOf(a) });
+
 /** The scene as loaded with the user's changes written in; nothing else is touched. */
 export function writeScene(
   raw: SceneJson,
@@ -117,15 +150,11 @@ export function writeScene(
   generated: GeneratedJson | null,
   map?: MapJson | MapRef,
 ): SceneJson {
-  const agents = raw.agents.map((json): AgentJson => {
-    const a = scene.agents.get(json.id);
-    return a ? { ...json, conditions: conditionOf(a) } : json;
-  });
   return {
     ...raw,
     name: scene.name,
     map: map ?? raw.map,
-    agents,
+    agents: Array.from(scene.agents.values(), wholeAgentJson),
     generated,
     x_editor: {
       seed: scene.seed,
@@ -134,31 +163,48 @@ export function writeScene(
       length_s: scene.length,
       replan_s: scene.replan,
       ...(scene.drawn ? { drawn: scene.drawn } : {}),
-      ...picks(scene),
+      ...ofAgents(scene.agents.values()),
     },
   };
 }
 
-function picks(scene: Scene): { picked?: Record<string, number> } {
-  const picked = Object.fromEntries(
-    [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => [a.id, a.chosen!]),
-  );
-  return Object.keys(picked).length ? { picked } : {};
+/** What only the editor knows of single road users. */
+export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
+  const all = [...agents];
+  const entries = <T>(of: (a: Agent) => T | null | undefined): Record<string, T> | undefined => {
+    const list = all.flatMap((a): [string, T][] => {
+      const v = of(a);
+      return v === null || v === undefined || v === '' ? [] : [[a.id, v]];
+    });
+    return list.length ? Object.fromEntries(list) : undefined;
+  };
+  const ids = (which: (a: Agent) => boolean): string[] | undefined => {
+    const list = all.filter(which).map((a) => a.id);
+    return list.length ? list : undefined;
+  };
+  const ed: Partial<EditorJson> = {
+    picked: entries((a) => a.chosen),
+    names: entries((a) => a.called),
+    notes: entries((a) => a.note),
+    locked: ids((a) => a.locked),
+    does: entries((a) => a.does),
+    placed: ids((a) => a.placed),
+    was: entries((a) => (a.placed || a.subtype === a.logSubtype ? null : a.logSubtype)),
+  };
+  return Object.fromEntries(Object.entries(ed).filter(([, v]) => v !== undefined));
 }
 
-/** The same scene with everybody but `keep` standing where it starts. Who would drive in later stays away. */
-export function stillAgents(raw: SceneJson, scene: Scene, keep: ReadonlySet<string>): AgentJson[] {
-  return raw.agents
-    .filter((json) => {
-      const a = scene.agents.get(json.id);
-      return !a || !staysAway(scene, a);
-    })
-    .map((json) => {
-      const a = scene.agents.get(json.id);
-      const p = a && startPose(a);
-      if (!p || keep.has(json.id)) return json;
-      const same = (v: number) => json.track.x_m.map(() => v);
-      return {
+/** The same with those who hold still standing where they start. Who would come in later then stays away. */
+export function withStill(scene: Scene, cast: readonly AgentJson[], keep: ReadonlySet<string>): AgentJson[] {
+  return cast.flatMap((json) => {
+    const a = scene.agents.get(json.id);
+    if (!a || doing(scene, a) !== 'still' || keep.has(json.id)) return [json];
+    if (staysAway(scene, a)) return [];
+    const p = startPose(a);
+    if (!p) return [json];
+    const same = (v: number) => json.track.x_m.map(() => v);
+    return [
+      {
         ...json,
         track: {
           ...json.track,
@@ -168,6 +214,7 @@ export function stillAgents(raw: SceneJson, scene: Scene, keep: ReadonlySet<stri
           vx_mps: same(0),
           vy_mps: same(0),
         },
-      };
-    });
+      },
+    ];
+  });
 }

@@ -1,6 +1,6 @@
 // Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
 // answer at all (`Away`).
-import type { ImportReply, Problem, SceneJson, SceneList, ScoreReply } from './types';
+import type { ImportReply, PlaceReply, Problem, SceneJson, SceneList, ScoreReply } from './types';
 import type { MapJson } from '../model/json';
 
 export class Away extends Error {}
@@ -156,6 +156,16 @@ export class Client {
       signal,
     });
     return (await reply.json()) as ScoreReply;
+  }
+
+  /** Road users put on the lanes of a scene; nothing is stored. */
+  async place(body: unknown): Promise<PlaceReply> {
+    const reply = await this.request('/v1/place', {
+      method: 'POST',
+      body: JSON.stringify(body),
+      headers: { 'Content-Type': 'application/json' },
+    });
+    return (await reply.json()) as PlaceReply;
   }
 
   async exportScene(body: SceneJson, format: string): Promise<{ blob: Blob; name: string; loss: string | null }> {

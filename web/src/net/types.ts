@@ -1,12 +1,14 @@
 // The API as the editor uses it: names for parts of the generated document. What the editor does, a script can do:
 // nothing here is private.
 import type { components } from '../model/api';
-import type { AgentFuturesJson, SceneJson } from '../model/json';
+import type { AgentFuturesJson, AgentJson, SceneJson } from '../model/json';
 
 type Schemas = components['schemas'];
 
 export type SceneListItem = Schemas['SceneItem'];
 export type SceneList = Schemas['SceneList'];
+/** Road users in the shape of a document. */
+export type PlaceReply = Omit<Schemas['PlaceReply'], 'agents'> & { agents: AgentJson[] };
 export type ImportReply = Schemas['ImportReply'];
 
 /** A refusal. An answer that came without a problem document has its status as its code, and a title. */

@@ -491,6 +491,12 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await time.fill('25');
     await time.press('Enter');
     await d.settled();
+    // What is past the end is not taken, and nothing is cut off in silence.
+    expect(await d.text('.field .why')).toBe('1 to 20 s');
+    expect(d.last().conditions['1'].goal!.time_s).toBe(9);
+    await time.fill('+11');
+    await time.press('Enter');
+    await d.settled();
     expect(await d.value('goal-time')).toBe(20);
     expect(d.last().conditions['1'].goal!.time_s).toBe(20);
     await d.page.evaluate(() => (document.activeElement as HTMLElement).blur());

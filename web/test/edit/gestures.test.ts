@@ -166,7 +166,7 @@ describe('dragging a handle', () => {
     p.editor.setTime(3);
     p.down(A);
     p.move(B);
-    expect(p.state).toBe('panning');
+    expect(p.state).toBe('marquee');
   });
 });
 

@@ -22,6 +22,8 @@ export class Pointer {
   calm = true;
   /** How often two ticks were felt. */
   ticked = 0;
+  /** What menus were asked for. */
+  readonly menus: string[] = [];
   readonly chart: Chart;
 
   constructor() {
@@ -42,6 +44,7 @@ export class Pointer {
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
       calm: () => this.calm,
       ticks: () => this.ticked++,
+      menu: (_, on) => this.menus.push(on),
       tool: toolOf,
     });
   }

@@ -1,4 +1,5 @@
 // The road users as a list, for those who do not see the canvas.
+import { useMemo } from 'preact/hooks';
 import { useComputed, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { canChange, hasGoal, startPose, type Agent } from '../../model/scene';
@@ -20,9 +21,14 @@ export function RoadUsers() {
 
 function List() {
   const { editor } = useApp();
-  const listed = [...editor.scene.peek()!.agents.values()].filter(canChange).map((a) => a.id);
+  // Who comes or goes makes another list; who only changes does not.
+  const roster = useComputed(() => editor.scene.value?.roster).value;
+  const listed = useMemo(
+    () => [...(editor.scene.peek()?.agents.values() ?? [])].filter(canChange).map((a) => a.id),
+    [roster, editor],
+  );
   /** The one that Tab comes to: who is selected, else the first. */
-  const tabStop = useComputed(() => editor.selection.value ?? listed[0]);
+  const tabStop = useComputed(() => editor.selected.value[0] ?? editor.scene.value?.agents.keys().next().value);
   return (
     <ul>
       {listed.map((id) => (
@@ -43,7 +49,7 @@ function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string 
     () => editor.events.value.find((e) => !e.inLog && (e.a.id === id || e.b?.id === id))?.label ?? '',
   );
   const words = useComputed(() => wordsFor(c, agent.value, event.value));
-  const pressed = useComputed(() => String(editor.selection.value === id));
+  const pressed = useComputed(() => String(editor.selected.value.includes(id)));
   const tabindex = useComputed(() => (tabStop.value === id ? 0 : -1));
   return (
     <button
@@ -51,7 +57,11 @@ function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string 
       data-agent={id}
       tabindex={tabindex}
       aria-pressed={pressed as never}
-      onClick={() => editor.select(id)}
+      onClick={(e) => {
+        if (e.shiftKey) editor.toggleSelected(id);
+        else editor.select(id);
+        c.reveal([id]);
+      }}
     >
       {words}
     </button>

@@ -20,7 +20,7 @@ const MOST = 60;
 const MOST_OF_A_KIND = 8;
 const MOST_RECENT = 4;
 /** Groups that stand under the name of the selected road user. */
-const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move'];
+const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move', 'Edit'];
 const SCENES = 'Scenes';
 
 export function find(c: Context, typed: string): Entry[] {
@@ -80,7 +80,7 @@ function actions(c: Context, words: readonly string[]): Entry[] {
 
 const possibleEntry = { keys: [], off: false } as const;
 
-function roadUsers({ editor, stage }: Context, words: readonly string[]): Entry[] {
+function roadUsers({ editor, reveal }: Context, words: readonly string[]): Entry[] {
   return [...(editor.scene.peek()?.agents.values() ?? [])]
     .filter((a) => fit(a.name, words) || a.id === words[0])
     .slice(0, MOST_OF_A_KIND)
@@ -92,9 +92,7 @@ function roadUsers({ editor, stage }: Context, words: readonly string[]): Entry[
       icon: a.kind,
       run() {
         editor.select(a.id);
-        if (!a.logStart) return;
-        const { x, y } = a.logStart;
-        stage.glide.by((v) => v.centre(x, y));
+        reveal([a.id]);
       },
     }));
 }

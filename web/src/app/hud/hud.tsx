@@ -1,12 +1,18 @@
 // Everything that floats over the picture: rail, layers, status, scale, zoom, hint, toast, banner, hover card.
+import { Fragment } from 'preact';
 import { useComputed } from '@preact/signals';
+import { typeOfKind } from '../../model/kinds';
+import { placedBy } from '../../actions/place';
 import { actionOf } from '../../actions/registry';
 import { TOOLS } from '../../edit/gestures/tools';
+import type { Spread } from '../../edit/placing';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Banner } from './banner';
+import { EmptyScene } from './empty-scene';
 import { Coach, Toast } from './messages';
 import { HoverCard } from './hover-card';
+import { PlacePanel } from './place-panel';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
 import { WayBack } from './way-back';
@@ -14,8 +20,13 @@ import { WayBack } from './way-back';
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
 export function Hud() {
-  const { editor, ui } = useApp();
+  const c = useApp();
+  const { editor, ui } = c;
   const shift = ui.drawer.value ? 'shift' : '';
+  const placing = useComputed(() => {
+    const kind = placedBy(c);
+    return kind && editor.placement.choice(kind).spread;
+  }).value;
   return (
     <div class="hud">
       <Rail />
@@ -32,7 +43,9 @@ export function Hud() {
         </div>
         <ScaleBar />
       </div>
-      {editor.dragging.value ? <DragHelp /> : <ZoomBar />}
+      {editor.dragging.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
+      <PlacePanel />
+      <EmptyScene />
       <WayBack />
       <Coach />
       <Toast />
@@ -45,12 +58,23 @@ export function Hud() {
 function Rail() {
   return (
     <nav class="rail" aria-label="Tools">
-      {TOOLS.map(({ name }) => (
-        <ActionButton key={name} id={`tool-${name}`} size={20}>
-          <em>{actionOf(`tool-${name}`).keys![0]}</em>
-        </ActionButton>
+      {TOOLS.map((tool, i) => (
+        <Fragment key={tool.name}>
+          {i && 'places' in tool && !('places' in TOOLS[i - 1]) ? <hr /> : null}
+          <Tool id={`tool-${tool.name}`} class={'places' in tool ? `t-${typeOfKind(tool.places)}` : ''} />
+        </Fragment>
       ))}
+      <hr />
+      <Tool id="fill" />
     </nav>
+  );
+}
+
+function Tool({ id, class: className }: { id: string; class?: string }) {
+  return (
+    <ActionButton id={id} size={20} class={className} iconOnly>
+      <em>{actionOf(id).keys![0]}</em>
+    </ActionButton>
   );
 }
 
@@ -76,24 +100,75 @@ const AT_KERB = [
   ['Shift', 'along the lane'],
 ] as const;
 
+const SEVERAL = {
+  body: [
+    ['Shift', 'one direction'],
+    ['Ctrl', 'goals too'],
+  ],
+  heading: [
+    ['Shift', '15° steps'],
+    ['Alt', 'each about itself'],
+  ],
+} as const;
+
+const PLACING: Record<Spread, readonly (readonly [string, string])[]> = {
+  one: [
+    ['[', 'turn left'],
+    [']', 'turn right'],
+    ['Alt', 'no snapping'],
+    ['Esc', 'done'],
+  ],
+  line: [['Esc', 'done']],
+  area: [['Esc', 'done']],
+};
+const PLACING_WORDS: Record<Spread, string> = {
+  one: 'Click to place, drag to set the heading',
+  line: 'Drag a line to place them along it',
+  area: 'Drag over the ground to spread them',
+};
+
+function PlaceHelp({ spread }: { spread: Spread }) {
+  return (
+    <div class="card helpbar">
+      <span class="mut">{PLACING_WORDS[spread]}</span>
+      <div class="sep" />
+      {PLACING[spread].map(([key, text]) => (
+        <span key={key}>
+          <KeyCaps of={key} />
+          {text}
+        </span>
+      ))}
+    </div>
+  );
+}
+
 function DragHelp() {
   const { editor } = useApp();
+  const several = editor.selected.peek().length > 1;
   const handle = useComputed(() => editor.drag.value?.grip.handle ?? 'body').value;
   const shown = editor.showForeseen.value;
   const react = editor.scene.peek()?.others === 'react';
   const held = useComputed(() => !!editor.drag.value?.lag).value;
   const answers = ['H', `${shown ? 'hide' : 'show'} the others’ answers`] as const;
-  const tips = held ? AT_KERB : react ? [...TIPS[handle].slice(0, 1), answers] : TIPS[handle];
+  const tips = several
+    ? SEVERAL[handle === 'heading' ? 'heading' : 'body']
+    : held
+      ? AT_KERB
+      : react
+        ? [...TIPS[handle].slice(0, 1), answers]
+        : TIPS[handle];
   return (
     <div class="card helpbar">
       <span class="mut">
         {held
           ? 'The flag lags behind while a kerb is in the way'
-          : !react
-            ? 'Let go to work it out'
-            : shown
-              ? 'Dashed boxes: where they would wait'
-              : 'Others react when you let go'}
+          : several
+            ? 'Others react when you let go'
+            : !react
+              ? 'Let go to work it out'
+              : shown
+                ? 'Dashed boxes: where they would wait'
+                : 'Others react when you let go'}
       </span>
       <div class="sep" />
       {[...tips, ['Esc', 'put back']].map(([key, text]) => (

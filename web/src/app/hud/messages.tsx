@@ -32,7 +32,7 @@ export function Toast() {
   const { notices } = editor;
   const toast = notices.toast.value;
   if (!toast) return null;
-  const { text, undo, action } = toast;
+  const { text, undo, action, second } = toast;
   return (
     <div class={`toast ${undo || action ? '' : 'plain'} ${ui.drawer.value ? 'shift' : ''}`}>
       <span>{text}</span>
@@ -41,18 +41,23 @@ export function Toast() {
           Undo
           <KeyCaps of="Ctrl+Z" />
         </button>
-      ) : action ? (
-        <button
-          type="button"
-          class="btn"
-          onClick={() => {
-            notices.hide();
-            action.run();
-          }}
-        >
-          {action.label}
-        </button>
-      ) : null}
+      ) : (
+        [action, second].map((a) =>
+          a ? (
+            <button
+              key={a.label}
+              type="button"
+              class="btn"
+              onClick={() => {
+                notices.hide();
+                a.run();
+              }}
+            >
+              {a.label}
+            </button>
+          ) : null,
+        )
+      )}
     </div>
   );
 }

@@ -1,6 +1,8 @@
 // The status line: what the generator is doing, or what happens in the scene.
 import { summary, worstOf, type TrafficEvent } from '../../model/events';
+import { KIND_NAMES } from '../../model/kinds';
 import { touched } from '../../model/scene';
+import { placedBy } from '../../actions/place';
 import type { Context } from '../../actions/context';
 import type { Status as GeneratorStatus } from '../../edit/answers';
 import { outOfReach } from '../../edit/goal-verdict';
@@ -18,7 +20,12 @@ export function Status() {
   const s = editor.status.value;
   // At an event the line says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
+  const kind = placedBy(c);
+  if (kind) return <Row dot="" text={`Placing: ${KIND_NAMES[kind].toLowerCase()}`} />;
   if (s.kind === 'refining') return <Refining {...s} />;
+  const some = editor.selected.value.length;
+  if (some > 1 && (s.kind === 'settled' || s.kind === 'ready'))
+    return <Row dot="busy" text={`${some} of ${editor.scene.value!.agents.size} selected`} />;
   return <Row {...lineFor(c, s)} />;
 }
 
@@ -104,6 +111,7 @@ function sceneLine({ editor }: Context): Line {
   const scene = editor.scene.value;
   if (!scene) return { dot: '', text: 'Ready' };
   const { size } = scene.agents;
+  if (!size) return { dot: '', text: `Map ready · ${scene.map.lanes.size} lanes` };
   if (!editor.layers.value.log) return { dot: '', text: `Ready · ${size} road users` };
   const edited = [...scene.agents.values()].filter(touched).length;
   return { dot: '', text: `Log shown dashed · ${edited} of ${size} road users edited` };

@@ -1,10 +1,13 @@
 // The inspector of one road user: verdict on the goal, start, goal, six futures, who changed.
+import type { ComponentChildren } from 'preact';
+import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { canChange, hasGoal, startPose, touched, type Agent } from '../../model/scene';
+import { canChange, changedByHand, hasGoal, startPose, touched, type Agent } from '../../model/scene';
 import { seconds } from '../../model/units';
+import { callIt, noteOn } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
 import { useApp } from '../parts/app-context';
-import { ActionButton, IconButton } from '../parts/buttons';
+import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Changes } from './changes';
 import { FuturesSection } from './futures-section';
@@ -23,10 +26,13 @@ export function AgentPanel({ id }: { id: string }) {
         <>
           <Hint agent={agent} />
           <Warnings agent={agent} />
-          <StartSection agent={agent} />
-          <GoalSection agent={agent} />
+          <Locked agent={agent}>
+            <StartSection agent={agent} />
+            <GoalSection agent={agent} />
+          </Locked>
           <FuturesSection agent={agent} />
           <Changes />
+          <NoteSection agent={agent} />
           <div class="grow" />
           <Foot agent={agent} />
         </>
@@ -51,7 +57,8 @@ const sentenceCase = (s: string): string => s.charAt(0).toUpperCase() + s.slice(
 
 function Head({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const { parked, type, kind, name } = agent.peek();
+  const kind = useComputed(() => agent.value.kind).value;
+  const colour = useComputed(() => (agent.value.parked ? 'parked' : agent.value.type)).value;
   const where = useComputed(() => {
     const a = agent.value;
     const p = startPose(a);
@@ -61,16 +68,123 @@ function Head({ agent }: { agent: LiveAgent }) {
   });
   return (
     <div class="ih">
-      <div class={`ag t-${parked ? 'parked' : type}`}>
+      <div class={`ag t-${colour}`}>
         <Icon name={kind} size={22} />
       </div>
       <div class="grow">
-        <h2>{name}</h2>
+        <NameField agent={agent} />
         <p>{where}</p>
       </div>
       <IconButton id="follow" />
       <IconButton id="zoom-selection" />
+      <IconButton id="menu" icon="more" />
     </div>
+  );
+}
+
+/** The name, to be changed in place; emptied, it is the kind and the number again. */
+function NameField({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const input = useRef<HTMLInputElement>(null);
+  const name = useComputed(() => agent.value.name);
+  const done = () => {
+    if (!input.current) return;
+    const typed = input.current.value.trim();
+    if (typed !== name.peek()) editor.run(callIt(agent.peek(), typed || null));
+    input.current.value = name.peek();
+  };
+  return (
+    <h2>
+      <input
+        ref={input}
+        type="text"
+        class="name"
+        data-text="name"
+        aria-label="Name of the road user"
+        maxlength={60}
+        spellcheck={false}
+        value={name}
+        onBlur={done}
+        onKeyDown={(e) => {
+          if (e.key === 'Escape') input.current!.value = name.peek();
+          if (e.key !== 'Enter' && e.key !== 'Escape') return;
+          input.current!.blur();
+          e.stopPropagation();
+        }}
+      />
+      <span class="sr">{name}</span>
+    </h2>
+  );
+}
+
+/** What is locked is shown, not changed. */
+function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChildren }) {
+  const locked = useComputed(() => agent.value.locked).value;
+  return (
+    <>
+      {locked ? (
+        <div class="sect lockline">
+          <Icon name="lock" size={15} />
+          <span class="grow">Locked: it stays as it is.</span>
+          <ActionButton id="lock" class="line" icon="" size={15}>
+            Unlock
+          </ActionButton>
+        </div>
+      ) : null}
+      <fieldset class="fields" disabled={locked}>
+        {children}
+      </fieldset>
+    </>
+  );
+}
+
+/** A note of one's own, and what it does while others change. */
+function NoteSection({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const area = useRef<HTMLTextAreaElement>(null);
+  const note = useComputed(() => agent.value.note);
+  const asked = useComputed(() => touched(agent.value)).value;
+  return (
+    <section class="sect">
+      {asked ? null : (
+        <>
+          <h3>
+            While others change
+            <small>this one alone</small>
+          </h3>
+          <Segments
+            label="What it does while others change"
+            items={[
+              ['does-react', 'Reacts'],
+              ['does-log', 'Replays log'],
+              ['does-still', 'Holds still'],
+            ]}
+          />
+        </>
+      )}
+      <textarea
+        ref={area}
+        class="notes"
+        data-text="note"
+        aria-label="Note"
+        placeholder="Note"
+        rows={1}
+        maxlength={2000}
+        value={note}
+        onBlur={() => {
+          if (!area.current) return;
+          const typed = area.current.value.trim();
+          if (typed !== note.peek()) editor.run(noteOn(agent.peek(), typed));
+        }}
+        onKeyDown={(e) => {
+          if (e.key === 'Escape') {
+            area.current!.value = note.peek();
+            area.current!.blur();
+            e.stopPropagation();
+          }
+        }}
+      />
+    </section>
   );
 }
 
@@ -96,7 +210,7 @@ function Warnings({ agent }: { agent: LiveAgent }) {
 
 function Foot({ agent }: { agent: LiveAgent }) {
   const goal = useComputed(() => hasGoal(agent.value.goal)).value;
-  const changed = useComputed(() => touched(agent.value)).value;
+  const changed = useComputed(() => changedByHand(agent.value) && !agent.value.placed).value;
   return (
     <div class="sect foot">
       {goal ? (

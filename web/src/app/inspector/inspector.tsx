@@ -4,16 +4,20 @@ import { useApp } from '../parts/app-context';
 import { AgentPanel } from './agent-panel';
 import { EventsPanel } from './events-panel';
 import { ScenePanel } from './scene-panel';
+import { SeveralPanel } from './several-panel';
 
 export function Inspector() {
   const { editor, ui } = useApp();
   const events = useComputed(() => ui.eventsPanel.value && editor.events.value.length > 0).value;
   const scene = useComputed(() => editor.scene.value?.id).value;
   const selected = editor.selection.value;
+  const several = useComputed(() => editor.selected.value.length > 1).value;
   return (
     <aside class="insp" aria-label="Inspector" data-group="inspector">
       {events ? (
         <EventsPanel />
+      ) : several ? (
+        <SeveralPanel />
       ) : selected ? (
         <AgentPanel key={`agent:${selected}`} id={selected} />
       ) : (

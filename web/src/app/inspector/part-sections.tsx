@@ -1,18 +1,23 @@
 // Start and goal: every field with its value, and whether one decides it or leaves it to the generator.
 import type { ComponentChildren } from 'preact';
 import { useComputed } from '@preact/signals';
-import { deg, rad, wrapAngle, type Vec } from '../../model/geometry';
+import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/geometry';
 import { rangesOf, topSpeed } from '../../model/domain';
+import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/kinds';
 import { hasGoal, type GoalSpec } from '../../model/scene';
-import { fromUnit, num, speedText, toUnit } from '../../model/units';
+import { fromUnit, num, sizeText, speedText, toUnit } from '../../model/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
-import { goalTime, resize, shownPose, toggleField, withField } from '../../edit/moves';
+import { goalTime, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
+import { setKind } from '../../edit/several';
 import { laneWords } from '../../edit/snap';
 import { leaveGiven } from '../../edit/ways-out';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
-import { NumberField } from '../parts/number-field';
+import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
 import type { LiveAgent } from './use-agent';
+
+/** Places lie within this many metres of the middle of the scene. */
+const FAR_M = 10_000;
 
 export function StartSection({ agent }: { agent: LiveAgent }) {
   return (
@@ -23,6 +28,7 @@ export function StartSection({ agent }: { agent: LiveAgent }) {
         <small>at 0.0 s</small>
       </h3>
       <PoseRows agent={agent} part="start" />
+      <TypeRow agent={agent} />
       <Row label="Size">
         <SizeField agent={agent} name="length" letter="L" />
         <SizeField agent={agent} name="width" letter="W" />
@@ -40,10 +46,11 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
     return hasGoal(a.goal) ? 'partly free' : 'free: the generator decides';
   });
-  const run = (time: number) => {
-    const rounded = Math.round(goalTime(editor.scene.peek(), time) * 10) / 10;
-    editor.run(withField(agent.peek(), 'goal', { time: rounded }));
+  const run = (time: number, live = false) => {
+    const rounded = Math.round(goalTime(editor.scene.peek(), time) * 100) / 100;
+    editor.run(withField(agent.peek(), 'goal', { time: rounded }, live));
   };
+  const time = { value: () => agent.value.goal.time, step: 0.1, set: run, range: () => timeRange(editor.scene.value) };
   return (
     <section class="sect goalsec" aria-label="Goal">
       <h3>
@@ -54,17 +61,15 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
         <small>{place}</small>
       </h3>
       <PoseRows agent={agent} part="goal" />
-      <Row label="Time">
+      <Row label="Time" scrub={time}>
         <NumberField
+          {...time}
           label="Time at the goal in seconds"
           unit={() => 's'}
           quantity={() => 'time'}
-          step={0.1}
           field="goal-time"
           live={() => editor.drag.value?.grip.handle === 'time'}
-          value={() => agent.value.goal.time}
           text={() => num(agent.value.goal.time, 1)}
-          set={run}
         />
       </Row>
       <LeaveLine agent={agent} />
@@ -94,12 +99,14 @@ interface RowProps {
   label: string;
   children: ComponentChildren;
   end?: ComponentChildren;
+  /** The label is dragged to change the value. */
+  scrub?: Pick<NumberFieldProps, 'value' | 'step' | 'set' | 'range'>;
 }
 
-function Row({ label, children, end }: RowProps) {
+function Row({ label, children, end, scrub }: RowProps) {
   return (
     <div class="pr">
-      <span class="lab">{label}</span>
+      {scrub ? <Scrub letter={label} class="lab scrub" {...scrub} /> : <span class="lab">{label}</span>}
       <div class="fs">{children}</div>
       {end ?? <span />}
     </div>
@@ -121,7 +128,7 @@ function usePart({ agent, part }: PartProps) {
     word: WORD[part],
     spec: () => agent.value[part],
     shown: () => shownPose(editor, agent.value, part),
-    run: (patch: Partial<GoalSpec>) => editor.run(withField(agent.peek(), part, patch)),
+    run: (patch: Partial<GoalSpec>, live = false) => editor.run(withField(agent.peek(), part, patch, live)),
     dragged: (handle: HandleName) => {
       const grip = editor.drag.value?.grip;
       return grip?.part === part && grip.handle === handle;
@@ -144,12 +151,8 @@ function PoseRows(props: PartProps) {
         <Coordinate {...props} axis={0} />
         <Coordinate {...props} axis={1} />
       </Row>
-      <Row label="Heading" end={<FixedPill {...props} field="heading" label="heading" />}>
-        <HeadingField {...props} />
-      </Row>
-      <Row label="Speed" end={<FixedPill {...props} field="speed" label="speed" />}>
-        <SpeedField {...props} />
-      </Row>
+      <HeadingRow {...props} />
+      <SpeedRow {...props} />
     </>
   );
 }
@@ -185,9 +188,9 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
   const { word, spec, shown, run, dragged, focused } = usePart(props);
   const name = axis ? 'y' : 'x';
   const free = () => spec().pos === null;
-  const set = (v: number) => {
+  const set = (v: number, live?: boolean) => {
     const p = shown();
-    if (p) run({ pos: Object.freeze(axis ? [p.x, v] : [v, p.y]) as Vec });
+    if (p) run({ pos: Object.freeze(axis ? [p.x, v] : [v, p.y]) as Vec }, live);
   };
   return (
     <NumberField
@@ -199,6 +202,7 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
       field={`${props.part}-pos`}
       value={() => shown()?.[name] ?? null}
       text={() => about(free(), shown()?.[name], (v) => num(v, 1))}
+      range={() => [-FAR_M, FAR_M]}
       free={free}
       live={() => dragged('body')}
       set={set}
@@ -207,57 +211,112 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
   );
 }
 
-function HeadingField(props: PartProps) {
+function HeadingRow(props: PartProps) {
   const { editor, word, spec, shown, run, dragged, focused } = usePart(props);
   const degrees = (radians: number): number => Math.round(deg(radians));
   const free = () => spec().heading === null;
+  const field = {
+    step: 1,
+    value: () => {
+      const p = shown();
+      return p ? degrees(p.heading) : null;
+    },
+    set: (v: number, live?: boolean) => {
+      editor.setHeadingFollows(props.part, props.agent.peek(), false);
+      run({ heading: wrapAngle(rad(v)) }, live);
+    },
+  };
   return (
-    <NumberField
-      label={`${word} heading in degrees`}
-      unit={() => '°'}
-      quantity={() => 'angle'}
-      step={1}
-      field={`${props.part}-heading`}
-      value={() => {
-        const p = shown();
-        return p ? degrees(p.heading) : null;
-      }}
-      text={() => about(free(), shown()?.heading, (v) => num(degrees(v), 0))}
-      free={free}
-      live={() => dragged('heading')}
-      set={(v) => {
-        editor.setHeadingFollows(props.part, props.agent.peek(), false);
-        run({ heading: wrapAngle(rad(v)) });
-      }}
-      onFocus={focused('heading')}
-    />
+    <Row label="Heading" scrub={field} end={<FixedPill {...props} field="heading" label="heading" />}>
+      <NumberField
+        {...field}
+        label={`${word} heading in degrees`}
+        unit={() => '°'}
+        quantity={() => 'angle'}
+        field={`${props.part}-heading`}
+        text={() => about(free(), shown()?.heading, (v) => num(degrees(v), 0))}
+        free={free}
+        live={() => dragged('heading')}
+        onFocus={focused('heading')}
+      />
+    </Row>
   );
 }
 
-function SpeedField(props: PartProps) {
+function SpeedRow(props: PartProps) {
   const { editor, word, spec, shown, run, dragged, focused } = usePart(props);
   const { agent } = props;
-  const onFoot = agent.peek().type === 'pedestrian';
+  const onFoot = useComputed(() => agent.value.type === 'pedestrian').value;
   const unit = () => editor.unitOf(agent.value);
   const free = () => spec().speed === null;
+  const field = {
+    step: onFoot ? 0.1 : 1,
+    value: () => {
+      const p = shown();
+      return p ? Number(toUnit(p.speed, unit()).toFixed(2)) : null;
+    },
+    set: (v: number, live?: boolean) => run({ speed: clamp(fromUnit(v, unit()), 0, topSpeed(agent.peek())) }, live),
+    range: () => [0, toUnit(topSpeed(agent.value), unit())] as const,
+  };
   return (
-    <NumberField
-      label={`${word} speed`}
-      unit={unit}
-      quantity={unit}
-      step={onFoot ? 0.1 : 1}
-      field={`${props.part}-speed`}
-      value={() => {
-        const p = shown();
-        return p ? Number(toUnit(p.speed, unit()).toFixed(2)) : null;
-      }}
-      text={() => about(free(), shown()?.speed, (v) => speedText(v, unit()))}
-      free={free}
-      live={() => dragged('speed')}
-      set={(v) => run({ speed: Math.min(topSpeed(agent.peek()), Math.max(0, fromUnit(v, unit()))) })}
-      onUnit={onFoot ? undefined : () => editor.setUnit(editor.speedUnit.peek() === 'km/h' ? 'mph' : 'km/h')}
-      onFocus={focused('speed')}
-    />
+    <Row label="Speed" scrub={field} end={<FixedPill {...props} field="speed" label="speed" />}>
+      <NumberField
+        {...field}
+        label={`${word} speed`}
+        unit={unit}
+        quantity={unit}
+        field={`${props.part}-speed`}
+        text={() => about(free(), shown()?.speed, (v) => speedText(v, unit()))}
+        free={free}
+        live={() => dragged('speed')}
+        onUnit={onFoot ? undefined : () => editor.setUnit(editor.speedUnit.peek() === 'km/h' ? 'mph' : 'km/h')}
+        onFocus={focused('speed')}
+      />
+    </Row>
+  );
+}
+
+/** What it is: a kind in one of its usual sizes. Another kind is another expert. */
+function TypeRow({ agent }: { agent: LiveAgent }) {
+  const { editor } = useApp();
+  const shown = useComputed(() => {
+    const { kind, subtype, length, width } = agent.value;
+    const i =
+      kind === 'other'
+        ? -1
+        : PRESETS[kind].findIndex(
+            (p) => p.length === length && p.width === width && (p.subtype === subtype || subtype === null),
+          );
+    return i < 0 ? `${kind}:own` : `${kind}:${i}`;
+  });
+  const choose = (value: string) => {
+    const [kind, i] = value.split(':') as [PlacedKind, string];
+    const size = PRESETS[kind]?.[Number(i)];
+    const command = size && setKind([agent.peek()], kind, size);
+    if (command) editor.run(command);
+  };
+  const own = useComputed(() => (shown.value.endsWith(':own') ? agent.value.kind : null)).value;
+  return (
+    <Row label="Type">
+      <select
+        class="field pick"
+        aria-label="Type"
+        data-field="type"
+        value={shown.value}
+        onChange={(e) => choose(e.currentTarget.value)}
+      >
+        {PLACED_KINDS.map((kind) => (
+          <optgroup key={kind} label={KIND_NAMES[kind]}>
+            {own === kind ? <option value={`${kind}:own`}>{KIND_NAMES[kind]}, own size</option> : null}
+            {PRESETS[kind].map((p, i) => (
+              <option key={p.label} value={`${kind}:${i}`}>
+                {p.label}
+              </option>
+            ))}
+          </optgroup>
+        ))}
+      </select>
+    </Row>
   );
 }
 
@@ -265,9 +324,7 @@ function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' |
   const { editor } = useApp();
   const set = (v: number) => {
     const a = agent.peek();
-    const [min] = rangesOf(a)[`${name}_m`];
-    const size = Math.max(min, v);
-    editor.run(name === 'length' ? resize(a, size, a.width) : resize(a, a.length, size));
+    editor.run(name === 'length' ? resize(a, v, a.width) : resize(a, a.length, v));
   };
   return (
     <NumberField
@@ -277,7 +334,8 @@ function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' |
       quantity={() => 'length'}
       step={0.1}
       value={() => agent.value[name]}
-      text={() => num(agent.value[name], 1)}
+      range={() => rangesOf(agent.value)[`${name}_m`]}
+      text={() => sizeText(agent.value[name])}
       set={set}
     />
   );

@@ -4,7 +4,7 @@ import { actionOf } from '../../actions/registry';
 import type { Agent, Scene } from '../../model/scene';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
-import { Segments } from '../parts/buttons';
+import { ActionButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { OTHERS } from '../parts/others';
 import { EventList } from './event-list';
@@ -13,6 +13,8 @@ const FIRST_EVENTS = 6;
 
 export function ScenePanel() {
   const { editor } = useApp();
+  // Who comes or goes is counted anew; who is dragged is not.
+  void useComputed(() => editor.scene.value?.roster).value;
   const scene = editor.scene.peek();
   return scene ? <About scene={scene} /> : <Nothing />;
 }
@@ -49,12 +51,13 @@ function About({ scene }: { scene: Scene }) {
   const others = useComputed(() => `${actionOf(`others-${editor.scene.value?.others ?? 'react'}`).help}.`);
   return (
     <>
-      <Head note="Nothing selected" />
+      <Head note={scene.agents.size ? 'Nothing selected' : 'Nobody is here yet'} />
       <section class="sect">
         <h3>
           In this scene
           <small>{scene.agents.size} road users</small>
         </h3>
+        {scene.agents.size ? null : <Ways />}
         {kinds(scene).map(([icon, label, n, colour]) => (
           <div key={label} class="kindrow">
             <span class={`t-${colour}`}>
@@ -85,6 +88,17 @@ function About({ scene }: { scene: Scene }) {
         ))}
       </section>
     </>
+  );
+}
+
+/** The same ways out as on the picture, for when that was closed. */
+function Ways() {
+  return (
+    <div class="offers">
+      {['place-first', 'fill', 'import-log'].map((id) => (
+        <ActionButton key={id} id={id} class="line" size={15} />
+      ))}
+    </div>
   );
 }
 

@@ -62,7 +62,7 @@ export function ActionButton({ id, size = 18, iconOnly, withKey, ...look }: Acti
       onClick={() => perform(c, id)}
     >
       {icon ? <Icon name={icon} size={size} /> : null}
-      {iconOnly ? null : (look.children ?? a.label)}
+      {iconOnly ? look.children : (look.children ?? a.label)}
       {key ? <KeyCaps of={key} /> : null}
       {look.after}
     </button>

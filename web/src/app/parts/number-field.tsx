@@ -3,7 +3,7 @@
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { useLiveEffect } from './hooks';
-import { parseTyped, type Quantity } from '../../model/units';
+import { num, parseTyped, readTyped, type Quantity } from '../../model/units';
 
 export interface NumberFieldProps {
   label: string;
@@ -15,7 +15,10 @@ export interface NumberFieldProps {
   /** Value in the shown unit; null when there is nothing to show. */
   value: () => number | null;
   text: () => string;
-  set: (value: number) => void;
+  /** `live`: one of many values on the way, by a drag or a key that repeats. */
+  set: (value: number, live?: boolean) => void;
+  /** The least and the greatest value, in the shown unit; what lies outside is not taken. */
+  range?: () => readonly [min: number, max: number];
   /** Does the generator decide it? */
   free?: () => boolean;
   /** Is its handle being dragged? */
@@ -28,6 +31,8 @@ export interface NumberFieldProps {
 
 /** Pixels of drag on the letter for one step. */
 const PX_PER_STEP = 2;
+/** So long the reason of a refusal stays after the field has been left. */
+const WHY_MS = 4000;
 
 /** Sums of steps are kept free of binary dust. */
 const clean = (v: number): number => Number(v.toFixed(6));
@@ -36,9 +41,11 @@ export function NumberField(p: NumberFieldProps) {
   const input = useRef<HTMLInputElement>(null);
   /** Something is typed that has not been taken over. */
   const typed = useRef(false);
-  const bad = useSignal(false);
+  /** Why what was typed is not taken. */
+  const bad = useSignal<string | null>(null);
+  const shown = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
   const className = useComputed(() =>
-    ['field', p.free?.() && 'free', p.live?.() && 'live', bad.value && 'bad'].filter(Boolean).join(' '),
+    ['field', p.free?.() && 'free', p.live?.() && 'live', bad.value !== null && 'bad'].filter(Boolean).join(' '),
   );
   const unit = useComputed(p.unit);
 
@@ -48,7 +55,8 @@ export function NumberField(p: NumberFieldProps) {
   };
   const show = () => {
     setTyped(false);
-    bad.value = false;
+    clearTimeout(shown.current);
+    bad.value = null;
     input.current!.value = p.text();
   };
 
@@ -64,9 +72,10 @@ export function NumberField(p: NumberFieldProps) {
   const commit = (): boolean => {
     const text = input.current!.value;
     if (!typed.current) return true;
-    const v = text === p.text() ? undefined : parseTyped(text, p.quantity());
-    bad.value = v === null;
-    if (v === null) return false;
+    const read = text === p.text() ? undefined : readTyped(text, p.quantity());
+    const v = read?.(p.value() ?? 0);
+    bad.value = read === null ? `“${text.trim().slice(0, 12)}” is no number` : v === undefined ? null : outside(v, p);
+    if (bad.value !== null) return false;
     if (v !== undefined) {
       setTyped(false);
       p.set(v);
@@ -74,11 +83,20 @@ export function NumberField(p: NumberFieldProps) {
     show();
     return true;
   };
+  /** What could not be taken goes; why it went stays to be read for a while. */
+  const leave = () => {
+    const why = bad.value;
+    show();
+    bad.value = why;
+    shown.current = setTimeout(() => (bad.value = null), WHY_MS);
+  };
   const bump = (d: number) => {
     const now = parseTyped(input.current!.value, p.quantity()) ?? p.value();
     if (now === null) return;
     setTyped(false);
-    p.set(clean(now + d));
+    bad.value = outside(clean(now + d), p);
+    if (bad.value !== null) return;
+    p.set(clean(now + d), true);
     input.current!.value = p.text();
   };
   const keyDown = (e: KeyboardEvent) => {
@@ -96,7 +114,7 @@ export function NumberField(p: NumberFieldProps) {
   };
   return (
     <label class={className}>
-      {p.letter ? <Scrub letter={p.letter} value={p.value} step={p.step} set={p.set} /> : null}
+      {p.letter ? <Scrub letter={p.letter} {...p} /> : null}
       <input
         ref={input}
         type="text"
@@ -109,12 +127,14 @@ export function NumberField(p: NumberFieldProps) {
           p.onFocus?.();
           input.current!.select();
         }}
+        aria-invalid={useComputed(() => (bad.value === null ? null : 'true')) as never}
         onInput={() => {
           setTyped(true);
-          bad.value = false;
+          bad.value = null;
         }}
         onBlur={() => {
-          if (!commit()) show();
+          // A field that is taken off the page with the focus in it hears of that last.
+          if (input.current && !commit()) leave();
         }}
         onKeyDown={keyDown}
       />
@@ -134,20 +154,41 @@ export function NumberField(p: NumberFieldProps) {
       ) : (
         <span class="u">{unit}</span>
       )}
+      {bad.value === null ? null : (
+        <span class="why" role="alert">
+          {bad}
+        </span>
+      )}
     </label>
   );
 }
 
-/** The letter of a field, which is dragged to change the number. */
-function Scrub({ letter, value, step, set }: Pick<NumberFieldProps, 'value' | 'step' | 'set'> & { letter: string }) {
+/** In words, why a value is not taken; null where it is. */
+export function outside(v: number, p: Pick<NumberFieldProps, 'range' | 'unit'>): string | null {
+  if (!Number.isFinite(v)) return 'Not a number';
+  if (!p.range) return null;
+  const [min, max] = p.range();
+  if (v >= min - 1e-6 && v <= max + 1e-6) return null;
+  const text = (n: number): string => num(n, Number.isInteger(Number(n.toFixed(1))) ? 0 : 1);
+  return `${text(min)} to ${text(max)} ${p.unit()}`.trim();
+}
+
+type ScrubProps = Pick<NumberFieldProps, 'value' | 'step' | 'set' | 'range'> & { letter: string; class?: string };
+
+/** The letter or the name of a field, which is dragged to change the number. */
+export function Scrub({ letter, value, step, set, range, class: className = 'k' }: ScrubProps) {
   const from = useRef<{ x: number; v: number } | null>(null);
+  const within = (v: number): number => {
+    const [min, max] = range?.() ?? [-Infinity, Infinity];
+    return Math.min(max, Math.max(min, v));
+  };
   return (
     <span
-      class="k"
+      class={className}
       title="Drag to change"
       onPointerDown={(e) => {
         const v = value();
-        if (v === null) return;
+        if (v === null || e.button !== 0) return;
         e.preventDefault();
         from.current = { x: e.clientX, v };
         e.currentTarget.setPointerCapture(e.pointerId);
@@ -155,9 +196,13 @@ function Scrub({ letter, value, step, set }: Pick<NumberFieldProps, 'value' | 's
       onPointerMove={(e) => {
         if (!from.current) return;
         const steps = Math.round((e.clientX - from.current.x) / PX_PER_STEP);
-        if (steps) set(clean(from.current.v + steps * step));
+        const next = within(clean(from.current.v + steps * step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1)));
+        if (next !== value()) set(next, true);
       }}
       onPointerUp={() => {
+        from.current = null;
+      }}
+      onPointerCancel={() => {
         from.current = null;
       }}
       onClick={(e) => e.preventDefault()}

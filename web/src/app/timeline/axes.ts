@@ -1,6 +1,8 @@
 // Where seconds and speeds lie in the plot.
 import { toUnit, type SpeedUnit } from '../../model/units';
 import type { Motion } from '../../model/motion';
+import { untracked } from '@preact/signals';
+import type { Agent } from '../../model/scene';
 import type { Context } from '../../actions/context';
 
 /** Pixels left of the plot, right of it, for the events above and for the seconds below. */
@@ -30,7 +32,9 @@ export interface Axes {
 export function axesOf(c: Context, { w, h }: Size): Axes {
   const { editor } = c;
   const agent = editor.agent.peek();
-  const unit = agent ? editor.unitOf(agent) : editor.speedUnit.peek();
+  const several = severalShown(c);
+  const onFoot = several.length > 0 && several.every((a) => a.type === 'pedestrian');
+  const unit = agent ? editor.unitOf(agent) : onFoot ? 'm/s' : editor.speedUnit.peek();
   const duration = editor.scene.peek()?.duration ?? 9;
   const x1 = w - RIGHT;
   const y0 = LANE + 6;
@@ -49,11 +53,25 @@ export function axesOf(c: Context, { w, h }: Size): Axes {
   };
 }
 
+/** More lines than these would be one grey patch. */
+const MOST_LINES = 40;
+
+/** Those of several whose speeds are shown, a thin line each. */
+export const severalShown = ({ editor }: Context): Agent[] =>
+  editor.selected.peek().length > 1 && !editor.dragging.peek()
+    ? untracked(() => editor.chosenOnes.slice(0, MOST_LINES))
+    : [];
+
 /** A round figure above everything shown. */
 function topSpeedShown(c: Context, unit: SpeedUnit): number {
   const { editor } = c;
   const log = editor.agent.peek()?.log;
-  const motions: Motion[] = [...(log ? [log] : []), ...(editor.futures.peek()?.modes.map((m) => m.motion) ?? [])];
+  const several = untracked(() => severalShown(c).map((a) => editor.motionFor(a)));
+  const motions: Motion[] = [
+    ...several,
+    ...(log ? [log] : []),
+    ...(editor.futures.peek()?.modes.map((m) => m.motion) ?? []),
+  ];
   let max = 0;
   for (const m of motions) for (const v of m.speed) max = Math.max(max, toUnit(Math.abs(v), unit));
   const steps = unit === 'm/s' ? [2, 4, 8, 16] : [20, 40, 60, 80, 120, 160, 220];

@@ -6,22 +6,57 @@ import { startPose, touched, type Agent } from '../../model/scene';
 import { toUnit } from '../../model/units';
 import { modeStyle } from '../../draw/strokes';
 import { useApp } from '../parts/app-context';
-import { X0, type Axes } from './axes';
+import { colourKey } from '../../draw/sprites';
+import { severalShown, X0, type Axes } from './axes';
 
 export function Curves({ axes: a }: { axes: Axes }) {
-  const { editor } = useApp();
+  const c = useApp();
+  const { editor } = c;
   const agent = editor.agent.peek();
+  const several = severalShown(c);
   const log = editor.layers.peek().log;
-  const name = agent ? ` · ${agent.name}${log ? ', dashed: log' : ''}` : '';
+  const name = agent
+    ? ` · ${agent.name}${log ? ', dashed: log' : ''}`
+    : several.length
+      ? ` · ${several.length} selected, one line each`
+      : '';
   const start = agent && startPose(agent);
   // Beside a curve that begins at the top it stands below.
   const high = start && a.y(toUnit(start.speed, a.unit)) < (a.y0 + a.y1) / 2;
   return (
     <>
-      {agent ? <AgentCurves axes={a} agent={agent} /> : <Hint axes={a} />}
+      {agent ? (
+        <AgentCurves axes={a} agent={agent} />
+      ) : several.length ? (
+        <SeveralCurves axes={a} all={several} />
+      ) : (
+        <Hint axes={a} />
+      )}
       <text class="back" x={X0 + 8} y={high ? a.y1 - 6 : a.y0 + 11}>
         {`${a.unit}${name}`}
       </text>
+    </>
+  );
+}
+
+/** One thin line each; thick for the one under the pointer. */
+function SeveralCurves({ axes, all }: { axes: Axes; all: readonly Agent[] }) {
+  const { editor } = useApp();
+  const hovered = editor.hover.peek();
+  return (
+    <>
+      {all.map((a) => (
+        <Curve
+          key={a.id}
+          axes={axes}
+          motion={untracked(() => editor.motionFor(a))}
+          colour={`var(--${colourKey(a)})`}
+          width={a.id === hovered ? 2.5 : 1.1}
+          opacity={a.id === hovered ? 1 : 0.65}
+          dash=""
+          smooth
+        />
+      ))}
     </>
   );
 }
@@ -30,7 +65,11 @@ function Hint({ axes: a }: { axes: Axes }) {
   const { editor } = useApp();
   return (
     <text class="big back" x={(X0 + a.x1) / 2} y={(a.y0 + a.y1) / 2 + 4} text-anchor="middle">
-      {editor.scene.peek() ? 'Select a road user to see its speed' : 'Nothing to play yet'}
+      {!editor.scene.peek()
+        ? 'Nothing to play yet'
+        : editor.scene.peek()!.agents.size
+          ? 'Select a road user to see its speed'
+          : 'Place somebody to see how fast they go'}
     </text>
   );
 }

@@ -13,6 +13,8 @@ import { EventTimes, Grid } from './grid';
 /** Everything that the curves, the grid and the badges show. */
 const shown = ({ editor }: Context): unknown => [
   editor.agent.value,
+  editor.selected.value,
+  editor.selected.value.length > 1 && editor.hover.value,
   editor.futures.value,
   editor.chosen.value,
   editor.motion.value,

@@ -21,7 +21,11 @@ export interface PointerDown extends Point {
   readonly touch: boolean;
   /** 0 the main button, 1 the middle one, 2 the right one. */
   readonly button: number;
+  readonly modifiers?: Modifiers;
 }
+
+/** What a menu is asked for. */
+export type MenuOn = 'road user' | 'several' | 'goal' | 'ground';
 
 /** What a state is told and may do. Every method is optional: what is left out is not answered. */
 export interface State {
@@ -70,6 +74,8 @@ export interface ChartParts {
   agentsAt(p: Point): string[];
   /** Is motion to be kept small? */
   calm(): boolean;
+  /** A menu is asked for at a place of the picture. */
+  menu(at: Point, on: MenuOn): void;
   /** Two short ticks under the finger. */
   ticks(): void;
   tool(name: ToolName): Tool;
@@ -80,6 +86,8 @@ export class Chart {
   at: Point = { x: 0, y: 0 };
   modifiers: Modifiers = { alt: false, shift: false, ctrl: false };
   spaceHeld = false;
+  /** How often the picture was taken hold of with Space held. */
+  pannedWithSpace = 0;
   readonly pile = new Pile();
   readonly surface: Surface;
   readonly editor: Editor;
@@ -116,6 +124,8 @@ export class Chart {
     this.#fingers.set(p.id, { x: p.x, y: p.y });
     if (this.#fingers.size === 1) {
       this.at = { x: p.x, y: p.y };
+      if (p.modifiers) this.modifiers = p.modifiers;
+      if (this.spaceHeld) this.pannedWithSpace++;
       this.#state.down?.(p);
       return;
     }

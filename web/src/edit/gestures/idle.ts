@@ -1,6 +1,7 @@
 // Nothing is pressed: what the pointer is over lights up.
 import { NOTHING, type Hit } from '../hit';
 import type { Chart, PointerDown, State } from './chart';
+import { ASK } from './asking';
 import { Pressed } from './pressed';
 import type { Tool } from './tools';
 
@@ -10,32 +11,35 @@ export class Idle implements State {
 
   move(): void {
     const { chart } = this;
-    const select = chart.editor.tool.peek() === 'select';
-    this.#hover(select ? chart.parts.hitAt(chart.at, false) : NOTHING);
+    const tool = chart.parts.tool(chart.editor.tool.peek());
+    this.#hover(tool.name === 'select' ? chart.parts.hitAt(chart.at, false) : NOTHING);
+    tool.hover?.(chart);
   }
 
   outside(): void {
     this.#hover(NOTHING);
+    this.chart.editor.placement.show(null);
   }
 
   down(p: PointerDown): void {
     const { chart } = this;
     const tool = this.#toolFor(p);
-    const hit = tool.picks && p.button !== 2 ? chart.parts.hitAt(p, p.touch) : NOTHING;
+    const hit = tool.picks ? chart.parts.hitAt(p, p.touch) : NOTHING;
     const { cx, cy } = chart.surface.view;
     chart.go(new Pressed(chart, tool, { x: p.x, y: p.y, touch: p.touch, hit, cx, cy }));
   }
 
-  /** The middle button and Space move the picture, whatever tool is chosen. */
+  /** The middle button and Space move the picture, whatever tool is chosen; so does the right one, or it asks. */
   #toolFor(p: PointerDown): Tool {
     const { chart } = this;
+    if (p.button === 2) return ASK;
     return chart.parts.tool(p.button === 1 || chart.spaceHeld ? 'pan' : chart.editor.tool.peek());
   }
 
   #hover(hit: Hit): void {
     const { chart } = this;
     chart.editor.pointAt({
-      agent: hit.kind === 'agent' ? hit.id : null,
+      agent: hit.kind === 'agent' || hit.kind === 'pennant' ? hit.id : null,
       future: hit.kind === 'future' ? hit.index : null,
       grip: hit.kind === 'grip' ? hit.grip : null,
     });
@@ -52,7 +56,10 @@ export class Idle implements State {
         return editor.time.peek() < 0.05 ? 'grab' : 'pointer';
       case 'future':
       case 'by road':
+      case 'pennant':
         return 'pointer';
+      case 'frame':
+        return { move: 'grab', turn: 'crosshair', spread: 'resize' }[hit.handle];
       case 'none':
         return parts.tool(editor.tool.peek()).cursor;
     }

@@ -4,7 +4,7 @@ import type { Stage } from '../../draw/stage';
 import type { Editor } from '../editor';
 import { agentsAt, hitTest, type HitContext } from '../hit';
 import type { Picture } from '../picture';
-import { Chart, type Modifiers, type Previews } from './chart';
+import { Chart, type MenuOn, type Modifiers, type Previews } from './chart';
 import { toolOf } from './tools';
 
 const MODIFIER_KEYS = ['Alt', 'Shift', 'Control', 'Meta'];
@@ -24,6 +24,8 @@ const modifiersOf = (e: MouseEvent | KeyboardEvent): Modifiers => ({
 
 export class Gestures {
   readonly chart: Chart;
+  /** A menu is asked for. */
+  onMenu: ((at: Point, on: MenuOn) => void) | null = null;
   #inside = false;
   /** Where the picture lies on the page while a pointer is down; measuring it at every move would lay out the page. */
   #held: DOMRect | null = null;
@@ -47,6 +49,7 @@ export class Gestures {
         // Not every browser has it.
         navigator.vibrate?.(TICKS_MS);
       },
+      menu: (at, on) => this.onMenu?.(at, on),
       tool: toolOf,
     });
     this.#listen(stage.element);
@@ -73,6 +76,8 @@ export class Gestures {
       chart.outside();
     });
     el.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
+    // The menu is the editor's own; it opens with the release, for the right button also moves the picture.
+    el.addEventListener('contextmenu', (e) => e.preventDefault());
     el.addEventListener('dblclick', (e) => this.#doubleClick(e));
     addEventListener('keydown', (e) => this.#key(e, true));
     addEventListener('keyup', (e) => this.#key(e, false));
@@ -83,6 +88,11 @@ export class Gestures {
     const seconds = this.#lastFrame ? Math.min(0.05, (now - this.#lastFrame) / 1000) : 0.016;
     this.#lastFrame = now;
     this.chart.frame(seconds);
+  }
+
+  /** How often the picture was taken hold of with Space held. */
+  get pannedWithSpace(): number {
+    return this.chart.pannedWithSpace;
   }
 
   cancel(): boolean {
@@ -106,7 +116,7 @@ export class Gestures {
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
     const { chips, timeTag, roadSign } = picture.overlay;
-    return { editor, view: stage.view, chips, timeTag, roadSign, touch };
+    return { editor, view: stage.view, chips, timeTag, roadSign, pennants: picture.pennants, touch };
   }
 
   #down(e: PointerEvent): void {
@@ -118,7 +128,13 @@ export class Gestures {
       // The pointer may be gone already.
     }
     this.#held = this.stage.element.getBoundingClientRect();
-    this.chart.down({ id: e.pointerId, ...this.#place(e), touch: e.pointerType === 'touch', button: e.button });
+    this.chart.down({
+      id: e.pointerId,
+      ...this.#place(e),
+      touch: e.pointerType === 'touch',
+      button: e.button,
+      modifiers: modifiersOf(e),
+    });
   }
 
   #wheel(e: WheelEvent): void {

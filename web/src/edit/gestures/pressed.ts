@@ -1,6 +1,7 @@
 // Pressed and not yet moved: the release is a click, a movement becomes what the tool makes of it.
 import type { Point } from '../../model/geometry';
 import type { Hit } from '../hit';
+import { ask } from './asking';
 import type { Chart, State } from './chart';
 import type { Tool } from './tools';
 
@@ -16,14 +17,29 @@ export interface Press extends Point {
 /** A movement shorter than this is a click's. A finger is less steady than a mouse. */
 const START_PX = 3;
 const START_PX_TOUCH = 8;
+/** A finger that rests so long asks for a menu, seconds. */
+const ASKS_AFTER_S = 0.5;
 
 export class Pressed implements State {
   readonly name = 'pressed';
+  #held = 0;
   constructor(
     private readonly chart: Chart,
     private readonly tool: Tool,
     private readonly press: Press,
   ) {}
+
+  frame(seconds: number): boolean {
+    if (!this.press.touch) return false;
+    this.#held += seconds;
+    if (this.#held >= ASKS_AFTER_S) {
+      this.chart.go(new Asked(this.chart));
+      ask(this.chart, this.press);
+    }
+    // A finger that rests moves nothing, and without a frame no time passes.
+    else this.chart.surface.invalidate();
+    return false;
+  }
 
   move(): void {
     const { chart, press } = this;
@@ -36,5 +52,15 @@ export class Pressed implements State {
   up(timeStamp: number): void {
     this.chart.rest();
     this.tool.click(this.chart, this.press, timeStamp);
+  }
+}
+
+/** A menu is open; the finger that asked for it is still down. */
+class Asked implements State {
+  readonly name = 'asked';
+  constructor(private readonly chart: Chart) {}
+
+  up(): void {
+    this.chart.rest();
   }
 }

@@ -1,13 +1,19 @@
 // The tool one starts with: clicks select, drags take hold of handles and boxes, and of the picture elsewhere.
 import { canChange, startPose } from '../../model/scene';
+import { freeOnes, lockedWords } from '../copying';
 import type { Grip } from '../editor';
+import type { FrameHandle } from '../hit';
 import { pickFuture } from '../moves';
 import { roadWay } from '../ways-out';
 import type { Chart, State } from './chart';
+import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle } from './dragging-handle';
+import { DraggingSeveral } from './dragging-several';
 import { HandleMove } from './handle-move';
 import { Panning } from './panning';
+import { ghostHere, placeGhost } from './placing';
 import type { Press } from './pressed';
+import { rectangle, Sweeping } from './sweeping';
 
 /** How far ahead of a road user without futures its goal is taken to be, in metres. */
 const GOAL_AHEAD_M = 20;
@@ -17,25 +23,78 @@ export const SELECT = {
   label: 'Select and drag',
   key: 'V',
   icon: 'select',
-  help: 'Click a road user, drag its handles',
+  help: 'Click a road user, drag its handles; drag over the ground to take several',
   cursor: '',
   picks: true,
+  hover,
   drag,
   click,
 };
 
+/** On a map with nobody on it a car is offered wherever there is a lane. */
+function hover(chart: Chart): void {
+  const { placement, scene } = chart.editor;
+  if (scene.peek()?.agents.size !== 0) {
+    if (placement.ghosts.peek()) placement.show(null);
+    return;
+  }
+  ghostHere(chart, 'car');
+  if (!placement.ghosts.peek()?.lane) placement.show(null);
+}
+
 function drag(chart: Chart, press: Press): State {
-  const grip = gripOf(chart, press);
+  const { editor, modifiers } = chart;
+  const { hit } = press;
+  const scene = editor.scene.peek();
+  if (!scene) return new Panning(chart, press);
+  if (hit.kind === 'frame') return several(chart, press, hit.handle);
+  const body = bodyUnder(chart, press);
+  if (body !== null) {
+    const among = editor.selected.peek().includes(body);
+    if (!among) editor.select(body);
+    if (modifiers.alt) return new DraggingCopies(chart, press, editor.chosenOnes);
+    if (editor.selected.peek().length > 1) return several(chart, press, 'move');
+  }
+  const grip = body !== null ? START_BODY : hit.kind === 'grip' ? hit.grip : null;
+  if (grip && editor.agent.peek()?.locked) return new Refused(chart);
   const move = grip && handleMove(chart, press, grip);
-  return move ? new DraggingHandle(chart, press, move) : new Panning(chart, press);
+  if (move) return new DraggingHandle(chart, press, move);
+  return press.touch ? new Panning(chart, press) : new Sweeping('marquee', chart, press, rectangle);
+}
+
+const START_BODY: Grip = { part: 'start', handle: 'body' };
+
+function several(chart: Chart, press: Press, what: FrameHandle): State {
+  const free = freeOnes(chart.editor);
+  return free.length ? new DraggingSeveral(chart, press, free, what) : new Refused(chart, false);
 }
 
 /** At the start of the scene a road user itself is the handle of its start. */
-function gripOf({ editor }: Chart, { hit }: Press): Grip | null {
-  if (hit.kind === 'grip') return hit.grip;
-  if (hit.kind !== 'agent' || editor.time.peek() >= 0.05) return null;
-  editor.select(hit.id);
-  return { part: 'start', handle: 'body' };
+function bodyUnder({ editor }: Chart, { hit }: Press): string | null {
+  if (editor.time.peek() >= 0.05) return null;
+  if (hit.kind === 'agent') return hit.id;
+  const start = hit.kind === 'grip' && hit.grip.part === 'start' && hit.grip.handle === 'body';
+  return start ? editor.selection.peek() : null;
+}
+
+/** What is locked stays where it is, and says so. */
+class Refused implements State {
+  readonly name = 'refused';
+  constructor(
+    private readonly chart: Chart,
+    private readonly say = true,
+  ) {}
+
+  enter(): void {
+    const { notices } = this.chart.editor;
+    if (!this.say) return;
+    notices.show({ text: lockedWords(1) });
+    notices.say(lockedWords(1));
+  }
+
+  up(): void {
+    this.chart.rest();
+  }
 }
 
 function handleMove({ editor, surface }: Chart, press: Press, grip: Grip): HandleMove | null {
@@ -50,14 +109,22 @@ function handleMove({ editor, surface }: Chart, press: Press, grip: Grip): Handl
   return new HandleMove(editor, surface.view, { grip, agent, start, goal, press });
 }
 
-function click(chart: Chart, press: Press, timeStamp: number): void {
+export function click(chart: Chart, press: Press, timeStamp: number): void {
   const { editor } = chart;
   const { hit } = press;
   const a = editor.agent.peek();
+  const adds = chart.modifiers.shift;
   switch (hit.kind) {
     case 'agent':
       editor.playhead.pause();
-      editor.select(chart.pile.take(hit.pile, timeStamp));
+      if (adds) editor.toggleSelected(hit.id);
+      else editor.select(chart.pile.take(hit.pile, timeStamp));
+      break;
+    case 'pennant':
+      if (adds) editor.toggleSelected(hit.id);
+      else editor.select(hit.id);
+      break;
+    case 'frame':
       break;
     case 'future': {
       const command = a && a.chosen !== hit.index ? pickFuture(editor, a, hit.index) : null;
@@ -70,6 +137,10 @@ function click(chart: Chart, press: Press, timeStamp: number): void {
       break;
     }
     case 'grip': {
+      if (adds && a) {
+        editor.toggleSelected(a.id);
+        break;
+      }
       editor.activate(hit.grip.part);
       const box = hit.grip.part === 'start' && hit.grip.handle === 'body';
       const below = box ? chart.parts.agentsAt(press) : [];
@@ -77,6 +148,7 @@ function click(chart: Chart, press: Press, timeStamp: number): void {
       break;
     }
     case 'none':
-      editor.select(null);
+      if (editor.placement.ghosts.peek()) placeGhost(editor);
+      else if (!adds) editor.select(null);
   }
 }

@@ -2,8 +2,11 @@
 // palette entry and line in the shortcut sheet are made from it.
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import type { PlacedKind } from '../../model/kinds';
+import { LASSO } from './lasso';
 import { MEASURE } from './measuring';
 import { PAN } from './panning';
+import { PLACE } from './placing';
 import { SELECT } from './select';
 
 export interface Tool {
@@ -16,13 +19,17 @@ export interface Tool {
   readonly cursor: string;
   /** Does a press take hold of what lies under it? */
   readonly picks: boolean;
+  /** What is placed by it; the rail keeps these together. */
+  readonly places?: PlacedKind;
+  /** The pointer moves over the picture with nothing pressed. */
+  hover?(chart: Chart): void;
   /** What a press becomes once it moves. */
   drag(chart: Chart, press: Press): State;
   /** A press that did not move. */
   click(chart: Chart, press: Press, timeStamp: number): void;
 }
 
-export const TOOLS = [SELECT, PAN, MEASURE] as const satisfies readonly Tool[];
+export const TOOLS = [SELECT, LASSO, PAN, MEASURE, ...PLACE] as const satisfies readonly Tool[];
 
 export type ToolName = (typeof TOOLS)[number]['name'];
 

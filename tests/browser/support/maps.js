@@ -1,0 +1,51 @@
+// Maps of the example scenes, for journeys that begin with nobody on them.
+
+/** The crossing of the examples as a file with nobody in it. */
+export async function emptyScene(e) {
+  const get = async (path) => (await e.page.request.get(new URL(path, e.page.url()).href)).json();
+  const scene = await get('/v1/scenes/demo-crossing');
+  const { id: _id, generated: _generated, x_editor: _editor, ...rest } = scene;
+  const json = { ...rest, name: 'Nobody yet', agents: [] };
+  return { json, bytes: Buffer.from(JSON.stringify(json)) };
+}
+
+const heading = ([ax, ay], [bx, by]) => Math.atan2(by - ay, bx - ax);
+
+/** Two lanes side by side that lead the same way, with a stretch of both: `{ a, b }` as lists of points. */
+export function lanesBeside({ map }) {
+  const road = map.lanes.filter((l) => !['bike_lane', 'sidewalk', 'parking'].includes(l.type));
+  const length = (p) => p.slice(1).reduce((s, q, i) => s + Math.hypot(q[0] - p[i][0], q[1] - p[i][1]), 0);
+  const long = road
+    .map((l) => l.points_m)
+    .filter((p) => length(p) > 60)
+    .sort((p, q) => Math.hypot(...p[0]) - Math.hypot(...q[0]));
+  for (const a of long)
+    for (const b of long) {
+      if (a === b) continue;
+      const far = Math.hypot(a[0][0] - b[0][0], a[0][1] - b[0][1]);
+      const turn = Math.abs(Math.sin(heading(a[0], a[1]) - heading(b[0], b[1])));
+      const same = Math.cos(heading(a[0], a[1]) - heading(b[0], b[1])) > 0.99;
+      if (far > 2.5 && far < 4.5 && turn < 0.1 && same) return { a, b };
+    }
+  throw new Error('no two lanes lie side by side');
+}
+
+/** A place so many metres along a line. */
+export function along(points, metres) {
+  let left = metres;
+  for (let i = 1; i < points.length; i++) {
+    const [ax, ay] = points[i - 1],
+      [bx, by] = points[i];
+    const d = Math.hypot(bx - ax, by - ay);
+    if (left <= d) return [ax + ((bx - ax) * left) / d, ay + ((by - ay) * left) / d];
+    left -= d;
+  }
+  return points.at(-1).slice(0, 2);
+}
+
+/** The box around an area. */
+export function boxOf(polygon) {
+  const xs = polygon.map((p) => p[0]),
+    ys = polygon.map((p) => p[1]);
+  return { x0: Math.min(...xs), x1: Math.max(...xs), y0: Math.min(...ys), y1: Math.max(...ys) };
+}

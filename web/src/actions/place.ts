@@ -1,0 +1,73 @@
+// Place: tools that put road users into the scene, and filling it.
+import type { PlacedKind } from '../model/kinds';
+import { TOOLS } from '../edit/gestures/tools';
+import { placeGhost } from '../edit/gestures/placing';
+import { hasScene, inGroup } from './action';
+import type { Context } from './context';
+
+const tools = TOOLS.flatMap((t) => ('places' in t ? [t] : [])).map(({ name, label, key, icon, help }) => ({
+  id: `tool-${name}`,
+  label,
+  keys: [key],
+  icon,
+  help,
+  when: hasScene,
+  checked: (c: Context) => c.editor.tool.value === name,
+  run: (c: Context) => startPlacing(c, name),
+}));
+
+/** The ghost appears at once: under the pointer, else in the middle of the picture. */
+function startPlacing(c: Context, name: (typeof TOOLS)[number]['name']): void {
+  const { editor, gestures, stage, ui } = c;
+  editor.playhead.pause();
+  editor.setTime(0);
+  editor.chooseTool(name);
+  ui.showDrawer(null);
+  const kind = TOOLS.find((t) => t.name === name);
+  const { view } = stage;
+  const { left, right, top, bottom } = view.inset;
+  const at = gestures.pointer ?? { x: (left + view.w - right) / 2, y: (top + view.h - bottom) / 2 };
+  if (kind && 'places' in kind)
+    editor.placement.pointAt(editor.scene.peek()!, kind.places, view.from(at.x, at.y), view.z, false);
+}
+
+/** The kind that the tool in hand places; null for other tools. */
+export function placedBy({ editor }: Context): PlacedKind | null {
+  const tool = TOOLS.find((t) => t.name === editor.tool.value);
+  return tool && 'places' in tool ? tool.places : null;
+}
+
+const isEmpty = (c: Context): boolean => c.editor.scene.value?.agents.size === 0;
+
+export const place = inGroup('Place', [
+  ...tools,
+  {
+    id: 'place-here',
+    label: 'Place here',
+    keys: ['Enter'],
+    icon: 'check',
+    help: 'Puts the road user where its ghost is; the arrow keys move the ghost',
+    onOffer: (c) => placedBy(c) !== null && c.editor.placement.ghosts.value !== null,
+    when: (c) => (c.editor.placement.ghosts.value ? true : 'Choose what to place first.'),
+    run: (c) => placeGhost(c.editor),
+  },
+  {
+    id: 'place-first',
+    label: 'Place a car',
+    keys: ['C'],
+    icon: 'car',
+    help: 'Click a lane, drag to turn it. Then drag its flag.',
+    onOffer: isEmpty,
+    when: hasScene,
+    run: (c) => startPlacing(c, 'place-car'),
+  },
+  {
+    id: 'fill',
+    label: 'Fill the map',
+    keys: ['D'],
+    icon: 'fill',
+    help: 'Road users all over the map, as they would be there',
+    when: hasScene,
+    run: (c) => void c.fill(),
+  },
+]);

@@ -1,0 +1,55 @@
+// A map with nobody on it: what one can do about that.
+import { useComputed } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { actionOf, perform } from '../../actions/registry';
+import { useApp } from '../parts/app-context';
+import { KeyCaps } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+
+const WAYS = ['place-first', 'fill', 'import-log'] as const;
+
+export function EmptyScene() {
+  const { editor, ui } = useApp();
+  const scene = useComputed(() => editor.scene.value?.id ?? null).value;
+  const nobody = useComputed(() => editor.scene.value?.agents.size === 0).value;
+  // Once somebody was here the card does not come back.
+  useEffect(() => {
+    if (scene !== null && !nobody) ui.hideEmpty(scene);
+  }, [scene, nobody, ui]);
+  const shown = useComputed(
+    () =>
+      editor.tool.value === 'select' && editor.scene.value !== null && ui.emptyHidden.value !== editor.scene.value.id,
+  ).value;
+  return nobody && shown ? <Card scene={scene!} /> : null;
+}
+
+function Card({ scene }: { scene: string }) {
+  const c = useApp();
+  return (
+    <section class={`card nobody ${c.ui.drawer.value ? 'shift' : ''}`} aria-label="Nobody is here yet">
+      <button type="button" class="btn i" aria-label="Close" onClick={() => c.ui.hideEmpty(scene)}>
+        <Icon name="x" size={16} />
+      </button>
+      <h2>The map is in. Nobody is on it yet.</h2>
+      <p>Start with one car, or with a whole rush hour. Everything can be undone.</p>
+      <div class="ways">
+        {WAYS.map((id, i) => {
+          const a = actionOf(id);
+          return (
+            <button key={id} type="button" class={i ? '' : 'first'} data-action={id} onClick={() => perform(c, id)}>
+              <span class="ag t-ink">
+                <Icon name={a.icon!} size={20} />
+              </span>
+              <KeyCaps of={a.keys![0]} />
+              <b>{a.label}</b>
+              <small>{a.help}</small>
+            </button>
+          );
+        })}
+      </div>
+      <p class="mut">
+        <KeyCaps of="Ctrl+K" /> for everything else
+      </p>
+    </section>
+  );
+}

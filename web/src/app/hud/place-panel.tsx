@@ -1,0 +1,116 @@
+// What the placing tool puts down: a size, and one or many at once.
+import { useComputed } from '@preact/signals';
+import { rangesOf } from '../../model/domain';
+import { KIND_NAMES, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/kinds';
+import { sizeText } from '../../model/units';
+import { placedBy } from '../../actions/place';
+import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/placing';
+import { useApp } from '../parts/app-context';
+import { Icon } from '../parts/icons';
+import { NumberField } from '../parts/number-field';
+
+const SPREADS: readonly (readonly [Spread, string, string])[] = [
+  ['one', 'One', 'Click where it should start, drag to turn it'],
+  ['line', 'Along a line', 'Drag a line: they stand along it'],
+  ['area', 'Over an area', 'Drag over the ground: they spread over it'],
+];
+
+export function PlacePanel() {
+  const c = useApp();
+  const kind = useComputed(() => placedBy(c)).value;
+  return kind ? <Panel key={kind} kind={kind} /> : null;
+}
+
+const same = (a: Preset, b: Preset): boolean => a.length === b.length && a.width === b.width && a.subtype === b.subtype;
+
+function Panel({ kind }: { kind: PlacedKind }) {
+  const { editor } = useApp();
+  const { placement } = editor;
+  const choice = useComputed(() => placement.choice(kind)).value;
+  const { size, spread } = choice;
+  const preset = PRESETS[kind].find((p) => same(p, size));
+  const own = (patch: Partial<Preset>) =>
+    placement.choose(kind, { size: { ...size, label: KIND_NAMES[kind], ...patch } });
+  return (
+    <section class="card placing" aria-label={`Place a ${KIND_NAMES[kind].toLowerCase()}`}>
+      <h3>
+        Place a {KIND_NAMES[kind].toLowerCase()}
+        <button type="button" class="btn i" aria-label="Done placing" onClick={() => editor.chooseTool('select')}>
+          <Icon name="x" size={16} />
+        </button>
+      </h3>
+      <div role="radiogroup" aria-label="Size">
+        {PRESETS[kind].map((p) => (
+          <button
+            key={p.label}
+            type="button"
+            class={`preset ${p === preset ? 'on' : ''}`}
+            role="radio"
+            aria-checked={p === preset}
+            onClick={() => placement.choose(kind, { size: p })}
+          >
+            <Icon name={kind} size={18} />
+            {p.label}
+            <small>
+              {sizeText(p.length)} × {sizeText(p.width)} m
+            </small>
+          </button>
+        ))}
+        <div class={`preset own ${preset ? '' : 'on'}`}>
+          Own size
+          <OwnSize kind={kind} name="length" set={(length) => own({ length })} />
+          <OwnSize kind={kind} name="width" set={(width) => own({ width })} />
+        </div>
+      </div>
+      <div class="seg wide" role="radiogroup" aria-label="How many">
+        {SPREADS.map(([id, text, help]) => (
+          <button
+            key={id}
+            type="button"
+            class={`btn ${spread === id ? 'on' : ''}`}
+            role="radio"
+            aria-checked={spread === id}
+            title={help}
+            onClick={() => placement.choose(kind, { spread: id })}
+          >
+            {text}
+          </button>
+        ))}
+      </div>
+      {spread === 'one' ? null : (
+        <div class="many">
+          <span>How many</span>
+          <NumberField
+            label="How many road users"
+            field="place-count"
+            unit={() => ''}
+            quantity={() => 'count'}
+            step={1}
+            range={() => [LEAST_COUNT, MOST_COUNT]}
+            value={() => placement.choice(kind).count}
+            text={() => String(placement.choice(kind).count)}
+            set={(n) => placement.choose(kind, { count: Math.round(n) })}
+          />
+        </div>
+      )}
+      <p class="note">{SPREADS.find(([id]) => id === spread)![2]}.</p>
+    </section>
+  );
+}
+
+function OwnSize({ kind, name, set }: { kind: PlacedKind; name: 'length' | 'width'; set: (v: number) => void }) {
+  const { placement } = useApp().editor;
+  return (
+    <NumberField
+      label={`Own ${name} in metres`}
+      letter={name === 'length' ? 'L' : 'W'}
+      unit={() => ''}
+      quantity={() => 'length'}
+      step={0.1}
+      range={() => rangesOf({ type: typeOfKind(kind) })[`${name}_m`]}
+      value={() => placement.choice(kind).size[name]}
+      text={() => sizeText(placement.choice(kind).size[name])}
+      set={set}
+    />
+  );
+}

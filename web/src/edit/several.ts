@@ -1,0 +1,243 @@
+// Changes of one road user or of many at once, each one step of the history.
+import { wrapAngle, type Vec } from '../model/geometry';
+import { addAgents, nameAs, patchAgents, removeAgents, type AgentPatch, type Command } from '../model/commands';
+import { topSpeed } from '../model/domain';
+import { countWords, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
+import { copyOf, settle, type Newcomer } from '../model/newcomer';
+import {
+  canMove,
+  freeGoal,
+  hasGoal,
+  newIds,
+  startPose,
+  type Agent,
+  type GoalSpec,
+  type Others,
+  type Scene,
+  type StartSpec,
+} from '../model/scene';
+import { freeShift, standing } from './room';
+import { shifted } from '../model/newcomer';
+
+/** The server takes no more in one scene. */
+const MOST_IN_SCENE = 256;
+
+/** `Car 7`, or `10 road users`; of one kind alone `10 pedestrians`. */
+export function whoWords(all: readonly Pick<Agent, 'name' | 'kind'>[]): string {
+  if (all.length === 1) return all[0].name;
+  const { kind } = all[0] ?? {};
+  return kind && all.every((a) => a.kind === kind) ? countWords(kind, all.length) : `${all.length} road users`;
+}
+
+/** Those of them that may be moved and changed. */
+export const movable = (all: readonly Agent[]): Agent[] => all.filter(canMove);
+
+type Make = (a: Agent) => AgentPatch | null;
+
+/** One change for all of them; null where it changes nobody. `fold`: repeats within a short time are one step. */
+export function changeAll(all: readonly Agent[], name: string, make: Make, fold?: string): Command | null {
+  const patches = new Map(all.flatMap((a) => (make(a) ? [[a.id, make(a)!] as const] : [])));
+  if (!patches.size) return null;
+  return patchAgents(name, patches, fold && `${fold}:${[...patches.keys()].join()}`);
+}
+
+const at = (x: number, y: number): Vec => Object.freeze([x, y] as const);
+
+/** New demands make an earlier pick among six futures meaningless. */
+const started = (a: Agent, patch: Partial<StartSpec>): AgentPatch => ({
+  start: Object.freeze({ pos: a.start.pos, heading: a.start.heading, speed: a.start.speed, ...patch }),
+  chosen: null,
+});
+const aimed = (a: Agent, patch: Partial<GoalSpec>): AgentPatch => ({
+  goal: Object.freeze({ ...a.goal, ...patch }),
+  chosen: null,
+});
+
+// -------------------------------------------------------------- where they are
+
+/** All by the same way; their goals too where that is wanted. */
+export function moveAll(all: readonly Agent[], dx: number, dy: number, goals = false, fold?: string): Command | null {
+  return changeAll(
+    all,
+    `${whoWords(all)} moved`,
+    (a) => {
+      const p = startPose(a);
+      if (!p) return null;
+      const patch = started(a, { pos: at(p.x + dx, p.y + dy) });
+      const g = a.goal.pos;
+      return goals && g ? { ...patch, goal: Object.freeze({ ...a.goal, pos: at(g[0] + dx, g[1] + dy) }) } : patch;
+    },
+    fold,
+  );
+}
+
+/** The middle of the box around where they start. */
+export function middleOf(all: readonly Agent[]): Vec {
+  const ps = all.flatMap((a) => startPose(a) ?? []);
+  const mid = (v: number[]): number => (Math.min(...v) + Math.max(...v)) / 2;
+  return ps.length ? [mid(ps.map((p) => p.x)), mid(ps.map((p) => p.y))] : [0, 0];
+}
+
+/** All about one point, or each about itself. */
+export function turnAll(
+  all: readonly Agent[],
+  angle: number,
+  about: Vec | null,
+  goals = false,
+  fold?: string,
+): Command | null {
+  const c = Math.cos(angle),
+    s = Math.sin(angle);
+  const turned = ([x, y]: Vec): Vec =>
+    about
+      ? at(about[0] + (x - about[0]) * c - (y - about[1]) * s, about[1] + (x - about[0]) * s + (y - about[1]) * c)
+      : at(x, y);
+  return changeAll(
+    all,
+    `${whoWords(all)} turned`,
+    (a) => {
+      const p = startPose(a);
+      if (!p) return null;
+      const patch = started(a, { pos: turned([p.x, p.y]), heading: wrapAngle(p.heading + angle) });
+      const g = a.goal;
+      if (!goals || !g.pos) return patch;
+      const heading = g.heading === null ? null : wrapAngle(g.heading + angle);
+      return { ...patch, goal: Object.freeze({ ...g, pos: turned(g.pos), heading }) };
+    },
+    fold,
+  );
+}
+
+/** Nearer to a point or further from it. */
+export function spreadAll(all: readonly Agent[], kx: number, ky: number, about: Vec): Command | null {
+  return changeAll(all, `${whoWords(all)} spread`, (a) => {
+    const p = startPose(a);
+    return p && started(a, { pos: at(about[0] + (p.x - about[0]) * kx, about[1] + (p.y - about[1]) * ky) });
+  });
+}
+
+// -------------------------------------------------------------- values
+
+export type Part = 'start' | 'goal';
+/** What a field of the shared inspector is about. */
+export type SharedField = 'heading' | 'speed' | 'time' | 'length' | 'width';
+
+/** A value for all of them, each made from its own. */
+export function setAll(
+  all: readonly Agent[],
+  part: Part,
+  field: SharedField,
+  value: (a: Agent) => number | null,
+  what: string,
+  fold?: string,
+): Command | null {
+  return changeAll(
+    all,
+    `${what} of ${whoWords(all)} changed`,
+    (a) => {
+      const v = value(a);
+      if (field === 'length' || field === 'width') return v === null ? null : { [field]: v, chosen: null };
+      if (field === 'time') return v === null ? null : aimed(a, { time: v });
+      return part === 'start' ? started(a, { [field]: v }) : aimed(a, { [field]: v });
+    },
+    fold && `${part}:${field}:${fold}`,
+  );
+}
+
+/** Faster or slower by steps of what one types for its kind. */
+export function fasterAll(all: readonly Agent[], steps: number): Command | null {
+  return changeAll(
+    all,
+    `Speed of ${whoWords(all)} changed`,
+    (a) => {
+      const p = startPose(a);
+      const step = a.type === 'pedestrian' ? 0.1 : 1 / 3.6;
+      return (
+        p && started(a, { speed: Math.min(topSpeed(a), Math.max(0, (Math.round(p.speed / step) + steps) * step)) })
+      );
+    },
+    'faster',
+  );
+}
+
+export const clearGoals = (all: readonly Agent[]): Command | null =>
+  changeAll(all, `${all.length > 1 ? 'Goals' : 'Goal'} of ${whoWords(all)} cleared`, (a) =>
+    hasGoal(a.goal) ? { goal: freeGoal(), chosen: null } : null,
+  );
+
+export const lockAll = (all: readonly Agent[], locked: boolean): Command | null =>
+  changeAll(all, `${whoWords(all)} ${locked ? 'locked' : 'unlocked'}`, (a) =>
+    a.locked === locked ? null : { locked },
+  );
+
+const DOES: Record<Others, string> = { react: 'reacts', log: 'replays the log', still: 'holds still' };
+const DO: Record<Others, string> = { react: 'react', log: 'replay the log', still: 'hold still' };
+
+/** What they do while others change. The scene's own way needs no word of theirs. */
+export const setDoes = (scene: Scene, all: readonly Agent[], does: Others): Command | null =>
+  changeAll(all, `${whoWords(all)} ${all.length === 1 ? DOES[does] : DO[does]}`, (a) => {
+    const own = does === scene.others ? null : does;
+    return a.does === own ? null : { does: own };
+  });
+
+export function callIt(a: Agent, called: string | null): Command {
+  const name = called ?? nameAs({ ...a, called: null, name: a.name }, a.kind);
+  return patchAgents(`${a.name} named ${name}`, new Map([[a.id, { called, name: called ?? plainName(a) }]]));
+}
+
+const plainName = (a: Agent): string => nameAs({ called: null, name: /\d+$/.exec(a.id)?.[0] ?? a.id }, a.kind);
+
+export const noteOn = (a: Agent, note: string): Command =>
+  patchAgents(`Note on ${a.name}`, new Map([[a.id, { note }]]));
+
+/** Of another kind, in its usual size; the generator takes the expert of that kind. */
+export function setKind(all: readonly Agent[], kind: PlacedKind, size: Preset = PRESETS[kind][0]): Command | null {
+  const type = typeOfKind(kind);
+  const { label, subtype, length, width } = size;
+  return changeAll(all, `${whoWords(all)} made ${all.length === 1 ? 'a' : 'each a'} ${label.toLowerCase()}`, (a) => {
+    if (a.kind === kind && a.length === length && a.width === width && a.subtype === subtype) return null;
+    const top = topSpeed({ type, subtype });
+    const start = a.start.speed !== null && a.start.speed > top ? started(a, { speed: top }) : { chosen: null };
+    const goal = a.goal.speed !== null && a.goal.speed > top ? { goal: Object.freeze({ ...a.goal, speed: top }) } : {};
+    return { ...start, ...goal, type, kind, subtype, length, width, name: nameAs(a, kind) };
+  });
+}
+
+// -------------------------------------------------------------- who is there
+
+export function removeThem(scene: Scene, all: readonly Agent[]): Command {
+  return removeAgents(
+    scene,
+    all.map((a) => a.id),
+    `${whoWords(all)} removed`,
+  );
+}
+
+/** Why so many more cannot be put into a scene; null where they can. */
+export function tooMany(scene: Scene, n: number): string | null {
+  const room = MOST_IN_SCENE - scene.agents.size;
+  if (n <= room) return null;
+  return room > 0
+    ? `A scene holds ${MOST_IN_SCENE} road users. There is room for ${room} more.`
+    : `A scene holds ${MOST_IN_SCENE} road users, and this one is full.`;
+}
+
+/** They come into the scene; `done`: what happened to them, such as `placed`. */
+export function addThem(scene: Scene, all: readonly Newcomer[], done: string): Command {
+  const ids = newIds(scene, all.length);
+  const agents = all.map((n, i) => settle(n, ids[i]));
+  return addAgents(scene, agents, `${whoWords(agents)} ${done}`);
+}
+
+/** Copies of road users as they stand at the start. */
+export const copiesOf = (all: readonly Agent[]): Newcomer[] =>
+  all.flatMap((a) => {
+    const pose = startPose(a);
+    return (pose && copyOf(a, pose)) ?? [];
+  });
+
+/** The same at the nearest place where they touch nobody. */
+export function withRoom(scene: Scene, all: readonly Newcomer[]): readonly Newcomer[] {
+  const shift = freeShift(all, standing(scene));
+  return shift && (shift[0] || shift[1]) ? all.map((n) => shifted(n, shift[0], shift[1])) : all;
+}

@@ -1,0 +1,58 @@
+// When several come closest to each other.
+import { gapAtLeast, gapBetween, type Footprint } from './boxes';
+import { poseAtStep, STEP_S, type Motion } from './motion';
+import type { Agent } from './scene';
+
+/** Two road users at the moment at which they are closest. */
+export interface Closest {
+  readonly a: Agent;
+  readonly b: Agent;
+  /** Between their boxes, metres. */
+  readonly gap: number;
+  /** Seconds of the scene. */
+  readonly time: number;
+}
+
+/** Beyond so many it is not looked for. */
+const MOST = 80;
+
+type Moving = readonly [Agent, Motion];
+
+/**
+ * The two that come closest, with the moment. Where the road users are of more than one type, those of unlike types
+ * are compared: that a crowd walks close together is no news. Null where there are not two to compare, or too many.
+ */
+export function closestOf(all: readonly Moving[], duration: number): Closest | null {
+  if (all.length < 2 || all.length > MOST) return null;
+  const mixed = new Set(all.map(([a]) => a.type)).size > 1;
+  const steps = Math.round(duration / STEP_S);
+  const boxAt = ([agent, motion]: Moving, step: number): Footprint | null => {
+    const pose = poseAtStep(motion, step);
+    return pose && { pose, length: agent.length, width: agent.width };
+  };
+  let best: Closest | null = null;
+  for (let step = 0; step <= steps; step++) {
+    const boxes = all.map((m) => boxAt(m, step));
+    for (let i = 0; i < all.length; i++)
+      for (let j = i + 1; j < all.length; j++) {
+        const p = boxes[i],
+          q = boxes[j];
+        if (!p || !q || (mixed && all[i][0].type === all[j][0].type)) continue;
+        const known = best?.gap ?? Infinity;
+        if (gapAtLeast(p, q) >= known) continue;
+        const gap = gapBetween(p, q);
+        if (gap < known) best = { a: all[i][0], b: all[j][0], gap, time: step * STEP_S };
+      }
+  }
+  return best;
+}
+
+/** The same at one moment: how far the two closest are apart, metres. */
+export function gapNow(boxes: readonly Footprint[]): number | null {
+  if (boxes.length < 2 || boxes.length > MOST) return null;
+  let best = Infinity;
+  boxes.forEach((p, i) => {
+    for (const q of boxes.slice(i + 1)) if (gapAtLeast(p, q) < best) best = Math.min(best, gapBetween(p, q));
+  });
+  return best;
+}

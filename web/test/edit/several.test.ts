@@ -1,0 +1,420 @@
+// Many at once, and new ones: what the pointer makes of them, without a page.
+import { beforeEach, describe, expect, it } from 'vitest';
+import { PRESETS } from '../../src/model/kinds';
+import { readTyped } from '../../src/model/units';
+import { startPose, type Agent } from '../../src/model/scene';
+import { Copying, removeSelected } from '../../src/edit/copying';
+import { placeGhost } from '../../src/edit/gestures/placing';
+import { touching } from '../../src/model/boxes';
+import { inTheWay, standing } from '../../src/edit/room';
+import { copiesOf, lockAll, setDoes, withRoom } from '../../src/edit/several';
+import { askedAfter } from '../../src/edit/after-change';
+import { Pointer } from './pointer';
+import { Session } from './session';
+
+let p: Pointer;
+beforeEach(() => {
+  p = new Pointer();
+});
+
+const all = (): Agent[] => [...p.editor.scene.peek()!.agents.values()];
+const agent = (id: string): Agent => p.editor.scene.peek()!.agents.get(id)!;
+const place = (id: string) => startPose(agent(id))!;
+const on = (id: string) => {
+  p.hit = { kind: 'agent', id, pile: [id] };
+  return p.at(place(id).x, place(id).y);
+};
+const ground = { kind: 'none' } as const;
+
+describe('selecting several', () => {
+  it('adds and takes away with Shift', () => {
+    p.click(on('1'));
+    p.chart.modifiers = { shift: true, alt: false, ctrl: false };
+    p.click(on('2'));
+    expect(p.editor.selected.peek()).toEqual(['1', '2']);
+    expect(p.editor.selection.peek()).toBeNull();
+    p.click(on('1'));
+    expect(p.editor.selected.peek()).toEqual(['2']);
+    p.hit = ground;
+    p.click({ x: 1, y: 1 });
+    expect(p.editor.selected.peek()).toEqual(['2']);
+  });
+
+  /** A frame drawn so that exactly one of two has its middle inside. */
+  const sweep = (id: string, mods = {}) => {
+    p.hit = ground;
+    const { x, y } = place(id);
+    const from = p.at(x - 1, y - 1),
+      to = p.at(x + 1, y + 1);
+    p.down(from);
+    p.move(to, mods);
+    const during = p.editor.sweep.peek();
+    p.up(to);
+    return during;
+  };
+
+  it('takes whose middle lies in the marquee, adds with Shift, takes away with Alt', () => {
+    const during = sweep('1');
+    expect(during!.ids).toContain('1');
+    expect(during!.outline).toHaveLength(4);
+    expect(p.editor.selected.peek()).toEqual(during!.ids);
+    expect(p.editor.sweep.peek()).toBeNull();
+    sweep('2', { shift: true });
+    expect(p.editor.selected.peek()).toEqual(expect.arrayContaining(['1', '2']));
+    sweep('1', { alt: true });
+    expect(p.editor.selected.peek()).not.toContain('1');
+    expect(p.editor.selected.peek()).toContain('2');
+  });
+
+  it('puts the old selection back on Esc', () => {
+    p.editor.select('2');
+    p.hit = ground;
+    p.down(p.at(-500, -500));
+    p.move(p.at(500, 500));
+    expect(p.editor.sweep.peek()!.ids.length).toBeGreaterThan(2);
+    expect(p.chart.cancel()).toBe(true);
+    expect([p.editor.selected.peek(), p.editor.sweep.peek()]).toEqual([['2'], null]);
+  });
+
+  it('draws a lasso of any form round them', () => {
+    p.editor.chooseTool('lasso');
+    p.hit = ground;
+    const { x, y } = place('1');
+    p.down(p.at(x - 2, y - 2));
+    for (const [dx, dy] of [
+      [2, -2],
+      [2, 2],
+      [-2, 2],
+    ])
+      p.move(p.at(x + dx, y + dy));
+    expect(p.state).toBe('lasso');
+    p.up(p.at(x - 2, y + 2));
+    expect(p.editor.selected.peek()).toContain('1');
+  });
+});
+
+describe('several in hand', () => {
+  beforeEach(() => p.editor.selectAll(['1', '2']));
+
+  it('move together as one step, and go back on Esc', () => {
+    const before = { a: place('1'), b: place('2') };
+    const from = on('2');
+    p.down(from);
+    p.move({ x: from.x + 80, y: from.y });
+    expect(p.state).toBe('dragging several');
+    expect(place('1').x).toBeCloseTo(before.a.x + 80 / p.view.z);
+    p.chart.cancel();
+    expect(place('1')).toEqual(before.a);
+    p.down(from);
+    p.move({ x: from.x + 80, y: from.y - 40 });
+    p.up({ x: from.x + 80, y: from.y - 40 });
+    for (const [id, was] of [
+      ['1', before.a],
+      ['2', before.b],
+    ] as const) {
+      expect(place(id).x).toBeCloseTo(was.x + 80 / p.view.z);
+      expect(place(id).y).toBeCloseTo(was.y + 40 / p.view.z);
+    }
+    expect(p.editor.undoName.peek()).toBe('2 cars moved');
+    p.editor.undo();
+    expect([place('1'), place('2')]).toEqual([before.a, before.b]);
+    expect(p.editor.undoName.peek()).toBeNull();
+  });
+
+  it('leave locked ones where they are', () => {
+    const was = place('1');
+    p.editor.run(lockAll([agent('1')], true)!);
+    const from = on('2');
+    p.down(from);
+    p.move({ x: from.x + 50, y: from.y });
+    p.up({ x: from.x + 50, y: from.y });
+    expect(place('1')).toEqual(was);
+    expect(p.editor.notices.toast.peek()?.text).toBe('1 locked stays.');
+    removeSelected(p.editor);
+    expect(all().map((a) => a.id)).toContain('1');
+    expect(all().map((a) => a.id)).not.toContain('2');
+  });
+
+  it('turn about their common middle, or each about itself with Alt', () => {
+    const [a, b] = [place('1'), place('2')];
+    const mid = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+    p.hit = { kind: 'frame', handle: 'turn' };
+    const from = p.at(mid.x, mid.y + 20);
+    p.down(from);
+    p.move(p.at(mid.x - 20, mid.y));
+    p.up(p.at(mid.x - 20, mid.y));
+    expect(place('1').heading - a.heading).toBeCloseTo(Math.PI / 2, 2);
+    expect(place('1').x).toBeCloseTo(mid.x - (a.y - mid.y), 1);
+    p.editor.undo();
+    p.down(from);
+    p.move(p.at(mid.x - 20, mid.y), { alt: true });
+    expect(place('1').x).toBeCloseTo(a.x);
+    expect(place('1').heading - a.heading).toBeCloseTo(Math.PI / 2, 2);
+    p.chart.cancel();
+  });
+});
+
+describe('copies', () => {
+  it('are dragged away with Alt, and the originals stay', () => {
+    const n = all().length;
+    const was = place('1');
+    const from = on('1');
+    p.down(from);
+    p.move({ x: from.x + 60, y: from.y }, { alt: true });
+    p.move({ x: from.x + 90, y: from.y }, { alt: true });
+    expect(p.state).toBe('dragging copies');
+    expect(p.editor.placement.ghosts.peek()!.all).toHaveLength(1);
+    expect(all()).toHaveLength(n);
+    p.up({ x: from.x + 90, y: from.y });
+    expect(all()).toHaveLength(n + 1);
+    const copy = p.editor.agent.peek()!;
+    expect([copy.placed, copy.kind, copy.length]).toEqual([true, agent('1').kind, agent('1').length]);
+    expect(copy.log.x.length).toBe(1);
+    expect(place('1')).toEqual(was);
+    p.editor.undo();
+    expect(all()).toHaveLength(n);
+  });
+
+  it('go by text from scene to scene, and land on free ground under the pointer', () => {
+    p.editor.selectAll(['1', '2']);
+    const text = new Copying(p.editor).copy()!;
+    const other = new Pointer();
+    const there = new Copying(other.editor);
+    expect(there.paste('something else', [0, 0], 8)).toBe(false);
+    const before = standing(other.editor.scene.peek()!);
+    expect(there.paste(text, [0, 0], 8)).toBe(true);
+    const fresh = other.editor.chosenOnes;
+    expect(fresh).toHaveLength(2);
+    for (const a of fresh) expect(inTheWay({ ...a, pose: startPose(a)! }, before)).toBeUndefined();
+    const [a, b] = fresh.map((f) => startPose(f)!);
+    expect(b.x - a.x).toBeCloseTo(place('2').x - place('1').x);
+    expect(b.y - a.y).toBeCloseTo(place('2').y - place('1').y);
+  });
+
+  it('stand where nobody is, also of copies of copies', () => {
+    p.editor.select('1');
+    const copying = new Copying(p.editor);
+    for (let i = 0; i < 6; i++) copying.duplicate();
+    const boxes = standing(p.editor.scene.peek()!).filter((b) => b.agent.placed);
+    expect(boxes).toHaveLength(6);
+    boxes.forEach((b, i) => expect(inTheWay(b, boxes.slice(i + 1))).toBeUndefined());
+    const scene = p.editor.scene.peek()!;
+    const copies = copiesOf([agent('1')]);
+    const [put] = withRoom(scene, copies);
+    expect(touching({ ...put }, { ...copies[0] })).toBe(false);
+  });
+});
+
+describe('placing', () => {
+  const road = () => {
+    const lane = [...p.editor.scene.peek()!.map.lanes.values()].find((l) => l.kind === 'road' && l.line.length > 30)!;
+    const [a, b] = lane.line.pts;
+    return { lane, heading: Math.atan2(b[1] - a[1], b[0] - a[0]), pts: lane.line.pts };
+  };
+  const free = () => {
+    const scene = p.editor.scene.peek()!;
+    const { pts } = road();
+    return pts.find(([x, y]) => !inTheWay({ pose: { x, y, heading: 0 }, length: 8, width: 8 }, standing(scene)))!;
+  };
+
+  it('shows a ghost on the lane and puts a car there, several in a row', () => {
+    p.editor.chooseTool('place-car');
+    const [x, y] = free();
+    p.move(p.at(x + 0.4, y + 0.4));
+    const ghost = p.editor.placement.ghosts.peek()!.all[0];
+    expect(ghost.fits).toBe(true);
+    expect(Math.hypot(ghost.who.pose.x - x, ghost.who.pose.y - y)).toBeLessThan(1);
+    const n = all().length;
+    p.click(p.at(x, y));
+    expect(all()).toHaveLength(n + 1);
+    const a = p.editor.agent.peek()!;
+    expect([a.placed, a.length]).toEqual([true, PRESETS.car[0].length]);
+    expect(p.editor.tool.peek()).toBe('place-car');
+  });
+
+  it('asks where somebody stands, and knows a place further on', () => {
+    p.editor.chooseTool('place-car');
+    const { x, y } = place('1');
+    const n = all().length;
+    p.click(p.at(x, y));
+    expect(all()).toHaveLength(n);
+    const toast = p.editor.notices.toast.peek()!;
+    expect(toast.text).toMatch(/^Car 1 stands here/);
+    expect([toast.action?.label, toast.second?.label]).toEqual(['Further on', 'Put here']);
+    toast.action!.run();
+    expect(all()).toHaveLength(n + 1);
+    const put = p.editor.agent.peek()!;
+    const others = standing(p.editor.scene.peek()!).filter((b) => b.agent.id !== put.id);
+    expect(inTheWay({ ...put, pose: startPose(put)! }, others)).toBeUndefined();
+    p.editor.undo();
+    toast.second!.run();
+    const there = startPose(p.editor.agent.peek()!)!;
+    expect(Math.hypot(there.x - x, there.y - y)).toBeLessThan(2.5);
+  });
+
+  it('turns the ghost with the hand and with the keys', () => {
+    p.editor.chooseTool('place-pedestrian');
+    const from = p.at(80, 80);
+    p.down(from);
+    p.move({ x: from.x, y: from.y - 30 });
+    expect(p.state).toBe('turning');
+    expect(p.editor.placement.ghosts.peek()!.all[0].who.pose.heading).toBeCloseTo(Math.PI / 2);
+    p.up({ x: from.x, y: from.y - 30 });
+    expect(startPose(p.editor.agent.peek()!)!.heading).toBeCloseTo(Math.PI / 2);
+    p.move(p.at(90, 80));
+    const scene = p.editor.scene.peek()!;
+    expect(p.editor.placement.turnBy(scene, 0.5)).toBe(true);
+    expect(p.editor.placement.again(scene, 1, 0)).toBe(true);
+    placeGhost(p.editor);
+    expect(startPose(p.editor.agent.peek()!)!.heading).toBeCloseTo(0.5);
+  });
+
+  it('spreads many over an area or along a line with one drag, one step, nobody touching', () => {
+    for (const [spread, to] of [
+      ['area', [100, 100]],
+      ['line', [110, 70]],
+    ] as const) {
+      p.editor.chooseTool('place-pedestrian');
+      p.editor.placement.choose('pedestrian', { spread, count: 20 });
+      const n = all().length;
+      p.down(p.at(80, 80));
+      p.move(p.at(90, 90));
+      p.move(p.at(to[0], to[1]));
+      expect(p.editor.placement.ghosts.peek()!.words).toBe('20 pedestrians');
+      p.up(p.at(to[0], to[1]));
+      expect(all()).toHaveLength(n + 20);
+      expect(p.editor.selected.peek()).toHaveLength(20);
+      const boxes = standing(p.editor.scene.peek()!).filter((b) => b.agent.placed);
+      boxes.forEach((b, i) => expect(inTheWay(b, boxes.slice(i + 1))).toBeUndefined());
+      expect(p.editor.undoName.peek()).toBe('20 pedestrians placed');
+      p.editor.undo();
+      expect(all()).toHaveLength(n);
+    }
+  });
+
+  it('says how many find room where not all do', () => {
+    p.editor.chooseTool('place-bus');
+    p.editor.placement.choose('bus', { spread: 'area', count: 50 });
+    p.down(p.at(80, 80));
+    p.move(p.at(90, 90));
+    p.up(p.at(100, 100));
+    const placed = p.editor.selected.peek().length;
+    expect(placed).toBeLessThan(50);
+    if (placed) expect(p.editor.notices.toast.peek()?.text).toMatch(/of 50 buses placed/);
+    else expect(p.editor.notices.toast.peek()?.text).toBe('There is no room here.');
+  });
+});
+
+describe('menus', () => {
+  it('are asked for by the right button and by a finger that rests, for what lies there', () => {
+    p.hit = ground;
+    p.down({ x: 50, y: 50 }, { button: 2 });
+    p.up({ x: 50, y: 50 });
+    const at = on('2');
+    p.down(at, { button: 2 });
+    p.up(at);
+    expect(p.editor.selection.peek()).toBe('2');
+    p.editor.selectAll(['1', '2']);
+    p.down(at, { button: 2 });
+    p.up(at);
+    expect(p.editor.selected.peek()).toEqual(['1', '2']);
+    p.hit = { kind: 'pennant', id: '1' };
+    p.down(at, { button: 2 });
+    p.up(at);
+    p.hit = { kind: 'agent', id: '3', pile: ['3'] };
+    p.down(at, { touch: true });
+    for (let i = 0; i < 40; i++) p.chart.frame(0.016);
+    expect(p.state).toBe('asked');
+    p.up(at);
+    expect(p.state).toBe('idle');
+    expect(p.menus).toEqual(['ground', 'road user', 'several', 'goal', 'road user']);
+  });
+
+  it('are none where the right button moves the picture', () => {
+    p.hit = ground;
+    p.down({ x: 50, y: 50 }, { button: 2 });
+    p.move({ x: 90, y: 50 });
+    expect(p.state).toBe('panning');
+    p.up({ x: 90, y: 50 });
+    expect(p.menus).toEqual([]);
+  });
+});
+
+describe('a locked road user', () => {
+  it('refuses drags and says how it is unlocked', () => {
+    p.editor.run(lockAll([agent('1')], true)!);
+    const was = place('1');
+    const at = on('1');
+    p.down(at);
+    p.move({ x: at.x + 40, y: at.y });
+    p.up({ x: at.x + 40, y: at.y });
+    expect(place('1')).toEqual(was);
+    expect(p.editor.notices.toast.peek()?.text).toBe('Locked. Ctrl L unlocks.');
+  });
+});
+
+describe('what is typed', () => {
+  it('is a value, a change or nonsense', () => {
+    const read = (text: string, now: number) => readTyped(text, 'km/h')?.(now) ?? null;
+    expect(read('50/3.6', 1)).toBeCloseTo(13.889, 3);
+    expect(read('+5', 30)).toBe(35);
+    expect(read('-=5', 30)).toBe(25);
+    expect(read('×1.1', 30)).toBeCloseTo(33);
+    expect(read('/2', 30)).toBe(15);
+    expect(read('30 mph', 0)).toBeCloseTo(48.28, 2);
+    expect(read('−5', 30)).toBe(-5);
+    expect(read('abc', 30)).toBeNull();
+    expect(read('', 30)).toBeNull();
+    expect(read('/0', 30)).toBeNull();
+  });
+});
+
+describe('what is asked of the generator', () => {
+  const roster = (s: Session) => s.editor.scene.peek()!;
+
+  it('is about all that came, with a whole scene while the server does not know them', () => {
+    const s = new Session();
+    const copying = new Copying(s.editor);
+    s.editor.selectAll(['1', '2']);
+    copying.duplicate();
+    const fresh = s.editor.selected.peek();
+    const asked = askedAfter(s.editor, roster(s), { name: '', agent: null, several: fresh, undo: false });
+    expect(asked).toMatchObject({ agents: [...fresh], react: true });
+    s.generation.generateAll();
+    const { scene, options } = s.generator.last;
+    const sent = scene() as { scene: { agents: { id: string; track: { x_m: number[] } }[] } };
+    const put = sent.scene.agents.find((a) => a.id === fresh[0])!;
+    expect(put.track.x_m).toHaveLength(1);
+    expect(options.conditions[fresh[0]].start).toMatchObject({ speed_mps: expect.any(Number) });
+  });
+
+  it('no longer holds who was removed', () => {
+    const s = new Session();
+    s.generation.generateAll();
+    expect(s.generator.last.scene()).toEqual({ id: roster(s).id });
+    s.editor.select('2');
+    removeSelected(s.editor);
+    s.generation.generateAll();
+    const sent = s.generator.last.scene() as { scene: { agents: { id: string }[] } };
+    expect(sent.scene.agents.map((a) => a.id)).not.toContain('2');
+    // What was generated since is a step of its own.
+    s.editor.undo();
+    s.editor.undo();
+    s.generation.generateAll();
+    expect(s.generator.last.scene()).toEqual({ id: roster(s).id });
+  });
+
+  it('lets those react of whom that was said, and stands those still who hold', () => {
+    const s = new Session();
+    const scene = roster(s);
+    const still = setDoes(scene, [scene.agents.get('2')!], 'still')!;
+    s.editor.run(still);
+    s.editor.select('1');
+    const asked = askedAfter(s.editor, roster(s), { name: '', agent: '1', undo: false });
+    expect(asked).toBe('nothing');
+    s.generation.generateAll();
+    const sent = s.generator.last.scene() as { scene: { agents: { id: string; track: { x_m: number[] } }[] } };
+    const held = sent.scene.agents.find((a) => a.id === '2')!;
+    expect(new Set(held.track.x_m).size).toBe(1);
+  });
+});
