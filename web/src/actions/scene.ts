@@ -98,7 +98,7 @@ export const scene = inGroup('Scene', [
   {
     id: 'rename-scene',
     label: 'Rename scene',
-    keys: ['F2'],
+    keys: ['Shift+F2'],
     icon: 'pencil',
     help: 'Another name for it',
     when: own,

@@ -167,7 +167,8 @@ export class Generation implements Previews {
     } else if (this.#absence.now) {
       this.#absence.wait();
       if (step.agent) this.#sketch(step.agent, true);
-    } else {
+    } else if (step.everybody && !step.undo) this.#workOut(step);
+    else {
       const rested = (this.#rested = this.#begin());
       this.#rest = setTimeout(() => {
         this.#workOut(step);
