@@ -149,6 +149,33 @@ describe('a scene that is opened again', () => {
     expect([r.standing, sceneKey(r.scene)]).toEqual(['ahead', sceneKey(h.scene)]);
   });
 
+  it('starts afresh where what is kept has holes', async () => {
+    const { h, kept } = await edited(true);
+    const whole = await kept();
+    const lost = { ...whole, steps: whole.steps.slice(1) };
+    expect(resume(h.scene, lost, true, '"1"').standing).toBe('fresh');
+    const nowhere = { ...whole, place: { ...whole.place, head: 99 } };
+    expect(resume(h.scene, nowhere, true, '"1"').standing).toBe('fresh');
+  });
+
+  it('takes what was changed elsewhere as a step, which is kept with the others', async () => {
+    const { journal, kept, h } = await edited(true);
+    const theirs = rename('Theirs').apply(h.scene);
+    const before = await kept();
+    const r = resume(theirs, before, true, '"2"');
+    expect(r.standing).toBe('behind');
+    const again = new History(r.scene, undefined, r.history);
+    again.adopt('Changed elsewhere', theirs);
+    journal.follow(again, 'x', before, true);
+    void journal.retry();
+    journal.synced('"2"', again.head);
+    await journal.flush();
+    const next = resume(theirs, await kept(), true, '"2"');
+    expect([next.standing, next.scene.name]).toEqual(['same', 'Theirs']);
+    const last = new History(next.scene, undefined, next.history);
+    expect([last.undo()?.name, last.scene.name]).toEqual(['Changed elsewhere', h.scene.name]);
+  });
+
   it('starts afresh where nothing is kept', () => {
     expect(resume(file(), null, true, '"1"')).toMatchObject({ standing: 'fresh', history: null });
   });

@@ -27,7 +27,7 @@ export interface Resumed {
 /** From a file and what was kept of the scene; `own` ones are saved to the server step by step. */
 export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: string | null): Resumed {
   const fresh: Resumed = { scene: file, history: null, standing: 'fresh' };
-  if (!kept?.steps.length) return fresh;
+  if (!kept?.steps.length || !isWhole(kept)) return fresh;
   const { head, ahead, synced } = kept.place;
   const history = { steps: kept.steps, head, ahead };
   const scene = replay(kept.base ? withState(file, kept.base) : file, history);
@@ -37,6 +37,12 @@ export function resume(file: Scene, kept: KeptScene | null, own: boolean, etag: 
   if (synced !== null && synced.etag === etag) return { scene, history, standing: unsaved ? 'ahead' : 'same' };
   if (!unsaved) return { scene, history, standing: 'behind' };
   return { scene, history, standing: standingOf(file, scene, history) };
+}
+
+/** Does every step lead back to the first? */
+function isWhole({ steps, place }: KeptScene): boolean {
+  const there = new Set<number | null>([null, ...steps.map((s) => s.id)]);
+  return there.has(place.head) && steps.every((s) => there.has(s.parent));
 }
 
 /** What is to be saved of a scene: what is asked, and what people call things. */
@@ -78,7 +84,10 @@ export class Journal {
     }
   }
 
-  /** From now on the steps of this history are kept; of an own scene with the document that they start from. */
+  /**
+   * From now on the steps of this history are kept; of an own scene with the document that they start from. `kept` is
+   * what was kept of it before, null where nothing of it is to stay.
+   */
   follow(history: History, scene: string, kept: KeptScene | null, own: boolean): void {
     this.#history = history;
     this.#scene = scene;

@@ -141,8 +141,9 @@ export class Library {
     });
     this.saving.opened(scene, etag, standing === 'ahead' || standing === 'conflict' ? standing : 'same');
     if (mine) {
-      journal.follow(editor.history!, scene.id, kept, own);
-      if (own && etag && current) journal.synced(etag, editor.history!.head);
+      journal.follow(editor.history!, scene.id, history && kept, own);
+      if (standing === 'behind') void journal.retry();
+      if (own && etag && (current || standing === 'behind')) journal.synced(etag, editor.history!.head);
       void journal.tidy((id) => this.list.isOwn(id));
     }
     this.#show(scene, saved !== null, again);

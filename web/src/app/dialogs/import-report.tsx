@@ -5,8 +5,9 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 
-export function ImportReport({ verdicts }: { verdicts: readonly FileVerdict[] }) {
+export function ImportReport() {
   const { importing } = useApp();
+  const verdicts = importing.verdicts.value ?? [];
   const close = () => importing.close();
   const bad = verdicts.filter((v) => !v.ok);
   return (
