@@ -44,7 +44,7 @@ export interface Action {
 export const inGroup = (group: Group, actions: readonly Omit<Action, 'group'>[]): readonly Action[] =>
   actions.map((a) => ({ ...a, group }));
 
-export const hasScene = (c: Context): true | string => (c.editor.scene.value ? true : 'No scene is open.');
+export const hasScene = (c: Context): true | string => (c.editor.isOpen.value ? true : 'No scene is open.');
 
 export const hasAgent = (c: Context): true | string => {
   const a = c.editor.agent.value;

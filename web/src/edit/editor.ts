@@ -120,6 +120,8 @@ export class Editor {
   #history: History | null = null;
 
   readonly scene: ReadonlySignal<Scene | null> = this.#scene;
+  /** Is there a scene? It changes less often than the scene does. */
+  readonly isOpen = computed(() => this.scene.value !== null);
   /** Ids of all that are selected, in the order in which they were taken. */
   readonly selected: ReadonlySignal<readonly string[]> = this.#selected;
   /** Id of the selected road user; null where none is selected, or several. */

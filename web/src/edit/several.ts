@@ -144,6 +144,22 @@ export function setAll(
   );
 }
 
+/** Fixes a field of all at what each one has now; where all are fixed already, frees it. */
+export function fixAll(
+  all: readonly Agent[],
+  part: Part,
+  field: 'heading' | 'speed',
+  shown: (a: Agent) => number | null,
+): Command | null {
+  const free = all.every((a) => a[part][field] !== null);
+  const word = `${part === 'goal' ? 'Goal' : 'Start'} ${field}`;
+  return changeAll(all, `${word} of ${whoWords(all)} ${free ? 'free' : 'fixed'}`, (a) => {
+    const v = free ? null : (a[part][field] ?? shown(a));
+    if (v === a[part][field]) return null;
+    return part === 'start' ? started(a, { [field]: v }) : aimed(a, { [field]: v });
+  });
+}
+
 /** Faster or slower by steps of what one types for its kind. */
 export function fasterAll(all: readonly Agent[], steps: number): Command | null {
   return changeAll(

@@ -17,8 +17,15 @@ interface Line {
 
 const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
   'Select and look': [
+    { label: 'Add one, or take it away', keys: ['Shift'], how: 'click' },
+    { label: 'All in a frame', keys: [], how: 'drag over the ground' },
+    { label: 'Add a frame, take it away', keys: ['Shift', 'Alt'], how: 'drag' },
     { label: 'Pan', keys: ['Space'], how: 'drag' },
     { label: 'Zoom', keys: [], how: 'wheel' },
+  ],
+  Edit: [
+    { label: 'Copy away', keys: ['Alt'], how: 'drag from a road user' },
+    { label: 'Menu', keys: [], how: 'right button, or a finger that rests' },
   ],
   Move: [
     { label: 'No snapping', keys: ['Alt'], how: 'drag' },
@@ -43,6 +50,11 @@ const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
   { ids: /^step-(back|on)$/, label: '0.1 s back, on', keys: [',', '.'] },
   { ids: /^to-(start|end)$/, label: 'To start, to end', keys: ['Home', 'End'] },
   { ids: /^(slower|faster)-playback$/, label: 'Slower, faster playback', keys: ['Shift+,', '.'] },
+  {
+    ids: /^tool-place-/,
+    label: 'Place a car, truck, bus, motorcycle, cyclist, pedestrian',
+    keys: ['1', '2', '3', '4', '5', '6'],
+  },
   { ids: /^(next|previous)-agent$/, label: 'Next, previous road user', keys: ['Tab', 'Shift+Tab'] },
   { ids: /^(next|previous)-group$/, label: 'Next part of the page', keys: ['F6'] },
   { ids: /^zoom-(in|out)$/, label: 'Zoom in, out', keys: ['PageUp', 'PageDown'] },

@@ -8,6 +8,7 @@ import { actionOf, perform } from '../../actions/registry';
 import * as several from '../../edit/several';
 import { closestOf, gapNow } from '../../model/closest';
 import { poseShown } from '../../edit/frame';
+import { shownPose } from '../../edit/moves';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
@@ -102,12 +103,58 @@ function Filter({ all, only }: { all: Live; only: { value: AgentType | null } })
   );
 }
 
-function Row({ shared, those }: { shared: Shared; those: Live }) {
+interface RowProps {
+  shared: Shared;
+  those: Live;
+  /** The field that each of them has fixed or free. */
+  fixes?: readonly ['start' | 'goal', 'heading' | 'speed'];
+}
+
+function Row({ shared, those, fixes }: RowProps) {
   return (
-    <div class="pr wide">
+    <div class={`pr ${fixes ? '' : 'wide'}`}>
       <span class="lab">{shared.word}</span>
-      <SharedField shared={shared} those={those} />
+      <div class="fs">
+        <SharedField shared={shared} those={those} />
+      </div>
+      {fixes ? <FixedOf those={those} part={fixes[0]} field={fixes[1]} /> : null}
     </div>
+  );
+}
+
+/** How many have a field fixed; a click fixes it for all at what each one has, or frees it for all. */
+function FixedOf({ those, part, field }: { those: Live; part: 'start' | 'goal'; field: 'heading' | 'speed' }) {
+  const { editor } = useApp();
+  const fixed = useComputed(() => those.value.filter((a) => a[part][field] !== null).length).value;
+  const all = those.value.length;
+  const toggle = () => {
+    const shown = (a: Agent): number | null => shownPose(editor, a, part)?.[field] ?? null;
+    const command = several.fixAll(several.movable(those.peek()), part, field, shown);
+    if (command) editor.run(command);
+  };
+  return (
+    <button
+      type="button"
+      class="fx"
+      role="switch"
+      aria-checked={fixed === all ? 'true' : fixed ? 'mixed' : 'false'}
+      aria-label={`${part === 'goal' ? 'Goal' : 'Start'} ${field} fixed for ${fixed} of ${all}`}
+      title={
+        fixed === all ? 'Fixed for all. Click to let the generator decide' : 'Click to fix it for all, each as it is'
+      }
+      onClick={toggle}
+    >
+      {fixed === all ? (
+        <>
+          <Icon name="lock" size={11} />
+          Fixed
+        </>
+      ) : fixed ? (
+        `${fixed} of ${all}`
+      ) : (
+        'Free'
+      )}
+    </button>
   );
 }
 
@@ -123,8 +170,8 @@ function Values({ those }: { those: Live }) {
           Start
           <small>at 0.0 s</small>
         </h3>
-        <Row shared={fields.heading} those={those} />
-        <Row shared={fields.speed} those={those} />
+        <Row shared={fields.heading} those={those} fixes={['start', 'heading']} />
+        <Row shared={fields.speed} those={those} fixes={['start', 'speed']} />
         <Row shared={fields.length} those={those} />
         <Row shared={fields.width} those={those} />
         <Labelled label="Type">
@@ -139,7 +186,7 @@ function Values({ those }: { those: Live }) {
           Goal
           <small>{goals ? `${goals} of ${those.value.length} have one` : 'nobody has one'}</small>
         </h3>
-        <Row shared={fields.goalSpeed} those={those} />
+        <Row shared={fields.goalSpeed} those={those} fixes={['goal', 'speed']} />
         <Row shared={fields.time} those={those} />
       </section>
     </>
