@@ -87,6 +87,8 @@ function NameField() {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const name = useComputed(() => editor.scene.value?.name ?? '');
+  // As wide as the name, in characters: capitals are wider than most, so one is left out.
+  const size = useComputed(() => Math.max(4, name.value.length - 1));
   return (
     <input
       ref={input}
@@ -95,6 +97,7 @@ function NameField() {
       maxlength={80}
       spellcheck={false}
       value={name}
+      size={size}
       onChange={() => {
         const typed = input.current!.value.trim();
         if (typed && typed !== name.peek()) editor.run(rename(typed));

@@ -135,7 +135,7 @@ export class History {
       id: last?.id ?? this.#next++,
       parent: last ? last.parent : this.#head,
       name,
-      agent: diff.agents[0]?.id ?? null,
+      agent: diff.agents.length === 1 ? diff.agents[0].id : null,
       at,
       diff,
       from: last ? last.from : from,
