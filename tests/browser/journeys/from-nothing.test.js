@@ -76,6 +76,18 @@ journeys('from nothing', (stage) => {
     const words = await e.text('.status');
     assert.ok(events > 0 || /futures|near|collision|rule/i.test(words), words);
 
+    // Its pennant stays when somebody else is selected, and leads back to it.
+    await leaveField(e);
+    await e.key('z');
+    await e.settled();
+    await e.choose(first.id);
+    const [px, py] = await e.at(gx, gy);
+    assert.ok(await e.open([px + 5, py - 14], 4), 'the pennant is in view');
+    await e.page.mouse.click(px + 5, py - 14);
+    await e.page.waitForSelector('.fu');
+    await e.settled();
+    assert.equal(await e.text('.ih h2'), second.name);
+
     // Played, both move from the first moment.
     await leaveField(e);
     await e.key('Space');

@@ -3,9 +3,8 @@
 /** The crossing of the examples as a file with nobody in it. */
 export async function emptyScene(e) {
   const get = async (path) => (await e.page.request.get(new URL(path, e.page.url()).href)).json();
-  const scene = await get('/v1/scenes/demo-crossing');
-  const { id: _id, generated: _generated, x_editor: _editor, ...rest } = scene;
-  const json = { ...rest, name: 'Nobody yet', agents: [] };
+  const { format, version, meta, time, map, signals } = await get('/v1/scenes/demo-crossing');
+  const json = { format, version, name: 'Nobody yet', meta, time, map, signals, agents: [] };
   return { json, bytes: Buffer.from(JSON.stringify(json)) };
 }
 

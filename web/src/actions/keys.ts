@@ -33,9 +33,11 @@ export function keyOf(e: KeyLike): string {
   else if (key === '+') shift = shift && e.code === 'Equal';
   else if (key === '?') shift = false;
   else if (/^[a-z]$/i.test(key)) key = key.toUpperCase();
-  // Alt and Shift change what a digit key types; its place does not change.
+  // Alt and Shift change what a key types on some keyboards; its place does not change.
   const digit = (e.altKey || e.shiftKey) && /^Digit(\d)$/.exec(e.code ?? '');
   if (digit) key = digit[1];
+  const letter = e.altKey && /^Key([A-Z])$/.exec(e.code ?? '');
+  if (letter) key = letter[1];
   return [e.ctrlKey || e.metaKey ? 'Ctrl' : '', e.altKey ? 'Alt' : '', shift ? 'Shift' : '', key]
     .filter(Boolean)
     .join('+');

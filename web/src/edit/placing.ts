@@ -4,7 +4,7 @@ import { topSpeed } from '../model/domain';
 import { PRESETS, typeOfKind, type PlacedKind, type Preset } from '../model/kinds';
 import { nearestLanes, type Lane, type LaneMap } from '../model/lanemap';
 import { newcomer, type Newcomer } from '../model/newcomer';
-import type { Scene } from '../model/scene';
+import { startPose, type Scene } from '../model/scene';
 import type { Footprint } from '../model/boxes';
 import { inTheWay, standing } from './room';
 import { laneWords, lanesFor, snapToLane } from './snap';
@@ -73,6 +73,29 @@ function speedOn(lane: Lane | null, { kind, size }: PlacingChoice): number {
   return Math.min(on, topSpeed({ type: typeOfKind(kind), subtype: size.subtype }));
 }
 
+/** Behind somebody one is no faster than what this braking stops in time, m/s². */
+const EASY_BRAKING = 3;
+/** So far ahead one looks for somebody, and so far aside he may be, metres. */
+const AHEAD_M = 60;
+const ASIDE_M = 1.5;
+
+/** The speed with which one does not run into whoever is ahead on the lane. */
+function behindOthers(scene: Scene, { x, y, heading, speed }: Pose, length: number): number {
+  const c = Math.cos(heading),
+    s = Math.sin(heading);
+  let v = speed;
+  for (const a of scene.agents.values()) {
+    const p = startPose(a);
+    if (!p) continue;
+    const [dx, dy] = [p.x - x, p.y - y];
+    const gap = dx * c + dy * s - (length + a.length) / 2;
+    if (gap < 0 || gap > AHEAD_M || Math.abs(dy * c - dx * s) > ASIDE_M) continue;
+    const same = Math.max(0, p.speed * Math.cos(p.heading - heading));
+    v = Math.min(v, Math.sqrt(same * same + 2 * EASY_BRAKING * gap));
+  }
+  return v;
+}
+
 interface Wish {
   readonly zoom: number;
   /** Set by hand. */
@@ -95,7 +118,8 @@ export function ghostAt(
       ? plain
       : snapNewcomer(scene, { kind: choice.kind, pose: raw }, wish.zoom);
   const own = wish.heading ?? (s.lane ? s.heading : onFootHeading(scene.map, choice.kind, s.x, s.y));
-  const pose = { x: s.x, y: s.y, heading: wrapAngle(own), speed: speedOn(s.lane, choice) };
+  const wished = { x: s.x, y: s.y, heading: wrapAngle(own), speed: speedOn(s.lane, choice) };
+  const pose = s.lane ? { ...wished, speed: behindOthers(scene, wished, choice.size.length) } : wished;
   return { ...newcomer(choice.kind, choice.size, pose), lane: s.lane };
 }
 

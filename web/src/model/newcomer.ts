@@ -82,6 +82,8 @@ export function shifted(n: Newcomer, dx: number, dy: number): Newcomer {
 
 const MARK = 'dragtraffic road users';
 const MOST = 256;
+/** Text longer than this is not looked at: the largest scene is a tenth of it. */
+const MOST_CHARACTERS = 4_000_000;
 
 /** Road users as the clipboard carries them from tab to tab. */
 export function copiesText(all: readonly Newcomer[]): string {
@@ -100,6 +102,7 @@ export function copiesText(all: readonly Newcomer[]): string {
 
 /** What was copied, from whatever the clipboard holds; null where that is something else. */
 export function readCopies(text: string): Newcomer[] | null {
+  if (text.length > MOST_CHARACTERS) return null;
   let json: unknown;
   try {
     json = JSON.parse(text);

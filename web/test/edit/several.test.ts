@@ -340,6 +340,20 @@ describe('menus', () => {
   });
 });
 
+describe('a pennant', () => {
+  it('selects whose goal it stands at, and adds it with Shift', () => {
+    p.hit = { kind: 'pennant', id: '2' };
+    p.move({ x: 40, y: 40 });
+    expect([p.editor.hover.peek(), p.cursor]).toEqual(['2', 'pointer']);
+    p.click({ x: 40, y: 40 });
+    expect(p.editor.selection.peek()).toBe('2');
+    p.hit = { kind: 'pennant', id: '1' };
+    p.chart.modifiers = { shift: true, alt: false, ctrl: false };
+    p.click({ x: 40, y: 40 });
+    expect(p.editor.selected.peek()).toEqual(['2', '1']);
+  });
+});
+
 describe('a locked road user', () => {
   it('refuses drags and says how it is unlocked', () => {
     p.editor.run(lockAll([agent('1')], true)!);

@@ -2,7 +2,7 @@
 import { useComputed } from '@preact/signals';
 import type { Command } from '../../model/commands';
 import { deg } from '../../model/geometry';
-import { canChange } from '../../model/scene';
+import { canMove } from '../../model/scene';
 import { num, speedLabel } from '../../model/units';
 import type { Field, Part } from '../../edit/editor';
 import * as moves from '../../edit/moves';
@@ -12,7 +12,7 @@ import { useApp } from '../parts/app-context';
 
 export function HandleSliders() {
   const { editor } = useApp();
-  const id = useComputed(() => (editor.agent.value && canChange(editor.agent.value) ? editor.selection.value : null));
+  const id = useComputed(() => (editor.agent.value && canMove(editor.agent.value) ? editor.selection.value : null));
   return (
     <div class="sr" role="group" aria-label="Handles" data-group="handles">
       {id.value ? <Sliders key={id.value} id={id.value} /> : null}

@@ -24,9 +24,9 @@ export function AgentPanel({ id }: { id: string }) {
       <Head agent={agent} />
       {canChange(first) ? (
         <>
-          <Hint agent={agent} />
-          <Warnings agent={agent} />
           <Locked agent={agent}>
+            <Hint agent={agent} />
+            <Warnings agent={agent} />
             <StartSection agent={agent} />
             <GoalSection agent={agent} />
           </Locked>

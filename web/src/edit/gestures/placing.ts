@@ -25,6 +25,8 @@ export function placeGhost(editor: Editor): void {
   const scene = editor.scene.peek();
   const ghost = editor.placement.ghosts.peek()?.all[0];
   if (!scene || !ghost) return;
+  editor.playhead.pause();
+  editor.setTime(0);
   const full = tooMany(scene, 1);
   if (full) {
     editor.notices.show({ text: full });

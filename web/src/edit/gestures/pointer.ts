@@ -154,7 +154,8 @@ export class Gestures {
   }
 
   #doubleClick(e: MouseEvent): void {
-    if (!this.#onPicture(e)) return;
+    // Whoever places or measures clicks fast.
+    if (!this.#onPicture(e) || !['select', 'pan'].includes(this.editor.tool.peek())) return;
     const { x, y } = this.#place(e);
     if (hitTest(this.#context(false), x, y).kind !== 'none') return;
     this.stage.glide.by((v) => v.zoomAt(x, y, 1.6));

@@ -132,7 +132,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       break;
     }
     case 'by road': {
-      const way = a && roadWay(editor, a);
+      const way = a && !a.locked && roadWay(editor, a);
       if (way) editor.run(way.command);
       break;
     }
