@@ -76,7 +76,7 @@ journeys('sharing', (stage) => {
     const record = await save('womd');
     assert.match(record.words, /^\d+ things? lost$/);
     assert.equal((await save('png')).bytes.subarray(1, 4).toString(), 'PNG');
-    assert.match((await save('svg')).bytes.toString(), /^<svg xmlns.*<rect.*<\/svg>\s*$/s);
+    assert.match((await save('svg')).bytes.toString(), /^<svg xmlns.*<use href="#d\d+" transform.*<\/svg>\s*$/s);
     const report = (await save('report')).bytes.toString();
     assert.match(report, /<h1>Rosa &amp; 5th<\/h1>.*data:image\/png.*Metres and seconds; x east, y north/s);
     await e.drop(saved.name, saved.bytes);
