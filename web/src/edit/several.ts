@@ -35,7 +35,7 @@ export const movable = (all: readonly Agent[]): Agent[] => all.filter(canMove);
 type Make = (a: Agent) => AgentPatch | null;
 
 /** One change for all of them; null where it changes nobody. `fold`: repeats within a short time are one step. */
-export function changeAll(all: readonly Agent[], name: string, make: Make, fold?: string): Command | null {
+function changeAll(all: readonly Agent[], name: string, make: Make, fold?: string): Command | null {
   const patches = new Map(all.flatMap((a) => (make(a) ? [[a.id, make(a)!] as const] : [])));
   if (!patches.size) return null;
   return patchAgents(name, patches, fold && `${fold}:${[...patches.keys()].join()}`);

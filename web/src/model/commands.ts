@@ -210,7 +210,7 @@ export function setLength(scene: Scene, length: Length): Command {
 }
 
 /** Two commands as one step. */
-export function both(first: Command, second: Command): Command {
+function both(first: Command, second: Command): Command {
   return {
     name: first.name,
     apply: (scene) => second.apply(first.apply(scene)),
