@@ -290,6 +290,7 @@ fn a_scene_travels_compressed_under_an_etag_of_its_own() {
 fn a_preview_is_a_small_scene_of_those_who_are_there_at_first() {
     let server = Server::start(&[]).unwrap();
     let mut scene = street(3, 20);
+    scene["time"]["steps"] = json!(25);
     scene["agents"][2]["track"]["first_step"] = json!(5);
     let made = saved(&server, "whole", &scene);
     let preview = server.get("/v1/scenes/whole/preview").unwrap();
