@@ -156,9 +156,14 @@ impl Reply {
         String::from_utf8_lossy(&self.body).into_owned()
     }
 
-    /// The body as JSON; null when it is none.
+    /// The body as JSON, unpacked where it came compressed; null when it is none.
     pub fn json(&self) -> Value {
-        serde_json::from_slice(&self.body).unwrap_or(Value::Null)
+        let read = if self.header("content-encoding") == "gzip" {
+            serde_json::from_reader(flate2::read::GzDecoder::new(self.body.as_slice()))
+        } else {
+            serde_json::from_slice(&self.body)
+        };
+        read.unwrap_or(Value::Null)
     }
 
     /// The `code` of a problem, empty when it is none.

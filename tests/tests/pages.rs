@@ -32,6 +32,34 @@ fn pages_come_with_their_headers() {
 }
 
 #[test]
+fn texts_of_the_editor_travel_as_the_build_has_compressed_them() {
+    let server = Server::start(&[]).unwrap();
+    let page = server.get("/").unwrap();
+    let Some(script) =
+        page.text().split('"').find(|part| part.starts_with("/assets/index-")).map(str::to_owned)
+    else {
+        println!("skipped: this build has no editor inside");
+        return;
+    };
+    let plain = server.get(&script).unwrap();
+    assert_eq!((plain.header("content-encoding"), plain.header("vary")), ("", "accept-encoding"));
+    let with = |codings: &str| {
+        server.send(&Request::new("GET", &script).header("accept-encoding", codings)).unwrap()
+    };
+    let (brotli, gzip) = (with("gzip, deflate, br, zstd"), with("gzip"));
+    assert_eq!((brotli.header("content-encoding"), gzip.header("content-encoding")), ("br", "gzip"));
+    assert!(brotli.body.len() < gzip.body.len() && gzip.body.len() * 2 < plain.body.len());
+    let mut text = Vec::new();
+    flate2::read::GzDecoder::new(gzip.body.as_slice()).read_to_end(&mut text).unwrap();
+    assert_eq!(text, plain.body);
+    assert_eq!(brotli.header("content-type"), plain.header("content-type"));
+    assert_ne!(brotli.header("etag"), plain.header("etag"));
+    assert_eq!(with("identity").header("content-encoding"), "");
+    let under_its_file = server.get(&format!("{script}.br")).unwrap();
+    assert_eq!(under_its_file.code(), "not-found");
+}
+
+#[test]
 fn every_get_of_the_document_answers() {
     let server = Server::start(&[]).unwrap();
     let document = server.get("/openapi.json").unwrap().json();

@@ -206,3 +206,56 @@ fn on_a_full_disk_scenes_can_be_deleted_and_then_saved_again() {
     assert_eq!(again.status, 201, "{}", again.text());
     assert_eq!(ready(), 200);
 }
+
+#[test]
+fn a_scene_travels_compressed_under_an_etag_of_its_own() {
+    let server = Server::start(&[]).unwrap();
+    let made = saved(&server, "big", &street(9, 60));
+    let plain = server.get("/v1/scenes/big").unwrap();
+    let asked = Request::new("GET", "/v1/scenes/big").header("accept-encoding", "gzip");
+    let packed = server.send(&asked).unwrap();
+    assert_eq!((packed.header("content-encoding"), packed.header("vary")), ("gzip", "accept-encoding"));
+    assert!(packed.body.len() * 3 < plain.body.len());
+    assert_eq!(packed.json(), plain.json());
+    let etag = packed.header("etag");
+    assert_ne!(etag, made.header("etag"));
+    for known in [etag, made.header("etag")] {
+        assert_eq!(server.send(&asked.clone().header("if-none-match", known)).unwrap().status, 304);
+    }
+    // What was read compressed can be replaced.
+    let replaced = server.send(&put("big", ("if-match", etag), &street(2, 20))).unwrap();
+    assert_eq!(replaced.status, 200, "{}", replaced.text());
+    assert_eq!(server.send(&put("big", ("if-match", etag), &street(3, 20))).unwrap().code(), "stale-etag");
+}
+
+#[test]
+fn a_preview_is_a_small_scene_of_those_who_are_there_at_first() {
+    let server = Server::start(&[]).unwrap();
+    let mut scene = street(3, 20);
+    scene["time"]["steps"] = json!(25);
+    scene["agents"][2]["track"]["first_step"] = json!(5);
+    let made = saved(&server, "whole", &scene);
+    let preview = server.get("/v1/scenes/whole/preview").unwrap();
+    assert_eq!((preview.status, preview.header("etag")), (200, made.header("etag")));
+    assert_eq!(preview.header("cache-control"), "private, no-cache");
+    let small = preview.json();
+    let agents = small["agents"].as_array().unwrap();
+    assert_eq!(agents.len(), 2);
+    for (agent, whole) in agents.iter().zip(scene["agents"].as_array().unwrap()) {
+        assert_eq!(agent["id"], whole["id"]);
+        let x = agent["track"]["x_m"].as_array().unwrap();
+        assert_eq!(x.len(), 2);
+        assert_eq!(x[0], whole["track"]["x_m"][0]);
+    }
+    assert_eq!(small["map"]["lanes"].as_array().unwrap().len(), 2);
+    assert!(small["map"]["lanes"][0]["points_m"].as_array().unwrap().len() <= 3);
+    let again = server.post("/v1/scenes", &small).unwrap();
+    assert_eq!(again.status, 201, "a scene like any other: {}", again.text());
+    let known =
+        Request::new("GET", "/v1/scenes/whole/preview").header("if-none-match", preview.header("etag"));
+    assert_eq!(server.send(&known).unwrap().status, 304);
+    let demo = server.get("/v1/scenes/demo-crossing/preview").unwrap();
+    let whole = server.get("/v1/scenes/demo-crossing").unwrap();
+    assert!(demo.body.len() * 3 < whole.body.len(), "{} of {}", demo.body.len(), whole.body.len());
+    assert_eq!(server.get("/v1/scenes/none/preview").unwrap().code(), "not-found");
+}

@@ -1,10 +1,11 @@
 //! The editor, which travels inside the program.
 
 use crate::base::problem::{Code, Problem};
+use crate::http::coding;
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
-use rust_embed::RustEmbed;
+use rust_embed::{EmbeddedFile, RustEmbed};
 
 /// The built editor.
 #[derive(RustEmbed)]
@@ -25,8 +26,8 @@ pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response 
         return problem.into_response();
     }
     let name = path.trim_start_matches('/');
-    match Editor::get(name).map(|file| (name, file)) {
-        Some((name, file)) => asset(name, &file, &headers),
+    match Editor::get(name).filter(|_| !is_packed(name)) {
+        Some(file) => asset(name, &file, &headers),
         // A missing script must not come back as a page.
         None if name.starts_with("assets/") => {
             Problem::new(Code::NotFound, "The editor has no such file.").into_response()
@@ -41,12 +42,31 @@ pub async fn fallback(method: Method, uri: Uri, headers: HeaderMap) -> Response 
     }
 }
 
-fn asset(name: &str, file: &rust_embed::EmbeddedFile, headers: &HeaderMap) -> Response {
+/// Codings in which the build lays texts beside themselves, smallest first, with the ending of these files.
+const PACKED: [(&str, &str); 2] = [("br", ".br"), ("gzip", ".gz")];
+
+fn is_packed(name: &str) -> bool {
+    PACKED.iter().any(|(_, ending)| name.ends_with(ending))
+}
+
+/// The file as the build has compressed it, in the smallest way that is taken.
+fn packed(name: &str, headers: &HeaderMap) -> Option<(&'static str, EmbeddedFile)> {
+    let taken = PACKED.into_iter().filter(|(coding, _)| coding::takes(headers, coding));
+    taken.filter_map(|(coding, ending)| Some((coding, Editor::get(&format!("{name}{ending}"))?))).next()
+}
+
+fn asset(name: &str, plain: &EmbeddedFile, headers: &HeaderMap) -> Response {
+    let packed = packed(name, headers);
+    let file = packed.as_ref().map_or(plain, |(_, file)| file);
     let hash: String = file.metadata.sha256_hash().iter().take(8).map(|b| format!("{b:02x}")).collect();
     let etag = format!("\"{hash}\"");
     // Names below assets/ hold a hash of the content; all else is asked for anew.
     let keep = if name.starts_with("assets/") { "public, max-age=31536000, immutable" } else { "no-cache" };
-    let head = [(header::ETAG, etag.clone()), (header::CACHE_CONTROL, keep.to_owned())];
+    let head = [
+        (header::ETAG, etag.clone()),
+        (header::CACHE_CONTROL, keep.to_owned()),
+        (header::VARY, header::ACCEPT_ENCODING.as_str().to_owned()),
+    ];
     let known = headers.get(header::IF_NONE_MATCH).and_then(|v| v.to_str().ok());
     if known.is_some_and(|list| list.split(',').any(|tag| tag.trim().trim_start_matches("W/") == etag)) {
         return (StatusCode::NOT_MODIFIED, head).into_response();
@@ -55,7 +75,11 @@ fn asset(name: &str, file: &rust_embed::EmbeddedFile, headers: &HeaderMap) -> Re
         std::borrow::Cow::Borrowed(bytes) => Body::from(*bytes),
         std::borrow::Cow::Owned(bytes) => Body::from(bytes.clone()),
     };
-    (head, [(header::CONTENT_TYPE, media_type(name))], body).into_response()
+    let mut reply = (head, [(header::CONTENT_TYPE, media_type(name))], body).into_response();
+    if let Some((coding, _)) = packed {
+        reply.headers_mut().insert(header::CONTENT_ENCODING, HeaderValue::from_static(coding));
+    }
+    reply
 }
 
 fn media_type(name: &str) -> &'static str {

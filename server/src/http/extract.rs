@@ -2,6 +2,7 @@
 
 use crate::base::id::is_id;
 use crate::base::problem::{Code, Problem};
+use crate::http::coding;
 use crate::work::Caller;
 use axum::extract::{FromRequestParts, Path, Query};
 use axum::http::HeaderMap;
@@ -61,7 +62,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Params<T> {
     }
 }
 
-/// ETags of If-Match, as sent; `None` without the header.
+/// ETags of If-Match, of compressed replies too; `None` without the header.
 pub fn if_match(headers: &HeaderMap) -> Option<Vec<String>> {
     tags(headers, &IF_MATCH)
 }
@@ -74,6 +75,6 @@ pub fn if_none_match(headers: &HeaderMap) -> Option<Vec<String>> {
 fn tags(headers: &HeaderMap, name: &HeaderName) -> Option<Vec<String>> {
     headers.contains_key(name).then(|| {
         let lines = headers.get_all(name).iter().filter_map(|v| v.to_str().ok());
-        lines.flat_map(|line| line.split(',')).map(|tag| tag.trim().to_owned()).collect()
+        lines.flat_map(|line| line.split(',')).map(|tag| coding::unmarked(tag.trim())).collect()
     })
 }

@@ -2,6 +2,7 @@
 
 pub mod accept;
 pub mod body;
+pub mod coding;
 pub mod embed;
 pub mod extract;
 pub mod guard;

@@ -2,6 +2,7 @@
 
 use crate::app::App;
 use crate::base::problem::{Code, Problem};
+use crate::http::coding;
 use crate::http::extract::if_none_match;
 use crate::scenes::store::StoredMap;
 use crate::scenes::{map_bytes, record};
@@ -71,6 +72,17 @@ pub async fn read(
         return Ok((StatusCode::NOT_MODIFIED, head).into_response());
     }
     let bytes = map_bytes(&map);
-    let json = app.pool.document(bytes, move || record::map_json(&map)).await?;
-    Ok((head, json).into_response())
+    let write = move || {
+        let json = record::map_json(&map)?;
+        Ok(coding::gzip(&headers, &json).ok_or(json))
+    };
+    let vary = [(header::VARY, "accept-encoding")];
+    Ok(match app.pool.document(bytes, write).await? {
+        Ok(packed) => {
+            let coded =
+                [(header::ETAG, coding::marked(&etag)), (header::CONTENT_ENCODING, "gzip".to_owned())];
+            (head, vary, coded, packed).into_response()
+        }
+        Err(json) => (head, vary, json).into_response(),
+    })
 }

@@ -32,6 +32,7 @@ fn documented() -> OpenApiRouter<App> {
     OpenApiRouter::with_openapi(openapi::head())
         .routes(routes!(scenes::list, scenes::create))
         .routes(routes!(scenes::read, scenes::replace, scenes::rename, scenes::remove))
+        .routes(routes!(scenes::preview_of))
         .routes(routes!(scenes::duplicate))
         .routes(routes!(export::stored))
         .routes(routes!(export::unsaved))

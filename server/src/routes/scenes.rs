@@ -4,15 +4,17 @@ use crate::app::App;
 use crate::base::id;
 use crate::base::problem::{Code, Problem};
 use crate::http::body::{self, Json, Reading};
+use crate::http::coding;
 use crate::http::extract::{Id, Params, if_match, if_none_match};
 use crate::scenes::store::{Expect, Page, SceneSummary, Sort};
-use crate::scenes::{Item, not_found, record, tags_of};
+use crate::scenes::{Item, bytes_of, not_found, preview, record, tags_of};
 use axum::extract::{FromRef, FromRequest, Request, State};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use formats::native::{self, MapForm, SceneDoc};
 use scene::MAX_NAME_CHARS;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Query of the list.
 #[derive(Debug, Deserialize, utoipa::IntoParams)]
@@ -155,32 +157,65 @@ pub async fn read(
     Params(params): Params<ReadParams>,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let fresh = |etag: &str| {
-        let known = if_none_match(&headers).unwrap_or_default();
-        !known.iter().any(|tag| tag == "*" || tag.trim_start_matches("W/") == etag)
-    };
     if let Some(opened) = app.catalog.library.open(&id).await? {
-        if !fresh(&opened.etag) {
+        if !fresh(&headers, &opened.etag) {
             return Ok(not_modified(&opened.etag));
         }
         let form = if params.map == MapParam::Ref { MapForm::Ref } else { MapForm::Inline };
         let json = app.catalog.written(opened.scene, form).await?;
-        return Ok(scene_reply(&opened.etag, json));
+        return scene_reply(&app, headers, &opened.etag, json).await;
     }
     let (summary, json) = app.catalog.store.get(&id).await?.ok_or_else(not_found)?;
-    if !fresh(&summary.etag) {
+    if !fresh(&headers, &summary.etag) {
         return Ok(not_modified(&summary.etag));
     }
     let json = match params.map {
         MapParam::Ref => json,
         MapParam::Inline => app.catalog.with_map(json, &summary.map_sha).await?,
     };
-    Ok(scene_reply(&summary.etag, json))
+    scene_reply(&app, headers, &summary.etag, json).await
 }
 
-fn scene_reply(etag: &str, json: Vec<u8>) -> Response {
-    let head = [(header::ETAG, etag.to_owned()), (header::CONTENT_TYPE, native::MEDIA_TYPE.to_owned())];
-    (head, json).into_response()
+/// Does the one who asks not have this version?
+fn fresh(headers: &HeaderMap, etag: &str) -> bool {
+    let known = if_none_match(headers).unwrap_or_default();
+    !known.iter().any(|tag| tag == "*" || tag.trim_start_matches("W/") == etag)
+}
+
+async fn scene_reply(app: &App, headers: HeaderMap, etag: &str, json: Vec<u8>) -> Result<Response, Problem> {
+    let head = [
+        (header::CONTENT_TYPE, native::MEDIA_TYPE.to_owned()),
+        (header::VARY, header::ACCEPT_ENCODING.as_str().to_owned()),
+    ];
+    let bytes = json.len();
+    let pack = move || Ok(coding::gzip(&headers, &json).ok_or(json));
+    Ok(match app.pool.document(bytes, pack).await? {
+        Ok(packed) => {
+            let coded = [(header::ETAG, coding::marked(etag)), (header::CONTENT_ENCODING, "gzip".to_owned())];
+            (head, coded, packed).into_response()
+        }
+        Err(json) => (head, [(header::ETAG, etag.to_owned())], json).into_response(),
+    })
+}
+
+refusals!(Unpreviewed: WORK, NotFound);
+
+/// Reads what a small picture of a scene shows: a scene with its lines in few points, and of each road user who
+/// is there at first the first and the last state.
+#[utoipa::path(get, path = "/v1/scenes/{id}/preview", operation_id = "previewScene", tag = "scenes",
+    params(("id" = String, Path)),
+    responses((status = 200, description = "the scene, reduced", body = ref("#/components/schemas/Scene")),
+        (status = 304, description = "not changed"), Unpreviewed))]
+pub async fn preview_of(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<Response, Problem> {
+    let opened = app.catalog.open(&id).await?;
+    let kept = [(header::CACHE_CONTROL, "private, no-cache")];
+    if !fresh(&headers, &opened.etag) {
+        return Ok((kept, not_modified(&opened.etag)).into_response());
+    }
+    let (scene, bytes) = (Arc::clone(&opened.scene), bytes_of(&opened.scene));
+    let write = move || Ok(native::write_doc(&preview(&scene)));
+    let json = app.pool.document(bytes, write).await?;
+    Ok((kept, scene_reply(&app, headers, &opened.etag, json).await?).into_response())
 }
 
 fn not_modified(etag: &str) -> Response {

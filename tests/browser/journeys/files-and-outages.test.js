@@ -65,10 +65,18 @@ journeys('files and outages', (stage) => {
     await e.page.mouse.up();
     await e.until(() => /1 change is waiting/.test(document.querySelector('.banner').textContent));
     await e.picture('generator-away');
+    // Whoever is selected now has a plain sketch, and G sets its goal there.
+    const pick = (id) => e.page.locator(`[data-agent="${id}"]`).evaluate((el) => el.click());
+    const other = (await e.roadUsers()).find((u) => u.kind === 'Car' && u.id !== car.id && u.speed > 2.5);
+    await pick(other.id);
+    await e.page.evaluate(() => document.activeElement?.blur());
+    await e.key('g');
+    await e.until(() => /2 changes are waiting/.test(document.querySelector('.banner').textContent));
+    await pick(car.id);
     await stage.program.run();
     await e.page.waitForSelector('.banner', { state: 'detached' });
     await e.until(() =>
-      /The generator is back\. 1 change worked out/.test(document.querySelector('.toast')?.textContent ?? ''),
+      /The generator is back\. 2 changes worked out/.test(document.querySelector('.toast')?.textContent ?? ''),
     );
     await e.settled();
     const last = e.wire.last();

@@ -6,6 +6,9 @@ import { distance } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 import { Wire } from '../support/wire.js';
 
+/** Scripts, style, font, the scene and the small pictures of all examples, as they travel. */
+const MOST_BYTES_AT_FIRST = 400_000;
+
 journeys('the first minute', (stage) => {
   it('opens the example crossing, plays it once and waits to be clicked', { timeout: 40_000 }, async () => {
     const e = await stage.open();
@@ -23,6 +26,10 @@ journeys('the first minute', (stage) => {
     await e.until(() => document.querySelector('.tm').textContent.startsWith('0.0'));
     await e.settled();
     await e.picture('first-view');
+    // All of it, small pictures too, before anything is done.
+    const pictures = () => document.querySelectorAll('.scn canvas[data-done]').length >= 5;
+    await e.until(pictures);
+    assert.ok(e.wire.bytes < MOST_BYTES_AT_FIRST, `${e.wire.bytes} bytes were loaded`);
     await e.key('Space');
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.5);
     await e.key('Space');

@@ -30,7 +30,12 @@ export class Editor {
       await context.addInitScript(() => {
         performance.now = () => 0;
       });
+    return Editor.#in(context, url, []);
+  }
+
+  static async #in(context, url, errors) {
     const e = new Editor();
+    e.errors = errors;
     e.page = await context.newPage();
     e.page.setDefaultTimeout(PATIENCE_MS);
     e.page.on('console', (m) => {
@@ -42,6 +47,29 @@ export class Editor {
     await e.page.goto(url);
     await e.ready();
     return e;
+  }
+
+  /** Another tab of the same browser. */
+  async beside() {
+    return Editor.#in(this.page.context(), this.page.url(), this.errors);
+  }
+
+  /** The tab's process ends at once; the same page in a new one. */
+  async killed() {
+    const url = this.page.url();
+    const context = this.page.context();
+    const gone = new Promise((resolve) => this.page.once('crash', resolve));
+    // The process that would answer is gone.
+    void this.cdp.send('Page.crash').catch(() => undefined);
+    await gone;
+    const e = await Editor.#in(context, url, this.errors);
+    await this.page.close();
+    return e;
+  }
+
+  /** What the server says. */
+  async get(path) {
+    return (await this.page.request.get(new URL(path, this.page.url()).href)).json();
   }
 
   async ready() {

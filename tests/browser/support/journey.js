@@ -6,17 +6,22 @@ import { Program } from './program.js';
 import { missing } from './where.js';
 
 /**
- * `tell(stage)` declares the journeys. `stage.open(options)` opens the editor; what is open is closed after each
- * journey, which fails when the page complained about anything.
+ * `tell(stage)` declares the journeys. `stage.open(options)` opens the editor, `stage.visit(url)` another address;
+ * what is open is closed after each journey, which fails when a page complained about anything.
  */
 export function journeys(name, tell) {
   describe(name, { skip: missing() }, () => {
     const stage = {
       program: null,
-      editor: null,
-      async open(options) {
-        stage.editor = await Editor.open(stage.browser, stage.program.url, options);
-        return stage.editor;
+      editors: [],
+      open(options) {
+        return stage.visit(stage.program.url, options);
+      },
+      /** Somebody comes in a browser of their own. */
+      async visit(url, options) {
+        const e = await Editor.open(stage.browser, url, options);
+        stage.editors.push(e);
+        return e;
       },
     };
     before(
@@ -35,10 +40,12 @@ export function journeys(name, tell) {
     );
     afterEach(
       async () => {
-        const e = stage.editor;
-        stage.editor = null;
-        await e?.close();
-        assert.deepEqual(e?.errors ?? [], []);
+        const all = stage.editors.splice(0);
+        for (const e of all) await e.close();
+        assert.deepEqual(
+          all.flatMap((e) => e.errors),
+          [],
+        );
       },
       { timeout: 10_000 },
     );

@@ -67,6 +67,8 @@ class Asked {
 
 export class Wire {
   asked = [];
+  /** What has come over the wire so far, bytes, as it travelled. */
+  bytes = 0;
 
   static async on(cdp) {
     const w = new Wire();
@@ -93,6 +95,7 @@ export class Wire {
       if (e.data) a.tail.push(Buffer.from(e.data, 'base64'));
     });
     cdp.on('Network.loadingFinished', (e) => {
+      w.bytes += e.encodedDataLength;
       const a = of(e);
       if (!a) return;
       a.ended = e.timestamp;

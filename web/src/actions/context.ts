@@ -4,12 +4,15 @@ import type { Editor } from '../edit/editor';
 import type { Library } from '../edit/library';
 import type { Importing } from '../edit/importing';
 import type { Saving } from '../edit/saving';
+import type { SceneCare } from '../edit/scene-care';
+import type { Journal } from '../edit/journal';
 import type { SceneFile } from '../edit/scene-file';
 import type { SceneList } from '../edit/scene-list';
 import type { Generation } from '../edit/generation';
 import type { Gestures } from '../edit/gestures/pointer';
 import type { Picture } from '../edit/picture';
 import type { Playback } from '../edit/playback';
+import type { Sharing } from '../edit/sharing';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
 import type { Ui } from './ui';
@@ -19,6 +22,9 @@ export interface Context {
   readonly generation: Generation;
   readonly scenes: SceneList;
   readonly library: Library;
+  readonly care: SceneCare;
+  readonly sharing: Sharing;
+  readonly journal: Journal;
   readonly file: SceneFile;
   readonly saving: Saving;
   readonly importing: Importing;
@@ -43,5 +49,8 @@ export interface Context {
   focusField(part: 'start' | 'goal', field: string): void;
   focusGroup(step: 1 | -1): void;
   focusAgent(id: string): void;
+  /** Takes the focus to the name of the open scene. */
+  focusName(): void;
   fit(): void;
+  lookAtScene(): void;
 }

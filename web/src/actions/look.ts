@@ -98,9 +98,7 @@ function selectConflicts(c: Context): void {
 }
 
 function zoom(c: Context, factor: number): void {
-  const v = c.stage.view;
-  v.zoomAt(v.w / 2, v.h / 2, factor);
-  c.stage.viewChanged();
+  c.stage.glide.by((v) => v.zoomAt(v.w / 2, v.h / 2, factor));
 }
 
 function zoomToSelection(c: Context): void {
@@ -111,8 +109,7 @@ function zoomToSelection(c: Context): void {
   if (!places.length) return;
   const box = boxOf(places.map((p) => [p.x, p.y] as const));
   const grown = { x0: box.x0 - AROUND_M, x1: box.x1 + AROUND_M, y0: box.y0 - AROUND_M, y1: box.y1 + AROUND_M };
-  c.stage.view.fit(grown, CLOSEST);
-  c.stage.viewChanged();
+  c.stage.glide.by((v) => v.fit(grown, CLOSEST));
 }
 
 const layer = (name: keyof Layers, label: string, key: string, help: string): Omit<Action, 'group'> => ({
@@ -202,6 +199,14 @@ export const look = inGroup('Select and look', [
     help: 'The whole map in view',
     when: hasScene,
     run: (c) => c.fit(),
+  },
+  {
+    id: 'back-to-scene',
+    label: 'Back to the scene',
+    icon: 'fit',
+    help: 'Where things move',
+    when: hasScene,
+    run: (c) => c.lookAtScene(),
   },
   {
     id: 'zoom-selection',

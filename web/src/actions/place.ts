@@ -22,7 +22,7 @@ function startPlacing(c: Context, name: (typeof TOOLS)[number]['name']): void {
   editor.playhead.pause();
   editor.setTime(0);
   editor.chooseTool(name);
-  ui.showDrawer(false);
+  ui.showDrawer(null);
   const kind = TOOLS.find((t) => t.name === name);
   const { view } = stage;
   const { left, right, top, bottom } = view.inset;

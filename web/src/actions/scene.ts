@@ -1,8 +1,8 @@
-// Scene: the list, files in and out, what the others do.
+// Scene: the list, new ones and copies, files in and out, what was done.
 import type { Others } from '../model/scene';
 import { resetAll, setOthers } from '../model/commands';
-import { download } from '../edit/download';
 import { hasScene, inGroup, type Action } from './action';
+import type { Context } from './context';
 
 const others = (mode: Others, label: string, help: string): Omit<Action, 'group'> => ({
   id: `others-${mode}`,
@@ -13,6 +13,15 @@ const others = (mode: Others, label: string, help: string): Omit<Action, 'group'
   run: (c) => c.editor.run(setOthers(mode)),
 });
 
+/** The scene that is spoken of: one in the list that is pointed at, else the open one. */
+const meant = ({ editor, ui }: Context): string | null => ui.aimed.value ?? editor.scene.value?.id ?? null;
+
+/** Own scenes alone can be changed on the server. */
+const own = (c: Context): true | string => {
+  const id = meant(c);
+  return !id ? 'No scene is open.' : c.scenes.isOwn(id) ? true : 'Examples stay as they are. Copy one to change it.';
+};
+
 export const scene = inGroup('Scene', [
   {
     id: 'scenes',
@@ -20,8 +29,34 @@ export const scene = inGroup('Scene', [
     keys: ['B'],
     icon: 'list',
     help: 'List of scenes',
-    checked: (c) => c.ui.drawer.value,
-    run: (c) => c.ui.showDrawer(!c.ui.drawer.value),
+    checked: (c) => c.ui.drawer.value === 'scenes',
+    run: (c) => c.ui.toggleDrawer('scenes'),
+  },
+  {
+    id: 'history',
+    label: 'History',
+    keys: ['Ctrl+H'],
+    icon: 'clock',
+    help: 'What was done, step by step; a click goes there',
+    when: hasScene,
+    checked: (c) => c.ui.drawer.value === 'history',
+    run: (c) => c.ui.toggleDrawer('history'),
+  },
+  {
+    id: 'new-scene',
+    label: 'New scene on this road',
+    keys: ['Shift+N'],
+    icon: 'plus',
+    help: 'The road of this scene with nobody on it',
+    when: hasScene,
+    run: (c) => void c.care.newOnThisRoad(),
+  },
+  {
+    id: 'new-plain-scene',
+    label: 'New scene on plain ground',
+    icon: 'plus',
+    help: 'Nothing there: no road, nobody',
+    run: (c) => void c.care.newOnPlainGround(),
   },
   {
     id: 'choose-files',
@@ -49,40 +84,68 @@ export const scene = inGroup('Scene', [
     help: 'An own scene that saves itself',
     context: 'always',
     when: hasScene,
-    run: (c) => void c.library.saveCopy(),
+    run: (c) => void c.care.saveCopy(),
   },
   {
-    id: 'export-json',
-    label: 'Export scene (JSON)',
-    icon: 'export',
-    help: 'Everything, to be opened again here',
+    id: 'save-as',
+    label: 'Save as …',
+    keys: ['Ctrl+Shift+S'],
+    icon: 'copy',
+    help: 'A copy under a name of your own',
+    context: 'always',
     when: hasScene,
-    run: (c) => void download(c, 'dragtraffic'),
+    run: (c) => c.ui.openDialog('save-as'),
   },
   {
-    id: 'export-womd',
-    label: 'Export scenario record (Waymo TFRecord)',
-    icon: 'export',
-    help: 'The motion on screen as a Scenario record',
+    id: 'duplicate-scene',
+    label: 'Duplicate scene',
+    icon: 'copy',
+    help: 'A copy beside it',
+    when: (c) => (meant(c) ? true : 'No scene is open.'),
+    run: (c) => void c.care.duplicate(meant(c)!),
+  },
+  {
+    id: 'rename-scene',
+    label: 'Rename scene',
+    keys: ['Shift+F2'],
+    icon: 'pencil',
+    help: 'Another name for it',
+    when: own,
+    run(c) {
+      const id = meant(c)!;
+      if (c.ui.drawer.peek() === 'scenes') c.ui.renameScene(id);
+      else c.focusName();
+    },
+  },
+  {
+    id: 'delete-scene',
+    label: 'Delete scene',
+    icon: 'trash',
+    help: 'Can be undone for a while; examples stay',
+    when: own,
+    run: (c) => void c.care.remove(meant(c)!),
+  },
+  {
+    id: 'share',
+    label: 'Share',
+    keys: ['Ctrl+Shift+C'],
+    icon: 'share',
+    help: 'A link with the whole scene inside',
     when: hasScene,
-    run: (c) => void download(c, 'womd'),
+    run: (c) => c.ui.openDialog('share'),
+  },
+  {
+    id: 'export',
+    label: 'Export',
+    keys: ['Ctrl+E'],
+    icon: 'export',
+    help: 'Files for other programs, pictures, a film, a report',
+    when: hasScene,
+    run: (c) => c.ui.openDialog('export'),
   },
   others('react', 'Others react', 'Everybody you gave no goal adapts when you let go'),
   others('log', 'Others replay the log', 'They do what was recorded'),
   others('still', 'Others hold still', 'They stay where they start, and nobody else comes in'),
-  {
-    id: 'delete-scene',
-    label: 'Delete this scene',
-    icon: 'trash',
-    help: 'Asks first; examples stay',
-    when: (c) =>
-      !c.editor.scene.value
-        ? 'No scene is open.'
-        : c.scenes.isOwn(c.editor.scene.value.id)
-          ? true
-          : 'Examples cannot be deleted.',
-    run: (c) => c.ui.askToDelete(c.editor.scene.value!.id),
-  },
   {
     id: 'reset-all',
     label: 'Everybody back to the log',

@@ -3,6 +3,9 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { MenuOn } from '../edit/gestures/chart';
 import { keep, recall } from '../net/storage';
 
+export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export';
+/** What stands at the left edge of the picture. */
+export type Drawer = 'scenes' | 'history';
 /** A menu at a place of the picture, in pixels of it. */
 export interface ContextMenu {
   readonly x: number;
@@ -10,38 +13,45 @@ export interface ContextMenu {
   readonly on: MenuOn;
 }
 
-export type Dialog = 'palette' | 'shortcuts';
 export type Theme = 'light' | 'dark';
 
 const systemTheme = (): Theme =>
   typeof matchMedia !== 'undefined' && matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 
 export class Ui {
-  readonly #drawer = signal(true);
+  readonly #drawer = signal<Drawer | null>('scenes');
   readonly #dialog = signal<Dialog | null>(null);
   readonly #menu = signal<string | null>(null);
+  readonly #aimed = signal<string | null>(null);
+  readonly #renaming = signal<string | null>(null);
   readonly #contextMenu = signal<ContextMenu | null>(null);
   readonly #emptyHidden = signal<string | null>(null);
-  readonly #deleting = signal<string | null>(null);
   readonly #eventsPanel = signal(false);
   readonly #coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
   readonly #theme = signal<Theme>(recall<Theme>('theme') ?? systemTheme());
 
-  readonly drawer: ReadonlySignal<boolean> = this.#drawer;
+  readonly drawer: ReadonlySignal<Drawer | null> = this.#drawer;
   readonly dialog: ReadonlySignal<Dialog | null> = this.#dialog;
   readonly menu: ReadonlySignal<string | null> = this.#menu;
+  /** Id of the scene in the list that actions are about; the open one when none is. */
+  readonly aimed: ReadonlySignal<string | null> = this.#aimed;
+  /** Id of the scene in the list that is being given a name. */
+  readonly renaming: ReadonlySignal<string | null> = this.#renaming;
   readonly contextMenu: ReadonlySignal<ContextMenu | null> = this.#contextMenu;
   /** Id of the empty scene whose offers were closed. */
   readonly emptyHidden: ReadonlySignal<string | null> = this.#emptyHidden;
-  /** Id of the scene that is about to be deleted. */
-  readonly deleting: ReadonlySignal<string | null> = this.#deleting;
   readonly eventsPanel: ReadonlySignal<boolean> = this.#eventsPanel;
   /** Step of the hint for the first minute; 0 when it is closed. */
   readonly coach: ReadonlySignal<number> = this.#coach;
   readonly theme: ReadonlySignal<Theme> = this.#theme;
 
-  showDrawer(open: boolean): void {
-    this.#drawer.value = open;
+  showDrawer(drawer: Drawer | null): void {
+    this.#drawer.value = drawer;
+    this.#aimed.value = this.#renaming.value = null;
+  }
+
+  toggleDrawer(drawer: Drawer): void {
+    this.showDrawer(this.#drawer.peek() === drawer ? null : drawer);
   }
 
   openDialog(dialog: Dialog): void {
@@ -60,6 +70,15 @@ export class Ui {
     this.#menu.value = null;
   }
 
+  /** Actions on scenes are about this one from now on. */
+  aimAt(id: string | null): void {
+    this.#aimed.value = id;
+  }
+
+  renameScene(id: string | null): void {
+    this.#renaming.value = id;
+  }
+
   openContextMenu(menu: ContextMenu): void {
     this.#menu.value = null;
     this.#contextMenu.value = menu;
@@ -71,10 +90,6 @@ export class Ui {
 
   hideEmpty(scene: string): void {
     this.#emptyHidden.value = scene;
-  }
-
-  askToDelete(id: string | null): void {
-    this.#deleting.value = id;
   }
 
   showEvents(open: boolean): void {

@@ -22,6 +22,12 @@ export function focusGroup(step: 1 | -1): void {
   groups[(at + step + groups.length) % groups.length]?.querySelector<HTMLElement>(FIRST)?.focus();
 }
 
+export function focusName(): void {
+  const name = document.querySelector<HTMLInputElement>('.title input');
+  name?.focus();
+  name?.select();
+}
+
 /** The name or the note of the selected road user; the field may appear with the next frame. */
 export function focusText(which: 'name' | 'note'): void {
   requestAnimationFrame(() => {

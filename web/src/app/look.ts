@@ -1,33 +1,39 @@
-// Where the picture looks: the whole map, the part where people are on opening, or after the one that is followed.
+// Where the picture looks: the whole map, the part where things move on opening, after the one that is followed, and
+// where it looked when a step was done.
 import type { Context } from '../actions/context';
-import { busyBox, sceneCentre } from '../model/busy';
+import { busyBox, openingCentre } from '../model/busy';
 import { boxOf } from '../model/geometry';
+import type { Camera, HistoryStep } from '../model/history';
 import { poseShown } from '../edit/frame';
 import { poseAt } from '../model/motion';
+import { startPose, type Agent } from '../model/scene';
 
 /** How much of the map the height of the picture shows at first, in metres, and within which zooms. */
 const OPENING_M = 88;
 const OPENING_ZOOMS = [4.4, 8.5] as const;
+/** A picture that shows the same place within so many pixels looks where it did. */
+const SAME_PX = 4;
 
 export function fitScene({ editor, stage }: Context): void {
   const scene = editor.scene.peek();
   if (!scene) return;
   stage.resize();
-  stage.view.fit(scene.map.box);
   stage.invalidate('map');
-  stage.viewChanged();
+  stage.glide.by((v) => v.fit(scene.map.box));
 }
 
-/** The same stretch of road on every screen: a junction with the beginnings of its arms. */
+/** The same stretch of road on every screen, where most things move: a junction with the beginnings of its arms. */
 export function lookAtOpened({ editor, stage }: Context): void {
   const scene = editor.scene.peek();
   if (!scene) return;
   stage.resize();
+  stage.glide.stop();
   const v = stage.view;
   const [min, max] = OPENING_ZOOMS;
-  const z = Math.max(min, Math.min(max, (v.h - v.inset.top - v.inset.bottom) / OPENING_M));
+  const h = v.h - v.inset.top - v.inset.bottom;
+  const z = Math.max(min, Math.min(max, h / OPENING_M));
   v.fit(busyBox(scene), 1.1 * z, z);
-  v.centre(...sceneCentre(scene));
+  v.centre(...openingCentre(scene, (v.w - v.inset.left - v.inset.right) / v.z / 2, h / v.z / 2));
   stage.invalidate('map');
   stage.viewChanged();
 }
@@ -40,6 +46,36 @@ export function followSelected({ editor, stage }: Context): void {
   if (!p) return;
   stage.view.centre(p.x, p.y);
   stage.viewChanged();
+}
+
+const cameraOf = ({ stage }: Context): Camera => {
+  const { cx, cy, z } = stage.view;
+  return { cx, cy, z };
+};
+
+const moved = (a: Camera, b: Camera): boolean =>
+  Math.hypot(a.cx - b.cx, a.cy - b.cy) * a.z > SAME_PX || Math.abs(Math.log(a.z / b.z)) > 0.02;
+
+/**
+ * Undo and redo show what they change: where the picture moved with the step it moves back, and where what changes
+ * is out of sight it looks where it did then.
+ */
+export function lookWhereItWas(c: Context): void {
+  const { editor, stage } = c;
+  editor.camera = () => cameraOf(c);
+  editor.onTravel = (step: HistoryStep, way) => {
+    const there = way === 'back' ? step.from : step.to;
+    if (!there || !step.from || !step.to || !moved(there, cameraOf(c))) return;
+    const a = step.agent === null ? undefined : editor.scene.peek()?.agents.get(step.agent);
+    if (moved(step.from, step.to) || (a && !inView(c, a))) stage.glide.to(there);
+  };
+}
+
+/** Are the start and the goal of a road user in the picture? */
+function inView({ editor, stage }: Context, a: Agent): boolean {
+  const box = stage.view.box(-20);
+  const places = [startPose(a), editor.goalPose(a)].filter((p) => p !== null);
+  return places.every((p) => p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1);
 }
 
 /** This near to a panel or to the edge somebody is as good as out of the picture, pixels. */

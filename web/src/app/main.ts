@@ -9,23 +9,27 @@ import { Copying } from '../edit/copying';
 import { Editor } from '../edit/editor';
 import { fill } from '../edit/filling';
 import { Generation } from '../edit/generation';
+import { Journal } from '../edit/journal';
 import { Gestures } from '../edit/gestures/pointer';
 import { Importing } from '../edit/importing';
 import { Library } from '../edit/library';
 import { Picture } from '../edit/picture';
 import { Playback } from '../edit/playback';
 import { Saving } from '../edit/saving';
+import { SceneCare } from '../edit/scene-care';
 import { SceneFile } from '../edit/scene-file';
 import { SceneList } from '../edit/scene-list';
+import { Sharing } from '../edit/sharing';
 import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
 import { HttpGenerator } from '../net/http-generator';
+import { BrowserStepStore, PassingStepStore } from '../net/step-store';
 import { recall } from '../net/storage';
 import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
-import { focusAgent, focusField, focusGroup, focusText } from './focus';
-import { followView } from './hud/view-tick';
-import { fitScene, followSelected, lookAtOpened, openMenu, reveal } from './look';
+import { focusAgent, focusField, focusGroup, focusName, focusText } from './focus';
+import { followView, gliding } from './hud/view-tick';
+import { fitScene, followSelected, lookAtOpened, lookWhereItWas, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
 import { drawPage } from './shell';
 import { coach, reportCrashes, waitForServer } from './watching';
@@ -33,9 +37,9 @@ import { coach, reportCrashes, waitForServer } from './watching';
 const FIRST_SCENE = 'demo-crossing';
 /** On a page narrower than this the list of scenes is closed at first. */
 const WIDE_PX = 1300;
-/** What panels cover of the picture's edges, in pixels; on the left with and without the list of scenes. */
+/** What panels cover of the picture's edges, in pixels; on the left by what stands there. */
 const INSET = { right: 12, top: 12, bottom: 56 };
-const INSET_LEFT = { drawer: 324, rail: 68 };
+const INSET_LEFT = { scenes: 324, history: 432, rail: 68 };
 /** Seconds that play by themselves at the very first visit. */
 const INTRODUCTION_S = 3;
 
@@ -47,8 +51,11 @@ function makeParts(): Context {
   const editor = new Editor();
   const scenes = new SceneList(client);
   const file = new SceneFile(editor);
-  const saving = new Saving(editor, file, scenes, client);
-  const library = new Library(editor, file, saving, scenes, client);
+  const journal = new Journal(typeof indexedDB === 'undefined' ? new PassingStepStore() : new BrowserStepStore());
+  const saving = new Saving(editor, file, scenes, client, journal);
+  const library = new Library(editor, file, saving, scenes, client, journal);
+  const care = new SceneCare(editor, file, library, scenes, client, journal);
+  const sharing = new Sharing(editor, file, library, care, client);
   const importing = new Importing(editor, library, scenes, client);
   const generation = new Generation(editor, file, saving, new HttpGenerator(client), new HttpGenerator(client));
   const main = document.createElement('main');
@@ -60,7 +67,22 @@ function makeParts(): Context {
   const playback = new Playback(editor, stage);
   const chooseFiles = fileChooser((files) => void importing.files(files));
   const copying = new Copying(editor);
-  const parts = { copying, editor, generation, scenes, library, file, saving, importing, playback, gestures, picture };
+  const parts = {
+    copying,
+    editor,
+    generation,
+    scenes,
+    library,
+    care,
+    sharing,
+    journal,
+    file,
+    saving,
+    importing,
+    playback,
+    gestures,
+    picture,
+  };
   const c: Context = {
     ...parts,
     stage,
@@ -75,16 +97,19 @@ function makeParts(): Context {
     focusField,
     focusGroup,
     focusAgent,
+    focusName,
     fit: () => fitScene(c),
+    lookAtScene: () => lookAtOpened(c),
   };
   return c;
 }
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, stage, ui } = c;
-  ui.showDrawer(innerWidth >= WIDE_PX);
+  const { editor, gestures, generation, library, playback, sharing, stage, ui } = c;
+  ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   followView(stage);
+  lookWhereItWas(c);
   stage.onFrame = (now) => {
     gestures.frame(now);
     playback.frame(now);
@@ -95,7 +120,7 @@ function connect(c: Context): void {
   });
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
-    const busy = generation.busy.value || editor.status.value.kind === 'loading';
+    const busy = generation.busy.value || editor.status.value.kind === 'loading' || gliding.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
   effect(() => {
@@ -103,11 +128,20 @@ function connect(c: Context): void {
     stage.themeChanged();
   });
   effect(() => {
-    stage.view.inset = { ...INSET, left: ui.drawer.value ? INSET_LEFT.drawer : INSET_LEFT.rail };
+    const drawer = ui.drawer.value;
+    stage.view.inset = { ...INSET, left: INSET_LEFT[drawer ?? 'rail'] };
+    stage.element.dataset.drawer = drawer ?? '';
   });
   gestures.onMenu = (at, on) => ui.openContextMenu({ ...at, on });
-  library.onOpen = () => {
-    lookAtOpened(c);
+  sharing.onOpened = (at) => {
+    if (!at) return;
+    Object.assign(stage.view, at.camera);
+    stage.viewChanged();
+    editor.setTime(at.time);
+  };
+  addEventListener('hashchange', () => void sharing.openFrom(location.hash));
+  library.onOpen = (_, again) => {
+    if (!again) lookAtOpened(c);
     ui.showEvents(false);
     // Events of the log; with changes from last time the answer to them brings its own.
     if (!editor.motion.peek().stale) void generation.score();
@@ -119,6 +153,7 @@ async function openFirst(c: Context): Promise<void> {
   const wanted = new URLSearchParams(location.search).get('scene') ?? recall<string>('last-scene');
   try {
     await c.scenes.refresh();
+    if (await c.sharing.openFrom(location.hash)) return;
     const ids = c.scenes.list.peek().map((s) => s.id);
     const id = [wanted, FIRST_SCENE, ids[0]].find((i) => i && ids.includes(i));
     if (!id) return c.editor.answers.report({ kind: 'ready' });

@@ -8,20 +8,26 @@ import { Icon } from './parts/icons';
 /** Ids of actions; null draws a line. */
 const MENUS: Record<string, readonly (string | null)[]> = {
   file: [
+    'new-scene',
+    'new-plain-scene',
     'choose-files',
+    null,
     'save-copy',
-    'export-json',
-    'export-womd',
+    'save-as',
+    'rename-scene',
+    'delete-scene',
+    null,
+    'share',
+    'export',
+    'history',
     null,
     'reset-all',
-    'delete-scene',
     null,
     'theme',
     'unit',
     'shortcuts',
     'coach',
   ],
-  export: ['export-json', 'export-womd'],
 };
 
 /** Opens its menu, or closes it when it is open. */
@@ -51,28 +57,10 @@ export function MenuButton({ name, icon, label }: { name: string; icon: string; 
   );
 }
 
-export function ExportButton() {
-  const { open, toggle } = useMenu('export');
-  return (
-    <button
-      type="button"
-      class="btn line"
-      data-menu="export"
-      aria-haspopup="menu"
-      aria-expanded={open.value}
-      onClick={toggle}
-    >
-      <Icon name="export" />
-      Export
-    </button>
-  );
-}
-
-/** Below its button: from its left edge, or for the one on the right to its right edge. */
+/** Below its button, from its left edge. */
 function placeUnder(name: string): Record<string, string> {
   const button = document.querySelector(`[data-menu="${name}"]`)?.getBoundingClientRect();
-  if (name !== 'export') return { top: '44px', left: `${button?.left ?? 48}px` };
-  return { top: '44px', right: `${Math.max(8, innerWidth - (button?.right ?? innerWidth))}px` };
+  return { top: '44px', left: `${button?.left ?? 48}px` };
 }
 
 export function Menu({ name }: { name: string }) {

@@ -7,6 +7,7 @@ import { LiveRegion } from './access/live-region';
 import { RoadUsers } from './access/road-users';
 import { ContextMenu } from './context-menu';
 import { Dialogs } from './dialogs/dialogs';
+import { HistoryPanel } from './history/panel';
 import { Hud } from './hud/hud';
 import { Inspector } from './inspector/inspector';
 import { AppProvider, useApp } from './parts/app-context';
@@ -37,14 +38,15 @@ export function drawPage(c: Context, root: HTMLElement): void {
 
 function OverPicture() {
   const { editor, ui } = useApp();
-  const drawer = useComputed(() => ui.drawer.value && editor.scene.value !== null).value;
+  const drawer = useComputed(() => (editor.scene.value ? ui.drawer.value : null)).value;
   return (
     <>
       <Empty />
       <RoadUsers />
       <HandleSliders />
       <Hud />
-      {drawer ? <Drawer /> : null}
+      {drawer === 'scenes' ? <Drawer /> : null}
+      {drawer === 'history' ? <HistoryPanel /> : null}
     </>
   );
 }

@@ -5,7 +5,7 @@ import { DEFAULTS } from '../model/domain';
 import { rename, setDiversity, setSeed } from '../model/commands';
 import { isRecorded } from '../model/scene';
 import type { SaveState } from '../edit/saving';
-import { ExportButton, Menu, MenuButton } from './menu';
+import { Menu, MenuButton } from './menu';
 import { useApp } from './parts/app-context';
 import { ActionButton, IconButton } from './parts/buttons';
 
@@ -16,6 +16,7 @@ const SAVED: Record<SaveState, string> = {
   local: 'Saved on this computer',
   conflict: 'Changed elsewhere',
   full: 'No room to save',
+  off: 'Not saved',
 };
 
 export function TopBar() {
@@ -42,7 +43,8 @@ export function TopBar() {
           <ActionButton id="palette" withKey size={16}>
             <span class="mut">Actions</span>
           </ActionButton>
-          <ExportButton />
+          <ActionButton id="share" size={16} />
+          <ActionButton id="export" class="line" size={16} />
         </>
       ) : null}
       <IconButton id="theme" />
@@ -85,6 +87,8 @@ function NameField() {
   const { editor } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const name = useComputed(() => editor.scene.value?.name ?? '');
+  // As wide as the name, in characters: capitals are wider than most, so one is left out.
+  const size = useComputed(() => Math.max(4, name.value.length - 1));
   return (
     <input
       ref={input}
@@ -93,6 +97,7 @@ function NameField() {
       maxlength={80}
       spellcheck={false}
       value={name}
+      size={size}
       onChange={() => {
         const typed = input.current!.value.trim();
         if (typed && typed !== name.peek()) editor.run(rename(typed));

@@ -6,13 +6,13 @@ import { hasGoal } from '../model/scene';
 
 /** The three-step hint moves on with what one does and closes for good after the first drop. */
 export function coach({ editor, ui }: Context): void {
-  let opened = ui.drawer.peek();
+  let opened = ui.drawer.peek() === 'scenes';
   effect(() => {
     const a = editor.agent.value;
     const dragging = editor.dragging.value;
     if (a && opened) {
       opened = false;
-      ui.showDrawer(false);
+      ui.showDrawer(null);
     }
     if (!ui.coach.peek()) return;
     if (ui.coach.peek() === 1 && a) ui.coachTo(2);

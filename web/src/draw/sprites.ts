@@ -5,12 +5,15 @@ import type { OnLine } from '../model/geometry';
 import { colours, paletteStamp, type ColourName } from './theme';
 import type { View } from './view';
 
-/** Least size on screen in pixels: what is small stays visible. */
+/** Least size on screen in pixels at this zoom and closer: what is small stays visible. */
 const LEAST: Partial<Record<Kind, readonly [number, number]>> = {
   pedestrian: [11, 11],
   cyclist: [17, 8],
   motorcycle: [18, 8],
 };
+/** Further out all shrink together, so that nobody on foot looks larger than a car. */
+const LEAST_FROM_ZOOM = 8;
+const LEAST_OF_ALL = [5, 3.5] as const;
 
 export const colourKey = (
   a: Pick<Agent, 'type' | 'parked'>,
@@ -20,8 +23,11 @@ export const colourKey = (
 export type Sized = Pick<Agent, 'kind' | 'type' | 'length' | 'width' | 'parked'> & { readonly mini?: boolean };
 
 export function sizeOnScreen(a: Sized, z: number): [number, number] {
-  const least = a.mini ? [2, 2] : (LEAST[a.kind] ?? [5, 3.5]);
-  return [Math.max(a.length * z, least[0]), Math.max(a.width * z, least[1])];
+  if (a.mini) return [Math.max(a.length * z, 2), Math.max(a.width * z, 2)];
+  const small = LEAST[a.kind];
+  const k = Math.min(1, z / LEAST_FROM_ZOOM);
+  const least = (side: 0 | 1): number => (small ? Math.max(LEAST_OF_ALL[1], small[side] * k) : LEAST_OF_ALL[side]);
+  return [Math.max(a.length * z, least(0)), Math.max(a.width * z, least(1))];
 }
 
 /** The upright rectangle around a road user, in pixels. */

@@ -2,7 +2,9 @@
 // animation frame. While the view moves, the finished map picture is shifted and scaled; it is painted afresh when the
 // movement rests or when its margin is used up.
 import { LAYERS, MARGIN, sameShift, type LayerName, type Shift } from './easel';
+import { Glide } from './glide';
 import type { Pen } from './pen';
+import { paintOn } from './replay';
 import { Screen } from './screen';
 import { View } from './view';
 import { readPalette } from './theme';
@@ -14,6 +16,7 @@ const IN_PLACE: Shift = { dx: 0, dy: 0, scale: 1 };
 
 export class Stage {
   readonly view = new View();
+  readonly glide = new Glide(this.view, () => this.viewChanged());
   private readonly screen: Screen;
   private readonly painters: Partial<Record<LayerName, Painter>> = {};
   private readonly dirty = { map: true, agents: true, overlay: true };
@@ -42,6 +45,29 @@ export class Stage {
 
   painter(layer: LayerName, p: Painter): void {
     this.painters[layer] = p;
+  }
+
+  /** Paints layers of what is on screen on a canvas of somebody else's, so many times as fine. */
+  paintOn(canvas: HTMLCanvasElement, layers: readonly LayerName[], scale = this.view.dpr): void {
+    const v = this.view.copy();
+    v.dpr = scale;
+    const [w, h] = [Math.round(v.w * scale), Math.round(v.h * scale)];
+    if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
+    const g = canvas.getContext('2d', { alpha: false })!;
+    for (const name of layers) {
+      g.setTransform(scale, 0, 0, scale, 0, 0);
+      paintOn(g, (pen) => this.painters[name]?.(pen, v));
+    }
+  }
+
+  /** The same for any pen. */
+  paintWith(pen: Pen, layers: readonly LayerName[]): void {
+    const v = this.view.copy();
+    v.dpr = 1;
+    for (const name of layers) {
+      pen.setTransform(1, 0, 0, 1, 0, 0);
+      this.painters[name]?.(pen, v);
+    }
   }
 
   resize(): void {
@@ -101,6 +127,7 @@ export class Stage {
 
   private tick(now: number): void {
     this.frame = 0;
+    this.glide.frame();
     this.onFrame?.(now);
     this.paint();
   }

@@ -7,6 +7,7 @@ import type { Wanted } from './question';
 export type Asked = Wanted | 'nothing' | 'known';
 
 export function askedAfter(editor: Editor, scene: Scene, step: Step): Asked {
+  if (step.everybody) return { agents: 'all', react: false, step };
   const mine = editor.touchedIds(scene);
   if (!mine.length) return 'nothing';
   const others = othersThatAnswer(scene);

@@ -1,40 +1,73 @@
-// Saves an export of what is on screen to a file.
+// Files out of what is on screen.
 import { Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
 import type { SceneFile } from './scene-file';
 
+export interface ExportedFile {
+  readonly blob: Blob;
+  readonly name: string;
+  /** What the format has no place for, in plain words. */
+  readonly losses: readonly string[];
+}
+
 const ENDING: Record<string, string> = { dragtraffic: 'json', womd: 'tfrecord' };
 
-export async function download(c: { editor: Editor; file: SceneFile; client: Client }, format: string): Promise<void> {
+/** What the server's codes of losses mean to whoever saves the file. */
+const LOSSES: Record<string, string> = {
+  'no-conditions': 'Goals and starts that you set: they become finished motion',
+  'no-generated': 'Which motion was worked out: all of it counts as recorded',
+  'no-modes': 'The other futures: only the chosen one goes out',
+  'no-subtype': 'Finer kinds, such as truck or bus',
+  'no-roles': 'Roles in the recording',
+  'no-licence': 'The licence of the recording',
+  'no-notes': 'Name, tags and notes',
+  'no-map': 'The road',
+  'no-signals': 'The traffic lights',
+  'no-sizes': 'Sizes of road users',
+  'no-judgements': 'What is said of futures: chances, faults, who reacts to whom',
+  'no-drivable': 'The paved areas',
+  'no-lane-width': 'Widths of lanes',
+  'no-lane-type': 'Some kinds of lanes and kerbs',
+  'long-record': 'Nothing, but it is longer than a recording: some readers may not take it',
+  'ids-renumbered': 'Numbers of road users: they get new ones',
+};
+
+const lossWords = (codes: string | null): string[] =>
+  (codes ?? '')
+    .split(',')
+    .map((s) => s.trim())
+    .filter(Boolean)
+    .map((code) => LOSSES[code] ?? code.replace(/^no-/, '').replaceAll('-', ' '));
+
+/** The scene on screen in one of the server's formats. */
+export async function exported(c: { file: SceneFile; client: Client }, format: string): Promise<ExportedFile | null> {
   const json = c.file.complete();
-  if (!json) return;
+  if (!json) return null;
+  const { blob, name, loss } = await c.client.exportScene(json, format);
+  const ending = name.includes('.') ? name.slice(name.indexOf('.') + 1) : (ENDING[format] ?? format);
+  return { blob, name: `${slug(json.name)}.${ending}`, losses: lossWords(loss) };
+}
+
+/** Saves it at once. */
+export async function download(c: { editor: Editor; file: SceneFile; client: Client }, format: string): Promise<void> {
   try {
-    const { blob, name, loss } = await c.client.exportScene(json, format);
-    const ending = name.includes('.') ? name.slice(name.indexOf('.') + 1) : (ENDING[format] ?? format);
-    const file = `${slug(json.name ?? 'scene')}.${ending}`;
-    offer(blob, file);
-    c.editor.notices.show(
-      { text: loss ? `${file} saved. This format has no place for: ${lossWords(loss)}.` : `${file} saved.` },
-      9000,
-    );
+    const made = await exported(c, format);
+    if (made) save(c.editor, made);
   } catch (e) {
-    c.editor.notices.show({
-      text: e instanceof Refused ? `Not exported: ${e.message}` : 'Not exported: the server is not answering.',
-    });
+    c.editor.notices.show({ text: `Not exported: ${whyNot(e)}` });
   }
 }
 
-/** `no-lane-type, no-modes` as people say it; the first few are enough. */
-function lossWords(loss: string): string {
-  const all = loss
-    .split(',')
-    .map((s) => s.trim().replace(/^no-/, '').replaceAll('-', ' '))
-    .filter(Boolean);
-  return all.length > 4 ? `${all.slice(0, 3).join(', ')} and ${all.length - 3} more` : all.join(', ');
+export const whyNot = (e: unknown): string => (e instanceof Refused ? e.message : 'the server is not answering.');
+
+export function save(editor: Editor, { blob, name, losses }: ExportedFile): void {
+  offer(blob, name);
+  const n = losses.length;
+  editor.notices.show({ text: n ? `${name} saved, without ${n} thing${n > 1 ? 's' : ''}.` : `${name} saved.` });
 }
 
-const slug = (s: string): string =>
-  s
+export const slug = (s: string | undefined): string =>
+  (s ?? '')
     .toLowerCase()
     .replace(/[^a-z0-9]+/g, '-')
     .replace(/^-|-$/g, '') || 'scene';

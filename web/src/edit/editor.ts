@@ -1,7 +1,7 @@
 // The editing session: the document with its history, what is selected and pointed at, and its parts (answers,
 // playhead, notices). What a panel shows is a signal here, to be read; it changes by the named methods alone.
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
-import { History } from '../model/history';
+import { History, type Camera, type HistoryStep, type KeptHistory } from '../model/history';
 import type { Command } from '../model/commands';
 import { canChange, startPose, touched, type Agent, type Scene } from '../model/scene';
 import type { Futures, MotionSet } from '../model/futures';
@@ -75,6 +75,15 @@ export interface Step {
   /** Whom it is about, where that is not one alone. */
   readonly several?: readonly string[];
   readonly undo: boolean;
+  /** Everybody is to be worked out anew. */
+  readonly everybody?: boolean;
+}
+
+/** Why the document can be looked at only, and the way out. */
+export interface Lock {
+  readonly words: string;
+  readonly label: string;
+  run(): void;
 }
 
 const NOBODY: readonly string[] = Object.freeze([]);
@@ -104,6 +113,8 @@ export class Editor {
   readonly #speedUnit = signal<SpeedUnit>(recall<SpeedUnit>('speed-unit') ?? 'km/h');
   readonly #undoName = signal<string | null>(null);
   readonly #redoName = signal<string | null>(null);
+  readonly #lock = signal<Lock | null>(null);
+  readonly #historyTick = signal(0);
   /** Goal headings that came from a lane and may follow the next one, as `part:id`. */
   readonly #snappedHeadings = new Set<string>();
   #history: History | null = null;
@@ -135,6 +146,10 @@ export class Editor {
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
   readonly undoName: ReadonlySignal<string | null> = this.#undoName;
   readonly redoName: ReadonlySignal<string | null> = this.#redoName;
+  /** Null while the document can be changed. */
+  readonly lock: ReadonlySignal<Lock | null> = this.#lock;
+  /** Rises with every change of the history. */
+  readonly historyTick: ReadonlySignal<number> = this.#historyTick;
 
   // The parts' signals under short names, for reading.
   readonly motion = this.answers.motion;
@@ -150,6 +165,10 @@ export class Editor {
   /** Called after a document change has been committed; the generator and the saving hang on here. */
   onCommit: ((scene: Scene, step: Step) => void) | null = null;
   onSelect: ((id: string | null) => void) | null = null;
+  /** Undo and redo went over a step. */
+  onTravel: ((step: HistoryStep, way: 'back' | 'forth') => void) | null = null;
+  /** Where the picture looks; kept with every step. */
+  camera: () => Camera | null = () => null;
 
   readonly agent = computed<Agent | null>(() => {
     const id = this.selection.value;
@@ -199,9 +218,16 @@ export class Editor {
 
   // -------------------------------------------------------------- the document
 
-  open(scene: Scene, saved: MotionSet | null = null): void {
+  /** The history of the open scene, to be read. */
+  get history(): History | null {
+    return this.#history;
+  }
+
+  open(scene: Scene, saved: MotionSet | null = null, kept: KeptHistory | null = null): void {
     batch(() => {
-      this.#history = new History(scene);
+      this.#history = new History(scene, undefined, kept);
+      this.#history.camera = () => this.camera();
+      this.#lock.value = null;
       this.#snappedHeadings.clear();
       this.#scene.value = scene;
       this.#selected.value = NOBODY;
@@ -219,7 +245,7 @@ export class Editor {
 
   /** Does a command as one undo step. */
   run(command: Command): void {
-    if (!this.#history) return;
+    if (!this.#history || this.#refused()) return;
     const before = this.#history.scene;
     this.#committed(this.#history.run(command), before, command.name, false);
   }
@@ -232,11 +258,50 @@ export class Editor {
     this.#travel((h) => h.redo(), 'Done again');
   }
 
-  #travel(move: (h: History) => { name: string } | null | undefined, word: string): void {
+  /** To any step of the history; null for how the scene was before the first. */
+  goTo(id: number | null): void {
+    const h = this.#history;
+    if (!h || id === h.head || this.#refused()) return;
+    const before = h.scene;
+    const name = h.step(id)?.name ?? 'Back to the beginning';
+    this.#committed(h.goTo(id), before, name, true);
+    this.notices.say(`Now at: ${name}.`);
+  }
+
+  /** Another version of the same scene takes the place of this one; undo brings this one back. */
+  adopt(name: string, scene: Scene): void {
+    const h = this.#history;
+    if (!h) return;
+    const before = h.scene;
+    h.adopt(name, scene);
+    this.#committed(h.scene, before, name, true);
+  }
+
+  /** Calls a step by a name of its own. */
+  entitle(id: number, title: string | null): void {
+    this.#history?.entitle(id, title);
+    this.#historyTick.value++;
+  }
+
+  /** The document is only to be looked at from now on; a drag that goes on is put back. */
+  lockWith(lock: Lock | null): void {
+    if (lock && this.dragging.peek()) this.cancelDrag();
+    this.#lock.value = lock;
+  }
+
+  /** A change was tried that cannot be made now: says why. */
+  #refused(): boolean {
+    const lock = this.#lock.peek();
+    if (lock) this.notices.show({ text: lock.words, action: lock });
+    return lock !== null;
+  }
+
+  #travel(move: (h: History) => HistoryStep | null, word: string): void {
     const before = this.#history?.scene;
-    const step = this.#history && move(this.#history);
+    const step = this.#history && !this.#refused() ? move(this.#history) : null;
     if (!step || !this.#history || !before) return;
     this.#committed(this.#history.scene, before, step.name, true);
+    this.onTravel?.(step, word === 'Undone' ? 'back' : 'forth');
     this.notices.show({ text: `${word}: ${step.name}.` });
     this.notices.say(`${word}: ${step.name}.`);
   }
@@ -254,7 +319,8 @@ export class Editor {
       this.playhead.moveTo(Math.min(this.time.peek(), scene.duration));
       this.answers.documentChanged(scene, agent && onlyPicked(before, scene, agent) ? agent : null);
     });
-    this.onCommit?.(scene, { name, agent, several, undo });
+    const everybody = undo ? scene.drawn > 0 : scene.drawn > before.drawn;
+    this.onCommit?.(scene, { name, agent, several, undo, ...(everybody ? { everybody } : {}) });
   }
 
   /** Who has come is selected, who has gone is not. */
@@ -273,11 +339,13 @@ export class Editor {
   #nameSteps(): void {
     this.#undoName.value = this.#history?.undoName ?? null;
     this.#redoName.value = this.#history?.redoName ?? null;
+    this.#historyTick.value++;
   }
 
   // -------------------------------------------------------------- a drag
 
   beginDrag(grip: Grip): void {
+    if (this.#refused()) return;
     batch(() => {
       this.playhead.pause();
       this.#focusPart.value = grip.part;
@@ -290,7 +358,7 @@ export class Editor {
 
   /** A frame of the drag: the document as it would be. */
   previewDrag(command: Command): void {
-    const preview = this.#history?.preview(command);
+    const preview = this.#lock.peek() ? null : this.#history?.preview(command);
     if (!preview) return;
     batch(() => {
       this.#scene.value = preview;
@@ -311,7 +379,7 @@ export class Editor {
   endDrag(command: Command | null): void {
     if (!this.#history) return;
     this.#drag.value = null;
-    if (!command) {
+    if (!command || this.#lock.peek()) {
       this.#scene.value = this.#history.cancel();
       return;
     }

@@ -3,6 +3,7 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { DEFAULTS } from '../model/domain';
 import type { MotionSet } from '../model/futures';
+import { drawAnew } from '../model/commands';
 import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
 import { castJson, trackJson } from '../model/write';
@@ -93,6 +94,7 @@ export class Generation implements Previews {
     const { editor } = this;
     const a = editor.agent.peek();
     const m = editor.motion.peek();
+    if (a && canChange(a) && this.#absence.now) this.#sketch(id, true);
     if (!a || !canChange(a) || m.futures.has(id) || m.stale) return;
     this.#ask({ agents: [id], react: false, step: null }, true);
   }
@@ -165,7 +167,8 @@ export class Generation implements Previews {
     } else if (this.#absence.now) {
       this.#absence.wait();
       if (step.agent) this.#sketch(step.agent, true);
-    } else {
+    } else if (step.everybody && !step.undo) this.#workOut(step);
+    else {
       const rested = (this.#rested = this.#begin());
       this.#rest = setTimeout(() => {
         this.#workOut(step);
@@ -176,10 +179,8 @@ export class Generation implements Previews {
 
   /** The Generate button: everybody anew. */
   generateAll(): void {
-    if (!this.editor.scene.peek()) return;
-    this.editor.answers.outdate();
-    const step = { name: 'Everybody worked out anew', agent: null, undo: false };
-    this.#ask({ agents: 'all', react: false, step });
+    const scene = this.editor.scene.peek();
+    if (scene) this.editor.run(drawAnew(scene));
   }
 
   /** Asks at once whether the generator is back. */

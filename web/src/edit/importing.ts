@@ -1,9 +1,13 @@
 // Files from outside: sent to the server one by one, with a verdict for each.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
+import type { SceneJson } from '../model/json';
+import { lineOf, linesAround, offsetOf } from '../model/json-place';
 import { Refused, type Client } from '../net/client';
 import type { ImportReply, Problem } from '../net/types';
 import type { Editor } from './editor';
+import { foreignKind, kindByName } from './file-kinds';
 import type { Library } from './library';
+import { partAt, withoutBroken } from './mending';
 import { countAll, type SceneList } from './scene-list';
 
 export interface ImportedScene {
@@ -16,18 +20,32 @@ export interface ImportedScene {
 /** What became of one file, and, when it could not be read, what is wrong, where, and what to do. */
 export interface FileVerdict {
   readonly file: string;
+  /** `saved scene`, `scenario record`, `a PDF`. */
+  readonly kind: string;
   readonly ok: boolean;
   readonly scenes: readonly ImportedScene[];
   readonly wrong?: string;
   readonly where?: string;
   readonly todo?: string;
   readonly details?: string;
+  /** The lines of the file where it is broken, and the number of the first. */
+  readonly excerpt?: { readonly line: number; readonly from: number; readonly lines: readonly string[] };
+  /** The rest of it can be taken: without what. */
+  readonly without?: readonly string[];
+  /** Nobody answered: the same may go well later. */
+  readonly again?: File;
 }
 
 const READING_MS = 120_000;
+/** Larger files are not looked into here. */
+const MOST_TEXT_BYTES = 20 << 20;
+/** After leaving out what is broken more may come to light. */
+const MOST_ROUNDS = 6;
 
 export class Importing {
   readonly #verdicts = signal<readonly FileVerdict[] | null>(null);
+  /** What is left of broken files, by their place in the list. */
+  #rests = new Map<FileVerdict, SceneJson>();
   /** The report that is to be shown; null when there is nothing to report. */
   readonly verdicts: ReadonlySignal<readonly FileVerdict[] | null> = this.#verdicts;
 
@@ -40,6 +58,7 @@ export class Importing {
 
   close(): void {
     this.#verdicts.value = null;
+    this.#rests.clear();
   }
 
   async files(files: readonly File[]): Promise<void> {
@@ -55,49 +74,146 @@ export class Importing {
     else this.#verdicts.value = verdicts;
   }
 
+  /** Takes the rest of a file, without what is broken in it. */
+  async takeRest(v: FileVerdict): Promise<void> {
+    const rest = this.#rests.get(v);
+    if (!rest) return;
+    const name = v.file;
+    await this.#replace(v, () => this.#send(name, new Blob([JSON.stringify(rest)]), v.without));
+  }
+
+  /** The same file once more, now that somebody may answer. */
+  async tryAgain(v: FileVerdict): Promise<void> {
+    if (v.again) await this.#replace(v, () => this.#one(v.again!));
+  }
+
+  async #replace(v: FileVerdict, make: () => Promise<FileVerdict>): Promise<void> {
+    const now = await make();
+    await this.list.refresh().catch(() => undefined);
+    const rest = (this.#verdicts.peek() ?? []).map((o) => (o === v ? now : o));
+    if (now.scenes.length) await this.library.open(now.scenes[0].id);
+    if (now.ok && rest.every((o) => o.ok)) {
+      this.close();
+      const without = v.without ? ` without ${v.without.join(', ')}` : '';
+      this.editor.notices.show({ text: `${now.scenes[0]?.name ?? v.file} imported${without}.` });
+    } else this.#verdicts.value = rest;
+  }
+
   async #one(file: File): Promise<FileVerdict> {
+    const foreign = await foreignKind(file);
+    if (foreign) return foreignVerdict(file.name, foreign);
+    return this.#send(file.name, file);
+  }
+
+  async #send(name: string, file: Blob, without: readonly string[] = []): Promise<FileVerdict> {
     try {
-      return verdictOf(file.name, await this.client.importFile(file.name, file));
+      const v = verdictOf(name, await this.client.importFile(name, file));
+      return without.length && v.ok ? { ...v, wrong: `Without ${without.join(', ')}.` } : v;
     } catch (e) {
-      const why = e instanceof Refused ? explain(file.name, e.problem) : AWAY;
-      return { file: file.name, ok: false, scenes: [], ...why };
+      if (!(e instanceof Refused)) return awayVerdict(name, file);
+      return this.#refused(name, file, e.problem, without);
     }
+  }
+
+  /** What is wrong, with the place in the file; the rest of it is kept where it can be taken. */
+  async #refused(name: string, file: Blob, p: Problem, without: readonly string[]): Promise<FileVerdict> {
+    const plain = { file: name, kind: kindByName(name), ok: false, scenes: [], ...explain(name, p) };
+    const text = file.size <= MOST_TEXT_BYTES ? await file.text() : '';
+    const line = p.line ?? (p.code === 'too-many-agents' ? null : lineAt(text, p.errors?.[0]?.pointer));
+    const excerpt = line === null ? undefined : { line, ...linesAround(text, line) };
+    const found = { ...plain, excerpt, ...(line === null ? {} : { where: `${name}, line ${line}` }) };
+    const scene = sceneIn(text);
+    const part = scene && p.errors?.[0] ? partAt(scene, p.errors[0].pointer) : null;
+    const said = part ? { ...found, wrong: `${capital(part.name)}: ${plain.wrong}.` } : found;
+    const mended = scene && withoutBroken(scene, p);
+    if (!mended || without.length > MOST_ROUNDS) return said;
+    const verdict: FileVerdict = { ...said, without: [...without, ...mended.without], todo: undefined };
+    this.#rests.set(verdict, mended.scene);
+    return verdict;
   }
 }
 
-type Explanation = Pick<FileVerdict, 'wrong' | 'where' | 'todo' | 'details'>;
+const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
 
-const AWAY: Explanation = {
+function sceneIn(text: string): SceneJson | null {
+  try {
+    const read = JSON.parse(text) as SceneJson;
+    return Array.isArray(read?.agents) ? read : null;
+  } catch {
+    return null;
+  }
+}
+
+function lineAt(text: string, pointer: string | undefined): number | null {
+  const at = pointer && text.startsWith('{') ? offsetOf(text, pointer) : null;
+  return at === null ? null : lineOf(text, at);
+}
+
+const READABLE = 'Scenario records, lane maps and saved scenes can be read.';
+
+function foreignVerdict(file: string, kind: string): FileVerdict {
+  const ending = /\.(json|tfrecord|xml|csv)(\.gz)?$/i.exec(file)?.[0];
+  const wrong = ending ? `Named ${ending}, but it is ${kind}.` : `“${file}” is not a scene: it is ${kind}.`;
+  return {
+    file,
+    kind: kind.replace(/^an? /, ''),
+    ok: false,
+    scenes: [],
+    wrong,
+    todo: `${READABLE} Choose another file.`,
+  };
+}
+
+const awayVerdict = (file: string, again: Blob): FileVerdict => ({
+  file,
+  kind: kindByName(file),
+  ok: false,
+  scenes: [],
   wrong: 'The server is not answering.',
   todo: 'Try again when the generator is back. The file was not changed.',
-};
+  again: again instanceof File ? again : undefined,
+});
 
 function verdictOf(file: string, reply: ImportReply): FileVerdict {
+  const kind = kindByName(file);
   const scenes = reply.scenes.map(({ id = '', name, counts }) => ({
     id,
     name,
     count: countAll(counts),
   }));
   const { skipped } = reply;
-  if (!scenes.length) return { file, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
-  if (!skipped.length) return { file, ok: true, scenes };
+  if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
+  if (!skipped.length) return { file, kind, ok: true, scenes };
   const { detail } = skipped[0].problem;
   const share = `${skipped.length} of ${scenes.length + skipped.length} scenes in this file could not be read`;
-  return { file, ok: true, scenes, wrong: `${share}: ${detail}` };
+  return { file, kind, ok: true, scenes, wrong: `${share}: ${detail}` };
 }
 
+type Explanation = Pick<FileVerdict, 'wrong' | 'where' | 'todo' | 'details'>;
+
 function explain(file: string, p: Problem | undefined): Explanation {
-  if (!p) return { wrong: 'There is no scene in this file.' };
+  if (!p) return { wrong: 'There is no scene in this file.', todo: READABLE };
   const first = p.errors?.[0];
   const where = [file, first?.pointer, p.offset !== undefined ? `byte ${p.offset}` : ''].filter(Boolean).join(', ');
-  const unknown = p.code === 'format-unknown';
-  const wrong = unknown ? `“${file}” is not a scene.` : (first?.detail ?? p.reason ?? p.detail ?? p.title);
-  return { wrong, where, todo: whatToDo(p.code), details: JSON.stringify(p, null, 2) };
+  return { wrong: inWords(file, p), where, todo: whatToDo(p.code), details: JSON.stringify(p, null, 2) };
+}
+
+/** What the server says, as people would. */
+function inWords(file: string, p: Problem): string {
+  if (p.code === 'format-unknown') return `“${file}” is not a scene.`;
+  const said = p.errors?.[0]?.detail ?? p.reason ?? p.detail ?? p.title;
+  const points = /^(\d+) points; (\d+) to \d+ expected$/.exec(said);
+  if (points)
+    return `it has ${points[1] === '1' ? 'only one point' : `${points[1]} points`}, and needs ${points[2]} at least`;
+  const many = /^\d+ agents; at most (\d+)$/.exec(said);
+  if (many) return `This scene has more road users than the ${many[1]} that a scene may have.`;
+  if (p.code === 'malformed-json')
+    return `The text breaks off or is no JSON: ${said.replace(/^line \d+, column \d+: /, '').replaceAll('`', '”')}.`;
+  return said;
 }
 
 function whatToDo(code: Problem['code']): string {
-  if (code === 'format-unknown')
-    return 'Scenario records, lane maps and saved scenes can be read. Choose another file.';
+  if (code === 'format-unknown') return `${READABLE} Choose another file.`;
   if (code.includes('too-large')) return 'The file is larger than the server takes. Split it, or use the command line.';
   if (code === 'unsupported-version') return 'Update this program, or save the scene again with the version you have.';
   return 'Mend the file and drop it again, or choose another one.';

@@ -1,24 +1,43 @@
-// Scenes as a whole: opened, copied, removed.
-import { signal, type ReadonlySignal } from '@preact/signals-core';
+// Scenes are opened here: from the server, with what this computer keeps of them, if it is this tab's turn.
+import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { Away, Refused, type Client } from '../net/client';
 import { keep } from '../net/storage';
+import { SceneTurns } from '../net/scene-lock';
 import { isMapRef, type MapJson, type SceneJson } from '../model/json';
 import { readGenerated, readScene, SceneError } from '../model/read';
 import { touched, type Scene } from '../model/scene';
-import type { Editor } from './editor';
-import { forgetEdits, withKeptEdits } from './kept-edits';
+import type { Editor, Lock } from './editor';
+import { resume, type Journal } from './journal';
 import type { Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
 
 const WELCOME_BACK_MS = 9000;
+/** Less than a tab that waits for its turn has patience. */
+const WRITTEN_WITHIN_MS = 2000;
+
+/** Text and etag of a scene with its map. */
+interface Fetched {
+  readonly json: SceneJson;
+  readonly map: MapJson;
+  readonly etag: string | null;
+}
 
 export class Library {
   readonly #openError = signal<string | null>(null);
+  readonly #turns = new SceneTurns({
+    got: () => void this.again(),
+    leaving: () => this.#handOver(),
+    lost: () => this.#elsewhere(),
+    changed: () => void this.again(),
+  });
+  /** Counts what was opened, so that of two on their way the later one stays. */
+  #opening = 0;
+
   /** Why the last scene could not be opened. */
   readonly openError: ReadonlySignal<string | null> = this.#openError;
-  /** Called when another scene is on screen. */
-  onOpen: ((scene: Scene) => void) | null = null;
+  /** Called when another scene is on screen; `again` when it is the same one, newer. */
+  onOpen: ((scene: Scene, again: boolean) => void) | null = null;
 
   constructor(
     private readonly editor: Editor,
@@ -26,97 +45,177 @@ export class Library {
     private readonly saving: Saving,
     private readonly list: SceneList,
     private readonly client: Client,
-  ) {}
+    private readonly journal: Journal,
+  ) {
+    journal.onKept = () => this.#turns.tellChanged();
+  }
 
   async open(id: string): Promise<void> {
+    await this.written();
     this.#openError.value = null;
+    const turn = ++this.#opening;
     try {
-      const { json, etag } = await this.client.scene(id);
-      const map = isMapRef(json.map) ? await this.client.map(json.map.ref) : json.map;
-      this.#adopt({ ...json, id: json.id ?? id }, map, etag);
-      this.file.mapRef = await this.#mapRef(id, json);
+      const fetched = await this.#fetch(id);
+      const mine = await this.#turns.goTo(id);
+      if (turn === this.#opening) await this.#adopt(fetched, mine, false);
     } catch (e) {
-      const known = e instanceof SceneError || e instanceof Refused;
-      this.#openError.value = known ? e.message : 'The scene could not be loaded. The server is not answering.';
-      if (!known && !(e instanceof Away)) throw e;
+      this.#failed(e);
     }
+  }
+
+  /** The same scene anew, as it is by now: it was changed in another tab, or it is this tab's turn again. */
+  async again(): Promise<void> {
+    const id = this.editor.scene.peek()?.id;
+    const { raw, map, stored } = this.file;
+    if (!id || !raw || !map || !stored) return;
+    const turn = ++this.#opening;
+    // Without the server what is kept on this computer is enough.
+    const fetched = await this.#fetch(id).catch(() => ({ json: raw, map, etag: this.saving.etag }));
+    const mine = await this.#turns.goTo(id);
+    if (turn === this.#opening) await this.#adopt(fetched, mine, true);
+  }
+
+  /** Shows a scene that is not on the server, to be looked at. */
+  async show(json: SceneJson, lock: Lock): Promise<void> {
+    await this.written();
+    this.#opening++;
+    this.#turns.leave();
+    this.journal.letGo();
+    const scene = readScene(json);
+    this.file.adopt(json, json.map as MapJson, false);
+    const saved = readGenerated(json, scene);
+    batch(() => {
+      this.editor.open(scene, saved);
+      this.editor.lockWith(lock);
+    });
+    this.saving.opened(scene, null, 'same');
+    this.#show(scene, saved !== null, false);
+  }
+
+  /** Asks the tab that has this scene for it. */
+  editHere(): void {
+    this.#turns.takeOver();
   }
 
   dismissError(): void {
     this.#openError.value = null;
   }
 
-  async #mapRef(id: string, json: SceneJson): Promise<string | null> {
+  #failed(e: unknown): void {
+    const known = e instanceof SceneError || e instanceof Refused;
+    this.#openError.value = known ? e.message : 'The scene could not be loaded. The server is not answering.';
+    if (!known && !(e instanceof Away)) throw e;
+  }
+
+  async #fetch(id: string): Promise<Fetched> {
+    const { json, etag } = await this.client.scene(id);
+    const map = isMapRef(json.map) ? await this.client.map(json.map.ref) : json.map;
+    return { json: { ...json, id: json.id ?? id }, map, etag };
+  }
+
+  #mapRefOf(json: SceneJson): string | null {
     if (isMapRef(json.map)) return json.map.ref;
-    const sha = this.list.find(id)?.map_sha256;
-    if (sha) return sha.startsWith('sha256:') ? sha : `sha256:${sha}`;
-    return this.client.mapRef(id).catch(() => null);
+    const sha = this.list.find(json.id ?? '')?.map_sha256;
+    return sha ? (sha.startsWith('sha256:') ? sha : `sha256:${sha}`) : null;
   }
 
-  #adopt(json: SceneJson, map: MapJson, etag: string | null): void {
-    const { editor } = this;
+  async #adopt({ json, map, etag }: Fetched, mine: boolean, again: boolean): Promise<void> {
+    const { editor, journal } = this;
     const plain = readScene(json, map);
-    const kept = withKeptEdits(plain);
-    const scene = kept ?? plain;
+    const own = this.list.isOwn(plain.id);
+    journal.letGo();
+    const kept = await journal.read(plain.id);
+    const { scene, history, standing } = resume(plain, kept, own, etag);
     this.file.adopt(json, map, true);
-    this.saving.opened(scene, etag, kept !== null);
+    this.file.mapRef = this.#mapRefOf(json);
     keep('last-scene', scene.id);
-    const saved = kept ? null : readGenerated(json, scene);
-    editor.open(scene, saved);
-    const unanswered = !saved && [...scene.agents.values()].some(touched);
+    this.list.noteOpened(scene.id);
+    const current = standing === 'fresh' || standing === 'same';
+    const saved = current ? readGenerated(json, scene) : null;
+    const { selection, time } = editor;
+    const seen = { who: selection.peek(), when: time.peek() };
+    batch(() => {
+      editor.open(scene, saved, history);
+      if (mine && standing === 'behind') editor.history!.adopt('Changed elsewhere', plain);
+      if (!mine) this.#elsewhere();
+    });
+    this.saving.opened(scene, etag, standing === 'ahead' || standing === 'conflict' ? standing : 'same');
+    if (mine) {
+      journal.follow(editor.history!, scene.id, history && kept, own);
+      if (standing === 'behind') void journal.retry();
+      if (own && etag && (current || standing === 'behind')) journal.synced(etag, editor.history!.head);
+      void journal.tidy((id) => this.list.isOwn(id));
+    }
+    this.#show(scene, saved !== null, again);
+    if (again) this.#asSeen(seen.who, seen.when);
+    else if (standing === 'ahead' && !own) this.#welcomeBack();
+    if (mine) this.saving.retry();
+  }
+
+  /** Answers that are missing are asked for. */
+  #show(scene: Scene, answered: boolean, again: boolean): void {
+    const { editor } = this;
+    const unanswered = !answered && (scene.drawn > 0 || [...scene.agents.values()].some(touched));
     if (unanswered) editor.answers.outdate();
-    this.onOpen?.(scene);
-    if (unanswered) editor.onCommit?.(scene, { name: 'Scene opened', agent: null, undo: true });
-    if (!kept) return;
-    const action = { label: 'Start fresh', run: () => void this.startFresh(scene.id) };
-    editor.notices.show({ text: 'Your changes from last time are back.', action }, WELCOME_BACK_MS);
+    this.onOpen?.(scene, again);
+    if (!unanswered) return;
+    const everybody = scene.drawn > 0 ? { everybody: true } : {};
+    editor.onCommit?.(scene, { name: 'Scene opened', agent: null, undo: true, ...everybody });
   }
 
-  /** The scene as the server has it, without the changes kept in this browser. */
-  async startFresh(id: string): Promise<void> {
-    forgetEdits(id);
-    await this.open(id);
+  #asSeen(who: string | null, when: number): void {
+    const { editor } = this;
+    if (who && editor.scene.peek()?.agents.has(who)) editor.select(who);
+    editor.setTime(when);
   }
 
-  /** Conflict: the version on the server replaces the one on screen. */
+  #welcomeBack(): void {
+    const action = { label: 'Start fresh', run: () => this.editor.goTo(null) };
+    this.editor.notices.show({ text: 'Your changes from last time are back.', action }, WELCOME_BACK_MS);
+  }
+
+  // -------------------------------------------------------------- tabs
+
+  #elsewhere(): void {
+    this.journal.letGo();
+    this.#lock();
+  }
+
+  #lock(): void {
+    const lock: Lock = {
+      words: 'This scene is open in another tab. Here it is read-only.',
+      label: 'Edit here',
+      run: () => this.editHere(),
+    };
+    this.editor.lockWith(lock);
+  }
+
+  /** Before another tab takes over, everything is written, and nothing new begins. */
+  async #handOver(): Promise<void> {
+    this.#lock();
+    await this.written();
+  }
+
+  /** Steps are kept and saved, unless the server takes its time: then they are saved the next time. */
+  async written(): Promise<void> {
+    const late = new Promise((resolve) => setTimeout(resolve, WRITTEN_WITHIN_MS));
+    await Promise.race([this.saving.flush(), late]);
+    await this.journal.flush();
+  }
+
+  // -------------------------------------------------------------- conflict
+
+  /** The version on the server replaces the one on screen; undo brings that back. */
   async takeTheirs(): Promise<void> {
     const id = this.editor.scene.peek()?.id;
-    if (id) await this.startFresh(id);
-  }
-
-  /** An own copy of what is on screen; from then on it saves itself. */
-  async saveCopy(): Promise<void> {
-    const { editor } = this;
-    const scene = editor.scene.peek();
-    const body = this.file.complete();
-    if (!scene || !body) return;
-    const name = this.list.isOwn(scene.id) ? `${scene.name}, copy` : `${scene.name}, edited`;
+    if (!id) return;
     try {
-      const { id } = await this.client.create({ ...body, name });
-      await this.list.refresh().catch(() => undefined);
-      forgetEdits(scene.id);
-      await this.open(id);
-      editor.notices.show({ text: `Saved as “${name}”.` });
+      const { json, map, etag } = await this.#fetch(id);
+      this.editor.adopt('The other version taken', readScene(json, map));
+      this.saving.tookTheirs(etag);
+      if (etag) this.journal.synced(etag, this.editor.history?.head ?? null);
     } catch (e) {
-      const why =
-        e instanceof Refused ? e.message : 'the server is not answering. Your changes are kept on this computer.';
-      editor.notices.show({ text: `Not saved: ${why}` });
-    }
-  }
-
-  async remove(id: string): Promise<void> {
-    const { editor, list } = this;
-    const item = list.find(id);
-    try {
-      const etag = item?.etag ?? (await this.client.scene(id)).etag ?? '*';
-      await this.client.remove(id, etag);
-      forgetEdits(id);
-      await list.refresh();
-      editor.notices.show({ text: `“${item?.name ?? id}” deleted.` });
-      const next = list.list.peek()[0];
-      if (editor.scene.peek()?.id === id && next) await this.open(next.id);
-    } catch (e) {
-      editor.notices.show({ text: `Not deleted: ${(e as Error).message}` });
+      this.#failed(e);
     }
   }
 }

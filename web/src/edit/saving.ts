@@ -1,107 +1,132 @@
-// Saving: own scenes go to the server after every step; edits of examples stay in this browser until a copy is made.
-import { signal, type ReadonlySignal } from '@preact/signals-core';
-import type { Scene } from '../model/scene';
+// Saving: every step is kept on this computer, and own scenes go to the server after it. Examples stay here until a
+// copy is made of them.
+import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../model/json';
+import type { Scene } from '../model/scene';
 import { Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
-import { forgetEdits, keepEdits, versionOf } from './kept-edits';
+import type { Journal } from './journal';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
 
-/** `local`: kept in this browser only. `full`: there was no room even for that. */
-export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full';
+/** `local`: kept on this computer only. `full`: there was no room even for that. `off`: this page may keep nothing. */
+export type SaveState = 'example' | 'saved' | 'saving' | 'local' | 'conflict' | 'full' | 'off';
 
 const DELAY_MS = 300;
 
 export class Saving {
-  readonly #state = signal<SaveState>('example');
+  readonly #server = signal<'none' | 'saved' | 'saving' | 'behind' | 'conflict'>('none');
   readonly #conflict = signal<{ etag: string | null } | null>(null);
-  /** The document as it was opened: nothing to save yet. */
-  #opened: Scene | null = null;
   #etag: string | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  #busy = false;
+  #running: Promise<void> | null = null;
   #again = false;
 
-  readonly state: ReadonlySignal<SaveState> = this.#state;
   /** The version on the server that is not ours. */
   readonly conflict: ReadonlySignal<{ etag: string | null } | null> = this.#conflict;
+  readonly state: ReadonlySignal<SaveState>;
 
   constructor(
     private readonly editor: Editor,
     private readonly file: SceneFile,
     private readonly list: SceneList,
     private readonly client: Client,
-  ) {}
+    private readonly journal: Journal,
+  ) {
+    this.state = computed<SaveState>(() => {
+      const server = this.#server.value;
+      if (server === 'conflict' || server === 'saved' || server === 'saving') return server;
+      const keeping = journal.keeping.value;
+      const changed = editor.undoName.value !== null || server === 'behind';
+      if (!changed) return 'example';
+      return keeping === 'kept' ? 'local' : keeping;
+    });
+  }
 
-  /** Another scene is open; `withEdits` when changes kept in this browser were put in. */
-  opened(scene: Scene, etag: string | null, withEdits: boolean): void {
+  get etag(): string | null {
+    return this.#etag;
+  }
+
+  /** Another scene is open. `ahead`: with changes that the server does not have; `conflict`: and it has others. */
+  opened(scene: Scene, etag: string | null, standing: 'same' | 'ahead' | 'conflict'): void {
+    clearTimeout(this.#timer);
     this.#etag = etag;
-    this.#conflict.value = null;
-    this.#opened = withEdits ? null : scene;
-    this.#state.value = withEdits ? 'local' : this.list.isOwn(scene.id) ? 'saved' : 'example';
+    this.#conflict.value = standing === 'conflict' ? { etag } : null;
+    const own = this.file.stored && this.list.isOwn(scene.id);
+    this.#server.value = !own ? 'none' : standing === 'same' ? 'saved' : standing === 'ahead' ? 'behind' : 'conflict';
   }
 
   /** A document change was committed. */
   changed(scene: Scene): void {
-    if (!this.file.raw || scene === this.#opened) return;
-    const kept = keepEdits(scene, this.file.raw);
-    const own = this.list.isOwn(scene.id);
-    if (kept === 'full') this.#state.value = 'full';
-    else if (!own) this.#state.value = kept === 'kept' ? 'local' : 'example';
-    if (!own || !this.file.stored) return;
-    this.#state.value = 'saving';
+    if (!this.file.raw || !this.file.stored || !this.list.isOwn(scene.id)) return;
+    if (this.editor.lock.peek() || this.#conflict.peek()) return;
+    this.#server.value = 'saving';
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => void this.#save(), DELAY_MS);
   }
 
-  /** The server is back: what could not be saved is saved now. */
+  /** The server is back, or there is room again: what could not be saved is saved now. */
   retry(): void {
-    const { raw, stored } = this.file;
-    if (raw && stored && this.list.isOwn(raw.id ?? '') && this.#state.peek() !== 'saved') void this.#save();
+    if (this.#server.peek() === 'behind' && !this.editor.lock.peek()) void this.#save();
+  }
+
+  /** What is to be saved is saved, or cannot be. */
+  async flush(): Promise<void> {
+    if (this.#server.peek() !== 'saving') return;
+    clearTimeout(this.#timer);
+    await (this.#running ?? this.#save());
+    if (this.#running) await this.#running;
   }
 
   /** Conflict: this version replaces the other one. */
   async keepMine(): Promise<void> {
     await this.#save(true);
-    if (this.#state.peek() === 'saved') this.#conflict.value = null;
+    if (this.#server.peek() === 'saved') this.#conflict.value = null;
   }
 
-  async #save(force = false): Promise<void> {
-    if (this.#busy) {
+  /** Conflict: the other version is on screen now. */
+  tookTheirs(etag: string | null): void {
+    this.#etag = etag;
+    this.#conflict.value = null;
+    this.#server.value = 'saved';
+  }
+
+  #save(force = false): Promise<void> {
+    if (this.#running) {
       this.#again = true;
-      return;
+      return this.#running;
     }
+    this.#running = this.#saveNow(force).finally(() => {
+      this.#running = null;
+      if (!this.#again) return;
+      this.#again = false;
+      if (this.#server.peek() !== 'conflict') void this.#save();
+    });
+    return this.#running;
+  }
+
+  async #saveNow(force: boolean): Promise<void> {
     const scene = this.editor.scene.peek();
+    const step = this.editor.history?.head ?? null;
     const body = this.file.current();
     if (!scene || !body) return;
-    this.#busy = true;
-    this.#again = false;
     try {
-      this.#etag = await this.#put(scene.id, body, force);
-      this.#saved(scene, body);
+      const etag = await this.#put(scene.id, body, force);
+      if (this.editor.scene.peek()?.id !== scene.id) return;
+      this.#etag = etag;
+      this.file.noteStored(body);
+      if (etag) this.journal.synced(etag, step);
+      if (this.editor.scene.peek() === scene) this.#server.value = 'saved';
+      void this.list.refresh().catch(() => undefined);
     } catch (e) {
-      this.#failed(e);
-    } finally {
-      this.#busy = false;
-      if (this.#again && this.#state.peek() !== 'conflict') void this.#save();
+      if (this.editor.scene.peek()?.id === scene.id) this.#failed(e);
     }
-  }
-
-  #saved(scene: Scene, body: SceneJson): void {
-    this.file.noteStored(body);
-    const now = this.editor.scene.peek();
-    if (now && versionOf(now) === versionOf(scene)) {
-      forgetEdits(scene.id);
-      this.#state.value = 'saved';
-    }
-    void this.list.refresh().catch(() => undefined);
   }
 
   #failed(e: unknown): void {
     const conflict = e instanceof Refused && e.status === 412;
     if (conflict) this.#conflict.value = { etag: e.problem.etag ?? null };
-    this.#state.value = conflict ? 'conflict' : 'local';
+    this.#server.value = conflict ? 'conflict' : 'behind';
   }
 
   async #put(id: string, body: SceneJson, force: boolean): Promise<string | null> {

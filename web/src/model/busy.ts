@@ -1,5 +1,6 @@
 // Where something goes on in a scene: for the first look at it, and for its small picture.
 import { boxOf, type Box, type Vec } from './geometry';
+import { poseAtStep } from './motion';
 import { startPose, type Scene } from './scene';
 
 /** The middle of what moves: the median, so that one queue far out does not pull it away. */
@@ -11,6 +12,41 @@ function busyCentre(scene: Scene): [number, number] {
   if (!at.length) return [(scene.map.box.x0 + scene.map.box.x1) / 2, (scene.map.box.y0 + scene.map.box.y1) / 2];
   const median = (v: number[]): number => v.sort((a, b) => a - b)[v.length >> 1];
   return [median(at.map((p) => p.x)), median(at.map((p) => p.y))];
+}
+
+/** Who has gone so far in the recording moves. */
+const MOVES_M = 3;
+
+/** Where those start, or come in, who go anywhere. */
+function movers(scene: Scene): Vec[] {
+  const out: Vec[] = [];
+  for (const a of scene.agents.values()) {
+    const seen = a.log.valid;
+    if (a.parked || a.type === 'other' || !seen.length) continue;
+    const from = poseAtStep(a.log, seen[0][0]),
+      to = poseAtStep(a.log, seen[seen.length - 1][1] - 1);
+    if (from && to && Math.hypot(to.x - from.x, to.y - from.y) > MOVES_M) out.push([from.x, from.y]);
+  }
+  return out;
+}
+
+/** A junction keeps the picture unless elsewhere so many times as much moves. */
+const RATHER_THE_JUNCTION = 1.25;
+
+/** The middle of a picture of this size, in metres from its middle to its edges, in which most things move. */
+export function openingCentre(scene: Scene, halfWidth: number, halfHeight: number): [number, number] {
+  const junction = sceneCentre(scene);
+  const all = movers(scene);
+  const near = ([x, y]: Vec): Vec[] =>
+    all.filter((p) => Math.abs(p[0] - x) < halfWidth && Math.abs(p[1] - y) < halfHeight);
+  let best: readonly Vec[] = [];
+  for (const at of all) {
+    const round = near(at);
+    if (round.length > best.length) best = round;
+  }
+  if (best.length <= RATHER_THE_JUNCTION * near(junction).length) return junction;
+  const middle = (i: 0 | 1): number => best.reduce((sum, p) => sum + p[i], 0) / best.length;
+  return [middle(0), middle(1)];
 }
 
 const JUNCTION_M = 30;

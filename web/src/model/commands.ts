@@ -169,7 +169,9 @@ export function addAgents(scene: Scene, agents: readonly Agent[], name: string):
 export const removeAgents = (scene: Scene, ids: readonly string[], name: string): Command =>
   recast(name, { put: [], drop: ids.filter((id) => scene.agents.has(id)), issued: scene.issued });
 
-type ScenePatch = Partial<Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration'>>;
+type ScenePatch = Partial<
+  Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration' | 'drawn'>
+>;
 
 function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
   return {
@@ -190,6 +192,9 @@ export const setDiversity = (diversity: number): Command =>
 export const setOthers = (others: Others): Command =>
   patchScene({ react: 'Others react', log: 'Others replay the log', still: 'Others hold still' }[others], { others });
 export const setReplan = (replan: Replan): Command => patchScene(`Planned anew each ${replan} s`, { replan });
+
+/** Everybody worked out anew. */
+export const drawAnew = (scene: Scene): Command => patchScene('Everybody worked out anew', { drawn: scene.drawn + 1 });
 
 /** How much is worked out. Goals that would come after the end come at the end. */
 export function setLength(scene: Scene, length: Length): Command {

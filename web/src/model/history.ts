@@ -1,94 +1,287 @@
-// Undo and redo. A drag is a transaction: previews replace each other, the release commits one step.
+// Undo and redo. A drag is a transaction: previews replace each other, the release commits one step. Steps form a
+// tree: what is done after going back starts a branch, and nothing that was done is lost by it.
 import type { Command } from './commands';
 import type { Scene } from './scene';
+import { applyDiff, diffOf, isEmptyDiff, type SceneDiff } from './scene-diff';
 
-interface Step {
+/** Where the picture looks: the middle in metres, and pixels a metre. */
+export interface Camera {
+  readonly cx: number;
+  readonly cy: number;
+  readonly z: number;
+}
+
+export interface HistoryStep {
+  readonly id: number;
+  /** The step before it; null for the first. */
+  readonly parent: number | null;
   readonly name: string;
-  readonly back: Command;
-  readonly forth: Command;
-  fold?: string;
-  at: number;
+  /** Whom it is about, where it is one. */
+  readonly agent: string | null;
+  /** When it was done, milliseconds since 1970. */
+  readonly at: number;
+  readonly diff: SceneDiff;
+  /** Where the picture looked when it began, and when it was done. */
+  readonly from: Camera | null;
+  readonly to: Camera | null;
+  /** What somebody called it. */
+  readonly title?: string;
+}
+
+/** All that is needed to go on where one was: plain data. */
+export interface KeptHistory {
+  readonly steps: readonly HistoryStep[];
+  /** The step that is in force; null before the first. */
+  readonly head: number | null;
+  /** Where redo leads from a step that more than one follow: pairs of the step and the one after. */
+  readonly ahead: readonly (readonly [number | null, number])[];
+}
+
+/** What changed in the history, for whoever keeps it. */
+export interface HistoryChange {
+  /** New, or with another name. */
+  readonly added?: HistoryStep;
+  /** The oldest steps are gone, and what comes before the first is another document. */
+  readonly shorter?: true;
 }
 
 const FOLD_MS = 600;
+/** Steps that are kept, and how many more there may be before the oldest are dropped. */
+export const MOST_STEPS = 500;
+const SLACK = 50;
 
 export class History {
-  private done: Step[] = [];
-  private undone: Step[] = [];
-  private base: Scene | null = null;
+  readonly #steps = new Map<number, HistoryStep>();
+  readonly #ahead = new Map<number | null, number>();
+  #head: number | null = null;
+  #next = 1;
+  #base: Scene | null = null;
+  #baseCamera: Camera | null = null;
+  #folds: { readonly id: number; readonly fold: string; readonly at: number } | null = null;
+
+  /** Called after every change of the steps or of where one is among them. */
+  onChange: ((change: HistoryChange) => void) | null = null;
+  /** Where the picture looks now. */
+  camera: () => Camera | null = () => null;
 
   constructor(
     public scene: Scene,
     private readonly now: () => number = () => Date.now(),
-  ) {}
+    kept: KeptHistory | null = null,
+  ) {
+    for (const s of kept?.steps ?? []) this.#steps.set(s.id, s);
+    for (const [from, to] of kept?.ahead ?? []) this.#ahead.set(from, to);
+    this.#head = kept?.head ?? null;
+    this.#next = Math.max(0, ...this.#steps.keys()) + 1;
+  }
 
   get undoName(): string | null {
-    return this.done.at(-1)?.name ?? null;
+    return this.step(this.#head)?.name ?? null;
   }
   get redoName(): string | null {
-    return this.undone.at(-1)?.name ?? null;
+    return this.step(this.#ahead.get(this.#head) ?? null)?.name ?? null;
   }
+  /** How many steps one can go back. */
   get depth(): number {
-    return this.done.length;
+    return this.#path(this.#head).length;
+  }
+  get head(): number | null {
+    return this.#head;
+  }
+
+  step(id: number | null): HistoryStep | null {
+    return (id !== null && this.#steps.get(id)) || null;
+  }
+
+  kept(): KeptHistory {
+    return { steps: [...this.#steps.values()], head: this.#head, ahead: [...this.#ahead] };
+  }
+
+  /** The line one is on, oldest first: what undo takes back, then what redo does again. */
+  line(): HistoryStep[] {
+    const line = this.#path(this.#head);
+    for (let id = this.#ahead.get(this.#head); id !== undefined; id = this.#ahead.get(id)) {
+      const s = this.#steps.get(id);
+      if (!s) break;
+      line.push(s);
+    }
+    return line;
+  }
+
+  /** The document before the first step that is kept. */
+  first(): Scene {
+    return this.#path(this.#head).reduceRight((s, step) => applyDiff(s, step.diff, 'back'), this.scene);
   }
 
   /** Does a command; key repeats on the same field within 600 ms fold into one step. */
   run(command: Command): Scene {
-    const before = this.scene;
-    this.scene = command.apply(before);
-    if (this.scene === before) return before;
-    const step: Step = {
-      name: command.name,
-      back: command.invert(before),
-      forth: command,
-      fold: command.fold,
-      at: this.now(),
-    };
-    const last = this.done.at(-1);
-    const folds =
-      last && command.fold && last.fold === command.fold && step.at - last.at < FOLD_MS && !this.undone.length;
-    if (folds) this.done[this.done.length - 1] = { ...step, back: last.back };
-    else this.done.push(step);
-    this.undone = [];
-    return this.scene;
+    return this.#done(command.name, command.apply(this.scene), this.camera(), command.fold);
   }
 
+  /** The document as it is elsewhere takes the place of this one, as a step that can be taken back. */
+  adopt(name: string, scene: Scene): void {
+    if (isEmptyDiff(diffOf(this.scene, scene))) this.scene = scene;
+    else this.#done(name, scene, this.camera());
+  }
+
+  #done(name: string, after: Scene, from: Camera | null, fold?: string): Scene {
+    const before = this.scene;
+    if (after === before) return before;
+    this.scene = after;
+    const at = this.now();
+    const last = fold === undefined ? null : this.#foldInto(fold, at);
+    const diff = diffOf(last ? applyDiff(before, last.diff, 'back') : before, after);
+    const added: HistoryStep = {
+      id: last?.id ?? this.#next++,
+      parent: last ? last.parent : this.#head,
+      name,
+      agent: diff.agents.length === 1 ? diff.agents[0].id : null,
+      at,
+      diff,
+      from: last ? last.from : from,
+      to: this.camera(),
+    };
+    this.#steps.set(added.id, added);
+    this.#ahead.set(added.parent, added.id);
+    this.#head = added.id;
+    this.#folds = fold === undefined ? null : { id: added.id, fold, at };
+    const shorter = this.#steps.size >= MOST_STEPS + SLACK;
+    if (shorter) this.#drop();
+    this.onChange?.(shorter ? { shorter: true } : { added });
+    return after;
+  }
+
+  /** The step that the next one of its kind becomes part of. */
+  #foldInto(fold: string, at: number): HistoryStep | null {
+    const last = this.step(this.#head);
+    const f = this.#folds;
+    const folds = last && f?.id === last.id && f.fold === fold && at - f.at < FOLD_MS && !this.#ahead.has(last.id);
+    return folds ? last : null;
+  }
+
+  // -------------------------------------------------------------- a drag
+
   begin(): void {
-    this.base = this.scene;
+    this.#base = this.scene;
+    this.#baseCamera = this.camera();
   }
 
   preview(command: Command): Scene {
-    if (!this.base) this.begin();
-    this.scene = command.apply(this.base!);
+    if (!this.#base) this.begin();
+    this.scene = command.apply(this.#base!);
     return this.scene;
   }
 
   /** Ends the transaction with one undo step; nothing is written when nothing changed. */
   commit(command: Command): Scene {
-    if (this.base) this.scene = this.base;
-    this.base = null;
-    return this.run({ ...command, fold: undefined });
+    const from = this.#base ? this.#baseCamera : this.camera();
+    if (this.#base) this.scene = this.#base;
+    this.#base = null;
+    return this.#done(command.name, command.apply(this.scene), from);
   }
 
   cancel(): Scene {
-    if (this.base) this.scene = this.base;
-    this.base = null;
+    if (this.#base) this.scene = this.#base;
+    this.#base = null;
     return this.scene;
   }
 
-  undo(): Step | null {
-    const step = this.done.pop();
+  // -------------------------------------------------------------- going there and back
+
+  undo(): HistoryStep | null {
+    const step = this.step(this.#head);
     if (!step) return null;
-    this.scene = step.back.apply(this.scene);
-    this.undone.push(step);
+    this.#back(step);
+    this.onChange?.({});
     return step;
   }
 
-  redo(): Step | null {
-    const step = this.undone.pop();
+  redo(): HistoryStep | null {
+    const step = this.step(this.#ahead.get(this.#head) ?? null);
     if (!step) return null;
-    this.scene = step.forth.apply(this.scene);
-    this.done.push({ ...step, fold: undefined });
+    this.#forth(step);
+    this.onChange?.({});
     return step;
   }
+
+  /** To any step, null for before the first, by way of the one from which both came. */
+  goTo(id: number | null): Scene {
+    if (id !== null && !this.#steps.has(id)) return this.scene;
+    const there = this.#path(id);
+    const meant = new Set(there.map((s) => s.id));
+    for (let s = this.step(this.#head); s && !meant.has(s.id); s = this.step(this.#head)) this.#back(s);
+    for (const s of there.slice(this.#path(this.#head).length)) this.#forth(s);
+    this.onChange?.({});
+    return this.scene;
+  }
+
+  /** Gives a step a name of its own, or takes it away. */
+  entitle(id: number, title: string | null): void {
+    const s = this.step(id);
+    if (!s) return;
+    const added = { ...s, title: title || undefined };
+    this.#steps.set(id, added);
+    this.onChange?.({ added });
+  }
+
+  #back(step: HistoryStep): void {
+    this.scene = applyDiff(this.scene, step.diff, 'back');
+    this.#ahead.set(step.parent, step.id);
+    this.#head = step.parent;
+    this.#folds = null;
+  }
+
+  #forth(step: HistoryStep): void {
+    this.scene = applyDiff(this.scene, step.diff, 'forth');
+    this.#ahead.set(step.parent, step.id);
+    this.#head = step.id;
+    this.#folds = null;
+  }
+
+  /** The steps that lead to one, oldest first. */
+  #path(id: number | null): HistoryStep[] {
+    const path: HistoryStep[] = [];
+    for (let s = this.step(id); s; s = this.step(s.parent)) path.push(s);
+    return path.reverse();
+  }
+
+  // -------------------------------------------------------------- the oldest go
+
+  /** Makes room: ends of branches first, the oldest before others, then the beginning of the line one is on. */
+  #drop(): void {
+    const mine = new Set(this.line().map((s) => s.id));
+    const drop = (id: number) => {
+      this.#steps.delete(id);
+      this.#ahead.delete(id);
+    };
+    for (const s of [...this.#steps.values()].filter((s) => !mine.has(s.id)).sort((a, b) => b.id - a.id)) {
+      const branch = [...this.#steps.values()].some((other) => other.parent === s.id);
+      if (this.#steps.size > MOST_STEPS && !branch && !s.title) drop(s.id);
+    }
+    while (this.#steps.size > MOST_STEPS) {
+      const first = this.line()[0];
+      if (!first || first.id === this.#head) break;
+      // What branched off before it goes with it: there is nothing left that it could go back to.
+      for (const id of this.#under(null).filter((s) => s !== first.id)) for (const i of this.#tree(id)) drop(i);
+      for (const id of this.#under(first.id)) this.#steps.set(id, { ...this.#steps.get(id)!, parent: null });
+      const after = this.#ahead.get(first.id);
+      drop(first.id);
+      if (after === undefined) this.#ahead.delete(null);
+      else this.#ahead.set(null, after);
+    }
+  }
+
+  #under(id: number | null): number[] {
+    return [...this.#steps.values()].filter((s) => s.parent === id).map((s) => s.id);
+  }
+
+  #tree(id: number): number[] {
+    return [id, ...this.#under(id).flatMap((i) => this.#tree(i))];
+  }
+}
+
+/** The document at the head of a kept history, from the one before its first step. */
+export function replay(first: Scene, kept: KeptHistory): Scene {
+  const h = new History(first, undefined, { ...kept, head: null });
+  return h.goTo(kept.head);
 }

@@ -126,6 +126,7 @@ export interface EditorJson {
   others?: string;
   length_s?: number;
   replan_s?: number;
+  drawn?: number;
   picked?: Record<string, number>;
   names?: Record<string, string>;
   notes?: Record<string, string>;

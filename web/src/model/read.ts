@@ -74,6 +74,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     seed: ed.seed ?? DEFAULTS.seed,
     diversity: ed.diversity ?? DEFAULTS.diversity,
     others: readOthers(ed.others),
+    drawn: ed.drawn ?? 0,
   });
 }
 

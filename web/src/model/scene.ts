@@ -84,6 +84,8 @@ export interface Scene {
   readonly seed: number;
   readonly diversity: number;
   readonly others: Others;
+  /** How often everybody was worked out anew: each time is a step that can be taken back. */
+  readonly drawn: number;
 }
 
 /** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
@@ -167,7 +169,15 @@ export const doing = (s: Scene, a: Agent): Others => a.does ?? s.others;
 
 /** Text that names everything the generator's answer depends on; equal keys, equal answers. */
 export function sceneKey(scene: Scene): string {
-  const parts: unknown[] = [scene.id, scene.seed, scene.diversity, scene.others, scene.length, scene.replan];
+  const parts: unknown[] = [
+    scene.id,
+    scene.seed,
+    scene.diversity,
+    scene.others,
+    scene.length,
+    scene.replan,
+    scene.drawn,
+  ];
   parts.push(scene.roster);
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);

@@ -162,6 +162,7 @@ export function writeScene(
       others: scene.others,
       length_s: scene.length,
       replan_s: scene.replan,
+      ...(scene.drawn ? { drawn: scene.drawn } : {}),
       ...ofAgents(scene.agents.values()),
     },
   };

@@ -28,6 +28,9 @@ export async function problemOf(reply: Response): Promise<Problem> {
   }
 }
 
+/** The version of a scene, however it travelled: compressed replies mark theirs. */
+const etagOf = (reply: Response): string | null => reply.headers.get('etag')?.replace(/-gzip"$/, '"') ?? null;
+
 /** Gateway errors and "shutting down" mean the generator is away; "busy" is an answer, and passes. */
 const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
 
@@ -70,14 +73,12 @@ export class Client {
 
   async scene(id: string): Promise<{ json: SceneJson; etag: string | null }> {
     const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}`);
-    return { json: (await reply.json()) as SceneJson, etag: reply.headers.get('etag') };
+    return { json: (await reply.json()) as SceneJson, etag: etagOf(reply) };
   }
 
-  async mapRef(id: string): Promise<string | null> {
-    const json = (await (await this.request(`/v1/scenes/${encodeURIComponent(id)}?map=ref`)).json()) as {
-      map?: { ref?: string };
-    };
-    return json.map?.ref ?? null;
+  /** What a small picture of a scene shows; the browser keeps it until the scene changes. */
+  async preview(id: string): Promise<SceneJson> {
+    return (await (await this.request(`/v1/scenes/${encodeURIComponent(id)}/preview`)).json()) as SceneJson;
   }
 
   async map(ref: string): Promise<MapJson> {
@@ -90,7 +91,7 @@ export class Client {
       body: JSON.stringify(body),
       headers: { 'Content-Type': 'application/json', ...(etag ? { 'If-Match': etag } : { 'If-None-Match': '*' }) },
     });
-    return reply.headers.get('etag');
+    return etagOf(reply);
   }
 
   async create(body: SceneJson): Promise<{ id: string; etag: string | null }> {
@@ -101,7 +102,26 @@ export class Client {
     });
     const at = reply.headers.get('location')?.split('/').pop();
     const json = (await reply.json().catch(() => null)) as { id?: string } | null;
-    return { id: json?.id ?? at ?? '', etag: reply.headers.get('etag') };
+    return { id: json?.id ?? at ?? '', etag: etagOf(reply) };
+  }
+
+  /** A copy on the server under a name of its own. */
+  async duplicate(id: string, name: string): Promise<{ id: string }> {
+    const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}/duplicate`, {
+      method: 'POST',
+      body: JSON.stringify({ name }),
+      headers: { 'Content-Type': 'application/json' },
+    });
+    return (await reply.json()) as { id: string };
+  }
+
+  async rename(id: string, name: string, etag: string): Promise<string | null> {
+    const reply = await this.request(`/v1/scenes/${encodeURIComponent(id)}`, {
+      method: 'PATCH',
+      body: JSON.stringify({ name }),
+      headers: { 'Content-Type': 'application/merge-patch+json', 'If-Match': etag },
+    });
+    return etagOf(reply);
   }
 
   async remove(id: string, etag: string): Promise<void> {
@@ -114,6 +134,16 @@ export class Client {
       method: 'POST',
       body,
       headers: { 'Content-Type': isJson ? 'application/json' : 'application/octet-stream' },
+    });
+    return (await reply.json()) as ImportReply;
+  }
+
+  /** Reads a scene as a file is read, and stores nothing. */
+  async tryImport(scene: SceneJson): Promise<ImportReply> {
+    const reply = await this.request('/v1/import?dry_run=true&format=dragtraffic', {
+      method: 'POST',
+      body: JSON.stringify(scene),
+      headers: { 'Content-Type': 'application/json' },
     });
     return (await reply.json()) as ImportReply;
   }

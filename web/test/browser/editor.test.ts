@@ -327,8 +327,8 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
       { name: 'notes.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF') },
     ]);
     await d.page.waitForSelector('.dlg.import');
-    expect(await d.text('.dlg.import')).toMatch(/1 of 2 files are in, 1 could not be read/);
-    expect(await d.text('.dlg.import')).toContain('“notes.pdf” is not a scene.');
+    expect(await d.text('.dlg.import')).toMatch(/2 files: 1 in, 1 cannot be read/);
+    expect(await d.text('.dlg.import')).toContain('“notes.pdf” is not a scene: it is a PDF.');
     await d.key('Escape');
     expect(await d.page.inputValue('.title input')).toBe('Mine');
   });

@@ -247,7 +247,7 @@ export function startStandIn(options = {}) {
   });
 
   async function api(req, res, url) {
-    const m = /^\/v1\/scenes\/([\w-]+)(\/export)?$/.exec(url.pathname);
+    const m = /^\/v1\/scenes\/([\w-]+)(\/export|\/preview)?$/.exec(url.pathname);
     if (url.pathname === '/v1/scenes' && req.method === 'GET')
       return json(res, {
         scenes: [...scenes.values()].map((s) => ({

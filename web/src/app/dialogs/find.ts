@@ -2,6 +2,8 @@
 import type { Group } from '../../actions/action';
 import type { Context } from '../../actions/context';
 import { ACTIONS, perform, possible } from '../../actions/registry';
+import { about } from '../scenes/drawer';
+import { dayAndTime } from '../scenes/dates';
 
 export interface Entry {
   readonly label: string;
@@ -15,26 +17,49 @@ export interface Entry {
 }
 
 const MOST = 60;
-const MOST_ROAD_USERS = 8;
-const MOST_SCENES = 6;
+const MOST_OF_A_KIND = 8;
+const MOST_RECENT = 4;
 /** Groups that stand under the name of the selected road user. */
 const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move', 'Edit'];
+const SCENES = 'Scenes';
 
 export function find(c: Context, typed: string): Entry[] {
-  const query = typed.trim().toLowerCase();
-  const found = actions(c, query);
-  if (query) found.push(...roadUsers(c, query), ...scenes(c, query), ...times(c, query));
-  return found.slice(0, MOST);
+  const words = typed.trim().toLowerCase().split(/\s+/).filter(Boolean);
+  if (!words.length) return [...actions(c, []), ...recent(c)].slice(0, MOST);
+  const found = [...actions(c, words), ...roadUsers(c, words), ...scenes(c, words), ...times(c, typed.trim())];
+  return inGroups(found, words).slice(0, MOST);
 }
 
-function actions(c: Context, query: string): Entry[] {
+/** How well a text answers what was typed: all words must be in it, best at its start or at that of a word. */
+export function fit(text: string, words: readonly string[]): number {
+  const lower = text.toLowerCase();
+  let sum = 0;
+  for (const w of words) {
+    const at = lower.indexOf(w);
+    if (at < 0) return 0;
+    sum += at === 0 ? 4 : /[\s(]/.test(lower[at - 1]) ? 3 : 1;
+  }
+  return sum / words.length;
+}
+
+/** The group with the best answer first, and in each group the best first. */
+function inGroups(found: readonly Entry[], words: readonly string[]): Entry[] {
+  const worth = (e: Entry): number => (e.off ? -10 : 0) + (fit(e.label, words) || 0.5);
+  const best = new Map<string, number>();
+  for (const e of found) best.set(e.group, Math.max(best.get(e.group) ?? -Infinity, worth(e)));
+  return [...found].sort(
+    (p, q) => best.get(q.group)! - best.get(p.group)! || p.group.localeCompare(q.group) || worth(q) - worth(p),
+  );
+}
+
+function actions(c: Context, words: readonly string[]): Entry[] {
   const agent = c.editor.agent.peek();
   const out: Entry[] = [];
   for (const a of ACTIONS) {
     const moves = a.group === 'Move';
-    if (a.id === 'palette' || (!query && moves)) continue;
-    const words = moves ? a.label : `${a.label} ${a.help}`;
-    if (query && !words.toLowerCase().includes(query)) continue;
+    if (a.id === 'palette' || a.id === 'deselect' || (!words.length && moves)) continue;
+    const said = moves ? a.label : `${a.label} ${a.help}`;
+    if (words.length && !fit(said, words)) continue;
     const can = possible(c, a);
     out.push({
       label: a.label,
@@ -46,23 +71,19 @@ function actions(c: Context, query: string): Entry[] {
       run: () => perform(c, a.id),
     });
   }
-  const inLabel = (e: Entry): boolean => query !== '' && e.label.toLowerCase().includes(query);
   const forAgent = (e: Entry): boolean => e.group.startsWith('For');
   return out.sort(
     (p, q) =>
-      Number(p.off) - Number(q.off) ||
-      Number(forAgent(q)) - Number(forAgent(p)) ||
-      p.group.localeCompare(q.group) ||
-      Number(inLabel(q)) - Number(inLabel(p)),
+      Number(p.off) - Number(q.off) || Number(forAgent(q)) - Number(forAgent(p)) || p.group.localeCompare(q.group),
   );
 }
 
 const possibleEntry = { keys: [], off: false } as const;
 
-function roadUsers({ editor, reveal }: Context, query: string): Entry[] {
+function roadUsers({ editor, reveal }: Context, words: readonly string[]): Entry[] {
   return [...(editor.scene.peek()?.agents.values() ?? [])]
-    .filter((a) => a.name.toLowerCase().includes(query) || a.id === query)
-    .slice(0, MOST_ROAD_USERS)
+    .filter((a) => fit(a.name, words) || a.id === words[0])
+    .slice(0, MOST_OF_A_KIND)
     .map((a) => ({
       ...possibleEntry,
       label: a.name,
@@ -76,20 +97,27 @@ function roadUsers({ editor, reveal }: Context, query: string): Entry[] {
     }));
 }
 
-function scenes(c: Context, query: string): Entry[] {
-  return c.scenes.list
-    .peek()
-    .filter((s) => s.name.toLowerCase().includes(query))
-    .slice(0, MOST_SCENES)
-    .map((s) => ({
-      ...possibleEntry,
-      label: s.name,
-      note: 'open',
-      group: 'Scenes',
-      icon: 'list',
-      run: () => void c.library.open(s.id),
-    }));
+function sceneEntry(c: Context, s: Context['scenes']['list']['value'][number]): Entry {
+  const when = s.readonly || !s.updated_at ? '' : ` · ${dayAndTime(s.updated_at)}`;
+  const run = () => void c.library.open(s.id);
+  return { ...possibleEntry, label: s.name, note: about(s) + when, group: SCENES, icon: 'list', run };
 }
+
+const scenes = (c: Context, words: readonly string[]): Entry[] =>
+  c.scenes.list
+    .peek()
+    .filter((s) => fit(s.name, words))
+    .slice(0, MOST_OF_A_KIND)
+    .map((s) => sceneEntry(c, s));
+
+/** The scenes opened last, but for the one that is open. */
+const recent = (c: Context): Entry[] =>
+  c.scenes.recent
+    .peek()
+    .filter((id) => id !== c.editor.scene.peek()?.id)
+    .flatMap((id) => c.scenes.find(id) ?? [])
+    .slice(0, MOST_RECENT)
+    .map((s) => sceneEntry(c, s));
 
 /** `4.2` jumps to that time. */
 function times({ editor }: Context, query: string): Entry[] {

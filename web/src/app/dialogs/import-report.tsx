@@ -1,57 +1,76 @@
-// What became of the files that were brought in.
-import type { ComponentChildren } from 'preact';
+// What became of the files that were brought in: one row a file, what is wrong with it below, and the way on.
+import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 
-export function ImportReport({ verdicts }: { verdicts: readonly FileVerdict[] }) {
+export function ImportReport() {
   const { importing } = useApp();
+  const verdicts = importing.verdicts.value ?? [];
   const close = () => importing.close();
   const bad = verdicts.filter((v) => !v.ok);
-  const first = bad[0];
   return (
     <Modal label="Import" class="import" close={close}>
       <header>
         <span class={bad.length ? 't-collision' : ''}>
           <Icon name={bad.length ? 'warn' : 'check'} size={22} />
         </span>
-        <h2>{titleOf(verdicts, bad.length)}</h2>
+        <h2>{titleOf(verdicts)}</h2>
       </header>
       <div class="body">
         {verdicts.map((v, i) => (
           <FileRow key={i} verdict={v} />
         ))}
-        {first ? <Explanation verdict={first} /> : null}
       </div>
-      <Foot first={first} allBad={bad.length === verdicts.length} close={close} />
+      <Foot bad={bad} allBad={bad.length === verdicts.length} close={close} />
     </Modal>
   );
 }
 
-function titleOf(verdicts: readonly FileVerdict[], bad: number): string {
+/** `4 files: 2 in, 1 in part, 1 cannot be read` */
+function titleOf(verdicts: readonly FileVerdict[]): string {
+  const part = verdicts.filter((v) => !v.ok && v.without).length;
+  const bad = verdicts.filter((v) => !v.ok).length - part;
+  const good = verdicts.length - bad - part;
   const all = verdicts.length;
-  const good = all - bad;
-  if (!bad) return all === 1 ? `${verdicts[0].scenes.length} scenes imported` : `All ${all} files are in`;
-  if (good) return `${good} of ${all} files are in, ${bad} could not be read`;
-  return bad === 1 ? 'This file could not be read' : `None of the ${bad} files could be read`;
+  if (all === 1) {
+    if (good) return `${verdicts[0].scenes.length} scenes imported`;
+    return part ? 'A part of this file is broken' : 'This file could not be read';
+  }
+  const counts = [good && `${good} in`, part && `${part} in part`, bad && `${bad} cannot be read`].filter(Boolean);
+  return `${all} files: ${counts.join(', ')}`;
 }
 
 /** The likeliest next step is drawn as such and has the focus. */
-function Foot({ first, allBad, close }: { first: FileVerdict | undefined; allBad: boolean; close: () => void }) {
+function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boolean; close: () => void }) {
   const c = useApp();
+  const details = bad.map((v) => v.details).filter(Boolean);
   const chooseAnother = () => {
     close();
     c.chooseFiles();
   };
+  const mendable = bad.some((v) => v.without ?? v.again);
   return (
     <footer>
-      {first?.details ? (
-        <button type="button" class="btn line" onClick={() => void navigator.clipboard?.writeText(first.details!)}>
+      <span class="mut">Your files were not changed.</span>
+      <span class="grow" />
+      {details.length ? (
+        <button type="button" class="btn" onClick={() => void navigator.clipboard?.writeText(details.join('\n'))}>
           Copy details
         </button>
       ) : null}
-      <span class="grow" />
+      {bad.length ? (
+        <button
+          type="button"
+          class={`btn ${allBad && !mendable ? 'pri' : 'line'}`}
+          data-action="choose-files"
+          data-first={allBad && !mendable ? '' : undefined}
+          onClick={chooseAnother}
+        >
+          Choose another file
+        </button>
+      ) : null}
       <button
         type="button"
         class={`btn ${allBad ? 'line' : 'pri'}`}
@@ -60,17 +79,6 @@ function Foot({ first, allBad, close }: { first: FileVerdict | undefined; allBad
       >
         Close
       </button>
-      {first ? (
-        <button
-          type="button"
-          class={`btn ${allBad ? 'pri' : 'line'}`}
-          data-action="choose-files"
-          data-first={allBad ? '' : undefined}
-          onClick={chooseAnother}
-        >
-          Choose another file
-        </button>
-      ) : null}
     </footer>
   );
 }
@@ -78,17 +86,75 @@ function Foot({ first, allBad, close }: { first: FileVerdict | undefined; allBad
 function FileRow({ verdict: v }: { verdict: FileVerdict }) {
   const n = v.scenes.length;
   const count = v.scenes[0]?.count;
-  const done = n > 1 ? `${n} scenes` : count ? `Imported, ${count} road users` : 'Imported';
+  const done = n > 1 ? `${n} scenes` : count ? `${count} road users` : 'imported';
   return (
-    <>
+    <section class="filepart">
       <div class="filerow">
         <Icon name="file" />
-        {v.file}
-        {v.ok ? <span class="tag ok">{done}</span> : <span class="tag collision">Not imported</span>}
+        <b>{v.file}</b>
+        <small class="mut">{v.kind}</small>
+        {v.ok ? (
+          <span class="tag ok">{done}</span>
+        ) : v.without ? (
+          <span class="tag near">in part</span>
+        ) : (
+          <span class="tag collision">not a scene</span>
+        )}
       </div>
-      {v.ok && v.wrong ? <p class="note">{v.wrong}</p> : null}
+      {v.wrong ? <Wrong verdict={v} /> : null}
       {n > 1 ? <ImportedScenes verdict={v} /> : null}
-    </>
+    </section>
+  );
+}
+
+function Wrong({ verdict: v }: { verdict: FileVerdict }) {
+  const { importing } = useApp();
+  const shown = useSignal(false);
+  return (
+    <div class="wrong">
+      <p>
+        {v.ok ? v.wrong : <b>{v.wrong}</b>} {v.todo} {v.ok ? null : <small class="mut">{v.where}</small>}
+      </p>
+      {v.without || v.excerpt || v.again ? (
+        <div class="ways">
+          {v.without ? (
+            <button type="button" class="btn pri" data-first="" onClick={() => void importing.takeRest(v)}>
+              Import without {v.without.join(', ')}
+            </button>
+          ) : null}
+          {v.again ? (
+            <button type="button" class="btn pri" data-first="" onClick={() => void importing.tryAgain(v)}>
+              Try again
+            </button>
+          ) : null}
+          {v.excerpt ? (
+            <button
+              type="button"
+              class="btn line"
+              aria-expanded={shown.value}
+              onClick={() => (shown.value = !shown.value)}
+            >
+              Show line {v.excerpt.line}
+            </button>
+          ) : null}
+        </div>
+      ) : null}
+      {shown.value && v.excerpt ? <Excerpt of={v.excerpt} /> : null}
+    </div>
+  );
+}
+
+function Excerpt({ of }: { of: NonNullable<FileVerdict['excerpt']> }) {
+  return (
+    <pre>
+      {of.lines.map((l, i) => (
+        <span key={i} class={of.from + i === of.line ? 'here' : ''}>
+          <i>{of.from + i}</i>
+          {l}
+          {'\n'}
+        </span>
+      ))}
+    </pre>
   );
 }
 
@@ -109,18 +175,5 @@ function ImportedScenes({ verdict }: { verdict: FileVerdict }) {
         </div>
       ))}
     </>
-  );
-}
-
-function Explanation({ verdict: v }: { verdict: FileVerdict }) {
-  const rows: [string, ComponentChildren][] = [
-    ['What is wrong', v.wrong && <b>{v.wrong}</b>],
-    ['Where', v.where],
-    ['What to do', v.todo],
-  ];
-  return (
-    <dl class="wh">
-      {rows.flatMap(([what, words]) => (words ? [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{words}</dd>] : []))}
-    </dl>
   );
 }

@@ -1,15 +1,19 @@
 // What one must know before going on: a crash, a generator that is away, a conflict, a scene that does not open.
 import type { ComponentChildren } from 'preact';
 import { useComputed } from '@preact/signals';
+import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 
 export function Banner() {
-  const { editor, library, saving } = useApp();
+  const { editor, journal, library, saving, sharing } = useApp();
   const away = useComputed(() => editor.away.value !== null).value;
   if (editor.notices.crash.value) return <Crash details={editor.notices.crash.value} />;
   if (away) return <Away />;
+  if (editor.lock.value) return <Locked />;
   if (saving.conflict.value) return <Conflict />;
+  if (journal.keeping.value === 'full') return <Full />;
+  if (sharing.error.value) return <BrokenLink why={sharing.error.value} />;
   if (library.openError.value) return <NotOpened why={library.openError.value} />;
   return null;
 }
@@ -77,6 +81,44 @@ function Conflict() {
     <Box icon="warn" title="This scene was changed elsewhere." words={words}>
       <Button label="Keep this version" run={() => void saving.keepMine()} />
       <Button label="Open the other one" run={() => void library.takeTheirs()} />
+    </Box>
+  );
+}
+
+function Locked() {
+  const { editor } = useApp();
+  const lock = editor.lock.value!;
+  return (
+    <Box icon="lock" title={lock.words} words="You can look, play and select.">
+      <Button label={lock.label} run={() => lock.run()} />
+    </Box>
+  );
+}
+
+function Full() {
+  const c = useApp();
+  const words = 'Export the scene to be safe, or forget the steps of other scenes that are saved.';
+  const makeRoom = async () => {
+    const n = await c.journal.makeRoom((id) => c.scenes.isOwn(id)).catch(() => 0);
+    await c.journal.retry();
+    const full = c.journal.keeping.peek() === 'full';
+    const done = n ? `Steps of ${n} other scene${n > 1 ? 's' : ''} forgotten. ` : '';
+    const now = full ? 'There is still no room: export this scene.' : 'This one is kept again.';
+    c.editor.notices.show({ text: done + now });
+  };
+  return (
+    <Box icon="warn" title="No room left on this computer for saving." words={words}>
+      <Button label="Export" run={() => perform(c, 'export')} />
+      <Button label="Make room" run={() => void makeRoom()} />
+    </Box>
+  );
+}
+
+function BrokenLink({ why }: { why: string }) {
+  const { sharing } = useApp();
+  return (
+    <Box icon="warn" title="The link could not be opened." words={`${why} Ask for it once more, or for the file.`}>
+      <Button label="Close" run={() => sharing.dismiss()} />
     </Box>
   );
 }

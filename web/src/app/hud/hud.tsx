@@ -15,6 +15,7 @@ import { HoverCard } from './hover-card';
 import { PlacePanel } from './place-panel';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
+import { WayBack } from './way-back';
 
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
@@ -45,6 +46,7 @@ export function Hud() {
       {editor.dragging.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
       <PlacePanel />
       <EmptyScene />
+      <WayBack />
       <Coach />
       <Toast />
       <Banner />

@@ -4,6 +4,9 @@ import type { Stage } from '../../draw/stage';
 
 const tick = signal(0);
 export const viewTick: ReadonlySignal<number> = tick;
+const moving = signal(false);
+/** Is the picture on its way to another place by itself? */
+export const gliding: ReadonlySignal<boolean> = moving;
 
 export function followView(stage: Stage): void {
   let queued = false;
@@ -13,6 +16,7 @@ export function followView(stage: Stage): void {
     requestAnimationFrame(() => {
       queued = false;
       tick.value++;
+      moving.value = stage.glide.going;
       // Lets scripts that drive the page find world points on the screen.
       const { cx, cy, z } = stage.view;
       stage.element.dataset.view = [cx, cy, z].map((v) => v.toFixed(4)).join(' ');

@@ -1,25 +1,27 @@
-// List of scenes with search and pictures; the place to drop files.
-import { useRef } from 'preact/hooks';
+// List of scenes with search, dates and pictures; the place to drop files.
+import { useEffect, useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import type { SceneListItem } from '../../net/types';
 import { isRecorded } from '../../model/scene';
-import { countAll } from '../../edit/scene-list';
+import { countAll, isExample } from '../../edit/scene-list';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { dayAndTime } from './dates';
 import { Thumbnail } from './thumbnail';
 
 export function Drawer() {
   const { scenes } = useApp();
   const input = useRef<HTMLInputElement>(null);
   const query = useSignal('');
-  const wanted = query.value.trim().toLowerCase();
-  const words = (s: SceneListItem): string => `${s.name} ${s.source ?? ''} ${s.id}`.toLowerCase();
+  const wanted = query.value.trim().toLowerCase().split(/\s+/);
+  const words = (s: SceneListItem): string => `${s.name} ${s.source ?? ''} ${s.id} ${about(s)}`.toLowerCase();
   return (
     <section class="drawer card" aria-label="Scenes" data-group="scenes">
       <h2>
         Scenes
         <span class="grow" />
+        <IconButton id="new-scene" size={16} />
         <IconButton id="scenes" icon="x" size={16} />
       </h2>
       <label class="field search">
@@ -38,7 +40,7 @@ export function Drawer() {
         />
       </label>
       <div class="scns">
-        <List items={scenes.list.value.filter((s) => words(s).includes(wanted))} />
+        <List items={scenes.list.value.filter((s) => wanted.every((w) => words(s).includes(w)))} />
       </div>
       <div class="drop">
         <b>Drop scene files here</b>
@@ -59,36 +61,110 @@ export function ChooseFiles() {
   );
 }
 
+/** Recently opened ones stand first, when there are enough for that to help. */
+const MANY = 8,
+  MOST_RECENT = 3;
+
 function List({ items }: { items: readonly SceneListItem[] }) {
   const { scenes } = useApp();
   if (!items.length) return <p class="mut drop">{scenes.listed.value ? 'No scene of that name.' : 'Loading …'}</p>;
+  const recent =
+    items.length > MANY
+      ? scenes.recent.value.flatMap((id) => items.find((s) => s.id === id) ?? []).slice(0, MOST_RECENT)
+      : [];
+  const rest = items.filter((s) => !recent.includes(s));
+  const parts: [string, readonly SceneListItem[]][] = [
+    ['Recent', recent],
+    ['Mine', rest.filter((s) => !s.readonly && !isExample(s.id))],
+    ['Examples', rest.filter((s) => isExample(s.id))],
+    ['Recorded', rest.filter((s) => s.readonly && !isExample(s.id))],
+  ];
   return (
     <div>
-      {items.map((s) => (
-        <Item key={`${s.id}:${s.etag ?? ''}`} item={s} />
-      ))}
+      {parts
+        .filter(([, part]) => part.length)
+        .map(([name, part]) => (
+          <section key={name} aria-label={name}>
+            <h3>{name}</h3>
+            {part.map((s) => (
+              <Item key={`${s.id}:${s.etag ?? ''}`} item={s} />
+            ))}
+          </section>
+        ))}
     </div>
   );
 }
 
 function Item({ item }: { item: SceneListItem }) {
-  const { editor, library } = useApp();
+  const { editor, library, ui } = useApp();
   const current = useComputed(() => editor.scene.value?.id === item.id).value;
+  const aimed = useComputed(() => ui.aimed.value === item.id).value;
   const name = useComputed(() => (editor.scene.value?.id === item.id ? editor.scene.value.name : item.name));
+  if (ui.renaming.value === item.id) return <NewName item={item} />;
   return (
-    <button
-      type="button"
-      class="scn"
-      data-scene={item.id}
-      aria-current={current}
-      onClick={() => void library.open(item.id)}
+    <div
+      class="scnrow"
+      onPointerEnter={() => ui.aimAt(item.id)}
+      onPointerLeave={() => ui.aimAt(null)}
+      onFocusCapture={() => ui.aimAt(item.id)}
     >
-      <Thumbnail item={item} width={64} height={46} />
-      <div class="who">
-        <b title={item.name}>{name}</b>
-        <small>{about(item)}</small>
-      </div>
-    </button>
+      <button
+        type="button"
+        class="scn"
+        data-scene={item.id}
+        aria-current={current}
+        onClick={() => void library.open(item.id)}
+      >
+        <Thumbnail item={item} width={64} height={46} />
+        <div class="who">
+          <b title={item.name}>{name}</b>
+          <small>{about(item)}</small>
+          {item.updated_at && !item.readonly ? <small>{dayAndTime(item.updated_at)}</small> : null}
+        </div>
+      </button>
+      {aimed ? (
+        <span class="does">
+          <IconButton id="rename-scene" size={14} />
+          <IconButton id="duplicate-scene" size={14} />
+          <IconButton id="delete-scene" size={14} />
+        </span>
+      ) : null}
+    </div>
+  );
+}
+
+function NewName({ item }: { item: SceneListItem }) {
+  const { care, ui } = useApp();
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    input.current!.focus();
+    input.current!.select();
+  }, []);
+  const done = (keep: boolean) => {
+    if (ui.renaming.peek() !== item.id) return;
+    const typed = input.current!.value.trim();
+    ui.renameScene(null);
+    if (keep && typed && typed !== item.name) void care.rename(item.id, typed);
+  };
+  return (
+    <div class="scnrow">
+      <label class="field rename">
+        <input
+          ref={input}
+          type="text"
+          aria-label="New name"
+          maxlength={80}
+          value={item.name}
+          onBlur={() => done(true)}
+          onKeyDown={(e) => {
+            if (e.key === 'Enter') done(true);
+            if (e.key !== 'Escape') return;
+            e.stopPropagation();
+            done(false);
+          }}
+        />
+      </label>
+    </div>
   );
 }
 
@@ -96,5 +172,5 @@ function Item({ item }: { item: SceneListItem }) {
 export function about(s: SceneListItem): string {
   const n = countAll(s.counts);
   const kind = s.source && isRecorded(s.source) ? 'recorded' : s.readonly ? 'example' : 'own';
-  return [n ? `${n} road users` : '', kind].filter(Boolean).join(' · ');
+  return [n ? `${n} road users` : 'nobody yet', kind].join(' · ');
 }

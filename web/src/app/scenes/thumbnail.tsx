@@ -1,10 +1,9 @@
-// A small picture of a scene, painted with the same code as the big one. Scenes are fetched one after the other and
-// only when their place in the list can be seen.
+// A small picture of a scene, painted with the same code as the big one. What it shows is fetched, one scene after the
+// other, and only when its place in the list can be seen.
 import { useEffect, useRef } from 'preact/hooks';
 import type { Client } from '../../net/client';
 import type { SceneListItem } from '../../net/types';
 import { busyBox } from '../../model/busy';
-import { isMapRef } from '../../model/json';
 import { readScene } from '../../model/read';
 import { isRecorded, startPose, type Scene } from '../../model/scene';
 import { MapPicture } from '../../draw/paint-map';
@@ -35,8 +34,7 @@ function load(client: Client, item: SceneListItem): Promise<Painted> {
   const known = kept.get(key);
   if (known) return known;
   const loading = queue.then(async () => {
-    const { json } = await client.scene(item.id);
-    const scene = readScene(json, isMapRef(json.map) ? await client.map(json.map.ref) : undefined);
+    const scene = readScene(await client.preview(item.id));
     return { scene, map: new MapPicture(scene.map, isRecorded(scene.source)) };
   });
   queue = loading.catch(() => kept.delete(key));

@@ -12,6 +12,7 @@ const MODIFIER_KEYS = ['Alt', 'Shift', 'Control', 'Meta'];
 const WHEEL_ZOOM = 0.0016;
 const TRACKPAD_ZOOM = 0.006;
 const PX_PER_LINE = 33;
+const NOTCH_PX = 50;
 /** On, off, on. */
 const TICKS_MS = [10, 40, 10];
 
@@ -144,7 +145,10 @@ export class Gestures {
     else {
       const { x, y } = this.#place(e);
       const pixels = e.deltaY * (e.deltaMode === 1 ? PX_PER_LINE : 1);
-      v.zoomAt(x, y, Math.exp(-pixels * (e.ctrlKey ? TRACKPAD_ZOOM : WHEEL_ZOOM)));
+      const factor = Math.exp(-pixels * (e.ctrlKey ? TRACKPAD_ZOOM : WHEEL_ZOOM));
+      // A trackpad is smooth by itself; the notches of a wheel are not.
+      if (e.ctrlKey || Math.abs(pixels) < NOTCH_PX) v.zoomAt(x, y, factor);
+      else this.stage.glide.by((end) => end.zoomAt(x, y, factor));
     }
     this.chart.viewMoved();
   }
@@ -154,7 +158,7 @@ export class Gestures {
     if (!this.#onPicture(e) || !['select', 'pan'].includes(this.editor.tool.peek())) return;
     const { x, y } = this.#place(e);
     if (hitTest(this.#context(false), x, y).kind !== 'none') return;
-    this.stage.view.zoomAt(x, y, 1.6);
+    this.stage.glide.by((v) => v.zoomAt(x, y, 1.6));
     this.chart.viewMoved();
   }
 

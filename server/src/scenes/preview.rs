@@ -1,0 +1,126 @@
+//! What a small picture of a scene shows: its roads in few points, and who is there at first.
+
+use formats::native::{
+    MapDoc, MapField, MapForm, MetaDoc, PointsDoc, SceneDoc, TrackDoc, round_m, round_rad,
+};
+use scene::{Scene, State, Track, Vec2};
+
+/// Lines keep to within this of where they were, metres: a pixel of a picture that shows a junction.
+const TOLERANCE_M: f64 = 0.4;
+
+/// The scene with its lines simplified, of each road user the first and the last state, and nothing that a
+/// picture of some hundred pixels does not show. It is a scene document like any other.
+pub fn preview(scene: &Scene) -> SceneDoc {
+    let mut doc = SceneDoc::from_scene(scene, MapForm::Inline);
+    doc.meta = MetaDoc { source: doc.meta.source, licence: doc.meta.licence, ..MetaDoc::default() };
+    doc.signals.clear();
+    doc.generated = None;
+    doc.extra.0.clear();
+    if let MapField::Inline(map) = &mut doc.map {
+        thin(map);
+    }
+    let tracks = scene.agents.iter().map(|agent| first_and_last(&agent.track));
+    let agents = doc.agents.drain(..).zip(tracks);
+    doc.agents = agents
+        .filter_map(|(agent, track)| track.map(|track| (agent, track)))
+        .map(|(mut agent, track)| {
+            agent.track = track;
+            agent
+        })
+        .collect();
+    doc
+}
+
+/// Nobody who comes in later is in the picture; the last state tells who is parked.
+fn first_and_last(track: &Track) -> Option<TrackDoc> {
+    let first = track.states.first().filter(|_| track.first_step == 0)?.as_ref()?;
+    let last = track.states.iter().rev().flatten().next()?;
+    let column = |f: fn(&State) -> f64| vec![f(first), f(last)];
+    Some(TrackDoc {
+        x_m: column(|s| round_m(s.x_m)),
+        y_m: column(|s| round_m(s.y_m)),
+        heading_rad: column(|s| round_rad(s.heading_rad)),
+        vx_mps: column(|s| round_m(s.vx_mps)),
+        vy_mps: column(|s| round_m(s.vy_mps)),
+        ..TrackDoc::default()
+    })
+}
+
+fn thin(map: &mut MapDoc) {
+    for lane in &mut map.lanes {
+        simplify(&mut lane.points_m);
+        // These speak of points by their number.
+        lane.left_boundary.clear();
+        lane.right_boundary.clear();
+        lane.left_neighbors.clear();
+        lane.right_neighbors.clear();
+        lane.speed_limit_mps = None;
+    }
+    map.road_lines.clear();
+    map.stop_signs.clear();
+    map.speed_bumps.clear();
+    map.road_edges.iter_mut().for_each(|edge| simplify(&mut edge.points_m));
+    for area in map.crosswalks.iter_mut().chain(&mut map.driveways) {
+        simplify(&mut area.polygon_m);
+    }
+    for area in &mut map.drivable {
+        simplify(&mut area.polygon_m);
+        area.holes_m.iter_mut().for_each(simplify);
+    }
+}
+
+fn simplify(points: &mut PointsDoc) {
+    let kept = corners(&points.0.xy, TOLERANCE_M);
+    points.0.z_m = None;
+    points.0.xy = kept.into_iter().map(|p| Vec2::new(tenths(p.x), tenths(p.y))).collect();
+}
+
+fn tenths(value: f64) -> f64 {
+    (value * 10.0).round() / 10.0
+}
+
+/// The points without which the line would leave the tolerance (Douglas and Peucker), both ends among them.
+fn corners(points: &[Vec2], tolerance_m: f64) -> Vec<Vec2> {
+    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
+    let mut keep = vec![false; points.len()];
+    keep[0] = true;
+    keep[last] = true;
+    let mut open = vec![(0, last)];
+    while let Some((from, to)) = open.pop() {
+        let (a, b) = (points[from], points[to]);
+        let inner = (from + 1..to).map(|i| (i, distance_m(points[i], a, b)));
+        if let Some((far, d)) = inner.max_by(|p, q| p.1.total_cmp(&q.1))
+            && d > tolerance_m
+        {
+            keep[far] = true;
+            open.extend([(from, far), (far, to)]);
+        }
+    }
+    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
+}
+
+/// From a point to the straight line between two others.
+fn distance_m(p: Vec2, a: Vec2, b: Vec2) -> f64 {
+    let (abx, aby, apx, apy) = (b.x - a.x, b.y - a.y, p.x - a.x, p.y - a.y);
+    let length2 = abx * abx + aby * aby;
+    let t = if length2 > 0.0 { ((apx * abx + apy * aby) / length2).clamp(0.0, 1.0) } else { 0.0 };
+    (apx - t * abx).hypot(apy - t * aby)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straight_lines_keep_their_ends_and_bends_their_corners() {
+        let line: Vec<Vec2> = (0..100).map(|i| Vec2::new(f64::from(i), 0.1 * f64::from(i % 2))).collect();
+        assert_eq!(corners(&line, 0.4), [line[0], line[99]]);
+        let bend: Vec<Vec2> =
+            (0..50).map(|i| Vec2::new(f64::from(i.min(25)), f64::from((i - 25).max(0)))).collect();
+        assert_eq!(corners(&bend, 0.4), [bend[0], bend[25], bend[49]]);
+        let still = vec![Vec2::new(1.0, 1.0); 5];
+        assert_eq!(corners(&still, 0.4), [still[0], still[4]]);
+        assert_eq!(corners(&[], 0.4), []);
+        assert_eq!(corners(&line[..1], 0.4), line[..1]);
+    }
+}

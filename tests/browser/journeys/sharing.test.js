@@ -1,0 +1,111 @@
+// A scene goes out as a link and as files, and comes in from both.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { it } from 'node:test';
+import { carOnTheMove } from '../support/casting.js';
+import { journeys } from '../support/journey.js';
+
+const broken = {
+  format: 'dragtraffic.scene',
+  version: 1,
+  name: 'Two lanes',
+  time: { step_s: 0.1, steps: 91, now_step: 0 },
+  map: {
+    lanes: [
+      { id: 'E1', points_m: [[0, 0], [80, 0]], successors: ['E2'] }, // prettier-ignore
+      { id: 'E2', points_m: [[80, 0]], predecessors: ['E1'] },
+    ],
+  },
+  agents: [],
+};
+
+journeys('sharing', (stage) => {
+  it('opens a link in another browser, to look at and to copy', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    await e.type('goal-time', '6.5');
+    await e.page.locator('[data-action="share"]').click();
+    await e.until(() => document.querySelector('.share input')?.value.startsWith('http'));
+    assert.match(await e.text('.share'), /\d+ of 60 KB/);
+    await e.picture('share');
+    const link = await e.page.inputValue('.share input');
+    await e.key('Escape');
+    const other = await stage.visit(link);
+    await other.until(() => /This scene came with a link/.test(document.querySelector('.banner')?.textContent));
+    await other.settled();
+    await other.choose(car.id);
+    assert.equal(await other.value('goal-time'), 6.5);
+    await other.type('goal-time', '4.0');
+    assert.equal(await other.value('goal-time'), 6.5, 'read-only');
+    await other.page.getByRole('button', { name: 'Make a copy' }).first().click();
+    await other.page.waitForSelector('.banner', { state: 'detached' });
+    await other.settled();
+    await other.choose(car.id);
+    assert.equal(await other.value('goal-time'), 6.5);
+    await other.type('goal-time', '4.0');
+    assert.equal(await other.value('goal-time'), 4);
+    assert.equal(new URL(other.page.url()).hash, '');
+  });
+
+  it('says when a link is not whole', { timeout: 60_000 }, async () => {
+    const e = await stage.visit(`${stage.program.url}/#s1=q1ZKzs8tKEotLgYA`);
+    await e.until(() => /The link could not be opened/.test(document.querySelector('.banner')?.textContent));
+    assert.match(await e.text('.banner'), /It may have been cut on its way/);
+    await e.page.getByRole('button', { name: 'Close', exact: true }).click();
+    await e.page.waitForSelector('.banner', { state: 'detached' });
+  });
+
+  it('saves files with what they lose said before, and reads its own again', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const save = async (kind) => {
+      await e.page.locator('.top [data-action="export"]').click();
+      await e.page.locator(`[data-kind="${kind}"]`).click();
+      await e.until(() => !document.querySelector('.kind[aria-checked="true"] .tag').textContent.includes('…'));
+      const words = await e.text('.kind[aria-checked="true"] .tag');
+      const [file] = await Promise.all([
+        e.page.waitForEvent('download'),
+        e.page.locator('.export footer .btn.pri').click(),
+      ]);
+      return { words, name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+    };
+    const saved = await save('dragtraffic');
+    assert.equal(saved.words, 'nothing lost');
+    const record = await save('womd');
+    assert.match(record.words, /^\d+ things? lost$/);
+    assert.equal((await save('png')).bytes.subarray(1, 4).toString(), 'PNG');
+    assert.match((await save('svg')).bytes.toString(), /^<svg xmlns.*<use href="#d\d+" transform.*<\/svg>\s*$/s);
+    const report = (await save('report')).bytes.toString();
+    assert.match(report, /<h1>Rosa &amp; 5th<\/h1>.*data:image\/png.*Metres and seconds; x east, y north/s);
+    await e.drop(saved.name, saved.bytes);
+    await e.until(() => /imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
+    const [newest] = (await e.get('/v1/scenes')).scenes;
+    const back = await e.get(`/v1/scenes/${newest.id}`);
+    const first = JSON.parse(saved.bytes);
+    for (const part of ['map', 'agents', 'signals', 'time']) assert.deepEqual(back[part], first[part], part);
+  });
+
+  it('takes what it can of a broken file, and of one that is too large', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    await e.drop('junction.json', Buffer.from(JSON.stringify(broken, null, 1)));
+    await e.page.waitForSelector('.dlg.import');
+    assert.match(await e.text('.dlg.import'), /Lane “E2”: it has only one point.*junction\.json, line \d+/s);
+    await e.page.getByRole('button', { name: /^Show line/ }).click();
+    assert.match(await e.text('.dlg pre .here'), /points_m/);
+    await e.picture('import-in-part');
+    await e.page.getByRole('button', { name: 'Import without lane “E2”' }).click();
+    await e.until(() => /Two lanes imported without lane/.test(document.querySelector('.toast')?.textContent ?? ''));
+    const demo = await e.get('/v1/scenes/demo-crossing');
+    const crowd = Array.from({ length: 300 }, (_, i) => ({ ...demo.agents[0], id: String(i + 1) }));
+    await e.drop('crowd.json', Buffer.from(JSON.stringify({ ...demo, name: 'Crowd', agents: crowd })));
+    await e.page.waitForSelector('.dlg.import');
+    await e.page.getByRole('button', { name: 'Import without the last 44 road users' }).click();
+    await e.until(() => document.querySelectorAll('[data-agent]').length === 256);
+    await e.drop('notes.json', Buffer.from('%PDF-1.7 nothing'));
+    await e.page.waitForSelector('.dlg.import');
+    assert.match(await e.text('.dlg.import'), /Named \.json, but it is a PDF/);
+  });
+});

@@ -1,0 +1,165 @@
+// What was done in the scene, newest on top. A click goes there; what was left by going back hangs beside the line.
+import { useRef } from 'preact/hooks';
+import { useComputed, useSignal } from '@preact/signals';
+import type { History, HistoryStep } from '../../model/history';
+import { useApp } from '../parts/app-context';
+import { IconButton, KeyCaps } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import { clock, dayAndTime } from '../scenes/dates';
+
+/** Rows that are drawn at first; older ones when they are asked for. */
+const SHOWN = 120;
+
+/** A row of the list: a step of the line one is on, or of a branch beside it. */
+interface Row {
+  readonly step: HistoryStep;
+  readonly branch: boolean;
+  /** Last of its branch: where it leads. */
+  readonly tip: boolean;
+}
+
+/** Newest first; a branch stands above the step that it comes from. */
+export function rowsOf(h: History): Row[] {
+  const line = h.line();
+  const onLine = new Set(line.map((s) => s.id));
+  const after = new Map<number | null, HistoryStep[]>();
+  for (const s of h.kept().steps) after.set(s.parent, [...(after.get(s.parent) ?? []), s]);
+  const branches = (parent: number | null): Row[] => {
+    const out: Row[] = [];
+    const open = (after.get(parent) ?? []).filter((s) => !onLine.has(s.id));
+    for (let s = open.pop(); s; s = open.pop()) {
+      const next: HistoryStep[] = after.get(s.id) ?? [];
+      out.push({ step: s, branch: true, tip: !next.length });
+      open.push(...next);
+    }
+    return out;
+  };
+  const rows = [...branches(null)];
+  for (const step of line) rows.push({ step, branch: false, tip: false }, ...branches(step.id));
+  return rows.reverse();
+}
+
+export function HistoryPanel() {
+  const { editor } = useApp();
+  const most = useSignal(SHOWN);
+  const rows = useComputed(() => {
+    void editor.historyTick.value;
+    return editor.history ? rowsOf(editor.history) : [];
+  }).value;
+  const head = editor.history?.head ?? null;
+  const line = editor.history?.line() ?? [];
+  const at = line.findIndex((s) => s.id === head) + 1;
+  return (
+    <section class="drawer card history" aria-label="History" data-group="history">
+      <h2>
+        History
+        <small class="mut">{line.length ? `${at} of ${line.length} steps` : 'nothing done yet'}</small>
+        <span class="grow" />
+        <IconButton id="history" icon="x" size={16} />
+      </h2>
+      <div class="scns">
+        <ol class="past">
+          {rows.slice(0, most.value).map((r) => (
+            <Step key={`${r.step.id}:${r.step.name}`} row={r} now={r.step.id === head} />
+          ))}
+          {rows.length > most.value ? (
+            <li>
+              <button type="button" class="btn" onClick={() => (most.value += SHOWN)}>
+                {rows.length - most.value} older steps
+              </button>
+            </li>
+          ) : (
+            <First now={head === null} />
+          )}
+        </ol>
+      </div>
+      <footer class="foot">
+        <span class="mut">
+          <KeyCaps of="Ctrl+Z" /> one back
+        </span>
+        <span class="grow" />
+        <span class="mut">Kept on this computer</span>
+      </footer>
+    </section>
+  );
+}
+
+function First({ now }: { now: boolean }) {
+  const { editor } = useApp();
+  return (
+    <li class={`step ${now ? 'now' : ''}`} aria-current={now ? 'step' : undefined}>
+      <button type="button" class="go" data-step="first" onClick={() => editor.goTo(null)}>
+        <i class="dot" />
+        <b>How it was</b>
+        <small>{now ? 'now' : 'before the first step'}</small>
+      </button>
+    </li>
+  );
+}
+
+function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
+  const { editor } = useApp();
+  const naming = useSignal(false);
+  const who = step.agent === null ? null : editor.scene.peek()?.agents.get(step.agent)?.name;
+  const place = who && !step.name.includes(who) ? who : null;
+  const words = [now ? 'now' : null, branch && tip ? 'go back to this one' : null, place].filter(Boolean).join(' · ');
+  if (naming.value) return <StepTitle step={step} done={() => (naming.value = false)} />;
+  return (
+    <li
+      class={`step ${now ? 'now' : ''} ${branch ? 'branch' : ''} ${step.title ? 'named' : ''}`}
+      aria-current={now ? 'step' : undefined}
+    >
+      <button type="button" class="go" data-step={step.id} onClick={() => editor.goTo(step.id)}>
+        <i class="dot" />
+        <b>{step.title ?? step.name}</b>
+        <time title={dayAndTime(step.at)}>{clock(step.at)}</time>
+        <small>
+          {branch && tip ? <span class="tag">branch</span> : null}
+          {step.title ? <span class="tag near">named</span> : null}
+          {step.title ? step.name : words}
+        </small>
+      </button>
+      <button
+        type="button"
+        class="btn i"
+        title="Name this step"
+        aria-label={`Name the step ${step.name}`}
+        onClick={() => (naming.value = true)}
+      >
+        <Icon name="pencil" size={14} />
+      </button>
+    </li>
+  );
+}
+
+function StepTitle({ step, done }: { step: HistoryStep; done: () => void }) {
+  const { editor } = useApp();
+  const input = useRef<HTMLInputElement>(null);
+  const keep = () => {
+    editor.entitle(step.id, input.current!.value.trim() || null);
+    done();
+  };
+  return (
+    <li class="step">
+      <label class="field rename">
+        <input
+          ref={(el) => {
+            input.current = el;
+            el?.focus();
+          }}
+          type="text"
+          aria-label="Name of the step"
+          maxlength={60}
+          value={step.title ?? ''}
+          placeholder={step.name}
+          onKeyDown={(e) => {
+            if (e.key === 'Enter') keep();
+            if (e.key !== 'Escape') return;
+            e.stopPropagation();
+            done();
+          }}
+        />
+      </label>
+    </li>
+  );
+}

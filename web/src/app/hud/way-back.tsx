@@ -1,0 +1,41 @@
+// When nothing of the scene is in view: the way back.
+import { useComputed } from '@preact/signals';
+import { boxesMeet, boxOf, type Box } from '../../model/geometry';
+import type { LaneMap } from '../../model/lanemap';
+import { startPose } from '../../model/scene';
+import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
+import { viewTick } from './view-tick';
+
+const boxes = new WeakMap<LaneMap, readonly Box[]>();
+
+/** Around each lane; a map without lanes is its box. */
+function boxesOf(map: LaneMap): readonly Box[] {
+  const known = boxes.get(map);
+  if (known) return known;
+  const all = [...map.lanes.values()].map((l) => boxOf(l.line.pts));
+  const made = all.length ? all : [map.box];
+  boxes.set(map, made);
+  return made;
+}
+
+export function WayBack() {
+  const { editor, stage } = useApp();
+  const lost = useComputed(() => {
+    void viewTick.value;
+    const scene = editor.scene.value;
+    if (!scene || editor.dragging.value) return false;
+    const seen = stage.view.box();
+    const inside = (p: { x: number; y: number } | null): boolean =>
+      p !== null && p.x > seen.x0 && p.x < seen.x1 && p.y > seen.y0 && p.y < seen.y1;
+    return (
+      !boxesOf(scene.map).some((b) => boxesMeet(b, seen)) &&
+      ![...scene.agents.values()].some((a) => inside(startPose(a)))
+    );
+  }).value;
+  return lost ? (
+    <div class="card wayback">
+      <ActionButton id="back-to-scene" size={16} withKey />
+    </div>
+  ) : null;
+}

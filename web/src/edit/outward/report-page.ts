@@ -1,0 +1,100 @@
+// One page about a scene, to be read and printed: the picture, who is there, what happens, and how it was made.
+import { findChanges, motionOf } from '../../model/changes';
+import { counted, type TrafficEvent } from '../../model/events';
+import type { MotionSet } from '../../model/futures';
+import type { Vec } from '../../model/geometry';
+import { endPose } from '../../model/motion';
+import { canChange, startPose, touched, type Agent, type Scene } from '../../model/scene';
+import { num, seconds, speedLabel, type SpeedUnit } from '../../model/units';
+
+export interface ReportOf {
+  readonly scene: Scene;
+  readonly motion: MotionSet;
+  readonly events: readonly TrafficEvent[];
+  readonly unit: SpeedUnit;
+  /** Data address of the picture. */
+  readonly picture: string;
+  readonly time: number;
+  readonly origin: string;
+}
+
+const text = (s: string): string => s.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
+const cell = (s: string): string => `<td>${text(s)}</td>`;
+const place = ([x, y]: Vec): string => `${num(x)}, ${num(y)}`;
+
+const STYLE = `
+body{font:14px/1.5 system-ui,sans-serif;color:#14181d;max-width:1000px;margin:32px auto;padding:0 16px}
+h1{font-size:24px;margin:0}h2{font-size:16px;margin:28px 0 8px}p{margin:4px 0;color:#454d57}
+img{width:100%;border:1px solid #e1e4e8;border-radius:8px;margin-top:16px}
+table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
+th,td{text-align:left;padding:4px 10px 4px 0;border-bottom:1px solid #e1e4e8;vertical-align:top}
+th{font-weight:600;color:#616a75}tr.asked td:first-child{font-weight:600}
+@media print{body{margin:0}img{break-inside:avoid}}`;
+
+export function reportPage(r: ReportOf): string {
+  const { scene } = r;
+  const all = [...scene.agents.values()];
+  const own = counted(r.events);
+  const words = wordsOf(r);
+  const asked = all.filter((a) => touched(a) && canChange(a));
+  const reached = asked.filter((a) => a.goal.pos && r.motion.reach.get(a.id)?.status !== 'unreachable');
+  const goals = asked.filter((a) => a.goal.pos);
+  const facts: [string, string][] = [
+    ['Road users', String(all.length)],
+    ['With something asked of them', String(asked.length)],
+    ['Goals reached', goals.length ? `${reached.length} of ${goals.length}` : 'none set'],
+    ['Collisions', String(own.filter((e) => e.kind === 'collision').length)],
+    ['Near misses', String(own.filter((e) => e.kind === 'near').length)],
+    ['Least time to collision', r.motion.score?.minTtc == null ? 'none' : seconds(r.motion.score.minTtc)],
+    ['Seed, diversity', `${scene.seed}, ${Math.round(scene.diversity * 100)} %`],
+    ['Others', { react: 'react', log: 'replay the log', still: 'hold still' }[scene.others]],
+    ['Length', seconds(scene.duration)],
+    ...(scene.licence ? [['Licence of the recording', scene.licence] as [string, string]] : []),
+  ];
+  const rows = (list: [string, string][]): string =>
+    list.map(([k, v]) => `<tr><th scope="row">${text(k)}</th>${cell(v)}</tr>`).join('');
+  return `<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>${text(scene.name)}</title><style>${STYLE}</style></head><body>
+<h1>${text(scene.name)}</h1><p>The picture shows ${seconds(r.time)} of ${seconds(scene.duration)}.</p>
+<img alt="The scene from above" src="${r.picture}">
+<h2>Result</h2><table>${rows(facts)}</table>
+<h2>What happens</h2>${eventTable(r.events)}
+<h2>Road users</h2><table>${head('Who', 'Start, m', 'Speed', 'Goal, m', 'Ends at, m', '')}
+${all.map((a) => agentRow(r, a, words.get(a.id))).join('\n')}</table>
+<h2>Units and axes</h2><p>Metres and seconds; x east, y north; headings from the x axis, to the left.
+0 s is the first step. ${text(r.origin)}</p>
+</body></html>
+`;
+}
+
+const head = (...names: string[]): string => `<tr>${names.map((n) => `<th>${n}</th>`).join('')}</tr>`;
+const row = (...cells: string[]): string => `<tr>${cells.map(cell).join('')}</tr>`;
+
+function eventTable(events: readonly TrafficEvent[]): string {
+  if (!events.length) return '<p>Nothing that is judged.</p>';
+  const rows = events.map((e) => row(seconds(e.time), e.words, e.title, place(e.at), e.inLog ? 'in the log' : ''));
+  return `<table>${head('When', 'What', 'Who', 'Where, m', '')}${rows.join('')}</table>`;
+}
+
+/** What everybody does otherwise than in the log, in words. */
+function wordsOf({ scene, motion }: ReportOf): ReadonlyMap<string, string> {
+  const log = { ...motion, driving: new Set<string>() };
+  return new Map(findChanges(scene, log, motion, new Set()).map((c) => [c.id, c.words]));
+}
+
+function agentRow(r: ReportOf, a: Agent, words: string | undefined): string {
+  const start = startPose(a);
+  const end = endPose(motionOf(r.scene, r.motion, a));
+  const unit = a.type === 'pedestrian' ? 'm/s' : r.unit;
+  const goal = a.goal.pos ? `${place(a.goal.pos)} at ${seconds(a.goal.time)}` : '';
+  const cells = [
+    a.name,
+    start ? place([start.x, start.y]) : 'comes later',
+    start ? speedLabel(start.speed, unit) : '',
+    goal,
+    end ? place([end.x, end.y]) : '',
+    words ?? (a.parked ? 'parked' : ''),
+  ];
+  return `<tr${touched(a) ? ' class="asked"' : ''}>${cells.map(cell).join('')}</tr>`;
+}

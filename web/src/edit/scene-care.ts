@@ -1,0 +1,146 @@
+// What one does with scenes as a whole: new ones, copies, names, removing and bringing back.
+import { emptyScene, withoutRoadUsers } from '../model/blank';
+import { rename } from '../model/commands';
+import { isMapRef, type SceneJson } from '../model/json';
+import { Refused, type Client } from '../net/client';
+import type { Editor } from './editor';
+import type { Journal } from './journal';
+import type { Library } from './library';
+import type { SceneFile } from './scene-file';
+import type { SceneList } from './scene-list';
+
+/** So long a deleted scene can be brought back from the toast. */
+const UNDELETE_MS = 20_000;
+
+export class SceneCare {
+  constructor(
+    private readonly editor: Editor,
+    private readonly file: SceneFile,
+    private readonly library: Library,
+    private readonly list: SceneList,
+    private readonly client: Client,
+    private readonly journal: Journal,
+  ) {}
+
+  /** The road of the open scene with nobody on it. */
+  newOnThisRoad(): Promise<void> {
+    const body = this.file.complete();
+    return body ? this.#begin(withoutRoadUsers(body)) : Promise.resolve();
+  }
+
+  newOnPlainGround(): Promise<void> {
+    return this.#begin(emptyScene());
+  }
+
+  #begin(body: SceneJson): Promise<void> {
+    const name = this.#freeName('New scene');
+    return this.#create(body, name, `“${name}”: nobody is on it yet. It saves itself.`);
+  }
+
+  /** An own copy of what is on screen; from then on it saves itself. */
+  saveCopy(): Promise<void> {
+    const scene = this.editor.scene.peek();
+    const body = this.file.complete();
+    if (!scene || !body) return Promise.resolve();
+    const own = this.list.isOwn(scene.id) && this.file.stored;
+    return this.saveAs(this.#freeName(own ? `${scene.name}, copy` : `${scene.name}, edited`));
+  }
+
+  saveAs(name: string): Promise<void> {
+    const body = this.file.complete();
+    if (!body) return Promise.resolve();
+    const parent = this.file.stored ? (this.file.raw?.id ?? null) : null;
+    const said = `Saved as “${name}”. It saves itself from now on.`;
+    return this.#create({ ...body, meta: { ...body.meta, parent_id: parent } }, name, said);
+  }
+
+  async #create(body: SceneJson, name: string, said: string): Promise<void> {
+    const { editor } = this;
+    try {
+      const { id } = await this.client.create({ ...body, id: undefined, name });
+      await this.list.refresh().catch(() => undefined);
+      await this.library.open(id);
+      editor.notices.show({ text: said });
+    } catch (e) {
+      this.#failed('Not saved', e);
+    }
+  }
+
+  /** A copy of any scene; the open one is copied as it is on screen. */
+  async duplicate(id: string): Promise<void> {
+    if (id === this.editor.scene.peek()?.id) return this.saveCopy();
+    const name = this.#freeName(`${this.list.find(id)?.name ?? 'Scene'}, copy`);
+    try {
+      const { id: copy } = await this.client.duplicate(id, name);
+      await this.list.refresh().catch(() => undefined);
+      const action = { label: 'Open', run: () => void this.library.open(copy) };
+      this.editor.notices.show({ text: `Copied as “${name}”.`, action });
+    } catch (e) {
+      this.#failed('Not copied', e);
+    }
+  }
+
+  async rename(id: string, name: string): Promise<void> {
+    const { editor, list } = this;
+    const scene = editor.scene.peek();
+    if (scene?.id === id) {
+      if (scene.name !== name) editor.run(rename(name));
+      return;
+    }
+    try {
+      const etag = list.find(id)?.etag ?? '*';
+      const now = await this.client.rename(id, name, etag);
+      await this.journal.noteVersion(id, etag, now);
+      await list.refresh();
+    } catch (e) {
+      this.#failed('Not renamed', e);
+    }
+  }
+
+  /** Removes a scene; the toast brings it back as it was, under its old address. */
+  async remove(id: string): Promise<void> {
+    const { editor, library, list } = this;
+    const name = list.find(id)?.name ?? id;
+    const open = editor.scene.peek()?.id === id;
+    try {
+      if (open) await library.written();
+      const { json, etag } = await this.client.scene(id);
+      const map = isMapRef(json.map) ? await this.client.map(json.map.ref) : json.map;
+      await this.client.remove(id, etag ?? '*');
+      await list.refresh().catch(() => undefined);
+      const next = list.list.peek().find((s) => s.id !== id);
+      if (open && next) await library.open(next.id);
+      const action = { label: 'Undo', run: () => void this.#bringBack(id, { ...json, map }, open) };
+      editor.notices.show({ text: `“${name}” deleted.`, action }, UNDELETE_MS);
+    } catch (e) {
+      this.#failed('Not deleted', e);
+    }
+  }
+
+  async #bringBack(id: string, body: SceneJson, open: boolean): Promise<void> {
+    try {
+      const etag = await this.client.save(id, body, null);
+      if (etag) await this.journal.noteVersion(id, null, etag);
+      await this.list.refresh().catch(() => undefined);
+      if (open) await this.library.open(id);
+      this.editor.notices.show({ text: `“${body.name}” is back.` });
+    } catch (e) {
+      this.#failed('Not brought back', e);
+    }
+  }
+
+  /** The name, or with a number after it where it is taken. */
+  #freeName(name: string): string {
+    const taken = new Set(this.list.list.peek().map((s) => s.name));
+    if (!taken.has(name)) return name;
+    let n = 2;
+    while (taken.has(`${name} ${n}`)) n++;
+    return `${name} ${n}`;
+  }
+
+  #failed(what: string, e: unknown): void {
+    const why =
+      e instanceof Refused ? e.message : 'the server is not answering. What is here is kept on this computer.';
+    this.editor.notices.show({ text: `${what}: ${why}` });
+  }
+}

@@ -1,0 +1,96 @@
+// A scene inside a link: packed, deflated, and written in the part of an address that no browser sends anywhere.
+import type { SceneJson } from '../model/json';
+import type { Camera } from '../model/history';
+import { pack, PackError, unpack } from '../model/pack';
+
+/** Longer links are cut by mail programs and chats. */
+export const MOST_LINK_BYTES = 60 * 1024;
+/** What a link may hold once it is unpacked: more than any that was made here. */
+const MOST_TEXT_BYTES = 16 << 20;
+/** Names the way the link is written; another way gets another name. */
+const MARK = '#s1=';
+const VERSION = 1;
+
+/** How a film begins: when, and where the picture looks. */
+export interface ShownAt {
+  readonly time: number;
+  readonly camera: Camera;
+}
+
+export interface Shared {
+  readonly scene: SceneJson;
+  readonly at: ShownAt | null;
+}
+
+export class LinkError extends Error {}
+
+export const isShareLink = (hash: string): boolean => hash.startsWith(MARK);
+
+/** The link's part after the address, and how many bytes it holds. */
+export async function writeLink(shared: Shared): Promise<{ hash: string; bytes: number }> {
+  const text = JSON.stringify({ v: VERSION, at: shared.at, scene: pack(shared.scene) });
+  const bytes = await through(new Blob([text]).stream(), new CompressionStream('deflate-raw'), MOST_TEXT_BYTES);
+  return { hash: MARK + toBase64(bytes), bytes: bytes.length };
+}
+
+export async function readLink(hash: string): Promise<Shared> {
+  const coded = hash.slice(MARK.length);
+  if (coded.length > 2 * MOST_LINK_BYTES) throw new LinkError('The link is longer than any that is made here.');
+  try {
+    const bytes = fromBase64(coded);
+    const text = await through(new Blob([bytes]).stream(), new DecompressionStream('deflate-raw'), MOST_TEXT_BYTES);
+    const read = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as Record<string, unknown>;
+    if (read?.v !== VERSION) throw new LinkError('The link was made by another version of this program.');
+    const scene = unpack(read.scene);
+    if (typeof scene !== 'object' || scene === null) throw new PackError('no scene');
+    return { scene: scene as SceneJson, at: readShownAt(read.at) };
+  } catch (e) {
+    if (e instanceof LinkError) throw e;
+    throw new LinkError('The link is not whole. It may have been cut on its way.');
+  }
+}
+
+function readShownAt(v: unknown): ShownAt | null {
+  const { time, camera } = (v ?? {}) as Partial<ShownAt>;
+  const numbers = [time, camera?.cx, camera?.cy, camera?.z];
+  return numbers.every((n) => Number.isFinite(n)) && camera!.z > 0 ? { time: time!, camera: camera! } : null;
+}
+
+/** All that comes through, up to a limit. */
+async function through(
+  from: ReadableStream<Uint8Array>,
+  by: GenericTransformStream,
+  most: number,
+): Promise<Uint8Array<ArrayBuffer>> {
+  const parts: Uint8Array[] = [];
+  let length = 0;
+  const reader = (from.pipeThrough(by) as ReadableStream<Uint8Array>).getReader();
+  for (let r = await reader.read(); !r.done; r = await reader.read()) {
+    length += r.value.length;
+    if (length > most) {
+      void reader.cancel();
+      throw new LinkError('The link holds more than a scene may.');
+    }
+    parts.push(r.value);
+  }
+  const all = new Uint8Array(length);
+  let at = 0;
+  for (const p of parts) {
+    all.set(p, at);
+    at += p.length;
+  }
+  return all;
+}
+
+const CHUNK = 0x8000;
+
+function toBase64(bytes: Uint8Array): string {
+  let text = '';
+  for (let i = 0; i < bytes.length; i += CHUNK) text += String.fromCharCode(...bytes.subarray(i, i + CHUNK));
+  return btoa(text).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
+}
+
+function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+  const plain = atob(text.replace(/-/g, '+').replace(/_/g, '/'));
+  return Uint8Array.from(plain, (c) => c.charCodeAt(0));
+}

@@ -1,0 +1,115 @@
+// Links with a scene inside: what goes into one, and what is done with one that comes.
+import { signal, type ReadonlySignal } from '@preact/signals-core';
+import { isMapRef, type SceneJson } from '../model/json';
+import { Away, Refused, type Client } from '../net/client';
+import type { Editor } from './editor';
+import type { Library } from './library';
+import type { SceneCare } from './scene-care';
+import type { SceneFile } from './scene-file';
+import { isShareLink, LinkError, MOST_LINK_BYTES, readLink, writeLink, type ShownAt } from './share-link';
+
+/** What of a scene goes into the link. */
+export interface Parts {
+  /** Goals, and the future that each follows. */
+  readonly futures: boolean;
+  /** What people wrote: name, tags, notes. */
+  readonly words: boolean;
+  /** The time and the place that are on screen. */
+  readonly start: boolean;
+}
+
+export interface Link {
+  /** Null where it would be too long. */
+  readonly url: string | null;
+  readonly bytes: number;
+}
+
+export class Sharing {
+  readonly #error = signal<string | null>(null);
+  /** Why a link could not be opened. */
+  readonly error: ReadonlySignal<string | null> = this.#error;
+  /** Shows what a link says is to be looked at. */
+  onOpened: ((at: ShownAt | null) => void) | null = null;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly file: SceneFile,
+    private readonly library: Library,
+    private readonly care: SceneCare,
+    private readonly client: Client,
+  ) {}
+
+  dismiss(): void {
+    this.#error.value = null;
+  }
+
+  async link(parts: Parts, at: ShownAt): Promise<Link> {
+    const whole = this.file.complete();
+    if (!whole) return { url: null, bytes: 0 };
+    const { hash, bytes } = await writeLink({ scene: reduced(whole, parts), at: parts.start ? at : null });
+    const fits = bytes <= MOST_LINK_BYTES;
+    return { url: fits ? location.origin + location.pathname + hash : null, bytes };
+  }
+
+  /** Opens the scene of a link to look at; nothing that is here is replaced. False where there is none. */
+  async openFrom(hash: string): Promise<boolean> {
+    if (!isShareLink(hash)) return false;
+    this.#error.value = null;
+    try {
+      const { scene, at } = await readLink(hash);
+      // The server reads it as it reads a file, with the same limits.
+      const reply = await this.client.tryImport(scene);
+      const read = reply.scenes[0]?.scene as SceneJson | undefined;
+      if (!read || isMapRef(read.map)) throw new LinkError('There is no whole scene in this link.');
+      const copy = (): void => void this.#copy(read.name ?? 'Shared scene');
+      await this.library.show(read, {
+        words: 'This scene came with a link. Here it is read-only.',
+        label: 'Make a copy',
+        run: copy,
+      });
+      this.onOpened?.(at);
+      return true;
+    } catch (e) {
+      if (e instanceof Away) throw e;
+      if (!(e instanceof LinkError) && !(e instanceof Refused)) throw e;
+      this.#error.value = e.message;
+      return false;
+    }
+  }
+
+  /** From now on it is one's own. */
+  async #copy(name: string): Promise<void> {
+    await this.care.saveAs(name);
+    if (this.editor.lock.peek() === null) history.replaceState(null, '', location.pathname + location.search);
+  }
+}
+
+/** The scene without what is not to go into the link; of six futures the one that is followed. */
+export function reduced(scene: SceneJson, parts: Parts): SceneJson {
+  const { generated } = scene;
+  const sample = generated?.samples[generated.chosen_sample ?? 0];
+  const followed =
+    parts.futures && generated && sample
+      ? {
+          ...generated,
+          chosen_sample: 0,
+          samples: [
+            {
+              agents: Object.fromEntries(
+                Object.entries(sample.agents).map(([id, f]) => [id, { ...f, chosen: 0, modes: [f.modes[f.chosen]] }]),
+              ),
+            },
+          ],
+        }
+      : null;
+  const picked = scene.x_editor?.picked;
+  const one = picked && Object.fromEntries(Object.keys(picked).map((id) => [id, 0]));
+  return {
+    ...scene,
+    id: undefined,
+    ...(parts.words ? {} : { name: 'Shared scene', meta: { ...scene.meta, tags: [], notes: '' } }),
+    agents: parts.futures ? scene.agents : scene.agents.map((a) => ({ ...a, conditions: {} })),
+    x_editor: { ...scene.x_editor, picked: parts.futures ? one : undefined },
+    generated: followed,
+  };
+}

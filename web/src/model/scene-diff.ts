@@ -1,0 +1,113 @@
+// What differs between two versions of a document, there and back. Plain data: a browser can store it, whatever
+// command it came from.
+import type { Agent, Scene } from './scene';
+
+/** What of a road user changes; all of it where it comes or goes; null where it is not there. */
+type Side = Partial<Agent> | null;
+export type Way = 'back' | 'forth';
+
+interface AgentDiff {
+  readonly id: string;
+  readonly back: Side;
+  readonly forth: Side;
+}
+
+type Fields = Partial<Omit<Scene, 'agents' | 'map' | 'signals' | 'id'>>;
+
+export interface SceneDiff {
+  readonly agents: readonly AgentDiff[];
+  readonly back: Fields;
+  readonly forth: Fields;
+  /** Everybody in order, where somebody comes or goes. */
+  readonly order?: Readonly<Record<Way, readonly string[]>>;
+}
+
+/** Never part of a step: another map is another scene. */
+const FIXED: readonly string[] = ['agents', 'map', 'signals', 'id'];
+
+/** Values are frozen; equal ones may be two where one of them was stored. */
+const same = (a: unknown, b: unknown): boolean =>
+  a === b || (typeof a === 'object' && typeof b === 'object' && JSON.stringify(a) === JSON.stringify(b));
+
+function differences<T extends object>(a: T, b: T, skip: readonly string[]): { back: Partial<T>; forth: Partial<T> } {
+  const back: Partial<T> = {},
+    forth: Partial<T> = {};
+  for (const k of new Set([...Object.keys(a), ...Object.keys(b)]) as Set<keyof T & string>) {
+    if (skip.includes(k) || same(a[k], b[k])) continue;
+    back[k] = a[k];
+    forth[k] = b[k];
+  }
+  return { back, forth };
+}
+
+/** What the file says of a road user does not change with the document. */
+const RECORDED: readonly string[] = ['log', 'logStart', 'source'];
+
+export function diffOf(before: Scene, after: Scene): SceneDiff {
+  const agents: AgentDiff[] = [];
+  for (const [id, b] of before.agents) {
+    const a = after.agents.get(id);
+    if (a === b) continue;
+    if (!a) agents.push({ id, back: b, forth: null });
+    else if (a.log !== b.log) agents.push({ id, back: b, forth: a });
+    else {
+      const d = differences(b, a, RECORDED);
+      if (Object.keys(d.forth).length) agents.push({ id, ...d });
+    }
+  }
+  for (const [id, a] of after.agents) if (!before.agents.has(id)) agents.push({ id, back: null, forth: a });
+  const moved = agents.some((d) => !d.back || !d.forth);
+  const order = moved ? { order: { back: [...before.agents.keys()], forth: [...after.agents.keys()] } } : {};
+  return { agents, ...differences<Fields>(before, after, FIXED), ...order };
+}
+
+export const isEmptyDiff = (d: SceneDiff): boolean => !d.agents.length && !Object.keys(d.forth).length && !d.order;
+
+export function applyDiff(scene: Scene, diff: SceneDiff, way: Way): Scene {
+  const agents = new Map(scene.agents);
+  for (const d of diff.agents) {
+    const side = d[way];
+    const a = agents.get(d.id);
+    if (!side) agents.delete(d.id);
+    else if (a || isWhole(side)) agents.set(d.id, Object.freeze({ ...a, ...side } as Agent));
+  }
+  const order = diff.order?.[way];
+  return Object.freeze({ ...scene, ...diff[way], agents: order ? inOrder(agents, order) : agents });
+}
+
+const isWhole = (side: Partial<Agent>): boolean => side.log !== undefined;
+
+function inOrder(agents: ReadonlyMap<string, Agent>, order: readonly string[]): Map<string, Agent> {
+  const out = new Map<string, Agent>();
+  for (const id of [...order, ...agents.keys()]) {
+    const a = agents.get(id);
+    if (a) out.set(id, a);
+  }
+  return out;
+}
+
+/** A document without what its file says anyway: the map, and what was recorded. */
+export interface SceneState {
+  readonly agents: readonly (Partial<Agent> & { readonly id: string })[];
+  readonly fields: Fields;
+}
+
+export function stateOf(scene: Scene): SceneState {
+  const without = <T extends object>(v: T, skip: readonly string[]) =>
+    Object.fromEntries(Object.entries(v).filter(([k]) => !skip.includes(k)));
+  return {
+    agents: [...scene.agents.values()].map((a) => without(a, RECORDED) as SceneState['agents'][number]),
+    fields: without(scene, FIXED) as Fields,
+  };
+}
+
+/** The document in that state. Whoever its file does not know has no recording yet; a step that adds it brings it. */
+export function withState(file: Scene, state: SceneState): Scene {
+  const agents = new Map(
+    state.agents.map((s) => [s.id, Object.freeze({ ...file.agents.get(s.id), ...s } as Agent)] as const),
+  );
+  return Object.freeze({ ...file, ...state.fields, agents });
+}
+
+/** Has everybody a recording, as a document must? */
+export const isComplete = (scene: Scene): boolean => [...scene.agents.values()].every((a) => a.log !== undefined);

@@ -1,0 +1,163 @@
+// What was done in which scene, kept on this computer: one entry a step, added as it is done, and beside them where
+// one is among them and the document before the first.
+import type { HistoryStep, KeptHistory } from '../model/history';
+import type { SceneState } from '../model/scene-diff';
+
+/** The version on the server that a step is known to equal. */
+export interface Synced {
+  readonly etag: string;
+  readonly step: number | null;
+}
+
+export interface Place extends Omit<KeptHistory, 'steps'> {
+  readonly scene: string;
+  /** When it was last written, milliseconds since 1970. */
+  readonly at: number;
+  readonly synced: Synced | null;
+}
+
+export interface KeptScene {
+  readonly place: Place;
+  readonly steps: readonly HistoryStep[];
+  /** Null where the file itself is the document before the first step. */
+  readonly base: SceneState | null;
+}
+
+export interface StepStore {
+  read(scene: string): Promise<KeptScene | null>;
+  /** A step more, or none, and where one is now. */
+  append(place: Place, step: HistoryStep | null): Promise<void>;
+  /** All of it anew. */
+  rewrite(kept: KeptScene): Promise<void>;
+  forget(scene: string): Promise<void>;
+  places(): Promise<Place[]>;
+}
+
+/** There is no room left, as opposed to storage that is forbidden. */
+export const isFull = (e: unknown): boolean => e instanceof DOMException && e.name === 'QuotaExceededError';
+
+const NAME = 'dragtraffic';
+const VERSION = 1;
+const PLACES = 'places',
+  STEPS = 'steps',
+  BASES = 'bases';
+const ALL = [PLACES, STEPS, BASES];
+
+interface StoredStep extends HistoryStep {
+  readonly scene: string;
+}
+
+export class BrowserStepStore implements StepStore {
+  #opening: Promise<IDBDatabase> | null = null;
+
+  #open(): Promise<IDBDatabase> {
+    this.#opening ??= new Promise<IDBDatabase>((resolve, reject) => {
+      const request = indexedDB.open(NAME, VERSION);
+      request.onupgradeneeded = () => {
+        const db = request.result;
+        db.createObjectStore(PLACES, { keyPath: 'scene' });
+        db.createObjectStore(STEPS, { keyPath: ['scene', 'id'] });
+        db.createObjectStore(BASES);
+      };
+      request.onsuccess = () => {
+        // A newer program in another tab may change the shape: this one lets go and opens anew when it is asked.
+        request.result.onversionchange = () => request.result.close();
+        request.result.onclose = () => (this.#opening = null);
+        resolve(request.result);
+      };
+      request.onerror = () => reject(request.error ?? new Error('no storage'));
+    }).catch((e: unknown) => {
+      this.#opening = null;
+      throw e;
+    });
+    return this.#opening;
+  }
+
+  async #write(work: (t: IDBTransaction) => void): Promise<void> {
+    const db = await this.#open();
+    await new Promise<void>((resolve, reject) => {
+      const t = db.transaction(ALL, 'readwrite');
+      t.oncomplete = () => resolve();
+      t.onabort = () => reject(t.error ?? new Error('not stored'));
+      work(t);
+    });
+  }
+
+  async read(scene: string): Promise<KeptScene | null> {
+    const t = (await this.#open()).transaction(ALL, 'readonly');
+    const [place, steps, base] = await Promise.all([
+      got<Place | undefined>(t.objectStore(PLACES).get(scene)),
+      got<StoredStep[]>(t.objectStore(STEPS).getAll(stepsOf(scene))),
+      got<SceneState | undefined>(t.objectStore(BASES).get(scene)),
+    ]);
+    if (!place) return null;
+    return { place, steps, base: base ?? null };
+  }
+
+  append(place: Place, step: HistoryStep | null): Promise<void> {
+    return this.#write((t) => {
+      if (step) t.objectStore(STEPS).put({ ...step, scene: place.scene });
+      t.objectStore(PLACES).put(place);
+    });
+  }
+
+  rewrite({ place, steps, base }: KeptScene): Promise<void> {
+    const { scene } = place;
+    return this.#write((t) => {
+      t.objectStore(STEPS).delete(stepsOf(scene));
+      for (const s of steps) t.objectStore(STEPS).put({ ...s, scene });
+      if (base) t.objectStore(BASES).put(base, scene);
+      else t.objectStore(BASES).delete(scene);
+      t.objectStore(PLACES).put(place);
+    });
+  }
+
+  forget(scene: string): Promise<void> {
+    return this.#write((t) => {
+      t.objectStore(STEPS).delete(stepsOf(scene));
+      t.objectStore(BASES).delete(scene);
+      t.objectStore(PLACES).delete(scene);
+    });
+  }
+
+  async places(): Promise<Place[]> {
+    return got<Place[]>((await this.#open()).transaction(PLACES, 'readonly').objectStore(PLACES).getAll());
+  }
+}
+
+/** Numbers lie before lists in the order of keys. */
+const stepsOf = (scene: string): IDBKeyRange => IDBKeyRange.bound([scene], [scene, []]);
+
+const got = <T>(request: IDBRequest): Promise<T> =>
+  new Promise((resolve, reject) => {
+    request.onsuccess = () => resolve(request.result as T);
+    request.onerror = () => reject(request.error ?? new Error('not read'));
+  });
+
+/** Where the page has no storage, and in tests: kept as long as the page is open. */
+export class PassingStepStore implements StepStore {
+  readonly #kept = new Map<string, KeptScene>();
+
+  async read(scene: string): Promise<KeptScene | null> {
+    return structuredClone(this.#kept.get(scene) ?? null);
+  }
+
+  async append(place: Place, step: HistoryStep | null): Promise<void> {
+    const old = this.#kept.get(place.scene);
+    const others = (old?.steps ?? []).filter((s) => s.id !== step?.id);
+    const steps = step ? [...others, structuredClone(step)] : others;
+    this.#kept.set(place.scene, { place, steps, base: old?.base ?? null });
+  }
+
+  async rewrite(kept: KeptScene): Promise<void> {
+    this.#kept.set(kept.place.scene, structuredClone(kept));
+  }
+
+  async forget(scene: string): Promise<void> {
+    this.#kept.delete(scene);
+  }
+
+  async places(): Promise<Place[]> {
+    return [...this.#kept.values()].map((k) => k.place);
+  }
+}

@@ -1,0 +1,211 @@
+// Steps there and back, branches, what is kept of them, and how a scene goes on from it.
+import { describe, expect, it } from 'vitest';
+import { Journal, resume } from '../src/edit/journal';
+import { rename, setGoal, setSeed } from '../src/model/commands';
+import { History, MOST_STEPS, replay } from '../src/model/history';
+import { readScene } from '../src/model/read';
+import { freeGoal, sceneKey, withAgents, type Agent, type Scene } from '../src/model/scene';
+import { applyDiff, diffOf, isEmptyDiff, stateOf, withState } from '../src/model/scene-diff';
+import { PassingStepStore } from '../src/net/step-store';
+import { crossingJson } from './helpers';
+
+const file = (): Scene => readScene(crossingJson());
+const someone = (s: Scene): Agent => [...s.agents.values()].find((a) => a.logStart)!;
+const goal = (s: Scene, x: number) => setGoal(someone(s), { ...freeGoal(), pos: [x, 3] });
+const without = (s: Scene, id: string): Scene => {
+  const agents = new Map(s.agents);
+  agents.delete(id);
+  return Object.freeze({ ...s, agents });
+};
+const plainly = (s: Scene) => JSON.stringify([[...s.agents.values()].map((a) => ({ ...a, log: 0 })), s.seed, s.name]);
+
+describe('differences of two documents', () => {
+  it('lead there and back, and can be stored', () => {
+    const a = file();
+    const b = setSeed(7).apply(goal(a, 12).apply(a));
+    const diff = structuredClone(diffOf(a, b));
+    expect(diff.agents).toHaveLength(1);
+    expect(Object.keys(diff.agents[0].forth!).sort()).toEqual(['goal']);
+    expect(plainly(applyDiff(a, diff, 'forth'))).toBe(plainly(b));
+    expect(plainly(applyDiff(b, diff, 'back'))).toBe(plainly(a));
+    expect(isEmptyDiff(diffOf(a, withAgents(a, [{ ...someone(a) }])))).toBe(true);
+  });
+
+  it('bring back who was removed, in its place and with its recording', () => {
+    const a = file();
+    const { id, log } = someone(a);
+    const b = without(a, id);
+    const diff = structuredClone(diffOf(a, b));
+    const back = applyDiff(b, diff, 'back');
+    expect([...back.agents.keys()]).toEqual([...a.agents.keys()]);
+    expect(back.agents.get(id)!.log.x).toEqual(log.x);
+    expect([...applyDiff(back, diff, 'forth').agents.keys()]).toEqual([...b.agents.keys()]);
+  });
+
+  it('a state is the document without what its file says', () => {
+    const a = goal(file(), 9).apply(file());
+    const state = structuredClone(stateOf(a));
+    expect(JSON.stringify(state)).not.toContain('"log"');
+    expect(plainly(withState(file(), state))).toBe(plainly(a));
+  });
+});
+
+describe('history', () => {
+  it('goes on beside what was undone, and back to it', () => {
+    const h = new History(file());
+    for (const seed of [1, 2, 3]) h.run(setSeed(seed));
+    h.undo();
+    h.undo();
+    h.run(setSeed(9));
+    expect(h.line().map((s) => s.name)).toEqual(['Seed 1', 'Seed 9']);
+    const third = h.kept().steps.find((s) => s.name === 'Seed 3')!;
+    expect(h.goTo(third.id).seed).toBe(3);
+    expect(h.line().map((s) => s.name)).toEqual(['Seed 1', 'Seed 2', 'Seed 3']);
+    expect(h.goTo(null).seed).toBe(file().seed);
+    expect([h.redo()?.name, h.redo()?.name, h.redo()?.name, h.redo()]).toEqual(['Seed 1', 'Seed 2', 'Seed 3', null]);
+  });
+
+  it('keeps where the picture looked before a drag and after it', () => {
+    const h = new History(file());
+    let cx = 0;
+    h.camera = () => ({ cx, cy: 0, z: 8 });
+    h.begin();
+    h.preview(goal(h.scene, 5));
+    cx = 300;
+    h.commit(goal(h.scene, 6));
+    const step = h.undo()!;
+    expect([step.from?.cx, step.to?.cx]).toEqual([0, 300]);
+  });
+
+  it('forgets the oldest steps in bunches, and the document before the first moves on', () => {
+    const h = new History(file(), () => 0);
+    let shorter = 0;
+    h.onChange = (c) => (shorter += c.shorter ? 1 : 0);
+    const last = 2 * MOST_STEPS + 5;
+    for (let i = 1; i <= last; i++) h.run(setSeed(i));
+    expect(shorter).toBeGreaterThan(0);
+    expect(shorter).toBeLessThan(MOST_STEPS / 10);
+    expect(h.depth).toBeGreaterThanOrEqual(MOST_STEPS);
+    expect(h.depth).toBeLessThan(MOST_STEPS + 50);
+    expect(h.first().seed).toBe(last - h.depth);
+    while (h.undo());
+    expect(h.scene.seed).toBe(last - h.line().length);
+  });
+
+  it('is the same after it was stored', () => {
+    const h = new History(file());
+    h.run(goal(h.scene, 4));
+    h.run(setSeed(5));
+    h.run(rename('Late'));
+    h.undo();
+    const kept = structuredClone(h.kept());
+    const scene = replay(file(), kept);
+    expect(plainly(scene)).toBe(plainly(h.scene));
+    const again = new History(scene, undefined, kept);
+    expect([again.undoName, again.redoName]).toEqual(['Seed 5', 'Renamed to Late']);
+    expect(again.redo() && again.scene.name).toBe('Late');
+    while (again.undo());
+    expect(plainly(again.scene)).toBe(plainly(file()));
+  });
+});
+
+describe('a scene that is opened again', () => {
+  async function edited(own: boolean, etag: string | null = '"1"') {
+    const store = new PassingStepStore();
+    const journal = new Journal(store);
+    const h = new History(file());
+    journal.follow(h, 'x', null, own);
+    h.run(goal(h.scene, 4));
+    h.run(setSeed(5));
+    if (etag) journal.synced(etag, h.head);
+    await journal.flush();
+    return { store, journal, h, kept: async () => (await store.read('x'))! };
+  }
+
+  it('goes on with its steps where the server has what was saved', async () => {
+    const { h, kept } = await edited(true);
+    const r = resume(h.scene, await kept(), true, '"1"');
+    expect([r.standing, plainly(r.scene)]).toEqual(['same', plainly(h.scene)]);
+    expect(new History(r.scene, undefined, r.history).undoName).toBe('Seed 5');
+  });
+
+  it('has changes that the server lacks, theirs, or both', async () => {
+    const { h, journal, kept } = await edited(true);
+    const saved = h.scene;
+    const theirs = rename('Theirs').apply(saved);
+    expect(resume(theirs, await kept(), true, '"2"').standing).toBe('behind');
+    h.run(setSeed(6));
+    await journal.flush();
+    expect(resume(saved, await kept(), true, '"1"').standing).toBe('ahead');
+    expect(resume(theirs, await kept(), true, '"2"').standing).toBe('conflict');
+    // The page ended between saving and noting it.
+    expect(resume(h.scene, await kept(), true, '"2"').standing).toBe('same');
+    expect(resume(saved, await kept(), true, '"2"').standing).toBe('ahead');
+  });
+
+  it('of an example starts from its file, whatever became of that', async () => {
+    const { h, kept } = await edited(false, null);
+    const r = resume(file(), await kept(), false, '"new"');
+    expect([r.standing, sceneKey(r.scene)]).toEqual(['ahead', sceneKey(h.scene)]);
+  });
+
+  it('starts afresh where what is kept has holes', async () => {
+    const { h, kept } = await edited(true);
+    const whole = await kept();
+    const lost = { ...whole, steps: whole.steps.slice(1) };
+    expect(resume(h.scene, lost, true, '"1"').standing).toBe('fresh');
+    const nowhere = { ...whole, place: { ...whole.place, head: 99 } };
+    expect(resume(h.scene, nowhere, true, '"1"').standing).toBe('fresh');
+  });
+
+  it('takes what was changed elsewhere as a step, which is kept with the others', async () => {
+    const { journal, kept, h } = await edited(true);
+    const theirs = rename('Theirs').apply(h.scene);
+    const before = await kept();
+    const r = resume(theirs, before, true, '"2"');
+    expect(r.standing).toBe('behind');
+    const again = new History(r.scene, undefined, r.history);
+    again.adopt('Changed elsewhere', theirs);
+    journal.follow(again, 'x', before, true);
+    void journal.retry();
+    journal.synced('"2"', again.head);
+    await journal.flush();
+    const next = resume(theirs, await kept(), true, '"2"');
+    expect([next.standing, next.scene.name]).toEqual(['same', 'Theirs']);
+    const last = new History(next.scene, undefined, next.history);
+    expect([last.undo()?.name, last.scene.name]).toEqual(['Changed elsewhere', h.scene.name]);
+  });
+
+  it('starts afresh where nothing is kept', () => {
+    expect(resume(file(), null, true, '"1"')).toMatchObject({ standing: 'fresh', history: null });
+  });
+
+  it('says when there is no room, and writes what is missing when there is again', async () => {
+    const store = new PassingStepStore();
+    const journal = new Journal(store);
+    const h = new History(file());
+    journal.follow(h, 'x', null, false);
+    h.run(setSeed(1));
+    await journal.flush();
+    const { append } = store;
+    store.append = () => Promise.reject(new DOMException('full', 'QuotaExceededError'));
+    h.run(setSeed(2));
+    await journal.flush();
+    expect(journal.keeping.value).toBe('full');
+    store.append = append;
+    await journal.retry();
+    expect(journal.keeping.value).toBe('kept');
+    expect((await store.read('x'))!.steps.map((s) => s.name)).toEqual(['Seed 1', 'Seed 2']);
+  });
+
+  it('gives room back from scenes that the server has as they are', async () => {
+    const { store, journal, h } = await edited(true);
+    const other = new History(file());
+    journal.follow(other, 'y', null, true);
+    other.run(setSeed(3));
+    await journal.flush();
+    expect(await journal.makeRoom(() => true)).toBe(1);
+    expect((await store.places()).map((p) => p.scene)).toEqual(['y']);
+    expect(h.depth).toBe(2);
+  });
+});
