@@ -132,7 +132,7 @@ impl Common {
     }
 
     fn write(&self, crowd: &mut [Writer]) -> anyhow::Result<()> {
-        let done = writers::work(crowd, self.address, &self.over, |status, code| is_busy(status, code));
+        let done = writers::work(crowd, self.address, &self.over, is_busy);
         self.over.store(true, Ordering::Relaxed);
         ensure!(writers::tally(crowd).lost == 0, "a writer got no answer");
         done
