@@ -90,8 +90,8 @@ impl Pool {
     }
 }
 
-#[cfg(not(feature = "shuttle"))]
 #[cfg(test)]
+#[cfg(not(feature = "shuttle"))]
 mod tests {
     use super::super::{Asked, Caller, Kind, Pool};
     use crate::base::limits::Limits;

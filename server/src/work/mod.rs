@@ -13,7 +13,8 @@ mod call;
 mod clients;
 mod job;
 mod kind;
-#[cfg(all(test, feature = "shuttle"))]
+#[cfg(test)]
+#[cfg(feature = "shuttle")]
 mod schedules;
 mod state;
 mod sync;
