@@ -120,7 +120,7 @@ mod tests {
         assert_eq!(corners(&bend, 0.4), [bend[0], bend[25], bend[49]]);
         let still = vec![Vec2::new(1.0, 1.0); 5];
         assert_eq!(corners(&still, 0.4), [still[0], still[4]]);
-        assert_eq!(corners(&[], 0.4), []);
+        assert!(corners(&[], 0.4).is_empty());
         assert_eq!(corners(&line[..1], 0.4), line[..1]);
     }
 }

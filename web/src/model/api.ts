@@ -2186,7 +2186,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -6792,7 +6792,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description bad-host */
+            /** @description bad-header, bad-host */
             400: {
                 headers: {
                     [name: string]: unknown;
@@ -6800,7 +6800,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "bad-host";
+                        code?: "bad-header" | "bad-host";
                     };
                 };
             };
@@ -6837,6 +6837,18 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
                     };
                 };
             };
