@@ -59,7 +59,9 @@ fn busy(agents: u64, steps: u64) -> Scene {
         let states = (0..steps).map(|step| Some(state(agent, step))).collect();
         Agent::bare(agent.to_string(), AgentType::Vehicle, Subtype::Car, states)
     });
-    Scene::bare("busy", LaneMap::default(), agents.collect())
+    let mut scene = Scene::bare("busy", LaneMap::default(), agents.collect());
+    scene.time.steps = steps as usize;
+    scene
 }
 
 fn records(count: usize) -> Vec<u8> {
@@ -141,7 +143,7 @@ fn reading_takes_little_beside_the_file() {
         file
     };
     let own = r#"{"format":"dragtraffic.scene","version":1,"time":{"steps":9},"#;
-    let agents = format!("{own}\"map\":{{}},\"agents\":[{{}}");
+    let agents = format!("{own}\"map\":{{}},\"agents\":[{{\"id\":\"a\",\"type\":\"other\"}}");
     let zeros = vec![0; 120 * MIB];
     // Files that are no bombs keep to 8 x their bytes + 64.
     let files: Vec<Tried> = vec![
@@ -163,7 +165,7 @@ fn reading_takes_little_beside_the_file() {
             "dragtraffic",
             Box::new(Wrapped(repeated(agents.as_bytes(), br#",{"id":"a","type":"other"}"#, 4 << 20, b"]}"))),
             0,
-            Some("invalid-field"),
+            Some("too-many-agents"),
             24,
         ),
         ("a record of zeros", "womd", Box::new(gzip(&record(&zeros))), 0, Some("expansion-too-high"), 24),
@@ -185,10 +187,13 @@ fn reading_takes_little_beside_the_file() {
         ),
     ];
     drop(zeros);
+    let mut wrong = Vec::new();
     for (name, format, file, scenes, fault, most) in files {
         let (count, found, peak) = read(&*file, format);
         println!("{name:20} peak {:7.2} MiB, {count} scenes {found:?}", peak as f64 / MIB as f64);
-        assert_eq!((count, found), (scenes, fault), "{name}");
-        assert!(peak <= most * MIB, "{name}: {peak} bytes");
+        if (count, found) != (scenes, fault) || peak > most * MIB {
+            wrong.push(format!("{name}: {count} scenes, {found:?}, {peak} bytes"));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
