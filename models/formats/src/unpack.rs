@@ -35,6 +35,11 @@ struct Excess {
     detail: String,
 }
 
+/// A bound that was met, for [`fault`].
+pub(crate) fn excess(code: &'static str, limit: u64, detail: String) -> io::Error {
+    io::Error::other(Excess { code, limit, detail })
+}
+
 /// Counts what goes through.
 struct Counted<R> {
     inner: R,
@@ -74,20 +79,16 @@ impl<R: Read> Read for Unpacked<R> {
             Inner::Gzip(inner) => inner.read(buffer)?,
         };
         self.decoded += n as u64;
-        let excess = |code, limit, detail| Err(io::Error::other(Excess { code, limit, detail }));
         if self.decoded > self.bounds.decoded {
             let limit = self.bounds.decoded;
-            return excess(
-                code::DECODED_TOO_LARGE,
-                limit,
-                format!("more than {limit} bytes once decompressed"),
-            );
+            let detail = format!("more than {limit} bytes once decompressed");
+            return Err(excess(code::DECODED_TOO_LARGE, limit, detail));
         }
         let Inner::Gzip(inner) = &self.inner else { return Ok(n) };
         let limit = self.bounds.expansion;
         if self.decoded > RATIO_FROM && self.decoded / inner.get_ref().count.max(1) > limit {
             let detail = format!("decompresses to more than {limit} times its size");
-            return excess(code::EXPANSION_TOO_HIGH, limit, detail);
+            return Err(excess(code::EXPANSION_TOO_HIGH, limit, detail));
         }
         Ok(n)
     }

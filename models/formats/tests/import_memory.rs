@@ -144,21 +144,24 @@ fn reading_takes_little_beside_the_file() {
     };
     let own = r#"{"format":"dragtraffic.scene","version":1,"time":{"steps":9},"#;
     let agents = format!("{own}\"map\":{{}},\"agents\":[{{\"id\":\"a\",\"type\":\"other\"}}");
+    let points = format!("{own}\"map\":{{\"lanes\":[{{\"id\":\"a\",\"points_m\":[[0,0]");
+    let columns =
+        format!("{own}\"map\":{{}},\"agents\":[{{\"id\":\"a\",\"type\":\"other\",\"track\":{{\"x_m\":[0");
     let zeros = vec![0; 120 * MIB];
     // Files that are no bombs keep to 8 x their bytes + 64.
     let files: Vec<Tried> = vec![
         ("native", "dragtraffic", Box::new(Wrapped(gzip(&native))), 1, None, 64),
-        ("records", "womd", Box::new(records(100)), 100, None, 24),
-        ("records, wrapped", "womd", Box::new(Wrapped(gzip(&records(100)))), 100, None, 24),
+        ("records", "womd", Box::new(records(100)), 100, None, 16),
+        ("records, wrapped", "womd", Box::new(Wrapped(gzip(&records(100)))), 100, None, 16),
         ("fcd", "sumo-fcd", Box::new(fcd(1_820, 200)), 20, None, 24),
-        ("net", "sumo-net", Box::new(net(4_000)), 1, None, 160),
+        ("net", "sumo-net", Box::new(net(1_500)), 1, None, 160),
         (
             "white space",
             "dragtraffic",
             Box::new(Wrapped(repeated(own.as_bytes(), &[b' '; MIB], 256, b"\"map\":{}}"))),
             1,
             None,
-            24,
+            32,
         ),
         (
             "agents",
@@ -166,7 +169,23 @@ fn reading_takes_little_beside_the_file() {
             Box::new(Wrapped(repeated(agents.as_bytes(), br#",{"id":"a","type":"other"}"#, 4 << 20, b"]}"))),
             0,
             Some("too-many-agents"),
-            24,
+            32,
+        ),
+        (
+            "points",
+            "dragtraffic",
+            Box::new(Wrapped(repeated(points.as_bytes(), b",[0,1]", 18 << 20, b"]}]}}"))),
+            0,
+            Some("decoded-too-large"),
+            448,
+        ),
+        (
+            "columns",
+            "dragtraffic",
+            Box::new(Wrapped(repeated(columns.as_bytes(), b",0", 36 << 20, b"]}}]}"))),
+            0,
+            Some("decoded-too-large"),
+            448,
         ),
         ("a record of zeros", "womd", Box::new(gzip(&record(&zeros))), 0, Some("expansion-too-high"), 24),
         (

@@ -96,6 +96,8 @@ impl Read for Unpacking<'_> {
 /// A part of an uploaded form.
 #[derive(Debug)]
 pub struct Part {
+    /// Name of its file, as it was given.
+    pub label: Option<String>,
     form: Arc<Upload>,
     boundary: String,
     /// Position in the form.
@@ -106,9 +108,6 @@ fn broken(error: impl ToString) -> Problem {
     Problem::new(Code::MalformedFile, error.to_string()).with(|m| m.offset = Some(0))
 }
 
-/// A part, and the name of its file where it has one.
-pub type NamedPart = (Part, Option<String>);
-
 /// The first part of each of these names in a form.
 ///
 /// # Errors
@@ -117,7 +116,7 @@ pub fn parts<const N: usize>(
     form: &Arc<Upload>,
     content_type: &str,
     names: [&str; N],
-) -> Result<[Option<NamedPart>; N], Problem> {
+) -> Result<[Option<Part>; N], Problem> {
     let boundary = multer::parse_boundary(content_type)
         .map_err(|_| broken("Invalid `boundary` for `multipart/form-data` request"))?;
     let mut found = [const { None }; N];
@@ -125,8 +124,9 @@ pub fn parts<const N: usize>(
     while let Some(mut field) = now(read.next_field()).map_err(broken)? {
         let place = names.iter().position(|name| Some(*name) == field.name());
         if let Some(slot @ None) = place.and_then(|at| found.get_mut(at)) {
-            let part = Part { form: Arc::clone(form), boundary: boundary.clone(), index: field.index() };
-            *slot = Some((part, field.file_name().map(str::to_owned)));
+            let label = field.file_name().map(str::to_owned);
+            let (form, boundary) = (Arc::clone(form), boundary.clone());
+            *slot = Some(Part { label, form, boundary, index: field.index() });
         }
         while now(field.chunk()).map_err(broken)?.is_some() {}
     }

@@ -72,8 +72,9 @@ impl File {
         };
         let missing = || Problem::field("/file", Code::InvalidField, "the form needs a part named file");
         let [file, net] = upload::parts(upload, content_type, ["file", "net"])?;
-        let (file, label) = file.ok_or_else(missing)?;
-        Ok(Self { file: Arc::new(file), label, net: net.map(|(net, _)| Arc::new(net) as Arc<dyn Source>) })
+        let mut file = file.ok_or_else(missing)?;
+        let label = file.label.take();
+        Ok(Self { file: Arc::new(file), label, net: net.map(|net| Arc::new(net) as Arc<dyn Source>) })
     }
 }
 

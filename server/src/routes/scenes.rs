@@ -204,7 +204,8 @@ refusals!(Unpreviewed: WORK, NotFound);
 /// is there at first the first and the last state.
 #[utoipa::path(get, path = "/v1/scenes/{id}/preview", operation_id = "previewScene", tag = "scenes",
     params(("id" = String, Path)),
-    responses((status = 200, description = "the scene, reduced", body = ref("#/components/schemas/Scene")),
+    responses((status = 200, description = "the scene, reduced", body = ref("#/components/schemas/Scene"),
+            content_type = "application/vnd.dragtraffic.scene+json"),
         (status = 304, description = "not changed"), Unpreviewed))]
 pub async fn preview_of(State(app): State<App>, Id(id): Id, headers: HeaderMap) -> Result<Response, Problem> {
     let opened = app.catalog.open(&id).await?;

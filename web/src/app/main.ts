@@ -140,13 +140,22 @@ function connect(c: Context): void {
     editor.setTime(at.time);
   };
   addEventListener('hashchange', () => void sharing.openFrom(location.hash));
-  library.onOpen = (_, again) => {
+  library.onOpen = (scene, again) => {
+    nameInAddress(c, scene.id);
     if (!again) lookAtOpened(c);
     ui.showEvents(false);
     // Events of the log; with changes from last time the answer to them brings its own.
     if (!editor.motion.peek().stale) void generation.score();
   };
   void document.fonts?.ready.then(() => stage.invalidate('agents', 'overlay'));
+}
+
+/** A page that is loaded again opens what it showed, whatever other tabs have opened since. */
+function nameInAddress({ scenes }: Context, id: string): void {
+  if (!scenes.list.peek().some((s) => s.id === id)) return;
+  const address = new URL(location.href);
+  address.searchParams.set('scene', id);
+  history.replaceState(null, '', address);
 }
 
 async function openFirst(c: Context): Promise<void> {

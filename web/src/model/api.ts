@@ -6782,7 +6782,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Scene"];
+                    "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
                 };
             };
             /** @description not changed */

@@ -1,6 +1,7 @@
 //! From bytes to a typed document with the place of the fault.
 
 use super::objects::Objects;
+use crate::limits::MAX_DOCUMENT_VALUES;
 use crate::problem::{FieldProblem, ReadError, code, pointer_token};
 use crate::source::Source;
 use crate::unpack;
@@ -55,8 +56,8 @@ impl<'a> Long<'a> {
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn open(&self) -> io::Result<BufReader<Box<dyn Read + Send + 'a>>> {
-        Ok(BufReader::with_capacity(64 << 10, self.0.open()?))
+    pub fn open(&self) -> io::Result<BufReader<Values<Box<dyn Read + Send + 'a>>>> {
+        Ok(BufReader::with_capacity(64 << 10, Values { inner: self.0.open()?, commas: 0 }))
     }
 
     /// As [`from_json`].
@@ -69,6 +70,25 @@ impl<'a> Long<'a> {
     }
 }
 
+/// Ends a text that has more values than a scene: there is a comma between any two of a list.
+pub(super) struct Values<R> {
+    inner: R,
+    commas: u64,
+}
+
+impl<R: Read> Read for Values<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.inner.read(buffer)?;
+        let text = buffer.get(..count).unwrap_or_default();
+        self.commas += text.iter().filter(|byte| **byte == b',').count() as u64;
+        if self.commas > MAX_DOCUMENT_VALUES {
+            let detail = format!("more than {MAX_DOCUMENT_VALUES} values in a document");
+            return Err(unpack::excess(code::DECODED_TOO_LARGE, MAX_DOCUMENT_VALUES, detail));
+        }
+        Ok(count)
+    }
+}
+
 /// Parses text that can be read again to find a fault's place.
 fn parse<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     open: impl Fn() -> Result<Deserializer<R>, ReadError>,
@@ -77,6 +97,7 @@ fn parse<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     match T::deserialize(Objects(&mut parser)).and_then(|value| parser.end().map(|()| value)) {
         Ok(value) => Ok(value),
         // The plain parser is twice as fast; the one that tracks places runs only for a fault.
+        Err(error) if error.is_io() => Err(unpack::fault(&error.into(), 0)),
         Err(error) => Err(locate::<R, T>(open()?, &error)),
     }
 }
@@ -85,10 +106,8 @@ fn locate<'de, R: serde_json::de::Read<'de>, T: DeserializeOwned>(
     mut parser: Deserializer<R>,
     error: &serde_json::Error,
 ) -> ReadError {
-    match error.classify() {
-        Category::Data => {}
-        Category::Io => return unpack::fault(&io::Error::other(reason(error)), 0),
-        _ => return ReadError::malformed_json(error.line(), error.column(), reason(error)),
+    if error.classify() != Category::Data {
+        return ReadError::malformed_json(error.line(), error.column(), reason(error));
     }
     let (pointer, detail) = match serde_path_to_error::deserialize::<_, T>(Objects(&mut parser)) {
         Err(error) => (pointer_of(error.path()), plain_words(error.inner())),
