@@ -251,6 +251,19 @@ fn a_large_map_is_answered_in_time() {
 }
 
 #[test]
+fn a_map_without_lanes_takes_who_stands_at_its_kerbs() {
+    let server = Server::start(&[]).unwrap();
+    let kerb = json!({"id": "k", "points_m": [[0, 0], [40, 0], [80, 5]]});
+    let lot = json!({"id": "d", "polygon_m": [[0, -20], [40, -20], [40, -5], [0, -5]]});
+    let mut scene = street(0, 1);
+    for (map, least) in [(json!({"road_edges": [kerb], "driveways": [lot]}), 1), (json!({}), 0)] {
+        scene["map"] = map;
+        let placed = place(&server, &json!({"scene": scene, "density": {"per_lane_km": 40}}));
+        assert!(ids(&placed["agents"]).len() >= least, "{placed}");
+    }
+}
+
+#[test]
 fn bad_requests_are_refused_with_their_place() {
     let server = Server::start(&[]).unwrap();
     let good = json!({"scene": street(2, 20), "density": {"count": 3}});

@@ -8,7 +8,7 @@ use super::model::cell_kinds;
 use super::region::{Region, in_ring};
 use super::stop_lines::{Ahead, Lights};
 use scene::routes::Polyline;
-use scene::routes::graph::LaneGraph;
+use scene::routes::graph::{GraphLane, LaneGraph};
 use scene::{AgentType, Scene, Vec2};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -163,11 +163,11 @@ impl<'a> Cells<'a> {
 
     /// Kilometres of lane for motor vehicles in the region, junctions left out.
     pub(super) fn lane_km(&self, region: &Region) -> f64 {
+        // A map may have kerbs and no lane at all.
+        let counts = |lane: &GraphLane| lane.carries(AgentType::Vehicle) && !lane.interpolating;
         let counted = self.all.iter().filter(|s| {
-            let lane = &self.graph.lanes()[s.line.min(self.graph.lanes().len() - 1)];
             s.kind == CellKind::Lane
-                && lane.carries(AgentType::Vehicle)
-                && !lane.interpolating
+                && self.graph.lanes().get(s.line).is_some_and(counts)
                 && region.contains(s.center)
         });
         counted.map(Cell::extent).sum::<f64>() / 1000.0
