@@ -2,6 +2,7 @@
 // nothing of the page; `pointer.ts` hands them the page's events, a test hands them its own.
 import type { Point } from '../../model/geometry';
 import type { View } from '../../draw/view';
+import type { Command } from '../../model/commands';
 import type { Editor } from '../editor';
 import type { Hit } from '../hit';
 import { Idle } from './idle';
@@ -116,6 +117,20 @@ export class Chart {
 
   rest(): void {
     this.go(new Idle(this));
+  }
+
+  /** A drag that changes the document is let go: what it came to is one step. */
+  endDrag(command: Command | null): void {
+    this.rest();
+    this.editor.endDrag(command);
+  }
+
+  /** The same is given up: everything as it was. */
+  dropDrag(): true {
+    this.editor.cancelDrag();
+    this.previews.cancelPreviews();
+    this.surface.invalidate('agents', 'overlay');
+    return true;
   }
 
   // -------------------------------------------------------------- what the pointer does

@@ -93,17 +93,11 @@ export class DraggingSeveral implements State {
   }
 
   up(): void {
-    const { chart } = this;
     this.move();
-    chart.rest();
-    chart.editor.endDrag(this.#command);
+    this.chart.endDrag(this.#command);
   }
 
   cancel(): boolean {
-    const { chart } = this;
-    chart.editor.cancelDrag();
-    chart.previews.cancelPreviews();
-    chart.surface.invalidate('agents', 'overlay');
-    return true;
+    return this.chart.dropDrag();
   }
 }
