@@ -11,7 +11,7 @@ import { goalTime } from '../../edit/moves';
 import * as several from '../../edit/several';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
-import { outside, Scrub } from '../parts/number-field';
+import { arrowStep, noNumber, outside, Scrub, WHY_MS } from '../parts/number-field';
 
 /** What a shared field is about. Values are in the unit that is shown. */
 export interface Shared {
@@ -166,7 +166,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
     if (!typed.current) return true;
     const entered = input.current!.value;
     const to = entered === text.peek() ? undefined : readTyped(entered, shared.quantity(those.peek()));
-    if (to === null) bad.value = `“${entered.trim().slice(0, 12)}” is no number`;
+    if (to === null) bad.value = noNumber(entered);
     else if (to && to(0) === to(1))
       bad.value = outside(to(0), { range: () => shared.range(those.peek()), unit: () => unit.peek() });
     if (bad.peek() !== null) return false;
@@ -187,7 +187,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
     } else if (e.key === 'ArrowUp' || e.key === 'ArrowDown') {
       e.preventDefault();
       if (!commit()) return;
-      const d = (e.key === 'ArrowUp' ? 1 : -1) * shared.step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1);
+      const d = arrowStep(e, shared.step);
       run((now) => now + d, true);
     }
   };
@@ -225,7 +225,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
         onBlur={() => {
           if (!input.current || commit()) return;
           show();
-          setTimeout(() => (bad.value = null), 4000);
+          setTimeout(() => (bad.value = null), WHY_MS);
         }}
         onKeyDown={keyDown}
       />

@@ -32,7 +32,7 @@ export interface NumberFieldProps {
 /** Pixels of drag on the letter for one step. */
 const PX_PER_STEP = 2;
 /** So long the reason of a refusal stays after the field has been left. */
-const WHY_MS = 4000;
+export const WHY_MS = 4000;
 
 /** Sums of steps are kept free of binary dust. */
 const clean = (v: number): number => Number(v.toFixed(6));
@@ -74,7 +74,7 @@ export function NumberField(p: NumberFieldProps) {
     if (!typed.current) return true;
     const read = text === p.text() ? undefined : readTyped(text, p.quantity());
     const v = read?.(p.value() ?? 0);
-    bad.value = read === null ? `“${text.trim().slice(0, 12)}” is no number` : v === undefined ? null : outside(v, p);
+    bad.value = read === null ? noNumber(text) : v === undefined ? null : outside(v, p);
     if (bad.value !== null) return false;
     if (v !== undefined) {
       setTyped(false);
@@ -109,7 +109,7 @@ export function NumberField(p: NumberFieldProps) {
       e.stopPropagation();
     } else if (e.key === 'ArrowUp' || e.key === 'ArrowDown') {
       e.preventDefault();
-      bump((e.key === 'ArrowUp' ? 1 : -1) * p.step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1));
+      bump(arrowStep(e, p.step));
     }
   };
   return (
@@ -162,6 +162,13 @@ export function NumberField(p: NumberFieldProps) {
     </label>
   );
 }
+
+/** What an arrow key adds: ten steps with Shift, a tenth of one with Alt. */
+export const arrowStep = (e: KeyboardEvent, step: number): number =>
+  (e.key === 'ArrowUp' ? 1 : -1) * step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1);
+
+/** Why what was typed cannot be understood. */
+export const noNumber = (typed: string): string => `“${typed.trim().slice(0, 12)}” is no number`;
 
 /** In words, why a value is not taken; null where it is. */
 export function outside(v: number, p: Pick<NumberFieldProps, 'range' | 'unit'>): string | null {
