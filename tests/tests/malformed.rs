@@ -140,7 +140,16 @@ fn condition_cases() -> Vec<Case> {
         case("job id with dots", with("/job", json!("../x")), 422, "invalid-field"),
         case("reply of a million points", reply_too_large(), 422, "reply-too-large"),
         case("129 road users to regenerate", many(), 422, "too-many-agents"),
+        case("collisions 1e244 s ahead", threshold("ttc_s", 1e244), 422, "out-of-range"),
+        case("a gap below nothing", threshold("gap_m", -2e12), 422, "out-of-range"),
+        case("a share of 2.1", threshold("covered_share", 2.1), 422, "out-of-range"),
+        case("braking of 1e16 m/s2", threshold("follow_brake_mps2", 1e16), 422, "out-of-range"),
     ]
+}
+
+/// A score with one threshold.
+fn threshold(name: &str, value: f64) -> Request {
+    post("/v1/score").json(&json!({"scene": street(2, 91), "thresholds": {name: value}}))
 }
 
 fn late_goal() -> Request {

@@ -89,7 +89,9 @@ fn thresholds_and_pairs_are_flags_of_score() {
     let (_, thresholds) = collisions(&["--iou", "0.1", "--ttc", "2", "--gap", "0.5"]);
     let given = ["iou", "ttc_s", "gap_m"].map(|name| thresholds[name].as_f64());
     assert_eq!(given, [Some(0.1), Some(2.0), Some(0.5)]);
-    ends(&["score", &path, "--iou", "2"], 2);
+    for beyond in [["--iou", "2"], ["--ttc", "9"], ["--gap", "-1"]] {
+        ends(&[&["score", &path], &beyond[..]].concat(), 2);
+    }
 }
 
 #[cfg(unix)]

@@ -97,7 +97,9 @@ impl FieldProblem {
 
     /// A number outside `min..=max`.
     pub fn range(pointer: impl Into<String>, min: f64, max: f64, got: f64) -> Self {
-        let detail = format!("{got} found, {min} to {max} expected");
+        // A number of hundreds of digits helps nobody.
+        let found = if got.abs() < 1e15 { got.to_string() } else { format!("{got:e}") };
+        let detail = format!("{found} found, {min} to {max} expected");
         Self {
             pointer: pointer.into(),
             code: code::OUT_OF_RANGE,

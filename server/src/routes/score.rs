@@ -137,7 +137,11 @@ pub async fn score(
 
 fn of(about: &Subject, request: &ScoreRequest, maps: &Maps) -> Result<Score, Problem> {
     let scene = &about.scene;
-    let mut faults = Vec::new();
+    let beyond = request.thresholds.outside().map(|(threshold, got)| {
+        let (least, most) = threshold.range;
+        FieldProblem::range(format!("/thresholds/{}", threshold.name), least, most, got)
+    });
+    let mut faults: Vec<FieldProblem> = beyond.collect();
     let mut sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample)).cloned();
     for (id, doc) in &request.trajectories.0 {
         let Some(states) = states(scene, "/trajectories", id, doc, &mut faults) else { continue };

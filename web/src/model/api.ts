@@ -3120,7 +3120,7 @@ export interface components {
             right_on_red?: boolean;
             /**
              * Format: double
-             * @description Near miss: time to collision below this, seconds.
+             * @description Near miss: time to collision below this, seconds. None is looked for beyond [`LOOK_AHEAD_S`].
              * @default 1.5
              */
             ttc_s?: number;

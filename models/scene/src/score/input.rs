@@ -2,6 +2,7 @@
 
 use super::drivable::Drivable;
 use crate::geometry::obb::OrientedBox;
+use crate::geometry::ttc::LOOK_AHEAD_S;
 use crate::{Agent, AgentType, Future, Goal, LaneMap, Scene, Signal, Size, State, Subtype, Track};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,13 +12,14 @@ use std::ops::Range;
 /// Numbers that decide what counts. Those absent in a document have their defaults.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Thresholds::describe_ranges)]
 pub struct Thresholds {
     /// Boxes collide when their intersection over union is above this (the paper's collision rate: 0.02).
     pub iou: f64,
     /// ... or when more than this share of the smaller box is covered: a child under a bus has a
     /// tiny intersection over union. Above 1 turns the rule off (the paper's form).
     pub covered_share: f64,
-    /// Near miss: time to collision below this, seconds.
+    /// Near miss: time to collision below this, seconds. None is looked for beyond [`LOOK_AHEAD_S`].
     pub ttc_s: f64,
     /// Near miss: gap below this, metres.
     pub gap_m: f64,
@@ -61,6 +63,57 @@ impl Default for Thresholds {
             goal_heading_rad: 0.02,
             goal_speed_mps: 0.05,
             right_on_red: true,
+        }
+    }
+}
+
+/// A number of [`Thresholds`] by the name of its field, with the range that it must be in.
+#[derive(Clone, Copy, Debug)]
+pub struct Threshold {
+    /// Name of the field.
+    pub name: &'static str,
+    /// Least and most, both allowed, in the unit of the field.
+    pub range: (f64, f64),
+    of: fn(&Thresholds) -> f64,
+}
+
+impl Thresholds {
+    /// [`Self::iou`].
+    pub const IOU: Threshold = Threshold { name: "iou", range: (0.0, 1.0), of: |t| t.iou };
+    /// [`Self::ttc_s`].
+    pub const TTC_S: Threshold = Threshold { name: "ttc_s", range: (0.0, LOOK_AHEAD_S), of: |t| t.ttc_s };
+    /// [`Self::gap_m`].
+    pub const GAP_M: Threshold = Threshold { name: "gap_m", range: (0.0, 60.0), of: |t| t.gap_m };
+    /// All of them. Beyond these ranges a number decides nothing any more.
+    pub const ALL: [Threshold; 13] = [
+        Self::IOU,
+        Threshold { name: "covered_share", range: (0.0, 2.0), of: |t| t.covered_share },
+        Self::TTC_S,
+        Self::GAP_M,
+        Threshold { name: "closing_speed_mps", range: (0.0, 300.0), of: |t| t.closing_speed_mps },
+        Threshold { name: "follow_brake_mps2", range: (0.0, 1_000.0), of: |t| t.follow_brake_mps2 },
+        Threshold { name: "moving_mps", range: (0.0, 300.0), of: |t| t.moving_mps },
+        Threshold { name: "harsh_brake_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_brake_mps2 },
+        Threshold { name: "harsh_lateral_mps2", range: (0.0, 1_000.0), of: |t| t.harsh_lateral_mps2 },
+        Threshold { name: "offroad_m", range: (0.0, 100.0), of: |t| t.offroad_m },
+        Threshold { name: "goal_position_m", range: (0.0, 1_000.0), of: |t| t.goal_position_m },
+        Threshold { name: "goal_heading_rad", range: (0.0, 4.0), of: |t| t.goal_heading_rad },
+        Threshold { name: "goal_speed_mps", range: (0.0, 300.0), of: |t| t.goal_speed_mps },
+    ];
+
+    /// Those out of their range, each with the value it has.
+    pub fn outside(&self) -> impl Iterator<Item = (Threshold, f64)> {
+        let valued = Self::ALL.map(|threshold| (threshold, (threshold.of)(self)));
+        valued.into_iter().filter(|(Threshold { range: (least, most), .. }, v)| !(least..=most).contains(&v))
+    }
+
+    fn describe_ranges(schema: &mut schemars::Schema) {
+        let Some(fields) = schema.get_mut("properties").and_then(|p| p.as_object_mut()) else { return };
+        for Threshold { name, range: (least, most), .. } in Self::ALL {
+            if let Some(field) = fields.get_mut(name).and_then(|f| f.as_object_mut()) {
+                field.insert("minimum".into(), least.into());
+                field.insert("maximum".into(), most.into());
+            }
         }
     }
 }

@@ -22,7 +22,7 @@ mod single;
 mod standing;
 
 pub use drivable::Drivable;
-pub use input::{Actor, Exclude, PairChoice, ScoreInput, Thresholds};
+pub use input::{Actor, Exclude, PairChoice, ScoreInput, Threshold, Thresholds};
 pub use overlap::{CLOSE_M, Overlap, SweptBoxes, overlap};
 pub use report::{AgentScore, SceneScore, Score};
 pub use standing::Standing;

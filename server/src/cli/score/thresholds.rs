@@ -2,7 +2,7 @@
 
 use crate::cli::values::within;
 use clap::Args;
-use scene::score::{PairChoice, ScoreInput, Thresholds};
+use scene::score::{PairChoice, ScoreInput, Threshold, Thresholds};
 
 /// Flags of scoring.
 #[derive(Args, Clone, Debug)]
@@ -11,13 +11,13 @@ pub struct Counting {
     #[arg(long, value_enum, default_value_t)]
     pub pairs: PairChoice,
     /// Boxes collide when their intersection over union is above this; 0 takes any overlap.
-    #[arg(long, value_name = "SHARE", default_value_t = Thresholds::default().iou, value_parser = within(0.0, 1.0, ""))]
+    #[arg(long, value_name = "SHARE", default_value_t = Thresholds::default().iou, value_parser = ranged(Thresholds::IOU, ""))]
     pub iou: f64,
     /// Near miss: time to collision below this, seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = Thresholds::default().ttc_s, value_parser = within(0.0, 60.0, "seconds"))]
+    #[arg(long, value_name = "SECONDS", default_value_t = Thresholds::default().ttc_s, value_parser = ranged(Thresholds::TTC_S, "seconds"))]
     pub ttc: f64,
     /// Near miss: gap below this, metres.
-    #[arg(long, value_name = "METRES", default_value_t = Thresholds::default().gap_m, value_parser = within(0.0, 60.0, "metres"))]
+    #[arg(long, value_name = "METRES", default_value_t = Thresholds::default().gap_m, value_parser = ranged(Thresholds::GAP_M, "metres"))]
     pub gap: f64,
 }
 
@@ -28,4 +28,12 @@ impl Counting {
         input.thresholds = Thresholds { iou: self.iou, ttc_s: self.ttc, gap_m: self.gap, ..input.thresholds };
         input
     }
+}
+
+/// A number in the range of a threshold.
+fn ranged(
+    of: Threshold,
+    unit: &'static str,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    within(of.range.0, of.range.1, unit)
 }

@@ -1,7 +1,7 @@
 //! What makes a moment of two road users a near miss.
 
 use super::mover::{Moment, Mover};
-use crate::geometry::obb::{OrientedBox, overlaps};
+use crate::geometry::obb::{OrientedBox, circle_gap, overlaps};
 use crate::geometry::{Vec2, direction, rotate, wrap_angle};
 use crate::score::input::Thresholds;
 use crate::{AgentType, STEP_S};
@@ -74,7 +74,7 @@ impl Side<'_> {
     }
 
     /// Where it is in `time_s` if it keeps its speed and goes on turning as it does.
-    fn later(&self, turn_rate_radps: f64, time_s: f64) -> OrientedBox {
+    pub(super) fn later(&self, turn_rate_radps: f64, time_s: f64) -> OrientedBox {
         let outline = &self.moment.outline;
         let turned = turn_rate_radps * time_s;
         // Along an arc the way is that of the chord, which lies half the turn off.
@@ -133,11 +133,21 @@ pub(super) fn near_miss(limits: &Thresholds, a: Side<'_>, b: Side<'_>, gap: &Gap
     ((by_gap || by_time) && meet_within(a, b, limits.ttc_s)).then_some(Kind::Course)
 }
 
-/// The two touch within this time if both keep their speeds and turns.
-fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
+/// The two touch within this time if both keep their speeds and turns, looked at a step apart.
+pub(super) fn meet_within(a: Side<'_>, b: Side<'_>, time_s: f64) -> bool {
     let (of_a, of_b) = (a.mover.turn_rate_radps(a.step), b.mover.turn_rate_radps(b.step));
-    let steps = (time_s / STEP_S).ceil() as usize;
-    (0..=steps)
-        .map(|i| (i as f64 * STEP_S).min(time_s))
-        .any(|t| overlaps(&a.later(of_a, t), &b.later(of_b, t), 0.0))
+    let both_m = (a.moment.speed_mps + b.moment.speed_mps) * STEP_S;
+    let last = (time_s / STEP_S).ceil() as usize;
+    let mut step = 0;
+    while step <= last {
+        let later_s = (step as f64 * STEP_S).min(time_s);
+        let (later_a, later_b) = (a.later(of_a, later_s), b.later(of_b, later_s));
+        if overlaps(&later_a, &later_b, 0.0) {
+            return true;
+        }
+        // Two apart do not touch before they have gone what lies between them: those steps need no look.
+        let apart_m = circle_gap(&later_a, &later_b).max(0.0);
+        step = step.saturating_add(((apart_m / both_m) as usize).max(1));
+    }
+    false
 }

@@ -1,7 +1,10 @@
 use super::super::tests::{input_of, straight, track_of};
 use super::super::{Actor, Drivable, Exclude, PairChoice, ScoreInput};
+use super::mover::Moment;
+use super::near::{Side, meet_within};
 use super::*;
 use crate::AgentType::{Pedestrian, Vehicle};
+use crate::geometry::obb::overlaps;
 use crate::{STEP_S, State, Track};
 use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -391,4 +394,39 @@ fn shortcuts_are_exact() {
             assert_eq!(totals.min_ttc_s.unwrap_or(f64::INFINITY), ttc_s, "seed {seed} agent {i}");
         }
     }
+}
+
+/// The same of the course: those left out are steps at which the two do not touch.
+#[test]
+fn a_course_is_looked_at_wherever_they_may_touch() {
+    let (mut meet, mut pass) = (0, 0);
+    for seed in 0..400 {
+        let some = |k: f64, range: f64| ((f64::from(seed) + 0.7) * k).sin() * range;
+        // Two that come towards each other, more or less, each on a bend: the heading turns with each step.
+        let mover = |k: f64, x_m: f64, heading_rad: f64| {
+            let (x_m, y_m) = (x_m + some(k, 8.0), some(k * 7.3, 6.0));
+            let mut actor = car("a", x_m, y_m, heading_rad + some(k * 3.1, 0.5), some(k * 5.7, 12.0).abs());
+            for (i, state) in actor.track.to_mut().states.iter_mut().flatten().enumerate() {
+                state.heading_rad += i as f64 * some(k * 2.3, 0.05);
+            }
+            Mover::new(&actor, 0..91)
+        };
+        let (a, b) = (mover(12.9, -20.0, 0.0), mover(78.2, 20.0, PI));
+        let side = |mover| Side { mover, moment: mover_at(mover, 5), step: 5 };
+        let time_s = some(9.1, 8.0).abs();
+        let steps = (time_s / STEP_S).ceil() as usize;
+        let touch = |i: usize| {
+            let later_s = (i as f64 * STEP_S).min(time_s);
+            let at = |mover| side(mover).later(mover.turn_rate_radps(5), later_s);
+            overlaps(&at(&a), &at(&b), 0.0)
+        };
+        let expected = (0..=steps).any(touch);
+        assert_eq!(meet_within(side(&a), side(&b), time_s), expected, "seed {seed}");
+        if expected { meet += 1 } else { pass += 1 }
+    }
+    assert!(meet > 20 && pass > 20, "{meet} meet, {pass} pass");
+}
+
+fn mover_at(mover: &Mover, step: usize) -> &Moment {
+    mover.moments[step].as_ref().unwrap()
 }
