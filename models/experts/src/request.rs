@@ -2,6 +2,7 @@
 
 use crate::net::schedule;
 use crate::planning::world::Planning;
+use scene::preference::{Feedback, Round};
 use scene::{AgentId, AgentType, Sample, Scene, State, Vec2};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,6 +21,11 @@ pub enum React {
     /// These alone.
     Only(BTreeSet<AgentId>),
 }
+
+/// Samples of a round's draw.
+const ROUND_SAMPLES: usize = 32;
+/// A round's draw is at least this diverse: who is asked what they like must see what there is.
+const ROUND_DIVERSITY: f64 = 1.5;
 
 /// One call of the generator. The scene's agents carry the conditions that hold for this call.
 #[derive(Clone, Debug)]
@@ -54,6 +60,9 @@ pub struct Request {
     pub pinned: BTreeMap<AgentId, Vec<State>>,
     /// What was shown last, while somebody drags: the first sample leaves it only for a gain worth the jump.
     pub shown: BTreeMap<AgentId, ShownLast>,
+    /// What a person said of earlier cards: the answer is the next round of `modes` cards out of a wide draw, in
+    /// place of `samples`. [`Request::round`] sets it.
+    pub feedback: Option<Feedback>,
     /// Parts that run; all of them but in an evaluation.
     pub stages: Stages,
 }
@@ -176,8 +185,16 @@ impl Request {
             stream_all: false,
             pinned: BTreeMap::new(),
             shown: BTreeMap::new(),
+            feedback: None,
             stages: Stages::default(),
         }
+    }
+
+    /// The next round of cards out of a wide draw, by what was said of earlier cards.
+    #[must_use]
+    pub fn round(self, feedback: Feedback) -> Self {
+        let diversity = self.diversity.max(ROUND_DIVERSITY);
+        Self { samples: ROUND_SAMPLES, diversity, feedback: Some(feedback), ..self }
     }
 }
 
@@ -465,6 +482,9 @@ pub struct Answer {
     pub warnings: Vec<Warning>,
     /// Where the time went.
     pub timings: Timings,
+    /// What the cards are like and what was learned, where feedback was given: of one road user each future is a
+    /// card, of several each sample.
+    pub round: Option<Round>,
 }
 
 /// What [`crate::Generator::start`] yields, in order: accepted, then per window the drafts of the first

@@ -5,6 +5,7 @@ use crossing::{agent, crossing};
 use experts::{Answer, Cancel, Event, GenerateError, Generator, ReachReport, React, Request, WarningCode};
 use scene::map::LaneMap;
 use scene::motion::{MotionModel, MotionState, limit_excess};
+use scene::preference::{Feedback, Verdict};
 use scene::{Agent, AgentType, Future, Goal, Scene, State, Vec2};
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
@@ -204,4 +205,36 @@ fn a_small_move_of_the_goal_moves_the_answer_by_centimetres() {
         assert!(moved < 0.4, "{moved} m for 5 cm");
         last = next;
     }
+}
+
+#[test]
+fn a_round_leaves_the_cards_of_a_wide_draw() {
+    let request = || ask(crossing(), Some(&["1"])).round(Feedback::default());
+    let answer = run(&GENERATOR, request());
+    let round = answer.round.as_ref().unwrap();
+    let futures = &answer.samples[0].agents["1"];
+    assert_eq!((answer.samples.len(), futures.modes.len(), futures.chosen), (1, round.cards.len(), 0));
+    assert!(
+        futures.modes.len() > 1 && futures.modes.windows(2).all(|w| w[0].probability >= w[1].probability)
+    );
+    assert_eq!(run(&GENERATOR, request()).samples, answer.samples);
+    // What was rejected is not among the next ones.
+    let rejected = &round.cards[0];
+    let places = rejected
+        .places
+        .iter()
+        .map(|(id, at)| (id.clone(), at.iter().map(|[x, y]| Vec2::new(*x, *y)).collect()));
+    let said = scene::preference::Answer {
+        features: rejected.features.clone(),
+        verdict: Verdict::Reject,
+        why: None,
+        places: places.collect(),
+    };
+    let next = ask(crossing(), Some(&["1"])).round(Feedback { answers: vec![said], ..Feedback::default() });
+    let next = run(&GENERATOR, next).round.unwrap();
+    assert!(next.cards.iter().all(|card| card.places != rejected.places));
+    // Of several, each sample is a card.
+    let both = run(&GENERATOR, ask(crossing(), Some(&["1", "2"])).round(Feedback::default()));
+    assert_eq!(both.samples.len(), both.round.unwrap().cards.len());
+    assert!(both.samples.iter().all(|sample| sample.agents.len() == 2));
 }

@@ -5,6 +5,7 @@ use crate::base::clock;
 use crate::base::problem::{Problem, ProblemDoc};
 use experts::{Accepted, Draft, Resolved, Warning};
 use scene::Sample;
+use scene::preference::{Card, Learned};
 use scene::score::Score;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
@@ -151,11 +152,24 @@ pub struct FinalBody {
     pub scores: Option<Vec<Score>>,
     /// Unlikely things that were done anyway.
     pub warnings: Vec<Warning>,
+    /// Of a round: what its cards are like, and what was learned.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub feedback: Option<RoundBody>,
     /// Where the time went.
     pub timing: TimingBody,
     /// The scene's `generated` member, all but `samples`: put `samples` in and save (those in
     /// compact form as columns).
     pub generated: GeneratedHead,
+}
+
+/// A round of cards.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Round")]
+pub struct RoundBody {
+    /// One a future of the road user that was asked for, or one a sample, in their order: the best liked first.
+    pub cards: Vec<Card>,
+    /// What the answers agree upon, the surest first.
+    pub wishes: Vec<Learned>,
 }
 
 /// The members of `generated` that do not come from the generator.

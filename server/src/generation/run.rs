@@ -1,6 +1,6 @@
 //! One generation: drives the generator, turns its events into messages.
 
-use super::events::{AcceptedBody, DraftBody, FinalBody, SampleBody, TimingBody};
+use super::events::{AcceptedBody, DraftBody, FinalBody, RoundBody, SampleBody, TimingBody};
 use super::feed::Feed;
 use super::outbox::End;
 use super::{Task, kept, scoring};
@@ -9,6 +9,7 @@ use crate::base::problem::Problem;
 use crate::work::Kind;
 use experts::weights::EXPERTS;
 use experts::{Answer, Draft, Event, GenerateError, Generator};
+use scene::preference::Round;
 use scene::score::ScoreInput;
 use scene::{Sample, Scene};
 use std::collections::BTreeSet;
@@ -105,6 +106,7 @@ fn final_body(task: &Task, shown: &[Sample], answer: &Answer, queued: Duration) 
         resolved: answer.resolved.clone(),
         scores: None,
         warnings: answer.warnings.clone(),
+        feedback: answer.round.clone().map(|Round { cards, wishes, .. }| RoundBody { cards, wishes }),
         timing,
         generated: task.head.clone().dated(),
     }

@@ -1,5 +1,6 @@
 //! `/v1/generate`: conditions to futures.
 
+use super::feedback::FeedbackDoc;
 use super::openapi::one_scene;
 use super::scene_ref::{AboutScene, SceneRef, Subject};
 use crate::app::App;
@@ -163,6 +164,11 @@ pub struct GenerateRequest {
     /// the jump.
     #[serde(default)]
     shown: Members<ShownDoc>,
+    /// Asks for a round of cards in place of the best guess, by what was said of earlier cards; `{}` is the first
+    /// round. Of one road user whom nobody answers each of its futures is a card, else each sample; `modes` says how
+    /// many. `samples` does not count.
+    #[serde(default)]
+    feedback: Option<FeedbackDoc>,
     /// What drafts carry.
     #[serde(default)]
     stream_modes: StreamModes,
@@ -456,6 +462,8 @@ impl GenerateRequest {
         }
         let horizon_steps = (self.horizon_s / STEP_S).round().max(1.0) as usize;
         let shown = self.shown(scene)?;
+        let feedback = self.feedback.as_ref().map(FeedbackDoc::resolve).transpose();
+        let feedback = feedback.map_err(|faults| Problem::from(ReadError::invalid(faults)))?;
         let replan_steps = self.replan_interval_s.map(|s| (s / STEP_S).round() as usize);
         let request = experts::Request {
             agents,
@@ -473,8 +481,13 @@ impl GenerateRequest {
             stream_all: self.stream_modes == StreamModes::All,
             ..experts::Request::new(Arc::clone(scene))
         };
+        let request = match feedback {
+            Some(feedback) => request.round(feedback),
+            None => request,
+        };
+        let answered = if self.feedback.is_some() { self.modes } else { self.samples };
         let count = (generation::concerned(&request) as u64).min(most_agents);
-        let points = self.samples * self.modes * count * horizon_steps as u64;
+        let points = answered * self.modes * count * horizon_steps as u64;
         if points > most_points {
             let detail = format!("the reply would have {points} points; at most {most_points}");
             return Err(Problem::field("/samples", Code::ReplyTooLarge, detail).limit(most_points));
@@ -538,6 +551,9 @@ impl GenerateRequest {
         });
         if self.kept_futures != KeptFutures::default() {
             options["kept_futures"] = json!(self.kept_futures);
+        }
+        if let Some(feedback) = &self.feedback {
+            options["feedback"] = json!(feedback);
         }
         if !self.pinned.is_empty() {
             options["pinned"] = json!(self.pinned);

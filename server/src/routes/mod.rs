@@ -5,6 +5,7 @@ mod refusals;
 
 pub mod docs;
 pub mod export;
+mod feedback;
 pub mod generate;
 pub mod health;
 pub mod import;

@@ -20,6 +20,7 @@ mod overlaps;
 mod reacting;
 mod report;
 mod repulsion;
+mod rounds;
 #[cfg(test)]
 mod samples;
 mod slot;

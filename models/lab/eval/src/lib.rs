@@ -20,6 +20,7 @@ mod cases;
 mod coherence;
 mod control;
 pub mod cost;
+mod feedback;
 pub mod measure;
 mod parked;
 pub mod picture;

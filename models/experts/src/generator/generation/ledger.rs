@@ -228,7 +228,7 @@ impl Ledger {
             }
         }
         let Self { samples, resolved, warnings, timings, .. } = std::mem::take(self);
-        Answer { samples, windows, resolved, warnings, timings }
+        Answer { samples, windows, resolved, warnings, timings, round: None }
     }
 }
 

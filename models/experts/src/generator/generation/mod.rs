@@ -15,7 +15,7 @@ mod verdicts;
 
 use super::drafting::steps;
 use super::window::Window;
-use super::{Generator, KnownMap, report};
+use super::{Generator, KnownMap, report, rounds};
 use crate::clock::milliseconds;
 use crate::planning::world::World;
 use crate::request::{Accepted, Answer, Cancel, Event, GenerateError, Request, Warning};
@@ -245,7 +245,11 @@ impl<'g> Generation<'g> {
             }
             self.finish_sample()?;
         }
-        Ok(self.ledger.answer(windows))
+        let mut answer = self.ledger.answer(windows);
+        if let Some(feedback) = &self.request.feedback {
+            rounds::choose(&self.request, feedback, &mut answer);
+        }
+        Ok(answer)
     }
 
     fn stop_if_cancelled(&self) -> Result<(), GenerateError> {

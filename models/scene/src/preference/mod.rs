@@ -1,0 +1,90 @@
+//! What a person likes, learned from futures that were kept and rejected, in terms that people can name: pace, gap,
+//! smoothness, waiting, distance from the recording, who goes first, what is driven. The second future work of
+//! DragTraffic (IROS 2024, section V): feedback of users in rounds.
+//!
+//! A wide draw is laid out as [`Candidate`]s. [`Taste`] is the posterior of a Plackett-Luce model over their
+//! features, given the answers so far; [`choose`] takes the next cards from it: the best first, then what the best
+//! may be as far as is known, none like another and none like one that was judged.
+
+mod features;
+mod round;
+mod taste;
+#[cfg(test)]
+mod tests;
+mod wishes;
+
+pub use features::{Features, Trait};
+pub use round::{Candidate, Card, Round, choose};
+pub use taste::Taste;
+pub use wishes::Learned;
+
+use crate::{AgentId, Vec2};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What a person said of a card.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Good.
+    Keep,
+    /// Not that.
+    Reject,
+}
+
+/// Which way of a trait is wished.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Way {
+    /// More of it; of an order or a manoeuvre: yes.
+    More,
+    /// Less of it; of an order or a manoeuvre: no.
+    Less,
+}
+
+impl Way {
+    fn sign(self) -> f64 {
+        match self {
+            Self::More => 1.0,
+            Self::Less => -1.0,
+        }
+    }
+}
+
+/// A plain wish: a trait and which way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Wish {
+    /// What of the motion.
+    #[serde(flatten)]
+    pub of: Trait,
+    /// Which way.
+    pub wants: Way,
+}
+
+/// A card that was judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// What it was like.
+    pub features: Features,
+    /// What was said.
+    pub verdict: Verdict,
+    /// What should be otherwise, or was liked, if that was said.
+    pub why: Option<Wish>,
+    /// Box centres at every half second, by road user, so that nothing like it comes again.
+    pub places: Places,
+}
+
+/// Box centres at every half second from the first state on, by road user, metres.
+pub type Places = BTreeMap<AgentId, Vec<Vec2>>;
+
+/// All that was said so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Feedback {
+    /// Judged cards, the first round's first.
+    pub answers: Vec<Answer>,
+    /// Wishes that were said outright.
+    pub wishes: Vec<Wish>,
+    /// Traits that do not count, whatever the answers show.
+    pub forgotten: Vec<Trait>,
+}

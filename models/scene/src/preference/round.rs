@@ -1,0 +1,188 @@
+//! The next cards.
+
+use super::features::{self, Features};
+use super::taste::Taste;
+use super::wishes::{self, Learned};
+use super::{Answer, Feedback, Places, Verdict, Wish};
+use crate::random::Key;
+use crate::{AgentId, Future, STEP_S, Sample, Scene, Vec2};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Two cards are somewhere this far apart, metres...
+const APART_M: f64 = 1.5;
+/// ...or, of the slow, as far as they go in this time, seconds.
+const APART_S: f64 = 1.0;
+/// Walkers who all but stand differ by this, metres.
+const LEAST_APART_M: f64 = 0.3;
+/// Nearer than this share of it, a card is one that was judged.
+const SAME_SHARE: f64 = 0.3;
+/// Those that keep the rules make a choice by themselves when they are so many times the cards.
+const ENOUGH_TIMES: usize = 2;
+/// What may be liked is drawn so often for a card; when all it names are like others, the best that is left is taken.
+const MOST_DRAWS: usize = 12;
+
+/// A motion that may become a card: a future of one road user, or a joint scene.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// Which sample of the draw.
+    pub sample: usize,
+    /// Which of its futures; `None` takes the sample as it is.
+    pub mode: Option<usize>,
+    /// What it is like.
+    pub features: Features,
+    places: Places,
+    broken: bool,
+}
+
+/// A candidate that is shown.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "RoundCard")]
+pub struct Card {
+    /// What it is like: sent back with what is said of it.
+    pub features: Features,
+    /// The share of the learned wishes that it fulfils; absent while none is known.
+    #[serde(rename = "match", skip_serializing_if = "Option::is_none")]
+    pub fulfils: Option<f64>,
+    /// Box centres at every half second, by road user: sent back with what is said of it.
+    pub places: BTreeMap<AgentId, Vec<[f64; 2]>>,
+}
+
+/// A round: which candidates are shown, and what is known by now.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Round {
+    /// Positions among the candidates, the best liked first.
+    pub taken: Vec<usize>,
+    /// As many cards.
+    pub cards: Vec<Card>,
+    /// Shares of belief that each is liked best; they sum to one.
+    pub shares: Vec<f64>,
+    /// Wishes that the answers agree upon, the surest first.
+    pub wishes: Vec<Learned>,
+}
+
+impl Candidate {
+    /// All futures of one road user.
+    pub fn futures(scene: &Scene, samples: &[Sample], id: &str) -> Vec<Self> {
+        let futures = samples.iter().enumerate().filter_map(|(k, sample)| Some((k, sample.agents.get(id)?)));
+        let modes =
+            futures.flat_map(|(k, f)| f.modes.iter().enumerate().map(move |(m, future)| (k, m, future)));
+        modes.map(|(sample, mode, future)| Self::of(scene, sample, Some(mode), &[(id, future)])).collect()
+    }
+
+    /// All samples, each with the chosen futures of everybody.
+    pub fn scenes(scene: &Scene, samples: &[Sample]) -> Vec<Self> {
+        let chosen = |sample: &Sample| -> Vec<(String, Future)> {
+            let futures = sample.agents.iter();
+            futures.filter_map(|(id, f)| Some((id.clone(), f.modes.get(f.chosen)?.clone()))).collect()
+        };
+        let one = |(k, sample)| {
+            let motions = chosen(sample);
+            let motions: Vec<_> = motions.iter().map(|(id, future)| (id.as_str(), future)).collect();
+            Self::of(scene, k, None, &motions)
+        };
+        samples.iter().enumerate().map(one).collect()
+    }
+
+    /// It breaks no rule and meets its goal.
+    pub fn is_clean(&self) -> bool {
+        !self.broken
+    }
+
+    #[cfg(test)]
+    pub(super) fn break_a_rule(&mut self) {
+        self.broken = true;
+    }
+
+    fn of(scene: &Scene, sample: usize, mode: Option<usize>, motions: &[(&str, &Future)]) -> Self {
+        Self {
+            sample,
+            mode,
+            features: Features::of(scene, motions.iter().copied()),
+            places: features::places(motions.iter().copied()),
+            broken: motions.iter().any(|(_, future)| features::is_broken(future)),
+        }
+    }
+
+    /// As a card that was judged.
+    pub fn judged(&self, verdict: Verdict, why: Option<Wish>) -> Answer {
+        Answer { features: self.features.clone(), verdict, why, places: self.places.clone() }
+    }
+
+    fn card(&self) -> Card {
+        let rounded = |v: f64| (v * 1000.0).round() / 1000.0;
+        let places = self
+            .places
+            .iter()
+            .map(|(id, places)| (id.clone(), places.iter().map(|p| [rounded(p.x), rounded(p.y)]).collect()));
+        Card { features: self.features.clone(), fulfils: None, places: places.collect() }
+    }
+}
+
+/// The next `count` cards out of a draw. The same draw, feedback and seed give the same cards. The first card is the
+/// best liked as far as is known; each of the others is the best by one draw of what may be liked. Those that break a
+/// rule are taken only where few keep them, and none is like a card beside it or like one that was judged: a draw
+/// that has no more gives fewer cards.
+pub fn choose(candidates: &[Candidate], feedback: &Feedback, count: usize, seed: u64) -> Round {
+    let clean: Vec<usize> = (0..candidates.len()).filter(|i| candidates[*i].is_clean()).collect();
+    let open = if clean.len() >= ENOUGH_TIMES * count { clean } else { (0..candidates.len()).collect() };
+    let draw: Vec<&Features> = open.iter().map(|i| &candidates[*i].features).collect();
+    let taste = Taste::learn(feedback, &draw);
+    let fresh: Vec<usize> = (0..open.len()).filter(|k| is_new(&candidates[open[*k]], feedback)).collect();
+    let mut stream =
+        Key::default().text("feedback").number(seed).number(feedback.answers.len() as u64).stream();
+    let mut taken: Vec<usize> = Vec::new();
+    let unlike = |k: &usize, taken: &[usize]| {
+        taken
+            .iter()
+            .all(|other| are_apart(&candidates[open[*k]].places, &candidates[open[*other]].places, 1.0))
+    };
+    let best = |likings: &[f64], among: &[usize], taken: &[usize]| {
+        let left = among.iter().copied().filter(|k| unlike(k, taken));
+        left.reduce(|best, k| if likings[k] > likings[best] { k } else { best })
+    };
+    let known: Vec<f64> = draw.iter().map(|features| taste.liking(features)).collect();
+    // Before anything is known the draw's own first guess leads.
+    taken.extend(best(&known, &fresh, &[]));
+    while taken.len() < count {
+        let mut next = None;
+        for _ in 0..MOST_DRAWS {
+            next = best(&taste.maybe(&mut stream, &draw), &fresh, &taken);
+            if next.is_some() {
+                break;
+            }
+        }
+        let Some(next) = next else { break };
+        taken.push(next);
+    }
+    taken.sort_by(|a, b| known[*b].total_cmp(&known[*a]).then(a.cmp(b)));
+    let wishes = wishes::learned(&taste, feedback);
+    let card = |k: &usize| {
+        let candidate = &candidates[open[*k]];
+        let fulfils = wishes::fulfilled(&wishes, feedback, &candidate.features, &draw);
+        Card { fulfils, ..candidate.card() }
+    };
+    let cards = taken.iter().map(card).collect();
+    let most = taken.first().map_or(0.0, |k| known[*k]);
+    let parts: Vec<f64> = taken.iter().map(|k| (known[*k] - most).exp()).collect();
+    let whole: f64 = parts.iter().sum();
+    let shares = parts.into_iter().map(|part| part / whole).collect();
+    Round { cards, shares, taken: taken.into_iter().map(|k| open[k]).collect(), wishes }
+}
+
+fn is_new(candidate: &Candidate, feedback: &Feedback) -> bool {
+    feedback.answers.iter().all(|answer| are_apart(&candidate.places, &answer.places, SAME_SHARE))
+}
+
+/// Somebody is somewhere clearly elsewhere: by this share of what two cards differ by.
+fn are_apart(a: &Places, b: &Places, share: f64) -> bool {
+    let differs = |(id, mine): (&String, &Vec<Vec2>)| {
+        let Some(other) = b.get(id) else { return true };
+        let way_m: f64 = mine.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+        let time_s = mine.len().saturating_sub(1).max(1) as f64 * 5.0 * STEP_S;
+        let least_m = share * (APART_S * way_m / time_s).clamp(LEAST_APART_M, APART_M);
+        mine.iter().zip(other).any(|(p, q)| (p - q).norm() > least_m)
+    };
+    a.iter().any(differs)
+}

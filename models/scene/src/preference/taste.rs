@@ -1,0 +1,259 @@
+//! The posterior of what is liked.
+
+use super::features::{Features, Trait};
+use super::{Feedback, Verdict, Way, Wish};
+use crate::random::Stream;
+use nalgebra::{DMatrix, DVector};
+
+/// How much a trait may matter before anything is known, and the bend of it: a liking may have its top in the middle.
+const SLOPE: f64 = 1.0;
+const BEND: f64 = 0.7;
+/// A wish that was said outright: its slope, and how sure.
+const SAID_SLOPE: f64 = 1.5;
+const SAID_DEVIATION: f64 = 0.4;
+/// A motion that was judged is compared with so many of the rejected, the last ones.
+const MOST_COMPARED: usize = 24;
+/// Newton's method has found the top within fewer; the objective is concave.
+const MOST_STEPS: usize = 30;
+/// It is found when no weight moves by more.
+const FOUND: f64 = 1e-8;
+/// Quantities are measured in deviations of the draw, and none counts as more than these: outliers are no wishes.
+const MOST_DEVIATIONS: f64 = 3.0;
+
+/// What is liked: a normal distribution over the weights of a liking that is linear in the traits and their squares.
+/// It is the Laplace approximation of the Plackett-Luce posterior (Guiver and Snelson, ICML 2009, use the same
+/// likelihood): a kept card was taken from among the rejected ones and the draw's average, and the average was
+/// preferred to each rejected one.
+#[derive(Clone, Debug)]
+pub struct Taste {
+    axes: Vec<Axis>,
+    mean: DVector<f64>,
+    /// Lower triangular; times its transpose it is the covariance.
+    spread: DMatrix<f64>,
+}
+
+/// A trait with the draw's average and deviation of it.
+#[derive(Clone, Debug)]
+struct Axis {
+    of: Trait,
+    average: f64,
+    deviation: f64,
+}
+
+/// One was taken, others were left.
+struct Comparison {
+    taken: DVector<f64>,
+    left: Vec<DVector<f64>>,
+}
+
+impl Taste {
+    /// From what was said, over a draw that says what is usual.
+    pub fn learn(feedback: &Feedback, draw: &[&Features]) -> Self {
+        let mut taste = Self::unknown(feedback, draw);
+        let comparisons = taste.comparisons(feedback, draw);
+        let (center, precision) = taste.prior(feedback);
+        let mut at = center.clone();
+        let mut curvature = precision.clone();
+        for _ in 0..MOST_STEPS {
+            let mut slope = &precision * (&center - &at);
+            curvature.copy_from(&precision);
+            for comparison in &comparisons {
+                comparison.add(&at, &mut slope, &mut curvature);
+            }
+            let Some(solved) = curvature.clone().cholesky() else { break };
+            let mut step = solved.solve(&slope);
+            // Full steps may overshoot where the evidence is one-sided.
+            let value = |at: &DVector<f64>| log_posterior(at, &center, &precision, &comparisons);
+            let now = value(&at);
+            while value(&(&at + &step)) < now && step.amax() > FOUND {
+                step *= 0.5;
+            }
+            at += &step;
+            if step.amax() < FOUND {
+                break;
+            }
+        }
+        let covariance = curvature.cholesky().map(|c| c.inverse()).and_then(nalgebra::Cholesky::new);
+        taste.spread = covariance.map_or_else(|| DMatrix::zeros(at.len(), at.len()), |c| c.l());
+        taste.mean = at;
+        taste
+    }
+
+    fn unknown(feedback: &Feedback, draw: &[&Features]) -> Self {
+        let judged = feedback.answers.iter().map(|answer| &answer.features);
+        let mut traits: Vec<Trait> = draw.iter().copied().chain(judged).flat_map(Features::traits).collect();
+        traits.extend(feedback.wishes.iter().map(|wish| wish.of.clone()));
+        traits.sort();
+        traits.dedup();
+        traits.retain(|of| !feedback.forgotten.contains(of));
+        let axes: Vec<Axis> = traits.into_iter().map(|of| Axis::new(of, draw)).collect();
+        let size = axes.iter().map(Axis::size).sum();
+        Self { axes, mean: DVector::zeros(size), spread: DMatrix::identity(size, size) }
+    }
+
+    /// Where weights lie before anything was answered, and how surely.
+    fn prior(&self, feedback: &Feedback) -> (DVector<f64>, DMatrix<f64>) {
+        let mut center = DVector::zeros(self.mean.len());
+        let mut sure = DVector::zeros(self.mean.len());
+        let mut i = 0;
+        for axis in &self.axes {
+            let said = feedback.wishes.iter().rfind(|wish| wish.of == axis.of);
+            center[i] = said.map_or(0.0, |wish| SAID_SLOPE * wish.wants.sign());
+            let deviation = if said.is_some() { SAID_DEVIATION } else { SLOPE };
+            sure[i] = deviation.powi(-2);
+            if axis.size() == 2 {
+                sure[i + 1] = BEND.powi(-2);
+            }
+            i += axis.size();
+        }
+        (center, DMatrix::from_diagonal(&sure))
+    }
+
+    fn comparisons(&self, feedback: &Feedback, draw: &[&Features]) -> Vec<Comparison> {
+        let mut average = DVector::zeros(self.mean.len());
+        draw.iter().for_each(|features| average += self.row(features));
+        average /= draw.len().max(1) as f64;
+        let of = |verdict| feedback.answers.iter().filter(move |answer| answer.verdict == verdict);
+        let rejected: Vec<_> = of(Verdict::Reject).map(|answer| self.row(&answer.features)).collect();
+        let last = &rejected[rejected.len().saturating_sub(MOST_COMPARED)..];
+        let mut comparisons = Vec::new();
+        for kept in of(Verdict::Keep) {
+            let left = last.iter().chain([&average]).cloned().collect();
+            comparisons.push(Comparison { taken: self.row(&kept.features), left });
+        }
+        for row in &rejected {
+            comparisons.push(Comparison { taken: average.clone(), left: vec![row.clone()] });
+        }
+        for answer in &feedback.answers {
+            if let Some((wished, was)) =
+                answer.why.as_ref().and_then(|why| self.wished(why, &answer.features))
+            {
+                comparisons.push(Comparison { taken: wished, left: vec![was] });
+            }
+        }
+        comparisons
+    }
+
+    /// A card with a trait further the way that was wished, and as it was.
+    fn wished(&self, why: &Wish, features: &Features) -> Option<(DVector<f64>, DVector<f64>)> {
+        let mut i = 0;
+        for axis in &self.axes {
+            if axis.of == why.of {
+                let was = self.row(features);
+                let mut wished = was.clone();
+                axis.put(axis.measured(features) + why.wants.sign(), i, &mut wished);
+                return Some((wished, was));
+            }
+            i += axis.size();
+        }
+        None
+    }
+
+    /// A motion as numbers that the weights stand for.
+    fn row(&self, features: &Features) -> DVector<f64> {
+        let mut row = DVector::zeros(self.mean.len());
+        let mut i = 0;
+        for axis in &self.axes {
+            axis.put(axis.measured(features), i, &mut row);
+            i += axis.size();
+        }
+        row
+    }
+
+    /// How much it is liked, as far as is known; 0 is the average before anything is known.
+    pub fn liking(&self, features: &Features) -> f64 {
+        self.mean.dot(&self.row(features))
+    }
+
+    /// What may be liked: one draw of the posterior, as a liking of each.
+    pub(super) fn maybe(&self, stream: &mut Stream, all: &[&Features]) -> Vec<f64> {
+        let noise = DVector::from_iterator(self.mean.len(), (0..self.mean.len()).map(|_| stream.normal()));
+        let weights = &self.mean + &self.spread * noise;
+        all.iter().map(|features| weights.dot(&self.row(features))).collect()
+    }
+
+    /// How surely more of a trait is liked: 1 surely more, -1 surely less, 0 nothing known.
+    pub(super) fn leaning(&self, of: &Trait) -> f64 {
+        let mut i = 0;
+        for axis in &self.axes {
+            if axis.of == *of {
+                let deviation = self.spread.row(i).norm();
+                let sure = self.mean[i] / deviation.max(1e-12);
+                // The normal distribution's share on this side, by the logistic function that is close to it.
+                return (0.8 * sure).tanh();
+            }
+            i += axis.size();
+        }
+        0.0
+    }
+
+    /// Which way of a trait is liked.
+    pub(super) fn way(&self, of: &Trait) -> Way {
+        if self.leaning(of) < 0.0 { Way::Less } else { Way::More }
+    }
+}
+
+impl Axis {
+    fn new(of: Trait, draw: &[&Features]) -> Self {
+        let values: Vec<f64> = draw.iter().filter_map(|features| features.value(&of)).collect();
+        let count = values.len().max(1) as f64;
+        let average = values.iter().sum::<f64>() / count;
+        let deviation = (values.iter().map(|v| (v - average).powi(2)).sum::<f64>() / count).sqrt();
+        if of.is_quantity() {
+            // A draw without any spread says nothing of what is much.
+            return Self { of, average, deviation: deviation.max(0.1) };
+        }
+        Self { of, average: 0.0, deviation: 1.0 }
+    }
+
+    /// A quantity has a bend too.
+    fn size(&self) -> usize {
+        if self.of.is_quantity() { 2 } else { 1 }
+    }
+
+    fn measured(&self, features: &Features) -> f64 {
+        let value = features.value(&self.of).unwrap_or(self.average);
+        ((value - self.average) / self.deviation).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS)
+    }
+
+    fn put(&self, measured: f64, i: usize, row: &mut DVector<f64>) {
+        row[i] = measured;
+        if self.of.is_quantity() {
+            row[i + 1] = (measured * measured - 1.0) / std::f64::consts::SQRT_2;
+        }
+    }
+}
+
+impl Comparison {
+    /// Shares of belief that each would be taken, the taken one first.
+    fn shares(&self, at: &DVector<f64>) -> Vec<f64> {
+        let likings: Vec<f64> = [&self.taken].into_iter().chain(&self.left).map(|row| at.dot(row)).collect();
+        let most = likings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let parts: Vec<f64> = likings.iter().map(|liking| (liking - most).exp()).collect();
+        let whole: f64 = parts.iter().sum();
+        parts.into_iter().map(|part| part / whole).collect()
+    }
+
+    /// Adds the slope and the curvature of its log likelihood, the latter turned over.
+    fn add(&self, at: &DVector<f64>, slope: &mut DVector<f64>, curvature: &mut DMatrix<f64>) {
+        let shares = self.shares(at);
+        let mut expected = DVector::zeros(at.len());
+        for (share, row) in shares.iter().zip([&self.taken].into_iter().chain(&self.left)) {
+            expected.axpy(*share, row, 1.0);
+            curvature.ger(*share, row, row, 1.0);
+        }
+        curvature.ger(-1.0, &expected, &expected, 1.0);
+        *slope += &self.taken - expected;
+    }
+}
+
+fn log_posterior(
+    at: &DVector<f64>,
+    center: &DVector<f64>,
+    precision: &DMatrix<f64>,
+    comparisons: &[Comparison],
+) -> f64 {
+    let off = at - center;
+    let taken = |comparison: &Comparison| comparison.shares(at)[0].max(f64::MIN_POSITIVE).ln();
+    -0.5 * off.dot(&(precision * &off)) + comparisons.iter().map(taken).sum::<f64>()
+}

@@ -1,0 +1,111 @@
+//! What a person said of earlier cards, as `/v1/generate` takes it.
+
+use formats::native::Members;
+use formats::{FieldProblem, pointer_token};
+use scene::Vec2;
+use scene::preference::{Answer, Features, Feedback, Places, Trait, Verdict, Wish};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// Most judged cards.
+const MOST_ANSWERS: usize = 200;
+/// Most wishes, and most that is forgotten.
+const MOST_WISHES: usize = 32;
+/// Most different traits of all cards and wishes together.
+const MOST_TRAITS: usize = 64;
+/// Most places of a road user: every half second of the longest answer.
+const MOST_PLACES: usize = 41;
+
+/// Rounds of cards: the answer is the next round, taken from a wide draw by what was said of earlier cards. `feedback`
+/// of the reply says what each card is like; each is sent back with what is said of it.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FeedbackDoc {
+    /// Judged cards, the first round's first. Those that were neither kept nor rejected are left out.
+    #[schemars(length(max = 200))]
+    answers: Vec<AnswerDoc>,
+    /// Wishes that were said outright.
+    #[schemars(length(max = 32))]
+    wishes: Vec<Wish>,
+    /// Traits that do not count, whatever the answers show.
+    #[schemars(length(max = 32))]
+    forgotten: Vec<Trait>,
+}
+
+/// A judged card.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AnswerDoc {
+    /// Of the card, as it was answered.
+    features: Features,
+    /// What was said.
+    verdict: Verdict,
+    /// What should be otherwise, or was liked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    why: Option<Wish>,
+    /// Of the card, as they were answered: nothing like it comes again.
+    #[serde(default)]
+    places: Members<Vec<[f64; 2]>>,
+}
+
+impl FeedbackDoc {
+    /// What it says.
+    ///
+    /// # Errors
+    /// Lists that are too long and numbers out of their range, each with its place.
+    pub fn resolve(&self) -> Result<Feedback, Vec<FieldProblem>> {
+        let mut faults = Vec::new();
+        let lengths = [
+            ("answers", self.answers.len(), MOST_ANSWERS),
+            ("wishes", self.wishes.len(), MOST_WISHES),
+            ("forgotten", self.forgotten.len(), MOST_WISHES),
+            ("answers", self.traits().len(), MOST_TRAITS),
+        ];
+        for (name, count, most) in lengths {
+            if count > most {
+                let what = if most == MOST_TRAITS { "traits" } else { "entries" };
+                let detail = format!("{count} {what} found, at most {most} expected");
+                faults.push(FieldProblem::new(format!("/feedback/{name}"), "invalid-field", detail));
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let answers = self.answers.iter().enumerate();
+        let answers =
+            answers.map(|(i, doc)| doc.resolve(&format!("/feedback/answers/{i}"), &mut faults)).collect();
+        let feedback = Feedback { answers, wishes: self.wishes.clone(), forgotten: self.forgotten.clone() };
+        if faults.is_empty() { Ok(feedback) } else { Err(faults) }
+    }
+
+    fn traits(&self) -> BTreeSet<Trait> {
+        let judged = self.answers.iter().flat_map(|answer| answer.features.traits());
+        judged.chain(self.wishes.iter().map(|wish| wish.of.clone())).collect()
+    }
+}
+
+impl AnswerDoc {
+    fn resolve(&self, pointer: &str, faults: &mut Vec<FieldProblem>) -> Answer {
+        for (name, value, most) in self.features.quantities() {
+            if !(0.0..=most).contains(&value) {
+                faults.push(FieldProblem::range(format!("{pointer}/features/{name}"), 0.0, most, value));
+            }
+        }
+        let mut places = Places::new();
+        for (id, points) in &self.places.0 {
+            let at = format!("{pointer}/places/{}", pointer_token(id));
+            if points.len() > MOST_PLACES {
+                let detail = format!("{} places found, at most {MOST_PLACES} expected", points.len());
+                faults.push(FieldProblem::new(at, "invalid-field", detail));
+                continue;
+            }
+            if let Some(far) = points.iter().flatten().find(|v| v.abs() > scene::MAX_COORDINATE_M) {
+                let most = scene::MAX_COORDINATE_M;
+                faults.push(FieldProblem::range(at, -most, most, *far));
+            }
+            places.insert(id.clone(), points.iter().map(|[x, y]| Vec2::new(*x, *y)).collect());
+        }
+        Answer { features: self.features.clone(), verdict: self.verdict, why: self.why.clone(), places }
+    }
+}
