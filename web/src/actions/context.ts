@@ -1,6 +1,7 @@
 // What an action may touch, and what a panel shows.
 import type { Copying } from '../edit/copying';
 import type { Editor } from '../edit/editor';
+import type { Filler } from '../edit/filler';
 import type { Library } from '../edit/library';
 import type { Importing } from '../edit/importing';
 import type { Saving } from '../edit/saving';
@@ -34,6 +35,7 @@ export interface Context {
   readonly stage: Stage;
   readonly client: Client;
   readonly copying: Copying;
+  readonly filler: Filler;
   readonly ui: Ui;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
@@ -44,8 +46,6 @@ export interface Context {
   focusText(which: 'name' | 'note'): void;
   /** Opens the menu of what is selected, beside it. */
   openMenu(): void;
-  /** Puts road users on the whole map, as the generator would have them there. */
-  fill(): Promise<void>;
   focusField(part: 'start' | 'goal', field: string): void;
   focusGroup(step: 1 | -1): void;
   focusAgent(id: string): void;

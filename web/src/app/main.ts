@@ -7,7 +7,7 @@ import type { Context } from '../actions/context';
 import { Ui } from '../actions/ui';
 import { Copying } from '../edit/copying';
 import { Editor } from '../edit/editor';
-import { fill } from '../edit/filling';
+import { Filler } from '../edit/filler';
 import { Generation } from '../edit/generation';
 import { Journal } from '../edit/journal';
 import { Gestures } from '../edit/gestures/pointer';
@@ -67,9 +67,11 @@ function makeParts(): Context {
   const playback = new Playback(editor, stage);
   const chooseFiles = fileChooser((files) => void importing.files(files));
   const copying = new Copying(editor);
+  const filler = new Filler(editor, file, client);
   const parts = {
     copying,
     editor,
+    filler,
     generation,
     scenes,
     library,
@@ -92,7 +94,6 @@ function makeParts(): Context {
     reveal: (ids) => reveal(c, ids),
     focusText,
     openMenu: () => openMenu(c),
-    fill: () => fill(editor, file, client),
     chooseFiles,
     focusField,
     focusGroup,
@@ -120,7 +121,8 @@ function connect(c: Context): void {
   });
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
-    const busy = generation.busy.value || editor.status.value.kind === 'loading' || gliding.value;
+    const busy =
+      generation.busy.value || editor.filling.asking.value || editor.status.value.kind === 'loading' || gliding.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
   effect(() => {

@@ -13,6 +13,7 @@ import { localReach, type LocalReach } from '../model/reach';
 import type { SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
+import { Filling } from './filling';
 import type { ToolName } from './gestures/tools';
 import { Notices } from './notices';
 import { Placement } from './placement';
@@ -94,6 +95,7 @@ export class Editor {
   readonly playhead = new Playhead();
   readonly notices = new Notices();
   readonly placement = new Placement();
+  readonly filling = new Filling();
 
   readonly #scene = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);
@@ -237,6 +239,8 @@ export class Editor {
       this.answers.open(scene, saved);
       this.playhead.rewind();
       this.placement.stop();
+      this.filling.close();
+      if (this.#tool.peek() === 'fill') this.#tool.value = 'select';
       this.#sweep.value = null;
       this.notices.hide();
       this.#nameSteps();
@@ -478,6 +482,8 @@ export class Editor {
       this.#tool.value = tool;
       this.#measure.value = null;
       this.placement.stop();
+      if (tool === 'fill') this.filling.open(this.#scene.peek()?.seed ?? 0);
+      else this.filling.close();
     });
   }
 

@@ -97,6 +97,9 @@ export class Picture {
         e.measure.value,
         e.sweep.value,
         e.placement.ghosts.value,
+        e.filling.wish.value,
+        e.filling.drawn.value,
+        e.filling.answer.value,
         e.notices.toast.value,
       ];
       stage.invalidate('overlay');

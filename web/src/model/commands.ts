@@ -203,18 +203,18 @@ export function setLength(scene: Scene, length: Length): Command {
       .filter((a) => a.goal.time > length)
       .map((a) => [a.id, { goal: Object.freeze({ ...a.goal, time: length }) }]),
   );
-  return both(
+  return inOneStep(
     patchScene(`${length} s worked out`, { length, duration: durationOf(length, scene.steps) }),
     patchAgents('', late),
   );
 }
 
 /** Two commands as one step. */
-function both(first: Command, second: Command): Command {
+export function inOneStep(first: Command, second: Command, name = first.name): Command {
   return {
-    name: first.name,
+    name,
     apply: (scene) => second.apply(first.apply(scene)),
-    invert: (scene) => ({ ...both(second.invert(first.apply(scene)), first.invert(scene)), name: first.name }),
+    invert: (scene) => inOneStep(second.invert(first.apply(scene)), first.invert(scene), name),
   };
 }
 
