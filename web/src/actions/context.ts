@@ -14,6 +14,7 @@ import type { Gestures } from '../edit/gestures/pointer';
 import type { Picture } from '../edit/picture';
 import type { Playback } from '../edit/playback';
 import type { Sharing } from '../edit/sharing';
+import type { Variants } from '../edit/variants/variants';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
 import type { Ui } from './ui';
@@ -36,6 +37,7 @@ export interface Context {
   readonly client: Client;
   readonly copying: Copying;
   readonly filler: Filler;
+  readonly variants: Variants;
   readonly ui: Ui;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };

@@ -20,6 +20,9 @@ import { SceneCare } from '../edit/scene-care';
 import { SceneFile } from '../edit/scene-file';
 import { SceneList } from '../edit/scene-list';
 import { Sharing } from '../edit/sharing';
+import { Questions } from '../edit/question';
+import { Maker } from '../edit/variants/making';
+import { Variants } from '../edit/variants/variants';
 import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
 import { HttpGenerator } from '../net/http-generator';
@@ -66,12 +69,16 @@ function makeParts(): Context {
   const gestures = new Gestures(stage, editor, picture, generation);
   const playback = new Playback(editor, stage);
   const chooseFiles = fileChooser((files) => void importing.files(files));
+  const line = new HttpGenerator(client);
+  const maker = new Maker(editor, new Questions(editor, file), line, (scene) => file.reference(scene));
+  const variants = new Variants(editor, maker, () => line.cancel());
   const copying = new Copying(editor);
   const filler = new Filler(editor, file, client);
   const parts = {
     copying,
     editor,
     filler,
+    variants,
     generation,
     scenes,
     library,
@@ -107,7 +114,7 @@ function makeParts(): Context {
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, sharing, stage, ui } = c;
+  const { editor, gestures, generation, library, playback, sharing, stage, ui, variants } = c;
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   followView(stage);
   lookWhereItWas(c);
@@ -121,8 +128,8 @@ function connect(c: Context): void {
   });
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
-    const busy =
-      generation.busy.value || editor.filling.asking.value || editor.status.value.kind === 'loading' || gliding.value;
+    const asked = generation.busy.value || editor.filling.asking.value || variants.busy.value;
+    const busy = asked || editor.status.value.kind === 'loading' || gliding.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
   effect(() => {

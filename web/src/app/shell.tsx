@@ -11,6 +11,7 @@ import { HistoryPanel } from './history/panel';
 import { Hud } from './hud/hud';
 import { Inspector } from './inspector/inspector';
 import { AppProvider, useApp } from './parts/app-context';
+import { Later } from './parts/later';
 import { Drawer } from './scenes/drawer';
 import { Empty } from './scenes/empty';
 import { Timeline } from './timeline/timeline';
@@ -51,9 +52,14 @@ function OverPicture() {
   );
 }
 
+const variantStrip = () => import('./variants/strip').then((m) => m.default);
+
 function Around() {
+  const { editor, variants } = useApp();
+  const strip = useComputed(() => variants.open.value && editor.isOpen.value).value;
   return (
     <>
+      {strip ? <Later load={variantStrip} /> : null}
       <Inspector />
       <Timeline />
       <Dialogs />

@@ -3,7 +3,7 @@
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { History, type Camera, type HistoryStep, type KeptHistory } from '../model/history';
 import type { Command } from '../model/commands';
-import { canChange, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { startPose, touchedIn, type Agent, type Scene } from '../model/scene';
 import type { Futures, MotionSet } from '../model/futures';
 import { motionOf } from '../model/changes';
 import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
@@ -539,7 +539,7 @@ export class Editor {
 
   /** Everybody the user asked something of. */
   touchedIds(scene = this.scene.peek()): string[] {
-    return scene ? [...scene.agents.values()].filter((a) => touched(a) && canChange(a)).map((a) => a.id) : [];
+    return scene ? touchedIn(scene) : [];
   }
 }
 

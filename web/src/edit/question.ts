@@ -41,11 +41,19 @@ export class Questions {
   ) {}
 
   make(scene: Scene, w: Wanted, preview: boolean, on: Handlers): Question {
-    const set = this.editor.motion.peek();
+    return this.#of(scene, this.editor.motion.peek(), w, preview, on, shownOf(this.editor, w));
+  }
+
+  /** The same whatever is on screen: about what everybody does in `set`. */
+  makeApart(scene: Scene, set: MotionSet, w: Wanted, on: Handlers): Question {
+    return this.#of(scene, set, w, false, on, {});
+  }
+
+  #of(scene: Scene, set: MotionSet, w: Wanted, preview: boolean, on: Handlers, shown: Shown): Question {
     return {
       preview,
       on,
-      options: this.#options(scene, w),
+      options: { ...this.#options(scene, w), ...shown },
       scene: () => this.#reference(scene, set, w, preview),
       whole: () => this.#written(scene, set, w, this.file.map!),
     };
@@ -70,7 +78,6 @@ export class Questions {
       kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,
       ...(w.pinned ? { pinned: [...w.pinned] } : {}),
-      ...shownOf(this.editor, w),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME
         ? { horizon_s: scene.length, replan_interval_s: scene.replan }
@@ -116,7 +123,9 @@ const someStill = (s: Scene): boolean =>
   s.others === 'still' || [...s.agents.values()].some((a) => doing(s, a) === 'still');
 
 /** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
-function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
+type Shown = Pick<GenerateOptions, 'shown'>;
+
+function shownOf(editor: Editor, w: Wanted): Shown {
   const drags = editor.dragging.peek() || (w.step !== null && editor.draft.peek()?.id === editor.selection.peek());
   const shown = drags && !w.pinned ? shownFuture(editor, w.agents) : undefined;
   return shown ? { shown } : {};

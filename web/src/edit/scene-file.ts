@@ -2,7 +2,8 @@
 import type { MapJson, SceneJson } from '../model/json';
 import { rosterOfJson } from '../model/read';
 import type { Scene } from '../model/scene';
-import { generatedJson, writeScene } from '../model/write';
+import { castJson, generatedJson, writeScene } from '../model/write';
+import type { SceneRef } from '../net/generator';
 import type { Editor } from './editor';
 
 export class SceneFile {
@@ -37,6 +38,13 @@ export class SceneFile {
     this.#roster = rosterOfJson(json);
     const asked = json.agents.filter((a) => a.conditions && Object.keys(a.conditions).length);
     this.#withConditions = new Set(asked.map((a) => a.id));
+  }
+
+  /** The scene for a question about its motions: by name where the server holds it, else with its cast. */
+  reference(scene: Scene): SceneRef {
+    if (this.holds(scene)) return { id: scene.id };
+    const map = this.mapRef ? { ref: this.mapRef } : this.map!;
+    return { scene: { ...this.raw!, agents: castJson(scene), map, generated: null } };
   }
 
   hadConditions(id: string): boolean {

@@ -11,6 +11,7 @@ import type {
   SceneJson,
   StartJson,
   TrackJson,
+  VariantJson,
 } from './json';
 import { DEFAULTS } from './domain';
 import type { Motion } from './motion';
@@ -164,9 +165,38 @@ export function writeScene(
       replan_s: scene.replan,
       ...(scene.drawn ? { drawn: scene.drawn } : {}),
       ...ofAgents(scene.agents.values()),
+      ...(scene.variants.length ? { variants: variantsJson(scene) } : {}),
     },
   };
 }
+
+/** Variants as the file has them. */
+export const variantsJson = (scene: Scene): VariantJson[] =>
+  scene.variants.map((v) => {
+    const { seed, diversity, others, length, replan, drawn, subject, roster, asked } = scene.variantStates[v.id];
+    const all = Object.entries(asked).flatMap(([id, patch]) => {
+      const a = scene.agents.get(id);
+      return a ? [{ ...a, ...patch }] : [];
+    });
+    const { picked, does } = ofAgents(all);
+    return {
+      id: v.id,
+      ...(v.called ? { name: v.called } : {}),
+      ...(v.kept ? { kept: true } : {}),
+      ...(v.starred ? { starred: true } : {}),
+      seed,
+      diversity,
+      others,
+      length_s: length,
+      replan_s: replan,
+      ...(drawn ? { drawn } : {}),
+      ...(subject === null ? {} : { subject }),
+      roster,
+      conditions: Object.fromEntries(all.map((a) => [a.id, conditionOf(a)])),
+      ...(picked ? { picked } : {}),
+      ...(does ? { does } : {}),
+    };
+  });
 
 /** What only the editor knows of single road users. */
 export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
