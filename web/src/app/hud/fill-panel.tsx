@@ -4,6 +4,7 @@ import { useComputed } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { FILL_KINDS, shareOf, type FillKind } from '../../edit/fill-mix';
 import { LEAST_DENSITY, MOST_DENSITY } from '../../edit/filling';
+import { KIND_NAMES } from '../../model/kinds';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
@@ -88,7 +89,30 @@ export default function FillPanel() {
         <KeyCaps of="Enter" />
       </div>
       <Note />
+      <Preview />
     </section>
+  );
+}
+
+/** Who would come, for those who do not see the canvas: a button each, which pins. */
+function Preview() {
+  const { filling } = useApp().editor;
+  const all = filling.all.value;
+  return (
+    <div class="sr" role="group" aria-label={`Preview, ${all.length}`}>
+      {all.map((n) => (
+        <button
+          key={`${n.pose.x} ${n.pose.y}`}
+          type="button"
+          tabIndex={-1}
+          data-preview={n.kind}
+          aria-pressed={filling.isPinned(n)}
+          onClick={() => filling.togglePin(n)}
+        >
+          {KIND_NAMES[n.kind]} at {num(n.pose.x, 1)}, {num(n.pose.y, 1)}
+        </button>
+      ))}
+    </div>
   );
 }
 
