@@ -87,6 +87,13 @@ export interface Lock {
   run(): void;
 }
 
+/** A document with what everybody does in it, and who of them does another thing than on the picture. */
+export interface Beside {
+  readonly scene: Scene;
+  readonly set: MotionSet;
+  readonly parted: readonly string[];
+}
+
 const NOBODY: readonly string[] = Object.freeze([]);
 const NO_EVENTS: readonly TrafficEvent[] = [];
 
@@ -115,6 +122,7 @@ export class Editor {
   readonly #speedUnit = signal<SpeedUnit>(recall<SpeedUnit>('speed-unit') ?? 'km/h');
   readonly #undoName = signal<string | null>(null);
   readonly #redoName = signal<string | null>(null);
+  readonly #beside = signal<Beside | null>(null);
   readonly #lock = signal<Lock | null>(null);
   readonly #historyTick = signal(0);
   /** Goal headings that came from a lane and may follow the next one, as `part:id`. */
@@ -146,6 +154,8 @@ export class Editor {
   readonly drag: ReadonlySignal<DragInfo | null> = this.#drag;
   readonly selectedEvent: ReadonlySignal<TrafficEvent | null> = this.#selectedEvent;
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
+  /** Another way that the scene could go, shown dashed beside the one on the picture. */
+  readonly beside: ReadonlySignal<Beside | null> = this.#beside;
   readonly undoName: ReadonlySignal<string | null> = this.#undoName;
   readonly redoName: ReadonlySignal<string | null> = this.#redoName;
   /** Null while the document can be changed. */
@@ -242,6 +252,7 @@ export class Editor {
       this.filling.close();
       if (this.#tool.peek() === 'fill') this.#tool.value = 'select';
       this.#sweep.value = null;
+      this.#beside.value = null;
       this.notices.hide();
       this.#nameSteps();
     });
@@ -493,6 +504,10 @@ export class Editor {
 
   sweepOver(sweep: Sweep | null): void {
     this.#sweep.value = sweep;
+  }
+
+  showBeside(beside: Beside | null): void {
+    this.#beside.value = beside;
   }
 
   pickEvent(event: TrafficEvent | null): void {

@@ -96,6 +96,7 @@ export class Picture {
         e.liveReach.value,
         e.measure.value,
         e.sweep.value,
+        e.beside.value,
         e.placement.ghosts.value,
         e.filling.wish.value,
         e.filling.drawn.value,

@@ -25,7 +25,8 @@ const LEAST_M = 3;
 const TURN_SAYS = 30;
 const SECOND_SAYS = 6;
 
-interface Deed {
+/** What somebody does, in a few figures. */
+export interface Deed {
   /** Metres covered, seconds stood, and whether it stands at the end. */
   readonly way: number;
   readonly waits: number;
@@ -69,7 +70,7 @@ function ofSubject({ state, set, scene }: Nameless): Said[] {
   return name ? [{ words: name, weight: Infinity }] : [];
 }
 
-function deedOf(scene: Scene, m: Motion): Deed {
+export function deedOf(scene: Scene, m: Motion): Deed {
   let way = 0,
     waits = 0,
     turned = 0;

@@ -4,6 +4,7 @@ import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/si
 import { inOneStep } from '../../model/commands';
 import { counted, readEvents, worstOf, type TrafficEvent } from '../../model/events';
 import type { MotionSet } from '../../model/futures';
+import { partingOf, type Parting, type Side } from '../../model/parting';
 import { sceneKey, type Scene } from '../../model/scene';
 import { nameVariants } from '../../model/variant-names';
 import {
@@ -34,6 +35,15 @@ export interface Card {
   readonly set: MotionSet | null;
   readonly events: readonly TrafficEvent[];
   readonly name: string;
+}
+
+/** A card that everything is known of. */
+export type WholeCard = Card & { readonly scene: Scene; readonly set: MotionSet };
+
+export interface Compared {
+  readonly left: WholeCard;
+  readonly right: WholeCard;
+  readonly parting: Parting;
 }
 
 export type Filter = 'all' | 'events' | 'starred';
@@ -75,6 +85,9 @@ export class Variants {
   /** Id of the card that keys are about: the one with the focus, else the one on the picture. */
   readonly current: ReadonlySignal<number | null>;
 
+  /** The two that are compared, and what differs. */
+  readonly compared: ReadonlySignal<Compared | null>;
+
   constructor(
     private readonly editor: Editor,
     private readonly maker: Maker,
@@ -102,6 +115,17 @@ export class Variants {
       const id = this.#current.value;
       return id !== null && this.cards.value.some((c) => c.id === id) ? id : this.shown.value;
     });
+    this.compared = computed(() => comparedOf(this.cards.value, this.#pair.value));
+    effect(() => {
+      const now = this.compared.value;
+      const parted = now?.parting.parted.map((p) => p.agent.id) ?? [];
+      editor.showBeside(now && { scene: now.right.scene, set: now.right.set, parted });
+    });
+    // One leaves the comparison by changing the scene: it is none of the two any more.
+    effect(() => {
+      const left = this.#pair.value?.[0];
+      if (left !== undefined && !editor.dragging.value && this.shown.value !== left) this.endCompare();
+    });
     let scene = '';
     effect(() => {
       const now = editor.scene.value?.id ?? '';
@@ -111,10 +135,6 @@ export class Variants {
     });
     effect(() => {
       if (this.#open.value && !this.#making.value) void this.#fetchMissing(this.cards.value);
-    });
-    effect(() => {
-      const pair = this.#pair.value;
-      if (pair?.some((id) => !this.cards.value.some((c) => c.id === id && c.set))) this.endCompare();
     });
   }
 
@@ -381,6 +401,15 @@ function cardsOf(
   // Starred ones come first.
   return [...all.filter((c) => c.variant.starred), ...all.filter((c) => !c.variant.starred)];
 }
+
+function comparedOf(cards: readonly Card[], pair: readonly [number, number] | null): Compared | null {
+  const [left, right] = (pair ?? []).map((id) => cards.find((c) => c.id === id));
+  if (!isWhole(left) || !isWhole(right)) return null;
+  const side = (c: WholeCard): Side => ({ label: String(c.id), scene: c.scene, set: c.set, events: c.events });
+  return { left, right, parting: partingOf(side(left), side(right)) };
+}
+
+const isWhole = (c: Card | undefined): c is WholeCard => !!c?.scene && !!c.set;
 
 export const hasEvents = (c: Pick<Card, 'events'>): boolean => {
   const worst = worstOf(counted(c.events));
