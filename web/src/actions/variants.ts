@@ -89,7 +89,10 @@ export const variants = inGroup('Variants', [
     icon: 'export',
     help: 'A file each; those that are kept, or all of them',
     when: (c) => (c.variants.cards.value.length ? true : 'There are no variants.'),
-    run: (c) => c.ui.openDialog('export'),
+    run: (c) => {
+      c.variants.aimExport();
+      c.ui.openDialog('export');
+    },
   },
   {
     id: 'swap-variants',

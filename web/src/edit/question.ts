@@ -30,6 +30,8 @@ export interface Wanted {
 
 /** A draft that stays for less than a picture on the screen would not be seen. */
 const FRAME_MS = 16;
+/** Where nobody looks at drafts. */
+const ANSWER_ALONE = { stream_modes: 'chosen', draft_interval_ms: 1000 } as const;
 
 export class Questions {
   /** The scene as the last questions of a drag asked about it: the hero's own, and what the others would do. */
@@ -41,21 +43,25 @@ export class Questions {
   ) {}
 
   make(scene: Scene, w: Wanted, preview: boolean, on: Handlers): Question {
-    return this.#of(scene, this.editor.motion.peek(), w, preview, on, shownOf(this.editor, w));
-  }
-
-  /** The same whatever is on screen: about what everybody does in `set`. */
-  makeApart(scene: Scene, set: MotionSet, w: Wanted, on: Handlers): Question {
-    return this.#of(scene, set, w, false, on, {});
-  }
-
-  #of(scene: Scene, set: MotionSet, w: Wanted, preview: boolean, on: Handlers, shown: Shown): Question {
+    const set = this.editor.motion.peek();
     return {
       preview,
       on,
-      options: { ...this.#options(scene, w), ...shown },
+      options: { ...this.#options(scene, w), ...shownOf(this.editor, w) },
       scene: () => this.#reference(scene, set, w, preview),
       whole: () => this.#written(scene, set, w, this.file.map!),
+    };
+  }
+
+  /** The same whatever is on screen, and whatever the server keeps beside the scene: everybody does as in `set`. */
+  makeApart(scene: Scene, set: MotionSet, w: Wanted, on: Handlers): Question {
+    const { map, mapRef } = this.file;
+    return {
+      preview: false,
+      on,
+      options: { ...this.#options(scene, w), ...ANSWER_ALONE },
+      scene: () => ({ scene: this.#written(scene, set, w, mapRef ? { ref: mapRef } : map!) }),
+      whole: () => this.#written(scene, set, w, map!),
     };
   }
 

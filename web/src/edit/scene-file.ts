@@ -1,5 +1,6 @@
 // The open scene as a file: as it came, and as it is written back with the user's changes in it.
 import type { MapJson, SceneJson } from '../model/json';
+import type { MotionSet } from '../model/futures';
 import { rosterOfJson } from '../model/read';
 import type { Scene } from '../model/scene';
 import { castJson, generatedJson, writeScene } from '../model/write';
@@ -54,11 +55,20 @@ export class SceneFile {
   /** The scene with its changes and the futures that belong to them; the map by its hash where the server has it. */
   current(): SceneJson | null {
     const scene = this.editor.scene.peek();
-    if (!scene || !this.raw) return null;
-    const m = this.editor.motion.peek();
+    return scene && this.#written(scene, this.editor.motion.peek());
+  }
+
+  #written(scene: Scene, m: MotionSet): SceneJson | null {
+    if (!this.raw) return null;
     const driving = [...m.futures].filter(([id]) => m.driving.has(id));
     const generated = m.stale ? null : generatedJson(scene, driving, m.head);
     return writeScene(this.raw, scene, generated, this.mapRef ? { ref: this.mapRef } : (this.map ?? undefined));
+  }
+
+  /** A document as a file of its own, with the map inside. */
+  completeOf(scene: Scene, set: MotionSet): SceneJson | null {
+    const json = this.#written(scene, set);
+    return json && this.map ? { ...json, map: this.map } : json;
   }
 
   /** The same with the map inside: for files, and for servers that do not know the map. */

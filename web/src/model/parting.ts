@@ -133,12 +133,10 @@ function goals(left: Side, right: Side): Row[] {
 // -------------------------------------------------------------- the moments
 
 function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[] {
+  const said = (e: TrafficEvent): string =>
+    e.what === 'collision' && e.b ? `${e.a.name} meets ${e.b.name}` : `${e.title}, ${e.short}`;
   const events = [left, right].flatMap((s) =>
-    counted(s.events).map((e): Moment => ({
-      time: e.time,
-      words: `${s.label}: ${e.what === 'collision' && e.b ? `${e.a.name} meets ${e.b.name}` : `${e.title}, ${e.short}`}`,
-      at: e.at,
-    })),
+    counted(s.events).map((e): Moment => ({ time: e.time, words: `${s.label}: ${said(e)}`, at: e.at })),
   );
   // What happens in both the same way is no parting.
   const own = events.filter((e) => !events.some((o) => o !== e && sameBut(o, e)));

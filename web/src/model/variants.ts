@@ -36,7 +36,7 @@ export type Asked = Required<
 
 /** So many are made at most, and so many a scene holds with those that were kept. */
 export const MOST_NEW = 10;
-export const MOST_VARIANTS = 40;
+export const MOST_VARIANTS = 30;
 
 /** The document as it is now, as a variant of it. */
 export function stateOfVariant(scene: Scene, subject: string | null): VariantState {

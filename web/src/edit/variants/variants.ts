@@ -48,6 +48,11 @@ export interface Compared {
 
 export type Filter = 'all' | 'events' | 'starred';
 
+/** What an export is about: the scene as it is, or several variants. */
+export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
+
+const isWhole = (c: Card | undefined): c is WholeCard => !!c?.scene && !!c.set;
+
 const USUAL_COUNT = 6;
 const NONE: readonly Card[] = Object.freeze([]);
 
@@ -59,6 +64,7 @@ export class Variants {
   readonly #renaming = signal<number | null>(null);
   readonly #pair = signal<readonly [number, number] | null>(null);
   readonly #picked = signal<number | null>(null);
+  readonly #scope = signal<Scope>('present');
   readonly #making = signal<{ readonly done: number; readonly of: number } | null>(null);
   readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
   /** Rises with every order to stop. */
@@ -75,6 +81,7 @@ export class Variants {
   readonly pair: ReadonlySignal<readonly [number, number] | null> = this.#pair;
   /** The first of two that are to be compared. */
   readonly picked: ReadonlySignal<number | null> = this.#picked;
+  readonly scope: ReadonlySignal<Scope> = this.#scope;
   readonly making: ReadonlySignal<{ readonly done: number; readonly of: number } | null> = this.#making;
   /** Is anything being worked out? */
   readonly busy = computed(() => this.#making.value !== null || this.#fetching.value);
@@ -301,6 +308,25 @@ export class Variants {
     this.#patch(id, (_, was) => ({ patch: { called: name }, name: `${was} named ${name ?? 'by what differs'}` }));
   }
 
+  /** What goes out, of the variants that everything is known of. */
+  within(scope: Scope): readonly WholeCard[] {
+    const pair = this.#pair.value;
+    return this.cards.value.filter(isWhole).filter((c) => {
+      if (scope === 'kept') return c.variant.kept;
+      if (scope === 'starred') return c.variant.starred;
+      return scope === 'all' || (scope === 'pair' && !!pair?.includes(c.id));
+    });
+  }
+
+  /** The next export is about several: the two that are compared, else those that are kept, else all. */
+  aimExport(): void {
+    this.#scope.value = this.#pair.peek() ? 'pair' : this.within('kept').length ? 'kept' : 'all';
+  }
+
+  setScope(scope: Scope): void {
+    this.#scope.value = scope;
+  }
+
   startRenaming(id: number | null): void {
     this.#renaming.value = id;
   }
@@ -408,8 +434,6 @@ function comparedOf(cards: readonly Card[], pair: readonly [number, number] | nu
   const side = (c: WholeCard): Side => ({ label: String(c.id), scene: c.scene, set: c.set, events: c.events });
   return { left, right, parting: partingOf(side(left), side(right)) };
 }
-
-const isWhole = (c: Card | undefined): c is WholeCard => !!c?.scene && !!c.set;
 
 export const hasEvents = (c: Pick<Card, 'events'>): boolean => {
   const worst = worstOf(counted(c.events));
