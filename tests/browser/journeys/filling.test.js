@@ -1,4 +1,4 @@
-// A map filled with traffic: seen before it is added, in an area drawn by hand; the good ones stay, the rest is drawn anew.
+// A map filled with traffic: seen before it is added, in an area drawn by hand; the good ones stay when others come.
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { journeys } from '../support/journey.js';

@@ -229,6 +229,14 @@ journeys('variants', (stage) => {
     await e.settled();
     const before = await cards(e);
     await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    // The file has the scene's own motion and, beside it, that of those which are kept.
+    const { scenes: list } = await e.get('/v1/scenes');
+    const own = await e.get(`/v1/scenes/${list.find((s) => !s.readonly).id}`);
+    assert.equal(own.generated.samples.length, 3);
+    assert.deepEqual(
+      own.x_editor.variants.map((v) => [v.id, v.kept ?? false, v.sample ?? null]),
+      before.map((c) => [c.id, c.kept, c.kept ? (c.id === 2 ? 1 : 2) : null]),
+    );
     await e.page.reload();
     await e.ready();
     await e.settled();

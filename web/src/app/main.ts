@@ -70,8 +70,9 @@ function makeParts(): Context {
   const playback = new Playback(editor, stage);
   const chooseFiles = fileChooser((files) => void importing.files(files));
   const line = new HttpGenerator(client);
-  const maker = new Maker(editor, new Questions(editor, file), line, (scene) => file.reference(scene));
+  const maker = new Maker(editor, new Questions(editor, file), line, file);
   const variants = new Variants(editor, maker, () => line.cancel());
+  file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
   const copying = new Copying(editor);
   const filler = new Filler(editor, file, client);
   const parts = {

@@ -3,9 +3,15 @@ import type { MapJson, SceneJson } from '../model/json';
 import type { MotionSet } from '../model/futures';
 import { rosterOfJson } from '../model/read';
 import type { Scene } from '../model/scene';
-import { castJson, generatedJson, writeScene } from '../model/write';
+import { castJson, generatedJson, variantSample, writeScene } from '../model/write';
 import type { SceneRef } from '../net/generator';
 import type { Editor } from './editor';
+
+interface VariantTake {
+  readonly id: number;
+  readonly scene: Scene;
+  readonly set: MotionSet;
+}
 
 export class SceneFile {
   /** As it came from the server; null while nothing is open. */
@@ -15,6 +21,8 @@ export class SceneFile {
   mapRef: string | null = null;
   /** Does the server know this scene by its id? */
   stored = false;
+  /** Variants whose motion is to be kept. */
+  variantTakes: () => readonly VariantTake[] = () => [];
   #withConditions = new Set<string>();
   /** Who is in the version that the server holds. */
   #roster: string | null = null;
@@ -55,7 +63,19 @@ export class SceneFile {
   /** The scene with its changes and the futures that belong to them; the map by its hash where the server has it. */
   current(): SceneJson | null {
     const scene = this.editor.scene.peek();
-    return scene && this.#written(scene, this.editor.motion.peek());
+    const json = scene && this.#written(scene, this.editor.motion.peek());
+    return json && this.#withVariants(json);
+  }
+
+  /** Kept variants go with what everybody does in them: another generator may not draw them again. */
+  #withVariants(json: SceneJson): SceneJson {
+    const { generated, x_editor } = json;
+    const kept = generated ? this.variantTakes() : [];
+    if (!generated || !kept.length) return json;
+    const index = new Map(kept.map(({ id }, i) => [id, generated.samples.length + i]));
+    const variants = x_editor?.variants?.map((v) => (index.has(v.id) ? { ...v, sample: index.get(v.id) } : v));
+    const samples = [...generated.samples, ...kept.map(({ scene, set }) => variantSample(scene, set))];
+    return { ...json, generated: { ...generated, samples }, x_editor: { ...x_editor, variants } };
   }
 
   #written(scene: Scene, m: MotionSet): SceneJson | null {

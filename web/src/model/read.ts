@@ -170,7 +170,13 @@ export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null =>
 /** The futures saved beside a scene, when they still belong to it. */
 export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   const g = json.generated;
-  const agents = g && !g.stale ? g.samples?.[g.chosen_sample ?? 0]?.agents : undefined;
+  return g && !g.stale ? readSample(json, scene, g.chosen_sample ?? 0) : null;
+}
+
+/** One of the answers that were saved beside a scene; `scene` is the document that it answers. */
+export function readSample(json: SceneJson, scene: Scene, index: number): MotionSet | null {
+  const g = json.generated;
+  const agents = g?.samples?.[index]?.agents;
   if (!g || !agents) return null;
   const futures = new Map<string, Futures>();
   for (const [id, f] of Object.entries(agents)) {
@@ -184,6 +190,13 @@ export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   if (!futures.size) return null;
   const head = Object.fromEntries(Object.entries(g).filter(([k]) => k !== 'samples'));
   return { ...emptyMotion(sceneKey(scene)), futures, driving: new Set(futures.keys()), head };
+}
+
+/** What a file keeps of a variant's motion; null where it keeps nothing. */
+export function readVariantSample(json: SceneJson, id: number, scene: Scene): MotionSet | null {
+  const all = json.x_editor?.variants;
+  const sample = Array.isArray(all) ? all.find((v) => v?.id === id)?.sample : undefined;
+  return whole(sample, 1, MOST_VARIANTS) ? readSample(json, scene, sample) : null;
 }
 
 function readStart(c: ConditionJson, log: Pose | null): StartSpec {

@@ -8,6 +8,7 @@ import type {
   GoalJson,
   MapJson,
   MapRef,
+  SampleJson,
   SceneJson,
   StartJson,
   TrackJson,
@@ -25,10 +26,11 @@ import {
   sizeChanged,
   startPose,
   staysAway,
+  touched,
   type Agent,
   type Scene,
 } from './scene';
-import type { Futures } from './futures';
+import type { Futures, MotionSet } from './futures';
 
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
 export function conditionOf(a: Agent): ConditionJson {
@@ -114,6 +116,18 @@ export function generatedJson(
     chosen_sample: 0,
     samples: [{ agents }],
   };
+}
+
+/** What everybody does in a variant; of those who were asked nothing the one way that they take. */
+export function variantSample(scene: Scene, set: MotionSet): SampleJson {
+  const agents: SampleJson['agents'] = {};
+  for (const id of set.driving) {
+    const [a, f] = [scene.agents.get(id), set.futures.get(id)];
+    if (!a || !f?.modes.length) continue;
+    const chosen = Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
+    agents[id] = touched(a) ? futuresJson(f, chosen) : futuresJson({ ...f, modes: [f.modes[chosen]] }, 0);
+  }
+  return { agents };
 }
 
 /** One state, for somebody of whom nothing else is known. */

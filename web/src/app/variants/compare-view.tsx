@@ -26,6 +26,7 @@ export default function CompareView() {
   const now = c.variants.compared.value;
   useEffect(() => {
     c.stage.element.classList.add('halved');
+    c.ui.showDrawer(null);
     return () => c.stage.element.classList.remove('halved');
   }, []);
   if (!now) return null;

@@ -5,15 +5,17 @@ import { motionOf } from '../../model/changes';
 import { emptyMotion, LETTERS, type KeepOrder, type MotionSet } from '../../model/futures';
 import { poseAt, STEP_S } from '../../model/motion';
 import { canChange, canMove, doing, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/scene';
+import { readVariantSample } from '../../model/read';
 import { trackJson } from '../../model/write';
 import { Away, Refused } from '../../net/client';
-import type { Generator, SceneRef } from '../../net/generator';
+import type { Generator } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';
 import { askedAfter } from '../after-change';
 import type { Editor, Step } from '../editor';
 import { motionAfter } from '../motion-after';
 import type { Questions, Wanted } from '../question';
 import { readScore } from '../read-answer';
+import type { SceneFile } from '../scene-file';
 
 /** A document and what everybody does in it. */
 export interface Take {
@@ -36,7 +38,7 @@ export class Maker {
     private readonly editor: Editor,
     private readonly questions: Questions,
     private readonly generator: Generator,
-    private readonly stored: (scene: Scene) => SceneRef,
+    private readonly file: SceneFile,
   ) {}
 
   /** Gives one after the other, no two alike; fewer where there are no more. */
@@ -61,6 +63,12 @@ export class Maker {
     const which = k % LETTERS.length;
     if (which >= (base.futures.get(subject)?.modes.length ?? 0)) return null;
     return this.workOut(choose(seeded.agents.get(subject)!, which, '').apply(seeded), subject);
+  }
+
+  /** A variant of last time: as the file keeps it, else worked out again. */
+  async again(id: number, scene: Scene, subject: string | null): Promise<Take> {
+    const kept = this.file.raw && readVariantSample(this.file.raw, id, scene);
+    return kept ? { scene, set: await this.#scored(scene, kept) } : this.workOut(scene, subject);
   }
 
   /** What everybody does in a document. */
@@ -119,7 +127,7 @@ export class Maker {
       (a) => canChange(a) && (driving.has(a.id) || a.placed || doing(scene, a) === 'still'),
     );
     const tracks = Object.fromEntries(own.map((a) => [a.id, trackJson(motionOf(scene, set, a))]));
-    const reply = await this.generator.score(this.stored(scene), tracks, new AbortController().signal);
+    const reply = await this.generator.score(this.file.reference(scene), tracks, new AbortController().signal);
     return { ...set, score: readScore(reply) };
   }
 }

@@ -247,7 +247,7 @@ export class Variants {
     const turn = this.#turn;
     let done = false;
     try {
-      const take = await this.maker.workOut(next.scene!, next.state.subject);
+      const take = await this.maker.again(next.id, next.scene!, next.state.subject);
       if (turn === this.#turn) this.#keepSets([take]);
       done = true;
     } catch (e) {
