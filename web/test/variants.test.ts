@@ -1,4 +1,4 @@
-// Variants: what they consist of comes back exactly, kept ones are never written over, names and moments tell them apart.
+// Variants: they come back exactly, kept ones are never written over, names and moments tell them apart.
 import { describe, expect, it } from 'vitest';
 import { choose, patchScene, setGoal } from '../src/model/commands';
 import { emptyMotion, type Futures, type MotionSet } from '../src/model/futures';

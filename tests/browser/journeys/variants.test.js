@@ -140,7 +140,8 @@ journeys('variants', (stage) => {
       'every picture has moved on',
     );
     assert.deepEqual(await at(0), start);
-    // While it plays they are at the same place as the picture: paused, they show what the time says.
+    // Space plays also while a card has the focus.
+    await face(e, all[1]).focus();
     await e.key('Space');
     await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 1);
     await e.key('Space');
@@ -184,6 +185,14 @@ journeys('variants', (stage) => {
     await moments.first().click();
     await e.settled();
     assert.ok(words.startsWith((await e.text('.tm')).split(' ')[0]), `${words}: ${await e.text('.tm')}`);
+    // From one to the next by a key, and round again.
+    await leave(e);
+    const told = [...new Set((await moments.allInnerTexts()).map((w) => w.split(' ')[0]))];
+    for (const time of [...told.slice(1), told[0]]) {
+      await e.key('e');
+      await e.settled();
+      assert.equal((await e.text('.tm')).split(' ')[0], time);
+    }
     await e.picture('compared');
     // One camera for both.
     const layers = () =>

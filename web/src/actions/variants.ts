@@ -1,4 +1,5 @@
 // Variants: ways the scene could go, side by side.
+import type { Moment } from '../model/parting';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
 
@@ -7,6 +8,27 @@ const isOpen = (c: Context): boolean => c.variants.open.value;
 const onCard = (c: Context): boolean => isOpen(c) && c.variants.current.value !== null;
 const hasCard = (c: Context): true | string => (onCard(c) ? true : 'Choose a variant first.');
 const isComparing = (c: Context): boolean => c.variants.pair.value !== null;
+
+/** A moment nearer to the edge of the picture than this is brought to the middle, pixels. */
+const EDGE_PX = 60;
+
+/** To one of the moments at which the two that are compared part. */
+export function goToMoment({ editor, stage }: Context, m: Moment): void {
+  editor.playhead.pause();
+  editor.setTime(m.time);
+  const v = stage.view;
+  const [x, y] = v.to(...m.at);
+  if (x > EDGE_PX + v.inset.left && x < v.w - EDGE_PX && y > EDGE_PX && y < v.h - EDGE_PX) return;
+  [v.cx, v.cy] = m.at;
+  stage.viewChanged();
+}
+
+/** The next one after the playhead, and after the last the first again. */
+function nextMoment(c: Context): void {
+  const all = c.variants.compared.value?.parting.moments ?? [];
+  const next = all.find((m) => m.time > c.editor.time.value + 0.05) ?? all[0];
+  if (next) goToMoment(c, next);
+}
 
 export const variants = inGroup('Variants', [
   {
@@ -103,5 +125,15 @@ export const variants = inGroup('Variants', [
     onOffer: isComparing,
     when: (c) => (isComparing(c) ? true : 'Compare two variants first.'),
     run: (c) => c.variants.swapSides(),
+  },
+  {
+    id: 'next-parting',
+    label: 'Next moment at which they part',
+    keys: ['E'],
+    icon: 'next',
+    help: 'From one of the listed moments to the next',
+    onOffer: isComparing,
+    when: (c) => (isComparing(c) ? true : 'Compare two variants first.'),
+    run: nextMoment,
   },
 ]);

@@ -60,10 +60,12 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
       <button
         type="button"
         class="face"
+        data-plays
         aria-label={words}
         aria-pressed={shown}
         onClick={() => variants.take(id)}
         onFocus={() => variants.focus(id)}
+        onBlur={() => variants.focus(null)}
       >
         {card.set ? (
           <LivePicture card={card} album={album} />

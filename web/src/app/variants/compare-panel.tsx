@@ -1,5 +1,5 @@
 // What differs between the two variants that are compared: a table, and the moments at which they part.
-import type { Context } from '../../actions/context';
+import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/units';
 import type { Moment } from '../../model/parting';
 import type { Compared } from '../../edit/variants/variants';
@@ -83,20 +83,6 @@ function MomentRow({ moment: m }: { moment: Moment }) {
       <span>{m.words}</span>
     </button>
   );
-}
-
-/** A moment nearer to the edge of the picture than this is brought to the middle, pixels. */
-const EDGE_PX = 60;
-
-function goToMoment({ editor, stage }: Context, m: Moment): void {
-  editor.playhead.pause();
-  editor.setTime(m.time);
-  const v = stage.view;
-  const [x, y] = v.to(...m.at);
-  if (x > EDGE_PX + v.inset.left && x < v.w - EDGE_PX && y > EDGE_PX && y < v.h - EDGE_PX) return;
-  v.cx = m.at[0];
-  v.cy = m.at[1];
-  stage.viewChanged();
 }
 
 function sameWords({ left, right, parting }: Compared): string {
