@@ -1,6 +1,7 @@
 // Variants: they come back exactly, kept ones are never written over, names and moments tell them apart.
 import { describe, expect, it } from 'vitest';
 import { choose, patchScene, setGoal } from '../src/model/commands';
+import type { TrafficEvent } from '../src/model/events';
 import { emptyMotion, type Futures, type MotionSet } from '../src/model/futures';
 import { partingOf } from '../src/model/parting';
 import { motionFrom, type Motion } from '../src/model/motion';
@@ -138,6 +139,9 @@ describe('what tells variants apart', () => {
     expect(names[3]).toBe(`${a.name} turns left`);
     expect(new Set(names).size).toBe(4);
     expect(nameVariants([card(1, on)])).toEqual(['Variant 1']);
+    const meets = { kind: 'collision', what: 'collision', a, b: walker(s), inLog: false } as TrafficEvent;
+    const eventful = nameVariants([card(1, on), { ...card(2, on), events: [meets] }, card(3, stops)]);
+    expect(eventful[1]).toBe(`${a.name} meets ${walker(s).name}`);
   });
 
   it('is said with the moment at which they part', () => {

@@ -1,6 +1,7 @@
 // Names of variants, made of what tells each from the others: a future of the road user that they are about, else
 // whoever does another thing than in most of them.
 import { motionOf } from './changes';
+import { counted, type TrafficEvent } from './events';
 import type { MotionSet } from './futures';
 import { wrapAngle } from './geometry';
 import { poseAt, type Motion } from './motion';
@@ -12,6 +13,7 @@ export interface Nameless {
   readonly state: VariantState;
   readonly scene: Scene | null;
   readonly set: MotionSet | null;
+  readonly events?: readonly TrafficEvent[];
 }
 
 /** A motion is looked at every so many seconds. */
@@ -42,7 +44,7 @@ interface Said {
 /** A name for each, no two alike. */
 export function nameVariants(all: readonly Nameless[]): string[] {
   const said = all.map(() => [] as Said[]);
-  all.forEach((v, i) => said[i].push(...ofSubject(v)));
+  all.forEach((v, i) => said[i].push(...ofSubject(v), ...ofEvents(v)));
   const known = all.flatMap((v, i) => (v.scene && v.set ? [{ i, scene: v.scene, set: v.set }] : []));
   const ids = new Set(known.flatMap((k) => [...k.set.driving]));
   for (const id of known.length > 1 ? ids : []) {
@@ -68,6 +70,17 @@ function ofSubject({ state, set, scene }: Nameless): Said[] {
   const f = a && set?.futures.get(a.id);
   const name = f && f.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)]?.name;
   return name ? [{ words: name, weight: Infinity }] : [];
+}
+
+/** What happens says as much as so many metres, by its mark. */
+const EVENT_SAYS = { collision: 60, rule: 12, near: 8, short: 6 } as const;
+
+function ofEvents({ events = [] }: Nameless): Said[] {
+  return counted(events).map((e) => {
+    const { a, b, short } = e;
+    const words = !b ? `${a.name}, ${short}` : `${a.name} ${e.what === 'collision' ? 'meets' : 'close to'} ${b.name}`;
+    return { words, weight: EVENT_SAYS[e.kind] };
+  });
 }
 
 export function deedOf(scene: Scene, m: Motion): Deed {

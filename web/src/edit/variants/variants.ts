@@ -53,6 +53,14 @@ export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
 
 const isWhole = (c: Card | undefined): c is WholeCard => !!c?.scene && !!c.set;
 
+/** How the making of variants ended. */
+interface Made {
+  readonly subject: string | null;
+  readonly why: string | null;
+  readonly wanted: number;
+  readonly stopped: boolean;
+}
+
 const USUAL_COUNT = 6;
 const NONE: readonly Card[] = Object.freeze([]);
 
@@ -201,11 +209,12 @@ export class Variants {
     } catch (e) {
       why = reasonOf(e);
     }
-    if (turn === this.#turn) this.#making.value = null;
-    if (editor.scene.peek()?.id === scene.id) this.#put(takes, subject, why, wanted);
+    const stopped = turn !== this.#turn;
+    if (!stopped) this.#making.value = null;
+    if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped });
   }
 
-  #put(takes: readonly Take[], subject: string | null, why: string | null, wanted: number): void {
+  #put(takes: readonly Take[], { subject, why, wanted, stopped }: Made): void {
     const { editor } = this;
     const { notices } = editor;
     const now = editor.scene.peek()!;
@@ -216,10 +225,13 @@ export class Variants {
       editor.run(inOneStep(put, takeVariant(now, states[0], put.name)));
       this.#current.value = null;
     }
+    const n = takes.length;
+    if (!n && stopped) return;
+    const made = n ? `${n} variant${n === 1 ? '' : 's'} made` : 'No variant made';
     if (why) notices.show({ text: why });
-    else if (!takes.length) return;
-    else if (takes.length < wanted)
-      notices.show({ text: `${takes.length} variants made: more of them would be alike. A higher diversity helps.` });
+    else if (stopped || n === wanted) notices.show({ text: `${made}.`, undo: n > 0 });
+    else notices.show({ text: `${made}: more would be alike. A higher diversity helps.`, undo: n > 0 });
+    notices.say(`${made}.`);
   }
 
   /** Ends the making; what is done so far is taken. */
@@ -377,6 +389,10 @@ export class Variants {
       this.#picked.value = null;
       this.#pair.value = [left, right];
     });
+    const moment = this.compared.peek()?.parting.moments[0];
+    this.editor.notices.say(
+      `Variants ${left} and ${right}. ${moment ? `They part: ${moment.words}.` : 'They are alike.'}`,
+    );
   }
 
   swapSides(): void {
