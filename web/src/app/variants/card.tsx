@@ -3,7 +3,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import { num, seconds } from '../../model/units';
-import type { Card } from '../../edit/variants/variants';
+import type { Card } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { LivePicture, type Album } from './live-picture';

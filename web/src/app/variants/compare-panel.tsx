@@ -2,7 +2,7 @@
 import { goToMoment } from '../../actions/variants';
 import { num, seconds } from '../../model/units';
 import type { Moment } from '../../model/parting';
-import type { Compared } from '../../edit/variants/variants';
+import type { Compared } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';

@@ -1,6 +1,6 @@
 // Two variants beside each other: the left one is the picture itself, the right one another that looks where it looks.
 import { useEffect, useRef } from 'preact/hooks';
-import type { Compared, WholeCard } from '../../edit/variants/variants';
+import type { Compared, WholeCard } from '../../edit/variants/cards';
 import { motionOf } from '../../model/changes';
 import { poseAt } from '../../model/motion';
 import { isRecorded, startPose, type Agent } from '../../model/scene';

@@ -1,6 +1,6 @@
 // The picture of a variant in its card, at the time of the playhead: all of them run on one clock.
 import { useEffect, useRef } from 'preact/hooks';
-import type { Card } from '../../edit/variants/variants';
+import type { Card } from '../../edit/variants/cards';
 import { motionOf } from '../../model/changes';
 import { counted } from '../../model/events';
 import { poseAt } from '../../model/motion';

@@ -2,7 +2,7 @@
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
-import { hasEvents, type Card, type Filter } from '../../edit/variants/variants';
+import { hasEvents, type Card, type Filter } from '../../edit/variants/cards';
 import { MOST_NEW } from '../../model/variants';
 import { boxOf, type Box, type Vec } from '../../model/geometry';
 import { busyBox } from '../../model/busy';

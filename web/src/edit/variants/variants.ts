@@ -2,11 +2,8 @@
 // everybody does in each is kept here, and worked out again where it is missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../model/commands';
-import { counted, readEvents, worstOf, type TrafficEvent } from '../../model/events';
 import type { MotionSet } from '../../model/futures';
-import { partingOf, type Parting, type Side } from '../../model/parting';
 import { sceneKey, type Scene } from '../../model/scene';
-import { nameVariants } from '../../model/variant-names';
 import {
   keepAsVariant,
   MOST_NEW,
@@ -14,44 +11,17 @@ import {
   removeVariant,
   replaceVariants,
   sameCast,
-  sceneOfVariant,
   stateOfVariant,
   takeVariant,
   type Variant,
-  type VariantState,
 } from '../../model/variants';
 import { Away, Refused } from '../../net/client';
 import type { Editor } from '../editor';
+import { cardsOf, comparedOf, filtered, isWhole, type Card, type Compared, type Filter, type WholeCard } from './cards';
 import { Maker, Stopped, subjectOf, type Take } from './making';
-
-/** A variant with what is known of it. */
-export interface Card {
-  readonly id: number;
-  readonly variant: Variant;
-  readonly state: VariantState;
-  /** The document that it stands for; null where other road users are in the scene now. */
-  readonly scene: Scene | null;
-  /** Null until it is worked out. */
-  readonly set: MotionSet | null;
-  readonly events: readonly TrafficEvent[];
-  readonly name: string;
-}
-
-/** A card that everything is known of. */
-export type WholeCard = Card & { readonly scene: Scene; readonly set: MotionSet };
-
-export interface Compared {
-  readonly left: WholeCard;
-  readonly right: WholeCard;
-  readonly parting: Parting;
-}
-
-export type Filter = 'all' | 'events' | 'starred';
 
 /** What an export is about: the scene as it is, or several variants. */
 export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
-
-const isWhole = (c: Card | undefined): c is WholeCard => !!c?.scene && !!c.set;
 
 /** How the making of variants ended. */
 interface Made {
@@ -424,41 +394,6 @@ function nextSeed(scene: Scene, subject: string | null): number {
   const used = scene.variants.map((v) => scene.variantStates[v.id]).filter((s) => s.subject === subject);
   if (!used.some((s) => s.seed === scene.seed)) return scene.seed;
   return (Math.max(...used.map((s) => s.seed)) + 1) % Number.MAX_SAFE_INTEGER;
-}
-
-function cardsOf(
-  scene: Scene,
-  list: readonly Variant[],
-  states: Scene['variantStates'],
-  sets: ReadonlyMap<string, MotionSet>,
-): Card[] {
-  const cards = list.map((variant) => {
-    const state = states[variant.id];
-    const own = sameCast(scene, state) ? sceneOfVariant(scene, state) : null;
-    const set = (own && sets.get(sceneKey(own))) ?? null;
-    return { id: variant.id, variant, state, scene: own, set, events: own && set ? readEvents(own, set) : [] };
-  });
-  const names = nameVariants(cards);
-  const all = cards.map((c, i): Card => ({ ...c, name: c.variant.called ?? names[i] }));
-  // Starred ones come first.
-  return [...all.filter((c) => c.variant.starred), ...all.filter((c) => !c.variant.starred)];
-}
-
-function comparedOf(cards: readonly Card[], pair: readonly [number, number] | null): Compared | null {
-  const [left, right] = (pair ?? []).map((id) => cards.find((c) => c.id === id));
-  if (!isWhole(left) || !isWhole(right)) return null;
-  const side = (c: WholeCard): Side => ({ label: String(c.id), scene: c.scene, set: c.set, events: c.events });
-  return { left, right, parting: partingOf(side(left), side(right)) };
-}
-
-export const hasEvents = (c: Pick<Card, 'events'>): boolean => {
-  const worst = worstOf(counted(c.events));
-  return worst !== null;
-};
-
-function filtered(cards: readonly Card[], filter: Filter): readonly Card[] {
-  if (filter === 'events') return cards.filter(hasEvents);
-  return filter === 'starred' ? cards.filter((c) => c.variant.starred) : cards;
 }
 
 function reasonOf(e: unknown): string | null {
