@@ -9,6 +9,7 @@ import { copiesText, newcomer, readCopies } from '../src/model/newcomer';
 import { readScene } from '../src/model/read';
 import { newIds, sceneKey, startPose, type Agent, type Scene } from '../src/model/scene';
 import { writeScene } from '../src/model/write';
+import { patchVariant, replaceVariants, sameCast, stateOfVariant, takeVariant } from '../src/model/variants';
 import * as several from '../src/edit/several';
 import { crossing, crossingJson } from './helpers';
 
@@ -96,6 +97,22 @@ const makers: fc.Arbitrary<Make> = fc.oneof(
   ),
   fc.constant<Make>((_, all) => (all[0] ? resetAgent(all[0]) : null)),
   fc.constant<Make>((s) => resetAll(s)),
+  fc.array(fc.nat(9999), { minLength: 1, maxLength: 10 }).map(
+    (seeds): Make =>
+      (s) =>
+        replaceVariants(
+          s,
+          seeds.map((seed) => ({ ...stateOfVariant(s, null), seed })),
+        ),
+  ),
+  fc.tuple(fc.nat(), fc.boolean()).map(([i, kept]): Make => (s) => {
+    const v = s.variants[i % Math.max(1, s.variants.length)];
+    return v ? patchVariant(s, v.id, { kept }, 'Kept') : null;
+  }),
+  fc.nat().map((i): Make => (s) => {
+    const v = s.variants[i % Math.max(1, s.variants.length)];
+    return v && sameCast(s, s.variantStates[v.id]) ? takeVariant(s, s.variantStates[v.id], 'Shown') : null;
+  }),
 );
 
 /** Which of those who are there: any mix of them. */
@@ -107,7 +124,10 @@ const picked = (s: Scene, which: readonly number[]): Agent[] => {
 
 /** Everything that a command may change, in the order of the road users. */
 const face = (s: Scene): string =>
-  sceneKey(s) + s.issued + JSON.stringify(Array.from(s.agents.values(), (a) => ({ ...a, log: null, source: null })));
+  sceneKey(s) +
+  s.issued +
+  JSON.stringify([s.variants, s.variantStates]) +
+  JSON.stringify(Array.from(s.agents.values(), (a) => ({ ...a, log: null, source: null })));
 
 describe('commands about who is there', () => {
   it('are undone exactly by their inverse', { timeout: 3_600_000 }, () => {

@@ -14,6 +14,7 @@ export const GROUPS = [
   'Move',
   'Goal and futures',
   'Time',
+  'Variants',
   'Scene',
   'Everything',
 ] as const;

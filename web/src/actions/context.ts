@@ -1,6 +1,7 @@
 // What an action may touch, and what a panel shows.
 import type { Copying } from '../edit/copying';
 import type { Editor } from '../edit/editor';
+import type { Filler } from '../edit/filler';
 import type { Library } from '../edit/library';
 import type { Importing } from '../edit/importing';
 import type { Saving } from '../edit/saving';
@@ -13,6 +14,7 @@ import type { Gestures } from '../edit/gestures/pointer';
 import type { Picture } from '../edit/picture';
 import type { Playback } from '../edit/playback';
 import type { Sharing } from '../edit/sharing';
+import type { Variants } from '../edit/variants/variants';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
 import type { Ui } from './ui';
@@ -34,6 +36,8 @@ export interface Context {
   readonly stage: Stage;
   readonly client: Client;
   readonly copying: Copying;
+  readonly filler: Filler;
+  readonly variants: Variants;
   readonly ui: Ui;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
@@ -44,8 +48,6 @@ export interface Context {
   focusText(which: 'name' | 'note'): void;
   /** Opens the menu of what is selected, beside it. */
   openMenu(): void;
-  /** Puts road users on the whole map, as the generator would have them there. */
-  fill(): Promise<void>;
   focusField(part: 'start' | 'goal', field: string): void;
   focusGroup(step: 1 | -1): void;
   focusAgent(id: string): void;

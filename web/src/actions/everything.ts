@@ -3,7 +3,7 @@ import { inGroup } from './action';
 import type { Context } from './context';
 
 /** Esc: what is nearest goes first, one thing a press. */
-function letGo({ editor, gestures, importing, ui }: Context): void {
+function letGo({ editor, gestures, importing, ui, variants }: Context): void {
   if (gestures.cancel()) return;
   if (ui.dialog.value || ui.menu.value || ui.contextMenu.value) {
     ui.closeContextMenu();
@@ -15,6 +15,7 @@ function letGo({ editor, gestures, importing, ui }: Context): void {
     ui.showEvents(false);
     editor.pickEvent(null);
   } else if (editor.tool.value !== 'select') editor.chooseTool('select');
+  else if (variants.pair.value || variants.picked.value !== null) variants.endCompare();
   else editor.select(null);
 }
 

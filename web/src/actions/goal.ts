@@ -140,10 +140,13 @@ export const goal = inGroup('Goal and futures', [
     label: 'Generate',
     keys: ['Ctrl+Enter'],
     icon: 'play',
-    help: 'Everybody worked out anew with this seed',
+    help: 'Everybody worked out anew with this seed; new variants while their strip is open',
     context: 'always',
     when: hasScene,
-    run: (c) => c.generation.generateAll(),
+    run: (c) => {
+      if (c.variants.open.value) void c.variants.make();
+      else c.generation.generateAll();
+    },
   },
   {
     id: 'new-seed',

@@ -22,7 +22,14 @@ const tools = TOOLS.filter((t) => !('places' in t)).map(({ name, label, key, ico
   icon,
   help,
   checked: (c: Context) => c.editor.tool.value === name,
-  run: (c: Context) => c.editor.chooseTool(name),
+  run(c: Context): void {
+    c.editor.chooseTool(name);
+    if (name !== 'fill') return;
+    // Whoever comes starts at 0 s; the panel stands where the lists do.
+    c.editor.playhead.pause();
+    c.editor.setTime(0);
+    c.ui.showDrawer(null);
+  },
 }));
 
 /** Ids of those who can be changed, nearest to the middle of the picture first. */

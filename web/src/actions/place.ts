@@ -37,6 +37,14 @@ export function placedBy({ editor }: Context): PlacedKind | null {
   return tool && 'places' in tool ? tool.places : null;
 }
 
+const isFilling = (c: Context): boolean => c.editor.filling.wish.value !== null;
+
+function addOrClose({ editor, filler }: Context): void {
+  const { filling, notices } = editor;
+  if (!filling.drawn.peek()) filler.add();
+  else if (!filling.closeOutline()) notices.show({ text: 'An area needs three corners.' });
+}
+
 const isEmpty = (c: Context): boolean => c.editor.scene.value?.agents.size === 0;
 
 export const place = inGroup('Place', [
@@ -62,12 +70,28 @@ export const place = inGroup('Place', [
     run: (c) => startPlacing(c, 'place-car'),
   },
   {
-    id: 'fill',
-    label: 'Fill the map',
-    keys: ['D'],
-    icon: 'fill',
-    help: 'Road users all over the map, as they would be there',
-    when: hasScene,
-    run: (c) => void c.fill(),
+    id: 'fill-add',
+    label: 'Add what is previewed',
+    keys: ['Enter'],
+    icon: 'check',
+    help: 'The road users of the preview come into the scene; an outline that is being drawn is closed first',
+    onOffer: isFilling,
+    when: (c) =>
+      !isFilling(c)
+        ? 'Fill an area first.'
+        : c.editor.filling.drawn.value || c.editor.filling.all.value.length
+          ? true
+          : 'Nobody is in the preview.',
+    run: (c) => addOrClose(c),
+  },
+  {
+    id: 'fill-shuffle',
+    label: 'Shuffle the preview',
+    keys: ['R'],
+    icon: 'dice',
+    help: 'Another seed; whoever is pinned stays. Click somebody in the preview to pin it.',
+    onOffer: isFilling,
+    when: (c) => (isFilling(c) ? true : 'Fill an area first.'),
+    run: (c) => c.editor.filling.shuffle(),
   },
 ]);

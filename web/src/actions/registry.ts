@@ -10,9 +10,10 @@ import { movement } from './move';
 import { place } from './place';
 import { scene } from './scene';
 import { time } from './time';
+import { variants } from './variants';
 
 export const ACTIONS: readonly Action[] = Object.freeze(
-  [look, place, edit, movement, goal, time, scene, everything].flat(),
+  [look, place, edit, movement, goal, time, variants, scene, everything].flat(),
 );
 
 const byId = new Map(ACTIONS.map((a) => [a.id, a]));

@@ -141,7 +141,10 @@ export const scene = inGroup('Scene', [
     icon: 'export',
     help: 'Files for other programs, pictures, a film, a report',
     when: hasScene,
-    run: (c) => c.ui.openDialog('export'),
+    run: (c) => {
+      c.variants.setScope('present');
+      c.ui.openDialog('export');
+    },
   },
   others('react', 'Others react', 'Everybody you gave no goal adapts when you let go'),
   others('log', 'Others replay the log', 'They do what was recorded'),

@@ -56,7 +56,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'tool-place-car',
     'tool-place-cyclist',
     'tool-place-pedestrian',
-    'fill',
+    'tool-fill',
     null,
     'select-all',
     'fit',

@@ -7,7 +7,7 @@ import type { Context } from '../actions/context';
 import { Ui } from '../actions/ui';
 import { Copying } from '../edit/copying';
 import { Editor } from '../edit/editor';
-import { fill } from '../edit/filling';
+import { Filler } from '../edit/filler';
 import { Generation } from '../edit/generation';
 import { Journal } from '../edit/journal';
 import { Gestures } from '../edit/gestures/pointer';
@@ -20,6 +20,9 @@ import { SceneCare } from '../edit/scene-care';
 import { SceneFile } from '../edit/scene-file';
 import { SceneList } from '../edit/scene-list';
 import { Sharing } from '../edit/sharing';
+import { Questions } from '../edit/question';
+import { Maker } from '../edit/variants/making';
+import { Variants } from '../edit/variants/variants';
 import { Stage } from '../draw/stage';
 import { Client } from '../net/client';
 import { HttpGenerator } from '../net/http-generator';
@@ -66,10 +69,17 @@ function makeParts(): Context {
   const gestures = new Gestures(stage, editor, picture, generation);
   const playback = new Playback(editor, stage);
   const chooseFiles = fileChooser((files) => void importing.files(files));
+  const line = new HttpGenerator(client);
+  const maker = new Maker(editor, new Questions(editor, file), line, file);
+  const variants = new Variants(editor, maker, () => line.cancel());
+  file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
   const copying = new Copying(editor);
+  const filler = new Filler(editor, file, client);
   const parts = {
     copying,
     editor,
+    filler,
+    variants,
     generation,
     scenes,
     library,
@@ -92,7 +102,6 @@ function makeParts(): Context {
     reveal: (ids) => reveal(c, ids),
     focusText,
     openMenu: () => openMenu(c),
-    fill: () => fill(editor, file, client),
     chooseFiles,
     focusField,
     focusGroup,
@@ -106,7 +115,7 @@ function makeParts(): Context {
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, sharing, stage, ui } = c;
+  const { editor, gestures, generation, library, playback, sharing, stage, ui, variants } = c;
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   followView(stage);
   lookWhereItWas(c);
@@ -120,7 +129,8 @@ function connect(c: Context): void {
   });
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
-    const busy = generation.busy.value || editor.status.value.kind === 'loading' || gliding.value;
+    const asked = generation.busy.value || editor.filling.asking.value || variants.busy.value;
+    const busy = asked || editor.status.value.kind === 'loading' || gliding.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });
   effect(() => {

@@ -46,6 +46,8 @@ const undoesInField = (input: HTMLInputElement, a: Action): boolean =>
 /** A button's own keys. In the list of road users they select, and after that Enter goes on to the inspector. */
 function pressesButton(button: HTMLButtonElement, e: KeyboardEvent, selected: string | null): boolean {
   if ((e.key !== ' ' && e.key !== 'Enter') || e.ctrlKey) return false;
+  // Pictures that move are started by Space, taken by Enter.
+  if (e.key === ' ' && 'plays' in button.dataset) return false;
   return !button.dataset.agent || button.dataset.agent !== selected;
 }
 

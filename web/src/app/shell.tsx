@@ -11,6 +11,7 @@ import { HistoryPanel } from './history/panel';
 import { Hud } from './hud/hud';
 import { Inspector } from './inspector/inspector';
 import { AppProvider, useApp } from './parts/app-context';
+import { Later } from './parts/later';
 import { Drawer } from './scenes/drawer';
 import { Empty } from './scenes/empty';
 import { Timeline } from './timeline/timeline';
@@ -51,9 +52,17 @@ function OverPicture() {
   );
 }
 
+const compareView = () => import('./variants/compare-view').then((m) => m.default);
+const variantStrip = () => import('./variants/strip').then((m) => m.default);
+
 function Around() {
+  const { editor, variants } = useApp();
+  const comparing = useComputed(() => variants.compared.value !== null).value;
+  const strip = useComputed(() => variants.open.value && editor.isOpen.value).value;
   return (
     <>
+      {strip ? <Later load={variantStrip} /> : null}
+      {comparing ? <Later load={compareView} /> : null}
       <Inspector />
       <Timeline />
       <Dialogs />

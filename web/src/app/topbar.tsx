@@ -127,6 +127,7 @@ function Controls() {
       <ActionButton id="generate" class="pri" icon="" withKey>
         {away ? 'Waiting …' : 'Generate'}
       </ActionButton>
+      <IconButton id="variants" />
     </>
   );
 }

@@ -53,6 +53,11 @@ export class Screen {
     this.#worker!.postMessage({ picture } satisfies ToEasel, moved);
   }
 
+  close(): void {
+    this.#worker?.terminate();
+    for (const c of this.#canvases) c.remove();
+  }
+
   /** New canvases in place of old ones. */
   #hang(): Record<LayerName, HTMLCanvasElement> {
     for (const c of this.#canvases) c.remove();

@@ -30,7 +30,8 @@ export class Stage {
   private hurried = false;
   /** Called once per frame before painting, for animation. */
   onFrame: ((now: number) => void) | null = null;
-  onView: (() => void) | null = null;
+  readonly #watchers = new Set<() => void>();
+  readonly #size: ResizeObserver;
 
   constructor(readonly element: HTMLElement) {
     this.screen = new Screen(
@@ -39,8 +40,27 @@ export class Stage {
       () => this.invalidate(...LAYERS),
     );
     readPalette();
-    new ResizeObserver(() => this.resize()).observe(element);
+    this.#size = new ResizeObserver(() => this.resize());
+    this.#size.observe(element);
     this.resize();
+  }
+
+  /** `hear` is called whenever the view has changed, until what is given back is called. */
+  watchView(hear: () => void): () => void {
+    this.#watchers.add(hear);
+    return () => void this.#watchers.delete(hear);
+  }
+
+  #viewMoved(): void {
+    for (const hear of this.#watchers) hear();
+  }
+
+  /** Nothing is shown any more. */
+  close(): void {
+    this.#size.disconnect();
+    cancelAnimationFrame(this.frame);
+    clearTimeout(this.rest);
+    this.screen.close();
   }
 
   painter(layer: LayerName, p: Painter): void {
@@ -80,7 +100,7 @@ export class Stage {
     v.h = h;
     v.dpr = dpr;
     this.invalidate(...LAYERS);
-    this.onView?.();
+    this.#viewMoved();
   }
 
   invalidate(...layers: LayerName[]): void {
@@ -105,7 +125,7 @@ export class Stage {
     clearTimeout(this.rest);
     this.rest = window.setTimeout(() => this.invalidate('map'), REST_MS);
     this.request();
-    this.onView?.();
+    this.#viewMoved();
   }
 
   /** The shape of the pointer over the picture; empty for the plain one. */

@@ -1,20 +1,25 @@
 // What is asked of the generator once the document is changed: who is worked out anew, and who answers them.
-import { canChange, doing, GOAL_TIME, type Scene } from '../model/scene';
+import type { MotionSet } from '../model/futures';
+import { canChange, doing, GOAL_TIME, touchedIn, type Scene } from '../model/scene';
 import type { Editor, Step } from './editor';
 import type { Wanted } from './question';
 
 /** `nothing`: nobody is asked anything any more. `known`: the motions are there and only to be scored. */
 export type Asked = Wanted | 'nothing' | 'known';
 
-export function askedAfter(editor: Editor, scene: Scene, step: Step): Asked {
+export function askedAfter(
+  editor: Editor,
+  scene: Scene,
+  step: Step,
+  known: MotionSet['futures'] = editor.motion.peek().futures,
+): Asked {
   if (step.everybody) return { agents: 'all', react: false, step };
-  const mine = editor.touchedIds(scene);
+  const mine = touchedIn(scene);
   if (!mine.length) return 'nothing';
   const others = othersThatAnswer(scene);
-  if (others === 'nobody') return askedAlone(editor, scene, mine, step);
+  if (others === 'nobody') return askedAlone(scene, mine, step, known);
   const picked = [...scene.agents.values()].filter((a) => a.chosen !== null).map((a) => a.id);
   const subject = step.agent ? scene.agents.get(step.agent) : undefined;
-  const known = editor.motion.peek().futures;
   if (subject && subject.chosen !== null && known.has(subject.id)) {
     const rest = others === 'all' ? free(scene) : others;
     if (!rest.length) return 'known';
@@ -57,8 +62,7 @@ function whoIsAsked(
 }
 
 /** The others keep to the log or stand: only those that were asked something are worked out. */
-function askedAlone(editor: Editor, scene: Scene, mine: string[], step: Step): Asked {
-  const known = editor.motion.peek().futures;
+function askedAlone(scene: Scene, mine: string[], step: Step, known: MotionSet['futures']): Asked {
   const open = mine.filter((id) => scene.agents.get(id)!.chosen === null || !known.has(id));
   const kept = new Set(mine.filter((id) => !open.includes(id)));
   return open.length ? { agents: open, react: false, step, kept } : 'known';

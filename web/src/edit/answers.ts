@@ -168,6 +168,11 @@ export class Answers {
     });
   }
 
+  /** Takes note of what belongs to another document than the one on screen; it appears when that is taken. */
+  know(set: MotionSet): void {
+    this.#cache.put(set);
+  }
+
   /** What the others would do; null when it is not known any more. */
   foresee(changes: readonly Change[] | null): void {
     this.#foreseen.value = changes;

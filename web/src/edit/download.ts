@@ -1,5 +1,6 @@
 // Files out of what is on screen.
 import { Refused, type Client } from '../net/client';
+import type { SceneJson } from '../net/types';
 import type { Editor } from './editor';
 import type { SceneFile } from './scene-file';
 
@@ -8,6 +9,8 @@ export interface ExportedFile {
   readonly name: string;
   /** What the format has no place for, in plain words. */
   readonly losses: readonly string[];
+  /** Files that go with it. */
+  readonly others?: readonly ExportedFile[];
 }
 
 const ENDING: Record<string, string> = { dragtraffic: 'json', womd: 'tfrecord' };
@@ -42,8 +45,12 @@ const lossWords = (codes: string | null): string[] =>
 /** The scene on screen in one of the server's formats. */
 export async function exported(c: { file: SceneFile; client: Client }, format: string): Promise<ExportedFile | null> {
   const json = c.file.complete();
-  if (!json) return null;
-  const { blob, name, loss } = await c.client.exportScene(json, format);
+  return json && exportedJson(c.client, json, format);
+}
+
+/** Any scene in one of the server's formats. */
+export async function exportedJson(client: Client, json: SceneJson, format: string): Promise<ExportedFile> {
+  const { blob, name, loss } = await client.exportScene(json, format);
   const ending = name.includes('.') ? name.slice(name.indexOf('.') + 1) : (ENDING[format] ?? format);
   return { blob, name: `${slug(json.name)}.${ending}`, losses: lossWords(loss) };
 }
@@ -60,10 +67,15 @@ export async function download(c: { editor: Editor; file: SceneFile; client: Cli
 
 export const whyNot = (e: unknown): string => (e instanceof Refused ? e.message : 'the server is not answering.');
 
-export function save(editor: Editor, { blob, name, losses }: ExportedFile): void {
-  offer(blob, name);
-  const n = losses.length;
-  editor.notices.show({ text: n ? `${name} saved, without ${n} thing${n > 1 ? 's' : ''}.` : `${name} saved.` });
+export function save(editor: Editor, file: ExportedFile): void {
+  saveAll(editor, [file]);
+}
+
+export function saveAll(editor: Editor, files: readonly ExportedFile[]): void {
+  for (const { blob, name } of files) offer(blob, name);
+  const n = new Set(files.flatMap((f) => f.losses)).size;
+  const what = files.length === 1 ? files[0].name : `${files.length} files`;
+  editor.notices.show({ text: n ? `${what} saved, without ${n} thing${n > 1 ? 's' : ''}.` : `${what} saved.` });
 }
 
 export const slug = (s: string | undefined): string =>

@@ -3,7 +3,7 @@
 import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
 import { History, type Camera, type HistoryStep, type KeptHistory } from '../model/history';
 import type { Command } from '../model/commands';
-import { canChange, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { startPose, touchedIn, type Agent, type Scene } from '../model/scene';
 import type { Futures, MotionSet } from '../model/futures';
 import { motionOf } from '../model/changes';
 import { eventsOf, readEvents, type TrafficEvent } from '../model/events';
@@ -13,6 +13,7 @@ import { localReach, type LocalReach } from '../model/reach';
 import type { SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
+import { Filling } from './filling';
 import type { ToolName } from './gestures/tools';
 import { Notices } from './notices';
 import { Placement } from './placement';
@@ -86,6 +87,13 @@ export interface Lock {
   run(): void;
 }
 
+/** A document with what everybody does in it, and who of them does another thing than on the picture. */
+export interface Beside {
+  readonly scene: Scene;
+  readonly set: MotionSet;
+  readonly parted: readonly string[];
+}
+
 const NOBODY: readonly string[] = Object.freeze([]);
 const NO_EVENTS: readonly TrafficEvent[] = [];
 
@@ -94,6 +102,7 @@ export class Editor {
   readonly playhead = new Playhead();
   readonly notices = new Notices();
   readonly placement = new Placement();
+  readonly filling = new Filling();
 
   readonly #scene = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);
@@ -113,6 +122,7 @@ export class Editor {
   readonly #speedUnit = signal<SpeedUnit>(recall<SpeedUnit>('speed-unit') ?? 'km/h');
   readonly #undoName = signal<string | null>(null);
   readonly #redoName = signal<string | null>(null);
+  readonly #beside = signal<Beside | null>(null);
   readonly #lock = signal<Lock | null>(null);
   readonly #historyTick = signal(0);
   /** Goal headings that came from a lane and may follow the next one, as `part:id`. */
@@ -144,6 +154,8 @@ export class Editor {
   readonly drag: ReadonlySignal<DragInfo | null> = this.#drag;
   readonly selectedEvent: ReadonlySignal<TrafficEvent | null> = this.#selectedEvent;
   readonly speedUnit: ReadonlySignal<SpeedUnit> = this.#speedUnit;
+  /** Another way that the scene could go, shown dashed beside the one on the picture. */
+  readonly beside: ReadonlySignal<Beside | null> = this.#beside;
   readonly undoName: ReadonlySignal<string | null> = this.#undoName;
   readonly redoName: ReadonlySignal<string | null> = this.#redoName;
   /** Null while the document can be changed. */
@@ -237,7 +249,10 @@ export class Editor {
       this.answers.open(scene, saved);
       this.playhead.rewind();
       this.placement.stop();
+      this.filling.close();
+      if (this.#tool.peek() === 'fill') this.#tool.value = 'select';
       this.#sweep.value = null;
+      this.#beside.value = null;
       this.notices.hide();
       this.#nameSteps();
     });
@@ -478,6 +493,8 @@ export class Editor {
       this.#tool.value = tool;
       this.#measure.value = null;
       this.placement.stop();
+      if (tool === 'fill') this.filling.open(this.#scene.peek()?.seed ?? 0);
+      else this.filling.close();
     });
   }
 
@@ -487,6 +504,10 @@ export class Editor {
 
   sweepOver(sweep: Sweep | null): void {
     this.#sweep.value = sweep;
+  }
+
+  showBeside(beside: Beside | null): void {
+    this.#beside.value = beside;
   }
 
   pickEvent(event: TrafficEvent | null): void {
@@ -533,7 +554,7 @@ export class Editor {
 
   /** Everybody the user asked something of. */
   touchedIds(scene = this.scene.peek()): string[] {
-    return scene ? [...scene.agents.values()].filter((a) => touched(a) && canChange(a)).map((a) => a.id) : [];
+    return scene ? touchedIn(scene) : [];
   }
 }
 

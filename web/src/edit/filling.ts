@@ -1,67 +1,176 @@
-// A map filled with road users, as the server places them.
-import type { AgentJson } from '../model/json';
-import { PLACED_KINDS } from '../model/kinds';
+// What an area is to be filled with: where, how busy, which kinds, and what is seen of it before it is added.
+import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-core';
+import { boxOf, insideBox, type Vec } from '../model/geometry';
 import type { Newcomer } from '../model/newcomer';
-import { kindOf } from '../model/read';
-import { castJson } from '../model/write';
-import { Refused, type Client } from '../net/client';
-import type { Editor } from './editor';
-import type { SceneFile } from './scene-file';
-import { addThem, tooMany } from './several';
+import { EVEN_MIX, type FillKind, type Mix } from './fill-mix';
 
-/** About so many are put on a map. */
-const USUAL = 40;
+/** Everything that decides who is placed where. */
+export interface FillWish {
+  /** Corners of the area in metres; null for the whole map. */
+  readonly region: readonly Vec[] | null;
+  /** Road users for each 100 m of lane. */
+  readonly density: number;
+  readonly mix: Mix;
+  readonly seed: number;
+  /** Do those stay who are there already? */
+  readonly keep: boolean;
+  /** Those of the preview that stay while the others are drawn anew. */
+  readonly pinned: readonly Newcomer[];
+}
 
-/** Fills a map. Where somebody is there already it asks first. */
-export async function fill(editor: Editor, file: SceneFile, client: Client, sure = false): Promise<void> {
-  const scene = editor.scene.peek();
-  if (!scene || !file.raw) return;
-  if (scene.agents.size && !sure) {
-    const action = { label: `Add ${USUAL}`, run: () => void fill(editor, file, client, true) };
-    editor.notices.show({ text: `Put about ${USUAL} more road users on the map?`, action });
-    return;
+/** What is known of a wish. */
+export interface FillAnswer {
+  readonly all: readonly Newcomer[];
+  /** Why there are not more of them; null where nobody is missing. */
+  readonly reason: string | null;
+  /** Ids of those who go when it is added. */
+  readonly replaced: readonly string[];
+}
+
+export const LEAST_DENSITY = 0.5;
+export const MOST_DENSITY = 12.5;
+const USUAL_DENSITY = 3;
+/** The largest seed that is drawn by the dice: short enough to be read. */
+const LARGEST_SEED = 9999;
+/** Around somebody small one may miss by so much, metres. */
+const MISS_M = 0.8;
+
+const first = (seed: number): FillWish => ({
+  region: null,
+  density: USUAL_DENSITY,
+  mix: EVEN_MIX,
+  seed,
+  keep: true,
+  pinned: [],
+});
+
+export class Filling {
+  readonly #open = signal(false);
+  readonly #wish = signal<FillWish>(first(0));
+  readonly #drawn = signal<readonly Vec[] | null>(null);
+  readonly #answer = signal<FillAnswer | null>(null);
+  readonly #asking = signal(false);
+
+  /** What is wished for while an area is being filled; null at other times. */
+  readonly wish: ReadonlySignal<FillWish | null> = computed(() => (this.#open.value ? this.#wish.value : null));
+  /** Corners of an outline that is not closed yet. */
+  readonly drawn: ReadonlySignal<readonly Vec[] | null> = this.#drawn;
+  readonly answer: ReadonlySignal<FillAnswer | null> = this.#answer;
+  readonly asking: ReadonlySignal<boolean> = this.#asking;
+
+  /** Whoever would be added now: those that are pinned first. */
+  readonly all = computed<readonly Newcomer[]>(() => [...this.#wish.value.pinned, ...(this.#answer.value?.all ?? [])]);
+
+  open(seed: number): void {
+    if (this.#open.peek()) return;
+    // Density and kinds are as they were the last time; the place is not.
+    const { density, mix } = this.#wish.peek();
+    batch(() => {
+      this.#wish.value = { ...first(seed), density, mix };
+      this.#open.value = true;
+    });
   }
-  const full = tooMany(scene, 1);
-  if (full) {
-    editor.notices.show({ text: full });
-    return;
+
+  close(): void {
+    batch(() => {
+      this.#open.value = false;
+      this.#drawn.value = null;
+      this.#answer.value = null;
+      this.#asking.value = false;
+      this.#wish.value = { ...this.#wish.peek(), pinned: [] };
+    });
   }
-  const count = Math.min(USUAL, 256 - scene.agents.size);
-  const map = file.mapRef ? { ref: file.mapRef } : file.map!;
-  const about = file.holds(scene)
-    ? { scene_id: scene.id }
-    : { scene: { ...file.raw, agents: castJson(scene), map, generated: null } };
-  editor.notices.show({ text: 'Looking for places …' });
-  try {
-    const { agents, reason } = await client.place({ ...about, seed: scene.seed, density: { count } });
-    const now = editor.scene.peek();
-    if (now?.id !== scene.id) return;
-    const all = agents.flatMap((a) => newcomerOf(a) ?? []);
-    if (all.length) editor.run(addThem(now, all, 'placed'));
-    if (reason) editor.notices.show({ text: `${all.length} road users placed. ${reason}`, undo: all.length > 0 });
-  } catch (e) {
-    const why = e instanceof Refused ? e.message : 'the server is not answering.';
-    editor.notices.show({ text: `Nobody placed: ${why}` });
+
+  // -------------------------------------------------------------- where
+
+  /** The outline so far; null when it is given up. */
+  draw(outline: readonly Vec[] | null): void {
+    this.#drawn.value = outline;
+  }
+
+  /** One more corner by a click. */
+  addCorner(at: Vec): void {
+    this.#drawn.value = [...(this.#drawn.peek() ?? []), at];
+  }
+
+  /** The outline becomes the area; false where it has no inside. */
+  closeOutline(outline = this.#drawn.peek()): boolean {
+    const closed = outline && hasInside(outline) ? outline : null;
+    batch(() => {
+      this.#drawn.value = null;
+      if (closed) this.setRegion(closed);
+    });
+    return closed !== null;
+  }
+
+  setRegion(region: readonly Vec[] | null): void {
+    this.#wish.value = { ...this.#wish.peek(), region };
+  }
+
+  // -------------------------------------------------------------- who
+
+  setDensity(density: number): void {
+    this.#wish.value = { ...this.#wish.peek(), density };
+  }
+
+  setShare(kind: FillKind, share: number): void {
+    const wish = this.#wish.peek();
+    const mix = { ...wish.mix, [kind]: share };
+    if (Object.values(mix).some((v) => v > 0)) this.#wish.value = { ...wish, mix };
+  }
+
+  setKeep(keep: boolean): void {
+    this.#wish.value = { ...this.#wish.peek(), keep };
+  }
+
+  setSeed(seed: number): void {
+    this.#wish.value = { ...this.#wish.peek(), seed };
+  }
+
+  /** Another draw; whoever is pinned stays. */
+  shuffle(): void {
+    this.setSeed(1 + Math.floor(Math.random() * LARGEST_SEED));
+  }
+
+  isPinned(n: Newcomer): boolean {
+    return this.#wish.value.pinned.includes(n);
+  }
+
+  /** The one of the preview that stands at a place. */
+  at([x, y]: Vec): Newcomer | null {
+    return this.all.peek().find((n) => insideBox(n.pose, n.length, n.width, x, y, MISS_M)) ?? null;
+  }
+
+  /** Somebody of the preview stays from now on, or goes with the next draw. The others stand where they stood. */
+  togglePin(n: Newcomer): void {
+    const wish = this.#wish.peek();
+    const answer = this.#answer.peek();
+    const pinned = wish.pinned.includes(n);
+    batch(() => {
+      this.#wish.value = { ...wish, pinned: pinned ? wish.pinned.filter((p) => p !== n) : [...wish.pinned, n] };
+      if (answer)
+        this.#answer.value = { ...answer, all: pinned ? [...answer.all, n] : answer.all.filter((p) => p !== n) };
+    });
+  }
+
+  // -------------------------------------------------------------- what comes of it
+
+  ask(): void {
+    this.#asking.value = true;
+  }
+
+  settle(answer: FillAnswer | null): void {
+    batch(() => {
+      this.#asking.value = false;
+      this.#answer.value = answer;
+    });
   }
 }
 
-/** A road user that the server placed; null for one of a kind that is only shown. */
-function newcomerOf(json: AgentJson): Newcomer | null {
-  const kind = PLACED_KINDS.find((k) => k === kindOf(json));
-  const { track, conditions } = json;
-  const s = conditions?.start;
-  const x = s?.x_m ?? track.x_m[0],
-    y = s?.y_m ?? track.y_m[0];
-  if (!kind || x === undefined || y === undefined) return null;
-  const speed = s?.speed_mps ?? Math.hypot(track.vx_mps?.[0] ?? 0, track.vy_mps?.[0] ?? 0);
-  return {
-    kind,
-    subtype: json.subtype ?? null,
-    length: json.length_m,
-    width: json.width_m,
-    pose: { x, y, heading: s?.heading_rad ?? track.heading_rad[0] ?? 0, speed },
-    goal: null,
-    note: '',
-    does: null,
-  };
+/** Less than this is a slip of the hand, metres. */
+const LEAST_SIDE_M = 1;
+
+function hasInside(outline: readonly Vec[]): boolean {
+  const { x0, y0, x1, y1 } = boxOf(outline);
+  return outline.length >= 3 && x1 - x0 > LEAST_SIDE_M && y1 - y0 > LEAST_SIDE_M;
 }

@@ -6,9 +6,9 @@ import type { MotionSet } from '../model/futures';
 import { drawAnew } from '../model/commands';
 import { canChange, doing, GOAL_TIME, sceneKey, type Scene } from '../model/scene';
 import { motionOf } from '../model/changes';
-import { castJson, trackJson } from '../model/write';
+import { trackJson } from '../model/write';
 import { Away } from '../net/client';
-import type { Generator, Handlers, Question, SceneRef } from '../net/generator';
+import type { Generator, Handlers, Question } from '../net/generator';
 import { Absence } from './absence';
 import { askedAfter } from './after-change';
 import type { Editor, Step } from './editor';
@@ -275,7 +275,7 @@ export class Generation implements Previews {
     );
     const trajectories = Object.fromEntries(scored.map((a) => [a.id, trackJson(motionOf(scene, shown, a))]));
     try {
-      const reply = await this.generator.score(this.#stored(scene), trajectories, abort.signal);
+      const reply = await this.generator.score(this.file.reference(scene), trajectories, abort.signal);
       if (editor.scene.peek() !== scene) return;
       editor.answers.scored(readScore(reply));
       if (step && !quiet) this.#reception.settled(step, 0);
@@ -293,13 +293,6 @@ export class Generation implements Previews {
     const set = this.editor.motion.peek();
     const asked = this.editor.touchedIds(scene).filter((id) => set.futures.has(id));
     return { ...set, key: sceneKey(scene), driving: new Set([...set.driving, ...asked]), stale: false, fresh: null };
-  }
-
-  #stored(scene: Scene): SceneRef {
-    const { file } = this;
-    if (file.holds(scene)) return { id: scene.id };
-    const map = file.mapRef ? { ref: file.mapRef } : file.map!;
-    return { scene: { ...file.raw!, agents: castJson(scene), map, generated: null } };
   }
 
   // -------------------------------------------------------------- absence

@@ -3,7 +3,7 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import { History, replay, type HistoryChange, type KeptHistory } from '../model/history';
 import { isComplete, stateOf, withState, type SceneState } from '../model/scene-diff';
 import { sceneKey, type Scene } from '../model/scene';
-import { ofAgents } from '../model/write';
+import { ofAgents, variantsJson } from '../model/write';
 import { isFull, type KeptScene, type StepStore, type Synced } from '../net/step-store';
 
 /** `kept`: on this computer. `full`: there is no room. `off`: this browser keeps nothing for this page. */
@@ -47,7 +47,7 @@ function isWhole({ steps, place }: KeptScene): boolean {
 
 /** What is to be saved of a scene: what is asked, and what people call things. */
 const versionOf = (scene: Scene): string =>
-  sceneKey(scene) + scene.name + JSON.stringify(ofAgents(scene.agents.values()));
+  sceneKey(scene) + scene.name + JSON.stringify([ofAgents(scene.agents.values()), variantsJson(scene)]);
 
 /** A page that ended right after it had saved could not note that: the server's version is then one of its steps. */
 function standingOf(file: Scene, scene: Scene, history: KeptHistory): Standing {

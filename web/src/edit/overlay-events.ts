@@ -13,6 +13,9 @@ import type { Editor } from './editor';
 /** An event is shown this long before and after it. */
 const NEAR_S = 0.45;
 
+const isNow = (ev: TrafficEvent, t: number): boolean =>
+  t >= ev.time - NEAR_S && t <= Math.max(ev.time, ev.until) + NEAR_S;
+
 export class EventsOverlay {
   constructor(
     private readonly editor: Editor,
@@ -24,35 +27,13 @@ export class EventsOverlay {
     const { editor: e } = this;
     const picked = e.selectedEvent.value;
     const t = e.time.value;
-    const isNow = (ev: TrafficEvent): boolean => t >= ev.time - NEAR_S && t <= Math.max(ev.time, ev.until) + NEAR_S;
+    const pose = (a: Agent): Pose | null => this.poseNow(e.scene.value!.agents.get(a.id) ?? a);
     for (const ev of e.events.value) {
       // What is in the log shows itself only when somebody asks.
-      if (ev !== picked && (ev.inLog || !isNow(ev))) continue;
-      if (isNow(ev)) this.rings(g, v, ev);
-      if (ev.kind === 'collision' && !ev.inLog) this.cross(g, v, ev);
-      if (!this.saidOnLine(ev)) this.label(g, v, ev);
+      if (ev !== picked && (ev.inLog || !isNow(ev, t))) continue;
+      paintMarks(g, v, this.labels, ev, isNow(ev, t) ? pose : null);
+      if (!this.saidOnLine(ev)) paintLabel(g, v, this.labels, ev);
     }
-  }
-
-  private rings(g: Pen, v: View, ev: TrafficEvent): void {
-    for (const a of ev.b ? [ev.a, ev.b] : [ev.a]) {
-      const p = this.poseNow(this.editor.scene.value!.agents.get(a.id) ?? a);
-      if (p) paintRing(g, v, a, p, colourOf(ev), 2, 3);
-    }
-  }
-
-  private cross(g: Pen, v: View, ev: TrafficEvent): void {
-    const c = colours();
-    const [x, y] = v.to(ev.at[0], ev.at[1]);
-    g.beginPath();
-    g.arc(x, y, 10, 0, Math.PI * 2);
-    g.fillStyle = c.collision;
-    g.strokeStyle = c.halo;
-    g.lineWidth = 2.5;
-    g.stroke();
-    g.fill();
-    paintIcon(g, 'cross', x, y, c['on-collision']);
-    this.labels.block(x - 12, y - 12, 24, 24);
   }
 
   /** The words stand on the line of the selected road user already. */
@@ -62,21 +43,62 @@ export class EventsOverlay {
     const faults = e.futures.value?.modes[e.chosen.value]?.about?.faults ?? [];
     return faults.some((f) => f.kind === ev.what && Math.abs(f.time - ev.time) < NEAR_S);
   }
+}
 
-  private label(g: Pen, v: View, ev: TrafficEvent): void {
-    const text =
-      ev.kind === 'collision'
-        ? `Collision · ${ev.title}`
-        : ev.b
-          ? `${seconds(ev.time)} · ${ev.short}`
-          : `${seconds(ev.time)} · ${ev.title}, ${ev.short}`;
-    const style = styleOf(ev);
-    tag(g, this.labels, [v.x(ev.at[0]), v.y(ev.at[1])], ev.inLog ? `${text} · in the log` : text, {
-      ...style,
-      radii: [44, 60, 84],
-      height: 22,
-    });
+/** What happens at a time, with its words. */
+export function paintEventsAt(
+  g: Pen,
+  v: View,
+  labels: Labels,
+  events: readonly TrafficEvent[],
+  time: number,
+  poseOf: (a: Agent) => Pose | null,
+): void {
+  for (const ev of events) {
+    if (ev.inLog || !isNow(ev, time)) continue;
+    paintMarks(g, v, labels, ev, poseOf);
+    paintLabel(g, v, labels, ev);
   }
+}
+
+/** Rings around those in it, and a cross where they meet. */
+function paintMarks(
+  g: Pen,
+  v: View,
+  labels: Labels,
+  ev: TrafficEvent,
+  poseOf: ((a: Agent) => Pose | null) | null,
+): void {
+  for (const a of poseOf ? [ev.a, ev.b] : []) {
+    const p = a && poseOf?.(a);
+    if (p) paintRing(g, v, a, p, colourOf(ev), 2, 3);
+  }
+  if (ev.kind !== 'collision' || ev.inLog) return;
+  const c = colours();
+  const [x, y] = v.to(ev.at[0], ev.at[1]);
+  g.beginPath();
+  g.arc(x, y, 10, 0, Math.PI * 2);
+  g.fillStyle = c.collision;
+  g.strokeStyle = c.halo;
+  g.lineWidth = 2.5;
+  g.stroke();
+  g.fill();
+  paintIcon(g, 'cross', x, y, c['on-collision']);
+  labels.block(x - 12, y - 12, 24, 24);
+}
+
+function paintLabel(g: Pen, v: View, labels: Labels, ev: TrafficEvent): void {
+  const text =
+    ev.kind === 'collision'
+      ? `Collision · ${ev.title}`
+      : ev.b
+        ? `${seconds(ev.time)} · ${ev.short}`
+        : `${seconds(ev.time)} · ${ev.title}, ${ev.short}`;
+  tag(g, labels, [v.x(ev.at[0]), v.y(ev.at[1])], ev.inLog ? `${text} · in the log` : text, {
+    ...styleOf(ev),
+    radii: [44, 60, 84],
+    height: 22,
+  });
 }
 
 function colourOf(ev: TrafficEvent): string {

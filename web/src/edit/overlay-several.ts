@@ -14,6 +14,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { frameAround, type Frame } from './frame';
+import { FillOverlay } from './overlay-fill';
 import type { Ghosts } from './placing';
 
 const CORNER_PX = 8;
@@ -26,16 +27,21 @@ const SHORT_PX = 14;
 const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind), parked: false });
 
 export class SeveralOverlay {
+  readonly #fill: FillOverlay;
+
   constructor(
     private readonly editor: Editor,
     private readonly labels: Labels,
     private readonly poseNow: (a: Agent) => Pose | null,
-  ) {}
+  ) {
+    this.#fill = new FillOverlay(editor, labels);
+  }
 
   paint(g: Pen, v: View): void {
     const { editor: e } = this;
     if (e.selected.value.length > 1) this.#paintMembers(g, v);
     if (e.sweep.value) this.#paintSweep(g, v, e.sweep.value.outline, e.sweep.value.ids);
+    this.#fill.paint(g, v);
     const ghosts = e.placement.ghosts.value;
     if (ghosts) this.#paintGhosts(g, v, ghosts);
   }

@@ -14,6 +14,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { outOfReach, verdictsHold } from './goal-verdict';
+import { paintBeside } from './overlay-beside';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
@@ -89,7 +90,8 @@ export class Overlay {
     }
     this.paintHover(g, v);
     const a = e.agent.value;
-    if (e.showBefore.value) this.changes.paintBefore(g, v);
+    if (e.beside.value) paintBeside(g, v, e.beside.value, e.time.value);
+    if (e.showBefore.value && !e.beside.value) this.changes.paintBefore(g, v);
     this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
     this.several.paint(g, v);

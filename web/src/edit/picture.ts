@@ -96,7 +96,11 @@ export class Picture {
         e.liveReach.value,
         e.measure.value,
         e.sweep.value,
+        e.beside.value,
         e.placement.ghosts.value,
+        e.filling.wish.value,
+        e.filling.drawn.value,
+        e.filling.answer.value,
         e.notices.toast.value,
       ];
       stage.invalidate('overlay');

@@ -30,6 +30,8 @@ export interface Wanted {
 
 /** A draft that stays for less than a picture on the screen would not be seen. */
 const FRAME_MS = 16;
+/** Where nobody looks at drafts. */
+const ANSWER_ALONE = { stream_modes: 'chosen', draft_interval_ms: 1000 } as const;
 
 export class Questions {
   /** The scene as the last questions of a drag asked about it: the hero's own, and what the others would do. */
@@ -45,9 +47,21 @@ export class Questions {
     return {
       preview,
       on,
-      options: this.#options(scene, w),
+      options: { ...this.#options(scene, w), ...shownOf(this.editor, w) },
       scene: () => this.#reference(scene, set, w, preview),
       whole: () => this.#written(scene, set, w, this.file.map!),
+    };
+  }
+
+  /** The same whatever is on screen, and whatever the server keeps beside the scene: everybody does as in `set`. */
+  makeApart(scene: Scene, set: MotionSet, w: Wanted, on: Handlers): Question {
+    const { map, mapRef } = this.file;
+    return {
+      preview: false,
+      on,
+      options: { ...this.#options(scene, w), ...ANSWER_ALONE },
+      scene: () => ({ scene: this.#written(scene, set, w, mapRef ? { ref: mapRef } : map!) }),
+      whole: () => this.#written(scene, set, w, map!),
     };
   }
 
@@ -70,7 +84,6 @@ export class Questions {
       kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,
       ...(w.pinned ? { pinned: [...w.pinned] } : {}),
-      ...shownOf(this.editor, w),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME
         ? { horizon_s: scene.length, replan_interval_s: scene.replan }
@@ -116,7 +129,9 @@ const someStill = (s: Scene): boolean =>
   s.others === 'still' || [...s.agents.values()].some((a) => doing(s, a) === 'still');
 
 /** Only a drag and its release go on from what is shown; everything else is answered the same whatever was before. */
-function shownOf(editor: Editor, w: Wanted): Pick<GenerateOptions, 'shown'> {
+type Shown = Pick<GenerateOptions, 'shown'>;
+
+function shownOf(editor: Editor, w: Wanted): Shown {
   const drags = editor.dragging.peek() || (w.step !== null && editor.draft.peek()?.id === editor.selection.peek());
   const shown = drags && !w.pinned ? shownFuture(editor, w.agents) : undefined;
   return shown ? { shown } : {};

@@ -65,6 +65,7 @@ export function readScore(reply: ScoreReply | null | undefined): Score | null {
       })),
     ],
     minTtc: s.min_ttc_s,
+    pet: s.pet_s,
     offroadShare: s.offroad_share,
   };
 }

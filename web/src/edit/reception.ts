@@ -1,7 +1,6 @@
 // What becomes of the generator's answers: drafts on their way, the futures of a look, the motion after a change.
 import { batch, effect } from '@preact/signals-core';
-import { DEFAULTS } from '../model/domain';
-import type { AgentFuturesJson, ReactionJson } from '../model/json';
+import type { AgentFuturesJson } from '../model/json';
 import {
   ideas,
   isBlocked,
@@ -11,24 +10,20 @@ import {
   withNames,
   type Futures,
   type KeepOrder,
-  type MotionSet,
   type Reach,
 } from '../model/futures';
-import { motionFrom } from '../model/motion';
-import type { Naming } from '../model/names';
 import type { Fault } from '../model/about';
 import { findChanges } from '../model/changes';
-import { firstPose } from '../model/read';
-import { withMeetingsOf } from '../model/rejudge';
-import { doing, nameIn, sceneKey, startPose, touched, type Agent, type Scene } from '../model/scene';
+import { nameIn, sceneKey, startPose, type Agent, type Scene } from '../model/scene';
 import { whyAnother, whyNot } from '../model/verdict-words';
 import type { Handlers } from '../net/generator';
 import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
 import { FrozenNames } from './frozen-names';
+import { futuresOf, motionAfter, naming, type Keep } from './motion-after';
 import type { Wanted } from './question';
 import { Steady } from './steady';
-import { readReach, readScore, readWarnings } from './read-answer';
+import { readReach } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome } from './report';
 
 /** What an answer may set off; the generation does it. */
@@ -45,10 +40,6 @@ const TRAILS = 3;
 
 /** Futures that stand for so long in a drag are named anew. */
 const RESTS_MS = 450;
-
-type Keep = (a: Agent) => KeepOrder;
-
-const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
 
 export class Reception {
   readonly #calm =
@@ -214,7 +205,7 @@ export class Reception {
     const { editor } = this;
     if (!editor.dragging.peek()) return;
     this.hooks.answered();
-    const set = this.#motionAfter(scene, e, w, (a) => this.#lettersOf(a, true));
+    const set = motionAfter(editor.motion.peek(), scene, e, w, (a) => this.#lettersOf(a, true));
     this.#steady.hear(findChanges(scene, editor.motion.peek(), set, this.#subjects(scene, w.step)));
     const key = sceneKey(scene);
     const id = w.step?.agent;
@@ -274,7 +265,7 @@ export class Reception {
 
   #finalOfLook(scene: Scene, e: FinalEvent, id: string, ms: number, keep: Keep): void {
     const { editor } = this;
-    const settled = this.#futuresOf(scene, e, keep).get(id);
+    const settled = futuresOf(editor.motion.peek(), scene, e, keep).get(id);
     if (!settled) return;
     const reach = readReach(e.resolved[id]);
     const dragging = editor.dragging.peek();
@@ -295,7 +286,7 @@ export class Reception {
   #finalOfChange(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number, keep: Keep): void {
     const { editor, hooks } = this;
     if (sceneKey(editor.scene.peek()!) !== sceneKey(scene)) return;
-    const set = this.#motionAfter(scene, e, w, keep);
+    const set = motionAfter(editor.motion.peek(), scene, e, w, keep);
     const selected = editor.selection.peek();
     this.#names.rest();
     editor.answers.dropLiveReach();
@@ -303,50 +294,6 @@ export class Reception {
     this.settled(step, ms);
     if (selected && !set.futures.has(selected)) hooks.look(selected);
     if (!set.score) hooks.score(step);
-  }
-
-  #motionAfter(scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
-    const { editor } = this;
-    const before = editor.motion.peek();
-    const answers = this.#futuresOf(scene, e, keep);
-    // A look at somebody's futures from before the change is no longer true.
-    const stillTrue = (id: string) => {
-      const a = scene.agents.get(id);
-      return a !== undefined && (before.driving.has(id) || w.kept?.has(id) || touched(a));
-    };
-    const futures = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
-    const score = readScore(e.scores?.[0]);
-    // Those that go on as they did may meet others than before.
-    for (const id of score ? editor.touchedIds(scene) : []) {
-      const f = answers.has(id) ? undefined : futures.get(id);
-      if (!f) continue;
-      const shown = scene.agents.get(id)!.chosen ?? f.chosen;
-      const modes = f.modes.map((m, i) => (i === shown ? withMeetingsOf(score!, id, m) : m));
-      if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
-    }
-    const drives = (id: string) => {
-      const a = scene.agents.get(id);
-      return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
-    };
-    const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
-    for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
-    const reach = new Map(before.reach);
-    for (const [id, resolved] of Object.entries(e.resolved)) {
-      const verdict = readReach(resolved);
-      if (verdict) reach.set(id, verdict);
-      else reach.delete(id);
-    }
-    return {
-      key: sceneKey(scene),
-      futures,
-      driving,
-      score,
-      reach,
-      stale: false,
-      head: e.generated,
-      reactions: reactionsAfter(before, e),
-      warnings: readWarnings(e),
-    };
   }
 
   /** A change is worked out: who changed, in the status line, a toast and a sentence. */
@@ -363,31 +310,6 @@ export class Reception {
     if (collision) editor.notices.say(collision, true);
   }
 
-  #futuresOf(scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {
-    const out = new Map<string, Futures>();
-    for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
-      const a = scene.agents.get(id);
-      const f = a && this.#futures(scene, a, json, keep);
-      if (f) out.set(id, f);
-    }
-    return out;
-  }
-
-  #futures(scene: Scene, a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
-    const start = firstPose(a, json);
-    if (!start || !json.modes?.length) return null;
-    const known = this.editor.motion.peek().futures.get(a.id);
-    const picked = a.chosen !== null && json.modes.length === 1 ? known?.modes[a.chosen] : undefined;
-    if (!known || !picked) {
-      const { steps } = DEFAULTS;
-      const f = readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
-      return withNames(f, naming(scene, a));
-    }
-    // A picked future comes back longer than it was; the other five stand as they are.
-    const longer = { ...picked, motion: motionFrom(json.modes[0], start) };
-    return { ...known, modes: known.modes.map((m) => (m === picked ? longer : m)) };
-  }
-
   #refused(p: Problem): void {
     const first = p.errors?.[0];
     const range = first?.min !== undefined ? `A value is outside ${first.min} to ${first.max}.` : null;
@@ -401,14 +323,3 @@ export class Reception {
 /** Which seconds a later window is about. */
 const secondsOf = (s: Scene, window: number): string =>
   `${window * s.replan} to ${Math.min(s.length, (window + 1) * s.replan)} s`;
-
-/** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
-function reactionsAfter(before: MotionSet, e: FinalEvent): Map<string, ReactionJson> {
-  const out = new Map(before.reactions);
-  const agents: Record<string, AgentFuturesJson> = e.samples[0]?.agents ?? {};
-  for (const [id, { reaction }] of Object.entries(agents)) {
-    if (reaction) out.set(id, reaction);
-    else out.delete(id);
-  }
-  return out;
-}

@@ -1,9 +1,17 @@
 // The open scene as a file: as it came, and as it is written back with the user's changes in it.
 import type { MapJson, SceneJson } from '../model/json';
+import type { MotionSet } from '../model/futures';
 import { rosterOfJson } from '../model/read';
 import type { Scene } from '../model/scene';
-import { generatedJson, writeScene } from '../model/write';
+import { castJson, generatedJson, variantSample, writeScene } from '../model/write';
+import type { SceneRef } from '../net/generator';
 import type { Editor } from './editor';
+
+interface VariantTake {
+  readonly id: number;
+  readonly scene: Scene;
+  readonly set: MotionSet;
+}
 
 export class SceneFile {
   /** As it came from the server; null while nothing is open. */
@@ -13,6 +21,8 @@ export class SceneFile {
   mapRef: string | null = null;
   /** Does the server know this scene by its id? */
   stored = false;
+  /** Variants whose motion is to be kept. */
+  variantTakes: () => readonly VariantTake[] = () => [];
   #withConditions = new Set<string>();
   /** Who is in the version that the server holds. */
   #roster: string | null = null;
@@ -39,6 +49,13 @@ export class SceneFile {
     this.#withConditions = new Set(asked.map((a) => a.id));
   }
 
+  /** The scene for a question about its motions: by name where the server holds it, else with its cast. */
+  reference(scene: Scene): SceneRef {
+    if (this.holds(scene)) return { id: scene.id };
+    const map = this.mapRef ? { ref: this.mapRef } : this.map!;
+    return { scene: { ...this.raw!, agents: castJson(scene), map, generated: null } };
+  }
+
   hadConditions(id: string): boolean {
     return this.#withConditions.has(id);
   }
@@ -46,11 +63,32 @@ export class SceneFile {
   /** The scene with its changes and the futures that belong to them; the map by its hash where the server has it. */
   current(): SceneJson | null {
     const scene = this.editor.scene.peek();
-    if (!scene || !this.raw) return null;
-    const m = this.editor.motion.peek();
+    const json = scene && this.#written(scene, this.editor.motion.peek());
+    return json && this.#withVariants(json);
+  }
+
+  /** Kept variants go with what everybody does in them: another generator may not draw them again. */
+  #withVariants(json: SceneJson): SceneJson {
+    const { generated, x_editor } = json;
+    const kept = generated ? this.variantTakes() : [];
+    if (!generated || !kept.length) return json;
+    const index = new Map(kept.map(({ id }, i) => [id, generated.samples.length + i]));
+    const variants = x_editor?.variants?.map((v) => (index.has(v.id) ? { ...v, sample: index.get(v.id) } : v));
+    const samples = [...generated.samples, ...kept.map(({ scene, set }) => variantSample(scene, set))];
+    return { ...json, generated: { ...generated, samples }, x_editor: { ...x_editor, variants } };
+  }
+
+  #written(scene: Scene, m: MotionSet): SceneJson | null {
+    if (!this.raw) return null;
     const driving = [...m.futures].filter(([id]) => m.driving.has(id));
     const generated = m.stale ? null : generatedJson(scene, driving, m.head);
     return writeScene(this.raw, scene, generated, this.mapRef ? { ref: this.mapRef } : (this.map ?? undefined));
+  }
+
+  /** A document as a file of its own, with the map inside. */
+  completeOf(scene: Scene, set: MotionSet): SceneJson | null {
+    const json = this.#written(scene, set);
+    return json && this.map ? { ...json, map: this.map } : json;
   }
 
   /** The same with the map inside: for files, and for servers that do not know the map. */

@@ -102,14 +102,19 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
           ],
         }
       : null;
-  const picked = scene.x_editor?.picked;
+  const { picked, variants } = scene.x_editor ?? {};
   const one = picked && Object.fromEntries(Object.keys(picked).map((id) => [id, 0]));
   return {
     ...scene,
     id: undefined,
     ...(parts.words ? {} : { name: 'Shared scene', meta: { ...scene.meta, tags: [], notes: '' } }),
     agents: parts.futures ? scene.agents : scene.agents.map((a) => ({ ...a, conditions: {} })),
-    x_editor: { ...scene.x_editor, picked: parts.futures ? one : undefined },
+    x_editor: {
+      ...scene.x_editor,
+      picked: parts.futures ? one : undefined,
+      // Their motion is worked out again where somebody looks at them.
+      variants: parts.futures ? variants?.map((v) => ({ ...v, name: parts.words ? v.name : undefined })) : undefined,
+    },
     generated: followed,
   };
 }

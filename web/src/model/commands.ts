@@ -103,7 +103,7 @@ export const clearGoal = (a: Agent): Command =>
   one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });
 
 /** As it was recorded. Who was put here has no log and loses what it was asked on its way alone. */
-function recorded(a: Agent): AgentPatch {
+export function recorded(a: Agent): AgentPatch {
   if (a.placed) return { goal: freeGoal(), chosen: null };
   const kind: AgentPatch = kindChanged(a) ? { type: a.logType, subtype: a.logSubtype, ...kindOfLog(a) } : {};
   const [length, width] = a.logSize;
@@ -170,10 +170,13 @@ export const removeAgents = (scene: Scene, ids: readonly string[], name: string)
   recast(name, { put: [], drop: ids.filter((id) => scene.agents.has(id)), issued: scene.issued });
 
 type ScenePatch = Partial<
-  Pick<Scene, 'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration' | 'drawn'>
+  Pick<
+    Scene,
+    'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration' | 'drawn' | 'variants' | 'variantStates'
+  >
 >;
 
-function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
+export function patchScene(name: string, patch: ScenePatch, fold?: string): Command {
   return {
     name,
     fold,
@@ -203,18 +206,18 @@ export function setLength(scene: Scene, length: Length): Command {
       .filter((a) => a.goal.time > length)
       .map((a) => [a.id, { goal: Object.freeze({ ...a.goal, time: length }) }]),
   );
-  return both(
+  return inOneStep(
     patchScene(`${length} s worked out`, { length, duration: durationOf(length, scene.steps) }),
     patchAgents('', late),
   );
 }
 
 /** Two commands as one step. */
-function both(first: Command, second: Command): Command {
+export function inOneStep(first: Command, second: Command, name = first.name): Command {
   return {
-    name: first.name,
+    name,
     apply: (scene) => second.apply(first.apply(scene)),
-    invert: (scene) => ({ ...both(second.invert(first.apply(scene)), first.invert(scene)), name: first.name }),
+    invert: (scene) => inOneStep(second.invert(first.apply(scene)), first.invert(scene), name),
   };
 }
 

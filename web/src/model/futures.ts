@@ -179,6 +179,8 @@ export interface Score {
   readonly nearMisses: readonly NearMiss[];
   readonly stretches?: readonly Stretch[];
   readonly minTtc: number | null;
+  /** Least time between one leaving a place and another coming there, seconds. */
+  readonly pet?: number | null;
   readonly offroadShare: number | null;
 }
 

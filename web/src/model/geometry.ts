@@ -135,7 +135,7 @@ export function curveBetween(a: OnLine, b: OnLine, n = 30, pull = 0.42): Vec[] {
 }
 
 /** Offset of a point in a pose's own frame: metres ahead and to the left. */
-function toLocal(p: OnLine, x: number, y: number): Vec {
+export function toLocal(p: OnLine, x: number, y: number): Vec {
   const c = Math.cos(p.heading),
     s = Math.sin(p.heading),
     dx = x - p.x,

@@ -137,6 +137,29 @@ export interface EditorJson {
   placed?: string[];
   /** The subtype that was recorded, of those that have been given another. */
   was?: Record<string, string>;
+  variants?: VariantJson[];
+}
+/** A way that the scene could go: what is asked in it, and what is thought of it. */
+export interface VariantJson {
+  id: number;
+  name?: string;
+  kept?: boolean;
+  starred?: boolean;
+  seed: number;
+  diversity: number;
+  others: string;
+  length_s: number;
+  replan_s: number;
+  drawn?: number;
+  /** Whose futures it and those made with it were; absent where everybody was worked out anew. */
+  subject?: string;
+  /** Who was in the scene, and of which kinds. */
+  roster: string;
+  conditions?: Record<string, ConditionJson>;
+  picked?: Record<string, number>;
+  does?: Record<string, string>;
+  /** Which of `generated.samples` holds its motion. */
+  sample?: number;
 }
 export interface SceneJson {
   format?: string;

@@ -9,6 +9,7 @@ import {
   type MapJson,
   type SceneJson,
   type TrackJson,
+  type VariantJson,
 } from './json';
 import { DEFAULTS } from './domain';
 import { isStill, motionFrom, poseAtStep, type Motion } from './motion';
@@ -35,6 +36,7 @@ import {
   type StartSpec,
 } from './scene';
 import type { Pose, Vec } from './geometry';
+import { askedOf, MOST_VARIANTS, type Asked, type Variant, type VariantState } from './variants';
 
 export class SceneError extends Error {}
 
@@ -75,6 +77,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     diversity: ed.diversity ?? DEFAULTS.diversity,
     others: readOthers(ed.others),
     drawn: ed.drawn ?? 0,
+    ...readVariants(ed.variants, agents),
   });
 }
 
@@ -115,22 +118,18 @@ export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: Edito
   const log = motionFrom(json.track?.x_m?.length ? json.track : (startTrack(c) ?? json.track ?? NO_TRACK));
   const logStart = poseAtStep(log, 0);
   const placed = isPlaced(json, log, ed);
-  const type = c.type ? typeOf(c.type) : typeOf(json.type);
-  const picked = ed.picked?.[json.id];
+  const asked = readConditions(json, c, logStart, ed);
+  const { type } = asked;
   const called = ed.names?.[json.id] || null;
   const subtype = json.subtype ?? null;
   return Object.freeze({
     id: json.id,
-    type,
-    kind: kindOf({ ...json, type }),
+    ...asked,
     subtype,
     name: called ?? name,
     called,
     note: ed.notes?.[json.id] ?? '',
     locked: !!ed.locked?.includes(json.id),
-    does: readDoes(ed.does?.[json.id]),
-    length: c.length_m ?? json.length_m,
-    width: c.width_m ?? json.width_m,
     logSize: [json.length_m, json.width_m] as const,
     logType: typeOf(json.type),
     logSubtype: ed.was?.[json.id] ?? subtype,
@@ -140,10 +139,28 @@ export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: Edito
     logStart,
     parked: type === 'vehicle' && !placed && isStill(log) && offLanes(map, firstSeen(log)),
     ego: json.role === 'ego',
+  });
+}
+
+/** What is asked of a road user. */
+function readConditions(
+  json: AgentJson,
+  c: ConditionJson,
+  logStart: Pose | null,
+  ed: Pick<EditorJson, 'picked' | 'does'>,
+): Pick<Agent, 'type' | 'kind' | 'does' | 'length' | 'width' | 'start' | 'goal' | 'chosen'> {
+  const type = c.type ? typeOf(c.type) : typeOf(json.type);
+  const picked = ed.picked?.[json.id];
+  return {
+    type,
+    kind: kindOf({ ...json, type }),
+    does: readDoes(ed.does?.[json.id]),
+    length: c.length_m ?? json.length_m,
+    width: c.width_m ?? json.width_m,
     start: readStart(c, logStart),
     goal: readGoal(c),
     chosen: typeof picked === 'number' && picked >= 0 && picked < 6 ? Math.floor(picked) : null,
-  });
+  };
 }
 
 /** The pose before the first of the futures: the start, or for one that comes in later where the log first shows it. */
@@ -153,7 +170,13 @@ export const firstPose = (a: Agent, f: AgentFuturesJson): Pose | null =>
 /** The futures saved beside a scene, when they still belong to it. */
 export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   const g = json.generated;
-  const agents = g && !g.stale ? g.samples?.[g.chosen_sample ?? 0]?.agents : undefined;
+  return g && !g.stale ? readSample(json, scene, g.chosen_sample ?? 0) : null;
+}
+
+/** One of the answers that were saved beside a scene; `scene` is the document that it answers. */
+export function readSample(json: SceneJson, scene: Scene, index: number): MotionSet | null {
+  const g = json.generated;
+  const agents = g?.samples?.[index]?.agents;
   if (!g || !agents) return null;
   const futures = new Map<string, Futures>();
   for (const [id, f] of Object.entries(agents)) {
@@ -167,6 +190,13 @@ export function readGenerated(json: SceneJson, scene: Scene): MotionSet | null {
   if (!futures.size) return null;
   const head = Object.fromEntries(Object.entries(g).filter(([k]) => k !== 'samples'));
   return { ...emptyMotion(sceneKey(scene)), futures, driving: new Set(futures.keys()), head };
+}
+
+/** What a file keeps of a variant's motion; null where it keeps nothing. */
+export function readVariantSample(json: SceneJson, id: number, scene: Scene): MotionSet | null {
+  const all = json.x_editor?.variants;
+  const sample = Array.isArray(all) ? all.find((v) => v?.id === id)?.sample : undefined;
+  return whole(sample, 1, MOST_VARIANTS) ? readSample(json, scene, sample) : null;
 }
 
 function readStart(c: ConditionJson, log: Pose | null): StartSpec {
@@ -193,6 +223,50 @@ function readGoal(c: ConditionJson): GoalSpec {
     time: g.time_s ?? GOAL_TIME,
     mayCross: Object.freeze([...(g.may_cross ?? [])]),
   });
+}
+
+// -------------------------------------------------------------- variants
+
+const whole = (v: unknown, least: number, most: number): v is number =>
+  Number.isSafeInteger(v) && (v as number) >= least && (v as number) <= most;
+/** Diversity is 0 to this. */
+const MOST_DIVERSITY = 2;
+
+/** Those that can be read; each id once. */
+function readVariants(json: unknown, agents: ReadonlyMap<string, Agent>): Pick<Scene, 'variants' | 'variantStates'> {
+  const variants = new Map<number, Variant>();
+  const states: Record<number, VariantState> = {};
+  for (const v of (Array.isArray(json) ? json : []) as Partial<VariantJson>[]) {
+    const { id, seed, diversity } = v ?? {};
+    if (variants.size >= MOST_VARIANTS || !whole(id, 1, 1e9) || variants.has(id)) continue;
+    if (!whole(seed, 0, Number.MAX_SAFE_INTEGER) || typeof v.roster !== 'string') continue;
+    const called = typeof v.name === 'string' && v.name ? v.name.slice(0, 80) : null;
+    variants.set(id, Object.freeze({ id, called, kept: v.kept === true, starred: v.starred === true }));
+    states[id] = Object.freeze({
+      seed,
+      diversity: typeof diversity === 'number' ? Math.min(MOST_DIVERSITY, Math.max(0, diversity)) : DEFAULTS.diversity,
+      others: readOthers(v.others),
+      length: readLength(v.length_s),
+      replan: readReplan(v.replan_s),
+      drawn: whole(v.drawn, 0, 1e6) ? v.drawn : 0,
+      subject: typeof v.subject === 'string' && agents.has(v.subject) ? v.subject : null,
+      roster: v.roster,
+      asked: readAsked(v, agents),
+    });
+  }
+  return { variants: Object.freeze([...variants.values()]), variantStates: Object.freeze(states) };
+}
+
+function readAsked(v: Partial<VariantJson>, agents: ReadonlyMap<string, Agent>): VariantState['asked'] {
+  const asked: Record<string, Asked> = {};
+  for (const [id, c] of Object.entries(v.conditions ?? {})) {
+    const a = agents.get(id);
+    if (!a?.source || !c || typeof c !== 'object') continue;
+    const ed = { picked: v.picked, does: v.does };
+    // Read as the file's road user is; the lanes matter for what is parked alone.
+    asked[id] = askedOf({ ...a, ...readConditions(a.source, c, a.logStart, ed) });
+  }
+  return Object.freeze(asked);
 }
 
 const firstSeen = (log: Motion): Pose | null => (log.valid.length ? poseAtStep(log, log.valid[0][0]) : null);

@@ -5,6 +5,7 @@ import { DEFAULTS } from './domain';
 import type { AgentJson } from './json';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 import { STEP_S, type Motion } from './motion';
+import type { Variant, VariantState } from './variants';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
 export type Kind = 'car' | 'truck' | 'bus' | 'motorcycle' | 'cyclist' | 'pedestrian' | 'other';
@@ -86,6 +87,10 @@ export interface Scene {
   readonly others: Others;
   /** How often everybody was worked out anew: each time is a step that can be taken back. */
   readonly drawn: number;
+  /** Ways that the scene could go, in the order in which they were made. */
+  readonly variants: readonly Variant[];
+  /** What they consist of, by their ids. Apart from them: a star is a small step. */
+  readonly variantStates: Readonly<Record<number, VariantState>>;
 }
 
 /** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */
@@ -138,6 +143,10 @@ export const changedByHand = (a: Agent): boolean =>
 
 /** Is anything asked of this road user? One without a log has nothing else to follow. */
 export const touched = (a: Agent): boolean => a.placed || changedByHand(a);
+
+/** Ids of everybody whom somebody asked something of. */
+export const touchedIn = (scene: Scene): string[] =>
+  [...scene.agents.values()].filter((a) => touched(a) && canChange(a)).map((a) => a.id);
 
 export function withAgents(scene: Scene, changes: Iterable<Agent>): Scene {
   const agents = new Map(scene.agents);

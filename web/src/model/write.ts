@@ -8,9 +8,11 @@ import type {
   GoalJson,
   MapJson,
   MapRef,
+  SampleJson,
   SceneJson,
   StartJson,
   TrackJson,
+  VariantJson,
 } from './json';
 import { DEFAULTS } from './domain';
 import type { Motion } from './motion';
@@ -24,10 +26,11 @@ import {
   sizeChanged,
   startPose,
   staysAway,
+  touched,
   type Agent,
   type Scene,
 } from './scene';
-import type { Futures } from './futures';
+import type { Futures, MotionSet } from './futures';
 
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
 export function conditionOf(a: Agent): ConditionJson {
@@ -115,6 +118,18 @@ export function generatedJson(
   };
 }
 
+/** What everybody does in a variant; of those who were asked nothing the one way that they take. */
+export function variantSample(scene: Scene, set: MotionSet): SampleJson {
+  const agents: SampleJson['agents'] = {};
+  for (const id of set.driving) {
+    const [a, f] = [scene.agents.get(id), set.futures.get(id)];
+    if (!a || !f?.modes.length) continue;
+    const chosen = Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
+    agents[id] = touched(a) ? futuresJson(f, chosen) : futuresJson({ ...f, modes: [f.modes[chosen]] }, 0);
+  }
+  return { agents };
+}
+
 /** One state, for somebody of whom nothing else is known. */
 function startTrack(a: Agent): TrackJson {
   const p = startPose(a)!;
@@ -164,9 +179,38 @@ export function writeScene(
       replan_s: scene.replan,
       ...(scene.drawn ? { drawn: scene.drawn } : {}),
       ...ofAgents(scene.agents.values()),
+      ...(scene.variants.length ? { variants: variantsJson(scene) } : {}),
     },
   };
 }
+
+/** Variants as the file has them. */
+export const variantsJson = (scene: Scene): VariantJson[] =>
+  scene.variants.map((v) => {
+    const { seed, diversity, others, length, replan, drawn, subject, roster, asked } = scene.variantStates[v.id];
+    const all = Object.entries(asked).flatMap(([id, patch]) => {
+      const a = scene.agents.get(id);
+      return a ? [{ ...a, ...patch }] : [];
+    });
+    const { picked, does } = ofAgents(all);
+    return {
+      id: v.id,
+      ...(v.called ? { name: v.called } : {}),
+      ...(v.kept ? { kept: true } : {}),
+      ...(v.starred ? { starred: true } : {}),
+      seed,
+      diversity,
+      others,
+      length_s: length,
+      replan_s: replan,
+      ...(drawn ? { drawn } : {}),
+      ...(subject === null ? {} : { subject }),
+      roster,
+      conditions: Object.fromEntries(all.map((a) => [a.id, conditionOf(a)])),
+      ...(picked ? { picked } : {}),
+      ...(does ? { does } : {}),
+    };
+  });
 
 /** What only the editor knows of single road users. */
 export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {

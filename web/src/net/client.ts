@@ -159,11 +159,12 @@ export class Client {
   }
 
   /** Road users put on the lanes of a scene; nothing is stored. */
-  async place(body: unknown): Promise<PlaceReply> {
+  async place(body: unknown, signal?: AbortSignal): Promise<PlaceReply> {
     const reply = await this.request('/v1/place', {
       method: 'POST',
       body: JSON.stringify(body),
       headers: { 'Content-Type': 'application/json' },
+      signal,
     });
     return (await reply.json()) as PlaceReply;
   }

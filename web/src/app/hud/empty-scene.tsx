@@ -6,7 +6,7 @@ import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 
-const WAYS = ['place-first', 'fill', 'import-log'] as const;
+const WAYS = ['place-first', 'tool-fill', 'import-log'] as const;
 
 export function EmptyScene() {
   const { editor, ui } = useApp();

@@ -8,6 +8,7 @@ import { TOOLS } from '../../edit/gestures/tools';
 import type { Spread } from '../../edit/placing';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
+import { Later } from '../parts/later';
 import { Banner } from './banner';
 import { EmptyScene } from './empty-scene';
 import { Coach, Toast } from './messages';
@@ -17,12 +18,15 @@ import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
 import { WayBack } from './way-back';
 
+const fillPanel = () => import('./fill-panel').then((m) => m.default);
+
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
 export function Hud() {
   const c = useApp();
   const { editor, ui } = c;
   const shift = ui.drawer.value ? 'shift' : '';
+  const filling = useComputed(() => editor.filling.wish.value !== null).value;
   const placing = useComputed(() => {
     const kind = placedBy(c);
     return kind && editor.placement.choice(kind).spread;
@@ -45,6 +49,7 @@ export function Hud() {
       </div>
       {editor.dragging.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
       <PlacePanel />
+      {filling ? <Later load={fillPanel} /> : null}
       <EmptyScene />
       <WayBack />
       <Coach />
@@ -60,12 +65,10 @@ function Rail() {
     <nav class="rail" aria-label="Tools">
       {TOOLS.map((tool, i) => (
         <Fragment key={tool.name}>
-          {i && 'places' in tool && !('places' in TOOLS[i - 1]) ? <hr /> : null}
+          {i && 'places' in tool !== 'places' in TOOLS[i - 1] ? <hr /> : null}
           <Tool id={`tool-${tool.name}`} class={'places' in tool ? `t-${typeOfKind(tool.places)}` : ''} />
         </Fragment>
       ))}
-      <hr />
-      <Tool id="fill" />
     </nav>
   );
 }

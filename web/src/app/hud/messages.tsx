@@ -9,7 +9,12 @@ const STEPS = ['Click a car', 'Drag its flag to where it should be in 9 s', 'Let
 export function Coach() {
   const { editor, ui } = useApp();
   const shown = useComputed(
-    () => ui.coach.value > 0 && !editor.dragging.value && !editor.notices.toast.value && editor.scene.value !== null,
+    () =>
+      ui.coach.value > 0 &&
+      !editor.dragging.value &&
+      !editor.notices.toast.value &&
+      !editor.filling.wish.value &&
+      editor.scene.value !== null,
   );
   if (!shown.value) return null;
   return (

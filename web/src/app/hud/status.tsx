@@ -21,6 +21,7 @@ export function Status() {
   // At an event the line says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
   const kind = placedBy(c);
+  if (editor.filling.wish.value) return <Row dot="" text="Preview: nothing added yet" />;
   if (kind) return <Row dot="" text={`Placing: ${KIND_NAMES[kind].toLowerCase()}`} />;
   if (s.kind === 'refining') return <Refining {...s} />;
   const some = editor.selected.value.length;

@@ -10,7 +10,7 @@ export const gliding: ReadonlySignal<boolean> = moving;
 
 export function followView(stage: Stage): void {
   let queued = false;
-  stage.onView = () => {
+  stage.watchView(() => {
     if (queued) return;
     queued = true;
     requestAnimationFrame(() => {
@@ -21,5 +21,5 @@ export function followView(stage: Stage): void {
       const { cx, cy, z } = stage.view;
       stage.element.dataset.view = [cx, cy, z].map((v) => v.toFixed(4)).join(' ');
     });
-  };
+  });
 }

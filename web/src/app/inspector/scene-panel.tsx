@@ -95,7 +95,7 @@ function About({ scene }: { scene: Scene }) {
 function Ways() {
   return (
     <div class="offers">
-      {['place-first', 'fill', 'import-log'].map((id) => (
+      {['place-first', 'tool-fill', 'import-log'].map((id) => (
         <ActionButton key={id} id={id} class="line" size={15} />
       ))}
     </div>

@@ -2,7 +2,9 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { useSignal, type Signal } from '@preact/signals';
 import type { Context } from '../../actions/context';
-import { exported, save, slug, whyNot, type ExportedFile } from '../../edit/download';
+import { exported, exportedJson, saveAll, slug, whyNot, type ExportedFile } from '../../edit/download';
+import type { WholeCard } from '../../edit/variants/cards';
+import type { Scope } from '../../edit/variants/variants';
 import { film, filmEnding, filmKind } from '../../edit/outward/film';
 import { reportPage } from '../../edit/outward/report-page';
 import { SvgPen } from '../../draw/svg-pen';
@@ -42,7 +44,7 @@ function pictureOf({ stage }: Context): HTMLCanvasElement {
   return canvas;
 }
 
-const PLAIN: Kind[] = [
+const FORMATS: Kind[] = [
   ofServer('dragtraffic', 'Saved scene', '.json', 'layers'),
   ofServer('womd', 'Scenario record', '.tfrecord', 'file'),
   ofServer('csv', 'Table of motion', '.csv', 'table'),
@@ -55,7 +57,7 @@ function kindsFor(c: Context): Kind[] {
   const view = `this view at ${time.toFixed(1)} s`;
   const moving = filmKind();
   return [
-    ...PLAIN,
+    ...FORMATS,
     {
       id: 'report',
       label: 'Report page',
@@ -127,9 +129,73 @@ function originOf({ file }: Context): string {
   return `The origin lies at ${o.x_m ?? 0}, ${o.y_m ?? 0} m of ${o.crs ?? 'the recording'}.`;
 }
 
+const SCOPES: readonly (readonly [Scope, string])[] = [
+  ['present', 'This scene'],
+  ['pair', 'Both'],
+  ['kept', 'Kept'],
+  ['starred', 'Starred'],
+  ['all', 'All variants'],
+];
+
 export default function Export() {
+  const { variants } = useApp();
+  const scope = variants.scope.value;
+  const offered = SCOPES.filter(([id]) => id === 'present' || variants.within(id).length);
+  const now = offered.some(([id]) => id === scope) ? scope : 'present';
+  return (
+    <Flyout label="Export" under="export" class="export">
+      <div class="pad">
+        <h2>Export</h2>
+        {offered.length > 1 ? (
+          <div class="seg" role="radiogroup" aria-label="What goes out">
+            {offered.map(([id, text]) => (
+              <button
+                key={id}
+                type="button"
+                role="radio"
+                data-scope={id}
+                aria-checked={id === now}
+                class={`btn ${id === now ? 'on' : ''}`}
+                onClick={() => variants.setScope(id)}
+              >
+                {id === 'present' ? text : `${text} ${variants.within(id).length}`}
+              </button>
+            ))}
+          </div>
+        ) : null}
+      </div>
+      <Kinds key={now} scope={now} />
+    </Flyout>
+  );
+}
+
+/** Several variants in one format: a file each. A file of records has room for all of them. */
+function ofVariants(kind: Kind, cards: readonly WholeCard[]): Kind {
+  return {
+    ...kind,
+    make: async ({ client, editor, file }, progress, stop) => {
+      const files: ExportedFile[] = [];
+      const { name } = editor.scene.peek()!;
+      for (const card of cards) {
+        if (stop.aborted) return null;
+        const alone = { ...card.scene, name: `${name}, ${card.id} ${card.name}`, variants: [], variantStates: {} };
+        const json = file.completeOf(alone, card.set);
+        if (json) files.push(await exportedJson(client, json, kind.id));
+        progress(files.length / cards.length);
+      }
+      const losses = [...new Set(files.flatMap((f) => f.losses))];
+      if (kind.id !== 'womd') return { ...files[0], losses, others: files.slice(1) };
+      // Records follow each other in a file.
+      return { blob: new Blob(files.map((f) => f.blob)), name: `${slug(name)}-variants${kind.ending}`, losses };
+    },
+  };
+}
+
+function Kinds({ scope }: { scope: Scope }) {
   const c = useApp();
-  const kinds = useRef(kindsFor(c)).current;
+  const kinds = useRef(
+    scope === 'present' ? kindsFor(c) : FORMATS.map((k) => ofVariants(k, c.variants.within(scope))),
+  ).current;
   const made = useSignal<ReadonlyMap<string, ExportedFile | string>>(new Map());
   const chosen = useSignal(kinds[0].id);
   const progress = useSignal<number | null>(null);
@@ -141,7 +207,7 @@ export default function Export() {
     };
     void (async () => {
       // One after the other: the generator has other things to do.
-      for (const k of PLAIN)
+      for (const k of kinds.filter((of) => of.tag === undefined))
         await k
           .make(c, () => undefined, stop.current.signal)
           .then(
@@ -161,10 +227,7 @@ export default function Export() {
     chosen.value = kinds[(at + step + kinds.length) % kinds.length].id;
   };
   return (
-    <Flyout label="Export" under="export" class="export">
-      <div class="pad">
-        <h2>Export</h2>
-      </div>
+    <>
       <div
         class="kinds"
         role="radiogroup"
@@ -182,15 +245,18 @@ export default function Export() {
       <footer>
         <span>
           <span class="about">Metres, x east, y north, 0 s = first step. Written into the file.</span>
-          {typeof ready === 'object'
-            ? `${ready.name} · ${sizeWords(ready.blob.size)}`
-            : (ready ?? `${kind.label} ${kind.ending}`)}
+          {typeof ready === 'object' ? fileWords(ready) : (ready ?? `${kind.label} ${kind.ending}`)}
         </span>
         <span class="grow" />
         <SaveButton kind={kind} ready={ready} progress={progress} stop={stop.current.signal} />
       </footer>
-    </Flyout>
+    </>
   );
+}
+
+function fileWords({ name, blob, others = [] }: ExportedFile): string {
+  const size = [blob, ...others.map((f) => f.blob)].reduce((sum, b) => sum + b.size, 0);
+  return `${others.length ? `${others.length + 1} files` : name} · ${sizeWords(size)}`;
 }
 
 const sizeWords = (bytes: number): string =>
@@ -284,7 +350,7 @@ function SaveButton({ kind, ready, progress, stop }: SaveButtonProps) {
       progress.value = 0;
       const file = typeof ready === 'object' ? ready : await kind.make(c, (share) => (progress.value = share), stop);
       if (!file) return;
-      save(c.editor, file);
+      saveAll(c.editor, [file, ...(file.others ?? [])]);
       c.ui.closeDialog();
     } catch (e) {
       c.editor.notices.show({ text: `Not exported: ${whyNot(e)}` });

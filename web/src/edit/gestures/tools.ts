@@ -3,6 +3,7 @@
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 import type { PlacedKind } from '../../model/kinds';
+import { FILL } from './filling';
 import { LASSO } from './lasso';
 import { MEASURE } from './measuring';
 import { PAN } from './panning';
@@ -29,7 +30,7 @@ export interface Tool {
   click(chart: Chart, press: Press, timeStamp: number): void;
 }
 
-export const TOOLS = [SELECT, LASSO, PAN, MEASURE, ...PLACE] as const satisfies readonly Tool[];
+export const TOOLS = [SELECT, LASSO, PAN, MEASURE, ...PLACE, FILL] as const satisfies readonly Tool[];
 
 export type ToolName = (typeof TOOLS)[number]['name'];
 

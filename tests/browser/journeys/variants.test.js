@@ -1,0 +1,290 @@
+// Variants: ways the scene could go, made at once, side by side on one clock, kept, compared and taken away as files.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { it } from 'node:test';
+import { carOnTheMove } from '../support/casting.js';
+import { journeys } from '../support/journey.js';
+
+/** What the cards say: `{ id, name, kept, starred, shown, verdict }`. */
+const cards = (e) =>
+  e.page.locator('.vcard[data-variant]').evaluateAll((all) =>
+    all.map((el) => ({
+      id: Number(el.dataset.variant),
+      name: el.querySelector('.named b')?.textContent.replace(/^\d+\s*/, '') ?? null,
+      kept: el.querySelector('.keep').getAttribute('aria-pressed') === 'true',
+      starred: el.querySelector('.star').getAttribute('aria-pressed') === 'true',
+      shown: el.querySelector('.face').getAttribute('aria-pressed') === 'true',
+      verdict: el.querySelector('.tag').textContent,
+    })),
+  );
+
+const ids = async (e) => (await cards(e)).map((c) => c.id);
+
+/** The pixels of a card's picture, as one number. */
+const picture = (e, id) =>
+  e.page.locator(`[data-variant="${id}"] canvas`).evaluate((c) => {
+    const { data } = c.getContext('2d').getImageData(0, 0, c.width, c.height);
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) sum = (sum * 31 + data[i] + data[i + 1] + data[i + 2]) >>> 0;
+    return sum;
+  });
+
+const face = (e, id) => e.page.locator(`[data-variant="${id}"] .face`);
+const take = async (e, id) => {
+  await face(e, id).click();
+  await e.settled();
+};
+
+async function make(e) {
+  await e.key('Control+Enter');
+  await e.frames(2);
+  // Ten times everybody: on a busy machine that takes longer than one answer does.
+  await e.page.waitForSelector('.vcard.waiting', { state: 'detached', timeout: 60_000 });
+  await e.settled();
+}
+
+async function begin(stage, options) {
+  const e = await stage.open(options);
+  await e.begin();
+  await e.key('b');
+  await e.key('Shift+V');
+  await e.page.waitForSelector('.strip');
+  return e;
+}
+
+/** The cursor leaves what it is in: keys are the page's again. */
+const leave = (e) => e.page.evaluate(() => document.activeElement?.blur?.());
+
+const setTime = async (e, seconds) => {
+  await leave(e);
+  await e.key('Home');
+  for (let i = 0; i < seconds * 10; i++) await e.key('.');
+  await e.settled();
+};
+
+journeys('variants', (stage) => {
+  it('makes ten ways of everybody, keeps the good ones and draws the others anew', { timeout: 120_000 }, async () => {
+    const e = await begin(stage);
+    const count = e.page.getByLabel('How many variants are made');
+    await count.fill('10');
+    await count.press('Enter');
+    await leave(e);
+    await make(e);
+    const first = await cards(e);
+    assert.equal(first.length, 10);
+    assert.equal(new Set(first.map((c) => c.name)).size, 10, `names are told apart: ${first.map((c) => c.name)}`);
+    assert.deepEqual(
+      first.filter((c) => c.shown).map((c) => c.id),
+      [1],
+    );
+    await e.picture('variants');
+    // Kept, starred and named, each a step of its own.
+    await take(e, 3);
+    await e.key('Control+d');
+    await take(e, 5);
+    await e.key('s');
+    await face(e, 5).focus();
+    await e.key('F2');
+    await e.page.locator('.vcard input').fill('My favourite');
+    await e.key('Enter');
+    await e.settled();
+    const marked = await cards(e);
+    assert.deepEqual(marked[0], { ...marked[0], id: 5, starred: true, shown: true, name: 'My favourite' });
+    assert.equal(marked.find((c) => c.id === 3).kept, true);
+    await e.page.getByRole('radio', { name: /^Starred/ }).click();
+    assert.deepEqual(await ids(e), [5]);
+    await e.page.getByRole('radio', { name: /^With events/ }).click();
+    const eventful = (all) => all.filter((c) => c.verdict !== 'No conflict').map((c) => c.id);
+    assert.deepEqual(await ids(e), eventful(marked));
+    await e.page.getByRole('radio', { name: /^All/ }).click();
+    // Kept and starred ones stay; the rest is new, drawn with seeds that were not used yet.
+    await leave(e);
+    await count.fill('4');
+    await count.press('Enter');
+    await leave(e);
+    await make(e);
+    assert.deepEqual(await ids(e), [5, 3, 11, 12, 13, 14]);
+    const again = await cards(e);
+    assert.equal(again[0].name, 'My favourite');
+    assert.equal(again.find((c) => c.id === 11).shown, true);
+    const seeds = e.wire.asked.filter((a) => a.body.agents === 'all').map((a) => a.body.seed);
+    assert.equal(new Set(seeds).size, seeds.length, `no seed twice: ${seeds}`);
+    // All of it can be taken back, step by step.
+    await e.key('Control+z');
+    await e.settled();
+    assert.deepEqual(
+      (await ids(e)).sort((a, b) => a - b),
+      marked.map((c) => c.id).sort((a, b) => a - b),
+    );
+    await e.key('Control+z');
+    await e.settled();
+    assert.notEqual((await cards(e)).find((c) => c.id === 5).name, 'My favourite');
+    await e.key('Control+z');
+    await e.settled();
+    assert.equal((await cards(e)).find((c) => c.id === 5).starred, false);
+  });
+
+  it('runs all pictures on the clock of the playhead', { timeout: 90_000 }, async () => {
+    const e = await begin(stage);
+    await make(e);
+    const all = await ids(e);
+    const at = async (seconds) => {
+      await setTime(e, seconds);
+      await e.frames(4);
+      return Promise.all(all.map((id) => picture(e, id)));
+    };
+    const start = await at(0);
+    const later = await at(2);
+    assert.ok(
+      later.every((p, i) => p !== start[i]),
+      'every picture has moved on',
+    );
+    assert.deepEqual(await at(0), start);
+    // Space plays also while a card has the focus.
+    await face(e, all[1]).focus();
+    await e.key('Space');
+    await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 1);
+    await e.key('Space');
+    await e.settled();
+    const paused = Math.round(parseFloat(await e.text('.tm')) * 10) / 10;
+    assert.ok(paused >= 1);
+    const now = await Promise.all(all.map((id) => picture(e, id)));
+    assert.ok(now.every((p, i) => p !== start[i]));
+  });
+
+  it('goes through the futures of one road user, and says how two of them part', { timeout: 120_000 }, async () => {
+    const e = await begin(stage);
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    const futures = await e.page.locator('.fu').allInnerTexts();
+    await make(e);
+    const made = await cards(e);
+    assert.equal(made.length, 6);
+    assert.match(await e.text('.strip header'), new RegExp(`ways of ${car.name}`));
+    for (const c of made)
+      assert.ok(
+        futures.some((f) => f.includes(c.name)),
+        `${c.name} of ${futures}`,
+      );
+    // Each is that future on the picture too.
+    for (const c of made.slice(0, 3)) {
+      await take(e, c.id);
+      assert.match(await e.text('.fu[aria-checked="true"], .fu[aria-pressed="true"], .fu.on'), new RegExp(c.name));
+    }
+    await take(e, 4);
+    await face(e, 1).focus();
+    await e.key('c');
+    await e.page.waitForSelector('.pane');
+    await e.settled();
+    assert.match(await e.text('.insp .ih'), /Compare\s+Variant 4 and variant 1/);
+    const rows = await e.page.locator('.compare tr.differs th').allInnerTexts();
+    assert.ok(rows.includes(car.name), `${rows}`);
+    const moments = e.page.locator('.moment');
+    assert.ok((await moments.count()) >= 1 && (await moments.count()) <= 6);
+    const [words] = await moments.allInnerTexts();
+    await moments.first().click();
+    await e.settled();
+    assert.ok(words.startsWith((await e.text('.tm')).split(' ')[0]), `${words}: ${await e.text('.tm')}`);
+    // From one to the next by a key, and round again.
+    await leave(e);
+    const told = [...new Set((await moments.allInnerTexts()).map((w) => w.split(' ')[0]))];
+    for (const time of [...told.slice(1), told[0]]) {
+      await e.key('e');
+      await e.settled();
+      assert.equal((await e.text('.tm')).split(' ')[0], time);
+    }
+    await e.picture('compared');
+    // One camera for both.
+    const layers = () =>
+      e.page.evaluate(() => {
+        const of = (s) => document.querySelector(s).getBoundingClientRect();
+        return { left: of('main.stage').width, right: of('.pane').width };
+      });
+    const { left, right } = await layers();
+    assert.ok(Math.abs(left - right) <= 2, `${left} and ${right} px`);
+    await leave(e);
+    await e.key('x');
+    await e.settled();
+    assert.match(await e.text('.insp .ih'), /Variant 1 and variant 4/);
+    assert.equal((await cards(e)).find((c) => c.shown).id, 1);
+    await e.key('Escape');
+    await e.until(() => !document.querySelector('.pane'));
+    // A change of the scene leaves the variants as they are.
+    const before = await cards(e);
+    await e.type('start-speed', '20');
+    assert.deepEqual(
+      (await cards(e)).map((c) => [c.id, c.name, c.verdict]),
+      before.map((c) => [c.id, c.name, c.verdict]),
+    );
+    assert.equal(
+      (await cards(e)).some((c) => c.shown),
+      false,
+      'it is none of them any more',
+    );
+  });
+
+  it('is there again after a reload, and goes out as files', { timeout: 120_000 }, async () => {
+    const e = await begin(stage);
+    await e.key('Control+s');
+    await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    await e.settled();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    await make(e);
+    await take(e, 2);
+    await e.key('Control+d');
+    await take(e, 4);
+    await e.key('Control+d');
+    await e.settled();
+    const before = await cards(e);
+    await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    // The file has the scene's own motion and, beside it, that of those which are kept.
+    const { scenes: list } = await e.get('/v1/scenes');
+    const own = await e.get(`/v1/scenes/${list.find((s) => !s.readonly).id}`);
+    assert.equal(own.generated.samples.length, 3);
+    assert.deepEqual(
+      own.x_editor.variants.map((v) => [v.id, v.kept ?? false, v.sample ?? null]),
+      before.map((c) => [c.id, c.kept, c.kept ? (c.id === 2 ? 1 : 2) : null]),
+    );
+    await e.page.reload();
+    await e.ready();
+    await e.settled();
+    await e.key('Shift+V');
+    await e.page.waitForSelector('.vcard canvas');
+    await e.settled();
+    await e.until(() => ![...document.querySelectorAll('.vcard .tag')].some((t) => t.textContent === '…'));
+    assert.deepEqual(await cards(e), before);
+    // The kept ones as one file of records: one record each.
+    await e.page.locator('.strip [data-action="export-variants"]').click();
+    await e.page.waitForSelector('.export [data-scope="kept"][aria-checked="true"]');
+    const save = async (kind) => {
+      await e.page.locator(`[data-kind="${kind}"]`).click();
+      await e.until(() => !document.querySelector('.kind[aria-checked="true"] .tag').textContent.includes('…'));
+      const files = [];
+      e.page.on('download', (d) => files.push(d));
+      await e.page.locator('.export footer .btn.pri').click();
+      await e.until(() => /saved/.test(document.querySelector('.toast')?.textContent ?? ''));
+      const wanted = kind === 'womd' ? 1 : 2;
+      while (files.length < wanted) await e.page.waitForEvent('download').catch(() => undefined);
+      e.page.removeAllListeners('download');
+      return Promise.all(
+        files.map(async (d) => ({ name: d.suggestedFilename(), bytes: readFileSync(await d.path()) })),
+      );
+    };
+    const [records] = await save('womd');
+    let n = 0;
+    for (let at = 0; at < records.bytes.length; n++) at += 16 + Number(records.bytes.readBigUInt64LE(at));
+    assert.equal(n, 2, 'two records in one file');
+    await e.page.locator('.strip [data-action="export-variants"]').click();
+    await e.page.waitForSelector('.export');
+    const scenes = (await save('dragtraffic')).map((f) => JSON.parse(f.bytes));
+    assert.equal(scenes.length, 2);
+    const kept = before.filter((c) => c.kept);
+    for (const [i, c] of kept.entries()) assert.ok(scenes[i].name.endsWith(`, ${c.id} ${c.name}`), scenes[i].name);
+    const way = (s) => {
+      const f = s.generated.samples[0].agents[car.id];
+      return JSON.stringify(f.modes[f.chosen].x_m);
+    };
+    assert.notEqual(way(scenes[0]), way(scenes[1]), 'each has its own motion');
+  });
+});

@@ -1,0 +1,202 @@
+// Filling an area: how busy, which kinds, and what is added with one key.
+import { useRef } from 'preact/hooks';
+import { useComputed } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+import { FILL_KINDS, shareOf, type FillKind } from '../../edit/fill-mix';
+import { LEAST_DENSITY, MOST_DENSITY } from '../../edit/filling';
+import { KIND_NAMES } from '../../model/kinds';
+import { num } from '../../model/units';
+import { useApp } from '../parts/app-context';
+import { ActionButton, KeyCaps } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import '../../styles/filling.css';
+
+const NAMES: Record<FillKind, string> = {
+  car: 'Cars',
+  heavy: 'Trucks, buses',
+  motorcycle: 'Motorcycles',
+  cyclist: 'Cyclists',
+  pedestrian: 'Pedestrians',
+};
+/** The most that one kind may weigh in the mix. */
+const MOST_WEIGHT = 100;
+
+export default function FillPanel() {
+  const { editor } = useApp();
+  const { filling } = editor;
+  const size = useComputed(() => filling.all.value.length).value;
+  const wish = filling.wish.value;
+  if (!wish) return null;
+  return (
+    <section class="card placing filling" aria-label="Fill an area" aria-busy={filling.asking.value}>
+      <h3>
+        Fill an area
+        <button type="button" class="btn i" aria-label="Close" onClick={() => editor.chooseTool('select')}>
+          <Icon name="x" size={16} />
+        </button>
+      </h3>
+      <div class="busy">
+        <Slider
+          label="How busy"
+          value={wish.density}
+          range={[LEAST_DENSITY, MOST_DENSITY]}
+          step={0.5}
+          text={`${num(wish.density, 1)} per 100 m of lane`}
+          set={(v) => filling.setDensity(v)}
+        />
+        <div class="ends" aria-hidden="true">
+          <span>empty</span>
+          <span>free flow</span>
+          <span>queue</span>
+        </div>
+      </div>
+      <hr />
+      {FILL_KINDS.map((k) => (
+        <Slider
+          key={k}
+          label={NAMES[k]}
+          value={wish.mix[k]}
+          range={[0, MOST_WEIGHT]}
+          step={2}
+          text={`${Math.round(shareOf(wish.mix, k) * 100)}%`}
+          set={(v) => filling.setShare(k, v)}
+        />
+      ))}
+      <Line label="Keep what is there">
+        <button
+          type="button"
+          class={`pillb ${wish.keep ? 'on' : ''}`}
+          role="switch"
+          aria-checked={wish.keep}
+          aria-label="Keep what is there"
+          title={wish.keep ? 'Everybody stays' : 'Those in the area who are not locked make room'}
+          onClick={() => filling.setKeep(!wish.keep)}
+        >
+          {wish.keep ? 'On' : 'Off'}
+        </button>
+      </Line>
+      <Line label="Seed">
+        <SeedField seed={wish.seed} set={(v) => filling.setSeed(v)} />
+      </Line>
+      <div class="foot">
+        <ActionButton id="fill-add" class="pri" icon="">
+          Add {size}
+        </ActionButton>
+        <ActionButton id="fill-shuffle" class="line" size={16}>
+          Shuffle
+        </ActionButton>
+        <span class="grow" />
+        <KeyCaps of="Enter" />
+      </div>
+      <Note />
+      <Preview />
+    </section>
+  );
+}
+
+/** Who would come, for those who do not see the canvas: a button each, which pins. */
+function Preview() {
+  const { filling } = useApp().editor;
+  const all = filling.all.value;
+  return (
+    <div class="sr" role="group" aria-label={`Preview, ${all.length}`}>
+      {all.map((n) => (
+        <button
+          key={`${n.pose.x} ${n.pose.y}`}
+          type="button"
+          tabIndex={-1}
+          data-preview={n.kind}
+          aria-pressed={filling.isPinned(n)}
+          onClick={() => filling.togglePin(n)}
+        >
+          {KIND_NAMES[n.kind]} at {num(n.pose.x, 1)}, {num(n.pose.y, 1)}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** What to do next, or why there are not more. */
+function Note() {
+  const { filling } = useApp().editor;
+  const wish = filling.wish.value!;
+  const gone = filling.answer.value?.replaced.length ?? 0;
+  const reason = filling.answer.value?.reason;
+  const pinned = wish.pinned.length;
+  const words = filling.drawn.value
+    ? 'Click further corners. Enter or the first corner closes the area.'
+    : (reason ??
+      (pinned
+        ? `${pinned} pinned: Shuffle draws the others anew.`
+        : wish.region
+          ? 'Drag a corner to change the area. Click somebody to pin it.'
+          : 'The whole map. Draw round a piece of it for less.'));
+  return (
+    <p class="note" aria-live="polite">
+      {gone ? `${gone} make room. ` : ''}
+      {words}
+    </p>
+  );
+}
+
+interface SliderProps {
+  label: string;
+  value: number;
+  range: readonly [number, number];
+  step: number;
+  text: string;
+  set: (v: number) => void;
+}
+
+function Slider({ label, value, range: [min, max], step, text, set }: SliderProps) {
+  return (
+    <label class="slide">
+      <span>{label}</span>
+      <input
+        type="range"
+        aria-label={label}
+        aria-valuetext={text}
+        min={min}
+        max={max}
+        step={step}
+        value={value}
+        style={{ '--fill': `${((value - min) / (max - min)) * 100}%` }}
+        onInput={(e) => set(Number(e.currentTarget.value))}
+      />
+      <b>{text}</b>
+    </label>
+  );
+}
+
+function Line({ label, children }: { label: string; children: ComponentChildren }) {
+  return (
+    <div class="line">
+      <span>{label}</span>
+      {children}
+    </div>
+  );
+}
+
+function SeedField({ seed, set }: { seed: number; set: (v: number) => void }) {
+  const input = useRef<HTMLInputElement>(null);
+  return (
+    <label class="field seed">
+      <input
+        ref={input}
+        type="text"
+        inputmode="numeric"
+        aria-label="Seed of the fill"
+        maxlength={16}
+        value={seed}
+        onChange={() => {
+          const v = Number(input.current!.value.replace(/\D/g, ''));
+          if (Number.isSafeInteger(v)) set(v);
+          input.current!.value = String(v);
+        }}
+        onKeyDown={(e) => {
+          if (e.key === 'Enter') input.current!.blur();
+        }}
+      />
+    </label>
+  );
+}

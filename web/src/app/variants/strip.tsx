@@ -1,0 +1,188 @@
+// The strip of variants: one card each, all of them on the clock of the playhead.
+import { useRef } from 'preact/hooks';
+import { useComputed } from '@preact/signals';
+import { perform } from '../../actions/registry';
+import { hasEvents, type Card, type Filter } from '../../edit/variants/cards';
+import { MOST_NEW } from '../../model/variants';
+import { boxOf, type Box, type Vec } from '../../model/geometry';
+import { busyBox } from '../../model/busy';
+import { motionOf } from '../../model/changes';
+import { isRecorded } from '../../model/scene';
+import { Miniatures } from '../../draw/miniature';
+import { MapPicture } from '../../draw/paint-map';
+import { View } from '../../draw/view';
+import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import { CardView } from './card';
+import type { Album } from './live-picture';
+import '../../styles/variants.css';
+
+const FILTERS: readonly (readonly [Filter, string])[] = [
+  ['all', 'All'],
+  ['events', 'With events'],
+  ['starred', 'Starred'],
+];
+
+export default function Strip() {
+  const c = useApp();
+  const { variants } = c;
+  const cards = variants.filtered.value;
+  const all = variants.cards.value;
+  const making = variants.making.value;
+  const list = useRef<HTMLDivElement>(null);
+  const album = useAlbum(all);
+  const walk = (e: KeyboardEvent) => {
+    const step = e.key === 'ArrowRight' ? 1 : e.key === 'ArrowLeft' ? -1 : 0;
+    if (!step || (e.target as HTMLElement).tagName === 'INPUT') return;
+    e.preventDefault();
+    e.stopPropagation();
+    const at = cards.findIndex((card) => card.id === variants.current.peek());
+    const next = cards[Math.min(cards.length - 1, Math.max(0, at + step))];
+    if (next) list.current?.querySelector<HTMLElement>(`[data-variant="${next.id}"] .face`)?.focus();
+  };
+  return (
+    <section class="strip" aria-label="Variants" data-group="variants">
+      <header>
+        <h2>Variants</h2>
+        <About />
+        <span class="grow" />
+        <div class="seg" role="radiogroup" aria-label="Which variants">
+          {FILTERS.map(([id, text]) => (
+            <button
+              key={id}
+              type="button"
+              role="radio"
+              aria-checked={variants.filter.value === id}
+              class={`btn ${variants.filter.value === id ? 'on' : ''}`}
+              onClick={() => variants.setFilter(id)}
+            >
+              {text} {countOf(all, id)}
+            </button>
+          ))}
+        </div>
+        <ActionButton id="compare-variants" size={16}>
+          Compare 2
+        </ActionButton>
+        <ActionButton id="export-variants" class="line" icon="">
+          Export all
+        </ActionButton>
+        <button type="button" class="btn i" aria-label="Close the variants" onClick={() => variants.show(false)}>
+          <Icon name="x" size={16} />
+        </button>
+      </header>
+      <div class="cards" ref={list} onKeyDown={walk}>
+        {cards.map((card) => (
+          <CardView key={card.id} card={card} album={album} />
+        ))}
+        {Array.from({ length: making ? making.of - making.done : 0 }, (_, i) => (
+          <div key={`w${i}`} class="vcard waiting" aria-hidden="true" />
+        ))}
+        {cards.length || making ? null : <Nobody any={all.length > 0} />}
+      </div>
+    </section>
+  );
+
+  function Nobody({ any }: { any: boolean }) {
+    return (
+      <p class="none">
+        {any ? 'None of them is like that.' : 'No variants yet.'}{' '}
+        {any ? null : (
+          <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
+            Make {variants.count.value}
+          </button>
+        )}
+      </p>
+    );
+  }
+}
+
+const countOf = (all: readonly Card[], filter: Filter): number =>
+  filter === 'all' ? all.length : all.filter((c) => (filter === 'events' ? hasEvents(c) : c.variant.starred)).length;
+
+/** Of whom they are, from which numbers; how far it is while more are made. */
+function About() {
+  const { editor, variants } = useApp();
+  const making = variants.making.value;
+  const words = useComputed(() => {
+    if (editor.playing.value) return 'all run on one clock';
+    const last = variants.cards.value.reduce<Card | null>((a, b) => (a && a.id > b.id ? a : b), null);
+    if (!last) return 'ways the scene could go';
+    const who = last.state.subject === null ? null : editor.scene.value?.agents.get(last.state.subject)?.name;
+    const seed = Math.min(
+      ...variants.cards.value.filter((v) => !v.variant.kept && !v.variant.starred).map((v) => v.state.seed),
+      last.state.seed,
+    );
+    const from = `seed ${seed}, diversity ${Math.round(last.state.diversity * 100)}%`;
+    return `${who ? `ways of ${who}` : 'everybody anew'}, from ${from}`;
+  });
+  if (making)
+    return (
+      <>
+        <small role="status">
+          {making.done} of {making.of}
+        </small>
+        <button type="button" class="btn line" onClick={() => variants.stop()}>
+          Stop{making.done ? `, keep ${making.done}` : ''}
+        </button>
+      </>
+    );
+  return (
+    <>
+      <small>{words}</small>
+      <label class="field count">
+        <input
+          type="number"
+          min={1}
+          max={MOST_NEW}
+          aria-label="How many variants are made"
+          value={variants.count.value}
+          onChange={(e) => variants.setCount(Number(e.currentTarget.value) || 1)}
+        />
+        <span>new</span>
+      </label>
+    </>
+  );
+}
+
+const CARD_W = 174;
+const CARD_H = 92;
+const LOW_H = 60;
+/** A page lower than this has lower pictures, pixels. */
+const LOW_PAGE = 800;
+const MARGIN_M = 10;
+
+/** One view for all of them: on what the road user does that they are about, else where most things move. */
+function useAlbum(cards: readonly Card[]): Album {
+  const { editor, ui } = useApp();
+  const kept = useRef<{ key: string; album: Album; of: unknown } | null>(null);
+  void ui.theme.value;
+  const scene = editor.scene.peek()!;
+  const box = boxFor(cards) ?? busyBox(scene);
+  const h = innerHeight < LOW_PAGE ? LOW_H : CARD_H;
+  const key = JSON.stringify([box, h]);
+  if (kept.current?.key !== key || kept.current.of !== scene.map) {
+    const view = new View();
+    Object.assign(view, { w: CARD_W, h, dpr: Math.min(2, Math.max(1, devicePixelRatio || 1)) });
+    view.fit(box, 5, 0.3);
+    const map = kept.current?.of === scene.map ? kept.current.album.map : mapPicture(scene);
+    kept.current = { key, of: scene.map, album: { view, map, painter: new Miniatures() } };
+  }
+  return kept.current.album;
+}
+
+const mapPicture = ({ map, source }: { map: Parameters<typeof busyBox>[0]['map']; source: string }) =>
+  new MapPicture(map, isRecorded(source));
+
+function boxFor(cards: readonly Card[]): Box | null {
+  const pts = cards.flatMap(({ scene, set, state, events }): Vec[] => {
+    const a = state.subject === null ? undefined : scene?.agents.get(state.subject);
+    if (!a || !scene || !set) return [];
+    const m = motionOf(scene, set, a);
+    const way = Array.from(m.x, (x, i): Vec => [x, m.y[i]]);
+    return [...way, ...events.filter((e) => !e.inLog).map((e) => e.at)];
+  });
+  if (!pts.length) return null;
+  const b = boxOf(pts);
+  return { x0: b.x0 - MARGIN_M, y0: b.y0 - MARGIN_M, x1: b.x1 + MARGIN_M, y1: b.y1 + MARGIN_M };
+}

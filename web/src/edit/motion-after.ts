@@ -1,0 +1,96 @@
+// What everybody does once an answer is there: what was known before, and what the answer says in its place.
+import { DEFAULTS } from '../model/domain';
+import type { AgentFuturesJson, ReactionJson } from '../model/json';
+import { readFutures, withNames, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
+import { motionFrom } from '../model/motion';
+import type { Naming } from '../model/names';
+import { firstPose } from '../model/read';
+import { withMeetingsOf } from '../model/rejudge';
+import { doing, nameIn, sceneKey, touched, touchedIn, type Agent, type Scene } from '../model/scene';
+import type { FinalEvent } from '../net/types';
+import type { Wanted } from './question';
+import { readReach, readScore, readWarnings } from './read-answer';
+
+/** Which letters the futures of a road user get. */
+export type Keep = (a: Agent) => KeepOrder;
+
+export const naming = (scene: Scene, a: Agent): Naming => ({ onFoot: a.type === 'pedestrian', nameOf: nameIn(scene) });
+
+export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: Wanted, keep: Keep): MotionSet {
+  const answers = futuresOf(before, scene, e, keep);
+  const mine = touchedIn(scene);
+  // A look at somebody's futures from before the change is no longer true.
+  const stillTrue = (id: string) => {
+    const a = scene.agents.get(id);
+    return a !== undefined && (before.driving.has(id) || w.kept?.has(id) || touched(a));
+  };
+  const futures = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+  const score = readScore(e.scores?.[0]);
+  // Those that go on as they did may meet others than before.
+  for (const id of score ? mine : []) {
+    const f = answers.has(id) ? undefined : futures.get(id);
+    if (!f) continue;
+    const shown = scene.agents.get(id)!.chosen ?? f.chosen;
+    const modes = f.modes.map((m, i) => (i === shown ? withMeetingsOf(score!, id, m) : m));
+    if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
+  }
+  const drives = (id: string) => {
+    const a = scene.agents.get(id);
+    return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
+  };
+  const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
+  for (const id of mine) if (futures.has(id)) driving.add(id);
+  const reach = new Map(before.reach);
+  for (const [id, resolved] of Object.entries(e.resolved)) {
+    const verdict = readReach(resolved);
+    if (verdict) reach.set(id, verdict);
+    else reach.delete(id);
+  }
+  return {
+    key: sceneKey(scene),
+    futures,
+    driving,
+    score,
+    reach,
+    stale: false,
+    head: e.generated,
+    reactions: reactionsAfter(before, e),
+    warnings: readWarnings(e),
+  };
+}
+
+export function futuresOf(before: MotionSet, scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {
+  const out = new Map<string, Futures>();
+  for (const [id, json] of Object.entries(e.samples[0]?.agents ?? {})) {
+    const a = scene.agents.get(id);
+    const f = a && futuresFrom(before, scene, a, json, keep);
+    if (f) out.set(id, f);
+  }
+  return out;
+}
+
+function futuresFrom(before: MotionSet, scene: Scene, a: Agent, json: AgentFuturesJson, keep: Keep): Futures | null {
+  const start = firstPose(a, json);
+  if (!start || !json.modes?.length) return null;
+  const known = before.futures.get(a.id);
+  const picked = a.chosen !== null && json.modes.length === 1 ? known?.modes[a.chosen] : undefined;
+  if (!known || !picked) {
+    const { steps } = DEFAULTS;
+    const f = readFutures(json, start, steps, steps, a.type === 'pedestrian', keep(a));
+    return withNames(f, naming(scene, a));
+  }
+  // A picked future comes back longer than it was; the other five stand as they are.
+  const longer = { ...picked, motion: motionFrom(json.modes[0], start) };
+  return { ...known, modes: known.modes.map((m) => (m === picked ? longer : m)) };
+}
+
+/** Why whoever answers does so; those that were not worked out anew go on for the reason they had. */
+function reactionsAfter(before: MotionSet, e: FinalEvent): Map<string, ReactionJson> {
+  const out = new Map(before.reactions);
+  const agents: Record<string, AgentFuturesJson> = e.samples[0]?.agents ?? {};
+  for (const [id, { reaction }] of Object.entries(agents)) {
+    if (reaction) out.set(id, reaction);
+    else out.delete(id);
+  }
+  return out;
+}

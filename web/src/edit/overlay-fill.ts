@@ -1,0 +1,128 @@
+// What the overlay shows of an area that is being filled: its outline with corners, and who would come.
+import { boxOf, type Vec } from '../model/geometry';
+import { typeOfKind } from '../model/kinds';
+import type { Newcomer } from '../model/newcomer';
+import { paintRing } from '../draw/handles';
+import { tag, type Labels } from '../draw/labels';
+import type { Pen } from '../draw/pen';
+import { sizeOnScreen, stamp, type Sized } from '../draw/sprites';
+import { colours } from '../draw/theme';
+import type { View } from '../draw/view';
+import type { Editor } from './editor';
+
+const CORNER_PX = 8;
+const DASH = [6, 4];
+
+const boxOfNewcomer = (n: Newcomer): Sized => ({ ...n, type: typeOfKind(n.kind), parked: false });
+
+export class FillOverlay {
+  constructor(
+    private readonly editor: Editor,
+    private readonly labels: Labels,
+  ) {}
+
+  paint(g: Pen, v: View): void {
+    const { filling } = this.editor;
+    const wish = filling.wish.value;
+    if (!wish) return;
+    const drawn = filling.drawn.value;
+    const outline = drawn ?? wish.region;
+    if (outline) this.#paintOutline(g, v, outline, drawn === null);
+    this.#paintGoing(g, v);
+    for (const n of filling.all.value) this.#paintOne(g, v, n, wish.pinned.includes(n));
+    if (drawn) return;
+    const n = filling.all.value.length;
+    if (wish.region) this.#paintCount(g, v, wish.region, filling.asking.value && !n ? '…' : `${n} to add`);
+  }
+
+  #paintOutline(g: Pen, v: View, outline: readonly Vec[], closed: boolean): void {
+    const c = colours();
+    g.beginPath();
+    outline.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+    if (closed) g.closePath();
+    g.fillStyle = c.focus;
+    g.globalAlpha = 0.12;
+    g.fill();
+    g.globalAlpha = 1;
+    g.strokeStyle = c.focus;
+    g.lineWidth = 2;
+    g.setLineDash(DASH);
+    g.stroke();
+    g.setLineDash([]);
+    g.fillStyle = c.surface;
+    const every = outline.length > 40 ? outline.slice(0, 1) : outline;
+    for (const [x, y] of every) {
+      const [px, py] = v.to(x, y);
+      const h = CORNER_PX / 2;
+      g.beginPath();
+      g.moveTo(px - h, py - h);
+      g.lineTo(px + h, py - h);
+      g.lineTo(px + h, py + h);
+      g.lineTo(px - h, py + h);
+      g.closePath();
+      g.fill();
+      g.stroke();
+    }
+  }
+
+  /** Those who make room are crossed out by a dashed ring. */
+  #paintGoing(g: Pen, v: View): void {
+    const { editor: e } = this;
+    const scene = e.scene.value!;
+    for (const id of e.filling.answer.value?.replaced ?? []) {
+      const a = scene.agents.get(id);
+      const p = a?.logStart && { x: a.start.pos?.[0] ?? a.logStart.x, y: a.start.pos?.[1] ?? a.logStart.y };
+      if (a && p)
+        paintRing(
+          g,
+          v,
+          a,
+          { ...p, heading: a.start.heading ?? a.logStart!.heading },
+          colours()['ink-3'],
+          1.6,
+          3,
+          [2, 3],
+        );
+    }
+  }
+
+  #paintOne(g: Pen, v: View, n: Newcomer, pinned: boolean): void {
+    const c = colours();
+    const [x, y] = v.to(n.pose.x, n.pose.y);
+    if (x < -40 || y < -40 || x > v.w + 40 || y > v.h + 40) return;
+    const box = boxOfNewcomer(n);
+    g.globalAlpha = pinned ? 1 : 0.65;
+    stamp(g, v, box, n.pose, true);
+    g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    g.globalAlpha = 1;
+    paintRing(g, v, box, n.pose, c.halo, 3, 3);
+    paintRing(g, v, box, n.pose, c.focus, pinned ? 2 : 1.4, 3, pinned ? [] : [3.5, 2.5]);
+    if (!pinned) return;
+    // A pin stands beside it: no meaning rests on a line alone.
+    const [l, w] = sizeOnScreen(box, v.z);
+    const r = Math.min(l, w) / 2 + 6;
+    g.beginPath();
+    g.arc(x + r, y - r, 4, 0, Math.PI * 2);
+    g.moveTo(x + r, y - r + 4);
+    g.lineTo(x + r, y - r + 10);
+    g.fillStyle = c.focus;
+    g.strokeStyle = c.focus;
+    g.lineWidth = 2;
+    g.fill();
+    g.stroke();
+  }
+
+  #paintCount(g: Pen, v: View, region: readonly Vec[], words: string): void {
+    const c = colours();
+    const b = boxOf(region);
+    const size = `${Math.round(b.x1 - b.x0)} m × ${Math.round(b.y1 - b.y0)} m`;
+    tag(g, this.labels, v.to((b.x0 + b.x1) / 2, b.y1), `${words} · ${size}`, {
+      bg: c.focus,
+      fg: c.surface,
+      tries: [
+        [-60, -32],
+        [-60, 10],
+      ],
+    });
+  }
+}

@@ -1,0 +1,404 @@
+// The variants of the open scene: made, shown, kept, named and compared. Which there are stands in the document; what
+// everybody does in each is kept here, and worked out again where it is missing.
+import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
+import { inOneStep } from '../../model/commands';
+import type { MotionSet } from '../../model/futures';
+import { sceneKey, type Scene } from '../../model/scene';
+import {
+  keepAsVariant,
+  MOST_NEW,
+  patchVariant,
+  removeVariant,
+  replaceVariants,
+  sameCast,
+  stateOfVariant,
+  takeVariant,
+  type Variant,
+} from '../../model/variants';
+import { Away, Refused } from '../../net/client';
+import type { Editor } from '../editor';
+import { cardsOf, comparedOf, filtered, isWhole, type Card, type Compared, type Filter, type WholeCard } from './cards';
+import { Maker, Stopped, subjectOf, type Take } from './making';
+
+/** What an export is about: the scene as it is, or several variants. */
+export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
+
+/** How the making of variants ended. */
+interface Made {
+  readonly subject: string | null;
+  readonly why: string | null;
+  readonly wanted: number;
+  readonly stopped: boolean;
+}
+
+const USUAL_COUNT = 6;
+const NONE: readonly Card[] = Object.freeze([]);
+
+export class Variants {
+  readonly #open = signal(false);
+  readonly #count = signal(USUAL_COUNT);
+  readonly #filter = signal<Filter>('all');
+  readonly #current = signal<number | null>(null);
+  readonly #renaming = signal<number | null>(null);
+  readonly #pair = signal<readonly [number, number] | null>(null);
+  readonly #picked = signal<number | null>(null);
+  readonly #scope = signal<Scope>('present');
+  readonly #making = signal<{ readonly done: number; readonly of: number } | null>(null);
+  readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
+  /** Rises with every order to stop. */
+  #turn = 0;
+  readonly #fetching = signal(false);
+
+  readonly open: ReadonlySignal<boolean> = this.#open;
+  /** How many are made at once. */
+  readonly count: ReadonlySignal<number> = this.#count;
+  readonly filter: ReadonlySignal<Filter> = this.#filter;
+  /** Id of the card that is being given a name. */
+  readonly renaming: ReadonlySignal<number | null> = this.#renaming;
+  /** The two that are compared, the left one first. */
+  readonly pair: ReadonlySignal<readonly [number, number] | null> = this.#pair;
+  /** The first of two that are to be compared. */
+  readonly picked: ReadonlySignal<number | null> = this.#picked;
+  readonly scope: ReadonlySignal<Scope> = this.#scope;
+  readonly making: ReadonlySignal<{ readonly done: number; readonly of: number } | null> = this.#making;
+  /** Is anything being worked out? */
+  readonly busy = computed(() => this.#making.value !== null || this.#fetching.value);
+  readonly cards: ReadonlySignal<readonly Card[]>;
+  readonly filtered: ReadonlySignal<readonly Card[]>;
+  /** Id of the variant that is on the picture. */
+  readonly shown: ReadonlySignal<number | null>;
+  /** Id of the card that keys are about: the one with the focus, else the one on the picture. */
+  readonly current: ReadonlySignal<number | null>;
+
+  /** The two that are compared, and what differs. */
+  readonly compared: ReadonlySignal<Compared | null>;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly maker: Maker,
+    private readonly cancel: () => void,
+  ) {
+    const list = computed(() => editor.scene.value?.variants);
+    const states = computed(() => editor.scene.value?.variantStates);
+    const roster = computed(() => `${editor.scene.value?.id} ${editor.scene.value?.roster}`);
+    this.cards = computed(() => {
+      void roster.value;
+      const scene = editor.scene.peek();
+      const [all, of] = [list.value, states.value];
+      return scene && all?.length && of ? cardsOf(scene, all, of, this.#sets.value) : NONE;
+    });
+    this.filtered = computed(() => filtered(this.cards.value, this.#filter.value));
+    const key = computed(() => {
+      const scene = editor.dragging.value ? null : editor.scene.value;
+      return scene?.variants.length ? sceneKey(scene) : null;
+    });
+    this.shown = computed(() => {
+      const now = key.value;
+      return now === null ? null : (this.cards.value.find((c) => c.scene && sceneKey(c.scene) === now)?.id ?? null);
+    });
+    this.current = computed(() => {
+      const id = this.#current.value;
+      return id !== null && this.cards.value.some((c) => c.id === id) ? id : this.shown.value;
+    });
+    this.compared = computed(() => comparedOf(this.cards.value, this.#pair.value));
+    effect(() => {
+      const now = this.compared.value;
+      const parted = now?.parting.parted.map((p) => p.agent.id) ?? [];
+      editor.showBeside(now && { scene: now.right.scene, set: now.right.set, parted });
+    });
+    // One leaves the comparison by changing the scene: it is none of the two any more.
+    effect(() => {
+      const left = this.#pair.value?.[0];
+      if (left !== undefined && !editor.dragging.value && this.shown.value !== left) this.endCompare();
+    });
+    let scene = '';
+    effect(() => {
+      const now = editor.scene.value?.id ?? '';
+      if (now === scene) return;
+      scene = now;
+      this.#forget();
+    });
+    effect(() => {
+      if (this.#open.value && !this.#making.value) void this.#fetchMissing(this.cards.value);
+    });
+  }
+
+  card(id: number | null): Card | null {
+    return this.cards.value.find((c) => c.id === id) ?? null;
+  }
+
+  // -------------------------------------------------------------- the strip
+
+  show(open: boolean): void {
+    batch(() => {
+      this.#open.value = open;
+      this.#renaming.value = this.#picked.value = null;
+      if (!open) this.endCompare();
+    });
+    if (!open) this.stop();
+  }
+
+  setCount(n: number): void {
+    this.#count.value = Math.min(MOST_NEW, Math.max(1, Math.round(n)));
+  }
+
+  setFilter(filter: Filter): void {
+    this.#filter.value = filter;
+  }
+
+  /** The card that has the focus. */
+  focus(id: number | null): void {
+    this.#current.value = id;
+  }
+
+  // -------------------------------------------------------------- making them
+
+  /** New ones in place of those that nobody kept, as one step; the first of them is shown. */
+  async make(): Promise<void> {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    if (!scene || this.#refusedLock()) return;
+    this.stop();
+    const turn = this.#turn;
+    const subject = subjectOf(editor);
+    const first = nextSeed(scene, subject);
+    const wanted = this.#count.peek();
+    const takes: Take[] = [];
+    batch(() => {
+      this.endCompare();
+      this.#open.value = true;
+      this.#making.value = { done: 0, of: wanted };
+    });
+    let why: string | null = null;
+    try {
+      for await (const take of this.maker.make(withoutPick(scene, subject), subject, first, wanted)) {
+        if (turn !== this.#turn) break;
+        takes.push(take);
+        this.#making.value = { done: takes.length, of: wanted };
+      }
+    } catch (e) {
+      why = reasonOf(e);
+    }
+    const stopped = turn !== this.#turn;
+    if (!stopped) this.#making.value = null;
+    if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped });
+  }
+
+  #put(takes: readonly Take[], { subject, why, wanted, stopped }: Made): void {
+    const { editor } = this;
+    const { notices } = editor;
+    const now = editor.scene.peek()!;
+    if (takes.length && takes[0].scene.roster === now.roster) {
+      this.#keepSets(takes);
+      const states = takes.map((t) => stateOfVariant(t.scene, subject));
+      const put = replaceVariants(now, states);
+      editor.run(inOneStep(put, takeVariant(now, states[0], put.name)));
+      this.#current.value = null;
+    }
+    const n = takes.length;
+    if (!n && stopped) return;
+    const made = n ? `${n} variant${n === 1 ? '' : 's'} made` : 'No variant made';
+    if (why) notices.show({ text: why });
+    else if (stopped || n === wanted) notices.show({ text: `${made}.`, undo: n > 0 });
+    else notices.show({ text: `${made}: more would be alike. A higher diversity helps.`, undo: n > 0 });
+    notices.say(`${made}.`);
+  }
+
+  /** Ends the making; what is done so far is taken. */
+  stop(): void {
+    this.#turn++;
+    this.#making.value = null;
+    this.cancel();
+  }
+
+  #keepSets(takes: readonly Take[]): void {
+    const sets = new Map(this.#sets.peek());
+    for (const { set } of takes) {
+      sets.set(set.key, set);
+      this.editor.answers.know(set);
+    }
+    this.#sets.value = sets;
+  }
+
+  /** Variants of last time, and those that undo brought back. */
+  async #fetchMissing(cards: readonly Card[]): Promise<void> {
+    if (this.#fetching.peek()) return;
+    const next = cards.find((c) => c.scene && !c.set);
+    if (!next) return;
+    this.#fetching.value = true;
+    const turn = this.#turn;
+    let done = false;
+    try {
+      const take = await this.maker.again(next.id, next.scene!, next.state.subject);
+      if (turn === this.#turn) this.#keepSets([take]);
+      done = true;
+    } catch (e) {
+      if (!(e instanceof Stopped)) this.editor.notices.show({ text: reasonOf(e) ?? '' });
+    } finally {
+      this.#fetching.value = false;
+    }
+    if (done && this.#open.peek()) void this.#fetchMissing(this.cards.peek());
+  }
+
+  #forget(): void {
+    batch(() => {
+      this.stop();
+      this.#sets.value = new Map();
+      this.#pair.value = null;
+      this.#picked.value = this.#current.value = this.#renaming.value = null;
+      this.#filter.value = 'all';
+    });
+  }
+
+  #refusedLock(): boolean {
+    const lock = this.editor.lock.peek();
+    if (lock) this.editor.notices.show({ text: lock.words, action: lock });
+    return lock !== null;
+  }
+
+  // -------------------------------------------------------------- one of them
+
+  /** Puts a variant on the picture. */
+  take(id: number): void {
+    const { editor } = this;
+    const card = this.card(id);
+    const scene = editor.scene.peek();
+    if (!card || !scene || this.shown.peek() === id) return;
+    if (!sameCast(scene, card.state)) {
+      editor.notices.show({ text: 'Other road users were here when it was made. Undo brings them back.' });
+      return;
+    }
+    if (card.set) editor.answers.know(card.set);
+    editor.run(takeVariant(scene, card.state, `${card.name} shown`));
+  }
+
+  toggleKept(id: number): void {
+    this.#patch(id, (v, name) => ({ patch: { kept: !v.kept }, name: `${name} ${v.kept ? 'not kept' : 'kept'}` }));
+  }
+
+  toggleStar(id: number): void {
+    this.#patch(id, (v, name) => ({
+      patch: { starred: !v.starred },
+      name: v.starred ? `Star of ${name} taken away` : `${name} starred`,
+    }));
+  }
+
+  rename(id: number, called: string): void {
+    this.#renaming.value = null;
+    const name = called.trim() || null;
+    if (name === this.card(id)?.variant.called) return;
+    this.#patch(id, (_, was) => ({ patch: { called: name }, name: `${was} named ${name ?? 'by what differs'}` }));
+  }
+
+  /** What goes out, of the variants that everything is known of. */
+  within(scope: Scope): readonly WholeCard[] {
+    const pair = this.#pair.value;
+    return this.cards.value.filter(isWhole).filter((c) => {
+      if (scope === 'kept') return c.variant.kept;
+      if (scope === 'starred') return c.variant.starred;
+      return scope === 'all' || (scope === 'pair' && !!pair?.includes(c.id));
+    });
+  }
+
+  /** The next export is about several: the two that are compared, else those that are kept, else all. */
+  aimExport(): void {
+    this.#scope.value = this.#pair.peek() ? 'pair' : this.within('kept').length ? 'kept' : 'all';
+  }
+
+  setScope(scope: Scope): void {
+    this.#scope.value = scope;
+  }
+
+  startRenaming(id: number | null): void {
+    this.#renaming.value = id;
+  }
+
+  remove(id: number): void {
+    const scene = this.editor.scene.peek();
+    const card = this.card(id);
+    if (scene && card) this.editor.run(removeVariant(scene, id, `${card.name} removed`));
+  }
+
+  /** The scene as it is on the picture becomes one of the variants. */
+  keepPresent(): void {
+    const { editor } = this;
+    const scene = editor.scene.peek();
+    const command = scene && keepAsVariant(scene, 'Kept as a variant');
+    if (!scene || !command) return;
+    const set = editor.motion.peek();
+    if (!set.stale) this.#keepSets([{ scene, set: { ...set, key: sceneKey(scene) } }]);
+    editor.run(command);
+    this.#open.value = true;
+  }
+
+  #patch(id: number, make: (v: Variant, name: string) => { patch: Partial<Variant>; name: string }): void {
+    const scene = this.editor.scene.peek();
+    const card = this.card(id);
+    if (!scene || !card) return;
+    const { patch, name } = make(card.variant, card.name);
+    this.editor.run(patchVariant(scene, id, patch, name));
+  }
+
+  // -------------------------------------------------------------- two of them
+
+  /** The first time it is remembered, the second time the two stand side by side. */
+  compareWith(id: number): void {
+    const first = this.#picked.peek() ?? this.shown.peek();
+    if (first === null || first === id) {
+      this.#picked.value = this.#picked.peek() === id ? null : id;
+      return;
+    }
+    this.compare(first, id);
+  }
+
+  compare(left: number, right: number): void {
+    if (left === right || !this.card(left)?.set || !this.card(right)?.set) return;
+    this.take(left);
+    if (this.shown.peek() !== left) return;
+    batch(() => {
+      this.#picked.value = null;
+      this.#pair.value = [left, right];
+    });
+    const moment = this.compared.peek()?.parting.moments[0];
+    this.editor.notices.say(
+      `Variants ${left} and ${right}. ${moment ? `They part: ${moment.words}.` : 'They are alike.'}`,
+    );
+  }
+
+  swapSides(): void {
+    const pair = this.#pair.peek();
+    if (pair) this.compare(pair[1], pair[0]);
+  }
+
+  endCompare(): void {
+    batch(() => {
+      this.#pair.value = null;
+      this.#picked.value = null;
+    });
+  }
+}
+
+/** The one whose futures they are is free again: the variants pick for it. */
+function withoutPick(scene: Scene, subject: string | null): Scene {
+  const a = subject === null ? undefined : scene.agents.get(subject);
+  if (!a || a.chosen === null) return scene;
+  const agents = new Map(scene.agents).set(a.id, Object.freeze({ ...a, chosen: null }));
+  return Object.freeze({ ...scene, agents });
+}
+
+/**
+ * The seed of the first new one. Variants that are there already were drawn with theirs: new ones go on after them.
+ * Of one road user the same futures answer the same question, so it is the document's own seed.
+ */
+function nextSeed(scene: Scene, subject: string | null): number {
+  const used = scene.variants.map((v) => scene.variantStates[v.id]).filter((s) => s.subject === subject);
+  if (!used.some((s) => s.seed === scene.seed)) return scene.seed;
+  return (Math.max(...used.map((s) => s.seed)) + 1) % Number.MAX_SAFE_INTEGER;
+}
+
+function reasonOf(e: unknown): string | null {
+  if (e instanceof Stopped) return null;
+  if (e instanceof Refused) return e.message;
+  if (e instanceof Away) return 'The generator is not answering. What was made so far is there.';
+  throw e;
+}

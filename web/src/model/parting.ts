@@ -1,0 +1,169 @@
+// What differs between two variants: who does another thing, since when, and what comes of it.
+import { motionOf } from './changes';
+import { summary, counted, type TrafficEvent } from './events';
+import type { MotionSet } from './futures';
+import { toLocal, type Vec } from './geometry';
+import { poseAt, STEP_S, type Motion } from './motion';
+import { deedOf, type Deed } from './variant-names';
+import type { Agent, Scene } from './scene';
+import { metres, num } from './units';
+
+export interface Side {
+  /** What it is called in a sentence: its number. */
+  readonly label: string;
+  readonly scene: Scene;
+  readonly set: MotionSet;
+  readonly events: readonly TrafficEvent[];
+}
+
+/** A moment at which they part, in a sentence. */
+export interface Moment {
+  readonly time: number;
+  readonly words: string;
+  readonly at: Vec;
+}
+
+export interface Row {
+  readonly what: string;
+  readonly left: string;
+  readonly right: string;
+  readonly differs: boolean;
+}
+
+/** One who does another thing. */
+export interface Parted {
+  readonly agent: Agent;
+  readonly left: Motion;
+  readonly right: Motion;
+  /** Metres between both where they are furthest apart. */
+  readonly far: number;
+  /** When they are first apart. */
+  readonly since: number;
+}
+
+export interface Parting {
+  /** Those furthest apart first. */
+  readonly parted: readonly Parted[];
+  readonly rows: readonly Row[];
+  readonly moments: readonly Moment[];
+  /** How many do the same in both. */
+  readonly same: number;
+  readonly all: number;
+}
+
+/** Apart by more than this is another motion, metres. */
+const APART_M = 1;
+const MOST_MOMENTS = 6;
+const MOST_ROWS = 5;
+/** Within so many seconds after they part somebody stops, or slows. */
+const SOON_S = 4;
+const STANDS_MPS = 0.3;
+const SLOWS_MPS = 1;
+
+export function partingOf(left: Side, right: Side): Parting {
+  const all = [...left.scene.agents.values()].filter((a) => a.type !== 'other');
+  const parted = all.flatMap((a) => partedOf(left, right, a) ?? []).sort((p, q) => q.far - p.far);
+  return {
+    parted,
+    rows: rowsOf(left, right, parted),
+    moments: momentsOf(left, right, parted),
+    same: all.length - parted.length,
+    all: all.length,
+  };
+}
+
+function partedOf(left: Side, right: Side, agent: Agent): Parted | null {
+  const other = right.scene.agents.get(agent.id);
+  if (!other) return null;
+  const m = motionOf(left.scene, left.set, agent),
+    n = motionOf(right.scene, right.set, other);
+  if (m === n) return null;
+  let far = 0,
+    since = -1;
+  for (let t = 0; t <= left.scene.duration + STEP_S / 2; t += STEP_S) {
+    const p = poseAt(m, t),
+      q = poseAt(n, t);
+    if (!p || !q) continue;
+    const d = Math.hypot(p.x - q.x, p.y - q.y);
+    if (d > APART_M && since < 0) since = t;
+    far = Math.max(far, d);
+  }
+  return since < 0 ? null : { agent, left: m, right: n, far, since };
+}
+
+// -------------------------------------------------------------- the table
+
+const row = (what: string, left: string, right: string): Row => ({ what, left, right, differs: left !== right });
+
+function rowsOf(left: Side, right: Side, parted: readonly Parted[]): Row[] {
+  const gap = ({ set }: Side): string => (set.score?.pet == null ? '–' : `${num(set.score.pet, 1)} s`);
+  const events = (s: Side): string => (counted(s.events).length ? summary(s.events) : 'none');
+  const closing = ({ set }: Side): string => (set.score?.minTtc == null ? '–' : `${num(set.score.minTtc, 1)} s`);
+  return [
+    row('Events', events(left), events(right)),
+    ...parted.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
+    row('Smallest gap', gap(left), gap(right)),
+    row('Least time to collision', closing(left), closing(right)),
+    ...goals(left, right),
+  ];
+}
+
+function deeds(scene: Scene, { agent, left, right }: Parted): Row {
+  const [a, b] = [deedOf(scene, left), deedOf(scene, right)];
+  const [p, q] = [deedWords(a), deedWords(b)];
+  return p === q ? row(agent.name, `goes ${metres(a.way, 0)}`, `goes ${metres(b.way, 0)}`) : row(agent.name, p, q);
+}
+
+function deedWords(d: Deed): string {
+  if (d.waits >= 1) return d.stands ? `stands ${num(d.waits, 1)} s` : `waits ${num(d.waits, 1)} s`;
+  return d.turn === 'straight' ? `goes ${metres(d.way, 0)}` : `turns ${d.turn}`;
+}
+
+function goals(left: Side, right: Side): Row[] {
+  const words = (s: Side, id: string): string => {
+    const r = s.set.reach.get(id);
+    return r ? (r.status === 'reached' ? 'reached' : 'missed') : 'not known';
+  };
+  return [...left.scene.agents.values()]
+    .filter((a) => a.goal.pos)
+    .slice(0, 2)
+    .map((a) => row(`Goal of ${a.name}`, words(left, a.id), words(right, a.id)));
+}
+
+// -------------------------------------------------------------- the moments
+
+function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[] {
+  const said = (e: TrafficEvent): string =>
+    e.what === 'collision' && e.b ? `${e.a.name} meets ${e.b.name}` : `${e.title}, ${e.short}`;
+  const events = [left, right].flatMap((s) =>
+    counted(s.events).map((e): Moment => ({ time: e.time, words: `${s.label}: ${said(e)}`, at: e.at })),
+  );
+  // What happens in both the same way is no parting.
+  const own = events.filter((e) => !events.some((o) => o !== e && sameBut(o, e)));
+  const ways = parted.map((p) => wayOf(left, right, p));
+  return [...own.slice(0, MOST_MOMENTS - 2), ...ways].slice(0, MOST_MOMENTS).sort((a, b) => a.time - b.time);
+}
+
+const after = (words: string): string => words.slice(words.indexOf(':'));
+const sameBut = (a: Moment, b: Moment): boolean => after(a.words) === after(b.words) && Math.abs(a.time - b.time) < 0.5;
+
+function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: Parted): Moment {
+  const p = poseAt(m, t)!,
+    q = poseAt(n, t)!;
+  const at: Vec = [(p.x + q.x) / 2, (p.y + q.y) / 2];
+  const [along, aside] = toLocal(p, q.x, q.y);
+  const say = (words: string): Moment => ({ time: t, words: `${agent.name} ${words}`, at });
+  if (Math.abs(aside) > Math.abs(along)) return say(`keeps further ${aside > 0 ? 'left' : 'right'} in ${right.label}`);
+  // Whoever is behind there has slowed, or the other one goes on.
+  const [slow, motion, other] = along < 0 ? [right, n, m] : [left, m, n];
+  const least = (of: Motion): number => {
+    let v = Infinity;
+    for (let s = t; s <= Math.min(left.scene.duration, t + SOON_S); s += STEP_S) v = Math.min(v, speedAt(of, s));
+    return v;
+  };
+  if (least(motion) < STANDS_MPS && least(other) >= STANDS_MPS) return say(`stops, only in ${slow.label}`);
+  if (speedAt(motion, 0) - speedAt(motion, t) > SLOWS_MPS) return say(`slows, only in ${slow.label}`);
+  return say(`goes faster in ${(slow === left ? right : left).label}`);
+}
+
+const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? Infinity);
