@@ -15,6 +15,7 @@ import type { Playback } from '../edit/playback';
 import type { Sharing } from '../edit/sharing';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
+import type { Form } from './form';
 import type { Ui } from './ui';
 
 export interface Context {
@@ -35,6 +36,7 @@ export interface Context {
   readonly client: Client;
   readonly copying: Copying;
   readonly ui: Ui;
+  readonly form: Form;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;

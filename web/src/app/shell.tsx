@@ -13,6 +13,7 @@ import { Inspector } from './inspector/inspector';
 import { AppProvider, useApp } from './parts/app-context';
 import { Drawer } from './scenes/drawer';
 import { Empty } from './scenes/empty';
+import { Sheet } from './sheet/sheet';
 import { Timeline } from './timeline/timeline';
 import { TopBar } from './topbar';
 
@@ -52,10 +53,17 @@ function OverPicture() {
 }
 
 function Around() {
+  const { form } = useApp();
   return (
     <>
-      <Inspector />
-      <Timeline />
+      {form.sheet.value ? (
+        <Sheet />
+      ) : (
+        <>
+          <Inspector />
+          <Timeline />
+        </>
+      )}
       <Dialogs />
       <ContextMenu />
       <LiveRegion />

@@ -15,13 +15,15 @@ import { HoverCard } from './hover-card';
 import { PlacePanel } from './place-panel';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
+import { LoupeWords } from './loupe-words';
+import { Thumb } from './thumb';
 import { WayBack } from './way-back';
 
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
 export function Hud() {
   const c = useApp();
-  const { editor, ui } = c;
+  const { editor, form, ui } = c;
   const shift = ui.drawer.value ? 'shift' : '';
   const placing = useComputed(() => {
     const kind = placedBy(c);
@@ -29,7 +31,8 @@ export function Hud() {
   }).value;
   return (
     <div class="hud">
-      <Rail />
+      {form.small.value ? <Thumb /> : <Rail />}
+      <LoupeWords />
       <div class="tr">
         <div class="card chipbar" role="group" aria-label="Layers">
           {LAYERS.map((l) => (

@@ -37,7 +37,8 @@ export function Plot() {
   useLayoutEffect(() => {
     const el = box.current!;
     const watch = new ResizeObserver(() => {
-      size.value = { w: el.clientWidth, h: el.clientHeight };
+      // Nobody sees a plot without a height, and it has no axes.
+      if (el.clientHeight) size.value = { w: el.clientWidth, h: el.clientHeight };
     });
     watch.observe(el);
     return () => watch.disconnect();
