@@ -5,7 +5,7 @@ import { keep, recall } from '../net/storage';
 
 export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export';
 /** What stands at the left edge of the picture. */
-export type Drawer = 'scenes' | 'history';
+export type Drawer = 'scenes' | 'history' | 'users';
 /** A menu at a place of the picture, in pixels of it. */
 export interface ContextMenu {
   readonly x: number;

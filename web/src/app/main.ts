@@ -43,7 +43,7 @@ const FIRST_SCENE = 'demo-crossing';
 const WIDE_PX = 1300;
 /** What panels cover of the picture's edges, in pixels; on the left by what stands there. */
 const INSET = { right: 12, top: 12, bottom: 56 };
-const INSET_LEFT = { scenes: 324, history: 432, rail: 68 };
+const INSET_LEFT = { scenes: 324, users: 368, history: 432, rail: 68 };
 /** How wide a sheet at the side is. */
 const SIDE_SHEET_PX = 352;
 /** How wide the loupe is, where there is room and where there is little. */

@@ -34,6 +34,7 @@ const MENUS: Record<string, readonly (string | null)[]> = {
     'new-seed',
     null,
     'scenes',
+    'users',
     'history',
     'export',
     null,

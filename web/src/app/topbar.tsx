@@ -28,6 +28,7 @@ export function TopBar() {
       <Logo />
       <MenuButton name="file" icon="menu" label="File and settings" />
       <IconButton id="scenes" />
+      <IconButton id="users" />
       <Title />
       {open ? (
         <>
@@ -89,6 +90,7 @@ function Logo() {
 function Title() {
   const { editor, saving } = useApp();
   const id = useComputed(() => editor.scene.value?.id).value;
+  const name = useComputed(() => (editor.scene.value ? `${editor.scene.value.name}, DragTraffic` : 'DragTraffic'));
   const state = useComputed(() => {
     const scene = editor.scene.value;
     if (editor.dragging.value) return 'Dragging';
@@ -98,6 +100,7 @@ function Title() {
   });
   return (
     <div class="title">
+      <h1 class="sr">{name}</h1>
       {id === undefined ? <span>DragTraffic</span> : <NameField key={id} />}
       <small>{state}</small>
     </div>

@@ -76,7 +76,7 @@ function Rail() {
 function Tool({ id, class: className }: { id: string; class?: string }) {
   return (
     <ActionButton id={id} size={20} class={className} iconOnly>
-      <em>{actionOf(id).keys![0]}</em>
+      <em data-key={actionOf(id).keys![0]} aria-hidden="true" />
     </ActionButton>
   );
 }

@@ -179,7 +179,7 @@ export default function Export() {
           <KindRow key={k.id} kind={k} made={made} chosen={chosen} />
         ))}
       </div>
-      <footer>
+      <div class="dfoot">
         <span>
           <span class="about">Metres, x east, y north, 0 s = first step. Written into the file.</span>
           {typeof ready === 'object'
@@ -188,7 +188,7 @@ export default function Export() {
         </span>
         <span class="grow" />
         <SaveButton kind={kind} ready={ready} progress={progress} stop={stop.current.signal} />
-      </footer>
+      </div>
     </Flyout>
   );
 }
