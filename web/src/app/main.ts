@@ -174,12 +174,13 @@ function insetBesideSheet({ form }: Context): { left: number; right: number; top
 }
 
 /** The page is laid out by attributes of its root. */
-function followForm({ form, stage }: Context): void {
+function followForm({ form, stage, ui }: Context): void {
   const root = document.documentElement.dataset;
   root.form = form.sheet.value ? (form.low.value ? 'side-sheet' : 'sheet') : 'panels';
   for (const [name, on] of [
     ['touch', form.touch.value],
     ['small', form.small.value],
+    ['tall', ui.tall.value],
   ] as const)
     if (on) root[name] = '';
     else delete root[name];

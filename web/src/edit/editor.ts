@@ -16,6 +16,7 @@ import { Answers } from './answers';
 import type { ToolName } from './gestures/tools';
 import { Notices } from './notices';
 import { Placement } from './placement';
+import { SpeedCurve } from './speed-curve';
 import { Playhead } from './playhead';
 
 export type Part = 'start' | 'goal';
@@ -94,6 +95,8 @@ export class Editor {
   readonly playhead = new Playhead();
   readonly notices = new Notices();
   readonly placement = new Placement();
+  /** Speeds drawn by hand. */
+  readonly curve: SpeedCurve = new SpeedCurve(this);
 
   readonly #scene = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);

@@ -27,6 +27,7 @@ import type { DraftEvent, FinalEvent, Problem } from '../net/types';
 import type { Editor, Step } from './editor';
 import { FrozenNames } from './frozen-names';
 import type { Wanted } from './question';
+import { judgedCurves, withCurves } from './speed-curve';
 import { Steady } from './steady';
 import { readReach, readScore, readWarnings } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome, spokenVerdict } from './report';
@@ -314,7 +315,8 @@ export class Reception {
       const a = scene.agents.get(id);
       return a !== undefined && (before.driving.has(id) || w.kept?.has(id) || touched(a));
     };
-    const futures = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+    const known = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+    const futures = new Map(withCurves(scene, known));
     const score = readScore(e.scores?.[0]);
     // Those that go on as they did may meet others than before.
     for (const id of score ? editor.touchedIds(scene) : []) {
@@ -324,12 +326,13 @@ export class Reception {
       const modes = f.modes.map((m, i) => (i === shown ? withMeetingsOf(score!, id, m) : m));
       if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
     }
+    const judged = score ? judgedCurves(scene, futures, score) : futures;
     const drives = (id: string) => {
       const a = scene.agents.get(id);
       return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
     };
     const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
-    for (const id of editor.touchedIds(scene)) if (futures.has(id)) driving.add(id);
+    for (const id of editor.touchedIds(scene)) if (judged.has(id)) driving.add(id);
     const reach = new Map(before.reach);
     for (const [id, resolved] of Object.entries(e.resolved)) {
       const verdict = readReach(resolved);
@@ -338,7 +341,7 @@ export class Reception {
     }
     return {
       key: sceneKey(scene),
-      futures,
+      futures: judged,
       driving,
       score,
       reach,

@@ -128,6 +128,8 @@ export interface EditorJson {
   replan_s?: number;
   drawn?: number;
   picked?: Record<string, number>;
+  /** Speeds drawn by hand for futures that are picked. */
+  curves?: Record<string, unknown>;
   names?: Record<string, string>;
   notes?: Record<string, string>;
   locked?: string[];

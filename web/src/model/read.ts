@@ -1,4 +1,5 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
+import { readProfile } from './profile';
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import {
   isMapRef,
@@ -143,6 +144,7 @@ export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: Edito
     start: readStart(c, logStart),
     goal: readGoal(c),
     chosen: typeof picked === 'number' && picked >= 0 && picked < 6 ? Math.floor(picked) : null,
+    profile: readProfile(ed.curves?.[json.id]),
   });
 }
 

@@ -28,6 +28,7 @@ import {
   type Scene,
 } from './scene';
 import type { Futures } from './futures';
+import { profileOf } from './scene';
 
 /** What the user asks of a road user: a number fixes a field, null leaves it free, absent means "as logged". */
 export function conditionOf(a: Agent): ConditionJson {
@@ -184,6 +185,7 @@ export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
   };
   const ed: Partial<EditorJson> = {
     picked: entries((a) => a.chosen),
+    curves: entries(profileOf),
     names: entries((a) => a.called),
     notes: entries((a) => a.note),
     locked: ids((a) => a.locked),

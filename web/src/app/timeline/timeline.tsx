@@ -21,6 +21,7 @@ export function Timeline() {
         <RateButton />
         <IconButton id="loop" />
         <IconButton id="next-event" />
+        <IconButton id="tall-timeline" />
         <span class="grow" />
         <span class="fieldlab">Length</span>
         <Segments label="How much is worked out" items={seconds('length', LENGTHS)} />
