@@ -67,7 +67,7 @@ journeys('sharing', (stage) => {
       const words = await e.text('.kind[aria-checked="true"] .tag');
       const [file] = await Promise.all([
         e.page.waitForEvent('download'),
-        e.page.locator('.export footer .btn.pri').click(),
+        e.page.locator('.export .dfoot .btn.pri').click(),
       ]);
       return { words, name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
     };

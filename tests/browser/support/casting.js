@@ -132,3 +132,23 @@ export async function carBesideMedian(e) {
   );
   return { car, across: acrossMedian(medians, car) };
 }
+
+/** A car on the move whose box and flag are in the picture as it is, with no panel over them. */
+export async function carInSight(e) {
+  const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
+  const seen = [];
+  for (const u of cars) {
+    await e.choose(u.id);
+    const { cx, cy } = await e.view();
+    const who = await look(e, u);
+    const far = distance(who.start, who.end);
+    // Moving the picture to it does not count.
+    if (far > 8 && (await clear(e, who))) {
+      await e.letGo();
+      const after = await e.view();
+      if (after.cx === cx && after.cy === cy) return who;
+    } else await e.letGo();
+    seen.push(`${u.name} ${far.toFixed(0)} m`);
+  }
+  throw new Error(`nobody is in sight: ${seen.join(', ')}`);
+}

@@ -17,6 +17,7 @@ import type { Sharing } from '../edit/sharing';
 import type { Variants } from '../edit/variants/variants';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
+import type { Form } from './form';
 import type { Ui } from './ui';
 
 export interface Context {
@@ -39,6 +40,7 @@ export interface Context {
   readonly filler: Filler;
   readonly variants: Variants;
   readonly ui: Ui;
+  readonly form: Form;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;

@@ -9,7 +9,7 @@ function letGo({ editor, gestures, importing, ui, variants }: Context): void {
     ui.closeContextMenu();
     ui.closeDialog();
     ui.closeMenu();
-  } else if (ui.drawer.value === 'history') ui.showDrawer(null);
+  } else if (ui.drawer.value === 'history' || ui.drawer.value === 'users') ui.showDrawer(null);
   else if (importing.verdicts.value) importing.close();
   else if (ui.eventsPanel.value) {
     ui.showEvents(false);

@@ -59,6 +59,12 @@ function walkTo(c: Context, step: 1 | -1): void {
   c.focusAgent(id);
 }
 
+/** Is the walk through the road users at its end in this direction? Then Tab leaves them. */
+export function walkEnds(c: Context, step: 1 | -1): boolean {
+  const selected = c.editor.selection.peek();
+  return selected !== null && (step > 0 ? walk?.ids.at(-1) : walk?.ids[0]) === selected;
+}
+
 /** Everybody who takes part in the traffic. */
 const all = (c: Context): Agent[] =>
   [...(c.editor.scene.value?.agents.values() ?? [])].filter((a) => a.type !== 'other');

@@ -33,6 +33,16 @@ export const scene = inGroup('Scene', [
     run: (c) => c.ui.toggleDrawer('scenes'),
   },
   {
+    id: 'users',
+    label: 'Road users',
+    keys: ['W'],
+    icon: 'people',
+    help: 'Who is in the scene, by kind, with a goal, in an event',
+    when: hasScene,
+    checked: (c) => c.ui.drawer.value === 'users',
+    run: (c) => c.ui.toggleDrawer('users'),
+  },
+  {
     id: 'history',
     label: 'History',
     keys: ['Ctrl+H'],

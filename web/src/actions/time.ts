@@ -123,6 +123,15 @@ export const time = inGroup('Time', [
     run: (c) => c.editor.playhead.toggleLoop(),
   },
   {
+    id: 'tall-timeline',
+    label: 'High timeline',
+    keys: ['T'],
+    icon: 'pencil',
+    help: 'Room for the speed curve: drag its points, double click for one more, Del takes it away',
+    checked: (c) => c.ui.tall.value,
+    run: (c) => c.ui.toggleTall(),
+  },
+  {
     id: 'next-event',
     label: 'Next event',
     keys: ['E'],

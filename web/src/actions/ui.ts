@@ -5,7 +5,7 @@ import { keep, recall } from '../net/storage';
 
 export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export';
 /** What stands at the left edge of the picture. */
-export type Drawer = 'scenes' | 'history';
+export type Drawer = 'scenes' | 'history' | 'users';
 /** A menu at a place of the picture, in pixels of it. */
 export interface ContextMenu {
   readonly x: number;
@@ -27,6 +27,7 @@ export class Ui {
   readonly #contextMenu = signal<ContextMenu | null>(null);
   readonly #emptyHidden = signal<string | null>(null);
   readonly #eventsPanel = signal(false);
+  readonly #tall = signal(false);
   readonly #coach = signal<number>(recall<boolean>('coach-done') ? 0 : 1);
   readonly #theme = signal<Theme>(recall<Theme>('theme') ?? systemTheme());
 
@@ -41,6 +42,8 @@ export class Ui {
   /** Id of the empty scene whose offers were closed. */
   readonly emptyHidden: ReadonlySignal<string | null> = this.#emptyHidden;
   readonly eventsPanel: ReadonlySignal<boolean> = this.#eventsPanel;
+  /** Is the timeline high, for work on the speed curve? */
+  readonly tall: ReadonlySignal<boolean> = this.#tall;
   /** Step of the hint for the first minute; 0 when it is closed. */
   readonly coach: ReadonlySignal<number> = this.#coach;
   readonly theme: ReadonlySignal<Theme> = this.#theme;
@@ -94,6 +97,10 @@ export class Ui {
 
   showEvents(open: boolean): void {
     this.#eventsPanel.value = open;
+  }
+
+  toggleTall(): void {
+    this.#tall.value = !this.#tall.peek();
   }
 
   coachTo(step: number): void {

@@ -19,7 +19,13 @@ export function focusGroup(step: 1 | -1): void {
   const groups = [...document.querySelectorAll<HTMLElement>('[data-group]')];
   groups.sort((a, b) => ORDER.indexOf(a.dataset.group!) - ORDER.indexOf(b.dataset.group!));
   const at = groups.findIndex((g) => g.contains(document.activeElement));
-  groups[(at + step + groups.length) % groups.length]?.querySelector<HTMLElement>(FIRST)?.focus();
+  // Parts in which nothing takes the focus now are passed over.
+  for (let i = 1; i <= groups.length; i++) {
+    const group = groups[(((at + i * step) % groups.length) + groups.length) % groups.length];
+    const first = [...group.querySelectorAll<HTMLElement>(FIRST)].find((el) => el.checkVisibility());
+    first?.focus();
+    if (first && document.activeElement === first) return;
+  }
 }
 
 export function focusName(): void {

@@ -2,8 +2,12 @@
 import '../styles/tokens.css';
 import '../styles/base.css';
 import '../styles/panels.css';
+import '../styles/sheet.css';
+import '../styles/touch.css';
 import { effect } from '@preact/signals-core';
 import type { Context } from '../actions/context';
+import { perform } from '../actions/registry';
+import { Form } from '../actions/form';
 import { Ui } from '../actions/ui';
 import { Copying } from '../edit/copying';
 import { Editor } from '../edit/editor';
@@ -42,12 +46,20 @@ const FIRST_SCENE = 'demo-crossing';
 const WIDE_PX = 1300;
 /** What panels cover of the picture's edges, in pixels; on the left by what stands there. */
 const INSET = { right: 12, top: 12, bottom: 56 };
-const INSET_LEFT = { scenes: 324, history: 432, rail: 68 };
+const INSET_LEFT = { scenes: 324, users: 368, history: 432, rail: 68 };
+/** How wide a sheet at the side is. */
+const SIDE_SHEET_PX = 352;
+/** How wide the loupe is, where there is room and where there is little. */
+const LOUPE_PX = 156;
+const LOUPE_SMALL_PX = 124;
+/** Handles for fingers are so much larger. */
+const HANDLES_FOR_FINGERS = 1.7;
 /** Seconds that play by themselves at the very first visit. */
 const INTRODUCTION_S = 3;
 
 function makeParts(): Context {
   const ui = new Ui();
+  const form = new Form();
   // Colours are read off the page when the stage is made.
   document.documentElement.dataset.theme = ui.theme.peek();
   const client = new Client();
@@ -98,6 +110,7 @@ function makeParts(): Context {
     stage,
     client,
     ui,
+    form,
     clipboard: clipboardOf(() => c),
     reveal: (ids) => reveal(c, ids),
     focusText,
@@ -115,7 +128,7 @@ function makeParts(): Context {
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, gestures, generation, library, playback, sharing, stage, ui, variants } = c;
+  const { editor, form, gestures, generation, library, playback, sharing, stage, ui, variants } = c;
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   followView(stage);
   lookWhereItWas(c);
@@ -139,9 +152,11 @@ function connect(c: Context): void {
   });
   effect(() => {
     const drawer = ui.drawer.value;
-    stage.view.inset = { ...INSET, left: INSET_LEFT[drawer ?? 'rail'] };
+    stage.view.inset = form.sheet.value ? insetBesideSheet(c) : { ...INSET, left: INSET_LEFT[drawer ?? 'rail'] };
     stage.element.dataset.drawer = drawer ?? '';
   });
+  effect(() => followForm(c));
+  gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');
   gestures.onMenu = (at, on) => ui.openContextMenu({ ...at, on });
   sharing.onOpened = (at) => {
     if (!at) return;
@@ -158,6 +173,31 @@ function connect(c: Context): void {
     if (!editor.motion.peek().stale) void generation.score();
   };
   void document.fonts?.ready.then(() => stage.invalidate('agents', 'overlay'));
+}
+
+/** What the sheet leaves of the picture. */
+function insetBesideSheet({ form }: Context): { left: number; right: number; top: number; bottom: number } {
+  const left = form.small.value ? 12 : INSET_LEFT.rail;
+  if (form.low.value) return { ...INSET, left, right: SIDE_SHEET_PX, bottom: 12 };
+  // A sheet that is fully open covers nearly everything; the picture stays where it was.
+  return { ...INSET, left, bottom: form.pixels(form.height.value === 'peek' ? 'peek' : 'half') + 12 };
+}
+
+/** The page is laid out by attributes of its root. */
+function followForm({ form, stage, ui }: Context): void {
+  const root = document.documentElement.dataset;
+  root.form = form.sheet.value ? (form.low.value ? 'side-sheet' : 'sheet') : 'panels';
+  for (const [name, on] of [
+    ['touch', form.touch.value],
+    ['small', form.small.value],
+    ['tall', ui.tall.value],
+  ] as const)
+    if (on) root[name] = '';
+    else delete root[name];
+  stage.view.grip = form.touch.value ? HANDLES_FOR_FINGERS : 1;
+  stage.loupePx = form.small.value ? LOUPE_SMALL_PX : LOUPE_PX;
+  document.documentElement.style.setProperty('--loupe', `${stage.loupePx}px`);
+  stage.invalidate('overlay');
 }
 
 /** A page that is loaded again opens what it showed, whatever other tabs have opened since. */

@@ -28,6 +28,25 @@ const MENUS: Record<string, readonly (string | null)[]> = {
     'shortcuts',
     'coach',
   ],
+  more: [
+    'redo',
+    'generate',
+    'new-seed',
+    null,
+    'scenes',
+    'users',
+    'history',
+    'export',
+    null,
+    'layer-futures',
+    'layer-log',
+    'layer-lanes',
+    'layer-labels',
+    'fit',
+    null,
+    'palette',
+    'theme',
+  ],
 };
 
 /** Opens its menu, or closes it when it is open. */
@@ -57,10 +76,14 @@ export function MenuButton({ name, icon, label }: { name: string; icon: string; 
   );
 }
 
-/** Below its button, from its left edge. */
+/** Below its button, within the page. */
 function placeUnder(name: string): Record<string, string> {
   const button = document.querySelector(`[data-menu="${name}"]`)?.getBoundingClientRect();
-  return { top: '44px', left: `${button?.left ?? 48}px` };
+  const left = button?.left ?? 48;
+  const top = `${(button?.bottom ?? 44) + 2}px`;
+  // A button in the right half has its menu to the left of its right edge.
+  if (left > innerWidth / 2) return { top, right: `${innerWidth - button!.right}px` };
+  return { top, left: `${left}px` };
 }
 
 export function Menu({ name }: { name: string }) {

@@ -1,6 +1,7 @@
 // Keys, clicks and files that are not meant for one panel.
 import type { Context } from '../actions/context';
 import { keyOf } from '../actions/keys';
+import { walkEnds } from '../actions/look';
 import { actionForKey, perform } from '../actions/registry';
 import type { Action } from '../actions/action';
 
@@ -25,15 +26,17 @@ export function listenToPage(c: Context): void {
 }
 
 /** Is the key for the element that has the focus, and not for the action it is bound to? */
-function belongsToPage({ editor, ui }: Context, e: KeyboardEvent, a: Action): boolean {
+function belongsToPage(c: Context, e: KeyboardEvent, a: Action): boolean {
+  const { editor, ui } = c;
   const target = e.target as HTMLElement;
   const input = target instanceof HTMLInputElement ? target : null;
   if (target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return a.context !== 'always';
   if (input && input.type !== 'range' && a.context !== 'always' && !undoesInField(input, a)) return true;
   if (ui.dialog.peek() && a.context !== 'always') return true;
-  // Tab walks through road users only from the picture; elsewhere it is the browser's.
+  // Tab walks through road users from the picture, once; elsewhere, and at its end, it is the browser's.
   const inList = target.closest('[data-group="users"]') !== null;
-  if (/^(Shift\+)?Tab$/.test(a.keys![0]) && target !== document.body && !inList) return true;
+  if (/^(Shift\+)?Tab$/.test(a.keys![0]) && target !== document.body)
+    if (!inList || ui.drawer.peek() === 'users' || walkEnds(c, e.shiftKey ? -1 : 1)) return true;
   if (target instanceof HTMLButtonElement && pressesButton(target, e, editor.selection.peek())) return true;
   if (input?.type === 'range' && e.key.startsWith('Arrow')) return true;
   return editor.dragging.peek() && a.id !== 'deselect' && !a.whileDragging && !a.onOffer;

@@ -14,6 +14,7 @@ import { AppProvider, useApp } from './parts/app-context';
 import { Later } from './parts/later';
 import { Drawer } from './scenes/drawer';
 import { Empty } from './scenes/empty';
+import { Sheet } from './sheet/sheet';
 import { Timeline } from './timeline/timeline';
 import { TopBar } from './topbar';
 
@@ -56,15 +57,21 @@ const compareView = () => import('./variants/compare-view').then((m) => m.defaul
 const variantStrip = () => import('./variants/strip').then((m) => m.default);
 
 function Around() {
-  const { editor, variants } = useApp();
+  const { editor, form, variants } = useApp();
   const comparing = useComputed(() => variants.compared.value !== null).value;
   const strip = useComputed(() => variants.open.value && editor.isOpen.value).value;
   return (
     <>
       {strip ? <Later load={variantStrip} /> : null}
       {comparing ? <Later load={compareView} /> : null}
-      <Inspector />
-      <Timeline />
+      {form.sheet.value ? (
+        <Sheet />
+      ) : (
+        <>
+          <Inspector />
+          <Timeline />
+        </>
+      )}
       <Dialogs />
       <ContextMenu />
       <LiveRegion />

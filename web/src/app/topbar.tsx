@@ -1,12 +1,12 @@
 // Top bar: scene name and saving, undo, seed, diversity, generate, export, help.
 import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
-import { DEFAULTS } from '../model/domain';
-import { rename, setDiversity, setSeed } from '../model/commands';
+import { rename } from '../model/commands';
 import { isRecorded } from '../model/scene';
 import type { SaveState } from '../edit/saving';
 import { Menu, MenuButton } from './menu';
 import { useApp } from './parts/app-context';
+import { Controls } from './parts/asking';
 import { ActionButton, IconButton } from './parts/buttons';
 
 const SAVED: Record<SaveState, string> = {
@@ -20,13 +20,15 @@ const SAVED: Record<SaveState, string> = {
 };
 
 export function TopBar() {
-  const { editor, ui } = useApp();
+  const { editor, form, ui } = useApp();
   const open = useComputed(() => editor.scene.value !== null).value;
+  if (form.small.value) return <SmallBar open={open} />;
   return (
     <header class="top" data-group="top">
       <Logo />
       <MenuButton name="file" icon="menu" label="File and settings" />
       <IconButton id="scenes" />
+      <IconButton id="users" />
       <Title />
       {open ? (
         <>
@@ -36,7 +38,7 @@ export function TopBar() {
         </>
       ) : null}
       <div class="grow" />
-      {open ? <Controls /> : null}
+      {!open ? null : form.sheet.value ? <ActionButton id="generate" class="pri" icon="" /> : <Controls />}
       <div class="grow" />
       {open ? (
         <>
@@ -49,7 +51,27 @@ export function TopBar() {
       ) : null}
       <IconButton id="theme" />
       <IconButton id="shortcuts" />
-      {ui.menu.value ? <Menu key={ui.menu.value} name={ui.menu.value} /> : null}
+      {ui.menu.value === 'file' ? <Menu key={ui.menu.value} name={ui.menu.value} /> : null}
+    </header>
+  );
+}
+
+/** Undo, share and the menus; everything else stands in these. */
+function SmallBar({ open }: { open: boolean }) {
+  const { ui } = useApp();
+  return (
+    <header class="top" data-group="top">
+      <MenuButton name="file" icon="menu" label="File and settings" />
+      <Title />
+      <div class="grow" />
+      {open ? (
+        <>
+          <IconButton id="undo" />
+          <IconButton id="share" />
+        </>
+      ) : null}
+      <MenuButton name="more" icon="more" label="More" />
+      {ui.menu.value === 'file' || ui.menu.value === 'more' ? <Menu key={ui.menu.value} name={ui.menu.value} /> : null}
     </header>
   );
 }
@@ -68,6 +90,7 @@ function Logo() {
 function Title() {
   const { editor, saving } = useApp();
   const id = useComputed(() => editor.scene.value?.id).value;
+  const name = useComputed(() => (editor.scene.value ? `${editor.scene.value.name}, DragTraffic` : 'DragTraffic'));
   const state = useComputed(() => {
     const scene = editor.scene.value;
     if (editor.dragging.value) return 'Dragging';
@@ -77,6 +100,7 @@ function Title() {
   });
   return (
     <div class="title">
+      <h1 class="sr">{name}</h1>
       {id === undefined ? <span>DragTraffic</span> : <NameField key={id} />}
       <small>{state}</small>
     </div>
@@ -110,77 +134,5 @@ function NameField() {
         e.stopPropagation();
       }}
     />
-  );
-}
-
-function Controls() {
-  const { editor } = useApp();
-  const away = useComputed(() => editor.away.value !== null).value;
-  return (
-    <>
-      <span class="fieldlab">Seed</span>
-      <SeedField />
-      <IconButton id="new-seed" />
-      <span class="gap" />
-      <span class="fieldlab">Diversity</span>
-      <DiversitySlider />
-      <ActionButton id="generate" class="pri" icon="" withKey>
-        {away ? 'Waiting …' : 'Generate'}
-      </ActionButton>
-      <IconButton id="variants" />
-    </>
-  );
-}
-
-function SeedField() {
-  const { editor } = useApp();
-  const input = useRef<HTMLInputElement>(null);
-  const seed = useComputed(() => String(editor.scene.value?.seed ?? DEFAULTS.seed));
-  return (
-    <label class="field seed">
-      <input
-        ref={input}
-        type="text"
-        inputmode="numeric"
-        aria-label="Seed"
-        maxlength={16}
-        value={seed}
-        onChange={() => {
-          const v = Number(input.current!.value.replace(/\D/g, ''));
-          if (Number.isSafeInteger(v) && String(v) !== seed.peek()) editor.run(setSeed(v));
-          input.current!.value = seed.peek();
-        }}
-        onKeyDown={(e) => {
-          if (e.key === 'Enter') input.current!.blur();
-        }}
-      />
-    </label>
-  );
-}
-
-/** The largest diversity, in percent: the slider's length. */
-const MOST = 200;
-
-function DiversitySlider() {
-  const { editor } = useApp();
-  const percent = useComputed(() => Math.round((editor.scene.value?.diversity ?? DEFAULTS.diversity) * 100)).value;
-  return (
-    <>
-      <input
-        type="range"
-        min={0}
-        max={MOST}
-        step={10}
-        aria-label="Diversity"
-        title="How far the six may differ"
-        value={percent}
-        style={{ '--fill': `${(percent / MOST) * 100}%` }}
-        onInput={(e) => {
-          const v = Number(e.currentTarget.value) / 100;
-          if (v !== editor.scene.peek()?.diversity) editor.run(setDiversity(v));
-        }}
-      />
-      <span class="pct">{percent}%</span>
-    </>
   );
 }

@@ -12,7 +12,7 @@ export function coach({ editor, ui }: Context): void {
     const dragging = editor.dragging.value;
     if (a && opened) {
       opened = false;
-      ui.showDrawer(null);
+      if (ui.drawer.peek() === 'scenes') ui.showDrawer(null);
     }
     if (!ui.coach.peek()) return;
     if (ui.coach.peek() === 1 && a) ui.coachTo(2);

@@ -4,7 +4,7 @@ import { Player, pen2d, surface, type Canvas2D } from './replay';
 
 export const LAYERS = ['map', 'agents', 'overlay'] as const;
 export type LayerName = (typeof LAYERS)[number];
-export type Canvases = Record<LayerName, HTMLCanvasElement | OffscreenCanvas>;
+export type Canvases = Record<LayerName | 'loupe', HTMLCanvasElement | OffscreenCanvas>;
 
 export interface Size {
   /** Of the picture, in CSS pixels. */
@@ -23,28 +23,40 @@ export interface Shift {
   readonly scale: number;
 }
 
+/** So many times larger is what the loupe shows. */
+const LARGER = 1.8;
+
+/** The middle of what the loupe shows and how wide it is, in CSS pixels. */
+export interface Loupe {
+  readonly x: number;
+  readonly y: number;
+  readonly px: number;
+}
+
 /** What is new on the screen: recordings of the layers that changed. */
 export interface Picture {
   readonly size: Size;
   readonly news: News;
   readonly layers: Partial<Record<LayerName, Float64Array>>;
   readonly shift: Shift;
+  readonly loupe: Loupe | null;
 }
 
 export class Easel {
   readonly #player = new Player();
-  readonly #pens: Record<LayerName, Canvas2D>;
+  readonly #pens: Record<LayerName | 'loupe', Canvas2D>;
   #size: Size | null = null;
   /** The map with its margin, as it was painted. */
   #map = surface(1, 1);
   #shift: Shift | null = null;
 
   constructor(private readonly canvases: Canvases) {
-    const pen = (name: LayerName) => canvases[name].getContext('2d', { alpha: name !== 'map' }) as Canvas2D;
-    this.#pens = { map: pen('map'), agents: pen('agents'), overlay: pen('overlay') };
+    const pen = (name: LayerName | 'loupe') =>
+      canvases[name].getContext('2d', { alpha: name !== 'map' && name !== 'loupe' }) as Canvas2D;
+    this.#pens = { map: pen('map'), agents: pen('agents'), overlay: pen('overlay'), loupe: pen('loupe') };
   }
 
-  show({ size, news, layers, shift }: Picture): void {
+  show({ size, news, layers, shift, loupe }: Picture): void {
     this.#fit(size);
     this.#player.learn(news);
     if (layers.map) this.#player.play(pen2d(this.#map), layers.map);
@@ -59,6 +71,19 @@ export class Easel {
       g.setTransform(size.dpr, 0, 0, size.dpr, 0, 0);
       this.#player.play(g, ops);
     }
+    if (loupe) this.#magnify(loupe, size.dpr);
+  }
+
+  /** The three layers around a place, larger. */
+  #magnify({ x, y, px }: Loupe, dpr: number): void {
+    const g = this.#pens.loupe;
+    const { loupe } = this.canvases;
+    const side = Math.round(px * dpr);
+    if (loupe.width !== side) loupe.width = loupe.height = side;
+    const part = side / LARGER;
+    g.clearRect(0, 0, side, side);
+    for (const name of LAYERS)
+      g.drawImage(this.canvases[name], x * dpr - part / 2, y * dpr - part / 2, part, part, 0, 0, side, side);
   }
 
   #fit(size: Size): void {

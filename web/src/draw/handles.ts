@@ -22,14 +22,14 @@ export interface HandlePoints {
 }
 
 /** Where the handles of a pose lie on screen. */
-export function handlePoints(v: View, a: Sized, p: Pose, scale = 1): HandlePoints {
+export function handlePoints(v: View, a: Sized, p: Pose): HandlePoints {
   const c = Math.cos(p.heading),
     s = Math.sin(p.heading);
   const half = sizeOnScreen(a, v.z)[0] / 2;
   const [x, y] = v.to(p.x, p.y);
   const at = (d: number): Vec => [x + c * d, y - s * d];
-  const arrow = Math.max(SHORTEST_ARROW, p.speed * arrowSeconds(a.type) * v.z);
-  return { centre: [x, y], knob: at(-(half + STALK * scale)), nose: at(half + GAP), tip: at(half + GAP + arrow) };
+  const arrow = Math.max(SHORTEST_ARROW * v.grip ** 2, p.speed * arrowSeconds(a.type) * v.z);
+  return { centre: [x, y], knob: at(-(half + STALK * v.grip)), nose: at(half + GAP), tip: at(half + GAP + arrow) };
 }
 
 /** Speed that puts the arrow tip on a world point; negative behind the bumper. */
@@ -43,13 +43,12 @@ export interface HandleStyle {
   colour: string;
   freeHeading?: boolean;
   freeSpeed?: boolean;
-  scale?: number;
   tick: number;
 }
 
 export function paintHandles(g: Pen, labels: Labels, v: View, a: Sized, p: Pose, s: HandleStyle): HandlePoints {
-  const k = s.scale ?? 1;
-  const h = handlePoints(v, a, p, k);
+  const k = v.grip;
+  const h = handlePoints(v, a, p);
   const c = Math.cos(p.heading),
     n = Math.sin(p.heading);
   const half = sizeOnScreen(a, v.z)[0] / 2;
@@ -171,34 +170,35 @@ function arrowHead(g: Pen, [x, y]: Vec, heading: number, s: HandleStyle, k: numb
 
 export const FLAG_HEIGHT = 36;
 
-export function paintFlag(g: Pen, labels: Labels, x: number, y: number, colour: string, free: boolean): void {
+/** A flag with its foot at a place, so many times its plain size. */
+export function paintFlag(g: Pen, labels: Labels, [x, y]: Vec, colour: string, free: boolean, k: number): void {
   const c = colours();
   g.save();
   g.lineCap = g.lineJoin = 'round';
   g.beginPath();
-  g.ellipse(x, y, 5, 2.6, 0, 0, Math.PI * 2);
+  g.ellipse(x, y, 5 * k, 2.6 * k, 0, 0, Math.PI * 2);
   g.fillStyle = c.halo;
   g.fill();
   g.beginPath();
-  g.ellipse(x, y, 3.6, 1.8, 0, 0, Math.PI * 2);
+  g.ellipse(x, y, 3.6 * k, 1.8 * k, 0, 0, Math.PI * 2);
   g.fillStyle = colour;
   g.fill();
+  const top = y - FLAG_HEIGHT * k;
   const pole = () => {
     g.beginPath();
     g.moveTo(x, y);
-    g.lineTo(x, y - FLAG_HEIGHT);
+    g.lineTo(x, top);
   };
   pole();
   g.strokeStyle = c.halo;
   g.lineWidth = 5.4;
   g.stroke();
-  const top = y - FLAG_HEIGHT;
   g.beginPath();
   g.moveTo(x, top);
-  g.lineTo(x + 22, top + 4);
-  g.lineTo(x + 16, top + 9);
-  g.lineTo(x + 22, top + 15);
-  g.lineTo(x, top + 17);
+  g.lineTo(x + 22 * k, top + 4 * k);
+  g.lineTo(x + 16 * k, top + 9 * k);
+  g.lineTo(x + 22 * k, top + 15 * k);
+  g.lineTo(x, top + 17 * k);
   g.closePath();
   g.lineWidth = 4;
   g.stroke();
@@ -213,7 +213,7 @@ export function paintFlag(g: Pen, labels: Labels, x: number, y: number, colour: 
   g.lineWidth = 2.2;
   g.stroke();
   g.restore();
-  labels.block(x - 4, y - FLAG_HEIGHT, 28, FLAG_HEIGHT);
+  labels.block(x - 4 * k, top, 28 * k, FLAG_HEIGHT * k);
 }
 
 /** A dotted string with the hand at its end, in pixels. */

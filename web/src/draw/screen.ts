@@ -9,6 +9,7 @@ export type FromEasel = 'shown' | 'fonts';
 
 /** So many pictures may be on their way: one is painted while the next is recorded. */
 const AHEAD = 2;
+const CANVASES = [...LAYERS, 'loupe'] as const;
 
 export class Screen {
   #words = new Vocabulary();
@@ -41,8 +42,13 @@ export class Screen {
     return this.#recording.take();
   }
 
-  show(size: Size, layers: Partial<Record<LayerName, Float64Array>>, shift: Shift): void {
-    const picture: Picture = { size, layers, shift, news: this.#words.news() };
+  show(
+    size: Size,
+    layers: Partial<Record<LayerName, Float64Array>>,
+    shift: Shift,
+    loupe: Picture['loupe'] = null,
+  ): void {
+    const picture: Picture = { size, layers, shift, loupe, news: this.#words.news() };
     if (this.#easel) return this.#easel.show(picture);
     this.#onWay++;
     const moved = [
@@ -59,20 +65,20 @@ export class Screen {
   }
 
   /** New canvases in place of old ones. */
-  #hang(): Record<LayerName, HTMLCanvasElement> {
+  #hang(): Record<LayerName | 'loupe', HTMLCanvasElement> {
     for (const c of this.#canvases) c.remove();
-    const made = LAYERS.map((name) => {
+    const made = CANVASES.map((name) => {
       const c = document.createElement('canvas');
-      c.className = `layer ${name}`;
+      c.className = name === 'loupe' ? name : `layer ${name}`;
       c.setAttribute('aria-hidden', 'true');
       return [name, c] as const;
     });
     this.#canvases = made.map(([, c]) => c);
     this.element.prepend(...this.#canvases);
-    return Object.fromEntries(made) as Record<LayerName, HTMLCanvasElement>;
+    return Object.fromEntries(made) as Record<LayerName | 'loupe', HTMLCanvasElement>;
   }
 
-  #employ(canvases: Record<LayerName, HTMLCanvasElement>): void {
+  #employ(canvases: Record<LayerName | 'loupe', HTMLCanvasElement>): void {
     const worker = new Worker(new URL('./easel.worker.ts', import.meta.url), { type: 'module' });
     this.#worker = worker;
     worker.onmessage = ({ data }: MessageEvent<FromEasel>) => {
@@ -90,8 +96,8 @@ export class Screen {
       this.#easel = new Easel(this.#hang());
       this.onLost();
     };
-    const off = LAYERS.map((name) => [name, canvases[name].transferControlToOffscreen()] as const);
-    const handed = Object.fromEntries(off) as Record<LayerName, OffscreenCanvas>;
+    const off = CANVASES.map((name) => [name, canvases[name].transferControlToOffscreen()] as const);
+    const handed = Object.fromEntries(off) as Record<LayerName | 'loupe', OffscreenCanvas>;
     worker.postMessage({ canvases: handed } satisfies ToEasel, Object.values(handed));
   }
 }

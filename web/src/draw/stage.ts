@@ -1,11 +1,12 @@
 // When what is painted: each of map, road users and overlay anew only when what it shows has changed, all inside one
 // animation frame. While the view moves, the finished map picture is shifted and scaled; it is painted afresh when the
 // movement rests or when its margin is used up.
-import { LAYERS, MARGIN, sameShift, type LayerName, type Shift } from './easel';
+import { LAYERS, MARGIN, sameShift, type LayerName, type Loupe, type Shift } from './easel';
 import { Glide } from './glide';
 import type { Pen } from './pen';
 import { paintOn } from './replay';
 import { Screen } from './screen';
+import type { Point } from '../model/geometry';
 import { View } from './view';
 import { readPalette } from './theme';
 
@@ -23,6 +24,9 @@ export class Stage {
   /** The view that the map was painted for. */
   private painted: View | null = null;
   private shifted: Shift = IN_PLACE;
+  private loupe: Loupe | null = null;
+  /** How wide the loupe is, in CSS pixels. */
+  loupePx = 156;
   private frame = 0;
   private rest = 0;
   /** A frame found the screen busy; it is made up for when a picture was shown. */
@@ -136,6 +140,17 @@ export class Stage {
     else delete dataset.cursor;
   }
 
+  /** A loupe with a place in its middle stands in an upper corner, on the side away from it; null takes it away. */
+  magnify(place: Point | null): void {
+    if (!place && !this.loupe) return;
+    this.loupe = place && { ...place, px: this.loupePx };
+    const { dataset } = this.element;
+    const { left, right } = this.view.inset;
+    if (!place) delete dataset.loupe;
+    else dataset.loupe = place.x < (this.view.w + left - right) / 2 ? 'right' : 'left';
+    this.invalidate('overlay');
+  }
+
   themeChanged(): void {
     readPalette();
     this.invalidate(...LAYERS);
@@ -171,7 +186,7 @@ export class Stage {
     }
     if (!Object.keys(layers).length && sameShift(shift, this.shifted)) return;
     this.shifted = shift;
-    this.screen.show({ w: v.w, h: v.h, dpr: v.dpr }, layers, shift);
+    this.screen.show({ w: v.w, h: v.h, dpr: v.dpr }, layers, shift, this.loupe);
   }
 
   private paintMap(): Float64Array {

@@ -14,6 +14,8 @@ export class View {
   w = 800;
   h = 600;
   dpr = 1;
+  /** How large handles are drawn and how far apart they stand: 1, or more for fingers. */
+  grip = 1;
   /** Part of the stage that panels cover, so that "fit" means the part one sees. */
   inset = { left: 0, right: 0, top: 0, bottom: 0 };
 

@@ -214,8 +214,8 @@ export class Answers {
     this.#remark.value = remark;
   }
 
-  scored(score: Score | null): void {
-    const next = { ...this.#motion.peek(), score };
+  scored(score: Score | null, futures = this.#motion.peek().futures): void {
+    const next = { ...this.#motion.peek(), futures, score };
     this.#motion.value = next;
     this.#cache.put(next);
   }

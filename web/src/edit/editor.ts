@@ -17,6 +17,7 @@ import { Filling } from './filling';
 import type { ToolName } from './gestures/tools';
 import { Notices } from './notices';
 import { Placement } from './placement';
+import { SpeedCurve } from './speed-curve';
 import { Playhead } from './playhead';
 
 export type Part = 'start' | 'goal';
@@ -103,6 +104,8 @@ export class Editor {
   readonly notices = new Notices();
   readonly placement = new Placement();
   readonly filling = new Filling();
+  /** Speeds drawn by hand. */
+  readonly curve: SpeedCurve = new SpeedCurve(this);
 
   readonly #scene = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);

@@ -20,6 +20,7 @@ import { Reception } from './reception';
 import type { Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import { sketchFutures } from './sketch';
+import { judgedCurves, withCurves } from './speed-curve';
 
 /** A key held down asks once, when it rests. */
 const REST_MS = 80;
@@ -277,7 +278,9 @@ export class Generation implements Previews {
     try {
       const reply = await this.generator.score(this.file.reference(scene), trajectories, abort.signal);
       if (editor.scene.peek() !== scene) return;
-      editor.answers.scored(readScore(reply));
+      const score = readScore(reply);
+      const { futures } = editor.motion.peek();
+      editor.answers.scored(score, score ? judgedCurves(scene, futures, score) : futures);
       if (step && !quiet) this.#reception.settled(step, 0);
     } catch (e) {
       // Without a score there are no events to show; the motions stand.
@@ -292,7 +295,15 @@ export class Generation implements Previews {
   #shown(scene: Scene): MotionSet {
     const set = this.editor.motion.peek();
     const asked = this.editor.touchedIds(scene).filter((id) => set.futures.has(id));
-    return { ...set, key: sceneKey(scene), driving: new Set([...set.driving, ...asked]), stale: false, fresh: null };
+    const futures = withCurves(scene, set.futures);
+    return {
+      ...set,
+      futures,
+      key: sceneKey(scene),
+      driving: new Set([...set.driving, ...asked]),
+      stale: false,
+      fresh: null,
+    };
   }
 
   // -------------------------------------------------------------- absence

@@ -1,12 +1,12 @@
 // What lies under the pointer. First match wins: handles, letters, the chosen future, road users, other futures.
-import { insideBox, type Vec } from '../model/geometry';
+import { insideBox, type OnLine, type Vec } from '../model/geometry';
 import { canChange, startPose, type Agent } from '../model/scene';
 import { FLAG_HEIGHT, handlePoints } from '../draw/handles';
 import type { Rect } from '../draw/labels';
 import { sizeOnScreen } from '../draw/sprites';
 import type { Chip } from '../draw/strokes';
 import type { View } from '../draw/view';
-import type { Editor, Grip } from './editor';
+import type { Editor, Grip, HandleName, Part } from './editor';
 import type { RoadSign } from './overlay-verdicts';
 import { frameAround, poseShown } from './frame';
 import { onPennant, type Pennant } from '../draw/marks';
@@ -15,7 +15,8 @@ export type Hit =
   | { kind: 'grip'; grip: Grip }
   | { kind: 'future'; index: number }
   | { kind: 'by road' }
-  | { kind: 'agent'; id: string; pile: string[] }
+  /** `beside`: a finger came down near it, and not on it. */
+  | { kind: 'agent'; id: string; pile: string[]; beside?: true }
   | { kind: 'frame'; handle: FrameHandle }
   /** The small flag at the goal of somebody who is not selected. */
   | { kind: 'pennant'; id: string }
@@ -31,9 +32,18 @@ const near = (p: readonly [number, number], x: number, y: number, r: number): bo
 
 const inRect = (r: Rect, x: number, y: number): boolean => x >= r.x && x <= r.x + r.w && y >= r.y && y <= r.y + r.h;
 
+/** A finger takes hold of what lies within so many pixels of it. */
+const FINGER_PX = 24;
+
 /** On a flag with its foot at a place. */
-const onFlag = ([fx, fy]: Vec, x: number, y: number): boolean =>
-  x > fx - 6 && x < fx + 26 && y > fy - FLAG_HEIGHT - 2 && y < fy + 5;
+const onFlag = (v: View, foot: Vec, x: number, y: number): boolean => flagAway(v, foot, x, y) === 0;
+
+/** How far a place is from a flag, in pixels. */
+function flagAway({ grip: k }: View, [fx, fy]: Vec, x: number, y: number): number {
+  const dx = Math.max(fx - 6 - x, 0, x - (fx + 26 * k));
+  const dy = Math.max(fy - (FLAG_HEIGHT + 2) * k - y, 0, y - (fy + 5));
+  return Math.hypot(dx, dy);
+}
 
 export interface HitContext {
   editor: Editor;
@@ -51,9 +61,9 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
     if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by road' };
     const grip = a.locked ? null : gripAt(c, a, x, y);
     if (grip) return { kind: 'grip', grip };
-    if (c.roadSign?.flag && onFlag(c.roadSign.flag, x, y)) return { kind: 'by road' };
+    if (c.roadSign?.flag && onFlag(c.view, c.roadSign.flag, x, y)) return { kind: 'by road' };
     for (const chip of c.chips)
-      if (near([chip.x, chip.y], x, y, c.touch ? 22 : 11)) return { kind: 'future', index: chip.index };
+      if (near([chip.x, chip.y], x, y, c.touch ? FINGER_PX : 11)) return { kind: 'future', index: chip.index };
     if (c.editor.layers.value.futures && futureAt(c, c.editor.chosen.value, x, y))
       return { kind: 'future', index: c.editor.chosen.value };
   }
@@ -61,6 +71,8 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   if (handle && handle !== 'move') return { kind: 'frame', handle };
   const pile = agentsAt(c, x, y);
   if (pile.length) return { kind: 'agent', id: pile[0], pile };
+  const beside = c.touch ? nearestTo(c, x, y) : null;
+  if (beside) return { kind: 'agent', id: beside, pile: [beside], beside: true };
   if (handle) return { kind: 'frame', handle };
   const pennant = c.pennants.find((p) => onPennant(p, x, y));
   if (pennant) return { kind: 'pennant', id: pennant.id };
@@ -74,7 +86,7 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
 function frameHandleAt(c: HitContext, x: number, y: number): FrameHandle | null {
   const f = frameAround(c.editor, c.view);
   if (!f || c.editor.time.value > 0.05) return null;
-  const r = c.touch ? 22 : 10;
+  const r = c.touch ? FINGER_PX : 10;
   if (near(f.knob, x, y, r)) return 'turn';
   if (f.corners.some((p) => near(p, x, y, r))) return 'spread';
   const { box: b } = f;
@@ -85,15 +97,16 @@ function frameHandleAt(c: HitContext, x: number, y: number): FrameHandle | null 
 }
 
 function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
+  if (c.touch) return gripForFinger(c, a, x, y);
   const { view: v, editor } = c;
-  const r = c.touch ? 22 : 11;
+  const r = 11;
   const goal = editor.goalPose(a);
   if (goal) {
     const g = handlePoints(v, a, goal);
     if (c.timeTag && inRect(c.timeTag, x, y)) return { part: 'goal', handle: 'time' };
     if (goal.set && near(g.tip, x, y, r)) return { part: 'goal', handle: 'speed' };
     if (goal.set && near(g.knob, x, y, r)) return { part: 'goal', handle: 'heading' };
-    if (onFlag(g.centre, x, y)) return { part: 'goal', handle: 'body' };
+    if (onFlag(v, g.centre, x, y)) return { part: 'goal', handle: 'body' };
     if (onBox(v, a, goal, x, y)) return { part: 'goal', handle: 'body' };
   }
   const start = startPose(a);
@@ -102,6 +115,64 @@ function gripAt(c: HitContext, a: Agent, x: number, y: number): Grip | null {
   if (near(s.tip, x, y, r)) return { part: 'start', handle: 'speed' };
   if (near(s.knob, x, y, r)) return { part: 'start', handle: 'heading' };
   return onBox(v, a, start, x, y) ? { part: 'start', handle: 'body' } : null;
+}
+
+/** The handle nearest to a finger: it covers more than one, and what it is on is nearer than what lies beside. */
+function gripForFinger(c: HitContext, a: Agent, x: number, y: number): Grip | null {
+  const { view: v, editor } = c;
+  let best: Grip | null = null;
+  let least = FINGER_PX;
+  const offer = (grip: Grip, away: number): void => {
+    if (away >= least) return;
+    least = away;
+    best = grip;
+  };
+  const point = (part: Part, handle: HandleName, p: Vec): void =>
+    offer({ part, handle }, Math.hypot(p[0] - x, p[1] - y));
+  const goal = editor.goalPose(a);
+  if (goal) {
+    const g = handlePoints(v, a, goal);
+    if (c.timeTag) offer({ part: 'goal', handle: 'time' }, rectAway(c.timeTag, x, y));
+    offer({ part: 'goal', handle: 'body' }, Math.min(flagAway(v, g.centre, x, y), boxAway(v, a, goal, x, y)));
+    if (goal.set) {
+      point('goal', 'speed', g.tip);
+      point('goal', 'heading', g.knob);
+    }
+  }
+  const start = startPose(a);
+  if (!start || editor.time.value > 0.05) return best;
+  const s = handlePoints(v, a, start);
+  offer({ part: 'start', handle: 'body' }, boxAway(v, a, start, x, y));
+  point('start', 'speed', s.tip);
+  point('start', 'heading', s.knob);
+  return best;
+}
+
+const rectAway = (r: Rect, x: number, y: number): number =>
+  Math.hypot(Math.max(r.x - x, 0, x - r.x - r.w), Math.max(r.y - y, 0, y - r.y - r.h));
+
+/** How far a place is from the box of somebody, in pixels. */
+function boxAway(v: View, a: Agent, p: OnLine, x: number, y: number): number {
+  const [l, w] = sizeOnScreen(a, v.z);
+  const dx = x - v.x(p.x),
+    dy = v.y(p.y) - y;
+  const c = Math.cos(p.heading),
+    s = Math.sin(p.heading);
+  return Math.hypot(Math.max(0, Math.abs(dx * c + dy * s) - l / 2), Math.max(0, Math.abs(dy * c - dx * s) - w / 2));
+}
+
+/** Whose box is nearest to a finger that is on none. */
+function nearestTo(c: HitContext, x: number, y: number): string | null {
+  let best: string | null = null;
+  let least = FINGER_PX;
+  for (const a of c.editor.scene.value?.agents.values() ?? []) {
+    const p = poseShown(c.editor, a);
+    const away = p ? boxAway(c.view, a, p, x, y) : Infinity;
+    if (away >= least) continue;
+    least = away;
+    best = a.id;
+  }
+  return best;
 }
 
 function onBox(v: View, a: Agent, p: { x: number; y: number; heading: number }, x: number, y: number): boolean {

@@ -10,6 +10,7 @@ import { doing, nameIn, sceneKey, touched, touchedIn, type Agent, type Scene } f
 import type { FinalEvent } from '../net/types';
 import type { Wanted } from './question';
 import { readReach, readScore, readWarnings } from './read-answer';
+import { judgedCurves, withCurves } from './speed-curve';
 
 /** Which letters the futures of a road user get. */
 export type Keep = (a: Agent) => KeepOrder;
@@ -24,7 +25,8 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
     const a = scene.agents.get(id);
     return a !== undefined && (before.driving.has(id) || w.kept?.has(id) || touched(a));
   };
-  const futures = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+  const known = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
+  const futures = new Map(withCurves(scene, known));
   const score = readScore(e.scores?.[0]);
   // Those that go on as they did may meet others than before.
   for (const id of score ? mine : []) {
@@ -34,12 +36,13 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
     const modes = f.modes.map((m, i) => (i === shown ? withMeetingsOf(score!, id, m) : m));
     if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
   }
+  const judged = score ? judgedCurves(scene, futures, score) : futures;
   const drives = (id: string) => {
     const a = scene.agents.get(id);
     return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
   };
   const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
-  for (const id of mine) if (futures.has(id)) driving.add(id);
+  for (const id of mine) if (judged.has(id)) driving.add(id);
   const reach = new Map(before.reach);
   for (const [id, resolved] of Object.entries(e.resolved)) {
     const verdict = readReach(resolved);
@@ -48,7 +51,7 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
   }
   return {
     key: sceneKey(scene),
-    futures,
+    futures: judged,
     driving,
     score,
     reach,

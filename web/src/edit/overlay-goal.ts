@@ -89,7 +89,7 @@ export class GoalOverlay {
           fg: c.surface,
         });
     }
-    paintFlag(g, this.labels, x, y, colour, !goal.set);
+    paintFlag(g, this.labels, [x, y], colour, !goal.set, v.grip);
     if (bad) this.paintNearest(g, v, a, bad.nearest);
     const said = bad && !bad.outranked;
     const text = said ? bad.title : goal.set ? `Goal · ${seconds(a.goal.time)}` : 'Goal · free';
@@ -128,9 +128,7 @@ export class GoalOverlay {
     if (!nearest) return;
     const c = colours();
     paintGhost(g, v, a, nearest, c.goal, c['goal-soft'], [], 2);
-    const x = v.x(nearest.x),
-      y = v.y(nearest.y);
-    paintFlag(g, this.labels, x, y, c.goal, true);
+    paintFlag(g, this.labels, v.to(nearest.x, nearest.y), c.goal, true, v.grip);
   }
 
   /** After the handles, which would cover it. */

@@ -93,7 +93,7 @@ export class VerdictOverlay {
     const { to, path } = way;
     if (to) {
       paintGhost(g, v, a, to, c.goal, c['goal-soft'], [4, 3]);
-      paintFlag(g, this.labels, v.x(to.x), v.y(to.y), c.goal, true);
+      paintFlag(g, this.labels, v.to(to.x, to.y), c.goal, true, v.grip);
     }
     const [wx, wy] = to ? [to.x, to.y] : path[path.length >> 1];
     const tries = [

@@ -19,6 +19,7 @@ import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
+import { paintStops } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
 
@@ -189,6 +190,7 @@ export class Overlay {
       tag(g, this.labels, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
     if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest);
+    paintStops(g, this.labels, v, e, a);
     this.paintWords(g, v, a);
     this.paintLetters(g, v, a);
     this.goal.dragLabels(g, v, a, goal);

@@ -3,13 +3,14 @@
 import { DEFAULTS } from '../model/domain';
 import type { ConditionJson, MapJson, MapRef, SceneJson } from '../model/json';
 import type { Futures, MotionSet } from '../model/futures';
-import { doing, GOAL_TIME, type Scene } from '../model/scene';
+import { doing, GOAL_TIME, profileOf, type Scene } from '../model/scene';
 import { castJson, conditionOf, generatedJson, isEmptyCondition, withStill } from '../model/write';
 import type { Handlers, Question, SceneRef } from '../net/generator';
 import type { GenerateOptions } from '../net/types';
 import type { Editor, Step } from './editor';
 import type { SceneFile } from './scene-file';
 import { shownFuture } from './shown';
+import { withCurve } from './speed-curve';
 
 /** What is wanted of the generator. */
 export interface Wanted {
@@ -139,6 +140,9 @@ function shownOf(editor: Editor, w: Wanted): Shown {
 
 /** The one future that is followed: it is all that others are worked out against, and a sixth of the text. */
 function inForce(scene: Scene, id: string, f: Futures): Futures {
-  const chosen = f.modes[Math.min(f.modes.length - 1, scene.agents.get(id)?.chosen ?? f.chosen)];
+  const a = scene.agents.get(id);
+  const index = Math.min(f.modes.length - 1, a?.chosen ?? f.chosen);
+  const drawn = a && profileOf(a);
+  const chosen = (drawn ? withCurve(f, index, drawn, a, scene.duration) : f).modes[index];
   return { ...f, modes: chosen ? [chosen] : [], chosen: 0 };
 }

@@ -24,7 +24,7 @@ import { futuresOf, motionAfter, naming, type Keep } from './motion-after';
 import type { Wanted } from './question';
 import { Steady } from './steady';
 import { readReach } from './read-answer';
-import { outcome, spokenCollision, spokenOutcome } from './report';
+import { outcome, spokenCollision, spokenOutcome, spokenVerdict } from './report';
 
 /** What an answer may set off; the generation does it. */
 export interface Hooks {
@@ -305,7 +305,8 @@ export class Reception {
     const scene = editor.scene.peek()!;
     const events = editor.events.peek();
     editor.notices.show({ text: outcome(step, scene, changes, events), undo: true });
-    editor.notices.say(spokenOutcome(step, scene, changes, events));
+    const said = [spokenOutcome(step, scene, changes, events), spokenVerdict(editor, step)];
+    editor.notices.say(said.filter(Boolean).join(' '));
     const collision = spokenCollision(events);
     if (collision) editor.notices.say(collision, true);
   }

@@ -1,9 +1,10 @@
 // What a change led to, in sentences for the toast and for screen readers.
 import type { Change } from '../model/changes';
 import { counted, type TrafficEvent } from '../model/events';
-import type { Scene } from '../model/scene';
+import { nameIn, type Scene } from '../model/scene';
 import { seconds } from '../model/units';
-import type { Step } from './editor';
+import { headline } from '../model/verdict-words';
+import type { Editor, Step } from './editor';
 
 /** `Goal of Car 4 moved. 2 others changed.` That nobody had to change is not said beside a collision. */
 export function outcome(
@@ -32,6 +33,16 @@ export function spokenOutcome(
 ): string {
   const first = changes[0];
   return `${outcome(step, scene, changes, events)}${first ? ` ${first.name} ${first.words}.` : ''}`;
+}
+
+/** `Reached in A, C, D.`: the verdict on whom the step was about, while it is selected; empty where nobody has one. */
+export function spokenVerdict(editor: Editor, step: Step): string {
+  const a = editor.agent.peek();
+  const f = editor.futures.peek();
+  const scene = editor.scene.peek();
+  if (!a || !f || !scene || a.id !== step.agent) return '';
+  const said = headline(f, editor.chosen.peek(), a.goal.pos !== null, { type: a.type, nameOf: nameIn(scene) });
+  return said ? `${said.title}.` : '';
 }
 
 export function spokenCollision(events: readonly TrafficEvent[]): string | null {

@@ -1,5 +1,6 @@
 // Every change of the document is a command with an exact inverse.
 import { KIND_NAMES } from './kinds';
+import type { Profile } from './profile';
 import { kindOf } from './read';
 import {
   durationOf,
@@ -7,6 +8,7 @@ import {
   kindChanged,
   logStartSpec,
   numberIn,
+  startPose,
   withAgents,
   type Agent,
   type GoalSpec,
@@ -32,6 +34,7 @@ const PATCHABLE = [
   'start',
   'goal',
   'chosen',
+  'profile',
   'length',
   'width',
   'type',
@@ -96,9 +99,17 @@ export const choose = (a: Agent, index: number | null, letter: string): Command 
   one(
     index === null ? `${a.name} back to the most likely future` : `Future ${letter} chosen for ${a.name}`,
     a.id,
-    { chosen: index },
+    { chosen: index, profile: null },
     'choose',
   );
+/** A speed curve for a future, and with it the speed at the start; null takes it away, and the pick with it. */
+export function setCurve(a: Agent, index: number | null, profile: Profile | null): Command {
+  if (!profile) return one(`Speed curve of ${a.name} cleared`, a.id, { chosen: null, profile: null });
+  const v = profile.points[0].v;
+  const start =
+    Math.abs(v - (startPose(a)?.speed ?? v)) > 0.01 ? { start: Object.freeze({ ...a.start, speed: v }) } : {};
+  return one(`Speed curve of ${a.name} changed`, a.id, { ...start, chosen: index, profile: Object.freeze(profile) });
+}
 export const clearGoal = (a: Agent): Command =>
   one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });
 

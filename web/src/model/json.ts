@@ -128,6 +128,8 @@ export interface EditorJson {
   replan_s?: number;
   drawn?: number;
   picked?: Record<string, number>;
+  /** Speeds drawn by hand for futures that are picked. */
+  curves?: Record<string, unknown>;
   names?: Record<string, string>;
   notes?: Record<string, string>;
   locked?: string[];
@@ -158,6 +160,7 @@ export interface VariantJson {
   conditions?: Record<string, ConditionJson>;
   picked?: Record<string, number>;
   does?: Record<string, string>;
+  curves?: Record<string, unknown>;
   /** Which of `generated.samples` holds its motion. */
   sample?: number;
 }

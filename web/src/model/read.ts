@@ -1,4 +1,5 @@
 // Scene JSON -> document. Tolerant of what is absent, silent about nothing: what cannot be read is counted.
+import { readProfile } from './profile';
 import { buildMap, nearestLanes, type LaneMap } from './lanemap';
 import {
   isMapRef,
@@ -147,8 +148,8 @@ function readConditions(
   json: AgentJson,
   c: ConditionJson,
   logStart: Pose | null,
-  ed: Pick<EditorJson, 'picked' | 'does'>,
-): Pick<Agent, 'type' | 'kind' | 'does' | 'length' | 'width' | 'start' | 'goal' | 'chosen'> {
+  ed: Pick<EditorJson, 'picked' | 'does' | 'curves'>,
+): Pick<Agent, 'type' | 'kind' | 'does' | 'length' | 'width' | 'start' | 'goal' | 'chosen' | 'profile'> {
   const type = c.type ? typeOf(c.type) : typeOf(json.type);
   const picked = ed.picked?.[json.id];
   return {
@@ -160,6 +161,7 @@ function readConditions(
     start: readStart(c, logStart),
     goal: readGoal(c),
     chosen: typeof picked === 'number' && picked >= 0 && picked < 6 ? Math.floor(picked) : null,
+    profile: readProfile(ed.curves?.[json.id]),
   };
 }
 
@@ -262,7 +264,7 @@ function readAsked(v: Partial<VariantJson>, agents: ReadonlyMap<string, Agent>):
   for (const [id, c] of Object.entries(v.conditions ?? {})) {
     const a = agents.get(id);
     if (!a?.source || !c || typeof c !== 'object') continue;
-    const ed = { picked: v.picked, does: v.does };
+    const ed = { picked: v.picked, does: v.does, curves: v.curves };
     // Read as the file's road user is; the lanes matter for what is parked alone.
     asked[id] = askedOf({ ...a, ...readConditions(a.source, c, a.logStart, ed) });
   }

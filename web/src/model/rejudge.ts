@@ -1,13 +1,19 @@
 // A picked future is not judged anew with the answers of the others to it: what it does by itself stays as it was
 // judged, and whom it hits or nearly hits is what the score of the whole scene says.
-import { FAULT_KINDS, type Fault } from './about';
+import { FAULT_KINDS, NOTHING_SAID, type Fault } from './about';
+import type { Vec } from './geometry';
+import type { Agent } from './scene';
 import type { Collision, Future, NearMiss, Score } from './futures';
 import type { FaultJson } from './json';
-import { poseAt } from './motion';
+import { endPose, poseAt } from './motion';
 
 /** Meetings of the same two closer together than this are one. */
 const SAME_S = 1.5;
 
+/** A goal that is missed by more, in metres, is not reached. */
+const REACHED_M = 2;
+
+const rank = (x: Fault): number => FAULT_KINDS.indexOf(x.kind);
 const meets = (f: Pick<Fault, 'kind'>): boolean => f.kind === 'collision' || f.kind === 'near_miss';
 
 /** The future of `id` with the meetings that the score knows, and no others. */
@@ -21,10 +27,40 @@ export function withMeetingsOf(score: Score, id: string, f: Future): Future {
     .filter((x) => !hit.has(x.with));
   const now = [...new Set([...hits, ...near])];
   if (now.length === old.length && now.every((x) => old.includes(x))) return f;
-  const rank = (x: Fault): number => FAULT_KINDS.indexOf(x.kind);
   const faults = [...f.about.faults.filter((x) => !meets(x)), ...now];
   faults.sort((a, b) => rank(a) - rank(b) || a.time - b.time);
   return { ...f, about: { ...f.about, faults }, sent: { ...f.sent, faults: faults.map(faultJson) } };
+}
+
+/** A motion that was drawn by hand, as the score of the whole scene judges it. */
+export function judgedBy(score: Score, a: Agent, f: Future): Future {
+  const { id, goal } = a;
+  const place = (t: number): Vec => {
+    const p = poseAt(f.motion, t) ?? endPose(f.motion);
+    return [p.x, p.y];
+  };
+  const broken = (score.stretches ?? [])
+    .filter((s) => s.agent === id && !s.inLog)
+    .map((s): Fault => ({
+      kind: s.what,
+      time: s.time,
+      until: s.until,
+      at: place(s.time),
+      extent: s.extent,
+      with: null,
+      edge: null,
+    }));
+  if (goal.pos) {
+    const at = place(goal.time);
+    const extent = Math.hypot(at[0] - goal.pos[0], at[1] - goal.pos[1]);
+    const { time } = goal;
+    if (extent > REACHED_M) broken.push({ kind: 'goal_missed', time, until: time, at, extent, with: null, edge: null });
+  }
+  const about = { ...NOTHING_SAID, faults: broken };
+  const judged = withMeetingsOf(score, id, { ...f, about });
+  const faults = [...judged.about!.faults];
+  faults.sort((p, q) => rank(p) - rank(q) || p.time - q.time);
+  return { ...judged, about: { ...about, faults }, sent: { faults: faults.map(faultJson) } };
 }
 
 /** Null for a meeting of others, or one where the future knows no place. */

@@ -5,6 +5,7 @@ import { DEFAULTS } from './domain';
 import type { AgentJson } from './json';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 import { STEP_S, type Motion } from './motion';
+import type { Profile } from './profile';
 import type { Variant, VariantState } from './variants';
 
 export type AgentType = 'vehicle' | 'pedestrian' | 'cyclist' | 'other';
@@ -55,6 +56,8 @@ export interface Agent {
   readonly goal: GoalSpec;
   /** Index of the future the user picked; null leaves the choice to the generator. */
   readonly chosen: number | null;
+  /** How fast it goes along it, where that was drawn by hand; it goes with the pick. */
+  readonly profile: Profile | null;
 }
 
 export interface Signal {
@@ -127,6 +130,9 @@ export function startPose(a: Agent): Pose | null {
   return { x, y, heading: wrapAngle(a.start.heading ?? l.heading), speed: a.start.speed ?? Math.abs(l.speed) };
 }
 
+/** The speed curve in force: one belongs to a picked future, and is gone when that is. */
+export const profileOf = (a: Agent): Profile | null => (a.chosen === null ? null : a.profile);
+
 export const hasGoal = (g: GoalSpec): boolean => g.pos !== null || g.heading !== null || g.speed !== null;
 
 const samePos = (a: Vec | null, b: Vec | null): boolean => a === b || (!!a && !!b && a[0] === b[0] && a[1] === b[1]);
@@ -190,6 +196,7 @@ export function sceneKey(scene: Scene): string {
   parts.push(scene.roster);
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
+    if (profileOf(a)) parts.push([a.id, a.profile]);
     if (a.does) parts.push([a.id, a.does]);
   }
   return JSON.stringify(parts);

@@ -31,7 +31,7 @@ export interface VariantState {
 }
 
 export type Asked = Required<
-  Pick<AgentPatch, 'start' | 'goal' | 'chosen' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'>
+  Pick<AgentPatch, 'start' | 'goal' | 'chosen' | 'profile' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'>
 >;
 
 /** So many are made at most, and so many a scene holds with those that were kept. */
@@ -55,8 +55,8 @@ export function stateOfVariant(scene: Scene, subject: string | null): VariantSta
   });
 }
 
-export const askedOf = ({ start, goal, chosen, length, width, type, kind, subtype, does }: Agent): Asked =>
-  Object.freeze({ start, goal, chosen, length, width, type, kind, subtype, does });
+export const askedOf = ({ start, goal, chosen, profile, length, width, type, kind, subtype, does }: Agent): Asked =>
+  Object.freeze({ start, goal, chosen, profile, length, width, type, kind, subtype, does });
 
 /** Are the road users of a variant those that are here? */
 export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.roster;
@@ -70,7 +70,8 @@ export function takeVariant(scene: Scene, state: VariantState, name: string): Co
   for (const a of scene.agents.values()) {
     const asked = state.asked[a.id];
     if (asked) patches.set(a.id, asked);
-    else if (touched(a) || a.does !== null) patches.set(a.id, { ...recorded(a), chosen: null, ...NOTHING });
+    else if (touched(a) || a.does !== null)
+      patches.set(a.id, { ...recorded(a), chosen: null, profile: null, ...NOTHING });
   }
   const duration = durationOf(length, scene.steps);
   return {

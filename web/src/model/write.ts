@@ -27,6 +27,7 @@ import {
   startPose,
   staysAway,
   touched,
+  profileOf,
   type Agent,
   type Scene,
 } from './scene';
@@ -192,7 +193,7 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
       const a = scene.agents.get(id);
       return a ? [{ ...a, ...patch }] : [];
     });
-    const { picked, does } = ofAgents(all);
+    const { picked, does, curves } = ofAgents(all);
     return {
       id: v.id,
       ...(v.called ? { name: v.called } : {}),
@@ -209,6 +210,7 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
       conditions: Object.fromEntries(all.map((a) => [a.id, conditionOf(a)])),
       ...(picked ? { picked } : {}),
       ...(does ? { does } : {}),
+      ...(curves ? { curves } : {}),
     };
   });
 
@@ -228,6 +230,7 @@ export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
   };
   const ed: Partial<EditorJson> = {
     picked: entries((a) => a.chosen),
+    curves: entries(profileOf),
     names: entries((a) => a.called),
     notes: entries((a) => a.note),
     locked: ids((a) => a.locked),

@@ -171,7 +171,7 @@ describe('dragging a handle', () => {
 });
 
 describe('pinching', () => {
-  it('zooms with the distance of two fingers and ends with either', () => {
+  it('zooms with the distance of two fingers, and the one that stays moves the picture', () => {
     const z = p.view.z;
     p.down(A);
     p.down({ x: 400, y: 300 }, { id: 2 });
@@ -179,9 +179,56 @@ describe('pinching', () => {
     p.move({ x: 500, y: 300 }, { id: 2 });
     expect(p.view.z).toBeCloseTo(z * 2);
     p.up(A);
-    expect(p.state).toBe('idle');
+    expect(p.state).toBe('panning');
+    const { cx } = p.view;
+    p.move({ x: 540, y: 300 }, { id: 2 });
+    expect(p.view.cx).toBeCloseTo(cx - 40 / p.view.z);
     p.up(B, { id: 2 });
-    expect(p.state).toBe('idle');
+    expect([p.state, p.taps]).toEqual(['idle', []]);
+  });
+});
+
+describe('fingers', () => {
+  const C = { x: 500, y: 420 };
+  const tap = (n: 2 | 3, { apart = 0, ends = 200 } = {}): void => {
+    const places = [A, B, C].slice(0, n);
+    places.forEach((at, i) => p.down(at, { id: i + 1, touch: true, timeStamp: 0 }));
+    p.move({ x: A.x + apart, y: A.y }, { id: 1 });
+    places.forEach((at, i) => p.up(at, { id: i + 1, timeStamp: ends }));
+  };
+
+  it('are tapped two or three at once, shortly and without moving', () => {
+    tap(2);
+    tap(3);
+    expect(p.taps).toEqual([2, 3]);
+    tap(2, { apart: 30 });
+    tap(2, { ends: 900 });
+    expect([p.taps, p.state]).toEqual([[2, 3], 'idle']);
+  });
+
+  it('have a loupe over what they take along, which a mouse has not', () => {
+    p.editor.select('1');
+    p.hit = goalBody;
+    for (const touch of [true, false]) {
+      p.down(A, { touch });
+      p.move(B);
+      expect(p.magnified !== null).toBe(touch);
+      p.up(B);
+      expect(p.magnified).toBeNull();
+    }
+  });
+
+  it('take along who they are on, and move the picture beside somebody', () => {
+    const [agent, pile] = ['2', ['2']];
+    p.hit = { kind: 'agent', id: agent, pile, beside: true };
+    p.down(A, { touch: true });
+    p.move(B);
+    expect([p.state, p.editor.selection.peek()]).toEqual(['panning', null]);
+    p.up(B);
+    p.hit = { kind: 'agent', id: agent, pile };
+    p.down(A, { touch: true });
+    p.move(B);
+    expect([p.state, p.editor.selection.peek()]).toEqual(['dragging handle', '2']);
   });
 });
 

@@ -22,6 +22,10 @@ export class Pointer {
   calm = true;
   /** How often two ticks were felt. */
   ticked = 0;
+  /** What is shown larger. */
+  magnified: Point | null = null;
+  /** How many fingers were tapped at once. */
+  readonly taps: number[] = [];
   /** What menus were asked for. */
   readonly menus: string[] = [];
   readonly chart: Chart;
@@ -35,6 +39,9 @@ export class Pointer {
       setCursor: (name) => {
         this.cursor = name;
       },
+      magnify: (place) => {
+        this.magnified = place;
+      },
     };
     this.chart = new Chart({
       surface,
@@ -45,6 +52,7 @@ export class Pointer {
       calm: () => this.calm,
       ticks: () => this.ticked++,
       menu: (_, on) => this.menus.push(on),
+      tapped: (fingers) => this.taps.push(fingers),
       tool: toolOf,
     });
   }
@@ -53,8 +61,8 @@ export class Pointer {
     return this.chart.state.name;
   }
 
-  down(p: Point, { id = 1, button = 0, touch = false } = {}): void {
-    this.chart.down({ ...p, id, button, touch });
+  down(p: Point, { id = 1, button = 0, touch = false, timeStamp = 0 } = {}): void {
+    this.chart.down({ ...p, id, button, touch, timeStamp });
   }
 
   /** Moves, and lets a frame pass. */

@@ -1,42 +1,144 @@
-// The road users as a list, for those who do not see the canvas.
-import { useMemo } from 'preact/hooks';
-import { useComputed, type ReadonlySignal } from '@preact/signals';
+// The road users as a list: for those who do not see the canvas always, for everybody as a panel with filters.
+import { useEffect, useMemo } from 'preact/hooks';
+import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
-import { canChange, hasGoal, startPose, type Agent } from '../../model/scene';
+import { canChange, hasGoal, startPose, type Agent, type AgentType } from '../../model/scene';
 import { speedLabel } from '../../model/units';
 import { laneWords } from '../../edit/snap';
 import { useAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
+import { IconButton } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+
+const KINDS: readonly (readonly [AgentType | 'all', string])[] = [
+  ['all', 'All'],
+  ['vehicle', 'Vehicles'],
+  ['cyclist', 'Cyclists'],
+  ['pedestrian', 'On foot'],
+];
+
+/** Who is listed: of which kind, and of these only who has a goal, or is in an event. */
+interface Filter {
+  readonly kind: AgentType | 'all';
+  readonly goal: boolean;
+  readonly events: boolean;
+}
+const EVERYBODY: Filter = { kind: 'all', goal: false, events: false };
 
 export function RoadUsers() {
-  const { editor } = useApp();
+  const { editor, ui } = useApp();
   const id = useComputed(() => editor.scene.value?.id).value;
   const label = useComputed(() => `Road users, ${editor.scene.value?.agents.size ?? 0}`);
+  const open = useComputed(() => ui.drawer.value === 'users').value;
+  const filter = useSignal(EVERYBODY);
+  // Nobody is left out of a list whose filters cannot be seen.
+  useEffect(() => {
+    if (!open) filter.value = EVERYBODY;
+  }, [open, filter]);
   return (
-    <nav class="sr" aria-label={label} data-group="users">
-      {id === undefined ? null : <List key={id} />}
+    <nav
+      class={open ? 'drawer card users' : 'sr'}
+      aria-label={label}
+      aria-description={open ? 'Arrows walk the list.' : 'Tab goes to the next one, F6 to the next part of the page.'}
+      data-group="users"
+      onKeyDown={open ? walkList : undefined}
+    >
+      {open ? <Head filter={filter} /> : null}
+      {id === undefined ? null : <List key={id} filter={filter} />}
     </nav>
   );
 }
 
-function List() {
-  const { editor } = useApp();
+/** In the open list the arrows walk, as in every list; what they move elsewhere stays. */
+function walkList(e: KeyboardEvent & { currentTarget: HTMLElement }): void {
+  if (e.key !== 'ArrowDown' && e.key !== 'ArrowUp') return;
+  const all = [...e.currentTarget.querySelectorAll<HTMLElement>('[data-agent]')];
+  const at = all.indexOf(e.target as HTMLElement);
+  if (at < 0) return;
+  e.preventDefault();
+  e.stopPropagation();
+  all[at + (e.key === 'ArrowDown' ? 1 : -1)]?.focus();
+}
+
+function Head({ filter }: { filter: { value: Filter } }) {
+  const { kind, goal, events } = filter.value;
+  const toggle = (what: 'goal' | 'events', words: string, on: boolean) => (
+    <button
+      type="button"
+      class={`btn line ${on ? 'on' : ''}`}
+      aria-pressed={on}
+      onClick={() => (filter.value = { ...filter.value, [what]: !on })}
+    >
+      {on ? <Icon name="check" size={14} /> : null}
+      {words}
+    </button>
+  );
+  return (
+    <>
+      <h2>
+        Road users
+        <span class="grow" />
+        <IconButton id="users" icon="x" size={16} />
+      </h2>
+      <div class="filters" role="group" aria-label="Who is listed">
+        <div class="seg wide" role="radiogroup" aria-label="Kind">
+          {KINDS.map(([id, words]) => (
+            <button
+              key={id}
+              type="button"
+              class={`btn ${kind === id ? 'on' : ''}`}
+              role="radio"
+              aria-checked={kind === id}
+              onClick={() => (filter.value = { ...filter.value, kind: id })}
+            >
+              {words}
+            </button>
+          ))}
+        </div>
+        {toggle('goal', 'With a goal', goal)}
+        {toggle('events', 'In an event', events)}
+      </div>
+    </>
+  );
+}
+
+const inEvent = ({ editor }: Context, id: string) =>
+  editor.events.value.find((e) => !e.inLog && (e.a.id === id || e.b?.id === id));
+
+function List({ filter }: { filter: ReadonlySignal<Filter> }) {
+  const c = useApp();
+  const { editor } = c;
   // Who comes or goes makes another list; who only changes does not.
   const roster = useComputed(() => editor.scene.value?.roster).value;
-  const listed = useMemo(
+  const everybody = useMemo(
     () => [...(editor.scene.peek()?.agents.values() ?? [])].filter(canChange).map((a) => a.id),
     [roster, editor],
   );
+  const listed = useComputed(() => {
+    const { kind, goal, events } = filter.value;
+    const fits = (a: Agent | undefined): boolean =>
+      a !== undefined &&
+      (kind === 'all' || a.type === kind) &&
+      (!goal || hasGoal(a.goal)) &&
+      (!events || !!inEvent(c, a.id));
+    // Without a filter nothing of the scene is looked at: it changes with every frame of a drag.
+    if (filter.value === EVERYBODY) return '';
+    return everybody.filter((id) => fits(editor.scene.value?.agents.get(id))).join('\n');
+  }).value;
+  const shown = filter.value === EVERYBODY ? everybody : listed.split('\n').filter(Boolean);
   /** The one that Tab comes to: who is selected, else the first. */
   const tabStop = useComputed(() => editor.selected.value[0] ?? editor.scene.value?.agents.keys().next().value);
   return (
-    <ul>
-      {listed.map((id) => (
-        <li key={id}>
-          <RoadUser id={id} tabStop={tabStop} />
-        </li>
-      ))}
-    </ul>
+    <>
+      {shown.length ? null : <p class="mut none">Nobody is like that.</p>}
+      <ul>
+        {shown.map((id) => (
+          <li key={id}>
+            <RoadUser id={id} tabStop={tabStop} />
+          </li>
+        ))}
+      </ul>
+    </>
   );
 }
 
@@ -45,10 +147,9 @@ function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string 
   const c = useApp();
   const { editor } = c;
   const agent = useAgent(id);
-  const event = useComputed(
-    () => editor.events.value.find((e) => !e.inLog && (e.a.id === id || e.b?.id === id))?.label ?? '',
-  );
-  const words = useComputed(() => wordsFor(c, agent.value, event.value));
+  const event = useComputed(() => inEvent(c, id)?.label ?? '');
+  const name = useComputed(() => agent.value.name);
+  const words = useComputed(() => `, ${wordsFor(c, agent.value, event.value)}`);
   const pressed = useComputed(() => String(editor.selected.value.includes(id)));
   const tabindex = useComputed(() => (tabStop.value === id ? 0 : -1));
   return (
@@ -63,16 +164,17 @@ function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string 
         c.reveal([id]);
       }}
     >
-      {words}
+      <b>{name}</b>
+      <small>{words}</small>
     </button>
   );
 }
 
-/** `Car 4, 16 km/h, westbound lane, goal set, near miss 4.7 s` */
+/** `16 km/h, westbound lane, goal set, near miss 4.7 s` */
 function wordsFor({ editor }: Context, a: Agent, event: string): string {
   const p = startPose(a);
-  if (!p) return a.name;
+  if (!p) return 'not there at the start';
   const place = a.parked ? 'parked' : laneWords(editor.scene.peek()!.map, a, p.x, p.y, p.heading);
   const goal = hasGoal(a.goal) ? 'goal set' : '';
-  return [a.name, speedLabel(p.speed, editor.unitOf(a)), place, goal, event.toLowerCase()].filter(Boolean).join(', ');
+  return [speedLabel(p.speed, editor.unitOf(a)), place, goal, event.toLowerCase()].filter(Boolean).join(', ');
 }

@@ -12,12 +12,12 @@ export function ImportReport() {
   const bad = verdicts.filter((v) => !v.ok);
   return (
     <Modal label="Import" class="import" close={close}>
-      <header>
+      <div class="dhead">
         <span class={bad.length ? 't-collision' : ''}>
           <Icon name={bad.length ? 'warn' : 'check'} size={22} />
         </span>
         <h2>{titleOf(verdicts)}</h2>
-      </header>
+      </div>
       <div class="body">
         {verdicts.map((v, i) => (
           <FileRow key={i} verdict={v} />
@@ -52,7 +52,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
   };
   const mendable = bad.some((v) => v.without ?? v.again);
   return (
-    <footer>
+    <div class="dfoot">
       <span class="mut">Your files were not changed.</span>
       <span class="grow" />
       {details.length ? (
@@ -79,7 +79,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
       >
         Close
       </button>
-    </footer>
+    </div>
   );
 }
 

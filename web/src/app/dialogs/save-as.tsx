@@ -15,9 +15,9 @@ export function SaveAs() {
   };
   return (
     <Modal label="Save as" class="import narrow" close={close}>
-      <header>
+      <div class="dhead">
         <h2>Save as</h2>
-      </header>
+      </div>
       <div class="body">
         <label class="field">
           <input
@@ -35,7 +35,7 @@ export function SaveAs() {
         </label>
         <p class="mut">A scene of your own, which saves itself. This one stays as it is.</p>
       </div>
-      <footer>
+      <div class="dfoot">
         <span class="grow" />
         <button type="button" class="btn line" onClick={close}>
           Cancel
@@ -43,7 +43,7 @@ export function SaveAs() {
         <button type="button" class="btn pri" onClick={save}>
           Save
         </button>
-      </footer>
+      </div>
     </Modal>
   );
 }

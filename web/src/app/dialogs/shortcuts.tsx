@@ -67,7 +67,7 @@ export function Shortcuts() {
   const close = () => ui.closeDialog();
   return (
     <Modal label="Shortcuts" class="keys" close={close}>
-      <header>
+      <div class="dhead">
         <h2>Shortcuts</h2>
         <span class="grow" />
         <label class="field search">
@@ -86,8 +86,8 @@ export function Shortcuts() {
         <button type="button" class="btn i" aria-label="Close" onClick={close}>
           <Icon name="x" size={16} />
         </button>
-      </header>
-      <div class="cols">
+      </div>
+      <div class="cols" tabIndex={0} role="group" aria-label="All keys">
         {GROUPS.map((g) => (
           <Sheet key={g} group={g} query={query.value} />
         ))}

@@ -16,6 +16,8 @@ import { HoverCard } from './hover-card';
 import { PlacePanel } from './place-panel';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
+import { LoupeWords } from './loupe-words';
+import { Thumb } from './thumb';
 import { WayBack } from './way-back';
 
 const fillPanel = () => import('./fill-panel').then((m) => m.default);
@@ -24,7 +26,7 @@ const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
 export function Hud() {
   const c = useApp();
-  const { editor, ui } = c;
+  const { editor, form, ui } = c;
   const shift = ui.drawer.value ? 'shift' : '';
   const filling = useComputed(() => editor.filling.wish.value !== null).value;
   const placing = useComputed(() => {
@@ -33,7 +35,8 @@ export function Hud() {
   }).value;
   return (
     <div class="hud">
-      <Rail />
+      {form.small.value ? <Thumb /> : <Rail />}
+      <LoupeWords />
       <div class="tr">
         <div class="card chipbar" role="group" aria-label="Layers">
           {LAYERS.map((l) => (
@@ -76,7 +79,7 @@ function Rail() {
 function Tool({ id, class: className }: { id: string; class?: string }) {
   return (
     <ActionButton id={id} size={20} class={className} iconOnly>
-      <em>{actionOf(id).keys![0]}</em>
+      <em data-key={actionOf(id).keys![0]} aria-hidden="true" />
     </ActionButton>
   );
 }

@@ -7,7 +7,7 @@ import { Icon } from '../parts/icons';
 const STEPS = ['Click a car', 'Drag its flag to where it should be in 9 s', 'Let go: the others react'];
 
 export function Coach() {
-  const { editor, ui } = useApp();
+  const { editor, form, ui } = useApp();
   const shown = useComputed(
     () =>
       ui.coach.value > 0 &&
@@ -22,7 +22,7 @@ export function Coach() {
       {STEPS.map((text, i) => (
         <div key={i} class={`st ${ui.coach.value === i + 1 ? 'now' : ''}`}>
           <span class="n">{i + 1}</span>
-          {text}
+          {form.touch.value ? text.replace('Click', 'Tap') : text}
         </div>
       ))}
       <button type="button" class="btn i" aria-label="Close the hint" onClick={() => ui.endCoach()}>

@@ -74,12 +74,25 @@ function Head({ agent }: { agent: LiveAgent }) {
       <div class="grow">
         <NameField agent={agent} />
         <p>{where}</p>
+        <VerdictLine agent={agent} />
       </div>
       <IconButton id="follow" />
       <IconButton id="zoom-selection" />
       <IconButton id="menu" icon="more" />
     </div>
   );
+}
+
+/** The verdict in a line, for where there is no room for more. */
+function VerdictLine({ agent }: { agent: LiveAgent }) {
+  const c = useApp();
+  const v = useComputed(() => verdictOn(c, agent.value)).value;
+  return v ? (
+    <p class={`vline ${v.kind}`}>
+      <Icon name={v.icon} size={14} />
+      {v.title}
+    </p>
+  ) : null;
 }
 
 /** The name, to be changed in place; emptied, it is the kind and the number again. */

@@ -6,6 +6,7 @@ import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { Controls } from '../parts/asking';
 import { OTHERS } from '../parts/others';
 import { EventList } from './event-list';
 
@@ -47,7 +48,7 @@ function Nothing() {
 }
 
 function About({ scene }: { scene: Scene }) {
-  const { editor } = useApp();
+  const { editor, form } = useApp();
   const others = useComputed(() => `${actionOf(`others-${editor.scene.value?.others ?? 'react'}`).help}.`);
   return (
     <>
@@ -76,6 +77,14 @@ function About({ scene }: { scene: Scene }) {
         </h3>
         <EventList most={FIRST_EVENTS} />
       </section>
+      {form.sheet.value ? (
+        <section class="sect">
+          <h3>Futures</h3>
+          <div class="row asking">
+            <Controls />
+          </div>
+        </section>
+      ) : null}
       <section class="sect">
         <h3>Others</h3>
         <Segments label="What the others do" items={OTHERS} />

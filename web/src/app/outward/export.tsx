@@ -242,14 +242,14 @@ function Kinds({ scope }: { scope: Scope }) {
           <KindRow key={k.id} kind={k} made={made} chosen={chosen} />
         ))}
       </div>
-      <footer>
+      <div class="dfoot">
         <span>
           <span class="about">Metres, x east, y north, 0 s = first step. Written into the file.</span>
           {typeof ready === 'object' ? fileWords(ready) : (ready ?? `${kind.label} ${kind.ending}`)}
         </span>
         <span class="grow" />
         <SaveButton kind={kind} ready={ready} progress={progress} stop={stop.current.signal} />
-      </footer>
+      </div>
     </>
   );
 }

@@ -98,13 +98,13 @@ export default function Share() {
         />
         <Switch label="History" note="stays here: too large for a link" on={false} />
       </div>
-      <footer>
+      <div class="dfoot">
         <span class="mut">No account, nothing is uploaded.</span>
         <span class="grow" />
         <button type="button" class="btn line" onClick={() => void download(c, 'dragtraffic')}>
           Save as file
         </button>
-      </footer>
+      </div>
     </Flyout>
   );
 }

@@ -1,6 +1,8 @@
 // Icons as paths on an 18 x 18 grid, drawn with a 1.5 px line.
 /* eslint-disable max-len -- a path is one string */
 const PATHS: Record<string, string> = {
+  people:
+    'M6.500 8.500a2.300 2.300 0 1 0 0-4.600 2.300 2.300 0 0 0 0 4.600zM2.500 14.500c0-2.400 1.700-3.900 4-3.900s4 1.500 4 3.900M12 8.300a2 2 0 1 0-1-3.800M12.500 10.700c1.900.2 3 1.600 3 3.800',
   menu: 'M3 5.2h12M3 9h12M3 12.800h12',
   list: 'M3.200 4h11.600v10H3.200zM7.200 4v10',
   undo: 'M5.200 6.600h5.700a3.900 3.900 0 0 1 0 7.800H8M5.200 6.600l2.900-2.900M5.200 6.600l2.900 2.900',

@@ -42,9 +42,9 @@ export function Modal({ label, class: className, close, children }: ModalProps) 
         if (e.target === scrim.current) close();
       }}
     >
-      <div class={`dlg ${className}`} role="dialog" aria-modal="true" aria-label={label}>
+      <section class={`dlg ${className}`} role="dialog" aria-modal="true" aria-label={label}>
         {children}
-      </div>
+      </section>
     </div>
   );
 }

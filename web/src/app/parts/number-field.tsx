@@ -3,6 +3,7 @@
 import { useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
 import { useLiveEffect } from './hooks';
+import { useApp } from './app-context';
 import { num, parseTyped, readTyped, type Quantity } from '../../model/units';
 
 export interface NumberFieldProps {
@@ -38,6 +39,7 @@ export const WHY_MS = 4000;
 const clean = (v: number): number => Number(v.toFixed(6));
 
 export function NumberField(p: NumberFieldProps) {
+  const { form } = useApp();
   const input = useRef<HTMLInputElement>(null);
   /** Something is typed that has not been taken over. */
   const typed = useRef(false);
@@ -99,6 +101,23 @@ export function NumberField(p: NumberFieldProps) {
     p.set(clean(now + d), true);
     input.current!.value = p.text();
   };
+  /** For fingers, while the field is in use: one step less, one more. */
+  const stepper = (by: 1 | -1) =>
+    form.touch.value ? (
+      <button
+        type="button"
+        class="stepper"
+        tabindex={-1}
+        aria-label={`${p.label}, ${by < 0 ? 'less' : 'more'}`}
+        onPointerDown={(e) => e.preventDefault()}
+        onClick={(e) => {
+          e.preventDefault();
+          bump(by * p.step);
+        }}
+      >
+        {by < 0 ? '−' : '+'}
+      </button>
+    ) : null;
   const keyDown = (e: KeyboardEvent) => {
     if (e.key === 'Enter') {
       if (commit()) input.current!.select();
@@ -115,6 +134,7 @@ export function NumberField(p: NumberFieldProps) {
   return (
     <label class={className}>
       {p.letter ? <Scrub letter={p.letter} {...p} /> : null}
+      {stepper(-1)}
       <input
         ref={input}
         type="text"
@@ -138,6 +158,7 @@ export function NumberField(p: NumberFieldProps) {
         }}
         onKeyDown={keyDown}
       />
+      {stepper(1)}
       {p.onUnit ? (
         <button
           type="button"

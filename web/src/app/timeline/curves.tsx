@@ -92,8 +92,8 @@ function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
         />
       ) : null}
       {f ? <FutureCurves axes={axes} futures={f} /> : null}
-      <StartPoint axes={axes} agent={agent} />
-      <GoalPoint axes={axes} agent={agent} />
+      {editor.curve.points.peek().length ? null : <StartPoint axes={axes} agent={agent} />}
+      {editor.curve.points.peek().length ? null : <GoalPoint axes={axes} agent={agent} />}
     </>
   );
 }

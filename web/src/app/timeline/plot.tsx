@@ -3,12 +3,15 @@
 import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
+import { fromUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { useFrameTick } from '../parts/hooks';
 import { axesOf, X0, type Axes, type Size } from './axes';
 import { Curves } from './curves';
 import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
+import { PointFields } from './point-fields';
+import { SpeedPoints } from './speed-points';
 
 /** Everything that the curves, the grid and the badges show. */
 const shown = ({ editor }: Context): unknown => [
@@ -24,6 +27,7 @@ const shown = ({ editor }: Context): unknown => [
   editor.speedUnit.value,
   editor.selectedEvent.value,
   editor.hoverFuture.value,
+  editor.curve.points.value,
 ];
 
 export function Plot() {
@@ -37,29 +41,35 @@ export function Plot() {
   useLayoutEffect(() => {
     const el = box.current!;
     const watch = new ResizeObserver(() => {
-      size.value = { w: el.clientWidth, h: el.clientHeight };
+      // Nobody sees a plot without a height, and it has no axes.
+      if (el.clientHeight) size.value = { w: el.clientWidth, h: el.clientHeight };
     });
     watch.observe(el);
     return () => watch.disconnect();
   }, [size]);
   const seek = useSeek(c, size);
   return (
-    <div
-      ref={box}
-      class="plot"
-      role="slider"
-      tabindex={0}
-      aria-label="Playhead"
-      aria-valuemin={0}
-      aria-valuemax={end as never}
-      aria-valuenow={now as never}
-      aria-valuetext={useComputed(() => `${now.value} seconds`)}
-      {...seek}
-    >
-      <svg role="img" aria-label="Speed over time">
-        <Drawing tick={tick} size={size} />
-        <Playhead tick={tick} size={size} />
+    <div ref={box} class="plot">
+      <div
+        class="seek"
+        role="slider"
+        tabindex={0}
+        aria-label="Playhead"
+        aria-valuemin={0}
+        aria-valuemax={end as never}
+        aria-valuenow={now as never}
+        aria-valuetext={useComputed(() => `${now.value} seconds`)}
+        {...seek}
+      >
+        <svg role="img" aria-label="Speed over time">
+          <Drawing tick={tick} size={size} />
+          <Playhead tick={tick} size={size} />
+        </svg>
+      </div>
+      <svg class="pts" role="group" aria-label="Points of the speed curve">
+        <Points tick={tick} size={size} />
       </svg>
+      <PointFields />
     </div>
   );
 }
@@ -89,6 +99,11 @@ function Drawing({ tick, size }: DrawingProps) {
   );
 }
 
+function Points({ tick, size }: DrawingProps) {
+  void tick.value;
+  return <SpeedPoints axes={axesOf(useApp(), size.peek())} />;
+}
+
 function Playhead({ tick, size }: DrawingProps) {
   const c = useApp();
   const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
@@ -109,6 +124,8 @@ function Playhead({ tick, size }: DrawingProps) {
 /** The playhead goes where one presses and drags, and by keys in steps of 0.1 s. */
 function useSeek(c: Context, size: ReadonlySignal<Size>) {
   const on = useRef(false);
+  /** Where the playhead was before the last two presses: a double click is not about it. */
+  const before = useRef<readonly [number, number]>([0, 0]);
   const tenth = (t: number): number => Math.round(t * 10) / 10;
   const seek = (e: PointerEvent & { currentTarget: HTMLElement }) => {
     const a = axesOf(c, size.peek());
@@ -118,7 +135,9 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
   return {
     onPointerDown: (e: PointerEvent & { currentTarget: HTMLElement }) => {
       if ((e.target as Element).closest('.badge')) return;
+      c.editor.curve.take(null);
       on.current = true;
+      before.current = [before.current[1], c.editor.time.peek()];
       e.currentTarget.setPointerCapture(e.pointerId);
       c.editor.playhead.pause();
       seek(e);
@@ -128,6 +147,17 @@ function useSeek(c: Context, size: ReadonlySignal<Size>) {
     },
     onPointerUp: () => {
       on.current = false;
+    },
+    onDblClick: (e: MouseEvent & { currentTarget: HTMLElement }) => {
+      if ((e.target as Element).closest('.badge')) return;
+      const a = axesOf(c, size.peek());
+      const r = e.currentTarget.getBoundingClientRect();
+      const [x, y] = [e.clientX - r.left, e.clientY - r.top];
+      const v = ((a.y1 - y) / (a.y1 - a.y0)) * a.top;
+      const why = c.editor.curve.why;
+      c.editor.setTime(before.current[0]);
+      if (why) c.editor.notices.show({ text: why });
+      else c.editor.curve.add(((x - X0) / (a.x1 - X0)) * a.duration, Math.max(0, fromUnit(v, a.unit)));
     },
     onKeyDown: (e: KeyboardEvent) => {
       if (e.key !== 'ArrowLeft' && e.key !== 'ArrowRight') return;

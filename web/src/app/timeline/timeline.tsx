@@ -9,16 +9,19 @@ import { OTHERS } from '../parts/others';
 import { Plot } from './plot';
 
 export function Timeline() {
+  const { form } = useApp();
   return (
     <footer class="time" aria-label="Timeline" data-group="timeline">
       <div class="tb">
         <IconButton id="to-start" />
         <IconButton id="play" class="playing" after={<Icon name="pause" size={18} />} />
         <IconButton id="to-end" />
+        {form.sheet.value ? <Scrubber /> : null}
         <Clock />
         <RateButton />
         <IconButton id="loop" />
         <IconButton id="next-event" />
+        <IconButton id="tall-timeline" />
         <span class="grow" />
         <span class="fieldlab">Length</span>
         <Segments label="How much is worked out" items={seconds('length', LENGTHS)} />
@@ -45,6 +48,29 @@ function Clock() {
       {now}
       <small>{end}</small>
     </span>
+  );
+}
+
+/** Where fingers are the hand, the playhead has a rail of its own. */
+function Scrubber() {
+  const { editor } = useApp();
+  const end = useComputed(() => editor.scene.value?.duration ?? 9);
+  const now = useComputed(() => editor.time.value.toFixed(1));
+  return (
+    <input
+      type="range"
+      class="scrub"
+      aria-label="Time"
+      min={0}
+      max={end as never}
+      step={0.1}
+      value={now}
+      style={useComputed(() => `--fill: ${(100 * editor.time.value) / end.value}%`)}
+      onInput={(e) => {
+        editor.playhead.pause();
+        editor.setTime(Number(e.currentTarget.value));
+      }}
+    />
   );
 }
 

@@ -5,6 +5,7 @@ import type { View } from '../../draw/view';
 import type { Command } from '../../model/commands';
 import type { Editor } from '../editor';
 import type { Hit } from '../hit';
+import { FingerTap } from './finger-tap';
 import { Idle } from './idle';
 import { Pile } from './pile';
 import { Pinching } from './pinching';
@@ -23,6 +24,8 @@ export interface PointerDown extends Point {
   /** 0 the main button, 1 the middle one, 2 the right one. */
   readonly button: number;
   readonly modifiers?: Modifiers;
+  /** When it happened, milliseconds. */
+  readonly timeStamp?: number;
 }
 
 /** What a menu is asked for. */
@@ -59,6 +62,8 @@ export interface Surface {
   viewChanged(): void;
   /** The shape of the pointer over the picture; empty for the plain one. */
   setCursor(name: string): void;
+  /** Shows the surroundings of a place larger, away from the finger that covers it; null for no longer. */
+  magnify(place: Point | null): void;
 }
 
 /** Live futures during a drag; the generation is one. */
@@ -77,6 +82,8 @@ export interface ChartParts {
   calm(): boolean;
   /** A menu is asked for at a place of the picture. */
   menu(at: Point, on: MenuOn): void;
+  /** So many fingers were tapped at once: two, or three. */
+  tapped(fingers: number): void;
   /** Two short ticks under the finger. */
   ticks(): void;
   tool(name: ToolName): Tool;
@@ -94,6 +101,7 @@ export class Chart {
   readonly editor: Editor;
   readonly previews: Previews;
   readonly #fingers = new Map<number, Point>();
+  readonly #tap = new FingerTap();
   #state: State;
   #moved = false;
 
@@ -106,6 +114,11 @@ export class Chart {
 
   get state(): State {
     return this.#state;
+  }
+
+  /** Where the only finger is that is down. */
+  get finger(): Point | null {
+    return this.#fingers.size === 1 ? this.#fingers.values().next().value! : null;
   }
 
   /** The one way from state to state. */
@@ -137,6 +150,7 @@ export class Chart {
 
   down(p: PointerDown): void {
     this.#fingers.set(p.id, { x: p.x, y: p.y });
+    this.#tap.down(p.id, p, this.#fingers.size === 1, p.timeStamp ?? 0);
     if (this.#fingers.size === 1) {
       this.at = { x: p.x, y: p.y };
       if (p.modifiers) this.modifiers = p.modifiers;
@@ -150,6 +164,7 @@ export class Chart {
 
   move(id: number, p: Point, modifiers: Modifiers, overPicture: boolean): void {
     const from = this.#fingers.get(id);
+    this.#tap.move(id, p);
     if (from && this.#state.moveFinger) {
       const other = [...this.#fingers].find(([k]) => k !== id)![1];
       this.#fingers.set(id, p);
@@ -176,12 +191,15 @@ export class Chart {
     if (!this.#fingers.delete(id)) return;
     this.at = p;
     this.#state.up?.(timeStamp);
+    const taps = this.#fingers.size ? 1 : this.#tap.up(timeStamp);
+    if (taps > 1) this.parts.tapped(taps);
     this.surface.invalidate('agents', 'overlay');
   }
 
   /** The page took the pointer away. */
   lost(id: number): void {
     this.#fingers.delete(id);
+    this.#tap.lost();
     this.cancel();
   }
 

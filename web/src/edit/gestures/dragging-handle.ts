@@ -2,6 +2,7 @@
 import { batch } from '@preact/signals-core';
 import { clamp, type Point } from '../../model/geometry';
 import type { Command } from '../../model/commands';
+import { startPose } from '../../model/scene';
 import type { Chart, State } from './chart';
 import type { HandleMove } from './handle-move';
 import type { Press } from './pressed';
@@ -38,6 +39,7 @@ export class DraggingHandle implements State {
   }
 
   leave(): void {
+    this.chart.surface.magnify(null);
     this.chart.surface.setCursor('');
   }
 
@@ -50,8 +52,18 @@ export class DraggingHandle implements State {
       chart.editor.previewDrag(this.#command);
       chart.previews.preview(this.what.agent.id);
     });
+    if (this.press.touch) chart.surface.magnify(this.#inHand());
     if (this.press.touch && this.what.held && !wasHeld) chart.parts.ticks();
     chart.surface.invalidate('overlay');
+  }
+
+  /** What the finger covers: the box or flag that it moves, else the place under it. */
+  #inHand(): Point {
+    const { editor, surface, at } = this.chart;
+    const { grip } = this.what;
+    const a = editor.agent.peek();
+    const pose = a && (grip.part === 'goal' ? editor.goalPose(a) : startPose(a));
+    return pose && grip.handle === 'body' ? { x: surface.view.x(pose.x), y: surface.view.y(pose.y) } : at;
   }
 
   frame(seconds: number): boolean {

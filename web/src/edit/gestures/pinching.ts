@@ -1,6 +1,8 @@
-// Two fingers pan and zoom at once.
+// Two fingers pan and zoom at once; the one that stays goes on moving the picture.
 import type { Point } from '../../model/geometry';
+import { NOTHING } from '../hit';
 import type { Chart, State } from './chart';
+import { Panning } from './panning';
 
 export class Pinching implements State {
   readonly name = 'pinching';
@@ -16,6 +18,11 @@ export class Pinching implements State {
   }
 
   up(): void {
-    this.chart.rest();
+    const { chart } = this;
+    const stays = chart.finger;
+    if (!stays) return chart.rest();
+    const { cx, cy } = chart.surface.view;
+    chart.at = stays;
+    chart.go(new Panning(chart, { ...stays, touch: true, hit: NOTHING, cx, cy }));
   }
 }

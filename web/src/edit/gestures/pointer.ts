@@ -26,6 +26,10 @@ export class Gestures {
   readonly chart: Chart;
   /** A menu is asked for. */
   onMenu: ((at: Point, on: MenuOn) => void) | null = null;
+  /** Several fingers were tapped at once. */
+  onTap: ((fingers: number) => void) | null = null;
+  /** Did the finger that is down ask for a menu? */
+  #asked = false;
   #inside = false;
   /** Where the picture lies on the page while a pointer is down; measuring it at every move would lay out the page. */
   #held: DOMRect | null = null;
@@ -49,7 +53,11 @@ export class Gestures {
         // Not every browser has it.
         navigator.vibrate?.(TICKS_MS);
       },
-      menu: (at, on) => this.onMenu?.(at, on),
+      menu: (at, on) => {
+        this.#asked = true;
+        this.onMenu?.(at, on);
+      },
+      tapped: (fingers) => this.onTap?.(fingers),
       tool: toolOf,
     });
     this.#listen(stage.element);
@@ -74,6 +82,10 @@ export class Gestures {
       this.#inside = false;
       this.#held = null;
       chart.outside();
+    });
+    // The menu opens under the finger: without this its lifting would press what lies there now.
+    el.addEventListener('touchend', (e) => {
+      if (this.#asked && e.cancelable) e.preventDefault();
     });
     el.addEventListener('wheel', (e) => this.#wheel(e), { passive: false });
     // The menu is the editor's own; it opens with the release, for the right button also moves the picture.
@@ -127,11 +139,13 @@ export class Gestures {
     } catch {
       // The pointer may be gone already.
     }
+    this.#asked = false;
     this.#held = this.stage.element.getBoundingClientRect();
     this.chart.down({
       id: e.pointerId,
       ...this.#place(e),
       touch: e.pointerType === 'touch',
+      timeStamp: e.timeStamp,
       button: e.button,
       modifiers: modifiersOf(e),
     });

@@ -29,6 +29,11 @@ export class Pressed implements State {
     private readonly press: Press,
   ) {}
 
+  enter(): void {
+    // Time passes with frames, and a finger that rests asks for none.
+    if (this.press.touch) this.chart.surface.invalidate();
+  }
+
   frame(seconds: number): boolean {
     if (!this.press.touch) return false;
     this.#held += seconds;

@@ -69,10 +69,13 @@ function several(chart: Chart, press: Press, what: FrameHandle): State {
   return free.length ? new DraggingSeveral(chart, press, free, what) : new Refused(chart, false);
 }
 
-/** At the start of the scene a road user itself is the handle of its start. */
+/**
+ * At the start of the scene a road user itself is the handle of its start. A finger beside it moves the picture: there
+ * is always somebody near.
+ */
 function bodyUnder({ editor }: Chart, { hit }: Press): string | null {
   if (editor.time.peek() >= 0.05) return null;
-  if (hit.kind === 'agent') return hit.id;
+  if (hit.kind === 'agent') return hit.beside ? null : hit.id;
   const start = hit.kind === 'grip' && hit.grip.part === 'start' && hit.grip.handle === 'body';
   return start ? editor.selection.peek() : null;
 }

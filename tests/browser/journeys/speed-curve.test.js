@@ -1,0 +1,126 @@
+// The speed curve in hand: a stop for some seconds, in numbers, and what the generator makes of it.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { carOnTheMove } from '../support/casting.js';
+import { journeys } from '../support/journey.js';
+
+const points = (e) =>
+  e.page.locator('.plot .point').evaluateAll((all) => all.map((p) => p.getAttribute('aria-valuetext')));
+const dot = async (e, nth) => {
+  const r = await e.page.locator('.plot .point .dot').nth(nth).boundingBox();
+  return [r.x + r.width / 2, r.y + r.height / 2];
+};
+
+/** A car, with one point of its speed curve pulled to the ground in the middle. */
+async function stopping(stage) {
+  const e = await stage.open();
+  await e.begin();
+  const car = await carOnTheMove(e);
+  await e.choose(car.id);
+  assert.equal((await points(e)).length, 2, 'start and end are there from the beginning');
+  const plot = await e.page.locator('.plot').boundingBox();
+  await e.page.mouse.dblclick(plot.x + plot.width * 0.5, plot.y + plot.height * 0.55);
+  await e.settled();
+  assert.equal((await points(e)).length, 3);
+  const mark = e.wire.asked.length;
+  const from = await dot(e, 1);
+  await e.drag(from, [from[0], plot.y + plot.height + 2]);
+  await e.picture('speed-curve-in-hand');
+  assert.equal(e.wire.since(mark).length, 0, 'nobody answers before the release');
+  await e.release();
+  return { e, car, mark };
+}
+
+/** The motion of somebody that the generator was asked to keep and judge, and what it says of it. */
+const judged = (e, id) => {
+  const asked = e.wire.asked.findLast((a) => a.body.pinned?.includes(id));
+  const [mode] = asked.body.scene.generated.samples[0].agents[id].modes;
+  return { asked, mode, score: asked.event('final').scores[0] };
+};
+
+journeys('the speed curve', (stage) => {
+  it(
+    'a point pulled to the ground stops the car there, and the generator judges that motion',
+    { timeout: 60_000 },
+    async () => {
+      const { e, car } = await stopping(stage);
+      const said = (await points(e))[1];
+      assert.match(said, /^0 km\/h for 1\.0 s at \d\.\d s$/);
+      const { asked, mode, score } = judged(e, car.id);
+      assert.ok(asked.body.react, 'others answer it');
+      // It is exactly at rest, and for as long as was asked.
+      const still = mode.x_m.filter((x, i) => i && x === mode.x_m[i - 1] && mode.y_m[i] === mode.y_m[i - 1]).length;
+      assert.ok(still >= 9 && still < 20, `stands for ${still} steps`);
+      const speeds = mode.vx_mps.map((vx, i) => Math.hypot(vx, mode.vy_mps[i]));
+      assert.ok(score.agents[car.id].kinematic.violations === 0, 'within what a car can do');
+      assert.equal(await e.text('.fu[aria-checked="true"] .nm'), 'At your speed');
+      assert.ok(Math.min(...speeds) === 0 && speeds.at(-1) > 0.5, 'and goes on');
+      assert.match(await e.text('.toast'), new RegExp(`Speed curve of ${car.name} changed`));
+      // The words on the canvas are painted; the fields say the same.
+      assert.equal(await e.value('point-speed'), 0);
+      await e.picture('speed-curve-stop');
+      await e.type('point-hold', '3');
+      assert.match((await points(e))[1], /for 3\.0 s/);
+      const longer = judged(e, car.id).mode;
+      const stands = longer.x_m.filter((x, i) => i && x === longer.x_m[i - 1]).length;
+      assert.ok(stands >= 29, `stands for ${stands} steps`);
+      assert.match(await e.text('.pointfields .brakes'), /brakes \d+\.\d m\/s² at most/);
+      await e.picture('speed-curve-three-seconds');
+      await e.key('Escape');
+      await e.key('Control+z');
+      await e.settled();
+      assert.match((await points(e))[1], /for 1\.0 s/);
+    },
+  );
+
+  it(
+    'the end of a hold, a time and a speed are dragged and typed; Del takes a point away',
+    { timeout: 60_000 },
+    async () => {
+      const { e } = await stopping(stage);
+      const bar = await e.page.locator('.plot .holdend .holdbar').boundingBox();
+      const plot = await e.page.locator('.plot').boundingBox();
+      await e.drag([bar.x + 3, bar.y + 4], [bar.x + 3 + plot.width / 9, bar.y + 4]);
+      await e.release();
+      assert.match((await points(e))[1], /for (1\.9|2\.[01]) s/);
+      await e.type('point-time', '3');
+      assert.match((await points(e))[1], /at 3\.0 s$/);
+      await e.type('point-speed', '20');
+      assert.match((await points(e))[1], /^20 km\/h/);
+      const slider = e.page.locator('.plot .point').nth(1);
+      await slider.focus();
+      await slider.press('ArrowUp');
+      await e.settled();
+      assert.match((await points(e))[1], /^21 km\/h/);
+      await e.page.locator('.plot .point').nth(1).press('Delete');
+      await e.settled();
+      assert.equal((await points(e)).length, 2);
+      await e.page.locator('.plot .point').nth(1).focus();
+      await e.page.getByRole('button', { name: 'Clear the curve' }).click();
+      await e.settled();
+      assert.equal(await e.page.locator('.fu').count(), 6);
+    },
+  );
+
+  it('Esc puts a point back while it is in hand', { timeout: 60_000 }, async () => {
+    const { e } = await stopping(stage);
+    const before = await points(e);
+    const from = await dot(e, 1);
+    await e.drag(from, [from[0] + 80, from[1] - 40]);
+    assert.notDeepEqual(await points(e), before);
+    await e.key('Escape');
+    await e.page.mouse.up();
+    await e.settled();
+    assert.deepEqual(await points(e), before);
+  });
+
+  it('the curve is there again when the page is', { timeout: 60_000 }, async () => {
+    const { e, car } = await stopping(stage);
+    const before = await points(e);
+    await e.page.reload();
+    await e.ready();
+    await e.begin();
+    await e.choose(car.id);
+    assert.deepEqual(await points(e), before);
+  });
+});

@@ -1,0 +1,213 @@
+// The editor under fingers: a phone, a phone on its side, a tablet.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { carInSight } from '../support/casting.js';
+import { devices } from '../support/devices.js';
+import { Fingers } from '../support/fingers.js';
+import { distance } from '../support/editor.js';
+import { journeys } from '../support/journey.js';
+
+const LEAST_PX = 44;
+
+async function open(stage, device = 'phone') {
+  const e = await stage.open(devices[device]);
+  await e.begin();
+  return { e, f: new Fingers(e) };
+}
+
+/** A car is tapped, and its flag lies in the picture. */
+async function select({ e, f }) {
+  const car = await carInSight(e);
+  await f.tap(await e.at(car.start.x, car.start.y));
+  await e.page.waitForSelector('.fu');
+  await e.settled();
+  assert.equal(await e.text('.ih h2 .sr'), car.name);
+  return car;
+}
+
+const sheet = async (e) => (await e.page.locator('.sheet').boundingBox()).height;
+/** The sheet has come to rest. */
+const rested = async (e) => {
+  for (let was = -1, now = await sheet(e); was !== now; was = now, now = await sheet(e)) await e.frames(6);
+  return sheet(e);
+};
+
+/** What one can see and press is large enough for a finger, and nothing sticks out at the side. */
+async function fits(e, where) {
+  const wrong = await e.page.evaluate((least) => {
+    const seen = (el) => {
+      const r = el.getBoundingClientRect();
+      if (!r.width || !r.height || getComputedStyle(el).visibility === 'hidden') return false;
+      const [x, y] = [r.x + r.width / 2, r.y + r.height / 2];
+      if (x < 0 || y < 0 || x >= innerWidth || y >= innerHeight) return false;
+      const top = document.elementFromPoint(x, y);
+      return top !== null && (el.contains(top) || top.contains(el));
+    };
+    const pressable = [...document.querySelectorAll('button, select, input[type=range], [role=slider]')];
+    const small = pressable
+      .filter((el) => !el.closest('.sr') && seen(el))
+      .map((el) => [el, el.getBoundingClientRect()])
+      .filter(([, r]) => r.width < least - 0.5 || r.height < least - 0.5)
+      .map(([el, r]) => `${el.getAttribute('aria-label') ?? el.textContent} ${r.width}×${r.height}`);
+    const wide =
+      document.documentElement.scrollWidth > innerWidth ? [`page is ${document.documentElement.scrollWidth} wide`] : [];
+    return [...small, ...wide];
+  }, LEAST_PX);
+  assert.deepEqual(wrong, [], where);
+}
+
+journeys('fingers', (stage) => {
+  it('a tap selects, a finger takes the flag along under a loupe, two fingers undo', { timeout: 60_000 }, async () => {
+    const { e, f } = await open(stage);
+    const car = await select({ e, f });
+    const [x, y] = await e.at(car.end.x, car.end.y);
+    const mark = e.wire.asked.length;
+    assert.equal(await e.shows('canvas.loupe'), false);
+    await f.drag([x, y], [x + 8, y + 34]);
+    assert.equal(await e.shows('canvas.loupe'), true);
+    const loupe = await e.page.locator('canvas.loupe').boundingBox();
+    const finger = [x + 8, y + 34];
+    assert.ok(
+      finger[0] < loupe.x || finger[0] > loupe.x + loupe.width || finger[1] > loupe.y + loupe.height,
+      'the loupe stands away from the finger',
+    );
+    const { height } = devices.phone.viewport;
+    assert.ok((await sheet(e)) <= 0.62 * height);
+    await e.until(() => document.querySelector('.status').textContent.includes('Six futures'));
+    await e.picture('touch-dragging');
+    await f.up();
+    await e.settled();
+    assert.equal(await e.shows('canvas.loupe'), false);
+    assert.ok(e.wire.since(mark).length > 0, 'futures were asked for');
+    assert.match(await e.text('.toast'), new RegExp(`Goal of ${car.name}`));
+    const there = await e.goal();
+    assert.ok(distance(there, car.end) > 1, 'the goal moved');
+    assert.ok((await e.text('.vline')).length > 3, 'the head of the sheet has the verdict');
+    await f.tap([40, 120], [110, 110]);
+    await e.settled();
+    assert.equal(
+      await e.page.locator('.fx[aria-checked="true"]', { hasText: 'Fixed' }).count(),
+      3,
+      'the goal is free again',
+    );
+    await f.tap([40, 120], [110, 110], [180, 120]);
+    await e.settled();
+    assert.deepEqual(await e.goal(), there);
+  });
+
+  it('one finger moves the picture, two zoom it, and the page itself stays', { timeout: 40_000 }, async () => {
+    const { e, f } = await open(stage);
+    const before = await e.view();
+    const ground = await e.at(before.cx - 20, before.cy + 30);
+    await f.drag(ground, [ground[0] + 60, ground[1] + 120]);
+    await f.up();
+    const panned = await e.view();
+    assert.ok(Math.abs((panned.cx - before.cx) * before.zoom + 60) < 2, 'to the side');
+    assert.ok(Math.abs((panned.cy - before.cy) * before.zoom - 120) < 2, 'downwards');
+    await f.down([150, 300], [240, 300]);
+    for (let i = 1; i <= 8; i++) await f.move([150 - 8 * i, 300], [240 + 8 * i, 300]);
+    await f.up();
+    const zoomed = await e.view();
+    assert.ok(zoomed.zoom > 1.8 * panned.zoom, `${panned.zoom} to ${zoomed.zoom}`);
+    const page = await e.page.evaluate(() => [visualViewport.scale, scrollX, scrollY, document.body.scrollTop]);
+    assert.deepEqual(page, [1, 0, 0, 0]);
+    assert.equal(await e.page.locator('.fu').count(), 0, 'nobody was selected by it');
+  });
+
+  it('a finger that rests opens the menu of what lies under it', { timeout: 40_000 }, async () => {
+    const { e, f } = await open(stage);
+    const car = await carInSight(e);
+    await f.down(await e.at(car.start.x, car.start.y));
+    await e.page.waitForSelector('.menu.ctx');
+    await f.up();
+    await fits(e, 'menu of a road user');
+    const menu = await e.page.locator('.menu.ctx').boundingBox();
+    assert.ok(menu.y >= 0 && menu.y + menu.height <= devices.phone.viewport.height, 'the menu is on the page');
+    await e.page.locator('.menu.ctx [data-action="set-goal"]').tap();
+    await e.settled();
+    assert.match(await e.text('.toast'), /Goal/);
+  });
+
+  it('the sheet has three heights: dragged, flicked and tapped', { timeout: 40_000 }, async () => {
+    const { e, f } = await open(stage);
+    assert.equal(await rested(e), 96);
+    const grip = async () => {
+      const r = await e.page.locator('.grip').boundingBox();
+      return [r.x + r.width / 2, r.y + 10];
+    };
+    await e.page.locator('.grip').tap();
+    assert.equal(await rested(e), 300);
+    let at = await grip();
+    await f.drag(at, [at[0], 120], 20);
+    await f.up();
+    assert.ok((await rested(e)) > 700, 'dragged to the top');
+    at = await grip();
+    // The hand stays a while where it let the sheet go: no flick.
+    await f.drag(at, [at[0], at[1] + 200], 20);
+    await e.frames(12);
+    await f.up();
+    assert.ok((await rested(e)) > 700, 'dropped near the top');
+    at = await grip();
+    await f.down(at);
+    for (let i = 1; i <= 3; i++) await f.move([at[0], at[1] + 35 * i]);
+    await f.up();
+    assert.equal(await rested(e), 300, 'flicked down');
+    await e.page.locator('.grip').focus();
+    await e.key('ArrowDown');
+    assert.equal(await rested(e), 96, 'by keys');
+  });
+
+  it('a number is changed by − and + beside it', { timeout: 40_000 }, async () => {
+    const { e, f } = await open(stage);
+    await select({ e, f });
+    await e.page.locator('[data-field="goal-time"]').tap();
+    await fits(e, 'a field in use');
+    await e.page.getByRole('button', { name: 'Time at the goal in seconds, less' }).tap();
+    await e.settled();
+    assert.equal(await e.value('goal-time'), 8.9);
+    assert.equal(await e.page.locator('[data-field="goal-time"]').getAttribute('inputmode'), 'decimal');
+  });
+
+  it('the + at the thumb puts a pedestrian there', { timeout: 40_000 }, async () => {
+    const { e, f } = await open(stage);
+    const count = (await e.roadUsers()).length;
+    await e.page.getByRole('button', { name: 'Add', exact: true }).tap();
+    await fits(e, 'the menu of the +');
+    await e.page.locator('.adding [data-action="tool-place-pedestrian"]').tap();
+    await e.page.waitForSelector('.placing');
+    await fits(e, 'placing');
+    const { cx, cy } = await e.view();
+    await f.tap(await e.at(cx - 18, cy + 2));
+    await e.until((n) => document.querySelectorAll('[data-agent]').length > n, count);
+    await e.page.getByRole('button', { name: 'Done', exact: true }).tap();
+    await e.page.getByRole('button', { name: 'Add', exact: true }).waitFor();
+  });
+
+  for (const device of Object.keys(devices)) {
+    it(`everything can be pressed, and nothing sticks out: ${device}`, { timeout: 60_000 }, async () => {
+      const { e, f } = await open(stage, device);
+      const name = device.replaceAll(' ', '-');
+      await fits(e, 'at first');
+      await select({ e, f });
+      await fits(e, 'selected');
+      await e.picture(`${name}-selected`);
+      await e.page.locator('.grip').tap();
+      await rested(e);
+      await fits(e, 'all fields');
+      await e.picture(`${name}-full`);
+      // What lies further down is as large.
+      await e.page.locator('.sheet .insp').evaluate((el) => el.scrollTo(0, 1e6));
+      await e.frames(3);
+      await fits(e, 'the end of the fields');
+      await e.page.locator('.grip').tap();
+      await rested(e);
+      for (const menu of ['file', 'more']) {
+        const button = e.page.locator(`[data-menu="${menu}"]`);
+        if (!(await button.count())) continue;
+        await button.tap();
+        await fits(e, `menu ${menu}`);
+        await button.tap();
+      }
+    });
+  }
+});

@@ -1,0 +1,83 @@
+// The form of the page: panels beside the picture, or a sheet over it; and whether fingers are what one points with.
+import { computed, signal, type ReadonlySignal } from '@preact/signals-core';
+
+/** Heights of the sheet: name and verdict, the picture with what is needed, every field. */
+export const SHEET_HEIGHTS = ['peek', 'half', 'full'] as const;
+export type SheetHeight = (typeof SHEET_HEIGHTS)[number];
+
+/** Panels stand beside the picture from this width on; with fingers, which need more room, from this one on. */
+const WIDE_PX = 1100;
+const WIDE_FOR_FINGERS_PX = 1367;
+/** A page narrower or lower than this has no room for the rail of tools. */
+const SMALL_WIDTH_PX = 640;
+const LOW_PX = 520;
+
+/** Pixels of the sheet that is hardly open; its head is as high. */
+export const PEEK_PX = 96;
+const HALF_PX = 300;
+/** On a page that is high the open sheet shows more. */
+const HALF_ROOMY_PX = 420;
+/** Of the height that there is, at most. */
+const HALF_SHARE = 0.55;
+const FULL_SHARE = 0.92;
+/** While something is dragged, the picture needs the rest. */
+const DRAGGED_SHARE = 0.62;
+
+export class Form {
+  readonly #size = signal({ w: 1440, h: 900 });
+  readonly #touch = signal(false);
+  readonly #height = signal<SheetHeight>('peek');
+
+  /** Is a finger what one mostly points with? */
+  readonly touch: ReadonlySignal<boolean> = this.#touch;
+  /** Are the panels a sheet over the picture? */
+  readonly sheet = computed(() => this.#size.value.w < (this.touch.value ? WIDE_FOR_FINGERS_PX : WIDE_PX));
+  /** Is there room for little more than the picture? */
+  readonly small = computed(() => this.sheet.value && (this.#size.value.w < SMALL_WIDTH_PX || this.low.value));
+  /** Is the page so low that the sheet stands at its side? */
+  readonly low = computed(() => this.sheet.value && this.#size.value.h < LOW_PX);
+  readonly height: ReadonlySignal<SheetHeight> = this.#height;
+
+  constructor() {
+    if (typeof matchMedia === 'undefined') return;
+    const coarse = matchMedia('(pointer: coarse)');
+    const measure = () => {
+      this.#touch.value = coarse.matches;
+      this.#size.value = { w: innerWidth, h: innerHeight };
+    };
+    coarse.addEventListener('change', measure);
+    addEventListener('resize', measure);
+    measure();
+  }
+
+  /** Pixels of a height of the sheet on this page. */
+  pixels(height: SheetHeight): number {
+    const { h } = this.#size.value;
+    const most = h - 52;
+    if (height === 'peek') return PEEK_PX;
+    if (height === 'full') return Math.round(Math.min(most, FULL_SHARE * h));
+    const half = this.small.value ? HALF_PX : HALF_ROOMY_PX;
+    return Math.round(this.low.value ? Math.min(most, 0.68 * h) : Math.min(most, half, HALF_SHARE * h));
+  }
+
+  /** No higher than this while something is dragged in the picture. */
+  get whileDragging(): number {
+    return Math.round(DRAGGED_SHARE * this.#size.value.h);
+  }
+
+  open(height: SheetHeight): void {
+    this.#height.value = height;
+  }
+
+  /** One height up, or down; from the top on to the bottom. */
+  step(by: 1 | -1): void {
+    const n = SHEET_HEIGHTS.length;
+    this.open(SHEET_HEIGHTS[(SHEET_HEIGHTS.indexOf(this.#height.peek()) + by + n) % n]);
+  }
+
+  /** The height nearest to so many pixels. */
+  nearest(px: number): SheetHeight {
+    const away = (h: SheetHeight): number => Math.abs(this.pixels(h) - px);
+    return [...SHEET_HEIGHTS].sort((a, b) => away(a) - away(b))[0];
+  }
+}

@@ -1,0 +1,13 @@
+// Under the loupe: where the thing in hand is.
+import { useComputed } from '@preact/signals';
+import { useApp } from '../parts/app-context';
+
+export function LoupeWords() {
+  const { editor } = useApp();
+  const words = useComputed(() => editor.drag.value?.laneName ?? '').value;
+  return words ? (
+    <div class="loupewords" aria-hidden="true">
+      {words}
+    </div>
+  ) : null;
+}

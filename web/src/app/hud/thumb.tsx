@@ -1,0 +1,77 @@
+// On a small page what the rail has stands behind a + at the thumb.
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
+import { useComputed } from '@preact/signals';
+import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+
+const FIRST = ['tool-place-car', 'tool-place-cyclist', 'tool-place-pedestrian'];
+const MORE = [
+  'tool-place-truck',
+  'tool-place-bus',
+  'tool-place-motorcycle',
+  'fill',
+  null,
+  'tool-lasso',
+  'tool-measure',
+] as const;
+const MENU = 'add';
+
+/** The + while nothing is placed; else what ends that. */
+export function Thumb() {
+  const { editor, ui } = useApp();
+  const busy = useComputed(() => editor.tool.value !== 'select').value;
+  const open = useComputed(() => ui.menu.value === MENU).value;
+  if (busy)
+    return (
+      <button type="button" class="thumb done" onClick={() => editor.chooseTool('select')}>
+        <Icon name="check" size={20} />
+        Done
+      </button>
+    );
+  return (
+    <>
+      <button
+        type="button"
+        class="thumb"
+        data-menu={MENU}
+        aria-label="Add"
+        aria-haspopup="menu"
+        aria-expanded={open}
+        onClick={() => (open ? ui.closeMenu() : ui.openMenu(MENU))}
+      >
+        <Icon name="plus" size={24} />
+      </button>
+      {open ? <AddMenu /> : null}
+    </>
+  );
+}
+
+function AddMenu() {
+  const { ui } = useApp();
+  const box = useRef<HTMLDivElement>(null);
+  useLayoutEffect(() => box.current!.querySelector<HTMLElement>('button')?.focus({ preventScroll: true }), []);
+  useEffect(() => {
+    const away = (e: Event) => {
+      const at = e.target as Element;
+      if (!box.current?.contains(at) && !at.closest?.('[data-menu]')) ui.closeMenu();
+    };
+    addEventListener('pointerdown', away, true);
+    return () => removeEventListener('pointerdown', away, true);
+  }, [ui]);
+  return (
+    <div
+      ref={box}
+      class="menu adding"
+      role="menu"
+      aria-label="Add"
+      onClick={(e) => {
+        if ((e.target as Element).closest('[data-action]')) ui.closeMenu();
+      }}
+    >
+      {[...FIRST, ...MORE].map((id, i) =>
+        id === null ? <hr key={i} /> : <ActionButton key={id} id={id} icon={undefined} size={20} />,
+      )}
+    </div>
+  );
+}

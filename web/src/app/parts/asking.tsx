@@ -1,0 +1,78 @@
+// What futures are asked with: seed, diversity, and the button that asks.
+import { useRef } from 'preact/hooks';
+import { useComputed } from '@preact/signals';
+import { setDiversity, setSeed } from '../../model/commands';
+import { DEFAULTS } from '../../model/domain';
+import { useApp } from './app-context';
+import { ActionButton, IconButton } from './buttons';
+
+export function Controls() {
+  const { editor } = useApp();
+  const away = useComputed(() => editor.away.value !== null).value;
+  return (
+    <>
+      <span class="fieldlab">Seed</span>
+      <SeedField />
+      <IconButton id="new-seed" />
+      <span class="gap" />
+      <span class="fieldlab">Diversity</span>
+      <DiversitySlider />
+      <ActionButton id="generate" class="pri" icon="" withKey>
+        {away ? 'Waiting …' : 'Generate'}
+      </ActionButton>
+    </>
+  );
+}
+
+function SeedField() {
+  const { editor } = useApp();
+  const input = useRef<HTMLInputElement>(null);
+  const seed = useComputed(() => String(editor.scene.value?.seed ?? DEFAULTS.seed));
+  return (
+    <label class="field seed">
+      <input
+        ref={input}
+        type="text"
+        inputmode="numeric"
+        aria-label="Seed"
+        maxlength={16}
+        value={seed}
+        onChange={() => {
+          const v = Number(input.current!.value.replace(/\D/g, ''));
+          if (Number.isSafeInteger(v) && String(v) !== seed.peek()) editor.run(setSeed(v));
+          input.current!.value = seed.peek();
+        }}
+        onKeyDown={(e) => {
+          if (e.key === 'Enter') input.current!.blur();
+        }}
+      />
+    </label>
+  );
+}
+
+/** The largest diversity, in percent: the slider's length. */
+const MOST = 200;
+
+function DiversitySlider() {
+  const { editor } = useApp();
+  const percent = useComputed(() => Math.round((editor.scene.value?.diversity ?? DEFAULTS.diversity) * 100)).value;
+  return (
+    <>
+      <input
+        type="range"
+        min={0}
+        max={MOST}
+        step={10}
+        aria-label="Diversity"
+        title="How far the six may differ"
+        value={percent}
+        style={{ '--fill': `${(percent / MOST) * 100}%` }}
+        onInput={(e) => {
+          const v = Number(e.currentTarget.value) / 100;
+          if (v !== editor.scene.peek()?.diversity) editor.run(setDiversity(v));
+        }}
+      />
+      <span class="pct">{percent}%</span>
+    </>
+  );
+}

@@ -1,0 +1,36 @@
+// Where somebody with a speed drawn by hand stands: a bar across the lane in front of the box, and for how long.
+import { paintGhost } from '../draw/handles';
+import { tag, type Labels } from '../draw/labels';
+import type { Pen } from '../draw/pen';
+import { polyline } from '../draw/strokes';
+import { colours } from '../draw/theme';
+import type { View } from '../draw/view';
+import { stopsOf } from '../model/profile';
+import type { Agent } from '../model/scene';
+import { seconds } from '../model/units';
+import type { Editor } from './editor';
+
+/** The bar is longer than the box is wide, and lies before its front. */
+const WIDER = 1.7;
+const AHEAD_M = 0.6;
+
+export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: Agent): void {
+  const f = editor.curve.profile.value && editor.futures.value;
+  const motion = f?.modes[editor.chosen.value]?.motion;
+  if (!motion) return;
+  const c = colours();
+  for (const { pose, lasts } of stopsOf(motion)) {
+    const [cos, sin] = [Math.cos(pose.heading), Math.sin(pose.heading)];
+    const ahead = a.length / 2 + AHEAD_M;
+    const half = (a.width * WIDER) / 2;
+    const [x, y] = [pose.x + cos * ahead, pose.y + sin * ahead];
+    paintGhost(g, v, a, pose, c.ink, null, [4, 3]);
+    const bar = [
+      [x - sin * half, y + cos * half],
+      [x + sin * half, y - cos * half],
+    ] as const;
+    polyline(g, v, bar, c.halo, 8, 1, [], 'round');
+    polyline(g, v, bar, c.collision, 5, 1, [], 'round');
+    tag(g, labels, v.to(x, y), `stops here for ${seconds(lasts)}`, { radii: [36, 52, 70], leader: c.collision });
+  }
+}

@@ -1,0 +1,191 @@
+// How fast a road user goes, drawn by hand: points of speed over time on a path that is kept as it was. The motion
+// that follows from both is worked out here, within what the road user can do.
+import type { Limits } from './domain';
+import { clamp, lerp, lerpAngle, type OnLine, type Pose } from './geometry';
+import { lastStep, poseAt, STEP_S, type Motion } from './motion';
+
+/** A speed at a time, m/s and s; from then on it is held for so many seconds. */
+export interface SpeedPoint {
+  readonly t: number;
+  readonly v: number;
+  readonly hold: number;
+}
+
+/** Places with a heading, some way apart. */
+export interface Path {
+  readonly x: readonly number[];
+  readonly y: readonly number[];
+  readonly heading: readonly number[];
+}
+
+/** The first point is the start; points lie in the order of their times. */
+export interface Profile {
+  readonly path: Path;
+  readonly points: readonly SpeedPoint[];
+}
+
+/** Points of one curve are at least so far apart, seconds, and at most so many. */
+export const APART_S = 0.3;
+export const MOST_POINTS = 12;
+/** Places of a path are at least so far apart, metres. */
+const SPACING_M = 0.25;
+
+const round = (v: number, k: number): number => Math.round(v * k) / k;
+
+/** The path of a motion; null for one that goes backwards or nowhere at all. */
+export function pathOf(m: Motion): Path | null {
+  const path = { x: [] as number[], y: [] as number[], heading: [] as number[] };
+  const last = lastStep(m);
+  for (let i = 0; i < m.x.length && m.first + i <= last; i++) {
+    if (m.speed[i] < -0.1) return null;
+    const n = path.x.length;
+    if (n && Math.hypot(m.x[i] - path.x[n - 1], m.y[i] - path.y[n - 1]) < SPACING_M) continue;
+    path.x.push(round(m.x[i], 1000));
+    path.y.push(round(m.y[i], 1000));
+    path.heading.push(round(m.heading[i], 10000));
+  }
+  return path.x.length ? path : null;
+}
+
+/** The points of a motion that nobody has drawn: its start and its end. */
+export function endsOf(m: Motion, end: number): SpeedPoint[] {
+  const at = (t: number): SpeedPoint => ({ t, v: Math.max(0, poseAt(m, t)?.speed ?? 0), hold: 0 });
+  return [at(0), at(end)];
+}
+
+/** The speed that is asked for at a time: from point to point without a jump in the acceleration's sign. */
+export function wantedSpeed(points: readonly SpeedPoint[], t: number): number {
+  const next = points.findIndex((p) => p.t > t);
+  if (next === 0) return points[0].v;
+  const from = points.at(next < 0 ? -1 : next - 1)!;
+  if (next < 0 || t <= from.t + from.hold) return from.v;
+  const to = points[next];
+  const u = clamp((t - from.t - from.hold) / Math.max(1e-6, to.t - from.t - from.hold), 0, 1);
+  return lerp(from.v, to.v, u * u * (3 - 2 * u));
+}
+
+/** The motion along the path at these speeds; what cannot be done in time is done as soon as it can be. */
+export function motionOf({ path, points }: Profile, limits: Limits, duration: number): Motion {
+  const n = Math.round(duration / STEP_S) + 1;
+  const along = alongOf(path);
+  const m = {
+    x: new Float64Array(n),
+    y: new Float64Array(n),
+    heading: new Float64Array(n),
+    speed: new Float64Array(n),
+  };
+  let s = 0;
+  let v = points[0].v;
+  for (let i = 0; i < n; i++) {
+    if (i) {
+      const wanted = wantedSpeed(points, i * STEP_S);
+      const now = clamp(wanted, v - limits.brake_mps2 * STEP_S, v + limits.accel_mps2 * STEP_S);
+      const next = clamp(now, 0, limits.speed_mps);
+      s += ((v + next) / 2) * STEP_S;
+      v = next;
+    }
+    const p = placeAt(path, along, s);
+    m.x[i] = p.x;
+    m.y[i] = p.y;
+    m.heading[i] = p.heading;
+    m.speed[i] = v;
+  }
+  return { first: 0, ...m, valid: [[0, n]] };
+}
+
+function alongOf({ x, y }: Path): number[] {
+  let s = 0;
+  return x.map((_, i) => (i ? (s += Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1])) : 0));
+}
+
+/** Past its end the path goes straight on. */
+function placeAt(path: Path, along: readonly number[], s: number): OnLine {
+  const at = (i: number): OnLine => ({ x: path.x[i], y: path.y[i], heading: path.heading[i] });
+  const last = along.length - 1;
+  if (s >= along[last]) {
+    const end = at(last);
+    const on = s - along[last];
+    return { ...end, x: end.x + on * Math.cos(end.heading), y: end.y + on * Math.sin(end.heading) };
+  }
+  const i = along.findIndex((a) => a > s);
+  const [p, q] = [at(i - 1), at(i)];
+  const k = (s - along[i - 1]) / (along[i] - along[i - 1]);
+  return { x: lerp(p.x, q.x, k), y: lerp(p.y, q.y, k), heading: lerpAngle(p.heading, q.heading, k) };
+}
+
+/** How hard a motion brakes at most, m/s². */
+export function hardestBraking(m: Motion): number {
+  let most = 0;
+  for (let i = 1; i < m.speed.length; i++) most = Math.max(most, (m.speed[i - 1] - m.speed[i]) / STEP_S);
+  return most;
+}
+
+/** A place at which it stands. */
+export interface Stop {
+  readonly pose: Pose;
+  readonly from: number;
+  /** Seconds that it stands there; to the end where nothing follows. */
+  readonly lasts: number;
+}
+
+/** Where a motion stands for at least half a second. */
+export function stopsOf(m: Motion): Stop[] {
+  const out: Stop[] = [];
+  for (let i = 0; i < m.speed.length; i++) {
+    if (m.speed[i] > 0) continue;
+    let end = i;
+    while (end + 1 < m.speed.length && m.speed[end + 1] === 0) end++;
+    const lasts = (end - i) * STEP_S;
+    if (lasts >= 0.45) {
+      const from = (m.first + i) * STEP_S;
+      out.push({ pose: { x: m.x[i], y: m.y[i], heading: m.heading[i], speed: 0 }, from, lasts });
+    }
+    i = end;
+  }
+  return out;
+}
+
+// -------------------------------------------------------------- changes
+
+/** A point moved; it passes no other, and the start stays at 0 s. */
+export function movedPoint(
+  points: readonly SpeedPoint[],
+  i: number,
+  to: Partial<SpeedPoint>,
+  end: number,
+): SpeedPoint[] {
+  const was = points[i];
+  const before = i ? points[i - 1].t + points[i - 1].hold + APART_S : 0;
+  const after = i + 1 < points.length ? points[i + 1].t - APART_S : end;
+  const t = i ? clamp(to.t ?? was.t, before, Math.max(before, after)) : 0;
+  const hold = clamp(to.hold ?? was.hold, 0, Math.max(0, (i + 1 < points.length ? after : end) - t));
+  const p = { t: round(t, 100), v: Math.max(0, to.v ?? was.v), hold: round(hold, 100) };
+  return points.map((q, k) => (k === i ? p : q));
+}
+
+/** One more point; null where there is no room for it. */
+export function addedPoint(points: readonly SpeedPoint[], p: SpeedPoint): { points: SpeedPoint[]; at: number } | null {
+  const near = points.some((q) => p.t > q.t - APART_S && p.t < q.t + q.hold + APART_S);
+  if (near || points.length >= MOST_POINTS) return null;
+  const at = points.filter((q) => q.t < p.t).length;
+  return { points: [...points.slice(0, at), p, ...points.slice(at)], at };
+}
+
+// -------------------------------------------------------------- in a file
+
+/** Reads what a file says; null for what is no profile. */
+export function readProfile(v: unknown): Profile | null {
+  const p = v as Partial<Profile> | null | undefined;
+  const numbers = (a: unknown): a is number[] => Array.isArray(a) && a.length > 0 && a.every((n) => Number.isFinite(n));
+  const { x, y, heading } = p?.path ?? {};
+  if (!numbers(x) || !numbers(y) || !numbers(heading) || x.length !== y.length || x.length !== heading.length)
+    return null;
+  const points = Array.isArray(p?.points) ? p.points : [];
+  const fine = points.every((q, i) => {
+    const ok = q !== null && [q.t, q.v, q.hold].every((n) => Number.isFinite(n) && n >= 0);
+    return ok && (i ? q.t > points[i - 1].t : q.t === 0);
+  });
+  return fine && points.length > 0 && points.length <= MOST_POINTS ? freeze(p as Profile) : null;
+}
+
+const freeze = (p: Profile): Profile => Object.freeze({ path: p.path, points: p.points });

@@ -1,0 +1,65 @@
+import { describe, expect, it } from 'vitest';
+import { limitsOf } from '../src/model/domain';
+import { addedPoint, hardestBraking, motionOf, movedPoint, pathOf, readProfile, stopsOf } from '../src/model/profile';
+
+const line = (metres: number) => ({
+  x: Array.from({ length: metres + 1 }, (_, i) => i),
+  y: Array.from({ length: metres + 1 }, () => 0),
+  heading: Array.from({ length: metres + 1 }, () => 0),
+});
+const CAR = limitsOf({ type: 'vehicle', subtype: 'car' });
+const stop = [
+  { t: 0, v: 8, hold: 0 },
+  { t: 4, v: 0, hold: 3 },
+  { t: 9, v: 4, hold: 0 },
+];
+
+describe('a speed drawn by hand', () => {
+  it('stands exactly still for as long as it is held, and goes on', () => {
+    const m = motionOf({ path: line(100), points: stop }, CAR, 9);
+    const [only, ...more] = stopsOf(m);
+    expect(more).toEqual([]);
+    expect(only.from).toBeCloseTo(4, 1);
+    expect(only.lasts).toBeCloseTo(3, 1);
+    expect(new Set(m.x.slice(41, 70)).size).toBe(1);
+    expect(m.speed.at(-1)).toBeCloseTo(4);
+    // The way is the area under the curve.
+    expect(m.x[40]).toBeCloseTo(16, 0);
+  });
+
+  it('brakes and speeds up no harder than the road user can', () => {
+    const points = [
+      { t: 0, v: 20, hold: 0 },
+      { t: 0.5, v: 0, hold: 0 },
+      { t: 1, v: 30, hold: 0 },
+    ];
+    const m = motionOf({ path: line(300), points }, CAR, 9);
+    expect(hardestBraking(m)).toBeLessThanOrEqual(CAR.brake_mps2 + 1e-6);
+    for (let i = 1; i < m.speed.length; i++)
+      expect((m.speed[i] - m.speed[i - 1]) / 0.1).toBeLessThanOrEqual(CAR.accel_mps2 + 1e-6);
+  });
+
+  it('goes straight on past the end of its path, and has none where it goes backwards', () => {
+    const m = motionOf({ path: line(10), points: [{ t: 0, v: 5, hold: 0 }] }, CAR, 9);
+    expect(m.x.at(-1)).toBeCloseTo(45);
+    expect(pathOf({ ...m, speed: m.speed.map((v) => -v) })).toBeNull();
+    expect(pathOf(m)!.x.at(-1)).toBeCloseTo(45);
+  });
+
+  it('has points that pass no other, and no two at a time', () => {
+    expect(movedPoint(stop, 1, { t: 20 }, 9)[1]).toMatchObject({ t: 8.7, hold: 0 });
+    expect(movedPoint(stop, 1, { t: -1 }, 9)[1].t).toBe(0.3);
+    expect(movedPoint(stop, 0, { t: 3, v: 5 }, 9)[0]).toEqual({ t: 0, v: 5, hold: 0 });
+    expect(movedPoint(stop, 1, { hold: 60 }, 9)[1].hold).toBeCloseTo(4.7);
+    expect(addedPoint(stop, { t: 5, v: 3, hold: 0 })).toBeNull();
+    expect(addedPoint(stop, { t: 2, v: 3, hold: 0 })).toMatchObject({ at: 1 });
+  });
+
+  it('is read from a file only where it is one', () => {
+    const profile = { path: line(5), points: stop };
+    expect(readProfile(JSON.parse(JSON.stringify(profile)))).toEqual(profile);
+    for (const bad of [null, 3, {}, { path: line(5) }, { ...profile, path: { x: [1], y: [], heading: [0] } }])
+      expect(readProfile(bad)).toBeNull();
+    expect(readProfile({ ...profile, points: [...stop].reverse() })).toBeNull();
+  });
+});
