@@ -24,10 +24,14 @@ pub(crate) struct Head {
 }
 
 /// A signal for each head, over `steps` steps, with what has to be said of them.
-pub(crate) fn signals(map: &LaneMap, heads: Vec<Head>, steps: usize) -> (Vec<Signal>, Option<Warning>) {
+pub(crate) fn signals(map: &LaneMap, mut heads: Vec<Head>, steps: usize) -> (Vec<Signal>, Option<Warning>) {
     let mut by_junction: BTreeMap<String, Vec<Head>> = BTreeMap::new();
     let count = heads.len();
-    for head in heads.into_iter().take(MAX_SIGNALS) {
+    if count > MAX_SIGNALS {
+        heads.sort_by(|a, b| a.stop.norm().total_cmp(&b.stop.norm()));
+        heads.truncate(MAX_SIGNALS);
+    }
+    for head in heads {
         by_junction.entry(head.junction.clone()).or_default().push(head);
     }
     let junctions = by_junction.len();
@@ -41,8 +45,11 @@ pub(crate) fn signals(map: &LaneMap, heads: Vec<Head>, steps: usize) -> (Vec<Sig
             signals.push(Signal { lane: lane.id.clone(), stop: Some(head.stop), stop_z_m: None, runs });
         }
     }
-    let dropped =
-        if count > MAX_SIGNALS { format!("; the first {MAX_SIGNALS} are kept") } else { String::new() };
+    let dropped = if count > MAX_SIGNALS {
+        format!("; the {MAX_SIGNALS} nearest the middle are kept")
+    } else {
+        String::new()
+    };
     let detail = format!(
         "{count} signal heads at {junctions} junctions have no program; they were given fixed times{dropped}"
     );

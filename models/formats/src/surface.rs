@@ -31,10 +31,13 @@ const MEDIAN_M: f64 = 15.0;
 const KEPT_M: (f64, f64) = (0.02, 20.0);
 /// Most points of a line.
 const LONGEST: usize = 1_000;
-/// Side of the squares in which pieces that may cross are counted, metres, and most such pairs. A town of
-/// a hundred junctions has a tenth of it.
+/// Side of the squares in which pieces that may cross are counted, metres.
 const SQUARE_M: f64 = 4.0;
-const MOST_PAIRS: u64 = 40_000_000;
+/// Most such pairs in all, and for each piece beyond a few: a grid of 144 junctions has 4.5 million, 25 a piece, and
+/// one junction of seven arms 50 a piece.
+const MOST_PAIRS: u64 = 8_000_000;
+const PAIRS_A_PIECE: u64 = 60;
+const PAIRS_ANYWAY: u64 = 500_000;
 
 /// A stretch of carriageway, between two lines that run the same way.
 #[derive(Clone, Debug, Default)]
@@ -94,7 +97,8 @@ pub(crate) fn draw(
 ) -> bool {
     let rings: Vec<Vec<(Vec2, Label)>> = strips.iter().filter_map(ring).collect();
     let mut drawing = Drawing { map, id };
-    if pairs(&rings) > MOST_PAIRS {
+    let (pairs, pieces) = pairs(&rings);
+    if pairs > (PAIRS_ANYWAY + PAIRS_A_PIECE * pieces).min(MOST_PAIRS) {
         drawing.strips(&rings);
         return false;
     }
@@ -176,8 +180,8 @@ fn ring(strip: &Strip) -> Option<Vec<(Vec2, Label)>> {
     Some(ring)
 }
 
-/// How many pairs of pieces lie in the same square: about how often they can cross.
-fn pairs(rings: &[Vec<(Vec2, Label)>]) -> u64 {
+/// How many pairs of pieces lie in the same square, about how often they can cross, and how many pieces there are.
+fn pairs(rings: &[Vec<(Vec2, Label)>]) -> (u64, u64) {
     let mut squares: HashMap<(i64, i64), u64> = HashMap::new();
     let mut pieces = 0;
     for ring in rings {
@@ -186,7 +190,7 @@ fn pairs(rings: &[Vec<(Vec2, Label)>]) -> u64 {
             let stretches = ((b - a).norm() / SQUARE_M).ceil().clamp(1.0, 10_000.0) as u64;
             pieces += stretches;
             if pieces > MOST_PAIRS / 8 {
-                return u64::MAX;
+                return (u64::MAX, pieces);
             }
             for k in 0..stretches {
                 let p = a + (b - a) * ((k as f64 + 0.5) / stretches as f64);
@@ -194,7 +198,7 @@ fn pairs(rings: &[Vec<(Vec2, Label)>]) -> u64 {
             }
         }
     }
-    squares.values().map(|count| count * count).sum()
+    (squares.values().map(|count| count * count).sum(), pieces)
 }
 
 /// A hole between ways through a junction, on which cars do drive.

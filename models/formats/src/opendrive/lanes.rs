@@ -1,6 +1,6 @@
 //! Lanes of a network as lanes of a map: which of them traffic uses, and what follows what.
 
-use super::sections::{Section, SectionLane, dense};
+use super::sections::{MAX_PIECES, Section, SectionLane, dense};
 use scene::Vec2;
 use scene::map::{Lane, LaneMap, LaneType, Neighbor, Points};
 use std::collections::{HashMap, HashSet};
@@ -8,8 +8,6 @@ use xodr::{Direction, LaneId, LaneType as Kind, RoadNetwork, RoadType, SpeedLimi
 
 /// Distance of lane points, metres.
 const SPACING_M: f64 = 1.0;
-/// Most pieces of a lane; those of longer lanes are longer.
-const MAX_PIECES: f64 = 4_000.0;
 /// Lanes that are nowhere as wide are left out, metres.
 const NARROWEST_M: f64 = 0.5;
 /// A two-way lane and the next one belong together the way round in which their ends meet, metres.
@@ -142,7 +140,7 @@ fn linked(network: &RoadNetwork, lane: &SectionLane) -> [bool; 2] {
 /// begins where the lane is wide enough to be used. `linked` tells of its two ends.
 fn points(lane: &SectionLane, forward: bool, linked: [bool; 2]) -> (Points, Vec<f64>) {
     let length_m = crate::polyline::length(&lane.center);
-    let mut line = dense(&lane.center, &lane.tangents, SPACING_M.max(length_m / MAX_PIECES));
+    let mut line = dense(&lane.center, &lane.tangents, SPACING_M.max(length_m / MAX_PIECES as f64));
     let width = |&(_, i, share): &(Vec2, usize, f64)| {
         let at = |k: usize| lane.widths_m.get(k).copied().unwrap_or_default();
         at(i) + (at(i + 1) - at(i)) * share

@@ -102,7 +102,8 @@ fn stretch(
         for (i, ends) in line.windows(2).enumerate() {
             let piece = ends[0].distance_to(ends[1]);
             if left <= piece {
-                return (i as f64 + f64::from(left / piece.max(1e-6))).min(last as f64);
+                let place = (i as f64 + f64::from(left / piece.max(1e-6))) / section.stride as f64;
+                return place.min(last as f64);
             }
             left -= piece;
         }

@@ -5,6 +5,9 @@ use scene::Vec2;
 use std::collections::BTreeMap;
 use xodr::{Direction, LaneId, LaneType, Point, RoadNetwork};
 
+/// Most pieces of a lane: of longer ones every second point is kept, or every third, and so on.
+pub(super) const MAX_PIECES: usize = 2_000;
+
 /// A stretch of road over which the number of lanes does not change.
 pub(super) struct Section {
     /// The road's id in the file.
@@ -17,6 +20,8 @@ pub(super) struct Section {
     pub left_hand: bool,
     /// From the right, looking along the road.
     pub lanes: Vec<SectionLane>,
+    /// Points of the network's lanes from one point of these to the next.
+    pub stride: usize,
     /// Right border of each lane and, last, the left border of the last one; a point for each point of the lanes.
     pub borders: Vec<Vec<Vec2>>,
 }
@@ -93,37 +98,41 @@ pub(super) fn sections(network: &RoadNetwork, file: &Filtered, frame: &Frame) ->
         lanes.sort_by_key(|(number, _)| *number);
         // All lanes of a section are sampled at the same places along the road.
         let points = lanes.iter().map(|(_, lane)| lane.center.points().len()).min()?;
+        let stride = points.div_ceil(MAX_PIECES).max(1);
         let id = road.od_id().to_owned();
+        let kept: Vec<usize> = (0..points).filter(|i| i % stride == 0 || i + 1 == points).collect();
         let lane_of = |(lane_number, lane): &(i32, &xodr::Lane)| {
             let raised = file.raised.contains(&(id.clone(), number, *lane_number));
-            section_lane(*lane_number, lane, points, raised, frame)
+            section_lane(*lane_number, lane, &kept, raised, frame)
         };
         let lanes: Vec<SectionLane> = lanes.iter().map(lane_of).collect();
-        let borders = borders(&lanes, points);
+        let borders = borders(&lanes, kept.len());
         let junction = road.junction().map(str::to_owned);
         let left_hand = file.left_hand.contains(&id);
-        Some(Section { road: id, number, junction, left_hand, lanes, borders })
+        Some(Section { road: id, number, junction, left_hand, lanes, stride, borders })
     };
     found.into_iter().filter_map(section).collect()
 }
 
-fn section_lane(number: i32, lane: &xodr::Lane, points: usize, raised: bool, frame: &Frame) -> SectionLane {
-    let center = lane.center.points().iter().take(points);
-    let tangents = lane.center.tangents().iter().take(points).map(|v| {
+/// A lane at these of its points.
+fn section_lane(number: i32, lane: &xodr::Lane, kept: &[usize], raised: bool, frame: &Frame) -> SectionLane {
+    let (points, tangents) = (lane.center.points(), lane.center.tangents());
+    let center = kept.iter().filter_map(|i| points.get(*i));
+    let tangent = |v: &xodr::Vector| {
         let v = Vec2::new(f64::from(v.x), f64::from(v.y));
         v / v.norm().max(1e-9)
-    });
+    };
     let width =
-        |i: usize| f64::from(lane.widths.get(i).or(lane.widths.last()).copied().unwrap_or(lane.width));
+        |i: &usize| f64::from(lane.widths.get(*i).or(lane.widths.last()).copied().unwrap_or(lane.width));
     SectionLane {
         id: lane.id,
         number,
         kind: lane.kind,
         direction: lane.direction,
         center: center.clone().map(|p| frame.point(*p)).collect(),
-        tangents: tangents.collect(),
+        tangents: kept.iter().filter_map(|i| tangents.get(*i)).map(tangent).collect(),
         z_m: center.map(|p| f64::from(p.z)).collect(),
-        widths_m: (0..points).map(width).collect(),
+        widths_m: kept.iter().map(width).collect(),
         raised,
     }
 }

@@ -75,7 +75,7 @@ pub(super) fn find(
         if signal.kind == STOP_LINE || !(signal.dynamic || is_light(Some(&signal.kind))) {
             continue;
         }
-        let count = ruled.heads.len();
+        ruled.unused += usize::from(lanes.is_empty());
         for (origin, lane) in lanes {
             if signal.kind == WALKERS || std::mem::replace(&mut taken[lane], true) {
                 continue;
@@ -88,7 +88,6 @@ pub(super) fn find(
             let heading_rad = heading_at(&map.lanes[lane].points.xy, stop);
             ruled.heads.push(Head { lane, stop, heading_rad, junction, group });
         }
-        ruled.unused += usize::from(ruled.heads.len() == count);
     }
     ruled
 }
