@@ -57,7 +57,7 @@ const HOUSES: &[House] = &[
             &["problem", "surface"],
             &["unpack", "lights"],
             &["xml", "format", "identities"],
-            &["native", "womd", "sumo", "opendrive", "table"],
+            &["native", "womd", "sumo", "opendrive", "lanelet2", "table"],
             &["registry"],
             &["checks"],
         ],

@@ -25,6 +25,7 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("sumo-fcd", |bytes| sumo("sumo-fcd", bytes)),
     ("sumo-pair", sumo_pair),
     ("opendrive", |bytes| map_of("opendrive", bytes)),
+    ("lanelet2", |bytes| map_of("lanelet2", bytes)),
     ("sniff", sniff),
 ];
 

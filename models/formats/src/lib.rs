@@ -2,7 +2,7 @@
 //!
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
 //! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`opendrive`]
-//! reads maps; [`table`] writes motion for notebooks. No format knows another. Readers are
+//! and [`lanelet2`] read maps; [`table`] writes motion for notebooks. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 //!
 //! ```
@@ -29,6 +29,7 @@ pub mod checks;
 pub mod files;
 pub mod format;
 pub mod identities;
+pub mod lanelet2;
 mod lights;
 pub mod limits;
 pub mod loss;

@@ -35,9 +35,9 @@ const LONGEST: usize = 1_000;
 const SQUARE_M: f64 = 4.0;
 /// Most such pairs in all, and for each piece beyond a few: a grid of 144 junctions has 4.5 million, 25 a piece, and
 /// one junction of seven arms 50 a piece.
-const MOST_PAIRS: u64 = 8_000_000;
-const PAIRS_A_PIECE: u64 = 60;
-const PAIRS_ANYWAY: u64 = 500_000;
+const MOST_PAIRS: u64 = 5_000_000;
+const PAIRS_A_PIECE: u64 = 40;
+const PAIRS_ANYWAY: u64 = 1_000_000;
 
 /// A stretch of carriageway, between two lines that run the same way.
 #[derive(Clone, Debug, Default)]
