@@ -40,7 +40,9 @@ const HOMES: &[(&str, &[&str])] = &[
     ("shuttle", &["dragtraffic"]),
     ("hyper", &["dragtraffic"]),
     ("prost", &["formats"]),
-    // XML is read by the scanner of `formats::sumo`, which says why.
+    ("xodr", &["formats"]),
+    ("i_overlay", &["formats"]),
+    // XML is read by the scanner of `formats::xml`, which says why.
     ("roxmltree", &[]),
     ("quick-xml", &[]),
 ];
@@ -51,11 +53,11 @@ const HOUSES: &[House] = &[
         name: "formats",
         sources: "models/formats/src",
         floors: &[
-            &["limits", "loss", "files", "source"],
-            &["problem"],
-            &["unpack"],
-            &["format", "identities"],
-            &["native", "womd", "sumo", "table"],
+            &["limits", "loss", "files", "source", "polyline", "bounds"],
+            &["problem", "surface"],
+            &["unpack", "lights"],
+            &["xml", "format", "identities"],
+            &["native", "womd", "sumo", "opendrive", "lanelet2", "table"],
             &["registry"],
             &["checks"],
         ],

@@ -24,6 +24,8 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("sumo-net", |bytes| sumo("sumo-net", bytes)),
     ("sumo-fcd", |bytes| sumo("sumo-fcd", bytes)),
     ("sumo-pair", sumo_pair),
+    ("opendrive", |bytes| map_of("opendrive", bytes)),
+    ("lanelet2", |bytes| map_of("lanelet2", bytes)),
     ("sniff", sniff),
 ];
 
@@ -95,6 +97,14 @@ pub fn sumo_pair(bytes: &[u8]) -> bool {
     let mut parts = bytes.splitn(2, |byte| *byte == 0);
     let (net, file) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
     imported("sumo-fcd", file, Some(net))
+}
+
+/// A map in the format with this id that is read is a scene that the native format holds.
+///
+/// # Panics
+/// When it is not.
+pub fn map_of(format: &str, bytes: &[u8]) -> bool {
+    imported(format, bytes, None)
 }
 
 fn imported(format: &str, bytes: &[u8], net: Option<&[u8]>) -> bool {

@@ -4,7 +4,7 @@ use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
 use crate::problem::{Imported, ReadError};
 use crate::source::Source;
-use scene::Scene;
+use scene::{Scene, Timing};
 use serde::Serialize;
 use std::io;
 use std::sync::Arc;
@@ -105,6 +105,14 @@ pub type Scenes<'a> = Box<dyn Iterator<Item = Result<Imported, ReadError>> + 'a>
 /// A file that holds one scene, or none that can be read.
 pub(crate) fn one<'a>(scene: Result<Imported, ReadError>) -> Scenes<'a> {
     Box::new(std::iter::once(scene))
+}
+
+/// Time of a scene that is made of a map alone: a second that has passed and eight to come.
+pub(crate) const MAP_TIMING: Timing = Timing { steps: 91, now_step: 10 };
+
+/// Refusal of a writer that there is not.
+pub(crate) fn only_read(info: &Info) -> io::Error {
+    io::Error::new(io::ErrorKind::Unsupported, format!("{} is read, not written", info.name))
 }
 
 /// A reader and writer of one format.

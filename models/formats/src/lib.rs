@@ -1,8 +1,8 @@
 //! Files to and from scenes.
 //!
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
-//! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`table`]
-//! writes motion for notebooks. No format knows another. Readers are
+//! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`opendrive`]
+//! and [`lanelet2`] read maps; [`table`] writes motion for notebooks. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 //!
 //! ```
@@ -24,20 +24,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bounds;
 pub mod checks;
 pub mod files;
 pub mod format;
 pub mod identities;
+pub mod lanelet2;
+mod lights;
 pub mod limits;
 pub mod loss;
 pub mod native;
+pub mod opendrive;
+pub mod polyline;
 pub mod problem;
 pub mod registry;
 pub mod source;
 pub mod sumo;
+mod surface;
 pub mod table;
 mod unpack;
 pub mod womd;
+mod xml;
 
 pub use format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes};
 pub use loss::Loss;

@@ -115,6 +115,63 @@ fn net(edges: usize) -> Vec<u8> {
     gzip(text.as_bytes())
 }
 
+/// Bent roads of two lanes, so many metres long.
+fn roads(count: usize, length_m: usize) -> Vec<u8> {
+    let mut text = String::from("<OpenDRIVE>");
+    for i in 0..count {
+        let lane = |id: i32| {
+            format!(
+                "<lane id=\"{id}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>"
+            )
+        };
+        write!(
+            text,
+            "<road id=\"{i}\" length=\"{length_m}\"><planView><geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"0\" \
+             length=\"{length_m}\"><arc curvature=\"{:.6}\"/></geometry></planView><lanes><laneSection s=\"0\">\
+             <left>{}</left><right>{}</right></laneSection></lanes></road>",
+            i % 20 * 300,
+            i / 20 * 300,
+            0.008 + noise(3, i as u64) / 1e6,
+            lane(1),
+            lane(-1)
+        )
+        .unwrap();
+    }
+    gzip((text + "</OpenDRIVE>").as_bytes())
+}
+
+/// Lanelets of 20 points a side.
+fn lanelets(count: usize) -> Vec<u8> {
+    let (mut nodes, mut ways, mut relations) = (String::new(), String::new(), String::new());
+    for i in 0..count {
+        let y = i as f64 * 4.0 - 6_000.0;
+        for side in 0..2 {
+            let id = i * 2 + side + 1;
+            write!(ways, "<way id=\"{id}\">").unwrap();
+            for k in 0..20 {
+                let node = id * 100 + k;
+                let (x, y) = (k as f64 * 4.0, y - side as f64 * 3.0 + noise(5, node as u64) / 1e4);
+                write!(
+                    nodes,
+                    "<node id=\"{node}\"><tag k=\"local_x\" v=\"{x}\"/><tag k=\"local_y\" v=\"{y:.3}\"/></node>"
+                )
+                .unwrap();
+                write!(ways, "<nd ref=\"{node}\"/>").unwrap();
+            }
+            ways.push_str("</way>");
+        }
+        write!(
+            relations,
+            "<relation id=\"{i}\"><member type=\"way\" ref=\"{}\" role=\"left\"/><member type=\"way\" ref=\"{}\" \
+             role=\"right\"/><tag k=\"type\" v=\"lanelet\"/></relation>",
+            i * 2 + 1,
+            i * 2 + 2
+        )
+        .unwrap();
+    }
+    gzip(format!("<osm>{nodes}{ways}{relations}</osm>").as_bytes())
+}
+
 /// Reads a file, one scene after another: how many there are, the first fault, and the most bytes that were
 /// allocated beside the file.
 fn read(file: &dyn Source, format: &str) -> (usize, Option<&'static str>, usize) {
@@ -155,6 +212,23 @@ fn reading_takes_little_beside_the_file() {
         ("records, wrapped", "womd", Box::new(Wrapped(gzip(&records(100)))), 100, None, 16),
         ("fcd", "sumo-fcd", Box::new(fcd(1_820, 200)), 20, None, 24),
         ("net", "sumo-net", Box::new(net(1_500)), 1, None, 160),
+        ("opendrive", "opendrive", Box::new(roads(500, 150)), 1, None, 96),
+        // As long lanes as are let through, over and over each other.
+        ("long roads", "opendrive", Box::new(roads(50, 4_900)), 1, None, 384),
+        (
+            "empty roads",
+            "opendrive",
+            Box::new(repeated(
+                b"<OpenDRIVE>",
+                b"<road id='1'><userData code='a'/></road>",
+                1 << 20,
+                b"</OpenDRIVE>",
+            )),
+            0,
+            Some("expansion-too-high"),
+            16,
+        ),
+        ("lanelets", "lanelet2", Box::new(lanelets(1_500)), 1, None, 96),
         (
             "white space",
             "dragtraffic",

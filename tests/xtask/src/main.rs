@@ -53,6 +53,7 @@ const CHECKS: &[Check] = &[
     ("dependencies", dependencies::check),
     ("package", || cargo(&[&["package", "--allow-dirty"][..], PACKAGES].concat())),
     ("python", python),
+    ("maps", maps),
     ("schemathesis", schemathesis::check),
     ("figures", figures::drag),
     ("browser", browser),
@@ -215,6 +216,25 @@ fn python() -> anyhow::Result<Outcome> {
         }
     }
     Ok(Outcome::Passed)
+}
+
+/// One network that a foreign program writes in several formats, read by all of ours.
+fn maps() -> anyhow::Result<Outcome> {
+    let own = match virtual_environment("maps", "tests/equal-maps-requirements.txt")? {
+        Ok(own) => own,
+        Err(why) => return Ok(Outcome::Skipped(why)),
+    };
+    let folder = root().join("target/maps/network");
+    let written = run(Command::new(own).arg("tests/equal_maps.py").arg(&folder).current_dir(root()))?;
+    if let Outcome::Failed(why) = written {
+        return Ok(Outcome::Failed(why));
+    }
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    run(Command::new(program)
+        .args(["test", "--workspace", "--locked", "--test", "equal_maps"])
+        .env("DRAGTRAFFIC_EQUAL_MAPS", &folder)
+        .env_remove("CARGO_PKG_NAME")
+        .current_dir(root()))
 }
 
 fn npm(folder: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {

@@ -1,15 +1,17 @@
 //! The two formats of SUMO that users import: a road network, and a recording (FCD) with or without the
 //! network it belongs to.
 
-use super::import_fcd::{Common, NOW_STEP, STEPS, Windows};
+use super::import_fcd::{Common, Windows};
+use super::import_net;
 use super::rows::Rows;
-use super::{import_net, xml};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NET_POINTER, Scenes, one};
+use crate::format::{
+    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one, only_read,
+};
 use crate::limits::MAX_DECODED_BYTES;
 use crate::problem::{FieldProblem, Imported, ReadError};
 use crate::source::Source;
-use crate::unpack;
-use scene::{Meta, Origin, Scene, Timing};
+use crate::{unpack, xml};
+use scene::{Meta, Origin, Scene};
 use std::collections::BTreeMap;
 use std::io;
 
@@ -20,10 +22,6 @@ pub struct SumoNet;
 /// A recording (`--fcd-output`), XML or CSV, plain or gzip: scenes of 9.1 s. Angles are degrees clockwise
 /// from north and points the middle of the front bumper, as SUMO's documentation of FCD output says.
 pub struct SumoFcd;
-
-fn only_read(info: &Info) -> io::Error {
-    io::Error::new(io::ErrorKind::Unsupported, format!("{} is read, not written", info.name))
-}
 
 impl Format for SumoNet {
     fn info(&self) -> Info {
@@ -70,8 +68,8 @@ fn net_scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, Rea
             origin: Origin { x_m: net.origin.x, y_m: net.origin.y, ..Origin::default() },
             ..Meta::default()
         },
-        time: Timing { steps: STEPS, now_step: NOW_STEP },
-        signals: net.signals(0.0, STEPS),
+        time: MAP_TIMING,
+        signals: net.signals(0.0, MAP_TIMING.steps),
         map: net.map,
         agents: Vec::new(),
         generated: None,

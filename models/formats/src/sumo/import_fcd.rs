@@ -14,9 +14,9 @@ use scene::{
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Steps of a scene: 9.1 s, as recordings of other sources have.
-pub(super) const STEPS: usize = 91;
+const STEPS: usize = 91;
 /// The step that is the present of a scene, as in recordings of other sources.
-pub(super) const NOW_STEP: usize = 10;
+const NOW_STEP: usize = 10;
 /// Most positions that one window may hold.
 const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one window of which 256 are chosen.

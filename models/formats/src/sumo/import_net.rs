@@ -2,9 +2,9 @@
 
 use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane, too_large};
-use super::polyline::length;
 use super::programs::Program;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS};
+use crate::polyline::length;
 use crate::problem::{FieldProblem, ReadError, Warning, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};

@@ -2,7 +2,7 @@
 //! round the corners of junctions.
 
 use super::net::{EdgeFunction, LaneKind, Net};
-use super::polyline::{meeting, offset_right};
+use crate::polyline::{meeting, offset_right};
 use scene::Vec2;
 use scene::geometry::cross;
 use std::collections::HashMap;

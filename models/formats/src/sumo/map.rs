@@ -3,7 +3,7 @@
 use super::kerb::{self, Borders, JunctionArea};
 use super::medians;
 use super::net::{EdgeFunction, LaneKind, Net};
-use super::polyline::{length, offset_right, resample, simplify};
+use crate::polyline::{length, offset_right, resample, simplify};
 use scene::Vec2;
 use scene::map::{Area, Lane, LaneMap, LaneType, Neighbor, StopSign};
 use std::cell::Cell;

@@ -3,7 +3,7 @@
 //! are joined by a nose, and a median that runs out to a point is cut off where it is still wide enough to
 //! be built.
 
-use super::polyline::{arc_lengths, length, part, resample};
+use crate::polyline::{arc_lengths, length, part, resample};
 use scene::Vec2;
 use scene::map::{Area, LaneMap, TypedLine};
 use std::f64::consts::PI;
@@ -159,7 +159,7 @@ fn blunt(map: &mut LaneMap, near: End, far: End) {
 
     let mut kept_a = kept_a;
     kept_a.extend(nose);
-    for (end, mut points) in [(near, kept_a), (far, super::polyline::simplify(&kept_b, 0.02, 20.0))] {
+    for (end, mut points) in [(near, kept_a), (far, crate::polyline::simplify(&kept_b, 0.02, 20.0))] {
         if !end.last {
             points.reverse();
         }
@@ -172,7 +172,7 @@ fn blunt(map: &mut LaneMap, near: End, far: End) {
     let mut line = vec![tip];
     line.extend(middle);
     line.push(far.point);
-    paint(map, super::polyline::simplify(&line, 0.03, 20.0), far.point);
+    paint(map, crate::polyline::simplify(&line, 0.03, 20.0), far.point);
 }
 
 /// Draws the painted line that ends at `from` out along `points`, which lead there.

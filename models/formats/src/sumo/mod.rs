@@ -14,14 +14,13 @@ pub mod map;
 pub mod medians;
 pub mod net;
 mod paint;
-pub mod polyline;
 pub mod programs;
 mod rows;
 pub mod signals;
 mod window;
-mod xml;
 
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::xml::Missing;
 
 /// Why a SUMO file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -30,15 +29,8 @@ pub enum SumoError {
     #[error("{0}")]
     File(#[from] ReadError),
     /// A required attribute is not there.
-    #[error("line {line}: <{element}> has no attribute \"{attribute}\"")]
-    Missing {
-        /// Element name.
-        element: String,
-        /// Attribute that was expected.
-        attribute: &'static str,
-        /// Line in the file, from 1.
-        line: u32,
-    },
+    #[error("{0}")]
+    Missing(#[from] Missing),
     /// An attribute or a field is no number or no list of points.
     #[error("line {line}: \"{found}\" found where {expected} was expected")]
     Value {
@@ -70,9 +62,8 @@ impl From<SumoError> for ReadError {
         let detail = error.to_string();
         match error {
             SumoError::File(error) => error,
-            SumoError::Missing { .. } | SumoError::Value { .. } => {
-                FieldProblem::new("", code::INVALID_FIELD, detail).into()
-            }
+            SumoError::Missing(missing) => missing.into(),
+            SumoError::Value { .. } => FieldProblem::new("", code::INVALID_FIELD, detail).into(),
             SumoError::Content { .. } => FieldProblem::new("", code::CANNOT_REPRESENT, detail).into(),
         }
     }

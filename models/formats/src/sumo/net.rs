@@ -134,6 +134,7 @@ impl Net {
 mod tests {
     use super::*;
     use crate::sumo::SumoError;
+    use crate::xml::Missing;
 
     const SMALL: &str = r#"<net><edge id=":c_0" function="internal">
         <lane id=":c_0_0" index="0" disallow="pedestrian" speed="6.5" length="3" shape="10,0 13,0"/></edge>
@@ -174,6 +175,9 @@ mod tests {
         assert!(matches!(Net::read("<!DOCTYPE net><net/>"), Err(SumoError::File(_))));
         let error = Net::read(&SMALL.replace("0,0 10,0", "0,zero")).unwrap_err();
         assert_eq!(error.to_string(), "line 7: \"0,zero\" found where a point such as 1.5,-2.0 was expected");
-        assert!(matches!(Net::read("<net><edge/></net>"), Err(SumoError::Missing { attribute: "id", .. })));
+        assert!(matches!(
+            Net::read("<net><edge/></net>"),
+            Err(SumoError::Missing(Missing { attribute: "id", .. }))
+        ));
     }
 }

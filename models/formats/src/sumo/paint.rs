@@ -3,7 +3,7 @@
 use super::kerb::{Borders, Corner, JunctionArea};
 use super::map::Builder;
 use super::net::LaneKind;
-use super::polyline::{offset_right, resample, simplify, tangents};
+use crate::polyline::{offset_right, resample, simplify, tangents};
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::map::TypedLine;

@@ -3,10 +3,10 @@
 use super::SumoError;
 use super::fcd::Columns;
 use super::import_net::MAX_SOURCE_M;
-use super::xml::{Element, Event, Scanner};
 use crate::problem::ReadError;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
+use crate::xml::{Element, Event, Scanner};
 use scene::Vec2;
 use std::io::{BufRead, Read};
 

@@ -1,7 +1,7 @@
 //! Reader of recorded signal states (`SaveTLSStates` output).
 
 use super::SumoError;
-use super::xml::{Event, Scanner};
+use crate::xml::{Event, Scanner};
 use scene::SignalState;
 use std::collections::HashMap;
 

@@ -3,8 +3,8 @@
 use super::fleet::Fleet;
 use super::network::{Network, Rank};
 use super::{RECORDED_S, WARM_UP_S};
+use formats::polyline::length;
 use formats::sumo::net::{EdgeFunction, LaneKind, Net, NetEdge};
-use formats::sumo::polyline::length;
 use scene::random::Stream;
 use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;

@@ -9,7 +9,7 @@ use super::programs::Sumo;
 use super::recording::{self, Actor, RecordError, Recording};
 use super::windows::{self, NOW, STEPS};
 use super::{DT_S, RECORDED_S, demo_clip, demo_mend};
-use formats::sumo::polyline::contains;
+use formats::polyline::contains;
 use scene::geometry::{cross, direction};
 use scene::{Agent, AgentType, Conditions, Meta, Scene, Size, State, Subtype, Timing, Track, Vec2};
 use std::path::{Path, PathBuf};

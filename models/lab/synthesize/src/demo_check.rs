@@ -1,7 +1,7 @@
 //! What must hold in a demo scene: nobody overlaps, nobody is off the road, nobody jumps, nothing happens
 //! that the editor would report, and the first frame looks right.
 
-use formats::sumo::polyline::{contains, distance_to};
+use formats::polyline::{contains, distance_to};
 use scene::geometry::obb::{OrientedBox, signed_gap};
 use scene::score::report::NearMiss;
 use scene::score::{Drivable, ScoreInput, score};

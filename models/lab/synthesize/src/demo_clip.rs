@@ -1,6 +1,6 @@
 //! Cuts a map to a square about the origin.
 
-use formats::sumo::polyline::{length, simplify};
+use formats::polyline::{length, simplify};
 use scene::Vec2;
 use scene::map::{Area, Lane, LaneMap, LaneType, Neighbor, TypedLine};
 use std::collections::HashMap;

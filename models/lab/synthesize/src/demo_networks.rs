@@ -3,7 +3,7 @@
 use super::network::{Character, MPH, Network, Rank, Section, hermite};
 use super::random::Purpose;
 use super::ways::{MotorwayShape, approach, carriageway, ring};
-use formats::sumo::polyline::{arc_lengths, part, point_at};
+use formats::polyline::{arc_lengths, part, point_at};
 use scene::Vec2;
 use scene::geometry::direction;
 use std::f64::consts::FRAC_PI_2;

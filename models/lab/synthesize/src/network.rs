@@ -1,8 +1,8 @@
 //! A road network under construction: a graph of roads with cross-sections becomes directed edges
 //! with explicit lanes, written as the plain XML that `netconvert` reads.
 
+use formats::polyline::{arc_lengths, length, offset_right, part, point_at, resample};
 use formats::sumo::kerb::s_curve;
-use formats::sumo::polyline::{arc_lengths, length, offset_right, part, point_at, resample};
 use scene::Vec2;
 use scene::random::Stream;
 use std::collections::BTreeMap;

@@ -2,8 +2,8 @@
 //! and in the stalls of parking lots.
 
 use super::network::{Network, left_of, unit};
+use formats::polyline::{arc_lengths, length, part, point_at, resample};
 use formats::sumo::net::{EdgeFunction, LaneKind, Net};
-use formats::sumo::polyline::{arc_lengths, length, part, point_at, resample};
 use scene::random::Stream;
 use scene::{Size, Vec2};
 use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! Networks of streets: one crossing with its arms, a grid, an arterial, a parking lot.
 
 use super::network::{Character, MPH, Network, Rank, Section, hermite, left_of, unit};
-use formats::sumo::polyline::{arc_lengths, length, part, point_at};
+use formats::polyline::{arc_lengths, length, part, point_at};
 use scene::Vec2;
 use scene::geometry::{direction, rotate};
 use scene::random::Stream;

@@ -4,8 +4,8 @@
 use super::filters::{gaussian, gradient, interpolate, noise, unwrap};
 use super::fleet::ActorKind;
 use super::{DT_S, RECORDED_S, WARM_UP_S};
+use formats::polyline::{arc_lengths, point_at};
 use formats::sumo::fcd::Record;
-use formats::sumo::polyline::{arc_lengths, point_at};
 use scene::geometry::direction;
 use scene::random::Stream;
 use scene::{AgentType, STANDING_MPS, State, Vec2, wrap_angle};

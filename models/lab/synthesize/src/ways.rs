@@ -2,7 +2,7 @@
 
 use super::network::{MPH, Network, Rank, Section, hermite, left_of, unit};
 use super::streets::{character, section};
-use formats::sumo::polyline::{arc_lengths, length, offset_right, part, point_at};
+use formats::polyline::{arc_lengths, length, offset_right, part, point_at};
 use scene::Vec2;
 use scene::geometry::{direction, rotate};
 use scene::random::Stream;

@@ -4,7 +4,7 @@ use super::{EdgeFunction, LaneKind, Net, NetEdge, NetJunction, NetLane};
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::sumo::SumoError;
 use crate::sumo::programs::Program;
-use crate::sumo::xml::{Element, Event, Scanner};
+use crate::xml::{Element, Event, Scanner};
 use scene::Vec2;
 use std::collections::HashMap;
 use std::io::BufRead;
@@ -66,6 +66,7 @@ impl Net {
             match event {
                 Event::Start(element) => reader.start(&element)?,
                 Event::End => reader.end(),
+                Event::Text(_) => {}
             }
         }
         Ok(reader.linked())
@@ -157,7 +158,7 @@ pub(in crate::sumo) fn too_large(detail: String) -> ReadError {
 }
 
 fn owned(element: &Element, attribute: &'static str) -> Result<String, SumoError> {
-    element.required(attribute).map(str::to_owned)
+    Ok(element.required(attribute)?.to_owned())
 }
 
 fn number(element: &Element, attribute: &'static str) -> Result<f64, SumoError> {

@@ -2,8 +2,8 @@
 
 use super::{Lanes, Place, cubic, entering, heading_at, length, part, progress, record, sharpest};
 use crate::{DT_S, RECORDED_S};
+use formats::polyline::arc_lengths;
 use formats::sumo::fcd::Record;
-use formats::sumo::polyline::arc_lengths;
 use scene::geometry::{cross, direction};
 use scene::random::Stream;
 use scene::wrap_angle;

@@ -1,5 +1,5 @@
-//! A pull scanner for the XML that SUMO writes: elements and attributes, no text. All of SUMO's files are
-//! read with it.
+//! A pull scanner for the XML of traffic formats: elements and attributes, and text where it is asked for. All
+//! XML is read with it.
 //!
 //! XML 1.0 without document type definitions (so there are no entities but the five of section 4.6 and
 //! character references), bounded in depth, in attributes and in the length of a tag. Memory does not
@@ -11,19 +11,20 @@
 //! neither depth nor attributes, so lines, bounds, the root and what is left open at the end would still be
 //! ours to check.
 
-use super::SumoError;
-use crate::problem::ReadError;
+use crate::problem::{FieldProblem, ReadError, code};
 use crate::unpack;
 use std::io::{self, BufRead};
 
-/// Deepest nesting that is read; SUMO's files have up to four levels.
+/// Deepest nesting that is read; a map has about ten levels.
 const MAX_DEPTH: usize = 32;
+/// What a CDATA section begins with, after the `<`.
+const CDATA: &[u8] = b"![CDATA[";
 /// Most attributes of one element.
 const MAX_ATTRIBUTES: usize = 128;
 
 /// A start tag.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Element {
+pub(crate) struct Element {
     pub name: String,
     pub attributes: Vec<(String, String)>,
     /// Line in the file, from 1.
@@ -37,26 +38,43 @@ impl Element {
 
     /// # Errors
     /// When the attribute is not there.
-    pub fn required(&self, attribute: &'static str) -> Result<&str, SumoError> {
-        self.get(attribute).ok_or_else(|| SumoError::Missing {
-            element: shown(&self.name),
-            attribute,
-            line: self.line,
-        })
+    pub fn required(&self, attribute: &'static str) -> Result<&str, Missing> {
+        let missing = || Missing { element: shown(&self.name), attribute, line: self.line };
+        self.get(attribute).ok_or_else(missing)
+    }
+}
+
+/// A required attribute is not there.
+#[derive(Debug, thiserror::Error)]
+#[error("line {line}: <{element}> has no attribute \"{attribute}\"")]
+pub struct Missing {
+    /// Element name.
+    pub element: String,
+    /// Attribute that was expected.
+    pub attribute: &'static str,
+    /// Line in the file, from 1.
+    pub line: u32,
+}
+
+impl From<Missing> for ReadError {
+    fn from(missing: Missing) -> Self {
+        FieldProblem::new("", code::INVALID_FIELD, missing.to_string()).into()
     }
 }
 
 /// What comes next.
 #[derive(Clone, Debug)]
-pub(super) enum Event {
+pub(crate) enum Event {
     /// Also for an element without content, which has an end too.
     Start(Element),
     /// The end of an element.
     End,
+    /// Text within an element, trimmed and never empty; only where it is asked for.
+    Text(String),
 }
 
 /// Reads events one by one.
-pub(super) struct Scanner<R> {
+pub(crate) struct Scanner<R> {
     input: R,
     line: u32,
     offset: u64,
@@ -66,6 +84,10 @@ pub(super) struct Scanner<R> {
     seen_root: bool,
     max_tag: usize,
     tag: Vec<u8>,
+    /// Text is given, not passed over.
+    texts: bool,
+    /// The `<` of the next tag has been read, after text.
+    in_tag: bool,
 }
 
 impl<R: BufRead> Scanner<R> {
@@ -80,7 +102,14 @@ impl<R: BufRead> Scanner<R> {
             seen_root: false,
             max_tag,
             tag: Vec::new(),
+            texts: false,
+            in_tag: false,
         }
+    }
+
+    /// Gives text too. One piece is at most as long as a tag.
+    pub fn with_texts(self) -> Self {
+        Self { texts: true, ..self }
     }
 
     /// The next event; `None` after the root's end.
@@ -92,17 +121,30 @@ impl<R: BufRead> Scanner<R> {
             return Ok(Some(Event::End));
         }
         loop {
-            if !self.until(b'<', false)? {
-                return match self.open.last() {
-                    Some(name) => Err(self.wrong(format!("the file ends inside <{}>", shown(name)))),
-                    None if !self.seen_root => Err(self.wrong("no XML element in the file".into())),
-                    None => Ok(None),
-                };
+            if !std::mem::take(&mut self.in_tag) {
+                self.tag.clear();
+                if !self.until(b'<', self.texts && !self.open.is_empty())? {
+                    return match self.open.last() {
+                        Some(name) => Err(self.wrong(format!("the file ends inside <{}>", shown(name)))),
+                        None if !self.seen_root => Err(self.wrong("no XML element in the file".into())),
+                        None => Ok(None),
+                    };
+                }
+                if let Some(text) = self.text()? {
+                    self.in_tag = true;
+                    return Ok(Some(Event::Text(text)));
+                }
             }
             let (start, line) = (self.offset.saturating_sub(1), self.line);
             self.tag.clear();
             self.until_tag_end(start, line)?;
             let result = match self.tag.first() {
+                Some(b'!') if self.tag.starts_with(CDATA) => {
+                    match self.character_data().map_err(|detail| at(start, line, &detail))? {
+                        Some(text) => return Ok(Some(Event::Text(text))),
+                        None => continue,
+                    }
+                }
                 Some(b'?' | b'!') => continue,
                 Some(b'/') => self.end(),
                 _ => self.start(line),
@@ -143,6 +185,27 @@ impl<R: BufRead> Scanner<R> {
         }
     }
 
+    /// The text before a tag, which has just been read with its `<`.
+    fn text(&self) -> Result<Option<String>, ReadError> {
+        let bytes = self.tag.strip_suffix(b"<").unwrap_or(&self.tag).trim_ascii();
+        if bytes.is_empty() {
+            return Ok(None);
+        }
+        let text = std::str::from_utf8(bytes).map_err(|_| "text that is not UTF-8".to_owned());
+        text.and_then(unescaped).map(Some).map_err(|detail| self.wrong(detail))
+    }
+
+    /// What a CDATA section holds, where text is asked for.
+    fn character_data(&self) -> Result<Option<String>, String> {
+        let bytes = self.tag.strip_prefix(CDATA).and_then(|rest| rest.strip_suffix(b"]]>"));
+        let bytes = bytes.unwrap_or_default().trim_ascii();
+        if !self.texts || self.open.is_empty() || bytes.is_empty() {
+            return Ok(None);
+        }
+        let text = std::str::from_utf8(bytes).map_err(|_| "text that is not UTF-8".to_owned())?;
+        Ok(Some(text.to_owned()))
+    }
+
     /// Reads to the `>` that ends the tag: not one in a quoted value, nor one in a comment.
     fn until_tag_end(&mut self, start: u64, line: u32) -> Result<(), ReadError> {
         let mut quote = None;
@@ -163,9 +226,19 @@ impl<R: BufRead> Scanner<R> {
                 self.tag.drain(3..last);
                 continue;
             }
+            if self.tag.starts_with(CDATA) {
+                if self.tag.len() >= CDATA.len() + 3 && self.tag.ends_with(b"]]>") {
+                    return Ok(());
+                }
+                // So may sections that nobody asked for.
+                if !self.texts {
+                    let last = self.tag.len().saturating_sub(2).max(CDATA.len());
+                    self.tag.drain(CDATA.len()..last);
+                }
+                continue;
+            }
             if self.tag.first() == Some(&b'!') {
-                let detail = "a document type definition or CDATA section; SUMO writes none and none is read";
-                return Err(at(start, line, detail));
+                return Err(at(start, line, "a document type definition; none is read"));
             }
             if self.tag.first() == Some(&b'?') {
                 if self.tag.ends_with(b"?>") {
@@ -298,7 +371,7 @@ fn unescaped(value: &str) -> Result<String, String> {
 }
 
 /// Name of the first element, for recognising a file. Looks no further than `head`.
-pub(super) fn root_of(head: &[u8]) -> Option<String> {
+pub(crate) fn root_of(head: &[u8]) -> Option<String> {
     match Scanner::new(head, head.len().max(1)).next() {
         Ok(Some(Event::Start(element))) => Some(element.name),
         _ => None,
@@ -309,8 +382,7 @@ pub(super) fn root_of(head: &[u8]) -> Option<String> {
 mod tests {
     use super::*;
 
-    fn all(text: &str) -> Result<String, ReadError> {
-        let mut scanner = Scanner::new(text.as_bytes(), 200);
+    fn walk(mut scanner: Scanner<&[u8]>) -> Result<String, ReadError> {
         let mut out = String::new();
         while let Some(event) = scanner.next()? {
             match event {
@@ -319,9 +391,27 @@ mod tests {
                     e.attributes.iter().for_each(|(n, v)| out.push_str(&format!("[{n}:{v}]")));
                 }
                 Event::End => out.push(';'),
+                Event::Text(text) => out.push_str(&format!("'{text}'")),
             }
         }
         Ok(out)
+    }
+
+    fn all(text: &str) -> Result<String, ReadError> {
+        walk(Scanner::new(text.as_bytes(), 200))
+    }
+
+    #[test]
+    fn text_is_given_where_it_is_asked_for() {
+        let text = "<a> 1 &lt; 2 <b>x</b><!-- c --><![CDATA[ <y> & z ]]></a>\n";
+        assert_eq!(all(text).unwrap(), "ab;;");
+        let scanner = Scanner::new(text.as_bytes(), 200).with_texts();
+        assert_eq!(walk(scanner).unwrap(), "a'1 < 2'b'x';'<y> & z';");
+        let long = format!("<a><![CDATA[{}]]></a>", "> ]] ".repeat(1_000));
+        assert_eq!(all(&long).unwrap(), "a;");
+        let refused = walk(Scanner::new(long.as_bytes(), 200).with_texts()).unwrap_err();
+        assert!(refused.to_string().contains("more than 200 bytes"));
+        assert!(walk(Scanner::new("<a>&b;</a>".as_bytes(), 200).with_texts()).is_err());
     }
 
     #[test]

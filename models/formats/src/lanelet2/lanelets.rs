@@ -1,0 +1,150 @@
+//! Lanelets: their sides in the direction of travel, their middle, what they are for.
+
+use super::osm::{Osm, Relation, Tags};
+use crate::polyline::{arc_lengths, length, point_at};
+use scene::Vec2;
+use scene::geometry::cross;
+use scene::map::LaneType;
+
+/// Distance of points of a centre line, metres.
+const SPACING_M: f64 = 1.0;
+/// Most pieces of a centre line.
+const MAX_PIECES: f64 = 4_000.0;
+
+/// One lanelet.
+pub(super) struct Lanelet<'a> {
+    pub id: i64,
+    /// Lines of its sides, and those between its ends, as ids.
+    pub ways: [i64; 2],
+    /// First and last points of its left and right side, as ids.
+    pub ends: [(i64, i64); 2],
+    pub left: Vec<Vec2>,
+    pub right: Vec<Vec2>,
+    pub relation: &'a Relation,
+    pub kind: Kind,
+}
+
+/// What a lanelet is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Lane(LaneType),
+    Crosswalk,
+}
+
+impl Lanelet<'_> {
+    /// Traffic goes both ways.
+    pub fn two_way(&self) -> bool {
+        self.relation.tags.get("one_way").is_some_and(|value| value == "no" || value == "false")
+    }
+
+    /// Points a metre apart halfway between the sides, and the mean width.
+    pub fn middle(&self) -> (Vec<Vec2>, f64) {
+        let lengths = [arc_lengths(&self.left), arc_lengths(&self.right)];
+        let totals = [length(&self.left), length(&self.right)];
+        let pieces = (totals[0].max(totals[1]) / SPACING_M).ceil().clamp(1.0, MAX_PIECES) as usize;
+        let mut sides = Vec::with_capacity(pieces + 1);
+        let points = (0..=pieces).map(|i| {
+            let share = i as f64 / pieces as f64;
+            let (l, r) = (
+                point_at(&self.left, &lengths[0], totals[0] * share),
+                point_at(&self.right, &lengths[1], totals[1] * share),
+            );
+            sides.push(l - r);
+            ((l + r) / 2.0).map(|v| (v * 1e4).round() / 1e4)
+        });
+        let points: Vec<Vec2> = points.collect();
+        // Across the way: opposite points of a lane that opens or bends may lie askew.
+        let across = |(i, side): (usize, &Vec2)| {
+            let way = points[(i + 1).min(pieces)] - points[i.saturating_sub(1)];
+            cross(way, *side).abs() / way.norm().max(1e-9)
+        };
+        let width_m = sides.iter().enumerate().map(across).sum::<f64>() / sides.len() as f64;
+        (points, width_m)
+    }
+
+    /// Both sides as equally many points.
+    pub fn sides(&self) -> (Vec<Vec2>, Vec<Vec2>) {
+        let lengths = [arc_lengths(&self.left), arc_lengths(&self.right)];
+        let totals = [length(&self.left), length(&self.right)];
+        let mut shares: Vec<f64> = lengths
+            .iter()
+            .zip(totals)
+            .flat_map(|(all, total)| all.iter().map(move |s| s / total.max(1e-9)))
+            .collect();
+        shares.sort_by(f64::total_cmp);
+        shares.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+        let side = |k: usize, line: &[Vec2]| {
+            shares.iter().map(|share| point_at(line, &lengths[k], totals[k] * share)).collect()
+        };
+        (side(1, &self.right), side(0, &self.left))
+    }
+}
+
+/// All lanelets with two sides, and how many have none.
+pub(super) fn lanelets(osm: &Osm) -> (Vec<Lanelet<'_>>, usize) {
+    let all = osm.relations.iter().filter(|relation| is(&relation.tags, "type", "lanelet"));
+    let (mut found, mut broken) = (Vec::new(), 0);
+    for relation in all {
+        match lanelet(osm, relation) {
+            Some(lanelet) => found.push(lanelet),
+            None => broken += 1,
+        }
+    }
+    (found, broken)
+}
+
+pub(super) fn is(tags: &Tags, key: &str, value: &str) -> bool {
+    tags.get(key).is_some_and(|found| found == value)
+}
+
+fn lanelet<'a>(osm: &Osm, relation: &'a Relation) -> Option<Lanelet<'a>> {
+    let ways = [relation.member("left")?, relation.member("right")?];
+    let line = |id: &i64| -> Option<(Vec<i64>, Vec<Vec2>)> {
+        let nodes = &osm.ways.get(id)?.nodes;
+        let known: Vec<(i64, Vec2)> = nodes.iter().filter_map(|n| Some((*n, *osm.nodes.get(n)?))).collect();
+        (known.len() > 1).then(|| known.into_iter().unzip())
+    };
+    let (mut left, mut right) = (line(&ways[0])?, line(&ways[1])?);
+    let last = |line: &[Vec2]| line[line.len() - 1];
+    // Sides are drawn in any direction: they must run the same way, and the left one on the left.
+    let along = (left.1[0] - right.1[0]).norm() + (last(&left.1) - last(&right.1)).norm();
+    let against = (left.1[0] - last(&right.1)).norm() + (last(&left.1) - right.1[0]).norm();
+    if against < along {
+        right.0.reverse();
+        right.1.reverse();
+    }
+    let ring = right.1.iter().chain(left.1.iter().rev()).copied();
+    let ring: Vec<Vec2> = ring.collect();
+    let area: f64 = (0..ring.len()).map(|i| cross(ring[i], ring[(i + 1) % ring.len()])).sum();
+    if area < 0.0 {
+        for line in [&mut left, &mut right] {
+            line.0.reverse();
+            line.1.reverse();
+        }
+    }
+    let ends_of = |ids: &[i64]| (ids[0], ids[ids.len() - 1]);
+    Some(Lanelet {
+        id: relation.id,
+        ways,
+        ends: [ends_of(&left.0), ends_of(&right.0)],
+        left: left.1,
+        right: right.1,
+        relation,
+        kind: kind(&relation.tags)?,
+    })
+}
+
+fn kind(tags: &Tags) -> Option<Kind> {
+    let yes = |key: &str| is(tags, key, "yes");
+    let on_foot = yes("participant:pedestrian") && !yes("participant:vehicle");
+    Some(match tags.get("subtype").map_or("road", String::as_str) {
+        "crosswalk" => Kind::Crosswalk,
+        "highway" => Kind::Lane(LaneType::Freeway),
+        "bus_lane" => Kind::Lane(LaneType::BusLane),
+        "bicycle_lane" => Kind::Lane(LaneType::BikeLane),
+        "walkway" | "shared_walkway" | "pedestrian_lane" => Kind::Lane(LaneType::Sidewalk),
+        "stairs" | "exit" | "rail" => return None,
+        _ if on_foot => Kind::Lane(LaneType::Sidewalk),
+        _ => Kind::Lane(LaneType::SurfaceStreet),
+    })
+}

@@ -1,0 +1,7 @@
+//! Lanelet2 maps: pieces of lane between two lines, in the XML of OpenStreetMap.
+
+pub mod format;
+mod import;
+mod lanelets;
+mod osm;
+mod projection;

@@ -1,0 +1,455 @@
+//! What a scene shows of an OpenDRIVE file, written again within bounds.
+//!
+//! The crate that reads maps builds whatever a file asks for, and takes the time and memory of it. So a file goes
+//! through here first, element by element: what becomes a part of a scene is kept, counted and held to bounds that
+//! real maps are far from; the rest (surfaces, boards, railways, what lies in other files) is left out. Coordinates
+//! are moved to the middle of the file's first road, since the crate keeps them in single precision.
+
+use crate::problem::{FieldProblem, ReadError, code};
+use crate::source::Source;
+use crate::unpack::{self, Bounds};
+use crate::xml::{Element, Event, Scanner};
+use scene::Vec2;
+use std::collections::{BTreeMap, HashSet};
+use std::fmt::Write as _;
+
+/// Most bytes of a file once decompressed.
+const MAX_BYTES: u64 = 256 << 20;
+/// Most bytes of one tag or one piece of text.
+const MAX_TAG: usize = 1 << 20;
+/// Most bytes and elements that are kept.
+const MAX_KEPT_BYTES: usize = 48 << 20;
+const MAX_KEPT: usize = 500_000;
+/// Most lanes of a map, all lane sections together, and of one lane section.
+const MAX_LANES: usize = 60_000;
+const MAX_SECTION_LANES: usize = 64;
+/// Most signals and references to them, and most objects.
+const MAX_SIGNALS: usize = 4_000;
+const MAX_OBJECTS: usize = 10_000;
+/// Longest reference lines, and longest lanes, all together, metres.
+const MAX_LINES_M: f64 = 500_000.0;
+const MAX_LANES_M: f64 = 500_000.0;
+/// Most steps of reading: each record of a road is looked for at each metre of it.
+const MAX_STEPS: f64 = 4e8;
+/// Farthest a coordinate may lie from the origin of the file, metres.
+const MAX_SOURCE_M: f64 = 1e8;
+/// A lane raised by so much is not driven onto from the one beside it, metres.
+const RAISED_M: f64 = 0.05;
+
+/// Elements that are kept, by the one that they are in.
+const KEPT: &[(&str, &[&str])] = &[
+    ("OpenDRIVE", &["header", "road", "controller", "junction"]),
+    ("road", &["link", "type", "planView", "elevationProfile", "lanes", "objects", "signals"]),
+    ("link", &["predecessor", "successor"]),
+    ("type", &["speed"]),
+    ("planView", &["geometry"]),
+    ("geometry", &["line", "arc", "spiral", "poly3", "paramPoly3"]),
+    ("elevationProfile", &["elevation"]),
+    ("lanes", &["laneOffset", "laneSection"]),
+    ("laneSection", &["left", "center", "right"]),
+    ("left", &["lane"]),
+    ("center", &["lane"]),
+    ("right", &["lane"]),
+    ("lane", &["link", "width", "border", "speed", "roadMark"]),
+    ("objects", &["object"]),
+    ("object", &["outlines", "outline", "validity"]),
+    ("outlines", &["outline"]),
+    ("outline", &["cornerRoad", "cornerLocal"]),
+    ("signals", &["signal", "signalReference"]),
+    ("signal", &["validity"]),
+    ("signalReference", &["validity"]),
+    ("controller", &["control"]),
+    ("junction", &["connection", "controller"]),
+    ("connection", &["laneLink", "predecessor", "successor"]),
+];
+/// Elements that say something which a scene does not show, by what people are told.
+const LEFT_OUT: &[(&str, &str)] = &[
+    ("superelevation", "superelevation"),
+    ("crossfall", "crossfall"),
+    ("shape", "lateral shape"),
+    ("CRG", "OpenCRG surface"),
+    ("railroad", "railroad"),
+    ("station", "railway station"),
+    ("tunnel", "tunnel"),
+    ("bridge", "bridge"),
+    ("include", "included file"),
+    ("crossPath", "cross path"),
+    ("access", "lane access"),
+];
+
+/// A file as it is handed on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Filtered {
+    /// OpenDRIVE, well-formed.
+    pub text: String,
+    /// Where its origin lies in the file's frame, whole metres.
+    pub origin: Vec2,
+    /// What the file says of its projection.
+    pub projection: Option<String>,
+    /// How many of what were left out.
+    pub left_out: BTreeMap<&'static str, usize>,
+    /// Lanes that stand above the road: road id, lane section, lane id.
+    pub raised: HashSet<(String, usize, i32)>,
+    /// Traffic keeps to the left, by road id.
+    pub left_hand: HashSet<String>,
+}
+
+/// Reads a file, plain or gzip.
+///
+/// # Errors
+/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file,
+/// `map-too-large` and `out-of-range` for what no scene can hold.
+pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
+    let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
+    let input = input.map_err(|error| unpack::fault(&error, 0))?;
+    let mut scanner = Scanner::new(input, MAX_TAG).with_texts();
+    let mut filter = Filter::default();
+    while let Some(event) = scanner.next()? {
+        match event {
+            Event::Start(element) => filter.start(&element)?,
+            Event::End => filter.end()?,
+            Event::Text(text) => filter.text(&text),
+        }
+    }
+    Ok(filter.out)
+}
+
+/// The road that is open.
+#[derive(Default)]
+struct Road {
+    id: String,
+    length_m: f64,
+    /// Elements that are looked for along it.
+    records: usize,
+    sections: Vec<Section>,
+}
+
+struct Section {
+    s_m: f64,
+    lanes: usize,
+    raised: Vec<i32>,
+}
+
+#[derive(Default)]
+struct Filter {
+    out: Filtered,
+    /// Elements that are open and kept.
+    open: Vec<String>,
+    /// Elements that are open below one that is not kept.
+    skipped: usize,
+    /// Text is the projection's.
+    projection: bool,
+    origin: Option<Vec2>,
+    ids: HashSet<String>,
+    road: Road,
+    lane: Option<i32>,
+    kept: usize,
+    lanes: usize,
+    signals: usize,
+    objects: usize,
+    lines_m: f64,
+    lanes_m: f64,
+    steps: f64,
+}
+
+impl Filter {
+    fn start(&mut self, element: &Element) -> Result<(), ReadError> {
+        if self.skipped > 0 {
+            self.skipped += 1;
+            self.count_left_out(&element.name);
+            return Ok(());
+        }
+        let Some(parent) = self.open.last().cloned() else {
+            if element.name != "OpenDRIVE" {
+                let found: String = element.name.chars().take(40).collect();
+                let detail = format!("expected OpenDRIVE, found <{found}>");
+                return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+            }
+            return self.keep(element, &[]);
+        };
+        let known =
+            KEPT.iter().any(|(name, inner)| *name == parent && inner.contains(&element.name.as_str()));
+        if !known || !self.wanted(element) {
+            self.projection = parent == "header" && element.name == "geoReference";
+            self.height(element);
+            self.count_left_out(&element.name);
+            self.skipped = 1;
+            return Ok(());
+        }
+        match element.name.as_str() {
+            "geometry" => {
+                let moved = self.geometry(element)?;
+                self.keep(element, &moved)
+            }
+            "road" => {
+                let moved = self.road(element);
+                self.keep(element, &moved)
+            }
+            "laneSection" => {
+                let s_m = number(element, "s").unwrap_or(0.0).max(0.0);
+                self.road.sections.push(Section { s_m, lanes: 0, raised: Vec::new() });
+                self.keep(element, &[("s", s_m)])
+            }
+            "lane" => {
+                self.lane(element)?;
+                self.keep(element, &[])
+            }
+            _ => self.keep(element, &[]),
+        }
+    }
+
+    fn end(&mut self) -> Result<(), ReadError> {
+        if self.skipped > 0 {
+            self.skipped -= 1;
+            self.projection = false;
+            return Ok(());
+        }
+        let Some(name) = self.open.pop() else { return Ok(()) };
+        if name == "road" {
+            self.end_of_road()?;
+        }
+        if name == "lane" {
+            self.lane = None;
+        }
+        let _ = write!(self.out.text, "</{name}>");
+        Ok(())
+    }
+
+    fn text(&mut self, text: &str) {
+        if self.projection && self.out.projection.is_none() {
+            self.out.projection = Some(text.chars().take(500).collect());
+        }
+    }
+
+    /// False for elements of a kept sort that nothing is made of.
+    fn wanted(&mut self, element: &Element) -> bool {
+        let has = |attribute: &str, word: &str| {
+            element.get(attribute).is_some_and(|value| value.to_ascii_lowercase().contains(word))
+        };
+        let known = match element.name.as_str() {
+            "road" => self.ids.insert(element.get("id").unwrap_or_default().to_owned()),
+            "lanes" => element.get("layer") != Some("temporary"),
+            "object" => is_crosswalk(element) || is_stop_line(element),
+            "signal" => {
+                element.get("dynamic") == Some("yes")
+                    || super::signals::is_stop_sign(element.get("type"), element.get("name"))
+                    || super::signals::is_light(element.get("type"))
+                    || has("type", super::signals::STOP_LINE)
+            }
+            _ => true,
+        };
+        let word = match element.name.as_str() {
+            "road" => "road with the id of another",
+            "lanes" => "temporary lane layer",
+            "object" => "object",
+            _ => "sign",
+        };
+        if !known {
+            *self.out.left_out.entry(word).or_default() += 1;
+        }
+        known
+    }
+
+    fn count_left_out(&mut self, name: &str) {
+        if let Some((_, word)) = LEFT_OUT.iter().find(|(known, _)| *known == name) {
+            *self.out.left_out.entry(word).or_default() += 1;
+        }
+    }
+
+    /// Writes an element with these values in place of its own, and counts it.
+    fn keep(&mut self, element: &Element, values: &[(&str, f64)]) -> Result<(), ReadError> {
+        self.kept += 1;
+        self.road.records += 1;
+        bound(self.kept, MAX_KEPT, "elements of roads")?;
+        match element.name.as_str() {
+            "signal" | "signalReference" => self.signals += 1,
+            "object" => self.objects += 1,
+            _ => {}
+        }
+        bound(self.signals, MAX_SIGNALS, "signals")?;
+        bound(self.objects, MAX_OBJECTS, "objects")?;
+        let text = &mut self.out.text;
+        let _ = write!(text, "<{}", element.name);
+        let named = |name: &String| name.bytes().all(|b| b.is_ascii_alphanumeric()) && name != "xmlns";
+        for (name, value) in element.attributes.iter().filter(|(name, _)| named(name)) {
+            match values.iter().find(|(known, _)| known == name) {
+                Some((_, value)) => {
+                    let _ = write!(text, " {name}=\"{value}\"");
+                }
+                None => {
+                    let _ = write!(text, " {name}=\"");
+                    escape(value, text);
+                    text.push('"');
+                }
+            }
+        }
+        text.push('>');
+        bound(text.len(), MAX_KEPT_BYTES, "bytes of roads")?;
+        self.open.push(element.name.clone());
+        Ok(())
+    }
+
+    fn road(&mut self, element: &Element) -> Vec<(&'static str, f64)> {
+        let id = element.get("id").unwrap_or_default().to_owned();
+        let length_m = number(element, "length").unwrap_or(0.0).clamp(0.0, xodr::MAX_LENGTH);
+        if element.get("rule") == Some("LHT") {
+            self.out.left_hand.insert(id.clone());
+        }
+        self.road = Road { id, length_m, ..Road::default() };
+        vec![("length", length_m)]
+    }
+
+    /// A piece of the reference line, about the file's own middle.
+    fn geometry(&mut self, element: &Element) -> Result<Vec<(&'static str, f64)>, ReadError> {
+        let length_m = number(element, "length").unwrap_or(0.0).max(0.0);
+        self.lines_m += length_m;
+        if self.lines_m > MAX_LINES_M {
+            return Err(too_large(format!("more than {MAX_LINES_M} m of reference lines")));
+        }
+        let (Some(x), Some(y)) = (number(element, "x"), number(element, "y")) else {
+            return Ok(Vec::new());
+        };
+        if let Some(far) = [x, y].into_iter().find(|v| v.abs() > MAX_SOURCE_M) {
+            return Err(FieldProblem::range("", -MAX_SOURCE_M, MAX_SOURCE_M, far).into());
+        }
+        let origin = *self.origin.get_or_insert(Vec2::new(x.round(), y.round()));
+        self.out.origin = origin;
+        let s_m = number(element, "s").unwrap_or(0.0).clamp(0.0, xodr::MAX_LENGTH);
+        Ok(vec![("s", s_m), ("x", x - origin.x), ("y", y - origin.y), ("length", length_m)])
+    }
+
+    fn lane(&mut self, element: &Element) -> Result<(), ReadError> {
+        self.lanes += 1;
+        bound(self.lanes, MAX_LANES, "lanes")?;
+        self.lane = element.get("id").and_then(|id| id.trim().parse().ok());
+        if let Some(section) = self.road.sections.last_mut() {
+            section.lanes += 1;
+            bound(section.lanes, MAX_SECTION_LANES, "lanes in one lane section")?;
+        }
+        Ok(())
+    }
+
+    /// A lane's height above the road is not kept, but that it stands there is.
+    fn height(&mut self, element: &Element) {
+        let (Some(lane), "height") = (self.lane, element.name.as_str()) else { return };
+        let raised =
+            ["inner", "outer"].iter().any(|side| number(element, side).is_some_and(|h| h >= RAISED_M));
+        if let (true, Some(section)) = (raised, self.road.sections.last_mut()) {
+            section.raised.push(lane);
+        }
+    }
+
+    fn end_of_road(&mut self) -> Result<(), ReadError> {
+        let mut road = std::mem::take(&mut self.road);
+        // As they are numbered: in the order along the road.
+        road.sections.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+        let widest = road.sections.iter().map(|section| section.lanes).max().unwrap_or(0);
+        for (i, section) in road.sections.iter().enumerate() {
+            let end_m = road.sections.get(i + 1).map_or(road.length_m, |next| next.s_m).min(road.length_m);
+            self.lanes_m += (end_m - section.s_m).max(0.0) * section.lanes as f64;
+            let raised = section.raised.iter().map(|lane| (road.id.clone(), i, *lane));
+            self.out.raised.extend(raised);
+        }
+        if self.lanes_m > MAX_LANES_M {
+            return Err(too_large(format!("more than {MAX_LANES_M} m of lanes")));
+        }
+        self.steps += road.records as f64 * road.length_m * widest as f64 / 8.0;
+        if self.steps > MAX_STEPS {
+            let id: String = road.id.chars().take(40).collect();
+            return Err(too_large(format!("road \"{id}\" has {} records", road.records)));
+        }
+        Ok(())
+    }
+}
+
+fn is_crosswalk(element: &Element) -> bool {
+    element.get("type").is_some_and(|kind| kind.eq_ignore_ascii_case("crosswalk"))
+}
+
+/// Paint at which traffic stops. There is no type for it: the name or the subtype says so.
+pub(super) fn is_stop_line(element: &Element) -> bool {
+    let says = |attribute| {
+        let letters = element.get(attribute).unwrap_or_default().chars().filter(char::is_ascii_alphabetic);
+        letters.collect::<String>().to_ascii_lowercase().contains("stopline")
+    };
+    says("name") || says("subtype")
+}
+
+fn number(element: &Element, name: &str) -> Option<f64> {
+    element.get(name)?.trim().parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+fn bound(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
+    if count > most {
+        return Err(too_large(format!("more than {most} {what}")));
+    }
+    Ok(())
+}
+
+fn too_large(detail: String) -> ReadError {
+    FieldProblem::new("", code::MAP_TOO_LARGE, detail).into()
+}
+
+/// Writes an attribute's value as XML has it; what XML cannot hold becomes a space.
+fn escape(value: &str, out: &mut String) {
+    for c in value.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '"' => out.push_str("&quot;"),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filtered(text: &str) -> Result<Filtered, ReadError> {
+        read(&text.as_bytes())
+    }
+
+    #[test]
+    fn keeps_what_scenes_show() {
+        let file = filtered(
+            "<OpenDRIVE xmlns='a'><header><geoReference><![CDATA[+proj=utm]]></geoReference></header>\
+             <road id='a&amp;\"' length='9' rule='LHT'><surface><CRG/></surface><planView>\
+             <geometry s='0' x='500000.4' y='7' hdg='0' length='9'><line/></geometry></planView><lanes>\
+             <laneSection s=' 1 '><right><lane id='-1' type='driving'><width a='3'/><height inner='0' outer='0.1'/>\
+             </lane></right></laneSection></lanes><objects><object type='tree'/></objects></road></OpenDRIVE>",
+        )
+        .unwrap();
+        let expected = "<OpenDRIVE><header></header><road id=\"a&amp;&quot;\" length=\"9\" rule=\"LHT\"><planView>\
+             <geometry s=\"0\" x=\"0.40000000002328306\" y=\"0\" hdg=\"0\" length=\"9\"><line></line></geometry>\
+             </planView><lanes><laneSection s=\"1\"><right><lane id=\"-1\" type=\"driving\"><width a=\"3\"></width>\
+             </lane></right></laneSection></lanes><objects></objects></road></OpenDRIVE>";
+        assert_eq!(file.text, expected);
+        assert_eq!(file.origin, Vec2::new(500_000.0, 7.0));
+        assert_eq!(file.projection.as_deref(), Some("+proj=utm"));
+        assert_eq!(file.left_out.into_iter().collect::<Vec<_>>(), [("OpenCRG surface", 1), ("object", 1)]);
+        assert!(file.raised.contains(&("a&\"".to_owned(), 0, -1)));
+        assert!(file.left_hand.contains("a&\""));
+    }
+
+    #[test]
+    fn bounds_what_a_map_asks_for() {
+        let line = |length: &str| {
+            format!(
+                "<OpenDRIVE><road id='1' length='{length}'><planView><geometry x='0' y='0' length='{length}'/>\
+                 </planView></road></OpenDRIVE>"
+            )
+        };
+        assert!(filtered(&line("1e5")).is_ok());
+        assert_eq!(filtered(&line("1e6")).unwrap_err().code(), code::MAP_TOO_LARGE);
+        let lanes = "<lane id='-1'/>".repeat(MAX_SECTION_LANES + 1);
+        let text = format!(
+            "<OpenDRIVE><road><lanes><laneSection><right>{lanes}</right></laneSection></lanes></road></OpenDRIVE>"
+        );
+        assert_eq!(filtered(&text).unwrap_err().code(), code::MAP_TOO_LARGE);
+        let far = line("9").replace("x='0'", "x='1e9'");
+        assert_eq!(filtered(&far).unwrap_err().code(), code::OUT_OF_RANGE);
+        assert_eq!(filtered("<net/>").unwrap_err().code(), code::CANNOT_REPRESENT);
+    }
+}

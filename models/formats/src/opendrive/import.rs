@@ -1,0 +1,189 @@
+//! From an OpenDRIVE file to a map about the origin, with its signals.
+
+use super::filter::{self, Filtered};
+use super::lanes::{self, Found, carries_vehicles, is_road};
+use super::sections::{Frame, Section, sections};
+use super::{marks, objects, signals};
+use crate::format::{ImportOptions, MAP_TIMING};
+use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::source::Source;
+use crate::surface::{self, Strip};
+use crate::{bounds, lights};
+use scene::map::LaneMap;
+use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Vec2};
+use std::collections::BTreeMap;
+use xodr::{Direction, RoadNetwork};
+
+/// Lanes count as ways that no edge may cross from this width on, metres.
+const WAY_M: f64 = 1.0;
+/// Most characters of a name.
+const NAME_CHARS: usize = 100;
+
+/// Reads a file, plain or gzip: a scene with a map and signals, without road users.
+///
+/// # Errors
+/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file or
+/// one without lanes, `map-too-large` and `out-of-range` for what no scene can hold.
+pub(super) fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+    let file = filter::read(file)?;
+    let (network, provenance) = xodr::load_str_with_provenance(&file.text).map_err(|error| {
+        let detail = format!("no roads with lanes: {error}");
+        FieldProblem::new("", code::CANNOT_REPRESENT, detail)
+    })?;
+    let frame = Frame::of(&network);
+    // Roads begin about the network's origin; numbers far from it have lost their places.
+    if frame.half.amax() > MAX_COORDINATE_M - 100.0 || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
+        let (width, height) = (2.0 * frame.half.x, 2.0 * frame.half.y);
+        let detail =
+            format!("{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle");
+        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, detail).into());
+    }
+    let sections = sections(&network, &file, &frame);
+    let mut next = 0;
+    let mut id = || {
+        next += 1;
+        next.to_string()
+    };
+    let mut map = LaneMap::default();
+    let found = lanes::draw(&network, &sections, &mut map);
+    if map.lanes.is_empty() {
+        let detail = "no lane that anybody travels";
+        return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+    }
+    let approximated = marks::draw(&network, &provenance, &sections, &found, &mut map, &mut id);
+    let strips = strips(&network, &sections);
+    let ways = ways(&sections, &found, &map);
+    let whole = surface::draw(&mut map, &strips, &ways, &mut id);
+    bounds::by_edges(&mut map);
+    map.crosswalks = objects::crosswalks(&network, &frame, &mut id);
+    let ruled = signals::find(&network, &provenance, &frame, &found, &map, &mut id);
+    map.stop_signs = ruled.signs;
+    let (signals, made) = lights::signals(&map, ruled.heads, MAP_TIMING.steps);
+
+    let mut warnings = warnings(&file, &provenance.warnings, approximated, whole);
+    let detail = format!("{} signals rule no lane that the map has", ruled.unused);
+    warnings.extend((ruled.unused > 0).then(|| Warning::new("signals-dropped", detail)));
+    warnings.extend(made);
+    let name: String = network.header().name.chars().filter(|c| !c.is_control()).take(NAME_CHARS).collect();
+    let name = if name.trim().is_empty() { "OpenDRIVE map".to_owned() } else { name };
+    let middle = file.origin + frame.middle;
+    let scene = Scene {
+        id: None,
+        name,
+        meta: Meta {
+            source: "opendrive".into(),
+            licence: options.licence.clone(),
+            origin: Origin { x_m: middle.x, y_m: middle.y, crs: file.projection, ..Origin::default() },
+            ..Meta::default()
+        },
+        time: MAP_TIMING,
+        signals,
+        map: map.into(),
+        agents: Vec::new(),
+        generated: None,
+        extra: BTreeMap::new(),
+    };
+    match scene.checked() {
+        Ok(scene) => Ok((scene, warnings)),
+        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+    }
+}
+
+/// The carriageway of each section: lanes side by side without a kerb, with traffic among them.
+fn strips(network: &RoadNetwork, sections: &[Section]) -> Vec<Strip> {
+    let mut strips = Vec::new();
+    for section in sections {
+        let count = section.lanes.len();
+        let mut from = 0;
+        for to in 0..=count {
+            if to < count && is_road(section, to) {
+                continue;
+            }
+            strips.extend(strip(network, section, from, to));
+            from = to + 1;
+        }
+    }
+    strips
+}
+
+/// Lanes `from..to` of a section.
+fn strip(network: &RoadNetwork, section: &Section, from: usize, to: usize) -> Option<Strip> {
+    let lanes = section.lanes.get(from..to)?;
+    let (first, last) =
+        (lanes.iter().find(|l| carries_vehicles(l))?, lanes.iter().rfind(|l| carries_vehicles(l))?);
+    // Who drives along the road has the oncoming traffic to the left, or to the right where one keeps left.
+    let inner_is_left = |direction| (direction != Direction::Backward) != section.left_hand;
+    let goes_on = |at_end: bool| {
+        section.junction.is_some()
+            || lanes.iter().filter_map(|lane| network.lane(lane.id)).any(|lane| match lane.direction {
+                Direction::Forward if at_end => !lane.successors.is_empty(),
+                Direction::Forward => !lane.predecessors.is_empty(),
+                Direction::Backward if at_end => !lane.predecessors.is_empty(),
+                Direction::Backward => !lane.successors.is_empty(),
+                Direction::Both => !lane.successors.is_empty() || !lane.predecessors.is_empty(),
+            })
+    };
+    Some(Strip {
+        right: section.borders[from].clone(),
+        left: section.borders[to].clone(),
+        inner: [!inner_is_left(first.direction), inner_is_left(last.direction)],
+        joined: [goes_on(false), goes_on(true)],
+        junction: section.junction.is_some(),
+    })
+}
+
+/// Lines that traffic follows, where its lanes are of some width, and from each lane to those that follow it.
+fn ways(sections: &[Section], found: &Found, map: &LaneMap) -> Vec<Vec<Vec2>> {
+    let mut ways = Vec::new();
+    let mut wide = vec![[false; 2]; map.lanes.len()];
+    for lane in sections.iter().flat_map(|section| &section.lanes).filter(|lane| carries_vehicles(lane)) {
+        let is_wide = |i: usize| lane.widths_m.get(i).is_some_and(|width| *width >= WAY_M);
+        let mut way = Vec::new();
+        for (i, p) in lane.center.iter().enumerate() {
+            if is_wide(i) {
+                way.push(*p);
+            } else {
+                ways.push(std::mem::take(&mut way));
+            }
+        }
+        ways.push(way);
+        for drawn in found.get(&lane.id).into_iter().flatten() {
+            let ends = [is_wide(0), is_wide(lane.center.len().saturating_sub(1))];
+            wide[drawn.lane] = if drawn.forward { ends } else { [ends[1], ends[0]] };
+        }
+    }
+    let by_id: BTreeMap<&str, usize> =
+        map.lanes.iter().enumerate().map(|(i, l)| (l.id.as_str(), i)).collect();
+    for (lane, [_, wide_end]) in map.lanes.iter().zip(&wide) {
+        for next in lane.successors.iter().filter_map(|id| by_id.get(id.as_str())) {
+            let ends = (lane.points.xy.last(), map.lanes[*next].points.xy.first());
+            if let ((Some(end), Some(start)), true, true) = (ends, *wide_end, wide[*next][0]) {
+                ways.push(vec![*end, *start]);
+            }
+        }
+    }
+    ways.retain(|way| way.len() > 1);
+    ways
+}
+
+fn warnings(file: &Filtered, faults: &[xodr::Warning], approximated: usize, whole: bool) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut warn = |said: bool, code, detail: String| {
+        if said {
+            warnings.push(Warning::new(code, detail));
+        }
+    };
+    let faults: Vec<&xodr::Warning> = faults.iter().filter(|fault| !fault.is_ignored()).collect();
+    if let Some(first) = faults.first() {
+        let more = if faults.len() > 1 { format!(" (and {} more)", faults.len() - 1) } else { String::new() };
+        let first: String = first.to_string().chars().take(300).collect();
+        warn(true, "map-faults", format!("{first}{more}"));
+    }
+    let listed: Vec<String> = file.left_out.iter().map(|(what, count)| format!("{count} x {what}")).collect();
+    warn(!listed.is_empty(), "parts-dropped", format!("left out: {}", listed.join(", ")));
+    let detail = format!("{approximated} painted lines are of a sort or colour for which there is no word");
+    warn(approximated > 0, "lines-approximated", detail);
+    let detail = "roads lie over each other too often to find their edges";
+    warn(!whole, "edges-dropped", detail.into());
+    warnings
+}

@@ -1,0 +1,151 @@
+//! Painted lines of a network, and which of them bound which lanes.
+
+use super::lanes::Found;
+use super::sections::Section;
+use crate::polyline::simplify;
+use scene::Vec2;
+use scene::map::{Boundary, LaneMap, ROAD_LINE_TYPES, TypedLine};
+use std::collections::HashMap;
+use xodr::{LanePosition, Provenance, RoadMark, RoadMarkProvenance, RoadMarkType as Kind, RoadNetwork};
+
+/// Paint is kept to this, with pieces no longer than, metres.
+const KEPT_M: (f64, f64) = (0.03, 20.0);
+
+/// A painted line of a section.
+struct Painted {
+    /// Which border of the section.
+    border: usize,
+    /// From where to where, as places among the section's points.
+    from: f64,
+    to: f64,
+    /// Index in [`LaneMap::road_lines`].
+    line: usize,
+}
+
+/// Draws all lines. Gives how many are of a sort for which there is no word.
+pub(super) fn draw(
+    network: &RoadNetwork,
+    provenance: &Provenance,
+    sections: &[Section],
+    found: &Found,
+    map: &mut LaneMap,
+    mut id: impl FnMut() -> String,
+) -> usize {
+    let by_place: HashMap<(&str, usize), usize> =
+        sections.iter().enumerate().map(|(i, s)| ((s.road.as_str(), s.number), i)).collect();
+    let mut painted: Vec<Vec<Painted>> = sections.iter().map(|_| Vec::new()).collect();
+    let mut approximated = 0;
+    for place in &provenance.road_marks {
+        let Some(mark) = network.road_mark(place.road_mark) else { continue };
+        let Some(at) = by_place.get(&(place.road_id.as_str(), place.section)).copied() else { continue };
+        let Some((line_type, exact)) = line_type(mark) else { continue };
+        let section = &sections[at];
+        let Some((border, from, to)) = stretch(network, section, place) else { continue };
+        let points = cut(&section.borders[border], from, to);
+        if points.len() < 2 {
+            continue;
+        }
+        approximated += usize::from(!exact);
+        painted[at].push(Painted { border, from, to, line: map.road_lines.len() });
+        let points = simplify(&points, KEPT_M.0, KEPT_M.1).into();
+        map.road_lines.push(TypedLine { id: id(), line_type: line_type.to_owned(), points });
+    }
+    for (section, painted) in sections.iter().zip(&painted) {
+        bound(section, painted, found, map);
+    }
+    approximated
+}
+
+/// The word for a mark, and whether it says all; nothing for what is no paint.
+fn line_type(mark: &RoadMark) -> Option<(&'static str, bool)> {
+    let yellow = matches!(mark.color.as_str(), "yellow" | "orange");
+    let plain = yellow || matches!(mark.color.as_str(), "" | "standard" | "white");
+    let (word, exact) = match (mark.kind, yellow) {
+        (Kind::Solid, false) => ("solid_single_white", true),
+        (Kind::Solid, true) => ("solid_single_yellow", true),
+        (Kind::Broken, false) => ("broken_single_white", true),
+        (Kind::Broken, true) => ("broken_single_yellow", true),
+        (Kind::SolidSolid, false) => ("solid_double_white", true),
+        (Kind::SolidSolid, true) => ("solid_double_yellow", true),
+        (Kind::BrokenBroken, false) => ("broken_single_white", false),
+        (Kind::BrokenBroken, true) => ("broken_double_yellow", true),
+        (Kind::SolidBroken | Kind::BrokenSolid, false) => ("solid_double_white", false),
+        (Kind::SolidBroken | Kind::BrokenSolid, true) => ("passing_double_yellow", true),
+        (Kind::BottsDots, false) => ("broken_single_white", false),
+        (Kind::BottsDots, true) => ("broken_single_yellow", false),
+        _ => return None,
+    };
+    Some((word, exact && plain))
+}
+
+/// Which border a mark lies on, and from where to where among its points.
+fn stretch(
+    network: &RoadNetwork,
+    section: &Section,
+    place: &RoadMarkProvenance,
+) -> Option<(usize, f64, f64)> {
+    // A mark is on the outer border of its lane; that of lane 0 between the two sides.
+    let right = section.lanes.iter().filter(|lane| lane.number < 0).count();
+    let border = match place.od_lane_id {
+        0 => right,
+        number => {
+            let at = section.lanes.iter().position(|lane| lane.number == number)?;
+            if number < 0 { at } else { at + 1 }
+        }
+    };
+    let lane = section.lanes.get(border.min(section.lanes.len().checked_sub(1)?))?;
+    let last = lane.center.len().checked_sub(1)?;
+    let line = network.lane(lane.id)?.center.points();
+    let arc = |s: f64| network.centerline_s(LanePosition { lane: lane.id, s, offset: 0.0 });
+    let place_of = |arc: f32| {
+        let mut left = arc;
+        for (i, ends) in line.windows(2).enumerate() {
+            let piece = ends[0].distance_to(ends[1]);
+            if left <= piece {
+                let place = (i as f64 + f64::from(left / piece.max(1e-6))) / section.stride as f64;
+                return place.min(last as f64);
+            }
+            left -= piece;
+        }
+        last as f64
+    };
+    let from = arc(place.s).map_or(0.0, place_of);
+    let to = arc(place.s + place.length).map_or(last as f64, place_of);
+    (to > from).then_some((border, from, to))
+}
+
+/// The part of a line between two places.
+fn cut(line: &[Vec2], from: f64, to: f64) -> Vec<Vec2> {
+    let at = |place: f64| {
+        let i = (place.floor() as usize).min(line.len().saturating_sub(1));
+        let next = line.get(i + 1).or(line.get(i))?;
+        Some(line.get(i)? + (next - line.get(i)?) * (place - i as f64))
+    };
+    let inner = line.iter().enumerate().filter(|(i, _)| (*i as f64) > from + 1e-6 && (*i as f64) < to - 1e-6);
+    at(from).into_iter().chain(inner.map(|(_, p)| *p)).chain(at(to)).collect()
+}
+
+/// Says of the lanes of a section which lines bound them.
+fn bound(section: &Section, painted: &[Painted], found: &Found, map: &mut LaneMap) {
+    for (j, lane) in section.lanes.iter().enumerate() {
+        for drawn in found.get(&lane.id).into_iter().flatten() {
+            for paint in painted.iter().filter(|paint| paint.border == j || paint.border == j + 1) {
+                let within = |place: &f64| *place >= paint.from - 0.02 && *place <= paint.to + 0.02;
+                let mut covered = drawn.places.iter().enumerate().filter(|(_, place)| within(place));
+                let Some((first, _)) = covered.next() else { continue };
+                let last = covered.next_back().map_or(first, |(i, _)| i);
+                let line = &map.road_lines[paint.line];
+                let kind = ROAD_LINE_TYPES.iter().position(|word| *word == line.line_type);
+                let boundary = Boundary {
+                    line: line.id.clone(),
+                    from: first,
+                    to: last,
+                    kind: kind.and_then(|kind| u32::try_from(kind).ok()),
+                };
+                let lane = &mut map.lanes[drawn.lane];
+                let on_left = (paint.border == j + 1) == drawn.forward;
+                if on_left { &mut lane.left_boundary } else { &mut lane.right_boundary }.push(boundary);
+            }
+        }
+    }
+}

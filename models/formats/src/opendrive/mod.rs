@@ -1,0 +1,13 @@
+//! ASAM OpenDRIVE: maps of roads whose lanes lie along a reference line.
+//!
+//! The crate `xodr` reads them; what it builds becomes lanes, lines, edges and signals of a scene here. Roads are
+//! flat across: superelevation and lateral shapes are left out, heights along the road are kept.
+
+mod filter;
+pub mod format;
+mod import;
+mod lanes;
+mod marks;
+mod objects;
+mod sections;
+mod signals;

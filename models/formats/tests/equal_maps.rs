@@ -1,0 +1,121 @@
+//! One road network that a foreign program wrote in several formats is the same lane graph here. The folder with
+//! its files is made by `cargo xtask test maps` (`tests/equal_maps.py`), which names it in the environment.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise"
+)]
+
+use formats::{ImportOptions, registry};
+use scene::Vec2;
+use scene::map::LaneType;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+const VARIABLE: &str = "DRAGTRAFFIC_EQUAL_MAPS";
+/// What lengths, widths and ends may differ by, metres.
+const SAME_M: f64 = 0.05;
+/// A lane is that of another map whose ends are so near, metres.
+const MATCH_M: f64 = 0.5;
+
+struct Lane {
+    ends: [Vec2; 2],
+    length_m: f64,
+    width_m: Option<f64>,
+    limit_mps: Option<f64>,
+    successors: Vec<String>,
+    through: bool,
+}
+
+type Lanes = BTreeMap<String, Lane>;
+
+fn lanes(path: &Path) -> Lanes {
+    let bytes = std::fs::read(path).unwrap();
+    let name = path.file_name().unwrap().to_string_lossy();
+    let list = registry::import(&bytes, &name, "auto", &ImportOptions::default()).unwrap();
+    let (scene, _) = list.into_iter().next().unwrap().unwrap();
+    let origin = Vec2::new(scene.meta.origin.x_m, scene.meta.origin.y_m);
+    let driven = scene.map.lanes.iter().filter(|lane| lane.lane_type != LaneType::Sidewalk);
+    let lane = |lane: &scene::map::Lane| {
+        let points = &lane.points.xy;
+        let length_m = formats::polyline::length(points);
+        Lane {
+            ends: [points[0] + origin, points[points.len() - 1] + origin],
+            length_m,
+            width_m: lane.width_m,
+            limit_mps: lane.speed_limit_mps,
+            successors: lane.successors.clone(),
+            through: lane.interpolating,
+        }
+    };
+    driven.map(|l| (l.id.clone(), lane(l))).collect()
+}
+
+/// The lane of `other` with the same ends, by the id of each lane.
+fn matched<'a>(
+    lanes: &'a Lanes,
+    other: &'a Lanes,
+    keep: impl Fn(&Lane) -> bool,
+) -> BTreeMap<&'a str, &'a str> {
+    let gap = |a: &Lane, b: &Lane| (a.ends[0] - b.ends[0]).norm().max((a.ends[1] - b.ends[1]).norm());
+    let nearest = |lane: &Lane| other.iter().min_by(|a, b| gap(lane, a.1).total_cmp(&gap(lane, b.1)));
+    let same = |(id, lane): (&'a String, &'a Lane)| {
+        let (found, candidate) = nearest(lane)?;
+        (keep(lane) && gap(lane, candidate) < MATCH_M).then_some((id.as_str(), found.as_str()))
+    };
+    lanes.iter().filter_map(same).collect()
+}
+
+/// Lanes of `names` that are reached from each of them, by whatever lies between.
+fn links<'a>(lanes: &'a Lanes, names: &BTreeMap<&'a str, &'a str>) -> BTreeSet<(String, String)> {
+    let mut found = BTreeSet::new();
+    for (id, own) in names {
+        let (mut open, mut seen) = (lanes[*id].successors.clone(), BTreeSet::new());
+        while let Some(next) = open.pop() {
+            let Some(lane) = lanes.get(&next).filter(|_| seen.insert(next.clone())) else { continue };
+            match names.get(next.as_str()) {
+                Some(other) => drop(found.insert(((*own).to_owned(), (*other).to_owned()))),
+                None => open.extend(lane.successors.iter().cloned()),
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn one_network_in_several_formats_is_one_lane_graph() {
+    let Some(folder) = std::env::var_os(VARIABLE) else {
+        println!("skipped: {VARIABLE} names no folder; cargo xtask test maps makes one");
+        return;
+    };
+    let folder = Path::new(&folder);
+    let first = lanes(&folder.join("map.xodr"));
+    assert_eq!((first.len(), first.values().filter(|lane| lane.through).count()), (30, 14));
+    let own: BTreeMap<&str, &str> = first.keys().map(|id| (id.as_str(), id.as_str())).collect();
+    // SUMO draws ways through junctions anew, and cuts some; of its lanes those of roads are the same.
+    for (file, ways) in [("map.osm", true), ("map.tfrecord", true), ("map.net.xml", false)] {
+        let other = lanes(&folder.join(file));
+        let compared = |lane: &Lane| ways || !lane.through;
+        let pairs = matched(&first, &other, compared);
+        assert_eq!(pairs.len(), first.values().filter(|lane| compared(lane)).count(), "{file}: lanes");
+        let (mut longest, mut widest) = (0.0_f64, 0.0_f64);
+        for (id, found) in &pairs {
+            let (a, b) = (&first[*id], &other[*found]);
+            longest = longest.max((a.length_m - b.length_m).abs());
+            for k in 0..2 {
+                longest = longest.max((a.ends[k] - b.ends[k]).norm());
+            }
+            if file != "map.tfrecord" {
+                widest = widest.max((a.width_m.unwrap() - b.width_m.unwrap()).abs());
+            }
+            assert!((a.limit_mps.unwrap() - b.limit_mps.unwrap()).abs() < 0.02, "{file}: limit of {id}");
+        }
+        println!("{file}: {} lanes, lengths within {longest:.3} m, widths within {widest:.3} m", pairs.len());
+        assert!(longest < SAME_M && widest < SAME_M, "{file}: {longest} m long, {widest} m wide");
+        let names: BTreeMap<&str, &str> = pairs.iter().map(|(id, found)| (*found, *id)).collect();
+        assert_eq!(names.len(), pairs.len(), "{file}: two lanes are the same one");
+        let kept = own.iter().filter(|(id, _)| pairs.contains_key(*id)).map(|(a, b)| (*a, *b)).collect();
+        assert_eq!(links(&other, &names), links(&first, &kept), "{file}: links");
+    }
+}
