@@ -19,7 +19,9 @@ export function PointFields() {
   if (!agent || i === null || !p || !curve.profile.value) return null;
   const unit = editor.unitOf(agent);
   const now = () => curve.points.value[i] ?? p;
-  const braking = hardestBraking(editor.motionFor(agent));
+  // Of what is in hand, too.
+  const shown = editor.futures.value?.modes[editor.chosen.value]?.motion ?? editor.motionFor(agent);
+  const braking = hardestBraking(shown);
   return (
     <div
       class="card pointfields"
