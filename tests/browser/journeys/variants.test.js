@@ -262,7 +262,7 @@ journeys('variants', (stage) => {
       await e.until(() => !document.querySelector('.kind[aria-checked="true"] .tag').textContent.includes('…'));
       const files = [];
       e.page.on('download', (d) => files.push(d));
-      await e.page.locator('.export footer .btn.pri').click();
+      await e.page.locator('.export .dfoot .btn.pri').click();
       await e.until(() => /saved/.test(document.querySelector('.toast')?.textContent ?? ''));
       const wanted = kind === 'womd' ? 1 : 2;
       while (files.length < wanted) await e.page.waitForEvent('download').catch(() => undefined);

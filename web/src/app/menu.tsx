@@ -32,6 +32,7 @@ const MENUS: Record<string, readonly (string | null)[]> = {
     'redo',
     'generate',
     'new-seed',
+    'variants',
     null,
     'scenes',
     'users',

@@ -10,7 +10,7 @@ const MORE = [
   'tool-place-truck',
   'tool-place-bus',
   'tool-place-motorcycle',
-  'fill',
+  'tool-fill',
   null,
   'tool-lasso',
   'tool-measure',

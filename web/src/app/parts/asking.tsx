@@ -20,6 +20,7 @@ export function Controls() {
       <ActionButton id="generate" class="pri" icon="" withKey>
         {away ? 'Waiting …' : 'Generate'}
       </ActionButton>
+      <IconButton id="variants" />
     </>
   );
 }
