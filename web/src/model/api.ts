@@ -538,6 +538,25 @@ export interface components {
          */
         All: "all";
         /**
+         * AnswerDoc
+         * @description A judged card.
+         */
+        AnswerDoc: {
+            /** @description Of the card, as it was answered. */
+            features: components["schemas"]["Features"];
+            /**
+             * @description Of the card, as they were answered: nothing like it comes again.
+             * @default {}
+             */
+            places?: {
+                [key: string]: number[][];
+            };
+            /** @description What was said. */
+            verdict: components["schemas"]["Verdict"];
+            /** @description What should be otherwise, or was liked. */
+            why?: components["schemas"]["Wish"] | null;
+        };
+        /**
          * AnswerSample
          * @description One joint scene of the answer. Its score stands in `scores`.
          */
@@ -1028,6 +1047,69 @@ export interface components {
          */
         FaultKind: "collision" | "red_light" | "wrong_way" | "over_median" | "off_road" | "harsh_braking" | "harsh_steering" | "near_miss" | "goal_missed";
         /**
+         * Features
+         * @description A motion of one road user, or of several together, in such terms.
+         */
+        Features: {
+            /** @description By road user and other: it goes first where their ways cross. */
+            first?: {
+                [key: string]: {
+                    [key: string]: boolean;
+                };
+            };
+            /**
+             * Format: double
+             * @description Mean distance from the recording, metres; of several their mean. Absent where nothing was recorded.
+             */
+            from_log_m?: number | null;
+            /**
+             * Format: double
+             * @description Least time between it and another where their ways cross, at most 5 s; of several the least.
+             */
+            gap_s: number;
+            /**
+             * Format: double
+             * @description Greatest change of velocity over half a second, m/s2; of several the greatest.
+             */
+            harshness_mps2: number;
+            /** @description By road user: what it drives. */
+            manoeuvres?: {
+                [key: string]: components["schemas"]["Manoeuvre"];
+            };
+            /**
+             * Format: double
+             * @description Mean speed, m/s; of several their mean.
+             */
+            pace_mps: number;
+            /**
+             * Format: double
+             * @description Time that it stands, seconds; of several their mean.
+             */
+            standing_s: number;
+        };
+        /**
+         * FeedbackDoc
+         * @description Rounds of cards: the answer is the next round, taken from a wide draw by what was said of earlier cards. `feedback`
+         *     of the reply says what each card is like; each is sent back with what is said of it.
+         */
+        FeedbackDoc: {
+            /**
+             * @description Judged cards, the first round's first. Those that were neither kept nor rejected are left out.
+             * @default []
+             */
+            answers?: components["schemas"]["AnswerDoc"][];
+            /**
+             * @description Traits that do not count, whatever the answers show.
+             * @default []
+             */
+            forgotten?: components["schemas"]["Trait"][];
+            /**
+             * @description Wishes that were said outright.
+             * @default []
+             */
+            wishes?: components["schemas"]["Wish"][];
+        };
+        /**
          * Field
          * @description A value and where it came from.
          */
@@ -1082,6 +1164,8 @@ export interface components {
              * @constant
              */
             event: "final";
+            /** @description Of a round: what its cards are like, and what was learned. */
+            feedback?: components["schemas"]["Round"];
             /**
              * @description The scene's `generated` member, all but `samples`: put `samples` in and save (those in
              *     compact form as columns).
@@ -1237,6 +1321,13 @@ export interface components {
              * @default null
              */
             etag?: string | null;
+            /**
+             * @description Asks for a round of cards in place of the best guess, by what was said of earlier cards; `{}` is the first
+             *     round. Of one road user whom nobody answers each of its futures is a card, else each sample; `modes` says how
+             *     many. `samples` does not count.
+             * @default null
+             */
+            feedback?: components["schemas"]["FeedbackDoc"] | null;
             /** @description How futures are written, in drafts and in `final`. */
             futures?: components["schemas"]["FuturesForm"];
             /**
@@ -1740,6 +1831,62 @@ export interface components {
              */
             width_m?: number | null;
         };
+        /**
+         * LearnedWish
+         * @description A wish with what it rests on.
+         */
+        LearnedWish: {
+            /** @description Positions of the answers that contradict it. */
+            against: number[];
+            /** @description Least and most among the kept ones, in the unit of the trait; none were kept: absent. */
+            kept?: [
+                number,
+                number
+            ] | null;
+            /** @description Least and most among the rejected ones. */
+            rejected?: [
+                number,
+                number
+            ] | null;
+            /** @description It was said outright. */
+            said: boolean;
+            /**
+             * Format: double
+             * @description How sure it is, 0 to 1.
+             */
+            strength: number;
+            /** @description Which way. */
+            wants: components["schemas"]["Way"];
+        } & ({
+            /** @constant */
+            trait: "pace";
+        } | {
+            /** @constant */
+            trait: "gap";
+        } | {
+            /** @constant */
+            trait: "harshness";
+        } | {
+            /** @constant */
+            trait: "standing";
+        } | {
+            /** @constant */
+            trait: "from_log";
+        } | {
+            /** @constant */
+            trait: "first";
+            /** @description The one that goes first. */
+            who: string;
+            /** @description The other. */
+            with: string;
+        } | {
+            /** @description What. */
+            manoeuvre: components["schemas"]["Manoeuvre"];
+            /** @constant */
+            trait: "does";
+            /** @description Who. */
+            who: string;
+        });
         /**
          * Limiting
          * @description The limit of motion that binds.
@@ -2493,6 +2640,33 @@ export interface components {
             type?: "unknown" | "broken_single_white" | "solid_single_white" | "solid_double_white" | "broken_single_yellow" | "broken_double_yellow" | "solid_single_yellow" | "solid_double_yellow" | "passing_double_yellow";
         };
         /**
+         * Round
+         * @description A round of cards.
+         */
+        Round: {
+            /** @description One a future of the road user that was asked for, or one a sample, in their order: the best liked first. */
+            cards: components["schemas"]["RoundCard"][];
+            /** @description What the answers agree upon, the surest first. */
+            wishes: components["schemas"]["LearnedWish"][];
+        };
+        /**
+         * RoundCard
+         * @description A candidate that is shown.
+         */
+        RoundCard: {
+            /** @description What it is like: sent back with what is said of it. */
+            features: components["schemas"]["Features"];
+            /**
+             * Format: double
+             * @description The share of the learned wishes that it fulfils; absent while none is known.
+             */
+            match?: number | null;
+            /** @description Box centres at every half second, by road user: sent back with what is said of it. */
+            places: {
+                [key: string]: number[][];
+            };
+        };
+        /**
          * SampleDoc
          * @description One coherent answer for all regenerated road users.
          */
@@ -3215,6 +3389,40 @@ export interface components {
             z_m?: number[] | null;
         };
         /**
+         * Trait
+         * @description Something about a motion that a person can name and wish otherwise.
+         */
+        Trait: {
+            /** @constant */
+            trait: "pace";
+        } | {
+            /** @constant */
+            trait: "gap";
+        } | {
+            /** @constant */
+            trait: "harshness";
+        } | {
+            /** @constant */
+            trait: "standing";
+        } | {
+            /** @constant */
+            trait: "from_log";
+        } | {
+            /** @constant */
+            trait: "first";
+            /** @description The one that goes first. */
+            who: string;
+            /** @description The other. */
+            with: string;
+        } | {
+            /** @description What. */
+            manoeuvre: components["schemas"]["Manoeuvre"];
+            /** @constant */
+            trait: "does";
+            /** @description Who. */
+            who: string;
+        };
+        /**
          * TrajectoryDoc
          * @description Motion of one road user as columns, one value a step from `first_step`.
          */
@@ -3258,6 +3466,11 @@ export interface components {
             y_mps?: number | null;
         } & (unknown & unknown & unknown & unknown);
         /**
+         * Verdict
+         * @description What a person said of a card.
+         */
+        Verdict: "keep" | "reject";
+        /**
          * Warning
          * @description Something unlikely that was done anyway.
          */
@@ -3274,6 +3487,11 @@ export interface components {
          * @description What is unlikely.
          */
         WarningCode: "goal-unreachable" | "goal-off-road" | "start-off-road" | "start-overlaps" | "extrapolated";
+        /**
+         * Way
+         * @description Which way of a trait is wished.
+         */
+        Way: "more" | "less";
         /**
          * WeightsInfo
          * @description Facts about one expert's weights.
@@ -3297,6 +3515,43 @@ export interface components {
          * @description `"all"` or a list of ids.
          */
         Who: components["schemas"]["All"] | string[];
+        /**
+         * Wish
+         * @description A plain wish: a trait and which way.
+         */
+        Wish: {
+            /** @description Which way. */
+            wants: components["schemas"]["Way"];
+        } & ({
+            /** @constant */
+            trait: "pace";
+        } | {
+            /** @constant */
+            trait: "gap";
+        } | {
+            /** @constant */
+            trait: "harshness";
+        } | {
+            /** @constant */
+            trait: "standing";
+        } | {
+            /** @constant */
+            trait: "from_log";
+        } | {
+            /** @constant */
+            trait: "first";
+            /** @description The one that goes first. */
+            who: string;
+            /** @description The other. */
+            with: string;
+        } | {
+            /** @description What. */
+            manoeuvre: components["schemas"]["Manoeuvre"];
+            /** @constant */
+            trait: "does";
+            /** @description Who. */
+            who: string;
+        });
     };
     responses: never;
     parameters: never;

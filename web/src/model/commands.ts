@@ -32,6 +32,7 @@ const PATCHABLE = [
   'start',
   'goal',
   'chosen',
+  'dealt',
   'length',
   'width',
   'type',
@@ -42,6 +43,7 @@ const PATCHABLE = [
   'note',
   'locked',
   'does',
+  'feedback',
 ] as const;
 export type AgentPatch = Partial<Pick<Agent, (typeof PATCHABLE)[number]>>;
 
@@ -96,9 +98,13 @@ export const choose = (a: Agent, index: number | null, letter: string): Command 
   one(
     index === null ? `${a.name} back to the most likely future` : `Future ${letter} chosen for ${a.name}`,
     a.id,
-    { chosen: index },
+    // Picked again among the same six; what comes after a choice that was taken back is not of that round.
+    { chosen: index, dealt: a.chosen === null ? null : a.dealt },
     'choose',
   );
+/** One of the cards of a round: `dealt` names the round. */
+export const takeDealt = (a: Agent, index: number, dealt: string, letter: string): Command =>
+  one(`Future ${letter} of a round taken for ${a.name}`, a.id, { chosen: index, dealt });
 export const clearGoal = (a: Agent): Command =>
   one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });
 

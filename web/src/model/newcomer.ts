@@ -57,6 +57,8 @@ export function settle(n: Newcomer, id: string): Agent {
     start: Object.freeze({ pos: Object.freeze([x, y] as const), heading, speed }),
     goal: n.goal ?? freeGoal(),
     chosen: null,
+    dealt: null,
+    feedback: null,
   });
 }
 

@@ -31,7 +31,7 @@ export interface VariantState {
 }
 
 export type Asked = Required<
-  Pick<AgentPatch, 'start' | 'goal' | 'chosen' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'>
+  Pick<AgentPatch, 'start' | 'goal' | 'chosen' | 'dealt' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'>
 >;
 
 /** So many are made at most, and so many a scene holds with those that were kept. */
@@ -55,8 +55,8 @@ export function stateOfVariant(scene: Scene, subject: string | null): VariantSta
   });
 }
 
-export const askedOf = ({ start, goal, chosen, length, width, type, kind, subtype, does }: Agent): Asked =>
-  Object.freeze({ start, goal, chosen, length, width, type, kind, subtype, does });
+export const askedOf = ({ start, goal, chosen, dealt, length, width, type, kind, subtype, does }: Agent): Asked =>
+  Object.freeze({ start, goal, chosen, dealt, length, width, type, kind, subtype, does });
 
 /** Are the road users of a variant those that are here? */
 export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.roster;

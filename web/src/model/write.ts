@@ -192,7 +192,7 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
       const a = scene.agents.get(id);
       return a ? [{ ...a, ...patch }] : [];
     });
-    const { picked, does } = ofAgents(all);
+    const { picked, dealt, does } = ofAgents(all);
     return {
       id: v.id,
       ...(v.called ? { name: v.called } : {}),
@@ -208,6 +208,7 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
       roster,
       conditions: Object.fromEntries(all.map((a) => [a.id, conditionOf(a)])),
       ...(picked ? { picked } : {}),
+      ...(dealt ? { dealt } : {}),
       ...(does ? { does } : {}),
     };
   });
@@ -228,10 +229,12 @@ export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
   };
   const ed: Partial<EditorJson> = {
     picked: entries((a) => a.chosen),
+    dealt: entries((a) => (a.chosen === null ? null : a.dealt)),
     names: entries((a) => a.called),
     notes: entries((a) => a.note),
     locked: ids((a) => a.locked),
     does: entries((a) => a.does),
+    feedback: entries((a) => a.feedback),
     placed: ids((a) => a.placed),
     was: entries((a) => (a.placed || a.subtype === a.logSubtype ? null : a.logSubtype)),
   };
