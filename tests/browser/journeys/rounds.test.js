@@ -189,4 +189,33 @@ journeys('rounds', (stage) => {
     assert.equal(await round(e), 'Round 2');
     assert.equal(e.wire.last().body.feedback.answers.length, 2);
   });
+
+  it('ends with the kept ones as variants, each with what the others do about it', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    await open(e);
+    const names = (await cards(e)).map((c) => c.name);
+    for (const key of ['1', 'k', '3', 'k', '4', 'j']) await e.key(key);
+    await e.settled();
+    await e.page.getByRole('button', { name: 'Keep 2 as variants' }).click();
+    await e.until(() => document.querySelectorAll('.vcard[data-variant]').length === 2);
+    await e.settled();
+    assert.equal(await e.page.locator('.rcard').count(), 0);
+    const pinned = e.wire.asked.filter((q) => q.body.pinned);
+    assert.deepEqual(
+      pinned.map((q) => q.body.pinned),
+      [[car.id], [car.id]],
+    );
+    for (const [id, name] of [
+      [2, names[2]],
+      [1, names[0]],
+    ]) {
+      await e.page.locator(`[data-variant="${id}"] .face`).click();
+      await e.settled();
+      assert.equal(await e.page.locator('.fu[aria-checked="true"] .nm').innerText(), name);
+    }
+    assert.equal(await e.page.locator('.vcard .keep[aria-pressed="true"]').count(), 2);
+  });
 });

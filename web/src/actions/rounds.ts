@@ -98,6 +98,21 @@ export const rounds = inGroup('Rounds', [
     run: (c) => c.rounds.close(),
   },
   {
+    id: 'round-variants',
+    label: 'Keep as variants',
+    icon: 'variants',
+    help: 'Closes the rounds; each kept card becomes a variant that the others answer',
+    when: (c) => {
+      const can = hasCards(c);
+      return can !== true || c.rounds.said.value.some((s) => s?.verdict === 'keep') ? can : 'Keep a card first.';
+    },
+    run: (c) => {
+      const kept = c.rounds.kept();
+      c.rounds.close();
+      if (kept) void c.variants.keepDealt(kept);
+    },
+  },
+  {
     id: 'round-table',
     label: 'Save as table',
     icon: 'table',

@@ -191,7 +191,7 @@ export const whyWords = (id: string, a: Answer, nameOf: NameOf): string => {
 
 /** What a card is like, in two facts. */
 export function factWords(f: Features): string {
-  // As far apart as is counted says only that nobody is near.
-  const gap = f.gap_s >= 5 ? 'nobody near' : `gap ${seconds(f.gap_s)}`;
+  // The widest gap that is counted says only that nobody is near.
+  const gap = f.gap_s >= 5 ? 'clear' : `gap ${seconds(f.gap_s)}`;
   return `${gap} · ${f.standing_s >= 0.5 ? `stands ${seconds(f.standing_s)}` : `${num(f.harshness_mps2, 1)} m/s²`}`;
 }

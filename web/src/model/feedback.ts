@@ -163,13 +163,14 @@ export function addWish(a: Agent, asked: Asked, wish: Wish, words: string): Comm
   });
 }
 
-/** Whatever the answers show of it, it does not count. */
-export function forget(a: Agent, asked: Asked, trait: Trait, words: string): Command {
+/** Whatever the answers show of it, it does not count. `words`: what is forgotten. */
+export function forget(a: Agent, asked: Asked, traits: readonly Trait[], words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NOTHING;
-  const others = forgotten.filter((t) => !sameTrait(t, trait)).slice(1 - MOST_WISHES);
+  const gone = (t: Trait): boolean => traits.some((g) => sameTrait(g, t));
+  const all = [...forgotten.filter((t) => !gone(t)), ...traits.map(traitOf)];
   return put(`${words} forgotten for ${a.name}`, a, asked, {
-    wishes: wishes.filter((w) => !sameTrait(w, trait)),
-    forgotten: Object.freeze([...others, traitOf(trait)]),
+    wishes: wishes.filter((w) => !gone(w)),
+    forgotten: Object.freeze(all.slice(-MOST_WISHES)),
   });
 }
 

@@ -119,11 +119,16 @@ export const patchVariant = (scene: Scene, id: number, patch: VariantPatch, name
   });
 
 /** The document as it is joins the variants, kept. */
-export function keepAsVariant(scene: Scene, name: string): Command | null {
-  if (scene.variants.length >= MOST_VARIANTS) return null;
-  const id = nextVariant(scene);
-  const v: Variant = { id, called: null, kept: true, starred: false };
-  return put(name, [...scene.variants, v], { ...scene.variantStates, [id]: stateOfVariant(scene, null) });
+export const keepAsVariant = (scene: Scene, name: string): Command | null =>
+  keepStates(scene, [stateOfVariant(scene, null)], name);
+
+/** Others join them, kept; null where there is no room for all. */
+export function keepStates(scene: Scene, fresh: readonly VariantState[], name: string): Command | null {
+  if (scene.variants.length + fresh.length > MOST_VARIANTS) return null;
+  const first = nextVariant(scene);
+  const come = fresh.map((_, i): Variant => ({ id: first + i, called: null, kept: true, starred: false }));
+  const states = Object.fromEntries(fresh.map((state, i) => [first + i, state]));
+  return put(name, [...scene.variants, ...come], { ...scene.variantStates, ...states });
 }
 
 export function removeVariant(scene: Scene, id: number, name: string): Command {

@@ -34,7 +34,7 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
       <FutureList agent={agent} />
       <Remark agent={agent} />
       <ActionButton id="rounds" class="line rounds" size={15} withKey>
-        Rounds: keep, reject, draw anew
+        Keep and reject in rounds
       </ActionButton>
     </section>
   );

@@ -46,6 +46,7 @@ export function CardView({ hand, index, picture, album }: Props) {
         type="button"
         class="face"
         aria-label={`${letter}, ${name}, ${words}, ${factWords(features)}`}
+        data-plays
         aria-current={current}
         onClick={point}
         onFocus={point}

@@ -29,6 +29,7 @@ export default function RoundStrip() {
         <Title />
         <span class="grow" />
         <Counts />
+        <Keep />
         <ActionButton id="round-stop" class="line" />
         <ActionButton id="round-next" class="pri" icon="" withKey />
       </header>
@@ -88,6 +89,16 @@ function Counts() {
   );
 }
 
+function Keep() {
+  const { rounds } = useApp();
+  const n = rounds.said.value.filter((s) => s?.verdict === 'keep').length;
+  return n ? (
+    <ActionButton id="round-variants" class="line" icon="">
+      Keep {n} as {n === 1 ? 'a variant' : 'variants'}
+    </ActionButton>
+  ) : null;
+}
+
 function Cards({ hand }: { hand: Hand }) {
   const { editor } = useApp();
   const motion = editor.motion.value;
@@ -135,7 +146,7 @@ function Learnt() {
         ))}
         {all.length ? null : <small>Nothing yet: it takes three answers that agree, or a wish of your own.</small>}
       </span>
-      <span class="keys" aria-hidden="true">
+      <span class="hints" aria-hidden="true">
         <KeyCaps of="K" /> keep <KeyCaps of="J" /> reject <KeyCaps of="Right" /> next card
       </span>
     </footer>

@@ -14,7 +14,6 @@ import {
   shortFor,
   type Answer,
   type Asked,
-  type Trait,
   type Verdict,
   type Wish,
 } from '../../model/feedback';
@@ -29,6 +28,7 @@ import type { Editor } from '../editor';
 import { naming } from '../motion-after';
 import type { Questions } from '../question';
 import type { Hand } from './deck';
+import type { Dealt } from '../variants/variants';
 import { saidOf } from './said';
 
 /** What is wished, as far as it is known. */
@@ -156,20 +156,12 @@ export class Rounds {
   }
 
   forget({ wish, words }: Wished): void {
-    this.#run((a, asked) => forget(a, asked, wish, words));
+    this.#run((a, asked) => forget(a, asked, [wish], words));
   }
 
   forgetAll(): void {
-    this.#run((a, asked) => {
-      const traits: readonly Trait[] = this.wished.peek().map((w) => w.wish);
-      if (!traits.length) return null;
-      let now = a;
-      for (const t of traits) {
-        const patched = forget(now, asked, t, '').apply(this.editor.scene.peek()!).agents.get(a.id)!;
-        now = { ...now, feedback: patched.feedback };
-      }
-      return { ...forget(now, asked, traits[0], ''), name: `All wishes for ${a.name} forgotten` };
-    });
+    const traits = this.wished.peek().map((w) => w.wish);
+    if (traits.length) this.#run((a, asked) => forget(a, asked, traits, 'All wishes'));
   }
 
   /** Draws the next round. */
@@ -191,6 +183,15 @@ export class Rounds {
     });
     // Undo shows what was there before.
     editor.answers.know(before);
+  }
+
+  /** The kept cards, each as the document in which it is taken. */
+  kept(): Dealt | null {
+    const [a, hand, scene] = [this.#agent(), this.editor.deck.hand.peek(), this.editor.scene.peek()];
+    if (!a || !hand || !scene || !this.#ready()) return null;
+    const which = this.said.peek().flatMap((s, i) => (s?.verdict === 'keep' ? [i] : []));
+    const scenes = which.map((i) => takeDealt(a, i, hand.print, LETTERS[i]).apply(scene));
+    return { id: a.id, scenes, futures: hand.futures };
   }
 
   #run(make: (a: Agent, asked: Asked) => Command | null): void {
