@@ -13,6 +13,7 @@ export const GROUPS = [
   'Edit',
   'Move',
   'Goal and futures',
+  'Rounds',
   'Time',
   'Variants',
   'Scene',

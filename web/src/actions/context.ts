@@ -12,6 +12,7 @@ import type { SceneList } from '../edit/scene-list';
 import type { Generation } from '../edit/generation';
 import type { Gestures } from '../edit/gestures/pointer';
 import type { Picture } from '../edit/picture';
+import type { Rounds } from '../edit/rounds/rounds';
 import type { Playback } from '../edit/playback';
 import type { Sharing } from '../edit/sharing';
 import type { Variants } from '../edit/variants/variants';
@@ -39,6 +40,7 @@ export interface Context {
   readonly copying: Copying;
   readonly filler: Filler;
   readonly variants: Variants;
+  readonly rounds: Rounds;
   readonly ui: Ui;
   readonly form: Form;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */

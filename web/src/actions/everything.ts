@@ -3,7 +3,7 @@ import { inGroup } from './action';
 import type { Context } from './context';
 
 /** Esc: what is nearest goes first, one thing a press. */
-function letGo({ editor, gestures, importing, ui, variants }: Context): void {
+function letGo({ editor, gestures, importing, rounds, ui, variants }: Context): void {
   if (gestures.cancel()) return;
   if (ui.dialog.value || ui.menu.value || ui.contextMenu.value) {
     ui.closeContextMenu();
@@ -14,7 +14,8 @@ function letGo({ editor, gestures, importing, ui, variants }: Context): void {
   else if (ui.eventsPanel.value) {
     ui.showEvents(false);
     editor.pickEvent(null);
-  } else if (editor.tool.value !== 'select') editor.chooseTool('select');
+  } else if (rounds.isOpen.value) rounds.close();
+  else if (editor.tool.value !== 'select') editor.chooseTool('select');
   else if (variants.pair.value || variants.picked.value !== null) variants.endCompare();
   else editor.select(null);
 }

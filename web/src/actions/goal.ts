@@ -41,7 +41,11 @@ const futures = [...LETTERS].map((letter, i) => ({
   label: `Choose future ${letter}`,
   keys: [`Alt+${i + 1}`],
   help: 'Playback follows it and the others answer',
-  ...onAgent((c, a) => moves.pickFuture(c.editor, a, i)),
+  ...onAgent((c, a) => {
+    if (!c.rounds.isOpen.peek()) return moves.pickFuture(c.editor, a, i);
+    c.rounds.take(i);
+    return null;
+  }),
 }));
 
 const clearing: Pick<Action, 'when' | 'run'> = {

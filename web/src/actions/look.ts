@@ -267,6 +267,6 @@ export const look = inGroup('Select and look', [
   },
   layer('futures', 'Futures', 'Shift+O', 'Where everybody may go'),
   layer('log', 'Log', 'O', 'What was recorded, dashed'),
-  layer('lanes', 'Lanes', 'Shift+K', 'Centre lines of the lanes'),
+  layer('lanes', 'Lanes', 'Shift+W', 'Centre lines of the lanes'),
   layer('labels', 'Labels', 'Shift+L', 'Names of the road users'),
 ]);

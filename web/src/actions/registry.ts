@@ -8,12 +8,13 @@ import { goal } from './goal';
 import { look } from './look';
 import { movement } from './move';
 import { place } from './place';
+import { rounds } from './rounds';
 import { scene } from './scene';
 import { time } from './time';
 import { variants } from './variants';
 
 export const ACTIONS: readonly Action[] = Object.freeze(
-  [look, place, edit, movement, goal, time, variants, scene, everything].flat(),
+  [rounds, look, place, edit, movement, goal, time, variants, scene, everything].flat(),
 );
 
 const byId = new Map(ACTIONS.map((a) => [a.id, a]));

@@ -25,6 +25,7 @@ import { SceneFile } from '../edit/scene-file';
 import { SceneList } from '../edit/scene-list';
 import { Sharing } from '../edit/sharing';
 import { Questions } from '../edit/question';
+import { Rounds } from '../edit/rounds/rounds';
 import { Maker } from '../edit/variants/making';
 import { Variants } from '../edit/variants/variants';
 import { Stage } from '../draw/stage';
@@ -85,6 +86,7 @@ function makeParts(): Context {
   const maker = new Maker(editor, new Questions(editor, file), line, file);
   const variants = new Variants(editor, maker, () => line.cancel());
   file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
+  const rounds = new Rounds(editor, new Questions(editor, file), new HttpGenerator(client));
   const copying = new Copying(editor);
   const filler = new Filler(editor, file, client);
   const parts = {
@@ -92,6 +94,7 @@ function makeParts(): Context {
     editor,
     filler,
     variants,
+    rounds,
     generation,
     scenes,
     library,
@@ -142,7 +145,8 @@ function connect(c: Context): void {
   });
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
-    const asked = generation.busy.value || editor.filling.asking.value || variants.busy.value;
+    const asked =
+      generation.busy.value || editor.filling.asking.value || variants.busy.value || editor.deck.asking.value;
     const busy = asked || editor.status.value.kind === 'loading' || gliding.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });

@@ -54,15 +54,17 @@ function OverPicture() {
 }
 
 const compareView = () => import('./variants/compare-view').then((m) => m.default);
+const roundStrip = () => import('./rounds/strip').then((m) => m.default);
 const variantStrip = () => import('./variants/strip').then((m) => m.default);
 
 function Around() {
-  const { editor, form, variants } = useApp();
+  const { editor, form, rounds, variants } = useApp();
+  const judging = rounds.isOpen.value;
   const comparing = useComputed(() => variants.compared.value !== null).value;
   const strip = useComputed(() => variants.open.value && editor.isOpen.value).value;
   return (
     <>
-      {strip ? <Later load={variantStrip} /> : null}
+      {judging ? <Later key="rounds" load={roundStrip} /> : strip ? <Later key="variants" load={variantStrip} /> : null}
       {comparing ? <Later load={compareView} /> : null}
       {form.sheet.value ? (
         <Sheet />

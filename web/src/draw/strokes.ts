@@ -110,6 +110,8 @@ export interface FuturesStyle {
   alpha?: number;
   outdated?: boolean;
   onlyChosen?: boolean;
+  /** What was said of each: kept ones at full strength, rejected ones dotted and pale. */
+  said?: readonly ('keep' | 'reject' | null)[];
 }
 
 /** Dotted, then dashed, then solid: how settled the six are. */
@@ -118,6 +120,8 @@ function settledDash(f: Futures, outdated: boolean): number[] {
   const left = f.steps - f.step;
   return left <= 0 ? [] : left >= f.steps * 0.5 ? [2, 5] : [8, 4];
 }
+
+const REJECTED_DASH = [1, 6];
 
 export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void {
   const max = Math.max(...f.modes.map((m) => m.probability));
@@ -128,6 +132,18 @@ export function paintFutures(g: Pen, v: View, f: Futures, s: FuturesStyle): void
     const { alpha, width } = modeStyle(m.probability, max);
     const lit = s.only == null || s.only === i;
     const isChosen = i === s.chosen;
+    if (s.said?.[i]) {
+      const kept = s.said[i] === 'keep';
+      trail(g, v, m.motion, {
+        colour: modeColour(i),
+        width: kept ? 4 : 2,
+        alpha: kept ? 1 : isChosen ? 0.6 : 0.38,
+        halo: kept,
+        dots: kept,
+        dash: kept ? [] : REJECTED_DASH,
+      });
+      continue;
+    }
     trail(g, v, m.motion, {
       colour: f.sketch ? colours()['ink-3'] : modeColour(i),
       width: isChosen ? Math.max(width, 3.2) : width,

@@ -19,6 +19,7 @@ import { Notices } from './notices';
 import { Placement } from './placement';
 import { SpeedCurve } from './speed-curve';
 import { Playhead } from './playhead';
+import { Deck } from './rounds/deck';
 
 export type Part = 'start' | 'goal';
 export type Field = 'pos' | 'heading' | 'speed';
@@ -106,6 +107,7 @@ export class Editor {
   readonly filling = new Filling();
   /** Speeds drawn by hand. */
   readonly curve: SpeedCurve = new SpeedCurve(this);
+  readonly deck = new Deck();
 
   readonly #scene = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);
@@ -192,6 +194,8 @@ export class Editor {
   readonly futures = computed<Futures | null>(() => {
     const id = this.selection.value;
     if (!id) return null;
+    const cards = this.deck.hand.value;
+    if (cards?.id === id) return cards.futures;
     const d = this.draft.value;
     return d && d.id === id ? d.futures : (this.motion.value.futures.get(id) ?? null);
   });
@@ -208,6 +212,7 @@ export class Editor {
     const f = this.futures.value;
     const a = this.agent.value;
     if (!f || !a) return 0;
+    if (this.deck.hand.value?.id === a.id) return this.deck.current.value;
     return Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
   });
   /** Changes only when a drag begins or ends. */
@@ -529,8 +534,10 @@ export class Editor {
 
   // -------------------------------------------------------------- what follows from it
 
-  /** The pose of a road user at the playhead, following what it does now. */
+  /** The motion of a road user: what it does now, or the card of it that is looked at. */
   motionFor(a: Agent): ReturnType<typeof motionOf> {
+    const cards = this.deck.hand.value;
+    if (cards?.id === a.id) return cards.futures.modes[this.deck.current.value].motion;
     return motionOf(this.scene.value!, this.motion.value, a);
   }
 
@@ -538,8 +545,9 @@ export class Editor {
   goalPose(a: Agent): (Pose & { set: boolean }) | null {
     const g = a.goal;
     const d = this.draft.value;
-    const f = d?.id === a.id ? d.futures : this.motion.value.futures.get(a.id);
-    const index = f ? Math.min(f.modes.length - 1, a.chosen ?? f.chosen) : -1;
+    const cards = this.deck.hand.value?.id === a.id ? this.deck.hand.value.futures : null;
+    const f = cards ?? (d?.id === a.id ? d.futures : this.motion.value.futures.get(a.id));
+    const index = cards ? this.deck.current.value : f ? Math.min(f.modes.length - 1, a.chosen ?? f.chosen) : -1;
     const m = f && index >= 0 ? f.modes[index].motion : null;
     const end = m ? (poseAtStep(m, Math.round(g.time * 10)) ?? endPose(m)) : null;
     if (!g.pos && !end) return null;
@@ -573,7 +581,7 @@ function onlyPicked(before: Scene, after: Scene, id: string): boolean {
     a.length === b.length &&
     a.width === b.width &&
     a.does === b.does &&
-    a.chosen !== b.chosen &&
+    (a.chosen !== b.chosen || a.dealt !== b.dealt) &&
     before.roster === after.roster &&
     before.seed === after.seed &&
     before.diversity === after.diversity &&

@@ -132,7 +132,8 @@ export function later(e: Editor, a: Agent, seconds: number): Command {
 
 export function pickFuture(e: Editor, a: Agent, index: number | null): Command | null {
   const f = e.futures.peek();
-  if (!f || f.sketch || a.locked || (index !== null && index >= f.modes.length)) return null;
+  // Cards are taken, not picked: they are nobody's futures yet.
+  if (!f || f.sketch || a.locked || e.deck.hand.peek() || (index !== null && index >= f.modes.length)) return null;
   return choose(a, index, LETTERS[index ?? 0]);
 }
 

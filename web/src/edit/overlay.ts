@@ -22,6 +22,7 @@ import { GoalOverlay } from './overlay-goal';
 import { paintStops } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
+import { saidOf } from './rounds/said';
 
 /** Alpha of the refinement steps left behind, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
@@ -215,6 +216,7 @@ export class Overlay {
       outdated,
       alpha: outdated ? 0.6 : 1,
       onlyChosen: committed,
+      said: saidOf(e).map((s) => s?.verdict ?? null),
     });
     this.verdicts.paintStretches(g, v, f, judged);
     if (f.sketch) {
@@ -237,7 +239,7 @@ export class Overlay {
   /** Away from the start only the future in force is shown: it is what happens. */
   private committed(a: Agent): boolean {
     const { editor: e } = this;
-    return touched(a) && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
+    return touched(a) && !e.deck.hand.value && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
   }
 
   private paintWords(g: Pen, v: View, a: Agent): void {

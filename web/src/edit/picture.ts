@@ -80,6 +80,10 @@ export class Picture {
       stage.invalidate('agents', 'overlay');
     });
     effect(() => {
+      void [e.deck.hand.value, e.deck.current.value];
+      stage.invalidate('agents', 'overlay');
+    });
+    effect(() => {
       void e.draft.value;
       stage.soon('overlay');
     });

@@ -1,7 +1,7 @@
 // From the document to a question: the scene, by name where the server has it as it is on screen, what is asked of
 // whom, and the options.
 import { DEFAULTS } from '../model/domain';
-import type { ConditionJson, MapJson, MapRef, SceneJson } from '../model/json';
+import type { ConditionJson, FeedbackDocJson, MapJson, MapRef, SceneJson } from '../model/json';
 import type { Futures, MotionSet } from '../model/futures';
 import { doing, GOAL_TIME, profileOf, type Scene } from '../model/scene';
 import { castJson, conditionOf, generatedJson, isEmptyCondition, withStill } from '../model/write';
@@ -25,6 +25,8 @@ export interface Wanted {
   /** Those of them that others are to answer as if they had been asked for. */
   readonly pinned?: readonly string[];
   readonly unscored?: boolean;
+  /** Cards are wanted in place of the likeliest futures, by what was said of earlier ones. */
+  readonly feedback?: FeedbackDocJson;
   /** What is to be seen on the way to the answer; all six unless only the answer counts. */
   readonly drafts?: 'all' | 'chosen';
 }
@@ -84,6 +86,7 @@ export class Questions {
       // What it knows of the others it has itself.
       kept_futures: 'omitted',
       score: w.step !== null && !w.unscored,
+      ...(w.feedback ? { feedback: w.feedback } : {}),
       ...(w.pinned ? { pinned: [...w.pinned] } : {}),
       // One window is the default and needs no words.
       ...(scene.length > GOAL_TIME || scene.replan < GOAL_TIME

@@ -1,6 +1,6 @@
 // Links with a scene inside: what goes into one, and what is done with one that comes.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
-import { isMapRef, type SceneJson } from '../model/json';
+import { isMapRef, type EditorJson, type SceneJson } from '../model/json';
 import { Away, Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
 import type { Library } from './library';
@@ -102,7 +102,7 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
           ],
         }
       : null;
-  const { picked, variants } = scene.x_editor ?? {};
+  const { picked, variants, feedback } = scene.x_editor ?? {};
   const one = picked && Object.fromEntries(Object.keys(picked).map((id) => [id, 0]));
   return {
     ...scene,
@@ -112,9 +112,17 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
     x_editor: {
       ...scene.x_editor,
       picked: parts.futures ? one : undefined,
+      feedback: parts.futures ? (parts.words ? feedback : unnamed(feedback)) : undefined,
       // Their motion is worked out again where somebody looks at them.
       variants: parts.futures ? variants?.map((v) => ({ ...v, name: parts.words ? v.name : undefined })) : undefined,
     },
     generated: followed,
   };
 }
+
+/** What was said of futures, without what they were called. */
+const unnamed = (all: EditorJson['feedback']): EditorJson['feedback'] =>
+  all &&
+  Object.fromEntries(
+    Object.entries(all).map(([id, f]) => [id, { ...f, answers: f.answers.map((a) => ({ ...a, name: '' })) }]),
+  );

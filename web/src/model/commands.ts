@@ -35,6 +35,7 @@ const PATCHABLE = [
   'goal',
   'chosen',
   'profile',
+  'dealt',
   'length',
   'width',
   'type',
@@ -45,6 +46,7 @@ const PATCHABLE = [
   'note',
   'locked',
   'does',
+  'feedback',
 ] as const;
 export type AgentPatch = Partial<Pick<Agent, (typeof PATCHABLE)[number]>>;
 
@@ -99,9 +101,13 @@ export const choose = (a: Agent, index: number | null, letter: string): Command 
   one(
     index === null ? `${a.name} back to the most likely future` : `Future ${letter} chosen for ${a.name}`,
     a.id,
-    { chosen: index, profile: null },
+    // Picked again among the same six; what comes after a choice that was taken back is not of that round.
+    { chosen: index, dealt: a.chosen === null ? null : a.dealt, profile: null },
     'choose',
   );
+/** One of the cards of a round: `dealt` names the round. */
+export const takeDealt = (a: Agent, index: number, dealt: string, letter: string): Command =>
+  one(`Future ${letter} of a round taken for ${a.name}`, a.id, { chosen: index, dealt, profile: null });
 /** A speed curve for a future, and with it the speed at the start; null takes it away, and the pick with it. */
 export function setCurve(a: Agent, index: number | null, profile: Profile | null): Command {
   if (!profile) return one(`Speed curve of ${a.name} cleared`, a.id, { chosen: null, profile: null });

@@ -1,5 +1,6 @@
 // The scene document as it travels and is stored (`dragtraffic.scene`, version 1), and what answers say of futures.
 // Of a document members that may be missing are optional: the reader is tolerant, the writer is not.
+import type { Feedback } from './feedback';
 import type { components } from './api';
 
 type Schemas = components['schemas'];
@@ -119,6 +120,14 @@ export interface GeneratedJson {
   seed?: number;
   [k: string]: unknown;
 }
+export type FeaturesJson = Schemas['Features'];
+export type TraitJson = Schemas['Trait'];
+export type WishJson = Schemas['Wish'];
+export type LearnedWishJson = Schemas['LearnedWish'];
+/** A future among those that are shown to be judged. */
+export type RoundCardJson = Schemas['RoundCard'];
+export type RoundJson = Schemas['Round'];
+export type FeedbackDocJson = Schemas['FeedbackDoc'];
 /** What only the editor knows: the generator's own choices stand in `generated`, the user's picks here. */
 export interface EditorJson {
   seed?: number;
@@ -130,6 +139,8 @@ export interface EditorJson {
   picked?: Record<string, number>;
   /** Speeds drawn by hand for futures that are picked. */
   curves?: Record<string, unknown>;
+  /** The round of cards that the picked future is from. */
+  dealt?: Record<string, string>;
   names?: Record<string, string>;
   notes?: Record<string, string>;
   locked?: string[];
@@ -140,6 +151,8 @@ export interface EditorJson {
   /** The subtype that was recorded, of those that have been given another. */
   was?: Record<string, string>;
   variants?: VariantJson[];
+  /** What was said of futures in rounds, by road user. */
+  feedback?: Record<string, Feedback>;
 }
 /** A way that the scene could go: what is asked in it, and what is thought of it. */
 export interface VariantJson {
@@ -159,6 +172,7 @@ export interface VariantJson {
   roster: string;
   conditions?: Record<string, ConditionJson>;
   picked?: Record<string, number>;
+  dealt?: Record<string, string>;
   does?: Record<string, string>;
   curves?: Record<string, unknown>;
   /** Which of `generated.samples` holds its motion. */

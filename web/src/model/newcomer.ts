@@ -58,6 +58,8 @@ export function settle(n: Newcomer, id: string): Agent {
     goal: n.goal ?? freeGoal(),
     chosen: null,
     profile: null,
+    dealt: null,
+    feedback: null,
   });
 }
 

@@ -13,6 +13,7 @@ import {
   type VariantJson,
 } from './json';
 import { DEFAULTS } from './domain';
+import { readFeedback } from './feedback';
 import { isStill, motionFrom, poseAtStep, type Motion } from './motion';
 import { KIND_NAMES } from './kinds';
 import { emptyMotion, readFutures, withNames, type Futures, type MotionSet } from './futures';
@@ -129,6 +130,7 @@ export function readAgent(json: AgentJson, map: LaneMap, name: string, ed: Edito
     subtype,
     name: called ?? name,
     called,
+    feedback: readFeedback(ed.feedback?.[json.id]),
     note: ed.notes?.[json.id] ?? '',
     locked: !!ed.locked?.includes(json.id),
     logSize: [json.length_m, json.width_m] as const,
@@ -148,10 +150,11 @@ function readConditions(
   json: AgentJson,
   c: ConditionJson,
   logStart: Pose | null,
-  ed: Pick<EditorJson, 'picked' | 'does' | 'curves'>,
-): Pick<Agent, 'type' | 'kind' | 'does' | 'length' | 'width' | 'start' | 'goal' | 'chosen' | 'profile'> {
+  ed: Pick<EditorJson, 'picked' | 'dealt' | 'curves' | 'does'>,
+): Pick<Agent, 'type' | 'kind' | 'does' | 'length' | 'width' | 'start' | 'goal' | 'chosen' | 'dealt' | 'profile'> {
   const type = c.type ? typeOf(c.type) : typeOf(json.type);
   const picked = ed.picked?.[json.id];
+  const dealt = ed.dealt?.[json.id];
   return {
     type,
     kind: kindOf({ ...json, type }),
@@ -162,6 +165,7 @@ function readConditions(
     goal: readGoal(c),
     chosen: typeof picked === 'number' && picked >= 0 && picked < 6 ? Math.floor(picked) : null,
     profile: readProfile(ed.curves?.[json.id]),
+    dealt: typeof dealt === 'string' && dealt ? dealt.slice(0, 32) : null,
   };
 }
 
@@ -264,7 +268,7 @@ function readAsked(v: Partial<VariantJson>, agents: ReadonlyMap<string, Agent>):
   for (const [id, c] of Object.entries(v.conditions ?? {})) {
     const a = agents.get(id);
     if (!a?.source || !c || typeof c !== 'object') continue;
-    const ed = { picked: v.picked, does: v.does, curves: v.curves };
+    const ed = { picked: v.picked, dealt: v.dealt, curves: v.curves, does: v.does };
     // Read as the file's road user is; the lanes matter for what is parked alone.
     asked[id] = askedOf({ ...a, ...readConditions(a.source, c, a.logStart, ed) });
   }

@@ -2,6 +2,7 @@
 // is not part of it, it is looked up by the document's key (see futures.ts).
 import type { LaneMap } from './lanemap';
 import { DEFAULTS } from './domain';
+import type { Feedback } from './feedback';
 import type { AgentJson } from './json';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 import { STEP_S, type Motion } from './motion';
@@ -58,6 +59,10 @@ export interface Agent {
   readonly chosen: number | null;
   /** How fast it goes along it, where that was drawn by hand; it goes with the pick. */
   readonly profile: Profile | null;
+  /** Names the round of cards that its futures are from, where one of those was picked. */
+  readonly dealt: string | null;
+  /** What was said of its futures in rounds; null where nothing was. */
+  readonly feedback: Feedback | null;
 }
 
 export interface Signal {
@@ -197,6 +202,7 @@ export function sceneKey(scene: Scene): string {
   for (const a of scene.agents.values()) {
     if (touched(a)) parts.push([a.id, a.start, a.goal, a.chosen, a.length, a.width]);
     if (profileOf(a)) parts.push([a.id, a.profile]);
+    if (a.chosen !== null && a.dealt) parts.push([a.id, a.dealt]);
     if (a.does) parts.push([a.id, a.does]);
   }
   return JSON.stringify(parts);

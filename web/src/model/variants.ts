@@ -31,7 +31,10 @@ export interface VariantState {
 }
 
 export type Asked = Required<
-  Pick<AgentPatch, 'start' | 'goal' | 'chosen' | 'profile' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'>
+  Pick<
+    AgentPatch,
+    'start' | 'goal' | 'chosen' | 'dealt' | 'profile' | 'length' | 'width' | 'type' | 'kind' | 'subtype' | 'does'
+  >
 >;
 
 /** So many are made at most, and so many a scene holds with those that were kept. */
@@ -55,8 +58,19 @@ export function stateOfVariant(scene: Scene, subject: string | null): VariantSta
   });
 }
 
-export const askedOf = ({ start, goal, chosen, profile, length, width, type, kind, subtype, does }: Agent): Asked =>
-  Object.freeze({ start, goal, chosen, profile, length, width, type, kind, subtype, does });
+export const askedOf = ({
+  start,
+  goal,
+  chosen,
+  dealt,
+  profile,
+  length,
+  width,
+  type,
+  kind,
+  subtype,
+  does,
+}: Agent): Asked => Object.freeze({ start, goal, chosen, dealt, profile, length, width, type, kind, subtype, does });
 
 /** Are the road users of a variant those that are here? */
 export const sameCast = (scene: Scene, state: VariantState): boolean => state.roster === scene.roster;
@@ -120,11 +134,16 @@ export const patchVariant = (scene: Scene, id: number, patch: VariantPatch, name
   });
 
 /** The document as it is joins the variants, kept. */
-export function keepAsVariant(scene: Scene, name: string): Command | null {
-  if (scene.variants.length >= MOST_VARIANTS) return null;
-  const id = nextVariant(scene);
-  const v: Variant = { id, called: null, kept: true, starred: false };
-  return put(name, [...scene.variants, v], { ...scene.variantStates, [id]: stateOfVariant(scene, null) });
+export const keepAsVariant = (scene: Scene, name: string): Command | null =>
+  keepStates(scene, [stateOfVariant(scene, null)], name);
+
+/** Others join them, kept; null where there is no room for all. */
+export function keepStates(scene: Scene, fresh: readonly VariantState[], name: string): Command | null {
+  if (scene.variants.length + fresh.length > MOST_VARIANTS) return null;
+  const first = nextVariant(scene);
+  const come = fresh.map((_, i): Variant => ({ id: first + i, called: null, kept: true, starred: false }));
+  const states = Object.fromEntries(fresh.map((state, i) => [first + i, state]));
+  return put(name, [...scene.variants, ...come], { ...scene.variantStates, ...states });
 }
 
 export function removeVariant(scene: Scene, id: number, name: string): Command {

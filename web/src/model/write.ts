@@ -193,7 +193,7 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
       const a = scene.agents.get(id);
       return a ? [{ ...a, ...patch }] : [];
     });
-    const { picked, does, curves } = ofAgents(all);
+    const { picked, dealt, curves, does } = ofAgents(all);
     return {
       id: v.id,
       ...(v.called ? { name: v.called } : {}),
@@ -209,6 +209,7 @@ export const variantsJson = (scene: Scene): VariantJson[] =>
       roster,
       conditions: Object.fromEntries(all.map((a) => [a.id, conditionOf(a)])),
       ...(picked ? { picked } : {}),
+      ...(dealt ? { dealt } : {}),
       ...(does ? { does } : {}),
       ...(curves ? { curves } : {}),
     };
@@ -231,10 +232,12 @@ export function ofAgents(agents: Iterable<Agent>): Partial<EditorJson> {
   const ed: Partial<EditorJson> = {
     picked: entries((a) => a.chosen),
     curves: entries(profileOf),
+    dealt: entries((a) => (a.chosen === null ? null : a.dealt)),
     names: entries((a) => a.called),
     notes: entries((a) => a.note),
     locked: ids((a) => a.locked),
     does: entries((a) => a.does),
+    feedback: entries((a) => a.feedback),
     placed: ids((a) => a.placed),
     was: entries((a) => (a.placed || a.subtype === a.logSubtype ? null : a.logSubtype)),
   };

@@ -20,7 +20,7 @@ export type Problem = Omit<Partial<Schemas['Problem']>, 'code'> & {
 /** Body of POST /v1/generate, without the scene: that part is large and kept as ready-made text. */
 export type GenerateOptions = Pick<
   Schemas['GenerateRequest'],
-  'draft_interval_ms' | 'horizon_s' | 'kept_futures' | 'pinned' | 'replan_interval_s' | 'shown'
+  'draft_interval_ms' | 'feedback' | 'horizon_s' | 'kept_futures' | 'pinned' | 'replan_interval_s' | 'shown'
 > &
   Required<
     Pick<

@@ -20,7 +20,7 @@ const MOST = 60;
 const MOST_OF_A_KIND = 8;
 const MOST_RECENT = 4;
 /** Groups that stand under the name of the selected road user. */
-const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Move', 'Edit'];
+const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Rounds', 'Move', 'Edit'];
 const SCENES = 'Scenes';
 
 export function find(c: Context, typed: string): Entry[] {

@@ -57,6 +57,8 @@ const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
   },
   { ids: /^(next|previous)-agent$/, label: 'Next, previous road user', keys: ['Tab', 'Shift+Tab'] },
   { ids: /^(next|previous)-group$/, label: 'Next part of the page', keys: ['F6'] },
+  { ids: /^round-card-/, label: 'Choose a card', keys: ['1', '6'] },
+  { ids: /^round-(back|on)$/, label: 'Card before, after', keys: ['Left', 'Right'] },
   { ids: /^zoom-(in|out)$/, label: 'Zoom in, out', keys: ['PageUp', 'PageDown'] },
 ];
 

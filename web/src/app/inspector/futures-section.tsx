@@ -8,6 +8,7 @@ import { placeWord } from '../../model/verdict-words';
 import { verdictsHold } from '../../edit/goal-verdict';
 import { pickFuture } from '../../edit/moves';
 import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
 
@@ -32,6 +33,9 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
       </h3>
       <FutureList agent={agent} />
       <Remark agent={agent} />
+      <ActionButton id="rounds" class="line rounds" size={15} withKey>
+        Keep and reject in rounds
+      </ActionButton>
     </section>
   );
 }

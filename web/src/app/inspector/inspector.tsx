@@ -7,10 +7,12 @@ import { EventsPanel } from './events-panel';
 import { ScenePanel } from './scene-panel';
 import { SeveralPanel } from './several-panel';
 
+const roundsPanel = () => import('../rounds/panel').then((m) => m.default);
 const comparePanel = () => import('../variants/compare-panel').then((m) => m.default);
 
 export function Inspector() {
-  const { editor, ui, variants } = useApp();
+  const { editor, rounds, ui, variants } = useApp();
+  const judging = rounds.isOpen.value;
   const comparing = useComputed(() => variants.compared.value !== null).value;
   const events = useComputed(() => ui.eventsPanel.value && editor.events.value.length > 0).value;
   const scene = useComputed(() => editor.scene.value?.id).value;
@@ -19,7 +21,9 @@ export function Inspector() {
   return (
     <aside class="insp" aria-label="Inspector" data-group="inspector">
       {comparing ? (
-        <Later load={comparePanel} />
+        <Later key="compare" load={comparePanel} />
+      ) : judging ? (
+        <Later key="rounds" load={roundsPanel} />
       ) : events ? (
         <EventsPanel />
       ) : several ? (

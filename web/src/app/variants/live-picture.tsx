@@ -15,6 +15,9 @@ import type { View } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 
+/** What a picture shows: everybody in a document, and one of them with its way. */
+export type Pictured = Pick<Card, 'scene' | 'set' | 'events'> & { readonly state: { readonly subject: string | null } };
+
 /** What the pictures of all cards share. */
 export interface Album {
   readonly painter: Miniatures;
@@ -25,7 +28,7 @@ export interface Album {
 /** While the scene plays a picture is painted anew after so many milliseconds. */
 const PAUSE_MS = (navigator.hardwareConcurrency || 2) > 2 ? 33 : 100;
 
-export function LivePicture({ card, album }: { card: Card; album: Album }) {
+export function LivePicture({ card, album }: { card: Pictured; album: Album }) {
   const { editor, ui } = useApp();
   const canvas = useRef<HTMLCanvasElement>(null);
   const now = useRef({ card, album });
@@ -74,7 +77,7 @@ const mini = <T extends { length: number; width: number }>(a: T) => ({
 
 const EVENT_PX = 4.5;
 
-function paintCard(g: Pen, v: View, { scene, set, state, events }: Card, time: number): void {
+function paintCard(g: Pen, v: View, { scene, set, state, events }: Pictured, time: number): void {
   if (!scene || !set) return;
   const subject = state.subject === null ? undefined : scene.agents.get(state.subject);
   const f = subject && set.futures.get(subject.id);

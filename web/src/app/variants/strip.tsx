@@ -4,18 +4,11 @@ import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
 import { hasEvents, type Card, type Filter } from '../../edit/variants/cards';
 import { MOST_NEW } from '../../model/variants';
-import { boxOf, type Box, type Vec } from '../../model/geometry';
-import { busyBox } from '../../model/busy';
-import { motionOf } from '../../model/changes';
-import { isRecorded } from '../../model/scene';
-import { Miniatures } from '../../draw/miniature';
-import { MapPicture } from '../../draw/paint-map';
-import { View } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { useAlbum } from './album';
 import { CardView } from './card';
-import type { Album } from './live-picture';
 import '../../styles/variants.css';
 
 const FILTERS: readonly (readonly [Filter, string])[] = [
@@ -143,46 +136,4 @@ function About() {
       </label>
     </>
   );
-}
-
-const CARD_W = 174;
-const CARD_H = 92;
-const LOW_H = 60;
-/** A page lower than this has lower pictures, pixels. */
-const LOW_PAGE = 800;
-const MARGIN_M = 10;
-
-/** One view for all of them: on what the road user does that they are about, else where most things move. */
-function useAlbum(cards: readonly Card[]): Album {
-  const { editor, ui } = useApp();
-  const kept = useRef<{ key: string; album: Album; of: unknown } | null>(null);
-  void ui.theme.value;
-  const scene = editor.scene.peek()!;
-  const box = boxFor(cards) ?? busyBox(scene);
-  const h = innerHeight < LOW_PAGE ? LOW_H : CARD_H;
-  const key = JSON.stringify([box, h]);
-  if (kept.current?.key !== key || kept.current.of !== scene.map) {
-    const view = new View();
-    Object.assign(view, { w: CARD_W, h, dpr: Math.min(2, Math.max(1, devicePixelRatio || 1)) });
-    view.fit(box, 5, 0.3);
-    const map = kept.current?.of === scene.map ? kept.current.album.map : mapPicture(scene);
-    kept.current = { key, of: scene.map, album: { view, map, painter: new Miniatures() } };
-  }
-  return kept.current.album;
-}
-
-const mapPicture = ({ map, source }: { map: Parameters<typeof busyBox>[0]['map']; source: string }) =>
-  new MapPicture(map, isRecorded(source));
-
-function boxFor(cards: readonly Card[]): Box | null {
-  const pts = cards.flatMap(({ scene, set, state, events }): Vec[] => {
-    const a = state.subject === null ? undefined : scene?.agents.get(state.subject);
-    if (!a || !scene || !set) return [];
-    const m = motionOf(scene, set, a);
-    const way = Array.from(m.x, (x, i): Vec => [x, m.y[i]]);
-    return [...way, ...events.filter((e) => !e.inLog).map((e) => e.at)];
-  });
-  if (!pts.length) return null;
-  const b = boxOf(pts);
-  return { x0: b.x0 - MARGIN_M, y0: b.y0 - MARGIN_M, x1: b.x1 + MARGIN_M, y1: b.y1 + MARGIN_M };
 }

@@ -130,6 +130,10 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
     case 'frame':
       break;
     case 'future': {
+      if (editor.deck.hand.peek()) {
+        editor.deck.point(hit.index);
+        break;
+      }
       const command = a && a.chosen !== hit.index ? pickFuture(editor, a, hit.index) : null;
       if (command) editor.run(command);
       break;

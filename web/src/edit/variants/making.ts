@@ -2,7 +2,7 @@
 // everybody anew with seed after seed. What is asked depends on the document alone, so that it can be asked again.
 import { choose, drawAnew, patchScene } from '../../model/commands';
 import { motionOf } from '../../model/changes';
-import { emptyMotion, LETTERS, type KeepOrder, type MotionSet } from '../../model/futures';
+import { emptyMotion, LETTERS, type Futures, type KeepOrder, type MotionSet } from '../../model/futures';
 import { poseAt, STEP_S } from '../../model/motion';
 import { canChange, canMove, doing, hasGoal, sceneKey, touchedIn, type Agent, type Scene } from '../../model/scene';
 import { readVariantSample } from '../../model/read';
@@ -71,9 +71,10 @@ export class Maker {
     return kept ? { scene, set: await this.#scored(scene, kept) } : this.workOut(scene, subject);
   }
 
-  /** What everybody does in a document. */
-  async workOut(scene: Scene, subject: string | null): Promise<Take> {
-    const base = subject === null ? emptyMotion('') : await this.#base(scene, subject);
+  /** What everybody does in a document. `dealt`: futures of the subject that are not its usual ones. */
+  async workOut(scene: Scene, subject: string | null, dealt?: Futures): Promise<Take> {
+    const usual = subject === null ? emptyMotion('') : await this.#base(scene, subject);
+    const base = subject !== null && dealt ? { ...usual, futures: new Map(usual.futures).set(subject, dealt) } : usual;
     const step: Step = { name: '', agent: subject, undo: false, ...(subject === null && scene.drawn ? EVERYBODY : {}) };
     const asked = askedAfter(this.editor, scene, step, base.futures);
     if (typeof asked === 'string') return { scene, set: await this.#scored(scene, base) };

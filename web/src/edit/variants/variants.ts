@@ -2,10 +2,11 @@
 // everybody does in each is kept here, and worked out again where it is missing.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../model/commands';
-import type { MotionSet } from '../../model/futures';
+import type { Futures, MotionSet } from '../../model/futures';
 import { sceneKey, type Scene } from '../../model/scene';
 import {
   keepAsVariant,
+  keepStates,
   MOST_NEW,
   patchVariant,
   removeVariant,
@@ -33,6 +34,13 @@ interface Made {
 
 const USUAL_COUNT = 6;
 const NONE: readonly Card[] = Object.freeze([]);
+
+/** Cards of a round, each as the document in which it is taken. */
+export interface Dealt {
+  readonly id: string;
+  readonly scenes: readonly Scene[];
+  readonly futures: Futures;
+}
 
 export class Variants {
   readonly #open = signal(false);
@@ -329,6 +337,40 @@ export class Variants {
     if (!set.stale) this.#keepSets([{ scene, set: { ...set, key: sceneKey(scene) } }]);
     editor.run(command);
     this.#open.value = true;
+  }
+
+  /** Futures of a round join the variants, kept, each with what the others do about it. */
+  async keepDealt({ id, scenes, futures }: Dealt): Promise<void> {
+    const { editor } = this;
+    if (!scenes.length || this.#refusedLock()) return;
+    this.stop();
+    const turn = this.#turn;
+    const takes: Take[] = [];
+    batch(() => {
+      this.endCompare();
+      this.#open.value = true;
+      this.#making.value = { done: 0, of: scenes.length };
+    });
+    let why: string | null = null;
+    try {
+      for (const scene of scenes) {
+        takes.push(await this.maker.workOut(scene, id, futures));
+        if (turn !== this.#turn) break;
+        this.#making.value = { done: takes.length, of: scenes.length };
+      }
+    } catch (e) {
+      why = reasonOf(e);
+    }
+    if (turn === this.#turn) this.#making.value = null;
+    if (why) editor.notices.show({ text: why });
+    const now = editor.scene.peek();
+    if (!takes.length || now?.id !== scenes[0].id || now.roster !== scenes[0].roster) return;
+    const n = takes.length;
+    const states = takes.map((t) => stateOfVariant(t.scene, id));
+    const command = keepStates(now, states, n === 1 ? 'A card kept as a variant' : `${n} cards kept as variants`);
+    if (!command) return editor.notices.show({ text: 'There is no room for more variants. Remove some first.' });
+    this.#keepSets(takes);
+    editor.run(command);
   }
 
   #patch(id: number, make: (v: Variant, name: string) => { patch: Partial<Variant>; name: string }): void {

@@ -1,0 +1,221 @@
+// Rounds: futures of one car are kept and rejected, drawn anew by that, and one of them is taken.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { it } from 'node:test';
+import { carOnTheMove } from '../support/casting.js';
+import { journeys } from '../support/journey.js';
+
+/** What the cards say: `{ letter, name, facts, verdict, why }`. */
+const cards = (e) =>
+  e.page.locator('.rcard').evaluateAll((all) =>
+    all.map((el) => ({
+      letter: el.dataset.card,
+      name: el.querySelector('.nm').textContent,
+      facts: el.querySelector('small').textContent,
+      verdict: el.querySelector('.face .tag')?.textContent ?? null,
+      why: el.querySelector('select').selectedOptions[0].textContent,
+    })),
+  );
+const drawn = async (e) => (await cards(e)).map(({ name, facts }) => `${name}, ${facts}`);
+const round = (e) => e.text('.rounds h2');
+const learnt = (e) => e.page.locator('.wishrow b').allInnerTexts();
+
+async function open(e) {
+  await e.key('Shift+K');
+  await e.page.waitForSelector('.rcard');
+  await e.settled();
+}
+
+async function next(e) {
+  await e.key('Enter');
+  await e.settled();
+}
+
+/** Keeps the two calmest and rejects the three that are driven hardest; gives back the letter of the worst. */
+async function judge(e) {
+  const { cards: like } = e.wire.last().event('final').feedback;
+  const order = like.map((c, i) => ({ i, v: c.features.harshness_mps2 })).sort((a, b) => a.v - b.v);
+  for (const { i } of order.slice(0, 2)) {
+    await e.key(String(i + 1));
+    await e.key('k');
+  }
+  for (const { i } of order.slice(-3)) {
+    await e.key(String(i + 1));
+    await e.key('j');
+  }
+  await e.settled();
+  return 'ABCDEF'[order.at(-1).i];
+}
+
+journeys('rounds', (stage) => {
+  it('draws what one likes, round after round, and takes one of them', { timeout: 120_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    await e.key('Control+s');
+    await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    await e.settled();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    const usual = await e.page.locator('.fu .nm').allInnerTexts();
+    await open(e);
+    const first = await drawn(e);
+    assert.equal(first.length, 6);
+    assert.equal(new Set(first).size, 6, `${first}`);
+    assert.equal(await round(e), 'Round 1');
+    const asked = e.wire.last();
+    assert.deepEqual(
+      [asked.body.agents, asked.body.react, asked.body.feedback],
+      [[car.id], false, { answers: [], wishes: [], forgotten: [] }],
+    );
+    const worst = await judge(e);
+    await e.page.getByLabel(`Why, ${worst}`).selectOption({ label: 'too harsh' });
+    await e.settled();
+    const judged = await cards(e);
+    assert.deepEqual(judged.map((c) => c.verdict).sort(), ['Kept', 'Kept', 'Rejected', 'Rejected', 'Rejected', null]);
+    assert.equal(judged.find((c) => c.letter === worst).why, 'too harsh');
+    assert.match(await e.text('.counts'), /2 kept\s*3 rejected\s*1 open/);
+    await e.picture('rounds-judged');
+    // The next six rest on it, none of them is one that was judged, and what was learned is said.
+    await next(e);
+    assert.equal(await round(e), 'Round 2');
+    const sent = e.wire.last().body.feedback.answers;
+    assert.deepEqual(sent.map((a) => a.verdict).sort(), ['keep', 'keep', 'reject', 'reject', 'reject']);
+    assert.deepEqual(
+      sent.flatMap((a) => a.why ?? []),
+      [{ trait: 'harshness', wants: 'less' }],
+    );
+    const second = await drawn(e);
+    assert.equal(second.length, 6);
+    assert.notDeepEqual(second, first);
+    const wishes = await learnt(e);
+    assert.ok(wishes.length >= 1, 'something is learnt');
+    assert.ok(wishes.includes('Smoother'), `${wishes}`);
+    assert.match(await e.text('[data-wish="Smoother"] p'), /at most [\d.]+, rejected ones [\d.]+ m\/s²/);
+    await e.picture('rounds-second');
+    // One step back shows the first six again, with what was said of them.
+    await e.key('Control+z');
+    await e.settled();
+    assert.equal(await round(e), 'Round 1');
+    assert.deepEqual(await cards(e), judged);
+    await e.key('Control+Shift+z');
+    await e.settled();
+    assert.deepEqual(await drawn(e), second);
+    // A wish is forgotten, another is said: both are plain steps.
+    await e.page.getByRole('button', { name: 'Forget: Smoother' }).first().click();
+    assert.ok(!(await learnt(e)).includes('Smoother'));
+    await e.key('Control+z');
+    assert.ok((await learnt(e)).includes('Smoother'));
+    await e.page.getByLabel('Add a wish').selectOption({ label: 'Waits longer' });
+    assert.ok((await learnt(e)).includes('Waits longer'));
+    await e.key('2');
+    await e.key('k');
+    await e.settled();
+    // Nobody has answered any of it; a card that is taken is answered like any future that is picked.
+    const mark = e.wire.asked.length;
+    const [, taken] = await cards(e);
+    await e.page.locator('[data-take="B"]').click();
+    await e.settled();
+    assert.equal(await e.page.locator('.rcard').count(), 0);
+    const picked = e.wire.since(mark).find((q) => q.body.pinned);
+    assert.deepEqual([picked.body.agents, picked.body.pinned, picked.body.react], [[car.id], [car.id], true]);
+    const row = e.page.locator('.fu[aria-checked="true"]');
+    assert.equal(await row.getAttribute('data-future'), 'B');
+    assert.equal(await row.locator('.nm').innerText(), taken.name);
+    await e.picture('rounds-taken');
+    // Taken back, the usual six are there as they were.
+    await e.key('Control+z');
+    await e.settled();
+    assert.deepEqual(await e.page.locator('.fu .nm').allInnerTexts(), usual);
+    await e.key('Control+Shift+z');
+    await e.settled();
+    assert.equal(await row.locator('.nm').innerText(), taken.name);
+    // Saved and opened again, what was said is still there and counts.
+    await e.until(() => document.querySelector('.title small').textContent === 'Saved');
+    const { scenes } = await e.get('/v1/scenes');
+    const own = await e.get(`/v1/scenes/${scenes.find((s) => !s.readonly).id}`);
+    assert.equal(own.x_editor.feedback[car.id].answers.length, 6);
+    await e.page.reload();
+    await e.ready();
+    await e.settled();
+    await e.choose(car.id);
+    assert.equal(await row.locator('.nm').innerText(), taken.name);
+    await open(e);
+    assert.equal(await round(e), 'Round 3');
+    assert.equal(e.wire.last().body.feedback.answers.length, 6);
+    assert.deepEqual(e.wire.last().body.feedback.wishes, [{ trait: 'standing', wants: 'more' }]);
+    assert.match(await e.text('.roundlist'), /Round 1\s*2 kept, 3 rejected\s*Round 2\s*1 kept, 0 rejected/);
+    const download = e.page.waitForEvent('download');
+    await e.page.locator('[data-action="round-table"]').click();
+    const table = readFileSync(await (await download).path(), 'utf8')
+      .trim()
+      .split('\r\n');
+    assert.equal(table.length, 7);
+    assert.match(table[0], /^round,letter,name,verdict,why,pace_mps,gap_s,harshness_mps2,standing_s/);
+    assert.ok(
+      table.some((l) => l.startsWith('1,') && l.includes('reject,too harsh')),
+      table.join('\n'),
+    );
+    await e.key('Escape');
+    await e.until(() => !document.querySelector('.rcard'));
+    assert.ok(await e.shows('.fu'), 'the road user is still selected');
+  });
+
+  it('closes when something else is asked of the scene, and keeps what was said', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    await open(e);
+    await e.key('k');
+    await e.key('ArrowRight');
+    await e.key('j');
+    await e.settled();
+    const said = await cards(e);
+    assert.deepEqual(
+      said.map((c) => c.verdict),
+      ['Kept', 'Rejected', null, null, null, null],
+    );
+    await e.key('Escape');
+    await open(e);
+    assert.deepEqual(await cards(e), said, 'the same question has the same cards');
+    // The same key once more opens a card again.
+    await e.key('k');
+    assert.equal((await cards(e))[0].verdict, null);
+    await e.key('Control+z');
+    await e.key('r');
+    await e.settled();
+    assert.equal(await e.page.locator('.rcard').count(), 0, 'another seed is another question');
+    await open(e);
+    assert.equal(await round(e), 'Round 2');
+    assert.equal(e.wire.last().body.feedback.answers.length, 2);
+  });
+
+  it('ends with the kept ones as variants, each with what the others do about it', { timeout: 90_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    const car = await carOnTheMove(e);
+    await e.choose(car.id);
+    await open(e);
+    const names = (await cards(e)).map((c) => c.name);
+    for (const key of ['1', 'k', '3', 'k', '4', 'j']) await e.key(key);
+    await e.settled();
+    await e.page.getByRole('button', { name: 'Keep 2 as variants' }).click();
+    await e.until(() => document.querySelectorAll('.vcard[data-variant]').length === 2);
+    await e.settled();
+    assert.equal(await e.page.locator('.rcard').count(), 0);
+    const pinned = e.wire.asked.filter((q) => q.body.pinned);
+    assert.deepEqual(
+      pinned.map((q) => q.body.pinned),
+      [[car.id], [car.id]],
+    );
+    for (const [id, name] of [
+      [2, names[2]],
+      [1, names[0]],
+    ]) {
+      await e.page.locator(`[data-variant="${id}"] .face`).click();
+      await e.settled();
+      assert.equal(await e.page.locator('.fu[aria-checked="true"] .nm').innerText(), name);
+    }
+    assert.equal(await e.page.locator('.vcard .keep[aria-pressed="true"]').count(), 2);
+  });
+});

@@ -1,0 +1,129 @@
+// One future of a round: its picture, what it is like, and what is said of it.
+import { useComputed } from '@preact/signals';
+import { factWords, reasons, wishKey } from '../../model/feedback-words';
+import { LETTERS } from '../../model/futures';
+import { nameIn } from '../../model/scene';
+import type { Hand } from '../../edit/rounds/deck';
+import { LivePicture, type Album, type Pictured } from '../variants/live-picture';
+import { useApp } from '../parts/app-context';
+import { Icon } from '../parts/icons';
+
+const WORDS = { keep: 'Kept', reject: 'Rejected' } as const;
+
+interface Props {
+  readonly hand: Hand;
+  readonly index: number;
+  readonly picture: Pictured;
+  readonly album: Album;
+}
+
+export function CardView({ hand, index, picture, album }: Props) {
+  const { editor, rounds } = useApp();
+  const { deck } = editor;
+  const said = useComputed(() => rounds.said.value[index] ?? null).value;
+  const current = useComputed(() => deck.current.value === index).value;
+  const { features } = hand.round.cards[index];
+  const letter = LETTERS[index];
+  const { name } = hand.futures.modes[index];
+  const verdict = said?.verdict ?? null;
+  const words = verdict ? WORDS[verdict] : 'Open';
+  const point = () => deck.point(index);
+  return (
+    <article
+      class={`rcard ${verdict ?? ''} ${current ? 'on' : ''}`}
+      data-card={letter}
+      onPointerEnter={() => editor.pointAt({ future: index })}
+      onPointerLeave={() => editor.pointAt({})}
+      onKeyDown={(e) => {
+        // The card has the focus: Enter takes what was kept.
+        if (e.key !== 'Enter' || verdict !== 'keep' || !(e.target as Element).closest('.face')) return;
+        e.preventDefault();
+        e.stopPropagation();
+        rounds.take(index);
+      }}
+    >
+      <button
+        type="button"
+        class="face"
+        aria-label={`${letter}, ${name}, ${words}, ${factWords(features)}`}
+        data-plays
+        aria-current={current}
+        onClick={point}
+        onFocus={point}
+      >
+        <LivePicture card={picture} album={album} />
+        <span class={`l m${index}`}>{letter}</span>
+        {verdict ? (
+          <em class={`tag ${verdict === 'keep' ? 'ok' : 'no'}`}>
+            <Icon name={verdict === 'keep' ? 'check' : 'x'} size={11} />
+            {words}
+          </em>
+        ) : null}
+      </button>
+      <b class="nm" title={name}>
+        {name}
+      </b>
+      <small>{factWords(features)}</small>
+      <div class="say">
+        <button
+          type="button"
+          class={`btn keep ${verdict === 'keep' ? 'on' : ''}`}
+          aria-pressed={verdict === 'keep'}
+          onClick={() => rounds.say(index, 'keep')}
+        >
+          <Icon name="check" size={13} />
+          Keep
+        </button>
+        <button
+          type="button"
+          class={`btn reject ${verdict === 'reject' ? 'on' : ''}`}
+          aria-pressed={verdict === 'reject'}
+          onClick={() => rounds.say(index, 'reject')}
+        >
+          <Icon name="x" size={13} />
+          Reject
+        </button>
+      </div>
+      <div class="more">
+        <Why hand={hand} index={index} />
+        <button
+          type="button"
+          class="btn i"
+          data-take={letter}
+          aria-label={`Take ${letter}`}
+          title={`Take this one: the others answer it (Alt ${index + 1})`}
+          onClick={() => rounds.take(index)}
+        >
+          <Icon name="flag" size={14} />
+        </button>
+      </div>
+    </article>
+  );
+}
+
+function Why({ hand, index }: { hand: Hand; index: number }) {
+  const { editor, rounds } = useApp();
+  const said = rounds.said.value[index] ?? null;
+  const scene = editor.scene.value;
+  if (!scene) return null;
+  const all = reasons(hand.id, hand.round.cards[index].features, said?.verdict ?? 'reject', nameIn(scene));
+  const now = said?.why ? wishKey(said.why) : '';
+  return (
+    <select
+      class="field pick"
+      aria-label={`Why, ${LETTERS[index]}`}
+      value={all.some((w) => w.key === now) ? now : ''}
+      onChange={(e) => {
+        rounds.sayWhy(index, e.currentTarget.value);
+        e.currentTarget.blur();
+      }}
+    >
+      <option value="">{said?.verdict === 'keep' ? 'why: all in all' : 'why?'}</option>
+      {all.map((w) => (
+        <option key={w.key} value={w.key}>
+          {w.words}
+        </option>
+      ))}
+    </select>
+  );
+}

@@ -1,0 +1,154 @@
+// A round: six futures of one road user as cards, each to be kept or rejected.
+import { useMemo } from 'preact/hooks';
+import { choose } from '../../model/commands';
+import type { Scene } from '../../model/scene';
+import type { MotionSet } from '../../model/futures';
+import type { Hand } from '../../edit/rounds/deck';
+import { useAlbum } from '../variants/album';
+import type { Pictured } from '../variants/live-picture';
+import { useApp } from '../parts/app-context';
+import { ActionButton, KeyCaps } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import { CardView } from './card';
+import '../../styles/variants.css';
+import '../../styles/rounds.css';
+
+/** So many rounds are shown as dots from the beginning. */
+const USUAL_ROUNDS = 5;
+
+export default function RoundStrip() {
+  const c = useApp();
+  const { editor, rounds } = c;
+  const { deck } = editor;
+  const hand = deck.hand.value;
+  const problem = deck.problem.value;
+  const asking = deck.asking.value;
+  return (
+    <section class={`strip rounds ${asking ? 'asking' : ''}`} aria-label="Round" data-group="rounds" aria-busy={asking}>
+      <header>
+        <Title />
+        <span class="grow" />
+        <Counts />
+        <Keep />
+        <ActionButton id="round-stop" class="line" />
+        <ActionButton id="round-next" class="pri" icon="" withKey />
+      </header>
+      {hand ? <Cards hand={hand} /> : <div class="cards">{problem ? null : <p class="none">Drawing six …</p>}</div>}
+      {problem ? (
+        <p class="problem" role="alert">
+          <Icon name="warn" size={15} />
+          {problem}
+          <button type="button" class="btn line" onClick={() => rounds.tryAgain()}>
+            Try again
+          </button>
+        </p>
+      ) : (
+        <Learnt />
+      )}
+    </section>
+  );
+}
+
+function Title() {
+  const { editor, rounds } = useApp();
+  const round = rounds.asked.value?.round ?? 1;
+  const asking = editor.deck.asking.value;
+  const all = Math.max(USUAL_ROUNDS, round);
+  const who = editor.agent.value?.name ?? '';
+  const n = editor.deck.hand.value?.futures.modes.length;
+  const many = n === 6 || !n ? 'six' : n;
+  return (
+    <>
+      <h2>Round {round}</h2>
+      <span class="dots" role="img" aria-label={`Round ${round}`}>
+        {Array.from({ length: all }, (_, i) => (
+          <i key={i} class={i + 1 < round ? 'done' : i + 1 === round ? 'now' : ''} />
+        ))}
+      </span>
+      <small role="status">
+        {asking
+          ? 'drawing …'
+          : round === 1
+            ? `${many} futures of ${who}`
+            : `${many} futures of ${who}, drawn anew from what you said`}
+      </small>
+    </>
+  );
+}
+
+function Counts() {
+  const { rounds } = useApp();
+  const said = rounds.said.value;
+  const of = (v: string | undefined) => said.filter((s) => s?.verdict === v).length;
+  return (
+    <span class="counts">
+      <em class="tag ok">{of('keep')} kept</em>
+      <em class="tag no">{of('reject')} rejected</em>
+      <em class="tag">{of(undefined)} open</em>
+    </span>
+  );
+}
+
+function Keep() {
+  const { rounds } = useApp();
+  const n = rounds.said.value.filter((s) => s?.verdict === 'keep').length;
+  return n ? (
+    <ActionButton id="round-variants" class="line" icon="">
+      Keep {n} as {n === 1 ? 'a variant' : 'variants'}
+    </ActionButton>
+  ) : null;
+}
+
+function Cards({ hand }: { hand: Hand }) {
+  const { editor } = useApp();
+  const motion = editor.motion.value;
+  const pictures = useMemo(() => picturesOf(editor.scene.peek()!, motion, hand), [hand, motion]);
+  const album = useAlbum(pictures);
+  return (
+    <div class="cards">
+      {pictures.map((p, i) => (
+        <CardView key={i} hand={hand} index={i} picture={p} album={album} />
+      ))}
+    </div>
+  );
+}
+
+/** The scene with each card in turn; the others do as they do now. */
+function picturesOf(scene: Scene, motion: MotionSet, { id, futures }: Hand): Pictured[] {
+  const set: MotionSet = {
+    ...motion,
+    futures: new Map(motion.futures).set(id, futures),
+    driving: new Set([...motion.driving, id]),
+  };
+  const a = scene.agents.get(id)!;
+  return futures.modes.map((_, i) => ({
+    scene: choose(a, i, '').apply(scene),
+    set,
+    events: [],
+    state: { subject: id },
+  }));
+}
+
+function Learnt() {
+  const { rounds } = useApp();
+  const all = rounds.wished.value;
+  return (
+    <footer>
+      <span class="lab">Learnt</span>
+      <span class="chips">
+        {all.map((w) => (
+          <span key={w.words} class={`wish ${w.learned ? '' : 'own'}`}>
+            {w.words}
+            <button type="button" aria-label={`Forget: ${w.words}`} title="Forget" onClick={() => rounds.forget(w)}>
+              <Icon name="x" size={11} />
+            </button>
+          </span>
+        ))}
+        {all.length ? null : <small>Nothing yet: it takes three answers that agree, or a wish of your own.</small>}
+      </span>
+      <span class="hints" aria-hidden="true">
+        <KeyCaps of="K" /> keep <KeyCaps of="J" /> reject <KeyCaps of="Right" /> next card
+      </span>
+    </footer>
+  );
+}

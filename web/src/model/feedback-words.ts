@@ -1,0 +1,197 @@
+// Wishes, what they rest on, and why a card was kept or rejected, in plain words.
+import { traitKey, type Answer, type Features, type Trait, type Verdict, type Wish } from './feedback';
+import type { LearnedWishJson } from './json';
+import { num, seconds, speedText, type SpeedUnit } from './units';
+
+type NameOf = (id: string) => string | null;
+export interface Speaking {
+  readonly nameOf: NameOf;
+  readonly unit: SpeedUnit;
+}
+
+const MANOEUVRES = {
+  straight: 'Straight on',
+  left: 'Turns left',
+  right: 'Turns right',
+  turn_round: 'Turns round',
+  lane_left: 'To the left lane',
+  lane_right: 'To the right lane',
+  stays: 'Stays',
+  reverse: 'Backs up',
+} as const;
+
+const PLAIN = {
+  pace: { more: 'Faster', less: 'Slower' },
+  gap: { more: 'Wider gap', less: 'Closer' },
+  harshness: { more: 'Sharper', less: 'Smoother' },
+  standing: { more: 'Waits longer', less: 'Waits less' },
+  from_log: { more: 'Off the recording', less: 'Nearer the recording' },
+} as const;
+
+const lower = (s: string): string => s.charAt(0).toLowerCase() + s.slice(1);
+const called = (nameOf: NameOf, id: string): string => nameOf(id) ?? `Road user ${id}`;
+
+/** A shorter gap than this is nothing to be kept, seconds. */
+const LEAST_GAP_S = 1;
+
+/** `Smoother`, `Car 12 first`, `Keeps 2 s gap`. `kept`: the range of the kept ones. */
+export function wishWords(w: Wish, nameOf: NameOf, kept?: readonly [number, number] | null): string {
+  if (w.trait === 'first') return `${called(nameOf, w.wants === 'more' ? w.who : w.with)} first`;
+  if (w.trait === 'does')
+    return w.wants === 'more' ? MANOEUVRES[w.manoeuvre] : `Not: ${lower(MANOEUVRES[w.manoeuvre])}`;
+  if (w.trait === 'gap' && w.wants === 'more' && kept && kept[0] >= LEAST_GAP_S)
+    return `Keeps ${num(Math.floor(kept[0] * 10) / 10, kept[0] % 1 < 0.1 ? 0 : 1)} s gap`;
+  return PLAIN[w.trait][w.wants];
+}
+
+type Range = readonly [number, number];
+
+/** `Kept ones stand 0 to 1.2 s, rejected ones 3 to 4 s.` */
+export function restsOn(w: LearnedWishJson, answers: readonly Answer[], { unit }: Speaking): string {
+  const sentence = w.trait === 'first' || w.trait === 'does' ? shares(w, answers) : ranges(w, unit);
+  return [w.said ? 'You said so.' : '', sentence].filter(Boolean).join(' ');
+}
+
+function ranges(w: LearnedWishJson, unit: SpeedUnit): string {
+  const say = saying(w, unit);
+  if (!say) return '';
+  const { does, value, of } = say;
+  const [kept, rejected] = [w.kept ?? null, w.rejected ?? null];
+  if (kept && rejected) return `Kept ones ${does} ${value(kept)}, rejected ones ${value(rejected)}${of}.`;
+  return kept
+    ? `Kept ones ${does} ${value(kept)}${of}.`
+    : rejected
+      ? `Rejected ones ${does} ${value(rejected)}${of}.`
+      : '';
+}
+
+interface Saying {
+  /** Before the value, after it. */
+  readonly does: string;
+  readonly of: string;
+  value(r: Range): string;
+}
+
+const between = (r: Range, text: (v: number) => string): string =>
+  text(r[0]) === text(r[1]) ? text(r[0]) : `${text(r[0])} to ${text(r[1])}`;
+
+function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): Saying | null {
+  const one = (v: number) => num(v, 1);
+  switch (trait) {
+    case 'pace':
+      return { does: 'drive', of: ` ${unit} on average`, value: (r) => between(r, (v) => speedText(v, unit)) };
+    case 'gap':
+      return wants === 'more'
+        ? { does: 'leave at least', of: ' s', value: (r) => one(r[0]) }
+        : { does: 'leave', of: ' s', value: (r) => between(r, one) };
+    case 'harshness':
+      return wants === 'less'
+        ? { does: 'brake, speed up or swerve with at most', of: ' m/s²', value: (r) => one(r[1]) }
+        : { does: 'brake, speed up or swerve with', of: ' m/s²', value: (r) => between(r, one) };
+    case 'standing':
+      return { does: 'stand', of: ' s', value: (r) => between(r, one) };
+    case 'from_log':
+      return { does: 'are', of: ' m from the recording', value: (r) => between(r, one) };
+    default:
+      return null;
+  }
+}
+
+/** Does a card show what is wished? Null where that cannot be said of it. */
+function shows(f: Features, w: Wish): boolean | null {
+  const is =
+    w.trait === 'first'
+      ? f.first?.[w.who]?.[w.with]
+      : w.trait === 'does' && f.manoeuvres?.[w.who] !== undefined
+        ? f.manoeuvres[w.who] === w.manoeuvre
+        : undefined;
+  return is === undefined ? null : is === (w.wants === 'more');
+}
+
+function shares(w: Wish, answers: readonly Answer[]): string {
+  const of = (verdict: Verdict) => {
+    const known = answers.filter((a) => a.verdict === verdict).map((a) => shows(a.features, w));
+    const all = known.filter((v) => v !== null);
+    return all.length ? `${all.filter(Boolean).length} of ${all.length}` : null;
+  };
+  const [kept, rejected] = [of('keep'), of('reject')];
+  if (kept && rejected) return `So it is in ${kept} kept ones and in ${rejected} rejected ones.`;
+  return kept ? `So it is in ${kept} kept ones.` : rejected ? `So it is in ${rejected} rejected ones.` : '';
+}
+
+/** Which answers contradict a wish: `A of round 1, “After Car 12”, was kept.` */
+export const againstWords = (a: Answer): string =>
+  `${a.letter} of round ${a.round}${a.name ? `, “${a.name}”,` : ''} was ${a.verdict === 'keep' ? 'kept' : 'rejected'}.`;
+
+// -------------------------------------------------------------- why
+
+export interface Choice {
+  /** Names the wish; equal for equal ones. */
+  readonly key: string;
+  readonly words: string;
+  readonly wish: Wish;
+}
+
+export const wishKey = (w: Wish): string => `${w.wants} ${traitKey(w)}`;
+
+const choice = (wish: Wish, words: string): Choice => ({ key: wishKey(wish), words, wish });
+
+type Plain = Exclude<Trait['trait'], 'first' | 'does'>;
+type Row = readonly [Plain, 'more' | 'less', fault: string, liked: string];
+
+const REASONS: readonly Row[] = [
+  ['pace', 'more', 'too slow', 'brisk'],
+  ['pace', 'less', 'too fast', 'calm'],
+  ['gap', 'more', 'too close', 'keeps clear'],
+  ['gap', 'less', 'too careful', 'goes while it can'],
+  ['harshness', 'less', 'too harsh', 'smooth'],
+  ['standing', 'less', 'waits too long', 'hardly waits'],
+  ['standing', 'more', 'should wait', 'waits'],
+  ['from_log', 'less', 'too far from the recording', 'near the recording'],
+];
+
+/** What may be said about a card: what is wrong with it, or what was liked. */
+export function reasons(id: string, f: Features, verdict: Verdict, nameOf: NameOf): Choice[] {
+  const liked = verdict === 'keep';
+  const plain = REASONS.filter(([t]) => t !== 'from_log' || f.from_log_m != null).map(([trait, wants, fault, good]) =>
+    choice({ trait, wants }, liked ? good : fault),
+  );
+  const order = Object.entries(f.first?.[id] ?? {}).map(([other, first]) => {
+    const who = called(nameOf, other);
+    const wish: Wish = { trait: 'first', who: id, with: other, wants: first === liked ? 'more' : 'less' };
+    if (liked) return choice(wish, first ? `goes before ${who}` : `lets ${who} go first`);
+    return choice(wish, first ? `should go after ${who}` : `should go before ${who}`);
+  });
+  return [...plain, ...order];
+}
+
+/** All that may be wished, given the cards on the table. */
+export function wishes(id: string, cards: readonly Features[], nameOf: NameOf): Choice[] {
+  const logged = cards.some((f) => f.from_log_m != null);
+  const plain = (Object.keys(PLAIN) as Plain[])
+    .filter((t) => t !== 'from_log' || logged)
+    .flatMap((trait) => (['less', 'more'] as const).map((wants): Wish => ({ trait, wants })));
+  const others = new Set(cards.flatMap((f) => Object.keys(f.first?.[id] ?? {})));
+  const order = [...others].flatMap((other) =>
+    (['more', 'less'] as const).map((wants): Wish => ({ trait: 'first', who: id, with: other, wants })),
+  );
+  const done = new Set(cards.flatMap((f) => f.manoeuvres?.[id] ?? []));
+  const does = [...done].map((manoeuvre): Wish => ({ trait: 'does', who: id, manoeuvre, wants: 'more' }));
+  return [...plain, ...order, ...does].map((w) => choice(w, firstWords(w, nameOf) ?? wishWords(w, nameOf)));
+}
+
+/** Whom it lets go first, where several could be meant. */
+const firstWords = (w: Wish, nameOf: NameOf): string | null =>
+  w.trait === 'first' && w.wants === 'more' ? `${called(nameOf, w.who)} before ${called(nameOf, w.with)}` : null;
+
+export const whyWords = (id: string, a: Answer, nameOf: NameOf): string => {
+  const key = a.why && wishKey(a.why);
+  return key ? (reasons(id, a.features, a.verdict, nameOf).find((c) => c.key === key)?.words ?? '') : '';
+};
+
+/** What a card is like, in two facts. */
+export function factWords(f: Features): string {
+  // The widest gap that is counted says only that nobody is near.
+  const gap = f.gap_s >= 5 ? 'clear' : `gap ${seconds(f.gap_s)}`;
+  return `${gap} · ${f.standing_s >= 0.5 ? `stands ${seconds(f.standing_s)}` : `${num(f.harshness_mps2, 1)} m/s²`}`;
+}

@@ -1,0 +1,189 @@
+// Rounds of cards: what is asked, what an undo shows again, what ends them, and what taking a card leaves behind.
+import { describe, expect, it } from 'vitest';
+import { setGoal } from '../../src/model/commands';
+import { reasons } from '../../src/model/feedback-words';
+import { sceneKey } from '../../src/model/scene';
+import { Questions } from '../../src/edit/question';
+import { Rounds } from '../../src/edit/rounds/rounds';
+import { pickFuture } from '../../src/edit/moves';
+import { SceneFile } from '../../src/edit/scene-file';
+import type { FinalEvent, Problem } from '../../src/net/types';
+import { finalOf, InMemoryGenerator, json, Session, six } from './session';
+
+const ID = '1';
+
+class Table extends Session {
+  readonly cards = new InMemoryGenerator();
+  readonly rounds: Rounds;
+
+  constructor() {
+    super();
+    const file = new SceneFile(this.editor);
+    file.adopt(json, {} as never, true);
+    this.rounds = new Rounds(this.editor, new Questions(this.editor, file), this.cards);
+    this.editor.select(ID);
+    this.generator.last.on.final(finalOf(ID), 10);
+  }
+
+  get agent() {
+    return this.editor.agent.peek()!;
+  }
+
+  get feedback() {
+    return this.cards.last.options.feedback!;
+  }
+
+  /** Six cards; those of another round lie elsewhere. */
+  deal(shift = 0, wishes: readonly unknown[] = []): void {
+    const cards = six(ID).modes.map((m, i) => ({
+      features: { pace_mps: 5, gap_s: 2, harshness_mps2: i + shift, standing_s: 0 },
+      places: { [ID]: [0, 1].map((t) => [m.x_m[t] + shift, m.y_m[t] + i * 3]) },
+    }));
+    const e = { ...finalOf(ID), feedback: { cards, wishes } } as unknown as FinalEvent;
+    this.cards.last.on.final(e, 20);
+  }
+
+  /** Of a reason, by its words. */
+  keyOf(words: string): string {
+    const { features } = this.editor.deck.hand.peek()!.round.cards[0];
+    return reasons(ID, features, 'reject', () => null).find((r) => r.words === words)!.key;
+  }
+
+  get letters(): string {
+    return this.rounds.said
+      .peek()
+      .map((s) => (s ? s.verdict[0] : '.'))
+      .join('');
+  }
+}
+
+describe('rounds', () => {
+  it('ask for one road user whom nobody answers, and leave its motion alone', () => {
+    const t = new Table();
+    const before = t.editor.motion.peek();
+    t.rounds.open();
+    const { options } = t.cards.last;
+    expect([options.agents, options.react]).toEqual([[ID], false]);
+    expect(t.feedback).toEqual({ answers: [], wishes: [], forgotten: [] });
+    t.deal();
+    expect(t.editor.futures.peek()).toBe(t.editor.deck.hand.peek()!.futures);
+    expect(t.editor.motion.peek()).toBe(before);
+    t.editor.deck.point(3);
+    expect(t.editor.chosen.peek()).toBe(3);
+    expect(t.editor.motionFor(t.agent)).toBe(t.editor.futures.peek()!.modes[3].motion);
+    // Nothing that follows a pick may take them for futures.
+    expect(pickFuture(t.editor, t.agent, 2)).toBeNull();
+    t.rounds.close();
+    expect(t.editor.futures.peek()).toBe(before.futures.get(ID));
+  });
+
+  it('go back with undo, a step for each thing that was said, without asking again', () => {
+    const t = new Table();
+    t.rounds.open();
+    t.deal();
+    t.rounds.next();
+    expect(t.editor.undoName.peek(), 'nothing new to go on from').toBeNull();
+    t.rounds.say(0, 'keep');
+    t.rounds.say(2, 'reject');
+    t.rounds.sayWhy(4, t.keyOf('too harsh'));
+    expect(t.letters).toBe('k.r.r.');
+    expect(t.agent.feedback!.answers.at(-1)!.why).toEqual({ trait: 'harshness', wants: 'less' });
+    expect(t.cards.asked).toHaveLength(1);
+    t.rounds.next();
+    expect(t.cards.asked).toHaveLength(2);
+    expect(t.feedback.answers).toHaveLength(3);
+    // Cards of the round before are not to be judged while the next ones are drawn.
+    t.rounds.say(1, 'keep');
+    expect(t.agent.feedback!.answers).toHaveLength(3);
+    t.deal(50);
+    expect(t.letters).toBe('......');
+    t.editor.undo();
+    expect(t.letters).toBe('k.r.r.');
+    t.editor.undo();
+    expect(t.letters).toBe('k.r...');
+    t.editor.redo();
+    t.editor.redo();
+    expect(t.letters).toBe('......');
+    expect(t.editor.deck.hand.peek()!.asked.round).toBe(2);
+    expect(t.cards.asked).toHaveLength(2);
+  });
+
+  it('show what was learned but for what was forgotten, and what was wished since', () => {
+    const t = new Table();
+    t.rounds.open();
+    const smooth = { trait: 'harshness', wants: 'less', strength: 0.6, said: false, against: [] };
+    t.deal(0, [smooth]);
+    const words = () => t.rounds.wished.peek().map((w) => w.words);
+    expect(words()).toEqual(['Smoother']);
+    t.rounds.wish({ trait: 'pace', wants: 'more' });
+    expect(words()).toEqual(['Smoother', 'Faster']);
+    t.rounds.forget(t.rounds.wished.peek()[0]);
+    expect(words()).toEqual(['Faster']);
+    t.editor.undo();
+    expect(words()).toEqual(['Smoother', 'Faster']);
+    t.rounds.forgetAll();
+    expect(words()).toEqual([]);
+    expect(t.agent.feedback!.forgotten).toEqual([{ trait: 'harshness' }, { trait: 'pace' }]);
+    t.editor.undo();
+    expect(words()).toEqual(['Smoother', 'Faster']);
+    t.rounds.next();
+    expect(t.feedback.wishes).toEqual([{ trait: 'pace', wants: 'more' }]);
+  });
+
+  it.each<[string, (t: Table) => void]>([
+    ['somebody else is selected', (t) => t.editor.select('2')],
+    ['the goal moves', (t) => t.editor.run(setGoal(t.agent, { ...t.agent.goal, pos: [10, 3] }))],
+    ['a handle is dragged', (t) => t.editor.beginDrag({ part: 'goal', handle: 'body' })],
+    ['the tab loses its turn', (t) => t.editor.lockWith({ words: '', label: '', run: () => undefined })],
+  ])('end when %s; what was said stays', (_, change) => {
+    const t = new Table();
+    t.rounds.open();
+    t.deal();
+    t.rounds.say(0, 'keep');
+    change(t);
+    expect(t.rounds.isOpen.peek()).toBe(false);
+    expect(t.editor.deck.hand.peek()).toBeNull();
+    expect(t.editor.scene.peek()!.agents.get(ID)!.feedback!.answers).toHaveLength(1);
+  });
+
+  it('say why there are no cards, and ask again when told to', () => {
+    const t = new Table();
+    t.rounds.open();
+    t.cards.last.on.refused({ code: 'http-500', title: 'Too much is asked' } as Problem);
+    expect(t.editor.deck.problem.peek()).toBe('Too much is asked');
+    t.rounds.tryAgain();
+    expect(t.editor.deck.asking.peek()).toBe(true);
+    t.cards.last.on.away();
+    expect(t.editor.deck.problem.peek()).toBe('The generator is not answering.');
+    t.rounds.tryAgain();
+    t.deal();
+    expect(t.editor.deck.problem.peek()).toBeNull();
+    expect(t.letters).toBe('......');
+  });
+
+  it('do not open in a tab that may only look', () => {
+    const t = new Table();
+    t.editor.lockWith({ words: 'Open in another tab', label: 'Take over', run: () => undefined });
+    t.rounds.open();
+    expect(t.rounds.isOpen.peek()).toBe(false);
+    expect(t.editor.notices.toast.peek()?.text).toBe('Open in another tab');
+  });
+
+  it('end with a card taken: others answer it as they do a pick, and undo brings the usual six back', () => {
+    const t = new Table();
+    const usual = t.editor.motion.peek();
+    t.rounds.open();
+    t.deal();
+    const { futures } = t.editor.deck.hand.peek()!;
+    t.rounds.take(2);
+    expect(t.rounds.isOpen.peek()).toBe(false);
+    expect(t.agent.chosen).toBe(2);
+    expect(t.editor.futures.peek()).toBe(futures);
+    const key = sceneKey(t.editor.scene.peek()!);
+    t.editor.undo();
+    expect(t.editor.motion.peek()).toBe(usual);
+    // The same letter among the usual six is another document.
+    t.editor.run(pickFuture(t.editor, t.agent, 2)!);
+    expect(sceneKey(t.editor.scene.peek()!)).not.toBe(key);
+  });
+});

@@ -1,0 +1,235 @@
+// What is said of futures in rounds: every step can be taken back, a file has it all, words say what it rests on.
+import { describe, expect, it } from 'vitest';
+import {
+  addWish,
+  answerTo,
+  docOf,
+  forget,
+  hasNews,
+  judge,
+  nextRound,
+  presentRound,
+  printOf,
+  readFeedback,
+  type Asked,
+  type Judged,
+  type Verdict,
+} from '../src/model/feedback';
+import { feedbackTable } from '../src/model/feedback-table';
+import { againstWords, reasons, restsOn, wishWords } from '../src/model/feedback-words';
+import { patchScene, takeDealt, type Command } from '../src/model/commands';
+import { applyDiff, diffOf } from '../src/model/scene-diff';
+import type { FeaturesJson, LearnedWishJson, SceneJson } from '../src/model/json';
+import { readScene } from '../src/model/read';
+import { sceneKey, type Agent, type Scene } from '../src/model/scene';
+import { writeScene } from '../src/model/write';
+import { car, crossing, crossingJson } from './helpers';
+
+const like = (harsh: number, more: Partial<FeaturesJson> = {}): FeaturesJson => ({
+  pace_mps: 6,
+  gap_s: 2.4,
+  harshness_mps2: harsh,
+  standing_s: 0,
+  ...more,
+});
+
+/** The n-th card of a round. */
+const card = (id: string, n: number, features = like(n)): Judged => ({
+  card: { features, places: { [id]: [0, 1, 2].map((t) => [t * 5, n * 2]) } },
+  letter: 'ABCDEF'[n],
+  name: `Way ${n}`,
+});
+
+const asked = (s: Scene): Asked => presentRound(car(s).feedback, printOf(s));
+const say = (s: Scene, n: number, verdict: Verdict | null): Scene =>
+  judge(car(s), asked(s), card(car(s).id, n), verdict).apply(s);
+const step = (s: Scene, make: (a: Agent, r: Asked) => Command): Scene => make(car(s), asked(s)).apply(s);
+const verdicts = (s: Scene) => car(s).feedback?.answers.map((a) => `${a.round}${a.letter} ${a.verdict}`) ?? [];
+
+describe('what was said of futures', () => {
+  it('is no change of what anybody does', () => {
+    const s = crossing();
+    const said = step(say(s, 1, 'keep'), nextRound);
+    expect(sceneKey(said)).toBe(sceneKey(s));
+    expect(printOf(said)).toBe(printOf(s));
+    expect(printOf(patchScene('', { seed: 77 }).apply(s))).not.toBe(printOf(s));
+    expect(printOf({ ...s, id: 'saved-under-another' })).toBe(printOf(s));
+  });
+
+  it('has an inverse for every command', () => {
+    let s = crossing();
+    const wish = { trait: 'pace', wants: 'less' } as const;
+    const all: ((a: Agent, r: Asked) => Command)[] = [
+      (a, r) => judge(a, r, card(a.id, 0), 'keep'),
+      (a, r) => judge(a, r, card(a.id, 1), 'reject', { trait: 'harshness', wants: 'less' }),
+      (a, r) => addWish(a, r, wish, 'Slower'),
+      nextRound,
+      (a, r) => judge(a, r, card(a.id, 0), 'reject'),
+      (a, r) => judge(a, r, card(a.id, 0), null),
+      (a, r) => forget(a, r, [wish], 'Slower'),
+      nextRound,
+    ];
+    for (const make of all) {
+      const command = make(car(s), asked(s));
+      const next = command.apply(s);
+      const back = command.invert(s).apply(next);
+      expect(car(back).feedback, command.name).toEqual(car(s).feedback);
+      // The history keeps plain differences, which a browser can store.
+      const diff = JSON.parse(JSON.stringify(diffOf(s, next))) as ReturnType<typeof diffOf>;
+      expect(car(applyDiff(s, diff, 'forth')).feedback).toEqual(car(next).feedback);
+      expect(car(applyDiff(next, diff, 'back')).feedback ?? null).toEqual(car(s).feedback);
+      s = next;
+    }
+    expect(verdicts(s)).toEqual(['1A keep', '1B reject']);
+    expect(asked(s)).toMatchObject({ round: 3, wishes: [], forgotten: [{ trait: 'pace' }] });
+  });
+
+  it('counts from the next round on; the cards of this one stay', () => {
+    const start = crossing();
+    const first = asked(start);
+    expect(docOf(car(start).feedback, first)).toEqual({ answers: [], wishes: [], forgotten: [] });
+    expect(hasNews(car(start).feedback, first)).toBe(false);
+    let s = say(start, 0, 'keep');
+    s = step(s, (a, r) => addWish(a, r, { trait: 'gap', wants: 'more' }, 'Wider gap'));
+    expect(docOf(car(s).feedback, asked(s))).toEqual(docOf(null, first));
+    expect(hasNews(car(s).feedback, asked(s))).toBe(true);
+    s = step(s, nextRound);
+    expect(docOf(car(s).feedback, asked(s))).toMatchObject({
+      answers: [{ verdict: 'keep', features: like(0) }],
+      wishes: [{ trait: 'gap', wants: 'more' }],
+    });
+    expect(hasNews(car(s).feedback, asked(s))).toBe(false);
+  });
+
+  it('belongs to the card that it was said of, also where that is drawn again a little elsewhere', () => {
+    const s = say(crossing(), 2, 'reject');
+    const f = car(s).feedback;
+    const again = card(car(s).id, 2);
+    const moved = again.card.places[car(s).id].map(([x, y]) => [x + 0.05, y - 0.05]);
+    expect(answerTo(f, asked(s), { places: { [car(s).id]: moved } })?.verdict).toBe('reject');
+    expect(answerTo(f, asked(s), card(car(s).id, 3).card)).toBeNull();
+    expect(verdicts(say(s, 2, null))).toEqual([]);
+    expect(verdicts(say(s, 2, 'keep'))).toEqual(['1C keep']);
+  });
+
+  it('goes on with another round where the document is another one', () => {
+    let s = say(crossing(), 0, 'keep');
+    s = patchScene('', { seed: 5 }).apply(s);
+    expect(asked(s).round).toBe(2);
+    expect(docOf(car(s).feedback, asked(s)).answers).toHaveLength(1);
+    expect(verdicts(say(s, 1, 'reject'))).toEqual(['1A keep', '2B reject']);
+  });
+
+  it('keeps one wish about one thing', () => {
+    let s = crossing();
+    s = step(s, (a, r) => addWish(a, r, { trait: 'pace', wants: 'more' }, ''));
+    s = step(s, (a, r) => addWish(a, r, { trait: 'pace', wants: 'less' }, ''));
+    expect(car(s).feedback!.wishes).toEqual([{ trait: 'pace', wants: 'less' }]);
+    s = step(s, (a, r) => forget(a, r, [{ trait: 'pace' }], ''));
+    expect(car(s).feedback).toMatchObject({ wishes: [], forgotten: [{ trait: 'pace' }] });
+    s = step(s, (a, r) => addWish(a, r, { trait: 'pace', wants: 'more' }, ''));
+    expect(car(s).feedback!.forgotten).toEqual([]);
+  });
+
+  it('comes back from a file, with the round that a picked card is from', () => {
+    const raw = crossingJson();
+    let s = say(say(readScene(raw), 0, 'keep'), 1, 'reject');
+    s = step(s, nextRound);
+    s = takeDealt(car(s), 1, '0123456789abcdef', 'B').apply(s);
+    const back = readScene(JSON.parse(JSON.stringify(writeScene(raw, s, null))) as SceneJson);
+    expect(car(back).feedback).toEqual(car(s).feedback);
+    expect(sceneKey(back)).toBe(sceneKey(s));
+  });
+
+  it('tells a card from the usual future of the same letter', () => {
+    const s = crossing();
+    const key = (dealt: string) => sceneKey(takeDealt(car(s), 1, dealt, 'B').apply(s));
+    expect(key('one')).not.toBe(key('two'));
+  });
+
+  it.each([
+    ['nothing', null],
+    ['a list', []],
+    ['text', 'x'],
+    ['lists that are none', { answers: 7, wishes: {}, forgotten: 'x', asked: 3 }],
+    ['answers that are none', { answers: [null, 1, {}, { verdict: 'keep' }, { verdict: 'maybe' }] }],
+    ['wishes that are none', { wishes: [{ trait: 'pace' }, { trait: 'first', wants: 'more' }, { wants: 'more' }] }],
+    ['a round that is none', { asked: { round: 0, key: 'k' } }],
+  ])('is read with care: %s', (_, v) => expect(readFeedback(v)).toBeNull());
+
+  it('is bounded', () => {
+    const { answers } = car(say(crossing(), 0, 'keep')).feedback!;
+    const many = readFeedback({ answers: Array.from({ length: 900 }, () => answers[0]) });
+    expect(many!.answers).toHaveLength(200);
+    const far = { ...answers[0], places: { 1: Array.from({ length: 900 }, () => [0, 0]) } };
+    expect(readFeedback({ answers: [far] })).toBeNull();
+  });
+});
+
+describe('words of rounds', () => {
+  const nameOf = (id: string) => (id === '7' ? 'Car 7' : id === '12' ? 'Car 12' : null);
+  const speaking = { nameOf, unit: 'km/h' as const };
+  const learned = (w: Partial<LearnedWishJson> & Pick<LearnedWishJson, 'trait'>) =>
+    ({ wants: 'more', strength: 0.5, said: false, against: [], ...w }) as LearnedWishJson;
+
+  it('name what is wished', () => {
+    expect(wishWords({ trait: 'harshness', wants: 'less' }, nameOf)).toBe('Smoother');
+    expect(wishWords({ trait: 'first', who: '7', with: '12', wants: 'less' }, nameOf)).toBe('Car 12 first');
+    expect(wishWords({ trait: 'first', who: '7', with: '12', wants: 'more' }, nameOf)).toBe('Car 7 first');
+    expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [2.04, 4])).toBe('Keeps 2 s gap');
+    expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [2.46, 4])).toBe('Keeps 2.4 s gap');
+    expect(wishWords({ trait: 'gap', wants: 'more' }, nameOf, [0.3, 4])).toBe('Wider gap');
+    expect(wishWords({ trait: 'does', who: '7', manoeuvre: 'left', wants: 'less' }, nameOf)).toBe('Not: turns left');
+  });
+
+  it('say what it rests on', () => {
+    const smooth = learned({ trait: 'harshness', wants: 'less', kept: [1, 2.1], rejected: [2.8, 3.6] });
+    expect(restsOn(smooth, [], speaking)).toBe(
+      'Kept ones brake, speed up or swerve with at most 2.1, rejected ones 3.6 m/s².',
+    );
+    const gap = learned({ trait: 'gap', kept: [2.4, 5], rejected: [0.9, 1.8] });
+    expect(restsOn(gap, [], speaking)).toBe('Kept ones leave at least 2.4, rejected ones 0.9 s.');
+    const said = learned({ trait: 'pace', said: true, kept: null, rejected: [5, 10] });
+    expect(restsOn(said, [], speaking)).toBe('You said so. Rejected ones drive 18 to 36 km/h on average.');
+    expect(restsOn(learned({ trait: 'standing', said: true }), [], speaking)).toBe('You said so.');
+    let s = crossing();
+    const { id } = car(s);
+    const goes = (first: boolean, n: number, verdict: Verdict) =>
+      judge(car(s), asked(s), card(id, n, like(1, { first: { [id]: { 12: first } } })), verdict).apply(s);
+    s = goes(false, 0, 'keep');
+    s = goes(true, 1, 'keep');
+    s = goes(true, 2, 'reject');
+    const order = learned({ trait: 'first', who: id, with: '12', wants: 'less' } as never);
+    const { answers } = car(s).feedback!;
+    expect(restsOn(order, answers, speaking)).toBe('So it is in 1 of 2 kept ones and in 0 of 1 rejected ones.');
+    expect(againstWords(answers[1])).toBe('B of round 1, “Way 1”, was kept.');
+  });
+
+  it('offer as a reason what a card can be blamed or liked for', () => {
+    const words = (f: FeaturesJson, v: Verdict) => reasons('7', f, v, nameOf).map((r) => r.words);
+    const first = (yes: boolean) => like(1, { first: { 7: { 12: yes } } });
+    expect(words(first(true), 'reject')).toContain('should go after Car 12');
+    expect(words(first(false), 'reject')).toContain('should go before Car 12');
+    expect(words(first(false), 'keep')).toContain('lets Car 12 go first');
+    expect(words(like(1), 'reject')).not.toContain('too far from the recording');
+    expect(words(like(1, { from_log_m: 3 }), 'reject')).toContain('too far from the recording');
+    const [wish] = reasons('7', first(true), 'reject', nameOf).slice(-1);
+    expect(wish.wish).toEqual({ trait: 'first', who: '7', with: '12', wants: 'less' });
+    const liked = reasons('7', first(true), 'keep', nameOf).at(-1)!;
+    expect(liked.wish).toMatchObject({ wants: 'more' });
+  });
+
+  it('make a table that no spreadsheet takes for formulas', () => {
+    let s = crossing();
+    const { id } = car(s);
+    const odd = { ...card(id, 0, like(1.5, { first: { [id]: { 12: true } } })), name: '=1+1, "so"' };
+    s = judge(car(s), asked(s), odd, 'reject', { trait: 'harshness', wants: 'less' }).apply(s);
+    s = say(s, 3, 'keep');
+    const lines = feedbackTable(id, car(s).feedback!, nameOf).trimEnd().split('\r\n');
+    expect(lines[0]).toBe(
+      'round,letter,name,verdict,why,pace_mps,gap_s,harshness_mps2,standing_s,from_log_m,manoeuvre,before Car 12',
+    );
+    expect(lines[1]).toBe(`1,A,"'=1+1, ""so""",reject,too harsh,6,2.4,1.5,0,,,true`);
+    expect(lines[2]).toBe('1,D,Way 3,keep,,6,2.4,3,0,,,');
+  });
+});
