@@ -208,6 +208,13 @@ journeys('fingers', (stage) => {
         await fits(e, `menu ${menu}`);
         await button.tap();
       }
+      if (device !== 'phone') return;
+      for (const id of ['variants', 'users']) {
+        await e.page.locator('[data-menu="more"]').tap();
+        await e.page.locator(`.menu [data-action="${id}"]`).tap();
+        await e.page.waitForSelector(id === 'users' ? '.drawer.users' : '.strip');
+        await fits(e, id);
+      }
     });
   }
 });

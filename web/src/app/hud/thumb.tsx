@@ -1,20 +1,15 @@
 // On a small page what the rail has stands behind a + at the thumb.
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
+import { TOOLS } from '../../edit/gestures/tools';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 
-const FIRST = ['tool-place-car', 'tool-place-cyclist', 'tool-place-pedestrian'];
-const MORE = [
-  'tool-place-truck',
-  'tool-place-bus',
-  'tool-place-motorcycle',
-  'tool-fill',
-  null,
-  'tool-lasso',
-  'tool-measure',
-] as const;
+/** In the menu of the +: what is placed most, then the other tools; these two are the hand itself. */
+const FIRST = ['place-car', 'place-cyclist', 'place-pedestrian'];
+const NOT_LISTED = ['select', 'pan'];
+const REST = TOOLS.map((t): string => t.name).filter((name) => ![...FIRST, ...NOT_LISTED].includes(name));
 const MENU = 'add';
 
 /** The + while nothing is placed; else what ends that. */
@@ -69,9 +64,13 @@ function AddMenu() {
         if ((e.target as Element).closest('[data-action]')) ui.closeMenu();
       }}
     >
-      {[...FIRST, ...MORE].map((id, i) =>
-        id === null ? <hr key={i} /> : <ActionButton key={id} id={id} icon={undefined} size={20} />,
-      )}
+      {FIRST.map((name) => (
+        <ActionButton key={name} id={`tool-${name}`} size={20} />
+      ))}
+      <hr />
+      {REST.map((name) => (
+        <ActionButton key={name} id={`tool-${name}`} size={20} />
+      ))}
     </div>
   );
 }
