@@ -190,11 +190,13 @@ impl Request {
         }
     }
 
-    /// The next round of cards out of a wide draw, by what was said of earlier cards.
+    /// The next round of cards out of a wide draw, by what was said of earlier cards. With what was said the draw
+    /// changes too: what nobody has seen yet is in it.
     #[must_use]
     pub fn round(self, feedback: Feedback) -> Self {
         let diversity = self.diversity.max(ROUND_DIVERSITY);
-        Self { samples: ROUND_SAMPLES, diversity, feedback: Some(feedback), ..self }
+        let seed = self.seed.wrapping_add(feedback.answers.len() as u64);
+        Self { samples: ROUND_SAMPLES, diversity, seed, feedback: Some(feedback), ..self }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The posterior of what is liked.
 
 use super::features::{Features, Trait};
-use super::{Feedback, Verdict, Way, Wish};
+use super::{Feedback, Verdict, Wish};
 use crate::random::Stream;
 use nalgebra::{DMatrix, DVector};
 
@@ -185,11 +185,6 @@ impl Taste {
             i += axis.size();
         }
         0.0
-    }
-
-    /// Which way of a trait is liked.
-    pub(super) fn way(&self, of: &Trait) -> Way {
-        if self.leaning(of) < 0.0 { Way::Less } else { Way::More }
     }
 }
 

@@ -46,8 +46,10 @@ fn about(taste: &Taste, feedback: &Feedback, of: Trait) -> Option<Learned> {
         return None;
     }
     let spoken = feedback.wishes.iter().rfind(|wish| wish.of == of);
-    let wants = spoken.map_or_else(|| taste.way(&of), |wish| wish.wants);
-    let wish = Wish { of, wants };
+    // What goes together is told apart by no one: the wish says what the answers show, the strength what counts.
+    let shown = mean(feedback, Verdict::Keep, &of).zip(mean(feedback, Verdict::Reject, &of));
+    let way = shown.map_or(Way::More, |(kept, rejected)| if kept < rejected { Way::Less } else { Way::More });
+    let wish = Wish { wants: spoken.map_or(way, |wish| wish.wants), of };
     let (kept, rejected) =
         (range(feedback, Verdict::Keep, &wish.of), range(feedback, Verdict::Reject, &wish.of));
     let middle = middle(feedback, &wish.of);
@@ -60,9 +62,9 @@ fn about(taste: &Taste, feedback: &Feedback, of: Trait) -> Option<Learned> {
         }
     }
     let said = spoken.is_some();
-    let shown = said || agree >= LEAST_AGREED && agree >= AGREED_TIMES * against.len();
-    let strength = taste.leaning(&wish.of).abs();
-    shown.then_some(Learned { wish, strength, said, kept, rejected, against })
+    let told = said || agree >= LEAST_AGREED && agree >= AGREED_TIMES * against.len();
+    let strength = (wish.wants.sign() * taste.leaning(&wish.of)).max(0.0);
+    told.then_some(Learned { wish, strength, said, kept, rejected, against })
 }
 
 /// An answer speaks for a wish, or against it.
@@ -91,12 +93,13 @@ fn range(feedback: &Feedback, verdict: Verdict, of: &Trait) -> Option<(f64, f64)
 
 /// Half way between the average of the kept and that of the rejected.
 fn middle(feedback: &Feedback, of: &Trait) -> Option<f64> {
-    let mean = |verdict| {
-        let (sum, count) =
-            values(feedback, verdict, of).fold((0.0, 0), |(sum, count), v| (sum + v, count + 1));
-        (count > 0).then(|| sum / f64::from(count))
-    };
-    Some(0.5 * (mean(Verdict::Keep)? + mean(Verdict::Reject)?))
+    Some(0.5 * (mean(feedback, Verdict::Keep, of)? + mean(feedback, Verdict::Reject, of)?))
+}
+
+fn mean(feedback: &Feedback, verdict: Verdict, of: &Trait) -> Option<f64> {
+    let add = |(sum, count), value| (sum + value, count + 1);
+    let (sum, count) = values(feedback, verdict, of).fold((0.0, 0), add);
+    (count > 0).then(|| sum / f64::from(count))
 }
 
 /// The share of the wishes that a motion fulfils; with none there is nothing to fulfil.
