@@ -57,6 +57,7 @@ const HOUSES: &[House] = &[
             &["problem", "surface"],
             &["unpack", "lights"],
             &["xml", "format", "identities"],
+            &["map_file"],
             &["native", "womd", "sumo", "opendrive", "lanelet2", "table"],
             &["registry"],
             &["checks"],

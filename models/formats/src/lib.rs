@@ -33,6 +33,7 @@ pub mod lanelet2;
 mod lights;
 pub mod limits;
 pub mod loss;
+mod map_file;
 pub mod native;
 pub mod opendrive;
 pub mod polyline;

@@ -1,19 +1,19 @@
 //! One table of formats, for the server, the command line and the documentation.
 
 use crate::format::{Format, ImportOptions, Scenes};
-use crate::lanelet2::format::Lanelet2;
+use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
-use crate::opendrive::format::OpenDrive;
+use crate::opendrive::format::OPENDRIVE;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::source::{Source, head};
-use crate::sumo::formats::{SumoFcd, SumoNet};
+use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::Table;
 use crate::womd::format::Womd;
 
 /// All formats, the native one first.
 pub static FORMATS: [&dyn Format; 7] =
-    [&NativeJson, &Womd, &SumoNet, &SumoFcd, &OpenDrive, &Lanelet2, &Table];
+    [&NativeJson, &Womd, &SUMO_NET, &SumoFcd, &OPENDRIVE, &LANELET2, &Table];
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {

@@ -57,14 +57,13 @@ impl FeedbackDoc {
     pub fn resolve(&self) -> Result<Feedback, Vec<FieldProblem>> {
         let mut faults = Vec::new();
         let lengths = [
-            ("answers", self.answers.len(), MOST_ANSWERS),
-            ("wishes", self.wishes.len(), MOST_WISHES),
-            ("forgotten", self.forgotten.len(), MOST_WISHES),
-            ("answers", self.traits().len(), MOST_TRAITS),
+            ("answers", "entries", self.answers.len(), MOST_ANSWERS),
+            ("wishes", "entries", self.wishes.len(), MOST_WISHES),
+            ("forgotten", "entries", self.forgotten.len(), MOST_WISHES),
+            ("answers", "traits", self.traits().len(), MOST_TRAITS),
         ];
-        for (name, count, most) in lengths {
+        for (name, what, count, most) in lengths {
             if count > most {
-                let what = if most == MOST_TRAITS { "traits" } else { "entries" };
                 let detail = format!("{count} {what} found, at most {most} expected");
                 faults.push(FieldProblem::new(format!("/feedback/{name}"), "invalid-field", detail));
             }

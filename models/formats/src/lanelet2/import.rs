@@ -2,14 +2,15 @@
 
 use super::lanelets::{Kind, Lanelet, is, lanelets};
 use super::osm::{self, Osm, Tags};
-use crate::format::{ImportOptions, MAP_TIMING};
+use crate::format::MAP_TIMING;
 use crate::lights::{self, Head, heading_at};
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::map_file::{self, MapRead};
+use crate::problem::{FieldProblem, ReadError, Warning, code};
 use crate::source::Source;
 use crate::surface::{self, Strip};
 use crate::{bounds, polyline};
 use scene::map::{Area, Boundary, Lane, LaneMap, Neighbor, ROAD_LINE_TYPES, StopSign, TypedLine};
-use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Vec2};
+use scene::{Origin, Vec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Heads up to this far apart stand at one junction, metres.
@@ -23,7 +24,7 @@ const EXTRACT: &str = "no lanelets: an extract of OpenStreetMap has none; make a
 ///
 /// # Errors
 /// Those of the file, `cannot-represent` for one without lanelets, `map-too-large`.
-pub(super) fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let mut osm = osm::read(file)?;
     let origin = about_the_middle(&mut osm)?;
     let (lanelets, broken) = lanelets(&osm);
@@ -45,26 +46,8 @@ pub(super) fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Import
     warnings.extend((!whole).then(|| Warning::new("edges-dropped", detail)));
     warnings.extend(made);
     let crs = osm.projection.map(|projection| projection.name());
-    let scene = Scene {
-        id: None,
-        name: "Lanelet2 map".into(),
-        meta: Meta {
-            source: "lanelet2".into(),
-            licence: options.licence.clone(),
-            origin: Origin { x_m: origin.x, y_m: origin.y, crs, ..Origin::default() },
-            ..Meta::default()
-        },
-        time: MAP_TIMING,
-        signals,
-        map: map.into(),
-        agents: Vec::new(),
-        generated: None,
-        extra: BTreeMap::new(),
-    };
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
+    let origin = Origin { x_m: origin.x, y_m: origin.y, crs, ..Origin::default() };
+    Ok(MapRead { name: "Lanelet2 map".into(), map: map.into(), signals, origin, warnings })
 }
 
 /// Moves all points so that the middle of the lines that lanelets have is the origin, by whole metres.
@@ -77,11 +60,8 @@ fn about_the_middle(osm: &mut Osm) -> Result<Vec2, ReadError> {
         });
     let (low, high) = corners.unwrap_or_default();
     let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
-    if half.amax() > MAX_COORDINATE_M - 100.0 {
-        let (width, height) = (2.0 * half.x, 2.0 * half.y);
-        let detail =
-            format!("{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle");
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, detail).into());
+    if map_file::is_too_wide(half) {
+        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(half)).into());
     }
     osm.nodes.values_mut().for_each(|p| *p -= middle);
     Ok(middle)

@@ -1,6 +1,6 @@
 //! Lanelet2 maps: pieces of lane between two lines, in the XML of OpenStreetMap.
 
-pub mod format;
+pub(crate) mod format;
 mod import;
 mod lanelets;
 mod osm;

@@ -4,13 +4,14 @@ use super::filter::{self, Filtered};
 use super::lanes::{self, Found, carries_vehicles, is_road};
 use super::sections::{Frame, Section, sections};
 use super::{marks, objects, signals};
-use crate::format::{ImportOptions, MAP_TIMING};
-use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::format::MAP_TIMING;
+use crate::map_file::{self, MapRead};
+use crate::problem::{FieldProblem, ReadError, Warning, code};
 use crate::source::Source;
 use crate::surface::{self, Strip};
 use crate::{bounds, lights};
 use scene::map::LaneMap;
-use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Vec2};
+use scene::{MAX_COORDINATE_M, Origin, Vec2};
 use std::collections::BTreeMap;
 use xodr::{Direction, RoadNetwork};
 
@@ -24,7 +25,7 @@ const NAME_CHARS: usize = 100;
 /// # Errors
 /// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file or
 /// one without lanes, `map-too-large` and `out-of-range` for what no scene can hold.
-pub(super) fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     let file = filter::read(file)?;
     let (network, provenance) = xodr::load_str_with_provenance(&file.text).map_err(|error| {
         let detail = format!("no roads with lanes: {error}");
@@ -32,11 +33,8 @@ pub(super) fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Import
     })?;
     let frame = Frame::of(&network);
     // Roads begin about the network's origin; numbers far from it have lost their places.
-    if frame.half.amax() > MAX_COORDINATE_M - 100.0 || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
-        let (width, height) = (2.0 * frame.half.x, 2.0 * frame.half.y);
-        let detail =
-            format!("{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle");
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, detail).into());
+    if map_file::is_too_wide(frame.half) || frame.middle.amax() > 2.0 * MAX_COORDINATE_M {
+        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(frame.half)).into());
     }
     let sections = sections(&network, &file, &frame);
     let mut next = 0;
@@ -67,26 +65,8 @@ pub(super) fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Import
     let name: String = network.header().name.chars().filter(|c| !c.is_control()).take(NAME_CHARS).collect();
     let name = if name.trim().is_empty() { "OpenDRIVE map".to_owned() } else { name };
     let middle = file.origin + frame.middle;
-    let scene = Scene {
-        id: None,
-        name,
-        meta: Meta {
-            source: "opendrive".into(),
-            licence: options.licence.clone(),
-            origin: Origin { x_m: middle.x, y_m: middle.y, crs: file.projection, ..Origin::default() },
-            ..Meta::default()
-        },
-        time: MAP_TIMING,
-        signals,
-        map: map.into(),
-        agents: Vec::new(),
-        generated: None,
-        extra: BTreeMap::new(),
-    };
-    match scene.checked() {
-        Ok(scene) => Ok((scene, warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
+    let origin = Origin { x_m: middle.x, y_m: middle.y, crs: file.projection, ..Origin::default() };
+    Ok(MapRead { name, map: map.into(), signals, origin, warnings })
 }
 
 /// The carriageway of each section: lanes side by side without a kerb, with traffic among them.

@@ -4,7 +4,7 @@
 //! flat across: superelevation and lateral shapes are left out, heights along the road are kept.
 
 mod filter;
-pub mod format;
+pub(crate) mod format;
 mod import;
 mod lanes;
 mod marks;

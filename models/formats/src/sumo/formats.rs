@@ -8,77 +8,37 @@ use crate::format::{
     ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one, only_read,
 };
 use crate::limits::MAX_DECODED_BYTES;
-use crate::problem::{FieldProblem, Imported, ReadError};
+use crate::map_file::{MapFile, MapRead};
+use crate::problem::ReadError;
 use crate::source::Source;
 use crate::{unpack, xml};
-use scene::{Meta, Origin, Scene};
-use std::collections::BTreeMap;
+use scene::{Origin, Scene};
 use std::io;
 
 /// A network (`net.xml`), plain or gzip: a scene with a map and signals, without road users. The frame
 /// is the network's, moved by whole metres so that the network's middle is the origin.
-pub struct SumoNet;
+pub(crate) static SUMO_NET: MapFile = MapFile {
+    id: "sumo-net",
+    name: "SUMO network",
+    extensions: &["net.xml", "net.xml.gz"],
+    root: "net",
+    source: "sumo",
+    read: read_net,
+};
 
 /// A recording (`--fcd-output`), XML or CSV, plain or gzip: scenes of 9.1 s. Angles are degrees clockwise
 /// from north and points the middle of the front bumper, as SUMO's documentation of FCD output says.
 pub struct SumoFcd;
 
-impl Format for SumoNet {
-    fn info(&self) -> Info {
-        Info {
-            id: "sumo-net",
-            name: "SUMO network",
-            media_type: "application/xml",
-            extensions: &["net.xml", "net.xml.gz"],
-            import: true,
-            export: false,
-            many: false,
-            takes_net: false,
-        }
-    }
-
-    fn sniff(&self, head: &[u8], name: &str) -> u8 {
-        if xml::root_of(&unpack::head(head)).is_some_and(|root| root == "net") {
-            return 2;
-        }
-        let name = name.to_ascii_lowercase();
-        u8::from(name.ends_with(".net.xml") || name.ends_with(".net.xml.gz"))
-    }
-
-    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
-        if options.skip > 0 || options.max_scenes == 0 {
-            return Box::new(std::iter::empty());
-        }
-        one(net_scene(file, options))
-    }
-
-    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
-        Err(only_read(&self.info()))
-    }
-}
-
-fn net_scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+fn read_net(file: &dyn Source) -> Result<MapRead, ReadError> {
     let net = import_net::read(file)?;
-    let scene = Scene {
-        id: None,
+    Ok(MapRead {
         name: "SUMO network".into(),
-        meta: Meta {
-            source: "sumo".into(),
-            licence: options.licence.clone(),
-            origin: Origin { x_m: net.origin.x, y_m: net.origin.y, ..Origin::default() },
-            ..Meta::default()
-        },
-        time: MAP_TIMING,
         signals: net.signals(0.0, MAP_TIMING.steps),
         map: net.map,
-        agents: Vec::new(),
-        generated: None,
-        extra: BTreeMap::new(),
-    };
-    match scene.checked() {
-        Ok(scene) => Ok((scene, net.warnings)),
-        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
-    }
+        origin: Origin { x_m: net.origin.x, y_m: net.origin.y, ..Origin::default() },
+        warnings: net.warnings,
+    })
 }
 
 impl Format for SumoFcd {

@@ -4,12 +4,13 @@ use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane, too_large};
 use super::programs::Program;
 use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS};
+use crate::map_file;
 use crate::polyline::length;
 use crate::problem::{FieldProblem, ReadError, Warning, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use scene::map::LaneMap;
-use scene::{MAX_COORDINATE_M, STEP_S, Shared, Signal, Vec2};
+use scene::{STEP_S, Shared, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
 
 /// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
@@ -97,11 +98,8 @@ fn check_net(net: &Net) -> Result<(Vec2, Vec2), ReadError> {
     }
     let (low, high) = corners.unwrap_or_default();
     let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
-    if half.amax() > MAX_COORDINATE_M - 100.0 {
-        let (width, height) = (2.0 * half.x, 2.0 * half.y);
-        return Err(too_large(format!(
-            "{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle"
-        )));
+    if map_file::is_too_wide(half) {
+        return Err(too_large(map_file::extent(half)));
     }
     let points: f64 = net.lanes.iter().map(|l| l.shape.len() as f64 + length(&l.shape) / 2.0).sum();
     if points > MAX_MAP_POINTS as f64 {

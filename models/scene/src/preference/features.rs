@@ -13,6 +13,8 @@ const ROOM_S: f64 = 5.0;
 const ACCEL_STEPS: usize = 5;
 /// Steps between places.
 const PLACE_STEPS: usize = 5;
+/// Seconds between places.
+pub(super) const PLACE_S: f64 = PLACE_STEPS as f64 * STEP_S;
 
 /// Something about a motion that a person can name and wish otherwise.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]

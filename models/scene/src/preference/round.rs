@@ -1,11 +1,11 @@
 //! The next cards.
 
-use super::features::{self, Features};
+use super::features::{self, Features, PLACE_S};
 use super::taste::Taste;
 use super::wishes::{self, Learned};
 use super::{Answer, Feedback, Places, Verdict, Wish};
 use crate::random::Key;
-use crate::{AgentId, Future, STEP_S, Sample, Scene, Vec2};
+use crate::{AgentId, Future, Sample, Scene, Vec2};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -20,8 +20,6 @@ const LEAST_APART_M: f64 = 0.3;
 const SAME_SHARE: f64 = 0.3;
 /// Those that keep the rules make a choice by themselves when they are so many times the cards.
 const ENOUGH_TIMES: usize = 2;
-/// What may be liked is drawn so often for a card; when all it names are like others, the best that is left is taken.
-const MOST_DRAWS: usize = 12;
 
 /// A motion that may become a card: a future of one road user, or a joint scene.
 #[derive(Clone, Debug)]
@@ -73,13 +71,10 @@ impl Candidate {
 
     /// All samples, each with the chosen futures of everybody.
     pub fn scenes(scene: &Scene, samples: &[Sample]) -> Vec<Self> {
-        let chosen = |sample: &Sample| -> Vec<(String, Future)> {
+        let one = |(k, sample): (usize, &Sample)| {
             let futures = sample.agents.iter();
-            futures.filter_map(|(id, f)| Some((id.clone(), f.modes.get(f.chosen)?.clone()))).collect()
-        };
-        let one = |(k, sample)| {
-            let motions = chosen(sample);
-            let motions: Vec<_> = motions.iter().map(|(id, future)| (id.as_str(), future)).collect();
+            let motions: Vec<_> =
+                futures.filter_map(|(id, f)| Some((id.as_str(), f.modes.get(f.chosen)?))).collect();
             Self::of(scene, k, None, &motions)
         };
         samples.iter().enumerate().map(one).collect()
@@ -133,27 +128,18 @@ pub fn choose(candidates: &[Candidate], feedback: &Feedback, count: usize, seed:
     let mut stream =
         Key::default().text("feedback").number(seed).number(feedback.answers.len() as u64).stream();
     let mut taken: Vec<usize> = Vec::new();
-    let unlike = |k: &usize, taken: &[usize]| {
-        taken
-            .iter()
-            .all(|other| are_apart(&candidates[open[*k]].places, &candidates[open[*other]].places, 1.0))
-    };
-    let best = |likings: &[f64], among: &[usize], taken: &[usize]| {
-        let left = among.iter().copied().filter(|k| unlike(k, taken));
+    let best = |likings: &[f64], taken: &[usize]| {
+        let place = |k: usize| &candidates[open[k]].places;
+        let unlike = |k: &usize| taken.iter().all(|other| are_apart(place(*k), place(*other), 1.0));
+        let left = fresh.iter().copied().filter(unlike);
         left.reduce(|best, k| if likings[k] > likings[best] { k } else { best })
     };
     let known: Vec<f64> = draw.iter().map(|features| taste.liking(features)).collect();
     // Before anything is known the draw's own first guess leads.
-    taken.extend(best(&known, &fresh, &[]));
-    while taken.len() < count {
-        let mut next = None;
-        for _ in 0..MOST_DRAWS {
-            next = best(&taste.maybe(&mut stream, &draw), &fresh, &taken);
-            if next.is_some() {
-                break;
-            }
-        }
-        let Some(next) = next else { break };
+    taken.extend(best(&known, &[]));
+    while taken.len() < count
+        && let Some(next) = best(&taste.maybe(&mut stream, &draw), &taken)
+    {
         taken.push(next);
     }
     taken.sort_by(|a, b| known[*b].total_cmp(&known[*a]).then(a.cmp(b)));
@@ -180,7 +166,7 @@ fn are_apart(a: &Places, b: &Places, share: f64) -> bool {
     let differs = |(id, mine): (&String, &Vec<Vec2>)| {
         let Some(other) = b.get(id) else { return true };
         let way_m: f64 = mine.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-        let time_s = mine.len().saturating_sub(1).max(1) as f64 * 5.0 * STEP_S;
+        let time_s = mine.len().saturating_sub(1).max(1) as f64 * PLACE_S;
         let least_m = share * (APART_S * way_m / time_s).clamp(LEAST_APART_M, APART_M);
         mine.iter().zip(other).any(|(p, q)| (p - q).norm() > least_m)
     };

@@ -36,6 +36,8 @@ pub struct Taste {
 #[derive(Clone, Debug)]
 struct Axis {
     of: Trait,
+    /// Place of its first weight.
+    at: usize,
     average: f64,
     deviation: f64,
 }
@@ -86,8 +88,13 @@ impl Taste {
         traits.sort();
         traits.dedup();
         traits.retain(|of| !feedback.forgotten.contains(of));
-        let axes: Vec<Axis> = traits.into_iter().map(|of| Axis::new(of, draw)).collect();
-        let size = axes.iter().map(Axis::size).sum();
+        let mut size = 0;
+        let axis = |of| {
+            let axis = Axis::new(of, size, draw);
+            size += axis.size();
+            axis
+        };
+        let axes: Vec<Axis> = traits.into_iter().map(axis).collect();
         Self { axes, mean: DVector::zeros(size), spread: DMatrix::identity(size, size) }
     }
 
@@ -95,8 +102,8 @@ impl Taste {
     fn prior(&self, feedback: &Feedback) -> (DVector<f64>, DMatrix<f64>) {
         let mut center = DVector::zeros(self.mean.len());
         let mut sure = DVector::zeros(self.mean.len());
-        let mut i = 0;
         for axis in &self.axes {
+            let i = axis.at;
             let said = feedback.wishes.iter().rfind(|wish| wish.of == axis.of);
             center[i] = said.map_or(0.0, |wish| SAID_SLOPE * wish.wants.sign());
             let deviation = if said.is_some() { SAID_DEVIATION } else { SLOPE };
@@ -104,7 +111,6 @@ impl Taste {
             if axis.size() == 2 {
                 sure[i + 1] = BEND.powi(-2);
             }
-            i += axis.size();
         }
         (center, DMatrix::from_diagonal(&sure))
     }
@@ -136,26 +142,22 @@ impl Taste {
 
     /// A card with a trait further the way that was wished, and as it was.
     fn wished(&self, why: &Wish, features: &Features) -> Option<(DVector<f64>, DVector<f64>)> {
-        let mut i = 0;
-        for axis in &self.axes {
-            if axis.of == why.of {
-                let was = self.row(features);
-                let mut wished = was.clone();
-                axis.put(axis.measured(features) + why.wants.sign(), i, &mut wished);
-                return Some((wished, was));
-            }
-            i += axis.size();
-        }
-        None
+        let axis = self.axis(&why.of)?;
+        let was = self.row(features);
+        let mut wished = was.clone();
+        axis.put(axis.measured(features) + why.wants.sign(), &mut wished);
+        Some((wished, was))
+    }
+
+    fn axis(&self, of: &Trait) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.of == *of)
     }
 
     /// A motion as numbers that the weights stand for.
     fn row(&self, features: &Features) -> DVector<f64> {
         let mut row = DVector::zeros(self.mean.len());
-        let mut i = 0;
         for axis in &self.axes {
-            axis.put(axis.measured(features), i, &mut row);
-            i += axis.size();
+            axis.put(axis.measured(features), &mut row);
         }
         row
     }
@@ -174,31 +176,24 @@ impl Taste {
 
     /// How surely more of a trait is liked: 1 surely more, -1 surely less, 0 nothing known.
     pub(super) fn leaning(&self, of: &Trait) -> f64 {
-        let mut i = 0;
-        for axis in &self.axes {
-            if axis.of == *of {
-                let deviation = self.spread.row(i).norm();
-                let sure = self.mean[i] / deviation.max(1e-12);
-                // The normal distribution's share on this side, by the logistic function that is close to it.
-                return (0.8 * sure).tanh();
-            }
-            i += axis.size();
-        }
-        0.0
+        let Some(Axis { at, .. }) = self.axis(of) else { return 0.0 };
+        let sure = self.mean[*at] / self.spread.row(*at).norm().max(1e-12);
+        // The normal distribution's share on this side, by the logistic function that is close to it.
+        (0.8 * sure).tanh()
     }
 }
 
 impl Axis {
-    fn new(of: Trait, draw: &[&Features]) -> Self {
+    fn new(of: Trait, at: usize, draw: &[&Features]) -> Self {
         let values: Vec<f64> = draw.iter().filter_map(|features| features.value(&of)).collect();
         let count = values.len().max(1) as f64;
         let average = values.iter().sum::<f64>() / count;
         let deviation = (values.iter().map(|v| (v - average).powi(2)).sum::<f64>() / count).sqrt();
         if of.is_quantity() {
             // A draw without any spread says nothing of what is much.
-            return Self { of, average, deviation: deviation.max(0.1) };
+            return Self { of, at, average, deviation: deviation.max(0.1) };
         }
-        Self { of, average: 0.0, deviation: 1.0 }
+        Self { of, at, average: 0.0, deviation: 1.0 }
     }
 
     /// A quantity has a bend too.
@@ -211,10 +206,10 @@ impl Axis {
         ((value - self.average) / self.deviation).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS)
     }
 
-    fn put(&self, measured: f64, i: usize, row: &mut DVector<f64>) {
-        row[i] = measured;
+    fn put(&self, measured: f64, row: &mut DVector<f64>) {
+        row[self.at] = measured;
         if self.of.is_quantity() {
-            row[i + 1] = (measured * measured - 1.0) / std::f64::consts::SQRT_2;
+            row[self.at + 1] = (measured * measured - 1.0) / std::f64::consts::SQRT_2;
         }
     }
 }

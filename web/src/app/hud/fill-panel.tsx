@@ -1,5 +1,4 @@
 // Filling an area: how busy, which kinds, and what is added with one key.
-import { useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { FILL_KINDS, shareOf, type FillKind } from '../../edit/fill-mix';
@@ -7,6 +6,7 @@ import { LEAST_DENSITY, MOST_DENSITY } from '../../edit/filling';
 import { KIND_NAMES } from '../../model/kinds';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
+import { SeedField } from '../parts/asking';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import '../../styles/filling.css';
@@ -76,7 +76,7 @@ export default function FillPanel() {
         </button>
       </Line>
       <Line label="Seed">
-        <SeedField seed={wish.seed} set={(v) => filling.setSeed(v)} />
+        <SeedField label="Seed of the fill" seed={wish.seed} set={(v) => filling.setSeed(v)} />
       </Line>
       <div class="foot">
         <ActionButton id="fill-add" class="pri" icon="">
@@ -174,29 +174,5 @@ function Line({ label, children }: { label: string; children: ComponentChildren 
       <span>{label}</span>
       {children}
     </div>
-  );
-}
-
-function SeedField({ seed, set }: { seed: number; set: (v: number) => void }) {
-  const input = useRef<HTMLInputElement>(null);
-  return (
-    <label class="field seed">
-      <input
-        ref={input}
-        type="text"
-        inputmode="numeric"
-        aria-label="Seed of the fill"
-        maxlength={16}
-        value={seed}
-        onChange={() => {
-          const v = Number(input.current!.value.replace(/\D/g, ''));
-          if (Number.isSafeInteger(v)) set(v);
-          input.current!.value = String(v);
-        }}
-        onKeyDown={(e) => {
-          if (e.key === 'Enter') input.current!.blur();
-        }}
-      />
-    </label>
   );
 }

@@ -12,7 +12,7 @@ export function Controls() {
   return (
     <>
       <span class="fieldlab">Seed</span>
-      <SeedField />
+      <SceneSeed />
       <IconButton id="new-seed" />
       <span class="gap" />
       <span class="fieldlab">Diversity</span>
@@ -25,23 +25,34 @@ export function Controls() {
   );
 }
 
-function SeedField() {
+function SceneSeed() {
   const { editor } = useApp();
+  const seed = useComputed(() => editor.scene.value?.seed ?? DEFAULTS.seed).value;
+  return <SeedField label="Seed" seed={seed} set={(v) => editor.run(setSeed(v))} />;
+}
+
+interface SeedFieldProps {
+  label: string;
+  seed: number;
+  set: (v: number) => void;
+}
+
+/** A whole number; what is none goes back to the seed that holds. */
+export function SeedField({ label, seed, set }: SeedFieldProps) {
   const input = useRef<HTMLInputElement>(null);
-  const seed = useComputed(() => String(editor.scene.value?.seed ?? DEFAULTS.seed));
   return (
     <label class="field seed">
       <input
         ref={input}
         type="text"
         inputmode="numeric"
-        aria-label="Seed"
+        aria-label={label}
         maxlength={16}
         value={seed}
         onChange={() => {
           const v = Number(input.current!.value.replace(/\D/g, ''));
-          if (Number.isSafeInteger(v) && String(v) !== seed.peek()) editor.run(setSeed(v));
-          input.current!.value = seed.peek();
+          if (Number.isSafeInteger(v) && v !== seed) set(v);
+          else input.current!.value = String(seed);
         }}
         onKeyDown={(e) => {
           if (e.key === 'Enter') input.current!.blur();

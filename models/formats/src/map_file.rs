@@ -1,0 +1,109 @@
+//! Formats whose file is one map: a scene with its signals, without road users.
+
+use crate::format::{
+    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one, only_read,
+};
+use crate::problem::{FieldProblem, Imported, ReadError, Warning};
+use crate::source::Source;
+use crate::{unpack, xml};
+use scene::map::LaneMap;
+use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Shared, Signal, Vec2};
+use std::collections::BTreeMap;
+use std::io;
+
+/// A format of maps in XML, plain or gzip.
+pub(crate) struct MapFile {
+    /// Word for `--from` and `?format=`.
+    pub id: &'static str,
+    /// For people.
+    pub name: &'static str,
+    /// Ends of file names.
+    pub extensions: &'static [&'static str],
+    /// The element that files begin with.
+    pub root: &'static str,
+    /// Where scenes say that they come from.
+    pub source: &'static str,
+    /// The reader.
+    pub read: fn(&dyn Source) -> Result<MapRead, ReadError>,
+}
+
+/// What a file holds.
+pub(crate) struct MapRead {
+    /// Of the scene.
+    pub name: String,
+    /// About the origin.
+    pub map: Shared<LaneMap>,
+    /// Over [`MAP_TIMING`].
+    pub signals: Vec<Signal>,
+    /// Where the origin lies in the file's frame.
+    pub origin: Origin,
+    pub warnings: Vec<Warning>,
+}
+
+impl MapFile {
+    fn scene(&self, file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+        let MapRead { name, map, signals, origin, warnings } = (self.read)(file)?;
+        let licence = options.licence.clone();
+        let scene = Scene {
+            id: None,
+            name,
+            meta: Meta { source: self.source.into(), licence, origin, ..Meta::default() },
+            time: MAP_TIMING,
+            signals,
+            map,
+            agents: Vec::new(),
+            generated: None,
+            extra: BTreeMap::new(),
+        };
+        match scene.checked() {
+            Ok(scene) => Ok((scene, warnings)),
+            Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+        }
+    }
+}
+
+impl Format for MapFile {
+    fn info(&self) -> Info {
+        Info {
+            id: self.id,
+            name: self.name,
+            media_type: "application/xml",
+            extensions: self.extensions,
+            import: true,
+            export: false,
+            many: false,
+            takes_net: false,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], name: &str) -> u8 {
+        if xml::root_of(&unpack::head(head)).is_some_and(|root| root == self.root) {
+            return 2;
+        }
+        let name = name.to_ascii_lowercase();
+        let ends = |end: &&'static str| name.strip_suffix(*end).is_some_and(|stem| stem.ends_with('.'));
+        u8::from(self.extensions.iter().any(ends))
+    }
+
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        if options.skip > 0 || options.max_scenes == 0 {
+            return Box::new(std::iter::empty());
+        }
+        one(self.scene(file, options))
+    }
+
+    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
+        Err(only_read(&self.info()))
+    }
+}
+
+/// A map of this half size reaches farther from its middle than a scene can; with room for what is drawn beside lanes.
+pub(crate) fn is_too_wide(half: Vec2) -> bool {
+    half.amax() > MAX_COORDINATE_M - 100.0
+}
+
+/// How large it is, and what a map can be.
+pub(crate) fn extent(half: Vec2) -> String {
+    let (width, height) = (2.0 * half.x, 2.0 * half.y);
+    format!("{width:.0} x {height:.0} m; a map reaches {MAX_COORDINATE_M} m from its middle")
+}
