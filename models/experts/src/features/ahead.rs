@@ -8,6 +8,8 @@ use scene::{SignalState, wrap_angle};
 
 /// Standing road users this far ahead count as a queue, metres.
 const QUEUE_M: f64 = 60.0;
+/// Whoever comes this near to a path meets it, metres.
+const MEETS_M: f64 = 3.0;
 
 /// What can be said of a path whatever the timing on it.
 pub(super) struct PathFacts {
@@ -115,9 +117,9 @@ fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<Crossing> 
         let (from, ahead) = (other.outline.center(), other.outline.forward());
         for seconds in [1.0, 2.0, 3.0, 4.5, 6.0] {
             let there = from + ahead * (other.speed_mps * seconds);
-            let foot = anchor.path.project(there);
+            let Some(foot) = anchor.path.project_within(there, MEETS_M) else { continue };
             let across = direction(foot.heading_rad).dot(&ahead).abs() < 0.75;
-            if foot.distance_m < 3.0 && foot.s_m > 3.0 && across {
+            if foot.s_m > 3.0 && across {
                 if soonest.is_none_or(|s| seconds < s.time_s) {
                     let speed_mps = other.speed_mps;
                     soonest = Some(Crossing { distance_m: foot.s_m, time_s: seconds, speed_mps });

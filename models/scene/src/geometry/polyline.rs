@@ -5,6 +5,12 @@ use super::{Vec2, cross, direction, wrap_angle};
 /// Points closer than this to the one before are the same point, metres.
 const SAME_POINT_M: f64 = 0.01;
 
+/// Places that are looked at before the foot of a point is searched for.
+const PROBES: usize = 12;
+
+/// Rounding that passing over pieces allows for, metres.
+const SLACK_M: f64 = 1e-6;
+
 /// Greatest turn between the middle of an end piece and its inner vertex on a smooth line, radians.
 const MAX_SMOOTH_TURN_RAD: f64 = 0.15;
 
@@ -171,7 +177,12 @@ impl Polyline {
         if self.points.len() < 2 || s.is_nan() {
             return (0, 0.0);
         }
-        let i = self.arc.partition_point(|a| *a <= s).clamp(1, self.points.len() - 1) - 1;
+        // Most lines are evenly spaced: the piece is where the share of the length says, or next to it.
+        let pieces = self.points.len() - 1;
+        let guess = (s / self.length_m() * pieces as f64) as usize;
+        let holds = |i: usize| i + 1 < pieces && self.arc[i] <= s && s < self.arc[i + 1];
+        let near = [guess, guess + 1, guess.saturating_sub(1)].into_iter().find(|i| holds(*i));
+        let i = near.unwrap_or_else(|| self.arc.partition_point(|a| *a <= s).clamp(1, pieces) - 1);
         (i, ((s - self.arc[i]) / (self.arc[i + 1] - self.arc[i])).clamp(0.0, 1.0))
     }
 
@@ -227,21 +238,47 @@ impl Polyline {
 
     /// Foot of `point` on the part from `from_m` to `to_m`; for lines that come near themselves again.
     pub fn project_between(&self, point: Vec2, from_m: f64, to_m: f64) -> Foot {
-        let (mut best, mut best_d2, mut foot_s) = (0, f64::INFINITY, 0.0);
-        for i in 0..self.points.len().saturating_sub(1) {
-            if self.arc[i + 1] < from_m || self.arc[i] > to_m {
-                continue;
-            }
+        let from = self.arc.partition_point(|s| *s < from_m);
+        // A few places tell how far the foot is at most.
+        let stride = (self.points.len() / PROBES).max(1);
+        let probed = self.arc.iter().zip(&self.points).skip(from).step_by(stride);
+        let probed = probed.take_while(|(s, _)| **s <= to_m).map(|(_, p)| (p - point).norm_squared());
+        let most_m = if stride > 1 { probed.fold(f64::INFINITY, f64::min).sqrt() } else { f64::INFINITY };
+        match self.nearest(point, from_m, to_m, most_m) {
+            Some((piece, s_m)) => self.foot_at(piece, s_m.clamp(from_m, to_m.max(from_m)), point),
+            None => self.foot_at(self.locate(from_m).0, from_m.clamp(0.0, self.length_m()), point),
+        }
+    }
+
+    /// Foot of `point` on the whole line; `None` where that is farther than `within_m`. For lines that are far from
+    /// most of what is asked about: it looks at few pieces of these.
+    pub fn project_within(&self, point: Vec2, within_m: f64) -> Option<Foot> {
+        let (piece, s_m) = self.nearest(point, 0.0, f64::INFINITY, within_m)?;
+        Some(self.foot_at(piece, s_m, point)).filter(|foot| foot.distance_m <= within_m)
+    }
+
+    /// Piece and arc length of the foot of `point` on the part from `from_m` to `to_m`, the first one of equals. One
+    /// that is farther than `within_m` may be missed.
+    fn nearest(&self, point: Vec2, from_m: f64, to_m: f64, within_m: f64) -> Option<(usize, f64)> {
+        let (mut best, mut best_d2, mut bound_m) = (None, f64::INFINITY, within_m + SLACK_M);
+        let mut i = self.arc.iter().skip(1).take_while(|s| **s < from_m).count();
+        while i + 1 < self.points.len() && self.arc[i] <= to_m {
             let (t, d2) = foot_on_piece(self.points[i], self.points[i + 1], point);
             if d2 < best_d2 {
-                let length = self.arc[i + 1] - self.arc[i];
-                (best, best_d2, foot_s) = (i, d2, self.arc[i] + t * length);
+                (best, best_d2) = (Some((i, self.arc[i] + t * (self.arc[i + 1] - self.arc[i]))), d2);
+                bound_m = bound_m.min(d2.sqrt() + SLACK_M);
+            }
+            i += 1;
+            // No place is nearer than this one's distance less the way there: what cannot be the foot is passed over.
+            let away2 = (self.points[i] - point).norm_squared();
+            if away2 > bound_m * bound_m {
+                let clear_m = self.arc[i] + away2.sqrt() - bound_m;
+                while i + 1 < self.points.len() && self.arc[i + 1] < clear_m {
+                    i += 1;
+                }
             }
         }
-        if best_d2.is_infinite() {
-            return self.foot_at(self.locate(from_m).0, from_m.clamp(0.0, self.length_m()), point);
-        }
-        self.foot_at(best, foot_s.clamp(from_m, to_m.max(from_m)), point)
+        best
     }
 
     /// Foot of `point` whose foot lies on piece `piece` at arc length `s_m`.
@@ -395,6 +432,33 @@ mod tests {
             let other = line.sample(share * line.length_m()).position;
             prop_assert!((other - v(x, y)).norm() >= foot.distance_m - 1e-6);
             prop_assert!(foot.lateral_m.abs() <= foot.distance_m + 1e-9);
+        }
+
+        /// Passing over pieces finds what looking at all of them finds, to the last bit.
+        #[test]
+        fn no_foot_is_passed_over(
+            corners in prop::collection::vec((-50.0..50.0_f64, -50.0..50.0_f64), 2..12),
+            step in 0.3..5.0_f64, x in -60.0..60.0_f64, y in -60.0..60.0_f64,
+            shares in (0.0..1.0_f64, 0.0..1.0_f64), within_m in 0.0..40.0_f64,
+        ) {
+            let point = v(x, y);
+            let line = Polyline::new(corners.into_iter().map(|(x, y)| v(x, y))).resample(step);
+            let of_all = |from_m: f64, to_m: f64| {
+                let part = |i: &usize| line.arc[i + 1] >= from_m && line.arc[*i] <= to_m;
+                let feet = (0..line.points.len() - 1).filter(part).map(|i| (i, line.foot_on(i, point)));
+                let (piece, (s_m, _)) = feet.reduce(|a, b| if b.1.1 < a.1.1 { b } else { a }).unwrap();
+                line.foot_at(piece, s_m.clamp(from_m, to_m), point)
+            };
+            let whole = of_all(0.0, f64::INFINITY);
+            prop_assert_eq!(line.project(point), whole);
+            let piece = line.arc.partition_point(|s| *s <= whole.s_m).clamp(1, line.points.len() - 1) - 1;
+            prop_assert_eq!(line.locate(whole.s_m).0, piece);
+            let (from_m, to_m) = (shares.0 * line.length_m(), shares.1 * line.length_m());
+            if from_m <= to_m {
+                prop_assert_eq!(line.project_between(point, from_m, to_m), of_all(from_m, to_m));
+            }
+            let within = (whole.distance_m <= within_m).then_some(whole);
+            prop_assert_eq!(line.project_within(point, within_m), within);
         }
 
         #[test]

@@ -106,8 +106,8 @@ pub fn leader(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Option
 pub fn leaders(path: &Polyline, own_length_m: f64, others: &[Obstacle]) -> Vec<Leader> {
     let mut found: Vec<(f64, Leader)> = Vec::new();
     for (index, other) in others.iter().enumerate() {
-        let foot = path.project(other.outline.center());
-        if foot.distance_m > IN_THE_WAY_M || foot.s_m < AHEAD_M || foot.s_m >= path.length_m() {
+        let Some(foot) = path.project_within(other.outline.center(), IN_THE_WAY_M) else { continue };
+        if foot.s_m < AHEAD_M || foot.s_m >= path.length_m() {
             continue;
         }
         let along = other.outline.forward().dot(&direction(foot.heading_rad));
