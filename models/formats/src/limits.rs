@@ -6,7 +6,12 @@ pub use scene::{MAX_AGENTS, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, 
 pub const MAX_SCENES: usize = 200;
 /// Most bytes of an import once decompressed.
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
-/// Most values of a native document: one of two bytes takes eight once it is read.
+/// Most values of a native document.
 pub const MAX_DOCUMENT_VALUES: u64 = 32 << 20;
+
+/// What reading a file of so many bytes, as they came, takes of memory at most.
+pub const fn memory_for(encoded: u64) -> u64 {
+    encoded.saturating_mul(8).saturating_add(64 << 20)
+}
 /// Greatest ratio of decompressed to compressed bytes, looked at after the first MiB.
 pub const MAX_EXPANSION: u64 = 100;

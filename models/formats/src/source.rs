@@ -15,11 +15,18 @@ pub trait Source: fmt::Debug + Send + Sync {
     /// # Errors
     /// When they cannot be read.
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>>;
+
+    /// How many bytes it came as, before anything unfolded: what reading it takes of memory is measured by.
+    fn encoded_len(&self) -> u64;
 }
 
 impl Source for &[u8] {
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
         Ok(Box::new(*self))
+    }
+
+    fn encoded_len(&self) -> u64 {
+        self.len() as u64
     }
 }
 
@@ -27,11 +34,19 @@ impl Source for Vec<u8> {
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
         Ok(Box::new(self.as_slice()))
     }
+
+    fn encoded_len(&self) -> u64 {
+        self.len() as u64
+    }
 }
 
 impl<S: Source + ?Sized> Source for Arc<S> {
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
         (**self).open()
+    }
+
+    fn encoded_len(&self) -> u64 {
+        (**self).encoded_len()
     }
 }
 

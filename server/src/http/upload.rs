@@ -76,6 +76,10 @@ impl Source for Upload {
     fn open(&self) -> io::Result<Box<dyn Read + Send + '_>> {
         Ok(Box::new(self.reader().map_err(|fault| self.found(fault))?))
     }
+
+    fn encoded_len(&self) -> u64 {
+        self.encoded.len()
+    }
 }
 
 struct Unpacking<'a> {
@@ -184,6 +188,11 @@ impl Source for Part {
             while now(field.chunk()).map_err(io::Error::other)?.is_some() {}
         }
         Err(io::ErrorKind::UnexpectedEof.into())
+    }
+
+    /// That of the whole form.
+    fn encoded_len(&self) -> u64 {
+        self.form.encoded_len()
     }
 }
 

@@ -1,7 +1,7 @@
 //! From bytes to a typed document with the place of the fault.
 
 use super::objects::Objects;
-use crate::limits::MAX_DOCUMENT_VALUES;
+use crate::limits::{MAX_DOCUMENT_VALUES, memory_for};
 use crate::problem::{FieldProblem, ReadError, code, pointer_token};
 use crate::source::Source;
 use crate::unpack;
@@ -26,6 +26,10 @@ pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, ReadError> {
 
 /// Most bytes of a document that is read as a whole, which is faster.
 const WHOLE_BYTES: u64 = 8 << 20;
+/// What it takes to find that a text is longer, and what is held of a long one while it is parsed.
+const WHOLE_MEMORY: u64 = 24 << 20;
+/// What a value takes: eight bytes, and half as much while its list grows.
+const VALUE_MEMORY: u64 = 12;
 
 /// The text of a document.
 pub(super) enum Text<'a> {
@@ -57,7 +61,9 @@ impl<'a> Long<'a> {
     /// # Errors
     /// When it cannot be read.
     pub fn open(&self) -> io::Result<BufReader<Values<Box<dyn Read + Send + 'a>>>> {
-        Ok(BufReader::with_capacity(64 << 10, Values { inner: self.0.open()?, commas: 0 }))
+        let room = memory_for(self.0.encoded_len()).saturating_sub(WHOLE_MEMORY) / VALUE_MEMORY;
+        let most = room.min(MAX_DOCUMENT_VALUES);
+        Ok(BufReader::with_capacity(64 << 10, Values { inner: self.0.open()?, commas: 0, most }))
     }
 
     /// As [`from_json`].
@@ -74,6 +80,7 @@ impl<'a> Long<'a> {
 pub(super) struct Values<R> {
     inner: R,
     commas: u64,
+    most: u64,
 }
 
 impl<R: Read> Read for Values<R> {
@@ -81,9 +88,9 @@ impl<R: Read> Read for Values<R> {
         let count = self.inner.read(buffer)?;
         let text = buffer.get(..count).unwrap_or_default();
         self.commas += text.iter().filter(|byte| **byte == b',').count() as u64;
-        if self.commas > MAX_DOCUMENT_VALUES {
-            let detail = format!("more than {MAX_DOCUMENT_VALUES} values in a document");
-            return Err(unpack::excess(code::DECODED_TOO_LARGE, MAX_DOCUMENT_VALUES, detail));
+        if self.commas > self.most {
+            let detail = format!("more than {} values in a document of its size", self.most);
+            return Err(unpack::excess(code::DECODED_TOO_LARGE, self.most, detail));
         }
         Ok(count)
     }

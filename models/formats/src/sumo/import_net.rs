@@ -3,7 +3,7 @@
 use super::map::{MapOptions, SignalPlace, lane_map};
 use super::net::{LaneKind, Net, NetLane, too_large};
 use super::programs::Program;
-use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS};
+use crate::limits::{MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, memory_for};
 use crate::map_file;
 use crate::polyline::length;
 use crate::problem::{FieldProblem, ReadError, Warning, code};
@@ -15,6 +15,8 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
 const MAX_BYTES: u64 = 64 << 20;
+/// What a byte of it takes until it is a map.
+const TEXT_MEMORY: u64 = 4;
 /// Farthest a network's coordinate may lie from its own origin, metres.
 pub(super) const MAX_SOURCE_M: f64 = 1e8;
 
@@ -39,7 +41,8 @@ pub(super) struct NetScene {
 /// value that cannot be read, `cannot-represent` for another sort of file or one without lanes,
 /// `map-too-large` and `out-of-range` for what no scene can hold.
 pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
-    let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
+    let most = MAX_BYTES.min(memory_for(file.encoded_len()) / TEXT_MEMORY);
+    let input = file.open().and_then(|input| unpack::open(input, Bounds::of(most)));
     let mut net = Net::read_from(input.map_err(|error| unpack::fault(&error, 0))?)?;
     let (origin, half) = check_net(&net)?;
     for lane in &mut net.lanes {

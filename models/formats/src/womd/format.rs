@@ -1,10 +1,15 @@
 //! Scenario records as a format among others.
 
+use super::MAX_RECORD_BYTES;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::limits::memory_for;
 use crate::source::Source;
 use crate::{identities, unpack};
 use scene::Scene;
 use std::io;
+
+/// What a byte of a record takes until it is a scene.
+const RECORD_MEMORY: u64 = 4;
 
 /// Waymo Open Motion Scenario records.
 pub struct Womd;
@@ -39,6 +44,7 @@ impl Format for Womd {
             max_scenes: options.max_scenes,
             licence: options.licence.clone(),
             verify_crc: options.verify,
+            max_record_bytes: MAX_RECORD_BYTES.min(memory_for(file.encoded_len()) / RECORD_MEMORY),
             ..super::Options::default()
         };
         let records = file.open().map_err(|error| unpack::fault(&error, 0));

@@ -41,6 +41,8 @@ pub struct Options {
     pub max_scenes: usize,
     /// Most bytes once decompressed.
     pub max_decoded_bytes: u64,
+    /// Most bytes of one record.
+    pub max_record_bytes: u64,
     /// Greatest ratio of decompressed to compressed bytes, after the first MiB.
     pub max_expansion: u64,
     /// Check the CRCs.
@@ -55,6 +57,7 @@ impl Default for Options {
             skip: 0,
             max_scenes: MAX_SCENES,
             max_decoded_bytes: MAX_DECODED_BYTES,
+            max_record_bytes: MAX_RECORD_BYTES,
             max_expansion: MAX_EXPANSION,
             verify_crc: true,
             licence: None,

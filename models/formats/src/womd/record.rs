@@ -54,6 +54,7 @@ pub struct RecordReader<R: Read> {
     input: BufReader<Unpacked<R>>,
     offset: u64,
     verify_crc: bool,
+    max_bytes: u64,
     ended: bool,
 }
 
@@ -71,7 +72,8 @@ impl<R: Read> RecordReader<R> {
     pub fn new(input: R, options: &Options) -> Result<Self, ReadError> {
         let bounds = Bounds { decoded: options.max_decoded_bytes, expansion: options.max_expansion };
         let input = unpack::open(input, bounds).map_err(|error| unpack::fault(&error, 0))?;
-        Ok(Self { input, offset: 0, verify_crc: options.verify_crc, ended: false })
+        let Options { verify_crc, max_record_bytes: max_bytes, .. } = *options;
+        Ok(Self { input, offset: 0, verify_crc, max_bytes, ended: false })
     }
 
     /// True when nothing can follow: the end, or a fault in the framing.
@@ -128,9 +130,9 @@ impl<R: Read> RecordReader<R> {
             return Err(Stop::Fault(ReadError::malformed(start, detail)));
         }
         let length = head.iter().rev().fold(0u64, |length, byte| length << 8 | u64::from(*byte));
-        if length > MAX_RECORD_BYTES {
+        if length > self.max_bytes {
             self.ended = true;
-            let detail = format!("a record of {length} bytes, at most {MAX_RECORD_BYTES} expected");
+            let detail = format!("a record of {length} bytes, at most {} expected", self.max_bytes);
             return Err(Stop::Fault(ReadError::malformed(start, detail)));
         }
         let offset = self.offset;
