@@ -4,6 +4,7 @@
 
 use crate::format::{ExportedMotion, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
+use crate::osm::extract;
 use crate::registry;
 use crate::source::Source;
 use crate::womd::{self, Options};
@@ -26,6 +27,7 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("sumo-pair", sumo_pair),
     ("opendrive", |bytes| map_of("opendrive", bytes)),
     ("lanelet2", |bytes| map_of("lanelet2", bytes)),
+    ("osm", osm),
     ("sniff", sniff),
 ];
 
@@ -39,6 +41,17 @@ pub fn native(bytes: &[u8]) -> bool {
     let again = native::read(&written).expect("what was written is read");
     // Futures are rounded by the first writing; from then on nothing changes.
     assert_eq!(native::write(&again), written, "writing is not stable");
+    true
+}
+
+/// What is written for netconvert of an extract reads again to the same.
+///
+/// # Panics
+/// When it does not.
+pub fn osm(bytes: &[u8]) -> bool {
+    let Ok(roads) = extract::read(&bytes) else { return false };
+    let again = extract::read(&roads.xml.as_bytes()).expect("what was written is read");
+    assert_eq!(again.xml, roads.xml, "writing is not stable");
     true
 }
 

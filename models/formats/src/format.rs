@@ -2,6 +2,7 @@
 
 use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
+use crate::netconvert::Netconvert;
 use crate::problem::{Imported, ReadError};
 use crate::source::Source;
 use scene::{Scene, Timing};
@@ -47,6 +48,8 @@ pub struct ImportOptions {
     /// The network that a recording belongs to, for formats whose info has `takes_net`: a SUMO `net.xml`,
     /// plain or gzip. Faults in it are reported under [`NET_POINTER`].
     pub net: Option<Arc<dyn Source>>,
+    /// For extracts of OpenStreetMap.
+    pub netconvert: Option<Arc<dyn Netconvert>>,
 }
 
 /// Pointer of faults in [`ImportOptions::net`].
@@ -61,6 +64,7 @@ impl Default for ImportOptions {
             verify: true,
             join_identities: true,
             net: None,
+            netconvert: None,
         }
     }
 }

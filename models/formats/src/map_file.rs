@@ -40,14 +40,17 @@ pub(crate) struct MapRead {
     pub warnings: Vec<Warning>,
 }
 
-impl MapFile {
-    fn scene(&self, file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
-        let MapRead { name, map, signals, origin, warnings } = (self.read)(file)?;
-        let licence = options.licence.clone();
+impl MapRead {
+    /// A scene of the map alone. `source` is where it comes from.
+    ///
+    /// # Errors
+    /// The bounds of a scene.
+    pub fn scene(self, source: &str, licence: Option<String>) -> Result<Imported, ReadError> {
+        let Self { name, map, signals, origin, warnings } = self;
         let scene = Scene {
             id: None,
             name,
-            meta: Meta { source: self.source.into(), licence, origin, ..Meta::default() },
+            meta: Meta { source: source.into(), licence, origin, ..Meta::default() },
             time: MAP_TIMING,
             signals,
             map,
@@ -89,7 +92,7 @@ impl Format for MapFile {
         if options.skip > 0 || options.max_scenes == 0 {
             return Box::new(std::iter::empty());
         }
-        one(self.scene(file, options))
+        one((self.read)(file).and_then(|read| read.scene(self.source, options.licence.clone())))
     }
 
     fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {

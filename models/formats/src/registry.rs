@@ -5,6 +5,7 @@ use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
 use crate::opendrive::format::OPENDRIVE;
+use crate::osm::format::OsmExtract;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::source::{Source, head};
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
@@ -12,8 +13,8 @@ use crate::table::Table;
 use crate::womd::format::Womd;
 
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 7] =
-    [&NativeJson, &Womd, &SUMO_NET, &SumoFcd, &OPENDRIVE, &LANELET2, &Table];
+pub static FORMATS: [&dyn Format; 8] =
+    [&NativeJson, &Womd, &SUMO_NET, &SumoFcd, &OPENDRIVE, &LANELET2, &OsmExtract, &Table];
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {

@@ -7,4 +7,5 @@ pub mod domain;
 pub mod id;
 pub mod limits;
 pub mod metrics;
+pub mod netconvert;
 pub mod problem;

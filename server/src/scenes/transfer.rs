@@ -1,7 +1,9 @@
 //! Files in and out: the formats of the `formats` crate behind the words that routes and the command
 //! line use.
 
+use crate::base::netconvert::Installed;
 use crate::base::problem::{Code, Problem};
+use formats::netconvert::Netconvert;
 use formats::registry::{self, FORMATS};
 use formats::{ExportOptions, ExportedMotion, ImportOptions, NET_POINTER, Source, source};
 use scene::Scene;
@@ -122,7 +124,8 @@ impl Wanted {
             let detail = format!("a file of format {} comes without a network", info.id);
             return Err(Problem::field(NET_POINTER, Code::InvalidField, detail));
         }
-        let options = ImportOptions { skip, max_scenes: most, net, ..ImportOptions::default() };
+        let netconvert: Option<Arc<dyn Netconvert>> = Some(Arc::new(Installed));
+        let options = ImportOptions { skip, max_scenes: most, net, netconvert, ..ImportOptions::default() };
         Ok(Self { format: info.id, options })
     }
 

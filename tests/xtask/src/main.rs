@@ -218,21 +218,23 @@ fn python() -> anyhow::Result<Outcome> {
     Ok(Outcome::Passed)
 }
 
-/// One network that a foreign program writes in several formats, read by all of ours.
+/// One network that a foreign program writes in several formats, read by all of ours; and an extract of OpenStreetMap.
 fn maps() -> anyhow::Result<Outcome> {
     let own = match virtual_environment("maps", "tests/equal-maps-requirements.txt")? {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
     let folder = root().join("target/maps/network");
+    let netconvert = own.with_file_name(format!("netconvert{}", std::env::consts::EXE_SUFFIX));
     let written = run(Command::new(own).arg("tests/equal_maps.py").arg(&folder).current_dir(root()))?;
     if let Outcome::Failed(why) = written {
         return Ok(Outcome::Failed(why));
     }
     let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     run(Command::new(program)
-        .args(["test", "--workspace", "--locked", "--test", "equal_maps"])
+        .args(["test", "--workspace", "--locked", "--test", "equal_maps", "--test", "osm"])
         .env("DRAGTRAFFIC_EQUAL_MAPS", &folder)
+        .env("DRAGTRAFFIC_NETCONVERT", netconvert)
         .env_remove("CARGO_PKG_NAME")
         .current_dir(root()))
 }

@@ -6,7 +6,7 @@ use crate::map_file::MapFile;
 /// A Lanelet2 map (`.osm`), plain or gzip: a scene with a map and signals, without road users. Points lie where
 /// `local_x` and `local_y` say, else where their degrees are in a transverse Mercator projection about the map.
 ///
-/// An extract of OpenStreetMap begins alike; it is refused with what to do with it.
+/// An extract of OpenStreetMap begins alike.
 pub(crate) static LANELET2: MapFile = MapFile {
     id: "lanelet2",
     name: "Lanelet2 map",

@@ -15,10 +15,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Heads up to this far apart stand at one junction, metres.
 const JUNCTION_M: f64 = 60.0;
-/// What an extract of OpenStreetMap needs first.
-const EXTRACT: &str = "no lanelets: an extract of OpenStreetMap has none; make a SUMO network of it first, with \
-    netconvert --osm-files FILE --junctions.join --tls.guess-signals -o map.net.xml (pip install eclipse-sumo \
-    brings netconvert), and import that";
+/// What an extract of OpenStreetMap is.
+const EXTRACT: &str = "no lanelets: if it is an extract of OpenStreetMap, it is read as osm";
 
 /// Reads a file, plain or gzip: a scene with a map and signals, without road users.
 ///

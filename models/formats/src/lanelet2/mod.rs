@@ -4,4 +4,3 @@ pub(crate) mod format;
 mod import;
 mod lanelets;
 mod osm;
-mod projection;

@@ -1,7 +1,7 @@
 //! The XML of OpenStreetMap: points, lines of points, and relations of them, with what is said of each.
 
-use super::projection::Projection;
 use crate::problem::{FieldProblem, ReadError, code};
+use crate::projection::Projection;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Event, Scanner};

@@ -30,7 +30,8 @@ pub(crate) static SUMO_NET: MapFile = MapFile {
 /// from north and points the middle of the front bumper, as SUMO's documentation of FCD output says.
 pub struct SumoFcd;
 
-fn read_net(file: &dyn Source) -> Result<MapRead, ReadError> {
+/// A network as a map: see [`SUMO_NET`].
+pub(crate) fn read_net(file: &dyn Source) -> Result<MapRead, ReadError> {
     let net = import_net::read(file)?;
     Ok(MapRead {
         name: "SUMO network".into(),

@@ -15,6 +15,8 @@ use std::collections::{BTreeSet, HashMap};
 
 /// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
 const MAX_BYTES: u64 = 64 << 20;
+/// Warning that places on the globe are lost.
+pub(crate) const PROJECTION_DROPPED: &str = "projection-dropped";
 /// What a byte of it takes until it is a map.
 const TEXT_MEMORY: u64 = 4;
 /// Farthest a network's coordinate may lie from its own origin, metres.
@@ -145,7 +147,7 @@ fn warnings_of(net: &Net) -> Vec<Warning> {
     warn(true, "ids-renumbered", "lanes and junctions have numbers in place of SUMO's ids".into());
     warn(net.notes.heights, "heights-dropped", "the network has heights; the map is flat".into());
     let detail = "positions stay in the network's own frame; its projection is not kept";
-    warn(net.notes.projected, "projection-dropped", detail.into());
+    warn(net.notes.projected, PROJECTION_DROPPED, detail.into());
     let detail = "traffic keeps to the left; kerbs and middle lines are drawn as if it kept to the right";
     warn(net.notes.left_hand, "left-hand", detail.into());
     let closed = net.lanes.iter().filter(|l| l.kind == LaneKind::Closed).count();

@@ -7,7 +7,7 @@
 pub mod fcd;
 pub mod formats;
 mod import_fcd;
-mod import_net;
+pub(crate) mod import_net;
 pub mod kerb;
 mod kinds;
 pub mod map;

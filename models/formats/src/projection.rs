@@ -9,7 +9,7 @@ const F: f64 = 1.0 / 298.257_223_563;
 /// A transverse Mercator projection with scale 1 at its middle meridian, by the series of Krüger to the third order
 /// (below a millimetre within hundreds of kilometres).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Projection {
+pub(crate) struct Projection {
     lat_deg: f64,
     lon_deg: f64,
     north_m: f64,

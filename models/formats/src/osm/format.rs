@@ -1,0 +1,127 @@
+//! Extracts of OpenStreetMap as users import them.
+
+use super::driving_side::is_left;
+use super::extract::{self, Extract};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, only_read};
+use crate::map_file::MapRead;
+use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::source::Source;
+use crate::sumo::formats::read_net;
+use crate::sumo::import_net::PROJECTION_DROPPED;
+use crate::{unpack, xml};
+use scene::Scene;
+use std::io;
+
+/// Licence of all of OpenStreetMap's data, and what it asks to be told.
+const LICENCE: &str = "odbl";
+const ATTRIBUTION: &str = "Map data © OpenStreetMap contributors, available under the Open Database License.";
+/// Names of programs that cut extracts.
+const PROGRAMS: [&str; 7] =
+    ["openstreetmap", "cgimap", "overpass", "osmium", "osmosis", "osmconvert", "osmfilter"];
+/// Name of the file that netconvert is given.
+const FILE: &str = "extract.osm";
+/// How netconvert makes junctions that people can use of roads without lanes: nodes of one junction become one,
+/// pavements, crossings and cycle lanes are drawn where they are said or usual, signals get a fixed program.
+const ARGUMENTS: [&str; 17] = [
+    "--geometry.remove",
+    "--junctions.join",
+    "--roundabouts.guess",
+    "--ramps.guess",
+    "--osm.turn-lanes",
+    "--osm.sidewalks",
+    "--osm.bike-access",
+    "--osm.crossings",
+    "--sidewalks.guess",
+    "--crossings.guess",
+    "--tls.guess-signals",
+    "--tls.join",
+    "--tls.discard-simple",
+    "--no-turnarounds",
+    "--remove-edges.isolated",
+    "--offset.disable-normalization",
+    "--no-warnings",
+];
+/// What is left out: ways that nobody of a scene uses.
+const LANES_OF: &str = "passenger,bus,delivery,bicycle,pedestrian";
+
+/// An extract of OpenStreetMap (`.osm`), plain or gzip: a scene with a map and signals, without road users. Needs
+/// [`ImportOptions::netconvert`].
+pub struct OsmExtract;
+
+impl OsmExtract {
+    fn scene(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+        let Extract { xml, projection, middle: (lat, lon) } = extract::read(file)?;
+        let left = is_left(lat, lon);
+        let network = network(options, &xml, &projection.name(), left)?;
+        let MapRead { map, signals, mut origin, mut warnings, .. } = read_net(&network)?;
+        origin.crs = Some(projection.name());
+        warnings.retain(|warning| warning.code != PROJECTION_DROPPED);
+        if left {
+            let detail = "traffic keeps to the left, as it does where the map lies";
+            warnings.push(Warning::new("left-hand", detail));
+        }
+        let read = MapRead { name: "OpenStreetMap extract".into(), map, signals, origin, warnings };
+        let (mut scene, warnings) = read.scene("openstreetmap", Some(LICENCE.into()))?;
+        if let Some(licence) = &options.licence {
+            scene.meta.licence = Some(licence.clone());
+        }
+        scene.meta.notes = ATTRIBUTION.into();
+        Ok((scene, warnings))
+    }
+}
+
+/// The network that netconvert makes of roads.
+fn network(options: &ImportOptions, xml: &str, projection: &str, left: bool) -> Result<Vec<u8>, ReadError> {
+    let cannot = |detail: String| ReadError::from(FieldProblem::new("", code::CANNOT_REPRESENT, detail));
+    let Some(netconvert) = &options.netconvert else { return Err(cannot(WITHOUT.into())) };
+    let mut arguments: Vec<String> = ARGUMENTS.map(str::to_owned).into();
+    arguments.extend(left.then(|| "--lefthand".to_owned()));
+    for (name, value) in [("--osm-files", FILE), ("--proj", projection), ("--keep-edges.by-vclass", LANES_OF)]
+    {
+        arguments.extend([name.to_owned(), value.to_owned()]);
+    }
+    netconvert.network(FILE, xml.as_bytes(), &arguments).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => cannot(WITHOUT.into()),
+        _ => cannot(format!("netconvert could not make a network of it: {error}")),
+    })
+}
+
+/// What is missing, and how to get it.
+const WITHOUT: &str = "an extract of OpenStreetMap is read with SUMO's netconvert, which is not here: install it with \
+    `pip install eclipse-sumo` and start again";
+
+impl Format for OsmExtract {
+    fn info(&self) -> Info {
+        Info {
+            id: "osm",
+            name: "OpenStreetMap extract (through netconvert)",
+            media_type: "application/xml",
+            extensions: &["osm", "osm.gz"],
+            import: true,
+            export: false,
+            many: false,
+            takes_net: false,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], _: &str) -> u8 {
+        let head = unpack::head(head);
+        if xml::root_of(&head).is_none_or(|root| root != "osm") {
+            return 0;
+        }
+        // A Lanelet2 map begins alike, but no program that cuts extracts wrote it.
+        let start = String::from_utf8_lossy(head.get(..2_048).unwrap_or(&head)).to_lowercase();
+        if PROGRAMS.iter().any(|name| start.contains(name)) { 2 } else { 0 }
+    }
+
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        if options.skip > 0 || options.max_scenes == 0 {
+            return Box::new(std::iter::empty());
+        }
+        one(Self::scene(file, options))
+    }
+
+    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
+        Err(only_read(&self.info()))
+    }
+}
