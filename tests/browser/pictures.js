@@ -1,110 +1,98 @@
-// Reference pictures of the editor's main states, and their comparison.
+// Pictures of the editor's states beside the ones that were accepted.
 //
-//   npm run pictures -- DIR                    takes the pictures
-//   npm run pictures -- --compare BEFORE AFTER prints the share of pixels that differ
+//   npm run pictures                 takes them all and says which differ
+//   npm run pictures -- 03 27        those whose names begin so
+//   npm run pictures -- --accept     takes them and accepts what they show (also with names)
 //
 // The same program, scene and seed give the same pictures: the viewport is fixed, motion is reduced, every step waits
-// for a condition, and the page's stopwatch stands still, so that no measured milliseconds are in the picture.
-import { mkdirSync } from 'node:fs';
-import { carOnTheMove } from './support/casting.js';
+// for a condition, and clocks stand still, so that no measured milliseconds and no dates are in a picture. What was
+// accepted lies small in `pictures/`; the pictures of this run lie in full in `out/pictures/`.
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { STATES } from './pictures/states.js';
 import { Editor, launch } from './support/editor.js';
-import { compare } from './support/pixels.js';
+import { Pixels } from './support/pixels.js';
 import { Program } from './support/program.js';
-import { missing } from './support/where.js';
+import { missing, out } from './support/where.js';
 
-/** A corner of the picture where the pointer is over nobody and no panel. */
-const REST = [700, 120];
+const ACCEPTED = fileURLToPath(new URL('pictures', import.meta.url));
+const TAKEN = `${out}/pictures`;
+const NOW = '2026-03-02T10:42:00';
 
-/** The states in order, each going on from the one before it. */
-const STATES = [
-  ['1-opened', async (e) => e.page.mouse.move(...REST)],
-  [
-    '2-selected',
-    async (e, car) => {
-      await e.choose(car.id);
-      await e.until(() => document.querySelectorAll('.fu').length === 6);
-    },
-  ],
-  [
-    '3-dragging',
-    async (e, car) => {
-      await e.drag(flag(car, 0), flag(car, 0.15), { moves: 1 });
-      await e.settled();
-      await e.page.mouse.move(...flag(car, 0.3));
-    },
-  ],
-  [
-    '4-released',
-    async (e) => {
-      await e.release();
-      await e.page.mouse.move(...REST);
-      await e.until(() => /changed|other/.test(document.querySelector('.toast')?.textContent ?? ''));
-    },
-  ],
-  ['5-unreachable', (e) => e.type('goal-time', '2')],
-  ['6-palette', (e) => e.key('Control+k')],
-  [
-    '7-shortcuts',
-    async (e) => {
-      await e.key('Escape');
-      await e.page.evaluate(() => document.activeElement?.blur());
-      await e.key('?');
-      await e.page.waitForSelector('.dlg.keys');
-    },
-  ],
-  [
-    '8-dark-events',
-    async (e) => {
-      await e.key('Escape');
-      await e.key('Control+z');
-      await e.settled();
-      await e.letGo();
-      await e.key('Shift+d');
-      await e.key('n');
-      await e.key('e');
-      await e.settled();
-      await e.until(() => !document.querySelector('.toast'));
-    },
-  ],
-];
-
-/** The flag of a car's goal, moved by a share of the way back to the car. */
-const flag = (car, share) => [
-  car.to[0] + (car.from[0] - car.to[0]) * share + 9,
-  car.to[1] + (car.from[1] - car.to[1]) * share - 26,
-];
-
-async function take(folder) {
-  mkdirSync(folder, { recursive: true });
-  const program = await Program.start();
-  const browser = await launch();
+/** Takes one state's picture; gives back its path. */
+async function take(program, browser, [name, reach, { hide = [], after, ...page } = {}]) {
+  const e = await Editor.open(browser, program.url, {
+    reducedMotion: 'reduce',
+    colorScheme: 'light',
+    stopwatch: false,
+    now: NOW,
+    ...page,
+  });
   try {
-    const e = await Editor.open(browser, program.url, {
-      reducedMotion: 'reduce',
-      colorScheme: 'light',
-      stopwatch: false,
-    });
     await e.begin();
     await e.until(() => [...document.querySelectorAll('.scns canvas')].every((c) => c.dataset.done));
-    const car = await carOnTheMove(e);
-    for (const [name, reach] of STATES) {
-      await reach(e, car);
-      await e.settled();
-      await e.page.evaluate(() => document.fonts.ready);
-      await e.page.screenshot({ path: `${folder}/${name}.png`, animations: 'disabled' });
-      console.log(`${folder}/${name}.png`);
-    }
+    await reach(e, { program });
+    // The picture is painted apart from the page: it is there a frame later.
+    await e.frames(4);
+    await e.page.evaluate(() => document.fonts.ready);
+    const path = `${TAKEN}/${name}.png`;
+    const mask = hide.map((selector) => e.page.locator(selector));
+    await e.page.screenshot({ path, mask, animations: 'disabled' });
     if (e.errors.length) throw new Error(e.errors.join('\n'));
+    return path;
   } finally {
-    await browser.close();
-    await program.stop();
+    await e.close();
+    await after?.({ program });
   }
 }
 
-const [first, ...rest] = process.argv.slice(2);
-if (!first || (first === '--compare' && rest.length !== 2)) {
-  console.error('npm run pictures -- DIR | --compare BEFORE AFTER');
+async function run(names, accept) {
+  mkdirSync(TAKEN, { recursive: true });
+  const states = STATES.filter(([name]) => !names.length || names.some((n) => name.startsWith(n)));
+  const browser = await launch();
+  const pixels = await Pixels.open(browser);
+  let wrong = 0;
+  const say = (name, words, bad = true) => {
+    if (bad) wrong++;
+    console.log(`${name}: ${words}`);
+  };
+  try {
+    for (const state of states) {
+      const [name] = state;
+      // What one state leaves in the store is not in the next one's list of scenes.
+      const program = await Program.start();
+      try {
+        const small = await pixels.small(readFileSync(await take(program, browser, state)));
+        const known = `${ACCEPTED}/${name}.webp`;
+        const before = existsSync(known) ? readFileSync(known) : null;
+        const { share, where } = before ? await pixels.differing(before, small) : { share: 1, where: '' };
+        const alike = before && share <= Pixels.ALLOWED;
+        if (alike) say(name, 'as accepted', false);
+        else if (accept) {
+          writeFileSync(known, small);
+          say(name, before ? `accepted, ${percent(share)} differ` : 'accepted, new', false);
+        } else say(name, before ? `${percent(share)} of the pixels differ${where}` : 'nothing accepted yet');
+      } catch (error) {
+        say(name, `not reached: ${error.message.split('\n')[0]}`);
+      } finally {
+        await program.stop();
+      }
+    }
+  } finally {
+    await browser.close();
+  }
+  const seen = `${states.length} states, ${wrong} to look at in ${TAKEN}`;
+  console.log(wrong ? `${seen}; npm run pictures -- --accept takes them over` : `${states.length} states as accepted`);
+  return wrong === 0;
+}
+
+const percent = (share) => `${(share * 100).toFixed(2)} %`;
+
+const words = process.argv.slice(2);
+const names = words.filter((w) => !w.startsWith('--'));
+const unknown = words.filter((w) => w.startsWith('--') && w !== '--accept');
+if (unknown.length) {
+  console.error('npm run pictures -- [--accept] [NAME …]');
   process.exit(2);
 }
-if (first === '--compare') process.exitCode = (await compare(...rest)) ? 0 : 1;
-else if (!missing()) await take(first);
+if (!missing()) process.exitCode = (await run(names, words.includes('--accept'))) ? 0 : 1;

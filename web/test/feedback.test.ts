@@ -8,11 +8,13 @@ import {
   hasNews,
   judge,
   nextRound,
+  oneSubject,
   presentRound,
   printOf,
   readFeedback,
   type Asked,
   type Judged,
+  type Subject,
   type Verdict,
 } from '../src/model/feedback';
 import { feedbackTable } from '../src/model/feedback-table';
@@ -21,7 +23,7 @@ import { patchScene, takeDealt, type Command } from '../src/model/commands';
 import { applyDiff, diffOf } from '../src/model/scene-diff';
 import type { FeaturesJson, LearnedWishJson, SceneJson } from '../src/model/json';
 import { readScene } from '../src/model/read';
-import { sceneKey, type Agent, type Scene } from '../src/model/scene';
+import { sceneKey, type Scene } from '../src/model/scene';
 import { writeScene } from '../src/model/write';
 import { car, crossing, crossingJson } from './helpers';
 
@@ -42,8 +44,8 @@ const card = (id: string, n: number, features = like(n)): Judged => ({
 
 const asked = (s: Scene): Asked => presentRound(car(s).feedback, printOf(s));
 const say = (s: Scene, n: number, verdict: Verdict | null): Scene =>
-  judge(car(s), asked(s), card(car(s).id, n), verdict).apply(s);
-const step = (s: Scene, make: (a: Agent, r: Asked) => Command): Scene => make(car(s), asked(s)).apply(s);
+  judge(oneSubject(car(s)), asked(s), card(car(s).id, n), verdict).apply(s);
+const step = (s: Scene, make: (a: Subject, r: Asked) => Command): Scene => make(oneSubject(car(s)), asked(s)).apply(s);
 const verdicts = (s: Scene) => car(s).feedback?.answers.map((a) => `${a.round}${a.letter} ${a.verdict}`) ?? [];
 
 describe('what was said of futures', () => {
@@ -59,18 +61,18 @@ describe('what was said of futures', () => {
   it('has an inverse for every command', () => {
     let s = crossing();
     const wish = { trait: 'pace', wants: 'less' } as const;
-    const all: ((a: Agent, r: Asked) => Command)[] = [
-      (a, r) => judge(a, r, card(a.id, 0), 'keep'),
-      (a, r) => judge(a, r, card(a.id, 1), 'reject', { trait: 'harshness', wants: 'less' }),
+    const all: ((a: Subject, r: Asked) => Command)[] = [
+      (a, r) => judge(a, r, card(a.id!, 0), 'keep'),
+      (a, r) => judge(a, r, card(a.id!, 1), 'reject', { trait: 'harshness', wants: 'less' }),
       (a, r) => addWish(a, r, wish, 'Slower'),
       nextRound,
-      (a, r) => judge(a, r, card(a.id, 0), 'reject'),
-      (a, r) => judge(a, r, card(a.id, 0), null),
+      (a, r) => judge(a, r, card(a.id!, 0), 'reject'),
+      (a, r) => judge(a, r, card(a.id!, 0), null),
       (a, r) => forget(a, r, [wish], 'Slower'),
       nextRound,
     ];
     for (const make of all) {
-      const command = make(car(s), asked(s));
+      const command = make(oneSubject(car(s)), asked(s));
       const next = command.apply(s);
       const back = command.invert(s).apply(next);
       expect(car(back).feedback, command.name).toEqual(car(s).feedback);
@@ -195,7 +197,7 @@ describe('words of rounds', () => {
     let s = crossing();
     const { id } = car(s);
     const goes = (first: boolean, n: number, verdict: Verdict) =>
-      judge(car(s), asked(s), card(id, n, like(1, { first: { [id]: { 12: first } } })), verdict).apply(s);
+      judge(oneSubject(car(s)), asked(s), card(id, n, like(1, { first: { [id]: { 12: first } } })), verdict).apply(s);
     s = goes(false, 0, 'keep');
     s = goes(true, 1, 'keep');
     s = goes(true, 2, 'reject');
@@ -223,7 +225,7 @@ describe('words of rounds', () => {
     let s = crossing();
     const { id } = car(s);
     const odd = { ...card(id, 0, like(1.5, { first: { [id]: { 12: true } } })), name: '=1+1, "so"' };
-    s = judge(car(s), asked(s), odd, 'reject', { trait: 'harshness', wants: 'less' }).apply(s);
+    s = judge(oneSubject(car(s)), asked(s), odd, 'reject', { trait: 'harshness', wants: 'less' }).apply(s);
     s = say(s, 3, 'keep');
     const lines = feedbackTable(id, car(s).feedback!, nameOf).trimEnd().split('\r\n');
     expect(lines[0]).toBe(

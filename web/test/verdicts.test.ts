@@ -1,7 +1,7 @@
 // What is said of futures: marks, words, names, letters, places on the picture, events.
 import { describe, expect, it } from 'vitest';
 import type { FaultJson, ModeJson, RelationJson } from '../src/model/json';
-import { markOf, readAbout } from '../src/model/about';
+import { FAULT_KINDS, markOf, readAbout } from '../src/model/about';
 import { counted, eventsOf, readEvents, summary } from '../src/model/events';
 import { faultPlaces } from '../src/model/fault-places';
 import {
@@ -15,7 +15,8 @@ import {
 } from '../src/model/futures';
 import type { Naming } from '../src/model/names';
 import { readGenerated, readScene } from '../src/model/read';
-import { withMeetingsOf } from '../src/model/rejudge';
+import { metAnew, withMeetingsOf } from '../src/model/rejudge';
+import { heldStill } from '../src/model/motion';
 import { nameIn, startPose, withAgents } from '../src/model/scene';
 import { headline, placeWord, whyAnother, whyNot, type Walker } from '../src/model/verdict-words';
 import { generatedJson, writeScene } from '../src/model/write';
@@ -94,6 +95,17 @@ describe('verdicts', () => {
       'wrong way',
       'red light',
     ]);
+  });
+
+  it('are never good in the headline while something is wrong with the one shown', () => {
+    for (const kind of FAULT_KINDS)
+      for (const goal of [true, false]) {
+        const bad = mode({ faults: [fault(kind, { with: '2', extent: 3 })] });
+        const said = headline(futures([mode({ manoeuvre: 'straight' }), bad]), 1, goal, who)!;
+        expect(said.mark, kind).not.toBe('ok');
+        expect(said.title, kind).not.toMatch(/^Reached in|^Reached$/);
+        expect(said.at, kind).toBe(3.2);
+      }
   });
 
   it('are summed up by the worst of the one shown, and by who does what', () => {
@@ -412,6 +424,24 @@ describe('events', () => {
     const passed = withMeetingsOf({ ...score, nearMisses: near }, '1', spared);
     expect(passed.about!.faults.map((f) => f.kind)).toEqual(['over_median', 'near_miss']);
     expect(withMeetingsOf({ ...score, nearMisses: log }, '1', spared)).toBe(spared);
+  });
+
+  it('of futures that stay as they are are judged anew when somebody else comes into their way', () => {
+    const own = car(scene);
+    const f = futures([mode({ manoeuvre: 'straight' }), mode({ manoeuvre: 'straight', stopAt: 2 })]);
+    expect(headline(f, 0, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in all two' });
+    const standing = (x: number) => heldStill({ ...start, x: start.x + x, speed: 0 }, 91);
+    const there = (x: number) => [{ agent: scene.agents.get('2')!, motion: standing(x) }];
+    const met = metAnew(own, f, there(40));
+    expect(met.modes.map((m) => m.about!.faults.map((x) => [x.kind, x.with]))).toEqual([[['collision', '2']], []]);
+    expect(met.modes[0].sent!.faults).toHaveLength(1);
+    expect(met.modes[1]).toBe(f.modes[1]);
+    expect(headline(met, 0, true, who)!.title).toMatch(/^Reached, hits Car 2 at 3\.\d s$/);
+    expect(headline(met, 1, true, who)).toMatchObject({ mark: 'ok', title: 'Reached in B', words: 'A hits Car 2.' });
+    // Gone again, nothing is left of it; one that did not change is not looked at; nobody meets itself.
+    expect(metAnew(own, met, there(400)).modes[0].about!.faults).toEqual([]);
+    expect(metAnew(own, met, [])).toBe(met);
+    expect(metAnew(own, f, [{ agent: own, motion: f.modes[0].motion }])).toBe(f);
   });
 
   it('of the log are marked and not counted', () => {

@@ -1,41 +1,58 @@
-// Compares two folders of pictures. The browser decodes them, so nothing else is needed.
-import { existsSync, readFileSync, readdirSync } from 'node:fs';
-import { launch } from './editor.js';
+// Pictures made small and laid beside each other. The browser decodes and encodes, so nothing else is needed.
 
-/** Colours nearer than this, summed over red, green and blue, are the same: anti-aliasing may differ by a shade. */
-const SAME_COLOUR = 24;
-/** Share of differing pixels above which two pictures are called different. */
-const ALLOWED = 0.001;
+/** What is kept of a picture is so much smaller, and so well encoded. */
+const SCALE = 0.5;
+const QUALITY = 0.8;
+/** Colours nearer than this, summed over red, green and blue, are the same: what is kept small has lost as much. */
+const SAME_COLOUR = 72;
 
-/** Prints one line a picture; true when all are alike. */
-export async function compare(before, after) {
-  const browser = await launch();
-  const page = await browser.newPage();
-  let alike = true;
-  try {
-    for (const name of readdirSync(before).filter((n) => n.endsWith('.png'))) {
-      if (!existsSync(`${after}/${name}`)) {
-        console.log(`${name}: missing in ${after}`);
-        alike = false;
-        continue;
-      }
-      const [a, b] = [before, after].map((folder) => readFileSync(`${folder}/${name}`).toString('base64'));
-      const { share, box } = await page.evaluate(differing, [a, b, SAME_COLOUR]);
-      const where = box ? ` within x ${box[0]} to ${box[2]}, y ${box[1]} to ${box[3]}` : '';
-      console.log(`${name}: ${(share * 100).toFixed(4)} % of the pixels differ${where}`);
-      alike &&= share <= ALLOWED;
-    }
-  } finally {
-    await browser.close();
+export class Pixels {
+  /** Share of differing pixels above which two pictures are called different. */
+  static ALLOWED = 0.003;
+  #page;
+
+  static async open(browser) {
+    const p = new Pixels();
+    p.#page = await browser.newPage();
+    return p;
   }
-  return alike;
+
+  /** A small WebP of a picture. */
+  async small(png) {
+    const base64 = await this.#page.evaluate(shrink, [png.toString('base64'), SCALE, QUALITY]);
+    return Buffer.from(base64, 'base64');
+  }
+
+  /** The share of differing pixels, and where they lie in words. */
+  async differing(a, b) {
+    const [p, q] = [a, b].map((bytes) => bytes.toString('base64'));
+    const { share, box } = await this.#page.evaluate(differing, [p, q, SAME_COLOUR]);
+    const [x0, y0, x1, y1] = (box ?? []).map((v) => Math.round(v / SCALE));
+    return { share, where: box ? ` within x ${x0} to ${x1}, y ${y0} to ${y1}` : '' };
+  }
 }
 
-/** Runs in the page: share of differing pixels of two PNGs, and the rectangle they lie in. */
+/** Runs in the page. */
+async function shrink([base64, scale, quality]) {
+  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const bitmap = await createImageBitmap(new Blob([bytes]));
+  const [w, h] = [Math.round(bitmap.width * scale), Math.round(bitmap.height * scale)];
+  const canvas = new OffscreenCanvas(w, h);
+  const g = canvas.getContext('2d');
+  g.imageSmoothingQuality = 'high';
+  g.drawImage(bitmap, 0, 0, w, h);
+  const blob = await canvas.convertToBlob({ type: 'image/webp', quality });
+  const small = new Uint8Array(await blob.arrayBuffer());
+  let text = '';
+  for (const byte of small) text += String.fromCharCode(byte);
+  return btoa(text);
+}
+
+/** Runs in the page: share of differing pixels of two pictures, and the rectangle they lie in. */
 async function differing([a, b, same]) {
   const read = async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const bitmap = await createImageBitmap(new Blob([bytes]));
     const g = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
     g.drawImage(bitmap, 0, 0);
     return g.getImageData(0, 0, bitmap.width, bitmap.height);

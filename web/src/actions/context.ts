@@ -15,6 +15,7 @@ import type { Picture } from '../edit/picture';
 import type { Rounds } from '../edit/rounds/rounds';
 import type { Playback } from '../edit/playback';
 import type { Sharing } from '../edit/sharing';
+import type { Trial } from '../edit/trial';
 import type { Variants } from '../edit/variants/variants';
 import type { Stage } from '../draw/stage';
 import type { Client } from '../net/client';
@@ -41,6 +42,7 @@ export interface Context {
   readonly filler: Filler;
   readonly variants: Variants;
   readonly rounds: Rounds;
+  readonly trial: Trial;
   readonly ui: Ui;
   readonly form: Form;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */

@@ -2,8 +2,9 @@
 import { boxOf } from '../model/geometry';
 import { nearestLanes } from '../model/lanemap';
 import { canChange, startPose, type Agent } from '../model/scene';
+import { knowsLimits } from '../draw/ground';
 import { TOOLS } from '../edit/gestures/tools';
-import type { Layers } from '../edit/editor';
+import type { LayerName } from '../edit/layers';
 import { lanesFor } from '../edit/snap';
 import { hasAgent, hasScene, hasSome, inGroup, type Action } from './action';
 import { selectedWords } from './edit';
@@ -125,12 +126,18 @@ function zoomToSelection(c: Context): void {
   c.stage.glide.by((v) => v.fit(grown, CLOSEST));
 }
 
-const layer = (name: keyof Layers, label: string, key: string, help: string): Omit<Action, 'group'> => ({
+const layer = (
+  name: LayerName,
+  label: string,
+  key: string,
+  help: string,
+  when: Action['when'] = hasScene,
+): Omit<Action, 'group'> => ({
   id: `layer-${name}`,
   label,
   keys: [key],
   help,
-  when: hasScene,
+  when,
   checked: (c) => c.editor.layers.value[name],
   run: (c) => c.editor.toggleLayer(name),
 });
@@ -269,4 +276,11 @@ export const look = inGroup('Select and look', [
   layer('log', 'Log', 'O', 'What was recorded, dashed'),
   layer('lanes', 'Lanes', 'Shift+W', 'Centre lines of the lanes'),
   layer('labels', 'Labels', 'Shift+L', 'Names of the road users'),
+  layer('signals', 'Signals', 'Shift+S', 'Lights at the stop lines, as they are at the playhead'),
+  layer('limits', 'Speed limits', 'Shift+M', 'What the map allows on its lanes', (c) => {
+    const scene = c.editor.scene.value;
+    return !scene || knowsLimits(scene.map) ? hasScene(c) : 'This map knows no speed limits.';
+  }),
+  layer('reach', 'Reach', 'Shift+H', 'Where the selected road user can be at the goal time, along the lanes'),
+  layer('conflicts', 'Conflict zones', 'Shift+C', 'Where ways cross within 3 s of each other; the darker, the closer'),
 ]);

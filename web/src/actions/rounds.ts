@@ -1,5 +1,6 @@
-// Rounds: futures of one road user are kept or rejected, and drawn anew by that.
+// Rounds: futures of one road user, or ways the whole scene could go, are kept or rejected, and drawn anew by that.
 import { LETTERS } from '../model/futures';
+import { canChange } from '../model/scene';
 import { saveFeedback } from '../edit/rounds/save';
 import { hasFree, inGroup, type Action } from './action';
 import type { Context } from './context';
@@ -7,6 +8,25 @@ import type { Context } from './context';
 const isOpen = (c: Context): boolean => c.rounds.isOpen.value;
 const hasCards = (c: Context): true | string =>
   !isOpen(c) ? 'Open rounds first.' : c.editor.deck.hand.value ? true : 'No cards yet.';
+
+/** At least two can do something: else the scene is that one road user. */
+const hasSeveral = (c: Context): true | string => {
+  const n = [...(c.editor.scene.value?.agents.values() ?? [])].filter(canChange).length;
+  return n > 1 ? true : 'There are no two road users here that could do something else.';
+};
+
+/** One is selected, or there are several to do it all. */
+const hasSubject = (c: Context): true | string => {
+  const one = hasFree(c);
+  return one === true || c.editor.selected.value.length ? one : hasSeveral(c);
+};
+
+function open(c: Context, one: boolean): void {
+  c.variants.endCompare();
+  c.ui.showEvents(false);
+  if (one) c.rounds.open();
+  else c.rounds.openScene();
+}
 
 const onCard = (run: (c: Context, index: number) => void): Pick<Action, 'onOffer' | 'when' | 'run'> => ({
   onOffer: isOpen,
@@ -28,15 +48,31 @@ export const rounds = inGroup('Rounds', [
     label: 'Rounds',
     keys: ['Shift+K'],
     icon: 'star',
-    help: 'Keep and reject futures of one road user; the next ones follow what you like',
-    when: hasFree,
+    help: 'Keep and reject futures of one road user, or of the whole scene; the next ones follow what you like',
+    when: hasSubject,
     checked: isOpen,
     run: (c) => {
-      if (isOpen(c)) return c.rounds.close();
-      c.variants.endCompare();
-      c.ui.showEvents(false);
-      c.rounds.open();
+      if (isOpen(c)) c.rounds.close();
+      else open(c, hasFree(c) === true);
     },
+  },
+  {
+    id: 'rounds-one',
+    label: 'Rounds of this road user',
+    help: 'Its own futures; nobody answers them',
+    when: hasFree,
+    checked: (c) => typeof c.editor.deck.of.value?.id === 'string',
+    run: (c) => open(c, true),
+  },
+  {
+    id: 'rounds-scene',
+    label: 'Rounds of the whole scene',
+    keys: ['Alt+K'],
+    icon: 'layers',
+    help: 'Each card is what everybody does together',
+    when: hasSeveral,
+    checked: (c) => c.editor.deck.of.value?.id === null,
+    run: (c) => open(c, false),
   },
   {
     id: 'round-keep',
@@ -74,7 +110,7 @@ export const rounds = inGroup('Rounds', [
     label: 'Next round',
     keys: ['Enter'],
     icon: 'next',
-    help: 'Six more, by what was said',
+    help: 'More, by what was said',
     onOffer: isOpen,
     when: (c) => {
       const can = hasCards(c);
@@ -86,7 +122,7 @@ export const rounds = inGroup('Rounds', [
     id: 'round-take',
     label: 'Take this card',
     icon: 'flag',
-    help: 'The road user does it from now on, and the others answer',
+    help: 'It is what happens from now on; others answer a card of one road user',
     when: hasCards,
     run: (c) => c.rounds.take(c.editor.deck.current.value),
   },
@@ -109,7 +145,8 @@ export const rounds = inGroup('Rounds', [
     run: (c) => {
       const kept = c.rounds.kept();
       c.rounds.close();
-      if (kept) void c.variants.keepDealt(kept);
+      if (kept && 'futures' in kept) void c.variants.keepDealt(kept);
+      else if (kept) c.variants.keepTakes(kept);
     },
   },
   {
@@ -117,7 +154,10 @@ export const rounds = inGroup('Rounds', [
     label: 'Save as table',
     icon: 'table',
     help: 'What was said of each card and what it is like, as CSV',
-    when: (c) => (c.editor.agent.value?.feedback?.answers.length ? true : 'Nothing was kept or rejected yet.'),
+    when: (c) => {
+      const of = c.rounds.subject.value ?? c.editor.agent.value;
+      return of?.feedback?.answers.length ? true : 'Nothing was kept or rejected yet.';
+    },
     run: (c) => saveFeedback(c.editor),
   },
 ]);

@@ -26,6 +26,7 @@ import { SceneList } from '../edit/scene-list';
 import { Sharing } from '../edit/sharing';
 import { Questions } from '../edit/question';
 import { Rounds } from '../edit/rounds/rounds';
+import { Trial } from '../edit/trial';
 import { Maker } from '../edit/variants/making';
 import { Variants } from '../edit/variants/variants';
 import { Stage } from '../draw/stage';
@@ -87,6 +88,7 @@ function makeParts(): Context {
   const variants = new Variants(editor, maker, () => line.cancel());
   file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
   const rounds = new Rounds(editor, new Questions(editor, file), new HttpGenerator(client));
+  const trial = new Trial(editor, new Questions(editor, file), new HttpGenerator(client));
   const copying = new Copying(editor);
   const filler = new Filler(editor, file, client);
   const parts = {
@@ -95,6 +97,7 @@ function makeParts(): Context {
     filler,
     variants,
     rounds,
+    trial,
     generation,
     scenes,
     library,
@@ -131,7 +134,7 @@ function makeParts(): Context {
 
 /** What one part does when another changes. */
 function connect(c: Context): void {
-  const { editor, form, gestures, generation, library, playback, sharing, stage, ui, variants } = c;
+  const { editor, form, gestures, generation, library, playback, sharing, stage, trial, ui, variants } = c;
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   followView(stage);
   lookWhereItWas(c);
@@ -146,7 +149,11 @@ function connect(c: Context): void {
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
     const asked =
-      generation.busy.value || editor.filling.asking.value || variants.busy.value || editor.deck.asking.value;
+      generation.busy.value ||
+      editor.filling.asking.value ||
+      variants.busy.value ||
+      editor.deck.asking.value ||
+      trial.asking.value;
     const busy = asked || editor.status.value.kind === 'loading' || gliding.value;
     stage.element.setAttribute('aria-busy', String(busy));
   });

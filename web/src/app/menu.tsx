@@ -1,9 +1,12 @@
-// The menus of the top bar: lists of actions.
-import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
+// The menus behind buttons: lists of actions.
 import { useComputed } from '@preact/signals';
+import { LAYER_NAMES } from '../edit/layers';
 import { useApp } from './parts/app-context';
 import { ActionButton } from './parts/buttons';
 import { Icon } from './parts/icons';
+import { MenuList } from './parts/menu-list';
+
+const LAYER_ACTIONS = LAYER_NAMES.map((l) => `layer-${l}`);
 
 /** Ids of actions; null draws a line. */
 const MENUS: Record<string, readonly (string | null)[]> = {
@@ -39,15 +42,13 @@ const MENUS: Record<string, readonly (string | null)[]> = {
     'history',
     'export',
     null,
-    'layer-futures',
-    'layer-log',
-    'layer-lanes',
-    'layer-labels',
+    ...LAYER_ACTIONS,
     'fit',
     null,
     'palette',
     'theme',
   ],
+  layers: LAYER_ACTIONS,
 };
 
 /** Opens its menu, or closes it when it is open. */
@@ -87,31 +88,19 @@ function placeUnder(name: string): Record<string, string> {
   return { top, left: `${left}px` };
 }
 
-export function Menu({ name }: { name: string }) {
-  const { ui } = useApp();
-  const box = useRef<HTMLDivElement>(null);
-  const items = () => [...box.current!.querySelectorAll<HTMLElement>('button')];
+/** Menus that one sets several things in. */
+const STAY = ['layers'];
 
-  useLayoutEffect(() => items()[0]?.focus({ preventScroll: true }), []);
-  useEffect(() => {
-    const away = (e: Event) => {
-      const at = e.target as Element;
-      if (!box.current?.contains(at) && !at.closest?.('[data-menu]')) ui.closeMenu();
-    };
-    addEventListener('pointerdown', away, true);
-    return () => removeEventListener('pointerdown', away, true);
-  }, [ui]);
+/** The one that is open, if it is one of these. */
+export function OpenMenu() {
+  const name = useApp().ui.menu.value;
+  return name !== null && name in MENUS ? <Menu key={name} name={name} /> : null;
+}
 
-  const step = (e: KeyboardEvent) => {
-    if (e.key !== 'ArrowDown' && e.key !== 'ArrowUp') return;
-    e.preventDefault();
-    const all = items();
-    const at = all.indexOf(document.activeElement as HTMLElement);
-    all[(at + (e.key === 'ArrowDown' ? 1 : -1) + all.length) % all.length]?.focus();
-  };
+function Menu({ name }: { name: string }) {
   return (
-    <div ref={box} class="menu" role="menu" style={placeUnder(name)} onClick={() => ui.closeMenu()} onKeyDown={step}>
+    <MenuList style={placeUnder(name)} stays={STAY.includes(name)}>
       {MENUS[name].map((id, i) => (id === null ? <hr key={i} /> : <ActionButton key={id} id={id} withKey />))}
-    </div>
+    </MenuList>
   );
 }

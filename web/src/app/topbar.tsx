@@ -4,7 +4,7 @@ import { useComputed } from '@preact/signals';
 import { rename } from '../model/commands';
 import { isRecorded } from '../model/scene';
 import type { SaveState } from '../edit/saving';
-import { Menu, MenuButton } from './menu';
+import { MenuButton, OpenMenu } from './menu';
 import { useApp } from './parts/app-context';
 import { Controls } from './parts/asking';
 import { ActionButton, IconButton } from './parts/buttons';
@@ -20,7 +20,7 @@ const SAVED: Record<SaveState, string> = {
 };
 
 export function TopBar() {
-  const { editor, form, ui } = useApp();
+  const { editor, form } = useApp();
   const open = useComputed(() => editor.scene.value !== null).value;
   if (form.small.value) return <SmallBar open={open} />;
   return (
@@ -51,14 +51,13 @@ export function TopBar() {
       ) : null}
       <IconButton id="theme" />
       <IconButton id="shortcuts" />
-      {ui.menu.value === 'file' ? <Menu key={ui.menu.value} name={ui.menu.value} /> : null}
+      <OpenMenu />
     </header>
   );
 }
 
 /** Undo, share and the menus; everything else stands in these. */
 function SmallBar({ open }: { open: boolean }) {
-  const { ui } = useApp();
   return (
     <header class="top" data-group="top">
       <MenuButton name="file" icon="menu" label="File and settings" />
@@ -71,7 +70,7 @@ function SmallBar({ open }: { open: boolean }) {
         </>
       ) : null}
       <MenuButton name="more" icon="more" label="More" />
-      {ui.menu.value === 'file' || ui.menu.value === 'more' ? <Menu key={ui.menu.value} name={ui.menu.value} /> : null}
+      <OpenMenu />
     </header>
   );
 }

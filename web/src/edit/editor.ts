@@ -15,6 +15,7 @@ import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import { Filling } from './filling';
 import type { ToolName } from './gestures/tools';
+import { Layers, type LayerName } from './layers';
 import { Notices } from './notices';
 import { Placement } from './placement';
 import { SpeedCurve } from './speed-curve';
@@ -28,13 +29,6 @@ export interface Grip {
   readonly part: Part;
   readonly handle: HandleName;
 }
-export interface Layers {
-  readonly futures: boolean;
-  readonly log: boolean;
-  readonly lanes: boolean;
-  readonly labels: boolean;
-}
-
 /** What the pointer is over: one of the three, or nothing. */
 export interface Pointed {
   readonly agent?: string | null;
@@ -108,6 +102,7 @@ export class Editor {
   /** Speeds drawn by hand. */
   readonly curve: SpeedCurve = new SpeedCurve(this);
   readonly deck = new Deck();
+  readonly #layers = new Layers();
 
   readonly #scene = signal<Scene | null>(null);
   readonly #selected = signal<readonly string[]>(NOBODY);
@@ -116,7 +111,6 @@ export class Editor {
   readonly #hoverGrip = signal<Grip | null>(null);
   readonly #focusPart = signal<Part>('start');
   readonly #lastField = signal<{ part: Part; field: Field }>({ part: 'goal', field: 'speed' });
-  readonly #layers = signal<Layers>({ futures: true, log: false, lanes: false, labels: false });
   readonly #tool = signal<ToolName>('select');
   readonly #measure = signal<MeasuredLine | null>(null);
   readonly #sweep = signal<Sweep | null>(null);
@@ -147,7 +141,6 @@ export class Editor {
   /** The part that keys move. */
   readonly focusPart: ReadonlySignal<Part> = this.#focusPart;
   readonly lastField: ReadonlySignal<{ part: Part; field: Field }> = this.#lastField;
-  readonly layers: ReadonlySignal<Layers> = this.#layers;
   readonly tool: ReadonlySignal<ToolName> = this.#tool;
   /** Ends of the measuring line, in metres. */
   readonly measure: ReadonlySignal<MeasuredLine | null> = this.#measure;
@@ -177,6 +170,7 @@ export class Editor {
   readonly status = this.answers.status;
   readonly away = this.answers.away;
   readonly time = this.playhead.time;
+  readonly layers = this.#layers.shown;
   readonly playing = this.playhead.playing;
 
   /** Called after a document change has been committed; the generator and the saving hang on here. */
@@ -194,8 +188,8 @@ export class Editor {
   readonly futures = computed<Futures | null>(() => {
     const id = this.selection.value;
     if (!id) return null;
-    const cards = this.deck.hand.value;
-    if (cards?.id === id) return cards.futures;
+    const cards = this.deck.ofAgent(id);
+    if (cards) return cards.futures;
     const d = this.draft.value;
     return d && d.id === id ? d.futures : (this.motion.value.futures.get(id) ?? null);
   });
@@ -212,7 +206,7 @@ export class Editor {
     const f = this.futures.value;
     const a = this.agent.value;
     if (!f || !a) return 0;
-    if (this.deck.hand.value?.id === a.id) return this.deck.current.value;
+    if (this.deck.ofAgent(a.id)) return this.deck.current.value;
     return Math.min(f.modes.length - 1, a.chosen ?? f.chosen);
   });
   /** Changes only when a drag begins or ends. */
@@ -484,8 +478,8 @@ export class Editor {
     this.#lastField.value = { part, field };
   }
 
-  toggleLayer(name: keyof Layers): void {
-    this.#layers.value = { ...this.#layers.peek(), [name]: !this.#layers.peek()[name] };
+  toggleLayer(name: LayerName): void {
+    this.#layers.toggle(name);
   }
 
   toggleBefore(): void {
@@ -536,16 +530,16 @@ export class Editor {
 
   /** The motion of a road user: what it does now, or the card of it that is looked at. */
   motionFor(a: Agent): ReturnType<typeof motionOf> {
-    const cards = this.deck.hand.value;
-    if (cards?.id === a.id) return cards.futures.modes[this.deck.current.value].motion;
-    return motionOf(this.scene.value!, this.motion.value, a);
+    const cards = this.deck.ofAgent(a.id);
+    if (cards) return cards.futures.modes[this.deck.current.value].motion;
+    return motionOf(this.scene.value!, this.deck.shownSet() ?? this.motion.value, a);
   }
 
   /** Where the goal of a road user stands on screen: fixed fields as set, free ones as the generator chose. */
   goalPose(a: Agent): (Pose & { set: boolean }) | null {
     const g = a.goal;
     const d = this.draft.value;
-    const cards = this.deck.hand.value?.id === a.id ? this.deck.hand.value.futures : null;
+    const cards = this.deck.ofAgent(a.id)?.futures ?? null;
     const f = cards ?? (d?.id === a.id ? d.futures : this.motion.value.futures.get(a.id));
     const index = cards ? this.deck.current.value : f ? Math.min(f.modes.length - 1, a.chosen ?? f.chosen) : -1;
     const m = f && index >= 0 ? f.modes[index].motion : null;

@@ -36,12 +36,16 @@ function collides(e: Editor): boolean {
   return !!about && markOf(about) === 'collision';
 }
 
+/** Whom the shown future stands to first: who is in the way, where the verdict on the goal does not say. */
+const waitsFor = (e: Editor): string | null =>
+  verdictsHold(e) ? (e.futures.value?.modes[e.chosen.value]?.about?.relations[0]?.with ?? null) : null;
+
 /** Null when the goal can be reached, as far as anybody knows. */
 export function outOfReach(e: Editor, a: Agent): OutOfReach | null {
   const known = knownReach(e, a);
   if (known) {
     if (known.status !== 'unreachable') return null;
-    const words = reachWords(known, a.goal, nameIn(e.scene.value!));
+    const words = reachWords({ ...known, with: known.with ?? waitsFor(e) }, a.goal, nameIn(e.scene.value!));
     return { ...words, nearest: known.nearest, outranked: isBlocked(known) && collides(e) };
   }
   const local = e.localReach.value;

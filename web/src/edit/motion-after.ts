@@ -1,11 +1,12 @@
 // What everybody does once an answer is there: what was known before, and what the answer says in its place.
+import { motionOf } from '../model/changes';
 import { DEFAULTS } from '../model/domain';
 import type { AgentFuturesJson, ReactionJson } from '../model/json';
 import { readFutures, withNames, type Futures, type KeepOrder, type MotionSet } from '../model/futures';
 import { motionFrom } from '../model/motion';
 import type { Naming } from '../model/names';
 import { firstPose } from '../model/read';
-import { withMeetingsOf } from '../model/rejudge';
+import { metAnew, withMeetingsOf, type Changed } from '../model/rejudge';
 import { doing, nameIn, sceneKey, touched, touchedIn, type Agent, type Scene } from '../model/scene';
 import type { FinalEvent } from '../net/types';
 import type { Wanted } from './question';
@@ -28,6 +29,15 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
   const known = new Map([...[...before.futures].filter(([id]) => stillTrue(id)), ...answers]);
   const futures = new Map(withCurves(scene, known));
   const score = readScore(e.scores?.[0]);
+  const drives = (id: string) => {
+    const a = scene.agents.get(id);
+    return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
+  };
+  const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
+  for (const id of mine) if (futures.has(id)) driving.add(id);
+  // What they were judged against has changed with those that are answered.
+  const changed = changedSince(before, { ...before, futures, driving }, scene);
+  for (const [id, f] of futures) if (!answers.has(id)) futures.set(id, metAnew(scene.agents.get(id)!, f, changed));
   // Those that go on as they did may meet others than before.
   for (const id of score ? mine : []) {
     const f = answers.has(id) ? undefined : futures.get(id);
@@ -37,12 +47,6 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
     if (modes[shown] !== f.modes[shown]) futures.set(id, { ...f, modes });
   }
   const judged = score ? judgedCurves(scene, futures, score) : futures;
-  const drives = (id: string) => {
-    const a = scene.agents.get(id);
-    return a !== undefined && (w.agents === 'all' || touched(a) || doing(scene, a) === 'react');
-  };
-  const driving = new Set([...before.driving, ...answers.keys()].filter(drives));
-  for (const id of mine) if (judged.has(id)) driving.add(id);
   const reach = new Map(before.reach);
   for (const [id, resolved] of Object.entries(e.resolved)) {
     const verdict = readReach(resolved);
@@ -60,6 +64,14 @@ export function motionAfter(before: MotionSet, scene: Scene, e: FinalEvent, w: W
     reactions: reactionsAfter(before, e),
     warnings: readWarnings(e),
   };
+}
+
+/** Everybody who does something else. */
+function changedSince(before: MotionSet, now: MotionSet, scene: Scene): Changed[] {
+  return [...scene.agents.values()].flatMap((agent) => {
+    const motion = motionOf(scene, now, agent);
+    return motion === motionOf(scene, before, agent) ? [] : [{ agent, motion }];
+  });
 }
 
 export function futuresOf(before: MotionSet, scene: Scene, e: FinalEvent, keep: Keep): Map<string, Futures> {

@@ -1,11 +1,12 @@
 // The goal of the selected road user on the overlay: flag, handles, how far it can get, and labels of a drag.
 import type { Pen } from '../draw/pen';
 import type { Pose } from '../model/geometry';
-import { shortfall } from '../model/reach';
-import { startPose, type Agent } from '../model/scene';
+import { reachableWays, reachBetween, shortfall } from '../model/reach';
+import { canChange, startPose, type Agent } from '../model/scene';
 import { metres, seconds, speedLabel } from '../model/units';
 import { pill, tag, type Labels } from '../draw/labels';
 import { paintFlag, paintGhost, paintHandles, paintString } from '../draw/handles';
+import { paintRing, paintWays } from '../draw/ground';
 import { polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
@@ -42,6 +43,16 @@ export class GoalOverlay {
         ];
       polyline(g, v, [at(-half), at(half)], colours().goal, 3, 1, [], 'round');
     }
+  }
+
+  /** Where it can be at the goal time, whatever its goal is. */
+  paintAllReach(g: Pen, v: View, a: Agent): void {
+    const { map } = this.editor.scene.value!;
+    const start = startPose(a);
+    if (!start || !canChange(a)) return;
+    const t = a.goal.time;
+    if (a.type === 'pedestrian') paintRing(g, v, [start.x, start.y], ...reachBetween(a, start, t));
+    else paintWays(g, v, reachableWays(map, a, start, t));
   }
 
   /** How far it gets, and what lies beyond. */

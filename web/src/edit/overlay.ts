@@ -14,11 +14,12 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { outOfReach, verdictsHold } from './goal-verdict';
-import { paintBeside } from './overlay-beside';
+import { paintBeside, paintTried } from './overlay-beside';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
+import { HoveredOverlay } from './overlay-hovered';
 import { paintStops } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
@@ -40,6 +41,7 @@ export class Overlay {
   private readonly events: EventsOverlay;
   private readonly ghosts: GhostOverlay;
   private readonly several: SeveralOverlay;
+  private readonly hovered: HoveredOverlay;
 
   constructor(
     private readonly editor: Editor,
@@ -53,6 +55,7 @@ export class Overlay {
     this.changes = new ChangesOverlay(editor, this.labels, poseNow);
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
     this.several = new SeveralOverlay(editor, this.labels, poseNow);
+    this.hovered = new HoveredOverlay(editor);
   }
 
   /** Where the time tag was painted, for the pointer. */
@@ -65,9 +68,9 @@ export class Overlay {
     return this.verdicts.roadSign;
   }
 
-  /** Is something still fading? It is to be painted again then. */
-  get fading(): boolean {
-    return this.ghosts.fading;
+  /** Does something fade or run? It is to be painted again then. */
+  get moving(): boolean {
+    return this.ghosts.fading || this.hovered.running;
   }
 
   paint(g: Pen, v: View): void {
@@ -92,10 +95,15 @@ export class Overlay {
     }
     this.paintHover(g, v);
     const a = e.agent.value;
-    if (e.beside.value) paintBeside(g, v, e.beside.value, e.time.value);
-    if (e.showBefore.value && !e.beside.value) this.changes.paintBefore(g, v);
+    const beside = e.beside.value;
+    if (beside) {
+      paintBeside(g, v, beside, e.time.value);
+      paintTried(g, v, this.labels, beside, scene, (of) => e.unitOf(of));
+    }
+    if (e.showBefore.value && !beside) this.changes.paintBefore(g, v);
     this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
+    else this.hovered.stop();
     this.several.paint(g, v);
     this.ghosts.paintLabels(g, v);
     this.events.paint(g, v);
@@ -156,9 +164,11 @@ export class Overlay {
     const atStart = e.time.value < 0.05;
     const goal = canChange(a) ? e.goalPose(a) : null;
     this.goal.paintLaneGlow(g, v);
+    if (e.layers.value.reach) this.goal.paintAllReach(g, v, a);
     this.goal.paintReach(g, v, a);
-    if (e.layers.value.futures) this.paintSix(g, v, a);
+    if (this.six) this.paintSix(g, v, a);
     if (e.layers.value.log) this.paintLog(g, v, a, now);
+    this.hovered.paint(g, v, a);
     if (!atStart && start) paintGhost(g, v, a, start, c['ink-2'], null, [], 1.25);
     if (goal) this.goal.paintGoal(g, v, a, goal);
     if (now) {
@@ -197,6 +207,11 @@ export class Overlay {
     this.goal.dragLabels(g, v, a, goal);
   }
 
+  /** Are the futures of the selected road user shown? While cards are scenes they are not what is looked at. */
+  private get six(): boolean {
+    return this.editor.layers.value.futures && !this.editor.deck.shownSet();
+  }
+
   private paintSix(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const f = e.futures.value;
@@ -216,7 +231,7 @@ export class Overlay {
       outdated,
       alpha: outdated ? 0.6 : 1,
       onlyChosen: committed,
-      said: saidOf(e).map((s) => s?.verdict ?? null),
+      said: e.deck.ofAgent(a.id) ? saidOf(e).map((s) => s?.verdict ?? null) : [],
     });
     this.verdicts.paintStretches(g, v, f, judged);
     if (f.sketch) {
@@ -239,19 +254,19 @@ export class Overlay {
   /** Away from the start only the future in force is shown: it is what happens. */
   private committed(a: Agent): boolean {
     const { editor: e } = this;
-    return touched(a) && !e.deck.hand.value && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
+    return touched(a) && !e.deck.ofAgent(a.id) && !e.drag.value && e.time.value > 0.05 && e.hoverFuture.value === null;
   }
 
   private paintWords(g: Pen, v: View, a: Agent): void {
     const f = this.editor.futures.value;
-    if (!f || !this.editor.layers.value.futures) return;
+    if (!f || !this.six) return;
     this.verdicts.paintRoadWay(g, v, a);
     this.verdicts.paintWords(g, v, f, this.judged(a, f));
   }
 
   private paintLetters(g: Pen, v: View, a: Agent): void {
     const f = this.editor.futures.value;
-    if (f && !f.sketch && this.editor.layers.value.futures)
+    if (f && !f.sketch && this.six)
       this.chips = paintChips(
         g,
         this.labels,

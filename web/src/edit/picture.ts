@@ -4,8 +4,12 @@ import { effect } from '@preact/signals-core';
 import { mixPose, type Pose } from '../model/geometry';
 import { isStill, poseAt } from '../model/motion';
 import { motionOf } from '../model/changes';
-import { isRecorded, startPose, type Agent } from '../model/scene';
+import { conflictZones, type Zone } from '../model/conflicts';
+import type { MotionSet } from '../model/futures';
+import type { LaneMap } from '../model/lanemap';
+import { isRecorded, startPose, type Agent, type Scene } from '../model/scene';
 import { speedLabel } from '../model/units';
+import { paintLimits, paintZones } from '../draw/ground';
 import { Labels, pill, type Rect } from '../draw/labels';
 import { paintLock, paintPennant, type Pennant } from '../draw/marks';
 import { boxOnScreen, colourKey, sizeOnScreen, stamp } from '../draw/sprites';
@@ -29,6 +33,7 @@ export class Picture {
   private names: Rect[] = [];
   /** Where pennants were painted last, for the pointer. */
   pennants: Pennant[] = [];
+  private zones: { map: LaneMap; scene: Scene; set: MotionSet; all: readonly Zone[] } | null = null;
   private reactFrom: { motion: Editor['motion']['value']; at: number } | null = null;
 
   constructor(
@@ -44,7 +49,7 @@ export class Picture {
     );
     stage.painter('overlay', (g, v) => {
       this.overlay.paint(g, v);
-      if (this.overlay.fading) stage.invalidate('overlay');
+      if (this.overlay.moving) stage.invalidate('overlay');
     });
     this.watch();
   }
@@ -65,7 +70,7 @@ export class Picture {
       if (!e.drag.peek()) stage.invalidate('agents');
     });
     effect(() => {
-      void e.layers.value.lanes;
+      void [e.layers.value.lanes, e.layers.value.limits && e.speedUnit.value];
       stage.invalidate('map');
     });
     effect(() => {
@@ -112,9 +117,11 @@ export class Picture {
   }
 
   private paintMap(g: Pen, v: View): void {
-    if (this.map) this.map.paint(g, v, this.editor.layers.value.lanes);
-    else {
-      g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    const { layers, scene, speedUnit } = this.editor;
+    if (this.map) this.map.paint(g, v, layers.value.lanes);
+    g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    if (this.map && layers.value.limits) paintLimits(g, v, scene.value!.map, speedUnit.value);
+    if (!this.map) {
       g.fillStyle = colours()['map-ground'];
       g.fillRect(0, 0, v.w, v.h);
     }
@@ -142,7 +149,8 @@ export class Picture {
     const scene = e.scene.value;
     if (!scene) return;
     const dragging = e.drag.value !== null;
-    paintSignals(g, v, scene, e.time.value);
+    if (e.layers.value.conflicts) paintZones(g, v, this.conflicts(scene));
+    if (e.layers.value.signals) paintSignals(g, v, scene, e.time.value);
     const box = v.box(40);
     const selected = new Set(e.selected.value);
     const shown: [Agent, Pose][] = [];
@@ -155,7 +163,8 @@ export class Picture {
     shown.sort(
       (p, q) => Number(q[0].parked) - Number(p[0].parked) || q[0].length * q[0].width - p[0].length * p[0].width,
     );
-    if (e.layers.value.futures && !selected.size && !e.playing.value) for (const [a] of shown) this.softTrail(g, v, a);
+    const ways = e.layers.value.futures && (!selected.size || e.deck.shownSet() !== null);
+    if (ways && !e.playing.value) for (const [a] of shown) this.softTrail(g, v, a);
     g.globalAlpha = dragging ? 0.62 : 1;
     for (const [a, p] of shown) stamp(g, v, a, p, a.parked && this.drives(a));
     g.globalAlpha = 1;
@@ -164,6 +173,16 @@ export class Picture {
     this.names = [];
     if (e.layers.value.labels || v.z > 16) this.nameLabels(g, v, shown);
     this.boxes = shown.map(([a, p]) => boxOnScreen(v, a, p));
+  }
+
+  /** Worked out anew when somebody does something else; while a hand moves they stay as they were. */
+  private conflicts(scene: Scene): readonly Zone[] {
+    const { motion, dragging } = this.editor;
+    const set = motion.peek();
+    if (this.zones?.map === scene.map && (dragging.peek() || (this.zones.set === set && this.zones.scene === scene)))
+      return this.zones.all;
+    this.zones = { map: scene.map, scene, set, all: conflictZones(scene, set) };
+    return this.zones.all;
   }
 
   /** Pennants at the goals of all who are not selected alone, and locks. */

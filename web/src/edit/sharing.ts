@@ -1,5 +1,6 @@
 // Links with a scene inside: what goes into one, and what is done with one that comes.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
+import type { Feedback } from '../model/feedback';
 import { isMapRef, type EditorJson, type SceneJson } from '../model/json';
 import { Away, Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
@@ -102,7 +103,7 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
           ],
         }
       : null;
-  const { picked, variants, feedback } = scene.x_editor ?? {};
+  const { picked, variants, feedback, scene_feedback: whole } = scene.x_editor ?? {};
   const one = picked && Object.fromEntries(Object.keys(picked).map((id) => [id, 0]));
   return {
     ...scene,
@@ -113,6 +114,7 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
       ...scene.x_editor,
       picked: parts.futures ? one : undefined,
       feedback: parts.futures ? (parts.words ? feedback : unnamed(feedback)) : undefined,
+      scene_feedback: parts.futures && whole ? (parts.words ? whole : withoutNames(whole)) : undefined,
       // Their motion is worked out again where somebody looks at them.
       variants: parts.futures ? variants?.map((v) => ({ ...v, name: parts.words ? v.name : undefined })) : undefined,
     },
@@ -121,8 +123,6 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
 }
 
 /** What was said of futures, without what they were called. */
+const withoutNames = (f: Feedback): Feedback => ({ ...f, answers: f.answers.map((a) => ({ ...a, name: '' })) });
 const unnamed = (all: EditorJson['feedback']): EditorJson['feedback'] =>
-  all &&
-  Object.fromEntries(
-    Object.entries(all).map(([id, f]) => [id, { ...f, answers: f.answers.map((a) => ({ ...a, name: '' })) }]),
-  );
+  all && Object.fromEntries(Object.entries(all).map(([id, f]) => [id, withoutNames(f)]));

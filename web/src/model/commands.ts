@@ -189,7 +189,17 @@ export const removeAgents = (scene: Scene, ids: readonly string[], name: string)
 type ScenePatch = Partial<
   Pick<
     Scene,
-    'seed' | 'diversity' | 'others' | 'name' | 'length' | 'replan' | 'duration' | 'drawn' | 'variants' | 'variantStates'
+    | 'seed'
+    | 'diversity'
+    | 'others'
+    | 'name'
+    | 'length'
+    | 'replan'
+    | 'duration'
+    | 'drawn'
+    | 'variants'
+    | 'variantStates'
+    | 'feedback'
   >
 >;
 

@@ -14,8 +14,9 @@ function cell(v: string | number | boolean | null | undefined): string {
 }
 
 /** Comma-separated values; speeds in m/s, the rest in the unit that the heading ends with. */
-export function feedbackTable(id: string, f: Feedback, nameOf: NameOf): string {
-  const met = [...new Set(f.answers.flatMap((a) => Object.keys(a.features.first?.[id] ?? {})))];
+export function feedbackTable(id: string | null, f: Feedback, nameOf: NameOf): string {
+  const rowOf = (a: Answer) => (id === null ? undefined : a.features.first?.[id]);
+  const met = [...new Set(f.answers.flatMap((a) => Object.keys(rowOf(a) ?? {})))];
   const columns: readonly (readonly [string, (a: Answer) => string | number | boolean | null | undefined])[] = [
     ['round', (a) => a.round],
     ['letter', (a) => a.letter],
@@ -27,10 +28,8 @@ export function feedbackTable(id: string, f: Feedback, nameOf: NameOf): string {
     ['harshness_mps2', (a) => a.features.harshness_mps2],
     ['standing_s', (a) => a.features.standing_s],
     ['from_log_m', (a) => a.features.from_log_m],
-    ['manoeuvre', (a) => a.features.manoeuvres?.[id]],
-    ...met.map(
-      (other) => [`before ${nameOf(other) ?? other}`, (a: Answer) => a.features.first?.[id]?.[other]] as const,
-    ),
+    ['manoeuvre', (a) => (id === null ? undefined : a.features.manoeuvres?.[id])],
+    ...met.map((other) => [`before ${nameOf(other) ?? other}`, (a: Answer) => rowOf(a)?.[other]] as const),
   ];
   const lines = [columns.map(([title]) => cell(title)), ...f.answers.map((a) => columns.map(([, of]) => cell(of(a))))];
   return `${lines.map((l) => l.join(',')).join('\r\n')}\r\n`;

@@ -150,33 +150,47 @@ const REASONS: readonly Row[] = [
   ['from_log', 'less', 'too far from the recording', 'near the recording'],
 ];
 
+/** More orders of two than this are no choice but a list, in a scene. */
+const MOST_ORDERS = 12;
+
+/** Who goes before whom, as far as it is known: of one road user, or of everybody. */
+function orders(id: string | null, f: Features): (readonly [who: string, other: string, first: boolean])[] {
+  const all = Object.entries(f.first ?? {}).filter(([who]) => id === null || who === id);
+  const pairs = all.flatMap(([who, row]) => Object.entries(row).map(([other, first]) => [who, other, first] as const));
+  // Of a scene the same two stand there from both sides.
+  const once = pairs.filter(([p, q], i) => !pairs.slice(0, i).some(([r, s]) => r === q && s === p));
+  return id === null ? once.slice(0, MOST_ORDERS) : pairs;
+}
+
 /** What may be said about a card: what is wrong with it, or what was liked. */
-export function reasons(id: string, f: Features, verdict: Verdict, nameOf: NameOf): Choice[] {
+export function reasons(id: string | null, f: Features, verdict: Verdict, nameOf: NameOf): Choice[] {
   const liked = verdict === 'keep';
   const plain = REASONS.filter(([t]) => t !== 'from_log' || f.from_log_m != null).map(([trait, wants, fault, good]) =>
     choice({ trait, wants }, liked ? good : fault),
   );
-  const order = Object.entries(f.first?.[id] ?? {}).map(([other, first]) => {
+  const order = orders(id, f).map(([me, other, first]) => {
     const who = called(nameOf, other);
-    const wish: Wish = { trait: 'first', who: id, with: other, wants: first === liked ? 'more' : 'less' };
-    if (liked) return choice(wish, first ? `goes before ${who}` : `lets ${who} go first`);
-    return choice(wish, first ? `should go after ${who}` : `should go before ${who}`);
+    const wish: Wish = { trait: 'first', who: me, with: other, wants: first === liked ? 'more' : 'less' };
+    // Of a whole scene it must be said who.
+    const it = id === null ? `${called(nameOf, me)} ` : '';
+    if (liked) return choice(wish, it + (first ? `goes before ${who}` : `lets ${who} go first`));
+    return choice(wish, it + (first ? `should go after ${who}` : `should go before ${who}`));
   });
   return [...plain, ...order];
 }
 
 /** All that may be wished, given the cards on the table. */
-export function wishes(id: string, cards: readonly Features[], nameOf: NameOf): Choice[] {
+export function wishes(id: string | null, cards: readonly Features[], nameOf: NameOf): Choice[] {
   const logged = cards.some((f) => f.from_log_m != null);
   const plain = (Object.keys(PLAIN) as Plain[])
     .filter((t) => t !== 'from_log' || logged)
     .flatMap((trait) => (['less', 'more'] as const).map((wants): Wish => ({ trait, wants })));
-  const others = new Set(cards.flatMap((f) => Object.keys(f.first?.[id] ?? {})));
-  const order = [...others].flatMap((other) =>
-    (['more', 'less'] as const).map((wants): Wish => ({ trait: 'first', who: id, with: other, wants })),
+  const met = new Map(cards.flatMap((f) => orders(id, f)).map(([who, other]) => [`${who}|${other}`, [who, other]]));
+  const order = [...met.values()].flatMap(([who, other]) =>
+    (['more', 'less'] as const).map((wants): Wish => ({ trait: 'first', who, with: other, wants })),
   );
-  const done = new Set(cards.flatMap((f) => f.manoeuvres?.[id] ?? []));
-  const does = [...done].map((manoeuvre): Wish => ({ trait: 'does', who: id, manoeuvre, wants: 'more' }));
+  const done = new Set(id === null ? [] : cards.flatMap((f) => f.manoeuvres?.[id] ?? []));
+  const does = [...done].map((manoeuvre): Wish => ({ trait: 'does', who: id!, manoeuvre, wants: 'more' }));
   return [...plain, ...order, ...does].map((w) => choice(w, firstWords(w, nameOf) ?? wishWords(w, nameOf)));
 }
 
@@ -184,7 +198,7 @@ export function wishes(id: string, cards: readonly Features[], nameOf: NameOf): 
 const firstWords = (w: Wish, nameOf: NameOf): string | null =>
   w.trait === 'first' && w.wants === 'more' ? `${called(nameOf, w.who)} before ${called(nameOf, w.with)}` : null;
 
-export const whyWords = (id: string, a: Answer, nameOf: NameOf): string => {
+export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string => {
   const key = a.why && wishKey(a.why);
   return key ? (reasons(id, a.features, a.verdict, nameOf).find((c) => c.key === key)?.words ?? '') : '';
 };

@@ -1,6 +1,7 @@
-// What was said of a road user's futures, round after round: which were kept, which rejected and why, and plain wishes.
+// What was said of a road user's futures, or of ways that the whole scene could go, round after round: which were kept,
+// which rejected and why, and plain wishes.
 // It is part of the document, and so is what the present cards were drawn by: an undo shows the earlier ones again.
-import { patchAgents, type Command } from './commands';
+import { patchAgents, patchScene, type Command } from './commands';
 import type { FeaturesJson, FeedbackDocJson, RoundCardJson, TraitJson, WishJson } from './json';
 import { sceneKey, type Agent, type Scene } from './scene';
 
@@ -131,13 +132,37 @@ export interface Judged {
   readonly name: string;
 }
 
-const put = (name: string, a: Agent, asked: Asked, patch: Partial<Feedback>): Command => {
-  const feedback: Feedback = Object.freeze({ ...(a.feedback ?? NOTHING), asked, ...patch });
-  return patchAgents(name, new Map([[a.id, { feedback }]]));
-};
+/** Whom rounds are about. */
+export interface Subject {
+  /** Null for everybody: a card is a scene then. */
+  readonly id: string | null;
+  readonly name: string;
+  readonly feedback: Feedback | null;
+  /** The command that keeps what was said. */
+  say(name: string, feedback: Feedback): Command;
+}
+
+export const oneSubject = (a: Agent): Subject => ({
+  id: a.id,
+  name: a.name,
+  feedback: a.feedback,
+  say: (name, feedback) => patchAgents(name, new Map([[a.id, { feedback }]])),
+});
+
+export const everybody = (scene: Scene): Subject => ({
+  id: null,
+  name: 'the whole scene',
+  feedback: scene.feedback,
+  say: (name, feedback) => patchScene(name, { feedback }),
+});
+
+const put = (name: string, a: Subject, asked: Asked, patch: Partial<Feedback>): Command =>
+  a.say(name, Object.freeze({ ...(a.feedback ?? NOTHING), asked, ...patch }));
+
+const upper = (word: string): string => word.charAt(0).toUpperCase() + word.slice(1);
 
 /** Keeps or rejects a card; null opens it again. */
-export function judge(a: Agent, asked: Asked, of: Judged, verdict: Verdict | null, why: Wish | null = null): Command {
+export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | null, why: Wish | null = null): Command {
   const was = answerTo(a.feedback, asked, of.card);
   const answers = a.feedback?.answers ?? [];
   const { letter, name } = of;
@@ -149,12 +174,14 @@ export function judge(a: Agent, asked: Asked, of: Judged, verdict: Verdict | nul
   const at = was ? answers.indexOf(was) : answers.length;
   const next = answers.toSpliced(at, was ? 1 : 0, ...(said ? [Object.freeze(said)] : []));
   const word = verdict === null ? 'open again' : verdict === 'keep' ? 'kept' : 'rejected';
-  const step = was && was.verdict === verdict ? `Why future ${letter} was ${word}` : `Future ${letter} ${word}`;
+  const what = a.id === null ? 'card' : 'future';
+  const step =
+    was && was.verdict === verdict ? `Why ${what} ${letter} was ${word}` : `${upper(what)} ${letter} ${word}`;
   return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-MOST_ANSWERS)) });
 }
 
 /** A wish of one's own; it takes the place of another about the same. */
-export function addWish(a: Agent, asked: Asked, wish: Wish, words: string): Command {
+export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NOTHING;
   const others = wishes.filter((w) => !sameTrait(w, wish)).slice(1 - MOST_WISHES);
   return put(`${words} wished for ${a.name}`, a, asked, {
@@ -164,7 +191,7 @@ export function addWish(a: Agent, asked: Asked, wish: Wish, words: string): Comm
 }
 
 /** Whatever the answers show of it, it does not count. `words`: what is forgotten. */
-export function forget(a: Agent, asked: Asked, traits: readonly Trait[], words: string): Command {
+export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NOTHING;
   const gone = (t: Trait): boolean => traits.some((g) => sameTrait(g, t));
   const all = [...forgotten.filter((t) => !gone(t)), ...traits.map(traitOf)];
@@ -175,7 +202,7 @@ export function forget(a: Agent, asked: Asked, traits: readonly Trait[], words: 
 }
 
 /** Cards by what was said until now. */
-export function nextRound(a: Agent, asked: Asked): Command {
+export function nextRound(a: Subject, asked: Asked): Command {
   const next = following(a.feedback, asked);
   return put(`Round ${next.round} of ${a.name}`, a, next, {});
 }

@@ -153,6 +153,8 @@ export interface EditorJson {
   variants?: VariantJson[];
   /** What was said of futures in rounds, by road user. */
   feedback?: Record<string, Feedback>;
+  /** The same of the whole scene. */
+  scene_feedback?: Feedback;
 }
 /** A way that the scene could go: what is asked in it, and what is thought of it. */
 export interface VariantJson {

@@ -1,6 +1,6 @@
 // Local reachability while dragging: no network, a fraction of a millisecond. The generator's own verdict
 // replaces it when it arrives.
-import { curveBetween, makeLine, pointAt, type Line, type Pose } from './geometry';
+import { curveBetween, makeLine, pointAt, sliceLine, wrapAngle, type Line, type Pose, type Vec } from './geometry';
 import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from './lanemap';
 import { metres, seconds, speedLabel, type SpeedUnit } from './units';
 import { limitsOf, type Limits } from './domain';
@@ -183,4 +183,51 @@ function timeFor(l: Limits, v: number, d: number, latest: number): number | null
 function speedFor(l: Limits, t: number, d: number): number | null {
   for (let v = 0; v <= l.speed_mps; v += 0.1) if (furthestReach(l, v, t) >= d) return v;
   return null;
+}
+
+// -------------------------------------------------------------- all that it reaches
+
+/** A stretch of lane, with the lane's width in metres. */
+export interface Stretch {
+  readonly pts: readonly Vec[];
+  readonly width: number;
+}
+
+/** Who stands so near to a lane can take it, metres and radians. */
+const TAKES_M = 5;
+const TAKES_RAD = 0.6;
+/** No more lanes than this are followed. */
+const MOST_LANES = 400;
+
+/** Least and most that it can have gone by a time, metres. */
+export const reachBetween = (a: Agent, start: Pose, t: number): readonly [number, number] => [
+  leastReach(limitsOf(a), start.speed, t),
+  furthestReach(limitsOf(a), start.speed, t),
+];
+
+/** Where it can be at a time, along the lanes that it is on or beside; nothing for somebody on foot. */
+export function reachableWays(map: LaneMap, a: Agent, start: Pose, t: number): Stretch[] {
+  if (a.type === 'pedestrian') return [];
+  const [least, most] = reachBetween(a, start, t);
+  const turned = (heading: number): number => Math.abs(wrapAngle(heading - start.heading));
+  const open = nearestLanes(map, start.x, start.y, start.heading, TAKES_M, fitsAgent(a))
+    .filter((h) => turned(h.heading) < TAKES_RAD)
+    .map((h) => ({ lane: h.lane, at: -h.s }));
+  const seen = new Set<string>();
+  const out: Stretch[] = [];
+  // The shortest way to a lane is followed first, so that a lane met again adds nothing.
+  for (let n = 0; open.length && n < MOST_LANES; n++) {
+    open.sort((p, q) => q.at - p.at);
+    const { lane, at } = open.pop()!;
+    if (seen.has(lane.id)) continue;
+    seen.add(lane.id);
+    const [from, to] = [Math.max(0, least - at, -at), Math.min(lane.line.length, most - at)];
+    if (to > from + 0.1) out.push({ pts: sliceLine(lane.line, from, to), width: lane.width });
+    const end = at + lane.line.length;
+    for (const id of end < most ? lane.next : []) {
+      const next = map.lanes.get(id);
+      if (next && !seen.has(id)) open.push({ lane: next, at: end });
+    }
+  }
+  return out;
 }

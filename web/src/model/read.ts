@@ -80,6 +80,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
     others: readOthers(ed.others),
     drawn: ed.drawn ?? 0,
     ...readVariants(ed.variants, agents),
+    feedback: readFeedback(ed.scene_feedback),
   });
 }
 

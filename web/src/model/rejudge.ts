@@ -1,14 +1,18 @@
 // A picked future is not judged anew with the answers of the others to it: what it does by itself stays as it was
 // judged, and whom it hits or nearly hits is what the score of the whole scene says.
-import { FAULT_KINDS, NOTHING_SAID, type Fault } from './about';
+import { FAULT_KINDS, NOTHING_SAID, type About, type Fault } from './about';
+import { gapAtLeast, gapBetween, type Footprint } from './boxes';
 import type { Vec } from './geometry';
 import type { Agent } from './scene';
-import type { Collision, Future, NearMiss, Score } from './futures';
+import type { Collision, Future, Futures, NearMiss, Score } from './futures';
 import type { FaultJson } from './json';
-import { endPose, poseAt } from './motion';
+import { endPose, lastStep, poseAt, poseAtStep, STEP_S, type Motion } from './motion';
 
 /** Meetings of the same two closer together than this are one. */
 const SAME_S = 1.5;
+
+/** Two nearer than this come close to each other, metres. */
+const NEAR_M = 1;
 
 /** A goal that is missed by more, in metres, is not reached. */
 const REACHED_M = 2;
@@ -61,6 +65,59 @@ export function judgedBy(score: Score, a: Agent, f: Future): Future {
   const faults = [...judged.about!.faults];
   faults.sort((p, q) => rank(p) - rank(q) || p.time - q.time);
   return { ...judged, about: { ...about, faults }, sent: { faults: faults.map(faultJson) } };
+}
+
+// -------------------------------------------------------------- others have changed
+
+/** Somebody who does another thing than when futures were judged. */
+export interface Changed {
+  readonly agent: Agent;
+  readonly motion: Motion;
+}
+
+/**
+ * Futures that were judged before others changed what they do: whom of them each hits now. That one comes close to
+ * another is kept only while it does.
+ */
+export function metAnew(a: Agent, f: Futures, changed: readonly Changed[]): Futures {
+  const others = changed.filter((c) => c.agent.id !== a.id);
+  if (!others.length || !f.modes.some((m) => m.about)) return f;
+  const modes = f.modes.map((m) => (m.about ? withMeetings(a, m, m.about, others) : m));
+  return modes.some((m, i) => m !== f.modes[i]) ? { ...f, modes } : f;
+}
+
+function withMeetings(a: Agent, m: Future, about: About, others: readonly Changed[]): Future {
+  const ids = new Set(others.map((o) => o.agent.id));
+  const ofThem = (x: Fault): boolean => meets(x) && x.with !== null && ids.has(x.with);
+  const old = about.faults.filter(ofThem);
+  const now = others.flatMap((o) => meetingWith(a, m.motion, o, old) ?? []);
+  if (now.length === old.length && now.every((x) => old.includes(x))) return m;
+  const faults = [...about.faults.filter((x) => !ofThem(x)), ...now];
+  faults.sort((p, q) => rank(p) - rank(q) || p.time - q.time);
+  return { ...m, about: { ...about, faults }, sent: { ...m.sent, faults: faults.map(faultJson) } };
+}
+
+function meetingWith(a: Agent, own: Motion, other: Changed, old: readonly Fault[]): Fault | null {
+  const boxOf = (of: Agent, m: Motion, step: number): Footprint | null => {
+    const pose = poseAtStep(m, step);
+    return pose && { pose, length: of.length, width: of.width };
+  };
+  let least = Infinity;
+  for (let step = Math.max(0, own.first); step <= lastStep(own); step++) {
+    const [p, q] = [boxOf(a, own, step), boxOf(other.agent, other.motion, step)];
+    if (!p || !q || gapAtLeast(p, q) > NEAR_M) continue;
+    const gap = gapBetween(p, q);
+    least = Math.min(least, gap);
+    if (gap > 0) continue;
+    const time = step * STEP_S;
+    const known = old.find(
+      (x) => x.kind === 'collision' && x.with === other.agent.id && Math.abs(x.time - time) < SAME_S,
+    );
+    const at: Vec = [p.pose.x, p.pose.y];
+    return known ?? { kind: 'collision', time, until: time, at, extent: null, with: other.agent.id, edge: null };
+  }
+  const was = old.find((x) => x.kind === 'near_miss' && x.with === other.agent.id);
+  return least < NEAR_M ? (was ?? null) : null;
 }
 
 /** Null for a meeting of others, or one where the future knows no place. */

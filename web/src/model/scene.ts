@@ -99,6 +99,8 @@ export interface Scene {
   readonly variants: readonly Variant[];
   /** What they consist of, by their ids. Apart from them: a star is a small step. */
   readonly variantStates: Readonly<Record<number, VariantState>>;
+  /** What was said in rounds of the whole scene; null where nothing was. */
+  readonly feedback: Feedback | null;
 }
 
 /** Seconds that the generator works out in one go, and after which a goal is due unless another time is set. */

@@ -181,6 +181,7 @@ export function writeScene(
       ...(scene.drawn ? { drawn: scene.drawn } : {}),
       ...ofAgents(scene.agents.values()),
       ...(scene.variants.length ? { variants: variantsJson(scene) } : {}),
+      ...(scene.feedback ? { scene_feedback: scene.feedback } : {}),
     },
   };
 }

@@ -2,13 +2,15 @@
 import { describe, expect, it } from 'vitest';
 import { setGoal } from '../../src/model/commands';
 import { reasons } from '../../src/model/feedback-words';
+import { readScene } from '../../src/model/read';
 import { sceneKey } from '../../src/model/scene';
+import { writeScene } from '../../src/model/write';
 import { Questions } from '../../src/edit/question';
 import { Rounds } from '../../src/edit/rounds/rounds';
 import { pickFuture } from '../../src/edit/moves';
 import { SceneFile } from '../../src/edit/scene-file';
 import type { FinalEvent, Problem } from '../../src/net/types';
-import { finalOf, InMemoryGenerator, json, Session, six } from './session';
+import { finalOf, InMemoryGenerator, json, late, Session, six, uneventful } from './session';
 
 const ID = '1';
 
@@ -43,6 +45,17 @@ class Table extends Session {
     this.cards.last.on.final(e, 20);
   }
 
+  /** Three scenes of two road users; in each of them one comes a second later than in the one before. */
+  dealScenes(): void {
+    const samples = [0, 1, 2].map((n) => ({ agents: { [ID]: late(ID, n + 1), 2: late('2', n + 2) } }));
+    const cards = samples.map(({ agents }, n) => ({
+      features: { pace_mps: 5, gap_s: 2, harshness_mps2: n, standing_s: 0 },
+      places: { [ID]: [0, 1].map((t) => [agents[ID].modes[0].x_m[t], n * 3]) },
+    }));
+    const e = { ...finalOf(ID), samples, scores: samples.map(() => uneventful), feedback: { cards, wishes: [] } };
+    this.cards.last.on.final(e as unknown as FinalEvent, 20);
+  }
+
   /** Of a reason, by its words. */
   keyOf(words: string): string {
     const { features } = this.editor.deck.hand.peek()!.round.cards[0];
@@ -66,7 +79,7 @@ describe('rounds', () => {
     expect([options.agents, options.react]).toEqual([[ID], false]);
     expect(t.feedback).toEqual({ answers: [], wishes: [], forgotten: [] });
     t.deal();
-    expect(t.editor.futures.peek()).toBe(t.editor.deck.hand.peek()!.futures);
+    expect(t.editor.futures.peek()).toBe(t.editor.deck.ofAgent(ID)!.futures);
     expect(t.editor.motion.peek()).toBe(before);
     t.editor.deck.point(3);
     expect(t.editor.chosen.peek()).toBe(3);
@@ -174,7 +187,7 @@ describe('rounds', () => {
     const usual = t.editor.motion.peek();
     t.rounds.open();
     t.deal();
-    const { futures } = t.editor.deck.hand.peek()!;
+    const { futures } = t.editor.deck.ofAgent(ID)!;
     t.rounds.take(2);
     expect(t.rounds.isOpen.peek()).toBe(false);
     expect(t.agent.chosen).toBe(2);
@@ -185,5 +198,82 @@ describe('rounds', () => {
     // The same letter among the usual six is another document.
     t.editor.run(pickFuture(t.editor, t.agent, 2)!);
     expect(sceneKey(t.editor.scene.peek()!)).not.toBe(key);
+  });
+
+  describe('of the whole scene', () => {
+    const sets = (t: Table) => {
+      const { hand } = t.editor.deck;
+      const now = hand.peek();
+      return now?.id === null ? now.sets : [];
+    };
+
+    it('ask for everybody, and show what all of them do on a card without changing anything', () => {
+      const t = new Table();
+      const before = t.editor.motion.peek();
+      t.rounds.openScene();
+      expect([t.cards.last.options.agents, t.cards.last.options.react]).toEqual(['all', false]);
+      t.dealScenes();
+      expect(sets(t)).toHaveLength(3);
+      expect(t.editor.motion.peek()).toBe(before);
+      // Those of one road user are not what is on the table.
+      expect(t.editor.futures.peek()).toBe(before.futures.get(ID));
+      t.editor.deck.point(2);
+      expect(t.editor.motionFor(t.agent)).toBe(sets(t)[2].futures.get(ID)!.modes[0].motion);
+      t.editor.select('2');
+      expect(t.rounds.isOpen.peek(), 'whoever is looked at').toBe(true);
+      t.rounds.close();
+      expect(t.editor.motion.peek()).toBe(before);
+    });
+
+    it('keep what was said with the scene, apart from what was said of one', () => {
+      const t = new Table();
+      t.rounds.openScene();
+      t.dealScenes();
+      t.rounds.say(0, 'keep');
+      t.rounds.say(1, 'reject');
+      expect(t.letters).toBe('kr.');
+      expect(t.agent.feedback).toBeNull();
+      expect(t.editor.undoName.peek()).toBe('Card B rejected, the whole scene');
+      const scene = t.editor.scene.peek()!;
+      const file = writeScene(json, scene, null);
+      expect(readScene(JSON.parse(JSON.stringify(file))).feedback).toEqual(scene.feedback);
+      t.rounds.next();
+      expect(t.feedback.answers!.map((a) => a.verdict)).toEqual(['keep', 'reject']);
+      t.editor.undo();
+      t.editor.undo();
+      t.editor.undo();
+      expect(t.editor.scene.peek()!.feedback).toBeNull();
+    });
+
+    it('end with a card taken: everybody does it, and undo takes it back', () => {
+      const t = new Table();
+      const before = t.editor.motion.peek();
+      t.rounds.openScene();
+      t.dealScenes();
+      const taken = sets(t)[1];
+      const asked = t.generator.asked.length;
+      t.rounds.take(1);
+      expect(t.rounds.isOpen.peek()).toBe(false);
+      expect(t.editor.motion.peek().futures).toBe(taken.futures);
+      expect([...t.editor.motion.peek().driving].sort()).toEqual([ID, '2']);
+      expect(t.generator.asked, 'it is known what comes of it').toHaveLength(asked);
+      t.editor.undo();
+      expect(t.editor.motion.peek()).toBe(before);
+      t.editor.redo();
+      expect(t.editor.motion.peek().futures).toBe(taken.futures);
+    });
+
+    it('give every kept card as a document of its own', () => {
+      const t = new Table();
+      t.rounds.openScene();
+      t.dealScenes();
+      t.rounds.say(0, 'keep');
+      t.rounds.say(2, 'keep');
+      const kept = t.rounds.kept();
+      const takes = kept && !('futures' in kept) ? kept : [];
+      expect(takes).toHaveLength(2);
+      expect(new Set(takes.map((k) => sceneKey(k.scene))).size).toBe(2);
+      for (const { scene, set } of takes) expect(set.key).toBe(sceneKey(scene));
+    });
   });
 });

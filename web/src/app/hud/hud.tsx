@@ -6,6 +6,7 @@ import { placedBy } from '../../actions/place';
 import { actionOf } from '../../actions/registry';
 import { TOOLS } from '../../edit/gestures/tools';
 import type { Spread } from '../../edit/placing';
+import { MenuButton } from '../menu';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Later } from '../parts/later';
@@ -22,6 +23,7 @@ import { WayBack } from './way-back';
 
 const fillPanel = () => import('./fill-panel').then((m) => m.default);
 
+/** Those that are switched most; all are in the menu beside them. */
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
 
 export function Hud() {
@@ -42,6 +44,7 @@ export function Hud() {
           {LAYERS.map((l) => (
             <ActionButton key={l} id={`layer-${l}`} icon="check" size={14} />
           ))}
+          <MenuButton name="layers" icon="layers" label="All layers" />
         </div>
       </div>
       <div class={`bl ${shift}`}>

@@ -1,10 +1,10 @@
 // On a small page what the rail has stands behind a + at the thumb.
-import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { useComputed } from '@preact/signals';
 import { TOOLS } from '../../edit/gestures/tools';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { MenuList } from '../parts/menu-list';
 
 /** In the menu of the +: what is placed most, then the other tools; these two are the hand itself. */
 const FIRST = ['place-car', 'place-cyclist', 'place-pedestrian'];
@@ -43,27 +43,8 @@ export function Thumb() {
 }
 
 function AddMenu() {
-  const { ui } = useApp();
-  const box = useRef<HTMLDivElement>(null);
-  useLayoutEffect(() => box.current!.querySelector<HTMLElement>('button')?.focus({ preventScroll: true }), []);
-  useEffect(() => {
-    const away = (e: Event) => {
-      const at = e.target as Element;
-      if (!box.current?.contains(at) && !at.closest?.('[data-menu]')) ui.closeMenu();
-    };
-    addEventListener('pointerdown', away, true);
-    return () => removeEventListener('pointerdown', away, true);
-  }, [ui]);
   return (
-    <div
-      ref={box}
-      class="menu adding"
-      role="menu"
-      aria-label="Add"
-      onClick={(e) => {
-        if ((e.target as Element).closest('[data-action]')) ui.closeMenu();
-      }}
-    >
+    <MenuList label="Add" class="adding">
       {FIRST.map((name) => (
         <ActionButton key={name} id={`tool-${name}`} size={20} />
       ))}
@@ -71,6 +52,6 @@ function AddMenu() {
       {REST.map((name) => (
         <ActionButton key={name} id={`tool-${name}`} size={20} />
       ))}
-    </div>
+    </MenuList>
   );
 }

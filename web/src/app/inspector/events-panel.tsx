@@ -2,9 +2,11 @@
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import type { Agent } from '../../model/scene';
 import { num } from '../../model/units';
+import { eventRemedies } from '../../edit/event-remedies';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { RemedyButton } from '../parts/remedy-button';
 import { EventList } from './event-list';
 
 export function EventsPanel() {
@@ -54,6 +56,9 @@ function Facts({ event: e }: { event: TrafficEvent }) {
       <section class="sect last">
         <h3>What you can do</h3>
         <div class="stack">
+          {eventRemedies(editor, e).map((r) => (
+            <RemedyButton key={r.label} remedy={r} />
+          ))}
           {[e.a, e.b]
             .filter((a): a is Agent => a !== null && a.type !== 'other' && a.logStart !== null)
             .map((a) => (

@@ -4,7 +4,10 @@ import { actionOf, perform } from '../../actions/registry';
 import { remedies, snapToNearest } from '../../edit/moves';
 import { leaveToCross, roadWay } from '../../edit/ways-out';
 import { seconds } from '../../model/units';
+import type { Command } from '../../model/commands';
 import { useApp } from '../parts/app-context';
+import { RemedyButton } from '../parts/remedy-button';
+import { trying } from '../parts/trying';
 import { KeyCaps, titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
@@ -54,8 +57,8 @@ function WaysOut({ agent }: { agent: LiveAgent }) {
   if (!road && !leave) return null;
   return (
     <div class="stack">
-      {road ? <WayOut id="by-road" primary words={road.words} note={road.note} cap="Enter" /> : null}
-      {leave ? <WayOut id="may-cross" words={leave.words} cap={dragging ? 'Alt' : undefined} /> : null}
+      {road ? <WayOut id="by-road" primary {...road} cap="Enter" /> : null}
+      {leave ? <WayOut id="may-cross" {...leave} cap={dragging ? 'Alt' : undefined} /> : null}
     </div>
   );
 }
@@ -63,18 +66,20 @@ function WaysOut({ agent }: { agent: LiveAgent }) {
 interface WayOutProps {
   id: string;
   words: string;
+  command: Command;
   note?: string;
   /** The key to show; there is little room. */
   cap?: string;
   primary?: boolean;
 }
 
-function WayOut({ id, words, note, cap, primary }: WayOutProps) {
+function WayOut({ id, words, note, cap, primary, command }: WayOutProps) {
   const c = useApp();
   const { icon } = actionOf(id);
   return (
     <button
       type="button"
+      {...trying(c, command)}
       data-action={id}
       title={titleOf(id)}
       class={`opt ${primary ? 'pri' : ''}`}
@@ -89,22 +94,14 @@ function WayOut({ id, words, note, cap, primary }: WayOutProps) {
 }
 
 function Remedies({ agent }: { agent: LiveAgent }) {
-  const { editor } = useApp();
+  const c = useApp();
+  const { editor } = c;
   const ways = useComputed(() => (editor.dragging.value ? [] : remedies(editor, agent.value))).value;
   if (!ways.length) return null;
   return (
     <div class="stack">
       {ways.map((w) => (
-        <button
-          key={w.label}
-          type="button"
-          class={`opt ${w.primary ? 'pri' : ''}`}
-          onClick={() => editor.run(w.command)}
-        >
-          <Icon name={w.icon} size={15} />
-          {w.label}
-          <small>{w.note}</small>
-        </button>
+        <RemedyButton key={w.label} remedy={w} />
       ))}
     </div>
   );
@@ -112,16 +109,12 @@ function Remedies({ agent }: { agent: LiveAgent }) {
 
 function SnapButton({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
-  const snap = () => {
-    const to = snapToNearest(editor, agent.peek(), 'goal');
-    if (to) editor.run(to);
-  };
+  const command = useComputed(() => snapToNearest(editor, agent.value, 'goal')).value;
+  if (!command) return null;
+  const remedy = { label: 'Snap to nearest lane', note: '', icon: 'fit', primary: false, command };
   return (
     <div class="stack">
-      <button type="button" class="opt" onClick={snap}>
-        <Icon name="fit" size={15} />
-        Snap to nearest lane
-      </button>
+      <RemedyButton remedy={remedy} />
     </div>
   );
 }

@@ -2,12 +2,14 @@
 import type { Context } from '../../actions/context';
 import type { Mark } from '../../model/about';
 import { comparedWithLog } from '../../model/changes';
+import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import { isJudged, isSettled, LETTERS, type Futures } from '../../model/futures';
 import { nearestLanes } from '../../model/lanemap';
 import { endPose, endsBefore, poseAt } from '../../model/motion';
 import { nameIn, type Agent } from '../../model/scene';
 import { metres, seconds } from '../../model/units';
 import { headline } from '../../model/verdict-words';
+import type { Editor } from '../../edit/editor';
 import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
 
 export interface Verdict {
@@ -98,7 +100,25 @@ function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
 function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
   const f = e.futures.value;
   if (!a.goal.pos || !f || !isSettled(f) || f.sketch || e.motion.value.stale || isJudged(f)) return null;
-  return goalReached(a, f, a.goal.pos);
+  // Nobody has judged them one by one; what is known to happen is said all the same.
+  return happening(e, a) ?? goalReached(a, f, a.goal.pos);
+}
+
+const HAPPENS: Readonly<Record<TrafficEvent['kind'], string>> = {
+  collision: 'with a collision',
+  rule: 'against the rules',
+  near: 'with a near miss',
+  short: 'short of it',
+};
+
+/** The worst that happens to it on the way it is shown on; null where nothing does. */
+function happening(e: Editor, a: Agent): Verdict | null {
+  const own = counted(e.events.value).filter((ev) => ev.a.id === a.id || ev.b?.id === a.id);
+  const kind = worstOf(own);
+  const worst = own.find((ev) => ev.kind === kind);
+  if (!worst || !kind) return null;
+  const title = `${kind === 'short' ? 'Ends' : 'Reached,'} ${HAPPENS[kind]} at ${seconds(worst.time)}`;
+  return { kind: KINDS[kind], icon: `mark-${kind}`, title, words: `${worst.title}: ${worst.words}.`, at: worst.time };
 }
 
 /** Which of the futures reach the goal, and how closely: for futures that nobody has judged. */

@@ -1,5 +1,6 @@
-// One future of a round: its picture, what it is like, and what is said of it.
-import { useComputed } from '@preact/signals';
+// One card of a round: its picture, what it is like, and what is said of it. Pulled up it is kept, down rejected.
+import { useRef } from 'preact/hooks';
+import { useComputed, useSignal } from '@preact/signals';
 import { factWords, reasons, wishKey } from '../../model/feedback-words';
 import { LETTERS } from '../../model/futures';
 import { nameIn } from '../../model/scene';
@@ -24,14 +25,16 @@ export function CardView({ hand, index, picture, album }: Props) {
   const current = useComputed(() => deck.current.value === index).value;
   const { features } = hand.round.cards[index];
   const letter = LETTERS[index];
-  const { name } = hand.futures.modes[index];
+  const name = hand.names[index];
   const verdict = said?.verdict ?? null;
   const words = verdict ? WORDS[verdict] : 'Open';
   const point = () => deck.point(index);
+  const pull = usePull((up) => rounds.say(index, up ? 'keep' : 'reject'));
   return (
     <article
       class={`rcard ${verdict ?? ''} ${current ? 'on' : ''}`}
       data-card={letter}
+      {...pull}
       onPointerEnter={() => editor.pointAt({ future: index })}
       onPointerLeave={() => editor.pointAt({})}
       onKeyDown={(e) => {
@@ -99,6 +102,45 @@ export function CardView({ hand, index, picture, album }: Props) {
       </div>
     </article>
   );
+}
+
+/** So far a card is pulled before it counts, and so far it can be pulled, pixels. */
+const PULLED_PX = 48;
+const FURTHEST_PX = 72;
+/** Less is the tremble of a click. */
+const TREMBLE_PX = 6;
+
+/** Where a card is pulled to by its face, and what it says when it is let go. */
+function usePull(say: (up: boolean) => void) {
+  const from = useRef<number | null>(null);
+  const by = useSignal(0);
+  const moved = useRef(false);
+  const end = () => {
+    from.current = null;
+    by.value = 0;
+  };
+  return {
+    style: { translate: by.value ? `0 ${by.value}px` : '' },
+    'data-pull': Math.abs(by.value) < PULLED_PX ? undefined : by.value < 0 ? 'keep' : 'reject',
+    onPointerDown: (e: PointerEvent) => {
+      moved.current = false;
+      if (e.button === 0 && (e.target as Element).closest('.face')) from.current = e.clientY;
+    },
+    onPointerMove: (e: PointerEvent & { currentTarget: HTMLElement }) => {
+      if (from.current === null) return;
+      const d = e.clientY - from.current;
+      if (!moved.current && Math.abs(d) < TREMBLE_PX) return;
+      if (!moved.current) e.currentTarget.setPointerCapture(e.pointerId);
+      moved.current = true;
+      by.value = Math.max(-FURTHEST_PX, Math.min(FURTHEST_PX, d));
+    },
+    onPointerUp: () => {
+      const d = by.peek();
+      end();
+      if (Math.abs(d) >= PULLED_PX) say(d < 0);
+    },
+    onPointerCancel: end,
+  };
 }
 
 function Why({ hand, index }: { hand: Hand; index: number }) {

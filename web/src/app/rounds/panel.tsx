@@ -1,16 +1,18 @@
-// What was learned from the rounds of one road user: wishes with what they rest on, and where answers pull apart.
-import { earlierAnswers, type Answer } from '../../model/feedback';
+// What was learned from rounds: wishes with what they rest on, and where answers pull apart.
+import { earlierAnswers, type Answer, type Subject } from '../../model/feedback';
 import { againstWords, restsOn, wishes, wishKey } from '../../model/feedback-words';
-import { nameIn, type Agent } from '../../model/scene';
+import { nameIn } from '../../model/scene';
+import type { Editor } from '../../edit/editor';
 import type { Wished } from '../../edit/rounds/rounds';
+import type { SpeedUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import '../../styles/rounds.css';
 
 export default function RoundsPanel() {
-  const { editor, rounds } = useApp();
-  const a = editor.agent.value;
+  const { rounds } = useApp();
+  const a = rounds.subject.value;
   if (!a) return null;
   const answers = a.feedback?.answers ?? [];
   return (
@@ -22,16 +24,16 @@ export default function RoundsPanel() {
         <div class="grow">
           <h2>What you like</h2>
           <p>
-            {a.name}, {answers.length === 1 ? '1 answer' : `${answers.length} answers`}
+            {upper(a.name)}, {answers.length === 1 ? '1 answer' : `${answers.length} answers`}
           </p>
         </div>
         <button type="button" class="btn i" aria-label="Close the rounds" onClick={() => rounds.close()}>
           <Icon name="x" size={16} />
         </button>
       </div>
-      <RoundList agent={a} />
-      <Wishes agent={a} />
-      <Apart agent={a} />
+      <RoundList subject={a} />
+      <Wishes subject={a} />
+      <Apart subject={a} />
       <div class="grow" />
       <footer class="sect foot">
         <ActionButton id="round-table" class="line" icon="" />
@@ -43,12 +45,24 @@ export default function RoundsPanel() {
   );
 }
 
+interface Of {
+  readonly subject: Subject;
+}
+
+const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
+
+/** Of everybody speeds are told as those of vehicles. */
+function unitFor(e: Editor, { id }: Subject): SpeedUnit {
+  const a = id === null ? undefined : e.scene.value?.agents.get(id);
+  return a ? e.unitOf(a) : e.speedUnit.value;
+}
+
 const percent = (v: number): string => `${Math.round(v * 100)}%`;
 
-function RoundList({ agent }: { agent: Agent }) {
+function RoundList({ subject }: Of) {
   const { editor, rounds } = useApp();
   const now = rounds.asked.value?.round ?? 1;
-  const answers = agent.feedback?.answers ?? [];
+  const answers = subject.feedback?.answers ?? [];
   const done = new Set([...answers.map((x) => x.round), now]);
   const hand = editor.deck.hand.value;
   const matches = hand?.asked.round === now ? hand.round.cards.flatMap((x) => x.match ?? []) : [];
@@ -76,7 +90,7 @@ function countWords(of: readonly Answer[]): string {
   return of.length ? `${kept} kept, ${of.length - kept} rejected` : 'nothing said yet';
 }
 
-function Wishes({ agent }: { agent: Agent }) {
+function Wishes({ subject }: Of) {
   const { rounds } = useApp();
   const all = rounds.wished.value;
   return (
@@ -86,7 +100,7 @@ function Wishes({ agent }: { agent: Agent }) {
         {all.some((w) => w.learned) ? <small>strength</small> : null}
       </h3>
       {all.map((w) => (
-        <WishRow key={wishKey(w.wish)} wished={w} agent={agent} />
+        <WishRow key={wishKey(w.wish)} wished={w} subject={subject} />
       ))}
       {all.length ? null : <p class="mut">None yet. They come with the next round, once three answers agree.</p>}
       <AddWish />
@@ -94,14 +108,14 @@ function Wishes({ agent }: { agent: Agent }) {
   );
 }
 
-function WishRow({ wished, agent }: { wished: Wished; agent: Agent }) {
+function WishRow({ wished, subject }: Of & { wished: Wished }) {
   const { editor, rounds } = useApp();
   const { words, learned } = wished;
   const scene = editor.scene.value!;
   const hand = editor.deck.hand.value;
-  const answers = hand ? earlierAnswers(agent.feedback, hand.asked) : [];
+  const answers = hand ? earlierAnswers(subject.feedback, hand.asked) : [];
   const rests = learned
-    ? restsOn(learned, answers, { nameOf: nameIn(scene), unit: editor.unitOf(agent) })
+    ? restsOn(learned, answers, { nameOf: nameIn(scene), unit: unitFor(editor, subject) })
     : 'You said so. It counts from the next round.';
   return (
     <div class="wishrow" data-wish={words}>
@@ -153,11 +167,11 @@ function AddWish() {
 /** More contradictions than this are counted. */
 const MOST_NAMED = 3;
 
-function Apart({ agent }: { agent: Agent }) {
+function Apart({ subject }: Of) {
   const { editor, rounds } = useApp();
   const hand = editor.deck.hand.value;
   if (!hand) return null;
-  const answers = earlierAnswers(agent.feedback, hand.asked);
+  const answers = earlierAnswers(subject.feedback, hand.asked);
   const torn = rounds.wished.value.flatMap((w) => {
     const against = (w.learned?.against ?? []).flatMap((i) => answers[i] ?? []);
     return against.length ? [{ w, against }] : [];

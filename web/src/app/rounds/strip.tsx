@@ -1,17 +1,24 @@
-// A round: six futures of one road user as cards, each to be kept or rejected.
+// A round: six futures of one road user as cards, or six scenes, each to be kept or rejected.
 import { useMemo } from 'preact/hooks';
 import { choose } from '../../model/commands';
 import type { Scene } from '../../model/scene';
 import type { MotionSet } from '../../model/futures';
+import { readEvents } from '../../model/events';
 import type { Hand } from '../../edit/rounds/deck';
 import { useAlbum } from '../variants/album';
 import type { Pictured } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
-import { ActionButton, KeyCaps } from '../parts/buttons';
+import { ActionButton, KeyCaps, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { CardView } from './card';
 import '../../styles/variants.css';
 import '../../styles/rounds.css';
+
+/** Whose futures the cards are. */
+const WHOSE = [
+  ['rounds-one', 'This road user'],
+  ['rounds-scene', 'Whole scene'],
+] as const;
 
 /** So many rounds are shown as dots from the beginning. */
 const USUAL_ROUNDS = 5;
@@ -52,25 +59,23 @@ export default function RoundStrip() {
 function Title() {
   const { editor, rounds } = useApp();
   const round = rounds.asked.value?.round ?? 1;
+  const subject = rounds.subject.value;
   const asking = editor.deck.asking.value;
   const all = Math.max(USUAL_ROUNDS, round);
-  const who = editor.agent.value?.name ?? '';
-  const n = editor.deck.hand.value?.futures.modes.length;
+  const n = editor.deck.hand.value?.names.length;
   const many = n === 6 || !n ? 'six' : n;
+  const what = subject?.id === null ? `${many} ways the scene could go` : `${many} futures of ${subject?.name ?? ''}`;
   return (
     <>
       <h2>Round {round}</h2>
+      <Segments label="Whose rounds" items={WHOSE} />
       <span class="dots" role="img" aria-label={`Round ${round}`}>
         {Array.from({ length: all }, (_, i) => (
           <i key={i} class={i + 1 < round ? 'done' : i + 1 === round ? 'now' : ''} />
         ))}
       </span>
       <small role="status">
-        {asking
-          ? 'drawing …'
-          : round === 1
-            ? `${many} futures of ${who}`
-            : `${many} futures of ${who}, drawn anew from what you said`}
+        {asking ? 'drawing …' : round === 1 ? what : `${what}, drawn anew from what you said`}
       </small>
     </>
   );
@@ -113,8 +118,11 @@ function Cards({ hand }: { hand: Hand }) {
   );
 }
 
-/** The scene with each card in turn; the others do as they do now. */
-function picturesOf(scene: Scene, motion: MotionSet, { id, futures }: Hand): Pictured[] {
+/** The scene with each card in turn; where a card is one road user's, the others do as they do now. */
+function picturesOf(scene: Scene, motion: MotionSet, hand: Hand): Pictured[] {
+  if (hand.id === null)
+    return hand.sets.map((set) => ({ scene, set, events: readEvents(scene, set), state: { subject: null } }));
+  const { id, futures } = hand;
   const set: MotionSet = {
     ...motion,
     futures: new Map(motion.futures).set(id, futures),
@@ -147,7 +155,7 @@ function Learnt() {
         {all.length ? null : <small>Nothing yet: it takes three answers that agree, or a wish of your own.</small>}
       </span>
       <span class="hints" aria-hidden="true">
-        <KeyCaps of="K" /> keep <KeyCaps of="J" /> reject <KeyCaps of="Right" /> next card
+        <KeyCaps of="K" /> or pull up: keep <KeyCaps of="J" /> or down: reject <KeyCaps of="Right" /> next card
       </span>
     </footer>
   );

@@ -6,6 +6,7 @@ import type { Compared } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { SpeedPair } from './speed-pair';
 
 export default function ComparePanel() {
   const c = useApp();
@@ -48,6 +49,7 @@ export default function ComparePanel() {
           </tbody>
         </table>
       </section>
+      <SpeedPair key={`${left.id} ${right.id}`} now={now} />
       <section class="sect">
         <h3>
           When they part

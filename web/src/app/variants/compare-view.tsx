@@ -125,7 +125,10 @@ function paintersOf(stage: Stage, { editor }: Context, shown: { readonly current
       return (time < 0.05 ? startPose(a) : null) ?? poseAt(motionOf(of, set, a), time);
     };
   stage.painter('map', (g, v) => map.paint(g, v, editor.layers.peek().lanes));
-  stage.painter('agents', (g, v) => paintAgents(g, v, shown.current.right, editor.time.peek(), poseIn));
+  stage.painter('agents', (g, v) => {
+    if (editor.layers.peek().signals) paintSignals(g, v, shown.current.right.scene, editor.time.peek());
+    paintAgents(g, v, shown.current.right, editor.time.peek(), poseIn);
+  });
   stage.painter('overlay', (g, v) => {
     const { left, right, parting } = shown.current;
     const time = editor.time.peek();
@@ -139,7 +142,6 @@ function paintersOf(stage: Stage, { editor }: Context, shown: { readonly current
 type PoseIn = (card: WholeCard, time: number) => (a: Agent) => Pose | null;
 
 function paintAgents(g: Pen, v: View, card: WholeCard, time: number, poseIn: PoseIn): void {
-  paintSignals(g, v, card.scene, time);
   const at = poseIn(card, time);
   const all = [...card.scene.agents.values()].flatMap((a) => {
     const p = at(a);

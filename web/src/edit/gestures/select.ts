@@ -130,7 +130,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
     case 'frame':
       break;
     case 'future': {
-      if (editor.deck.hand.peek()) {
+      if (a && editor.deck.ofAgent(a.id)) {
         editor.deck.point(hit.index);
         break;
       }

@@ -1,29 +1,49 @@
-// The cards on the table: six futures of one road user that are judged. Nobody follows them and nobody answers them.
+// The cards on the table: six futures of one road user that are judged, or six ways that the whole scene could go.
+// Nobody follows them yet.
 import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import type { Asked } from '../../model/feedback';
-import type { Futures } from '../../model/futures';
+import type { Futures, MotionSet } from '../../model/futures';
 import type { RoundJson } from '../../model/json';
 
-export interface Hand {
-  readonly id: string;
+interface Dealt {
   /** Names what they were drawn by, and the document. */
   readonly print: string;
   /** What they were drawn by. */
   readonly asked: Asked;
-  readonly futures: Futures;
-  /** What each is like, in the order of the futures, and what was learned before them. */
+  /** What each is like, in the order of the cards, and what was learned before them. */
   readonly round: RoundJson;
+  /** What each is called. */
+  readonly names: readonly string[];
+}
+
+/** Of one road user, whom nobody answers. */
+export interface OneHand extends Dealt {
+  readonly id: string;
+  readonly futures: Futures;
+}
+
+/** Of everybody: what all of them do, by card. */
+export interface SceneHand extends Dealt {
+  readonly id: null;
+  readonly sets: readonly MotionSet[];
+}
+
+export type Hand = OneHand | SceneHand;
+
+/** Whose rounds are open: a road user's by its id, everybody's by null. */
+export interface RoundsOf {
+  readonly id: string | null;
 }
 
 export class Deck {
-  readonly #of = signal<string | null>(null);
+  readonly #of = signal<RoundsOf | null>(null);
   readonly #hand = signal<Hand | null>(null);
   readonly #current = signal(0);
   readonly #asking = signal(false);
   readonly #problem = signal<string | null>(null);
 
-  /** Id of the road user whose rounds are open. */
-  readonly of: ReadonlySignal<string | null> = this.#of;
+  /** Null while rounds are closed. */
+  readonly of: ReadonlySignal<RoundsOf | null> = this.#of;
   readonly hand: ReadonlySignal<Hand | null> = this.#hand;
   /** Index of the card that keys are about. */
   readonly current: ReadonlySignal<number> = this.#current;
@@ -31,16 +51,17 @@ export class Deck {
   /** Why there are no cards. */
   readonly problem: ReadonlySignal<string | null> = this.#problem;
 
-  open(id: string): void {
+  open(id: string | null): void {
     batch(() => {
       this.close();
-      this.#of.value = id;
+      this.#of.value = { id };
     });
   }
 
   close(): void {
     batch(() => {
-      this.#of.value = this.#hand.value = this.#problem.value = null;
+      this.#of.value = null;
+      this.#hand.value = this.#problem.value = null;
       this.#current.value = 0;
       this.#asking.value = false;
     });
@@ -54,7 +75,8 @@ export class Deck {
   }
 
   deal(hand: Hand): void {
-    if (hand.id !== this.#of.peek()) return;
+    const of = this.#of.peek();
+    if (!of || hand.id !== of.id) return;
     batch(() => {
       if (hand.asked.round !== this.#hand.peek()?.asked.round) this.#current.value = 0;
       this.#hand.value = hand;
@@ -72,7 +94,19 @@ export class Deck {
   }
 
   point(index: number): void {
-    const n = this.#hand.peek()?.futures.modes.length ?? 0;
+    const n = this.#hand.peek()?.names.length ?? 0;
     this.#current.value = Math.max(0, Math.min(n - 1, index));
+  }
+
+  /** The cards, where they are those of this road user. */
+  ofAgent(id: string): OneHand | null {
+    const hand = this.#hand.value;
+    return hand && hand.id === id ? hand : null;
+  }
+
+  /** What everybody does on the card that is looked at, where the cards are of everybody. */
+  shownSet(): MotionSet | null {
+    const hand = this.#hand.value;
+    return hand?.id === null ? (hand.sets[this.#current.value] ?? null) : null;
   }
 }

@@ -1,6 +1,6 @@
-// Rounds of cards for one road user: asked for, judged, drawn anew by what was said, and one of them taken.
+// Rounds of cards, of one road user or of the whole scene: asked for, judged, drawn anew by what was said, and one of
+// them taken.
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
-import { DEFAULTS } from '../../model/domain';
 import {
   addWish,
   docOf,
@@ -14,22 +14,23 @@ import {
   shortFor,
   type Answer,
   type Asked,
+  type Subject,
   type Verdict,
   type Wish,
 } from '../../model/feedback';
 import { reasons, wishWords } from '../../model/feedback-words';
-import { LETTERS, readFutures, withNames } from '../../model/futures';
-import { firstPose } from '../../model/read';
-import { canMove, nameIn, type Agent } from '../../model/scene';
+import { LETTERS } from '../../model/futures';
+import { canMove, nameIn } from '../../model/scene';
 import { takeDealt, type Command } from '../../model/commands';
 import type { Generator } from '../../net/generator';
 import type { FinalEvent } from '../../net/types';
 import type { Editor } from '../editor';
-import { naming } from '../motion-after';
-import type { Questions } from '../question';
+import type { Questions, Wanted } from '../question';
 import type { Hand } from './deck';
+import { handOf, sceneTaken } from './dealing';
+import type { Take } from '../variants/making';
 import type { Dealt } from '../variants/variants';
-import { saidOf } from './said';
+import { saidOf, subjectOf } from './said';
 
 /** What is wished, as far as it is known. */
 export interface Wished {
@@ -44,12 +45,21 @@ const REMEMBERED = 24;
 
 const NO_ANSWER = 'The generator is not answering.';
 
+/** Joint scenes are judged, each by itself. */
+const EVERYBODY: Wanted = {
+  agents: 'all',
+  react: false,
+  step: { name: '', agent: null, undo: false, everybody: true },
+};
+
 export class Rounds {
   readonly #known = new Map<string, Hand>();
   /** The document that the open rounds are about. */
   #print = '';
   readonly #tries = signal(0);
 
+  /** Whom they are about; null while they are closed. */
+  readonly subject: ReadonlySignal<Subject | null>;
   /** What the document asks of the present round; null while rounds are closed. */
   readonly asked: ReadonlySignal<Asked | null>;
   /** What was said of each card; null where it is open. */
@@ -66,25 +76,27 @@ export class Rounds {
     const { deck } = editor;
     this.isOpen = computed(() => deck.of.value !== null);
     const print = computed(() => (this.isOpen.value && editor.scene.value ? printOf(editor.scene.value) : ''));
+    this.subject = computed(() => subjectOf(editor));
     this.asked = computed(() => {
-      const a = this.#agent(true);
+      const a = this.subject.value;
       return a ? presentRound(a.feedback, print.value) : null;
     });
     this.said = computed(() => saidOf(editor));
     this.mayGoOn = computed(() => {
-      const [a, asked] = [this.#agent(true), this.asked.value];
+      const [a, asked] = [this.subject.value, this.asked.value];
       return !!a && !!asked && hasNews(a.feedback, asked) && this.#ready(true);
     });
     this.wished = computed(() => this.#wishes());
     // Whatever else changes the document, or takes the eyes off this road user, ends the rounds.
     effect(() => {
-      const id = deck.of.value;
-      if (id === null) return;
-      const same = editor.selection.value === id && !editor.dragging.value && print.value === this.#print;
-      if (!same || !this.#agent(true) || editor.lock.value) this.close();
+      const of = deck.of.value;
+      if (!of) return;
+      const looked = of.id === null || editor.selection.value === of.id;
+      const same = looked && !editor.dragging.value && print.value === this.#print;
+      if (!same || !this.subject.value || editor.lock.value) this.close();
     });
     const question = computed(() => {
-      const [a, asked] = [this.#agent(true), this.asked.value];
+      const [a, asked] = [this.subject.value, this.asked.value];
       return a && asked ? JSON.stringify([a.id, asked.round, asked.key, docOf(a.feedback, asked)]) : null;
     });
     const blocked = computed(() => editor.motion.value.stale || editor.away.value !== null);
@@ -100,17 +112,27 @@ export class Rounds {
 
   /** For the selected road user. */
   open(): void {
+    const a = this.editor.agent.peek();
+    if (a && canMove(a)) this.#open(a.id, a.name);
+  }
+
+  /** For everybody. */
+  openScene(): void {
+    if (this.editor.scene.peek()) this.#open(null, 'the whole scene');
+  }
+
+  #open(id: string | null, name: string): void {
     const { editor } = this;
-    const [a, lock] = [editor.agent.peek(), editor.lock.peek()];
-    if (lock) editor.notices.show({ text: lock.words, action: lock });
-    if (lock || !a || !canMove(a)) return;
+    const lock = editor.lock.peek();
+    if (lock) return editor.notices.show({ text: lock.words, action: lock });
     this.#print = printOf(editor.scene.peek()!);
+    this.generator.cancel();
     batch(() => {
       editor.playhead.pause();
       editor.setTime(0);
-      editor.deck.open(a.id);
+      editor.deck.open(id);
     });
-    editor.notices.say(`Rounds of ${a.name}.`);
+    editor.notices.say(`Rounds of ${name}.`);
   }
 
   close(): void {
@@ -133,7 +155,7 @@ export class Rounds {
 
   /** Why a card is liked or not; of an open one it says that it is not. */
   sayWhy(index: number, key: string): void {
-    const [a, hand] = [this.#agent(), this.editor.deck.hand.peek()];
+    const [a, hand] = [this.subject.peek(), this.editor.deck.hand.peek()];
     const card = hand?.round.cards[index];
     if (!a || !card) return;
     const verdict = this.said.peek()[index]?.verdict ?? 'reject';
@@ -147,7 +169,7 @@ export class Rounds {
     const card = hand?.round.cards[index];
     deck.point(index);
     if (!hand || !card || !this.#ready()) return;
-    const of = { card, letter: LETTERS[index], name: hand.futures.modes[index].name };
+    const of = { card, letter: LETTERS[index], name: hand.names[index] };
     this.#run((a, asked) => judge(a, asked, of, verdict, why));
   }
 
@@ -170,14 +192,24 @@ export class Rounds {
     else if (this.#ready()) this.editor.notices.show({ text: 'Keep or reject one first, or add a wish.' });
   }
 
-  /** A card becomes what the road user does: the others answer it as any future that is picked. */
+  /**
+   * A card becomes what the road user does: the others answer it as any future that is picked. One of the whole scene
+   * has their answers already.
+   */
   take(index: number): void {
     const { editor } = this;
-    const [a, hand] = [this.#agent(), editor.deck.hand.peek()];
-    if (!a || !hand || index >= hand.futures.modes.length || !this.#ready() || editor.lock.peek()) return;
+    const [hand, scene] = [editor.deck.hand.peek(), editor.scene.peek()];
+    if (!hand || !scene || index >= hand.names.length || !this.#ready() || editor.lock.peek()) return;
     const before = editor.motion.peek();
     batch(() => {
       this.close();
+      if (hand.id === null) {
+        const { command, take } = sceneTaken(scene, hand, index);
+        editor.answers.know(take.set);
+        editor.run(command);
+        return;
+      }
+      const a = scene.agents.get(hand.id)!;
       editor.answers.look(a.id, hand.futures, before.reach.get(a.id) ?? null);
       editor.run(takeDealt(a, index, hand.print, LETTERS[index]));
     });
@@ -186,16 +218,18 @@ export class Rounds {
   }
 
   /** The kept cards, each as the document in which it is taken. */
-  kept(): Dealt | null {
-    const [a, hand, scene] = [this.#agent(), this.editor.deck.hand.peek(), this.editor.scene.peek()];
-    if (!a || !hand || !scene || !this.#ready()) return null;
+  kept(): Dealt | readonly Take[] | null {
+    const [hand, scene] = [this.editor.deck.hand.peek(), this.editor.scene.peek()];
+    if (!hand || !scene || !this.#ready()) return null;
     const which = this.said.peek().flatMap((s, i) => (s?.verdict === 'keep' ? [i] : []));
+    if (hand.id === null) return which.map((i) => sceneTaken(scene, hand, i).take);
+    const a = scene.agents.get(hand.id)!;
     const scenes = which.map((i) => takeDealt(a, i, hand.print, LETTERS[i]).apply(scene));
     return { id: a.id, scenes, futures: hand.futures };
   }
 
-  #run(make: (a: Agent, asked: Asked) => Command | null): void {
-    const [a, asked] = [this.#agent(), this.asked.peek()];
+  #run(make: (a: Subject, asked: Asked) => Command | null): void {
+    const [a, asked] = [this.subject.peek(), this.asked.peek()];
     const command = a && asked && make(a, asked);
     if (command) this.editor.run(command);
   }
@@ -210,11 +244,12 @@ export class Rounds {
       deck.deal(known);
       return;
     }
-    const [a, asked, scene] = [this.#agent(), this.asked.peek(), document.peek()];
+    const [a, asked, scene] = [this.subject.peek(), this.asked.peek(), document.peek()];
     if (!a || !asked || !scene) return;
     deck.ask();
     const feedback = docOf(a.feedback, asked);
-    const wanted = { agents: [a.id], react: false, step: null, feedback };
+    const wanted: Wanted =
+      a.id === null ? { ...EVERYBODY, feedback } : { agents: [a.id], react: false, step: null, feedback };
     const question = this.questions.makeApart(scene, motion.peek(), wanted, {
       // Half-drawn cards are nothing to be judged.
       draft: () => undefined,
@@ -225,26 +260,18 @@ export class Rounds {
     this.generator.ask(question);
   }
 
-  #deal(text: string, a: Agent, asked: Asked, e: FinalEvent): void {
-    const { deck, scene } = this.editor;
-    const json = e.samples[0]?.agents[a.id];
-    const start = json && firstPose(a, json);
+  #deal(text: string, of: Subject, asked: Asked, e: FinalEvent): void {
+    const { deck, motion, scene } = this.editor;
     const document = scene.peek();
-    if (!start || !e.feedback || !document) return deck.fail('No cards came.');
-    const { steps } = DEFAULTS;
-    const futures = withNames(readFutures(json, start, steps, steps, a.type === 'pedestrian'), naming(document, a));
-    const hand: Hand = {
-      id: a.id,
-      print: shortFor(text),
-      asked,
-      futures: { ...futures, chosen: 0 },
-      round: e.feedback,
-    };
+    const round = e.feedback;
+    const made = document && handOf(document, motion.peek(), of, e);
+    if (!round || !made?.names.length) return deck.fail('No cards came.');
+    const hand: Hand = { ...made, print: shortFor(text), asked, round };
     this.#known.set(text, hand);
     if (this.#known.size > REMEMBERED) this.#known.delete(this.#known.keys().next().value as string);
     deck.deal(hand);
-    const best = futures.modes[0]?.name;
-    this.editor.notices.say(`Round ${asked.round}: ${futures.modes.length} futures. A: ${best}.`);
+    const many = of.id === null ? 'ways' : 'futures';
+    this.editor.notices.say(`Round ${asked.round}: ${hand.names.length} ${many}. A: ${hand.names[0]}.`);
   }
 
   /** Are the cards those of the document? */
@@ -258,7 +285,7 @@ export class Rounds {
   /** What was learned and what was said since, without what was forgotten. */
   #wishes(): readonly Wished[] {
     const { deck } = this.editor;
-    const f = this.#agent(true)?.feedback;
+    const f = this.subject.value?.feedback;
     const forgotten = f?.forgotten ?? [];
     const own = f?.wishes ?? [];
     const learned = (deck.hand.value?.round.wishes ?? []).filter((w) => {
@@ -272,13 +299,6 @@ export class Rounds {
       ...learned.map((l) => ({ wish: wishOf(l), words: wishWords(l, this.#nameOf, l.kept), learned: l })),
       ...since.map((w) => ({ wish: w, words: wishWords(w, this.#nameOf), learned: null })),
     ];
-  }
-
-  #agent(watch = false): Agent | null {
-    const { deck, scene } = this.editor;
-    const id = watch ? deck.of.value : deck.of.peek();
-    const all = watch ? scene.value?.agents : scene.peek()?.agents;
-    return (id !== null && all?.get(id)) || null;
   }
 
   readonly #nameOf = (id: string): string | null => {

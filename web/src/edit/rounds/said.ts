@@ -1,12 +1,21 @@
 // What was said of the cards on the table.
-import { answerTo, type Answer } from '../../model/feedback';
+import { answerTo, everybody, oneSubject, type Answer, type Subject } from '../../model/feedback';
 import type { Editor } from '../editor';
 
 const NONE: readonly null[] = Object.freeze([]);
 
+/** Whom the open rounds are about; null while they are closed, or when it has gone. */
+export function subjectOf({ deck, scene }: Editor): Subject | null {
+  const [of, now] = [deck.of.value, scene.value];
+  if (!of || !now) return null;
+  if (of.id === null) return everybody(now);
+  const a = now.agents.get(of.id);
+  return a ? oneSubject(a) : null;
+}
+
 /** By card; null where it is open. */
-export function saidOf({ deck, scene }: Editor): readonly (Answer | null)[] {
-  const hand = deck.hand.value;
-  const a = hand && scene.value?.agents.get(hand.id);
-  return a ? hand.round.cards.map((card) => answerTo(a.feedback, hand.asked, card)) : NONE;
+export function saidOf(editor: Editor): readonly (Answer | null)[] {
+  const hand = editor.deck.hand.value;
+  const of = hand && subjectOf(editor);
+  return of ? hand.round.cards.map((card) => answerTo(of.feedback, hand.asked, card)) : NONE;
 }

@@ -1,12 +1,15 @@
 // What was said in rounds, as a file.
+import { oneSubject } from '../../model/feedback';
 import { feedbackTable } from '../../model/feedback-table';
 import { nameIn } from '../../model/scene';
 import { save, slug } from '../download';
 import type { Editor } from '../editor';
+import { subjectOf } from './said';
 
-/** Of the selected road user, as a table. */
+/** Of those whom the rounds are about, else of the selected road user, as a table. */
 export function saveFeedback(editor: Editor): void {
-  const [scene, a] = [editor.scene.peek(), editor.agent.peek()];
+  const [scene, one] = [editor.scene.peek(), editor.agent.peek()];
+  const a = subjectOf(editor) ?? (one && oneSubject(one));
   if (!scene || !a?.feedback) return;
   const text = feedbackTable(a.id, a.feedback, nameIn(scene));
   const blob = new Blob([text], { type: 'text/csv' });

@@ -363,10 +363,26 @@ export class Variants {
     }
     if (turn === this.#turn) this.#making.value = null;
     if (why) editor.notices.show({ text: why });
+    this.#join(takes, id);
+  }
+
+  /** Scenes of a round join the variants, kept. */
+  keepTakes(takes: readonly Take[]): void {
+    if (!takes.length || this.#refusedLock()) return;
+    batch(() => {
+      this.stop();
+      this.endCompare();
+      this.#open.value = true;
+    });
+    this.#join(takes, null);
+  }
+
+  #join(takes: readonly Take[], subject: string | null): void {
+    const { editor } = this;
     const now = editor.scene.peek();
-    if (!takes.length || now?.id !== scenes[0].id || now.roster !== scenes[0].roster) return;
+    if (!takes.length || now?.id !== takes[0].scene.id || now.roster !== takes[0].scene.roster) return;
     const n = takes.length;
-    const states = takes.map((t) => stateOfVariant(t.scene, id));
+    const states = takes.map((t) => stateOfVariant(t.scene, subject));
     const command = keepStates(now, states, n === 1 ? 'A card kept as a variant' : `${n} cards kept as variants`);
     if (!command) return editor.notices.show({ text: 'There is no room for more variants. Remove some first.' });
     this.#keepSets(takes);

@@ -1,0 +1,336 @@
+// The states that pictures are taken of: how each is reached, by the number that the design gives it. Each begins on a
+// page of its own.
+import { carBesideMedian, carOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
+import { devices } from '../support/devices.js';
+import { Fingers } from '../support/fingers.js';
+import { along, emptyScene, lanesBeside } from '../support/maps.js';
+
+/** A corner of the picture where the pointer is over nobody and no panel. */
+const REST = [700, 120];
+const rest = (e) => e.page.mouse.move(...REST);
+const leave = (e) => e.page.evaluate(() => document.activeElement?.blur?.());
+const gone = (e, selector) => e.page.waitForSelector(selector, { state: 'detached' });
+
+/** The flag of a car's goal, moved by a share of the way back to the car. */
+const flag = (car, share) => [
+  car.to[0] + (car.from[0] - car.to[0]) * share + 9,
+  car.to[1] + (car.from[1] - car.to[1]) * share - 26,
+];
+
+async function selected(e) {
+  const car = await carOnTheMove(e);
+  await e.choose(car.id);
+  await leave(e);
+  await rest(e);
+  return car;
+}
+
+/** The flag is in the hand, a third of the way back. */
+async function dragged(e) {
+  const car = await selected(e);
+  await e.drag(flag(car, 0), flag(car, 0.33), { moves: 3 });
+  await e.settled();
+  return car;
+}
+
+async function released(e) {
+  const car = await dragged(e);
+  await e.release();
+  await rest(e);
+  return car;
+}
+
+/** A scene that begins with nobody on the map of the crossing. */
+async function nobody(e) {
+  const { json, bytes } = await emptyScene(e);
+  await e.drop('nobody.json', bytes);
+  await e.page.waitForSelector('.nobody');
+  await e.settled();
+  return json;
+}
+
+/** A goal right across a median, typed: the verdict stands on the line. */
+async function acrossMedian(e) {
+  const { car, across } = await carBesideMedian(e);
+  await e.choose(car.id);
+  await e.key('z');
+  await e.settled();
+  await e.type('goal-pos', across.x.toFixed(1), 0);
+  await e.type('goal-pos', across.y.toFixed(1), 1);
+  await leave(e);
+  await rest(e);
+}
+
+async function variants(e, count) {
+  await e.key('b');
+  await selected(e);
+  await e.key('Shift+V');
+  await e.page.waitForSelector('.strip');
+  const field = e.page.getByLabel('How many variants are made');
+  await field.fill(String(count));
+  await field.press('Enter');
+  await leave(e);
+  await e.key('Control+Enter');
+  await e.page.waitForSelector('.vcard[data-variant]');
+  await e.page.waitForSelector('.vcard.waiting', { state: 'detached', timeout: 60_000 });
+  await e.settled();
+}
+
+const broken = {
+  format: 'dragtraffic.scene',
+  version: 1,
+  name: 'Two lanes',
+  time: { step_s: 0.1, steps: 91, now_step: 0 },
+  map: {
+    lanes: [
+      { id: 'E1', points_m: [[0, 0], [80, 0]], successors: ['E2'] }, // prettier-ignore
+      { id: 'E2', points_m: [[80, 0]], predecessors: ['E1'] },
+    ],
+  },
+  agents: [],
+};
+
+const dark = { colorScheme: 'dark' };
+
+/** `[name, how to reach it, what the page is like]`. */
+export const STATES = [
+  ['01-first-view', rest],
+  [
+    '02-hover',
+    async (e) => {
+      const car = await carOnTheMove(e);
+      await e.page.mouse.move(...car.from, { steps: 2 });
+    },
+  ],
+  ['03-selected', selected],
+  ['04-mid-drag', dragged],
+  ['05-after-release', released],
+  [
+    '06-pedestrian-typed',
+    async (e) => {
+      const walker = await pedestrianOnTheMove(e);
+      await e.choose(walker.id);
+      await e.type('goal-speed', '1.2+0.4');
+      await leave(e);
+      await rest(e);
+    },
+  ],
+  [
+    '07-unreachable',
+    async (e) => {
+      await released(e);
+      await e.type('goal-time', '2');
+      await leave(e);
+    },
+  ],
+  [
+    '08-events',
+    async (e) => {
+      await released(e);
+      await e.letGo();
+      await e.key('e');
+    },
+  ],
+  [
+    '09-log-ghost',
+    async (e) => {
+      await released(e);
+      await e.key('o');
+      for (let i = 0; i < 30; i++) await e.key('.');
+    },
+  ],
+  [
+    '10-placing',
+    async (e) => {
+      const json = await nobody(e);
+      const { a } = lanesBeside(json);
+      await e.key('1');
+      await e.page.mouse.move(...(await e.at(...along(a, 20))), { steps: 3 });
+    },
+  ],
+  [
+    '11-density-fill',
+    async (e) => {
+      await e.key('b');
+      await e.key('d');
+      await e.page.waitForSelector('.filling');
+      await e.settled();
+    },
+  ],
+  ['12-variants', (e) => variants(e, 6)],
+  [
+    '13-server-away',
+    async (e, { program }) => {
+      const car = await selected(e);
+      await program.kill();
+      await e.drag(flag(car, 0), flag(car, 0.33), { moves: 3 });
+      await e.page.waitForSelector('.banner');
+      await e.page.mouse.up();
+      await e.until(() => /1 change is waiting/.test(document.querySelector('.banner').textContent));
+    },
+    // How long until the next try is told in seconds.
+    { hide: ['.banner'], after: ({ program }) => program.run() },
+  ],
+  [
+    '14-import-error',
+    async (e) => {
+      await e.drop('junction_b.json', Buffer.from(JSON.stringify(broken, null, 1)));
+      await e.page.waitForSelector('.dlg');
+    },
+  ],
+  ['17-dark', released, dark],
+  [
+    '18-touch',
+    async (e) => {
+      const [car] = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
+      await e.choose(car.id);
+    },
+    devices['tablet on its side'],
+  ],
+  [
+    '19-palette',
+    async (e) => {
+      await e.key('Control+k');
+      await e.page.waitForSelector('.dlg');
+    },
+  ],
+  [
+    '20-shortcuts',
+    async (e) => {
+      await e.key('?');
+      await e.page.waitForSelector('.dlg.keys');
+    },
+  ],
+  ['21-selected-1280x720', selected, { viewport: { width: 1280, height: 720 } }],
+  ['25-verdict-on-the-line', acrossMedian],
+  ['25-verdict-on-the-line-dark', acrossMedian, dark],
+  [
+    '26-others-react-mid-drag',
+    async (e) => {
+      await dragged(e);
+      // Whoever would do something else has been asked.
+      await e.settled();
+    },
+  ],
+  [
+    '27-feedback-rounds',
+    async (e) => {
+      await selected(e);
+      await e.key('Shift+K');
+      await e.page.waitForSelector('.rcard');
+      await e.settled();
+      for (const key of ['1', 'k', '2', 'k', '3', 'j', '4', 'j', '5', 'j']) await e.key(key);
+      await e.key('Enter');
+      await e.settled();
+    },
+  ],
+  [
+    '27-rounds-of-the-scene',
+    async (e) => {
+      await e.key('Alt+K');
+      await e.page.waitForSelector('.rcard', { timeout: 60_000 });
+      await e.settled();
+    },
+  ],
+  [
+    '29-multi-select',
+    async (e) => {
+      await e.key('b');
+      const walker = await pedestrianOnTheMove(e);
+      await e.choose(walker.id);
+      await leave(e);
+      await e.key('Shift+A');
+      await e.settled();
+      await e.key('z');
+      await e.settled();
+      await gone(e, '.toast');
+    },
+  ],
+  [
+    '30-speed-curve',
+    async (e) => {
+      await selected(e);
+      await e.key('t');
+      await e.frames(3);
+      const plot = await e.page.locator('.plot').boundingBox();
+      await e.page.mouse.dblclick(plot.x + plot.width * 0.5, plot.y + plot.height * 0.55);
+      await e.settled();
+      await e.type('point-speed', '0');
+      await e.type('point-hold', '3');
+      await leave(e);
+    },
+  ],
+  [
+    '31-variants-compared',
+    async (e) => {
+      await variants(e, 4);
+      const cards = e.page.locator('.vcard .face');
+      await cards.nth(1).focus();
+      await e.key('c');
+      await e.page.waitForSelector('.pane');
+      await leave(e);
+      for (let i = 0; i < 40; i++) await e.key('.');
+    },
+  ],
+  [
+    '32-export',
+    async (e) => {
+      await e.page.locator('.top [data-action="export"]').click();
+      await e.page.waitForSelector('.export');
+      await e.settled();
+    },
+  ],
+  [
+    '33-history',
+    async (e) => {
+      await selected(e);
+      for (const t of ['8.0', '7.0', '6.0']) await e.type('goal-time', t);
+      await leave(e);
+      await e.key('Control+h');
+      await e.page.waitForSelector('.history');
+      await e.page.locator('.past [data-step]').nth(2).click();
+      await e.type('goal-time', '5.0');
+      await leave(e);
+    },
+  ],
+  [
+    '33-share',
+    async (e) => {
+      await e.page.locator('[data-action="share"]').click();
+      await e.until(() => document.querySelector('.share input')?.value.startsWith('http'));
+    },
+    // The port of the program is another each time.
+    { hide: ['.share input'] },
+  ],
+  [
+    '34-phone',
+    async (e) => {
+      const f = new Fingers(e);
+      const [car] = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
+      await e.choose(car.id);
+      await f.tap([195, 20]);
+    },
+    devices.phone,
+  ],
+  ['35-empty-scene', nobody],
+  [
+    'layers',
+    async (e) => {
+      const car = await selected(e);
+      for (const key of ['Shift+M', 'Shift+H', 'Shift+C']) await e.key(key);
+      await e.page.locator('[data-menu="layers"]').click();
+      await e.page.waitForSelector('.menu');
+      return car;
+    },
+  ],
+  [
+    'remedy-tried',
+    async (e) => {
+      await released(e);
+      await e.type('goal-time', '2');
+      await leave(e);
+      await e.page.locator('[data-remedy="Use nearest reachable"]').hover();
+      await e.settled();
+    },
+  ],
+];
