@@ -218,4 +218,67 @@ journeys('rounds', (stage) => {
     }
     assert.equal(await e.page.locator('.vcard .keep[aria-pressed="true"]').count(), 2);
   });
+
+  it(
+    'of the whole scene are joint ways: pulled up kept, down rejected, one taken for everybody',
+    { timeout: 150_000 },
+    async () => {
+      const e = await stage.open();
+      await e.begin();
+      await e.key('b');
+      await e.key('Alt+K');
+      await e.page.waitForSelector('.rcard', { timeout: 60_000 });
+      await e.settled();
+      const asked = e.wire.last();
+      assert.deepEqual([asked.body.agents, asked.body.feedback.answers], ['all', []]);
+      const { samples } = asked.event('final');
+      const all = await cards(e);
+      assert.equal(all.length, samples.length);
+      assert.equal(new Set(all.map((c) => c.name)).size, all.length, 'names are told apart');
+      assert.match(await e.text('.rounds header'), /six ways the scene could go/);
+      const pull = async (nth, by) => {
+        const r = await e.page.locator('.rcard .face').nth(nth).boundingBox();
+        const [x, y] = [r.x + r.width / 2, r.y + r.height / 2];
+        await e.drag([x, y], [x, y + by], { moves: 4 });
+        await e.release();
+      };
+      await pull(0, -60);
+      await pull(1, 60);
+      await pull(2, 20);
+      assert.deepEqual(
+        (await cards(e)).map((c) => c.verdict),
+        ['Kept', 'Rejected', ...all.slice(2).map(() => null)],
+      );
+      await e.picture('rounds-scene');
+      await next(e);
+      assert.equal(await round(e), 'Round 2');
+      const sent = e.wire.last().body.feedback.answers;
+      assert.deepEqual(
+        sent.map((a) => a.verdict),
+        ['keep', 'reject'],
+      );
+      assert.ok(Object.keys(sent[0].places).length > 1, 'everybody is in it');
+      // One of them becomes what everybody does, at once: nobody has to be asked.
+      const drawn = e.wire.last().event('final').samples[2].agents;
+      const mark = e.wire.asked.length;
+      await e.page.locator('[data-take="C"]').click();
+      await e.settled();
+      assert.equal(await e.page.locator('.rcard').count(), 0);
+      assert.equal(e.wire.since(mark).length, 0);
+      const [id, { modes, chosen }] = Object.entries(drawn).find(([, f]) => {
+        const m = f.modes[f.chosen];
+        return Math.hypot(m.x_m.at(-1) - m.x_m[0], m.y_m.at(-1) - m.y_m[0]) > 10;
+      });
+      await e.choose(id);
+      const end = await e.pose('Goal');
+      const m = modes[chosen];
+      assert.ok(Math.hypot(end.x - m.x_m.at(-1), end.y - m.y_m.at(-1)) < 0.2, 'it goes where the card says');
+      await e.letGo();
+      await e.key('Control+z');
+      await e.settled();
+      await e.key('Alt+K');
+      await e.settled();
+      assert.equal(await round(e), 'Round 2', 'what was said is still there');
+    },
+  );
 });

@@ -30,7 +30,18 @@ export class Editor {
       await context.addInitScript(() => {
         performance.now = () => 0;
       });
-    if (now) await context.clock.setFixedTime(now);
+    if (now)
+      await context.addInitScript((at) => {
+        const Real = Date;
+        window.Date = class extends Real {
+          constructor(...of) {
+            super(...(of.length ? of : [at]));
+          }
+          static now() {
+            return at;
+          }
+        };
+      }, Date.parse(now));
     return Editor.#in(context, url, []);
   }
 

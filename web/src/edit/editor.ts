@@ -88,6 +88,8 @@ export interface Beside {
   readonly scene: Scene;
   readonly set: MotionSet;
   readonly parted: readonly string[];
+  /** A change that is tried: it stands before what is shown of the road user that it is about. */
+  readonly tried?: true;
 }
 
 const NOBODY: readonly string[] = Object.freeze([]);

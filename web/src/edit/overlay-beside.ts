@@ -13,6 +13,7 @@ import type { Beside } from './editor';
 
 const WAY_DASH = [6, 5];
 const BOX_DASH = [4, 3];
+const TRIED_DASH = [8, 6];
 
 export function paintBeside(g: Pen, v: View, { scene, set, parted }: Beside, time: number): void {
   const c = colours();
@@ -38,6 +39,7 @@ export function paintTried(
   for (const id of parted) {
     const [a, was] = [scene.agents.get(id), now.agents.get(id)];
     if (!a || !was || a === was) continue;
+    trail(g, v, motionOf(scene, set, a), { colour: c.goal, width: 3, dash: TRIED_DASH, halo: true, dots: true });
     const start = startPose(a);
     if (start && !sameSpec(a.start, was.start)) {
       paintGhost(g, v, a, start, c.select, null, BOX_DASH, 2);

@@ -96,14 +96,12 @@ export class Overlay {
     this.paintHover(g, v);
     const a = e.agent.value;
     const beside = e.beside.value;
-    if (beside) {
-      paintBeside(g, v, beside, e.time.value);
-      paintTried(g, v, this.labels, beside, scene, (of) => e.unitOf(of));
-    }
+    if (beside) paintBeside(g, v, beside, e.time.value);
     if (e.showBefore.value && !beside) this.changes.paintBefore(g, v);
     this.ghosts.paint(g, v);
     if (a) this.paintSelected(g, v, a);
     else this.hovered.stop();
+    if (beside?.tried) paintTried(g, v, this.labels, beside, scene, (of) => e.unitOf(of));
     this.several.paint(g, v);
     this.ghosts.paintLabels(g, v);
     this.events.paint(g, v);
@@ -212,6 +210,11 @@ export class Overlay {
     return this.editor.layers.value.futures && !this.editor.deck.shownSet();
   }
 
+  /** Is a change tried? What is now steps back behind it. */
+  private get trying(): boolean {
+    return this.editor.beside.value?.tried === true;
+  }
+
   private paintSix(g: Pen, v: View, a: Agent): void {
     const { editor: e } = this;
     const f = e.futures.value;
@@ -229,7 +232,7 @@ export class Overlay {
       chosen,
       only: e.hoverFuture.value,
       outdated,
-      alpha: outdated ? 0.6 : 1,
+      alpha: this.trying ? 0.25 : outdated ? 0.6 : 1,
       onlyChosen: committed,
       said: e.deck.ofAgent(a.id) ? saidOf(e).map((s) => s?.verdict ?? null) : [],
     });
@@ -245,7 +248,7 @@ export class Overlay {
   /** Those whose verdicts are shown: of futures from before a change nothing is said. */
   private judged(a: Agent, f: Futures): readonly number[] {
     const { editor: e } = this;
-    if (!verdictsHold(e)) return [];
+    if (!verdictsHold(e) || this.trying) return [];
     const only = e.hoverFuture.value ?? (this.committed(a) ? e.chosen.value : null);
     if (only !== null) return only < f.modes.length ? [only] : [];
     return f.modes.map((_, i) => i);

@@ -43,7 +43,7 @@ export class Trial {
     if (!changed.length) return;
     this.#from = scene;
     const set = editor.motion.peek();
-    this.#show({ scene: after, set, parted: changed });
+    this.#show({ scene: after, set, parted: changed, tried: true });
     if (editor.away.peek() || set.stale) return;
     const agent = changed.length === 1 ? changed[0] : null;
     const asked = askedAfter(editor, after, { name: command.name, agent, several: changed, undo: false });
@@ -73,7 +73,7 @@ export class Trial {
     if (this.#from !== from || this.#shown?.scene !== after) return;
     const set = motionAfter(before, after, e, asked, () => 'rank');
     const others = findChanges(after, before, set, new Set(changed)).map((c) => c.id);
-    this.#show({ scene: after, set, parted: [...changed, ...others] });
+    this.#show({ scene: after, set, parted: [...changed, ...others], tried: true });
   }
 
   #show(beside: Beside): void {

@@ -200,8 +200,10 @@ interface RelationCandidate extends Candidate {
 
 function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
   const out = new Map<string, RelationCandidate>();
+  // Nobody waits for whom it hits.
+  const hit = new Set(m.about?.faults.flatMap((f) => (f.kind === 'collision' && f.with !== null ? [f.with] : [])));
   for (const r of m.about?.relations ?? []) {
-    const name = who.nameOf(r.with);
+    const name = hit.has(r.with) ? null : who.nameOf(r.with);
     const basis = `${r.kind}:${r.with}`;
     if (!name || out.has(basis)) continue;
     const word = RELATION_WORDS[r.kind];
