@@ -4,6 +4,7 @@ import {
   addWish,
   answerTo,
   docOf,
+  everybody,
   forget,
   hasNews,
   judge,
@@ -233,5 +234,66 @@ describe('words of rounds', () => {
     );
     expect(lines[1]).toBe(`1,A,"'=1+1, ""so""",reject,too harsh,6,2.4,1.5,0,,,true`);
     expect(lines[2]).toBe('1,D,Way 3,keep,,6,2.4,3,0,,,');
+  });
+});
+
+describe('what was said of the whole scene', () => {
+  const whole = (s: Scene) => everybody(s);
+  const asking = (s: Scene): Asked => presentRound(s.feedback, printOf(s));
+  const many = Array.from({ length: 50 }, (_, i) => `${i}`);
+
+  /** Everybody goes straight on but one, who turns; one pair goes in this order or in the other. */
+  const sceneCard = (n: number): Judged => ({
+    card: {
+      features: like(n, {
+        first: Object.fromEntries(many.map((id, i) => [id, { other: i === 40 ? n % 2 === 0 : true }])),
+        manoeuvres: Object.fromEntries(many.map((id, i) => [id, i === 45 && n % 2 ? 'left' : 'straight'])),
+      }),
+      places: {
+        moving: [0, 1, 2].map((t) => [t * 5 + 0.123, n * 2]),
+        standing: [0, 1, 2].map(() => [70.04, 3]),
+      },
+    },
+    letter: 'ABCDEF'[n],
+    name: `Way ${n}`,
+  });
+  const judged = [0, 1, 2, 3].reduce(
+    (s, n) => judge(whole(s), asking(s), sceneCard(n), n % 2 ? 'keep' : 'reject').apply(s),
+    crossing(),
+  );
+
+  it('is asked about with no more traits than may be, and those that tell the cards apart', () => {
+    const next = nextRound(whole(judged), asking(judged)).apply(judged);
+    const { answers = [] } = docOf(next.feedback, asking(next));
+    expect(answers).toHaveLength(4);
+    const traits = new Set(
+      answers.flatMap(({ features: f }) => [
+        ...Object.entries(f.first ?? {}).flatMap(([who, row]) => Object.keys(row).map((o) => `${who} before ${o}`)),
+        ...Object.entries(f.manoeuvres ?? {}).map(([who, does]) => `${who} ${does}`),
+      ]),
+    );
+    expect(traits.size + 5).toBeLessThanOrEqual(64);
+    expect(traits.size).toBeGreaterThan(40);
+    for (const told of ['40 before other', '45 left', '45 straight']) expect(traits).toContain(told);
+    for (const { features } of answers) expect(features.gap_s).toBe(2.4);
+    // What is kept is all of it: later rounds may tell others apart.
+    expect(Object.keys(next.feedback!.answers[0].features.manoeuvres!)).toHaveLength(50);
+  });
+
+  it('says where everybody is in few words, and is found again by it', () => {
+    const [first] = judged.feedback!.answers;
+    expect(first.places).toEqual({
+      moving: [
+        [0.1, 0],
+        [5.1, 0],
+        [10.1, 0],
+      ],
+      standing: [[70, 3]],
+    });
+    const said = (n: number) => answerTo(judged.feedback, asking(judged), sceneCard(n).card)?.letter;
+    expect([0, 1, 2, 3, 4].map(said)).toEqual(['A', 'B', 'C', 'D', undefined]);
+    const again = judge(whole(judged), asking(judged), sceneCard(1), null).apply(judged);
+    expect(again.feedback!.answers.map((a) => a.letter)).toEqual(['A', 'C', 'D']);
+    expect(car(again).feedback, 'of a road user nothing was said').toBeNull();
   });
 });

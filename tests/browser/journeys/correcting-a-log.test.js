@@ -117,7 +117,7 @@ journeys('correcting a log', (stage) => {
     assert.deepEqual(await e.inspector(), done);
   });
 
-  it('everybody plans anew every three seconds, over twenty', { timeout: 120_000 }, async () => {
+  it('everybody plans anew every three seconds, over twelve', { timeout: 120_000 }, async () => {
     const e = await stage.open();
     await e.begin();
     const again = e.page.getByRole('group', { name: 'How often everybody plans anew' });

@@ -207,9 +207,13 @@ export const STATES = [
   [
     '26-others-react-mid-drag',
     async (e) => {
-      await dragged(e);
+      const car = await waiting(e);
+      await e.key('g');
+      await e.settled();
+      await e.drag(flag(car, 0), ahead(car, 260), { moves: 4 });
       // Whoever would do something else has been asked.
       await e.settled();
+      await e.page.waitForSelector('.changes, [data-changes], .ch', { timeout: 5000 }).catch(() => undefined);
     },
   ],
   [
@@ -312,7 +316,14 @@ export const STATES = [
     },
     devices.phone,
   ],
-  ['35-empty-scene', nobody],
+  [
+    '35-empty-scene',
+    async (e) => {
+      await nobody(e);
+      // The list of scenes says when the server has saved it.
+      await e.key('b');
+    },
+  ],
   [
     'layers',
     async (e) => {

@@ -16,6 +16,7 @@ export function coach({ editor, ui }: Context): void {
     }
     if (!ui.coach.peek()) return;
     if (ui.coach.peek() === 1 && a) ui.coachTo(2);
+    if (ui.coach.peek() === 2 && !a && !dragging) ui.coachTo(1);
     if (ui.coach.peek() === 2 && dragging) ui.coachTo(3);
     if (ui.coach.peek() === 3 && !dragging && a && hasGoal(a.goal)) ui.endCoach();
   });

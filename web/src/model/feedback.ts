@@ -45,7 +45,12 @@ export interface Feedback {
 
 /** As many as a question may carry. */
 const MOST_ANSWERS = 200;
+/** Of scenes fewer are kept: each holds where everybody is. */
+const MOST_ANSWERS_OF_SCENE = 60;
 const MOST_WISHES = 32;
+/** So many different traits a question may speak of, and so many of them every card has. */
+const MOST_TRAITS = 64;
+const PLAIN_TRAITS = 5;
 
 const NOTHING: Feedback = Object.freeze({ answers: [], wishes: [], forgotten: [], asked: null });
 
@@ -77,13 +82,62 @@ export const earlierAnswers = (f: Feedback | null, asked: Asked): readonly Answe
 
 /** What is sent. */
 export function docOf(f: Feedback | null, asked: Asked): FeedbackDocJson {
-  const answers = earlierAnswers(f, asked).map(({ features, places, verdict, why }) => ({
-    features,
+  const earlier = earlierAnswers(f, asked);
+  const lean = leanFeatures(
+    earlier.map((a) => a.features),
+    MOST_TRAITS - PLAIN_TRAITS - asked.wishes.length,
+  );
+  const answers = earlier.map(({ places, verdict, why }, i) => ({
+    features: lean[i],
     places: places as Record<string, number[][]>,
     verdict,
     ...(why ? { why } : {}),
   }));
   return { answers, wishes: [...asked.wishes], forgotten: [...asked.forgotten] };
+}
+
+/**
+ * The same with no more than so many traits of single road users: of a scene with many in it those count that tell its
+ * cards from each other.
+ */
+function leanFeatures(all: readonly Features[], room: number): readonly Features[] {
+  const values = new Map<string, Set<unknown>>();
+  const seen = new Map<string, number>();
+  const note = (key: string, value: unknown): void => {
+    values.set(key, (values.get(key) ?? new Set()).add(value));
+    seen.set(key, (seen.get(key) ?? 0) + 1);
+  };
+  const pair = (who: string, other: string): string => `p${JSON.stringify([who, other])}`;
+  const deed = (who: string): string => `m${who}`;
+  for (const { first, manoeuvres } of all) {
+    for (const [who, row] of Object.entries(first ?? {}))
+      for (const [other, is] of Object.entries(row)) note(pair(who, other), is);
+    for (const [who, does] of Object.entries(manoeuvres ?? {})) note(deed(who), does);
+  }
+  // An order is one trait, whichever way; each manoeuvre is one.
+  const cost = (key: string): number => (key.startsWith('p') ? 1 : values.get(key)!.size);
+  const keys = [...values.keys()];
+  if (keys.reduce((sum, k) => sum + cost(k), 0) <= room) return all;
+  const tells = (key: string): boolean => values.get(key)!.size > 1 || seen.get(key)! < all.length;
+  const kept = new Set<string>();
+  let left = room;
+  for (const key of [...keys.filter(tells), ...keys.filter((k) => !tells(k))]) {
+    if (cost(key) > left) continue;
+    left -= cost(key);
+    kept.add(key);
+  }
+  return all.map(({ first, manoeuvres, ...plain }) => {
+    const rows = Object.entries(first ?? {}).map(([who, row]) => {
+      const few = Object.entries(row).filter(([other]) => kept.has(pair(who, other)));
+      return [who, Object.fromEntries(few)] as const;
+    });
+    const does = Object.entries(manoeuvres ?? {}).filter(([who]) => kept.has(deed(who)));
+    return {
+      ...plain,
+      first: Object.fromEntries(rows.filter(([, row]) => Object.keys(row).length)),
+      manoeuvres: Object.fromEntries(does),
+    };
+  });
 }
 
 const following = (f: Feedback | null, { round, key }: Asked): Asked =>
@@ -114,9 +168,19 @@ function samePlaces(a: Places, b: Places): boolean {
   if (ids.length !== Object.keys(b).length) return false;
   return ids.every((id) => {
     const q = b[id];
-    if (q?.length !== a[id].length) return false;
-    return a[id].every((p, i) => Math.hypot(p[0] - q[i][0], p[1] - q[i][1]) <= SAME_M);
+    // Of whoever stands there only the first place is kept.
+    return !!q && a[id].slice(0, q.length).every((p, i) => Math.hypot(p[0] - q[i][0], p[1] - q[i][1]) <= SAME_M);
   });
+}
+
+/** A scene's places in few words: to a tenth of a metre, and one of whoever stands. */
+function shortPlaces(all: Places): Places {
+  const tenth = (v: number): number => Math.round(v * 10) / 10;
+  const short = ([first, ...rest]: readonly (readonly number[])[]): readonly (readonly number[])[] => {
+    const stands = rest.every((p) => Math.hypot(p[0] - first[0], p[1] - first[1]) <= SAME_M / 2);
+    return (stands ? [first] : [first, ...rest]).map(([x, y]) => [tenth(x), tenth(y)]);
+  };
+  return Object.fromEntries(Object.entries(all).flatMap(([id, p]) => (p.length ? [[id, short(p)]] : [])));
 }
 
 /** What was said of a card of this round. */
@@ -166,7 +230,9 @@ export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | n
   const was = answerTo(a.feedback, asked, of.card);
   const answers = a.feedback?.answers ?? [];
   const { letter, name } = of;
-  const { features, places } = of.card;
+  const { features } = of.card;
+  const places = a.id === null ? shortPlaces(of.card.places) : of.card.places;
+  const most = a.id === null ? MOST_ANSWERS_OF_SCENE : MOST_ANSWERS;
   const said: Answer | null = verdict && {
     ...{ features, places: was?.places ?? places, verdict, why, letter, name },
     round: asked.round,
@@ -177,7 +243,7 @@ export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | n
   const what = a.id === null ? 'card' : 'future';
   const step =
     was && was.verdict === verdict ? `Why ${what} ${letter} was ${word}` : `${upper(what)} ${letter} ${word}`;
-  return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-MOST_ANSWERS)) });
+  return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-most)) });
 }
 
 /** A wish of one's own; it takes the place of another about the same. */

@@ -2,6 +2,9 @@
 import { counted, worstOf, type TrafficEvent } from '../../model/events';
 import type { Agent } from '../../model/scene';
 import { num } from '../../model/units';
+import type { Editor } from '../../edit/editor';
+import { laneWords } from '../../edit/snap';
+import { poseAt } from '../../model/motion';
 import { eventRemedies } from '../../edit/event-remedies';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
@@ -37,8 +40,14 @@ export function EventsPanel() {
   );
 }
 
+/** The lane on which the first of them is then. */
+function whereWords(editor: Editor, { a, at: [x, y], time }: TrafficEvent): string {
+  const p = poseAt(editor.motionFor(a), time);
+  return laneWords(editor.scene.peek()!.map, a, x, y, p?.heading ?? 0);
+}
+
 function Facts({ event: e }: { event: TrafficEvent }) {
-  const { editor, ui } = useApp();
+  const { editor, ui, variants } = useApp();
   const change = (id: string) => {
     editor.setTime(0);
     ui.showEvents(false);
@@ -49,6 +58,8 @@ function Facts({ event: e }: { event: TrafficEvent }) {
       <section class="sect">
         <h3>{e.label.replace(/ (?=\d)/, ' at ')}</h3>
         <dl class="wh">
+          <dt>Where</dt>
+          <dd>{whereWords(editor, e)}</dd>
           {e.facts.flatMap(([what, value]) => [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{value}</dd>])}
         </dl>
         {e.kind === 'near' ? <p class="note">Counts as a near miss below 1.5 s or 1.0 m.</p> : null}
@@ -67,6 +78,10 @@ function Facts({ event: e }: { event: TrafficEvent }) {
                 Change {a.name}
               </button>
             ))}
+          <button type="button" class="opt" onClick={() => variants.keepPresent()}>
+            <Icon name="star" size={15} />
+            Keep as a variant
+          </button>
         </div>
       </section>
     </>

@@ -37,7 +37,10 @@ export function verdictOn(c: Context, a: Agent): Verdict | null {
   if (bad && !bad.outranked) return { kind: 'near', icon: 'warn', title: bad.title, words: bad.words, remedies: true };
   const judged = onFaults(c, a);
   if (bad && judged) return { ...judged, remedies: true };
-  if (judged && judged.kind !== 'ok') return judged;
+  if (judged && judged.kind !== 'ok') {
+    const log = againstLog(c, a);
+    return log ? { ...judged, words: `${judged.words} Beside the log: ${log.words}` } : judged;
+  }
   if (e.dragging.value) return judged ?? onQuickReach(c, a);
   if (offLanes(c, a)) return NO_LANE;
   return againstLog(c, a) ?? judged ?? onFutures(c, a);

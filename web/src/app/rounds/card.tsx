@@ -134,9 +134,11 @@ function usePull(say: (up: boolean) => void) {
       moved.current = true;
       by.value = Math.max(-FURTHEST_PX, Math.min(FURTHEST_PX, d));
     },
-    onPointerUp: () => {
+    onPointerUp: (e: PointerEvent & { currentTarget: HTMLElement }) => {
       const d = by.peek();
       end();
+      // What was pulled is not what the next key is about.
+      if (moved.current) e.currentTarget.querySelector<HTMLElement>('.face')?.blur();
       if (Math.abs(d) >= PULLED_PX) say(d < 0);
     },
     onPointerCancel: end,
