@@ -25,6 +25,21 @@ async function selected(e) {
   return car;
 }
 
+/** A car that stands in the picture, with road ahead. */
+async function waiting(e) {
+  const parked = /parked|off the lanes/;
+  for (const u of (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed === 0 && !parked.test(u.words))) {
+    await e.choose(u.id);
+    await leave(e);
+    const p = await e.pose('Start');
+    const ahead = [0, 30].map((d) => e.at(p.x + d * Math.cos(p.heading), p.y + d * Math.sin(p.heading)));
+    const seen = await Promise.all(ahead.map(async (at) => e.open(await at)));
+    if (seen.every(Boolean)) return u;
+    await e.letGo();
+  }
+  throw new Error('nobody waits in the picture');
+}
+
 /** The flag is in the hand, a third of the way back. */
 async function dragged(e) {
   const car = await selected(e);
@@ -207,13 +222,16 @@ export const STATES = [
   [
     '26-others-react-mid-drag',
     async (e) => {
-      const car = await waiting(e);
+      await waiting(e);
       await e.key('g');
       await e.settled();
-      await e.drag(flag(car, 0), ahead(car, 260), { moves: 4 });
+      const [start, end] = [await e.pose('Start'), await e.pose('Goal')];
+      const [x, y] = await e.at(end.x, end.y);
+      const to = await e.at(start.x + 45 * Math.cos(start.heading), start.y + 45 * Math.sin(start.heading));
+      await e.drag([x + 9, y - 26], [to[0] + 9, to[1] - 26], { moves: 4 });
       // Whoever would do something else has been asked.
+      await e.page.waitForSelector('.foreseen');
       await e.settled();
-      await e.page.waitForSelector('.changes, [data-changes], .ch', { timeout: 5000 }).catch(() => undefined);
     },
   ],
   [
