@@ -462,6 +462,10 @@ describe('futures', () => {
       ['collision', true],
     ]);
     expect(ev[1].facts.map(([k]) => k)).toEqual(['Car 1', 'Car 2', 'Closing speed', 'Where from']);
+    const said = (unit: 'km/h' | 'mph') => readEvents(s, set, unit)[1].facts.map(([, v]) => v);
+    expect(said('km/h')[2]).toMatch(/^\d+ km\/h$/);
+    expect(said('mph').join()).not.toMatch(/km\/h/);
+    expect(said('mph')[2]).toMatch(/^\d+ mph$/);
     // As soon as one of the two does something of its own, it counts.
     const own = readEvents(s, { ...set, driving: new Set(['1']) });
     expect(own.map((e) => e.inLog)).toEqual([true, false]);

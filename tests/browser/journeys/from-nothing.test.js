@@ -71,6 +71,27 @@ journeys('from nothing', (stage) => {
     await e.type('goal-time', '5');
     const answer = e.wire.last().event('final');
     assert.ok(answer.samples[0].agents[second.id], 'the one with the goal is worked out');
+    // Good is said of the future that is shown alone, and only where nothing is wrong with it.
+    const { modes, chosen } = answer.samples[0].agents[second.id];
+    const said = e.page.locator('.hint').first();
+    const wrong = (modes[chosen].faults ?? []).map((f) => f.kind);
+    assert.equal(/\bok\b/.test(await said.getAttribute('class')), !wrong.length, `${await said.innerText()}: ${wrong}`);
+    const ranked = [...modes].sort((p, q) => q.probability - p.probability);
+    for (const [i, mode] of ranked.entries()) {
+      const hits = (mode.faults ?? []).some((f) => f.kind === 'collision');
+      const mark = e.page.locator('.fu').nth(i).locator('.mk');
+      if (hits) assert.match(await mark.getAttribute('class'), /collision/, `${i}`);
+    }
+    // One that collides, picked, is a collision in the headline too.
+    const collides = e.page.locator('.fu:has(.mk.collision)').first();
+    if (await collides.count()) {
+      await collides.click();
+      await e.settled();
+      assert.match(await said.getAttribute('class'), /collision/);
+      assert.match(await said.innerText(), new RegExp(`hits ${first.name} at \\d\\.\\d s`, 'i'));
+      await e.key('Control+z');
+      await e.settled();
+    }
     await e.picture('cut-in');
     const events = await e.page.locator('.badge').count();
     const words = await e.text('.status');

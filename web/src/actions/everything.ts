@@ -1,5 +1,6 @@
 // Everything: undo, the palette, help, and the page itself.
 import { inGroup } from './action';
+import { nextSpeedUnit } from '../model/units';
 import type { Context } from './context';
 
 /** Esc: what is nearest goes first, one thing a press. */
@@ -97,10 +98,10 @@ export const everything = inGroup('Everything', [
   },
   {
     id: 'unit',
-    label: 'km/h or mph',
+    label: 'km/h, mph or m/s',
     keys: ['U'],
     icon: 'ruler',
-    help: 'Unit of vehicle speeds',
-    run: (c) => c.editor.setUnit(c.editor.speedUnit.value === 'km/h' ? 'mph' : 'km/h'),
+    help: 'The unit in which speeds of vehicles are shown and typed',
+    run: (c) => c.editor.setUnit(nextSpeedUnit(c.editor.speedUnit.value)),
   },
 ]);

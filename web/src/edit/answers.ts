@@ -4,6 +4,7 @@ import { batch, signal, type ReadonlySignal } from '@preact/signals-core';
 import { findChanges, type Change } from '../model/changes';
 import { emptyMotion, MotionCache, type Futures, type MotionSet, type Reach, type Score } from '../model/futures';
 import { sceneKey, type Scene } from '../model/scene';
+import type { SpeedUnit } from '../model/units';
 
 export type Status =
   | { kind: 'loading' }
@@ -157,14 +158,14 @@ export class Answers {
   }
 
   /** Takes over what was worked out for the document as it is now; says who changed, but for those in `except`. */
-  settle(scene: Scene, set: MotionSet, except: ReadonlySet<string> | null): void {
+  settle(scene: Scene, set: MotionSet, except: ReadonlySet<string> | null, unit?: SpeedUnit): void {
     const before = this.#motion.peek();
     batch(() => {
       this.#cache.put(set);
       this.#motion.value = set;
       this.#draft.value = null;
       this.#foreseen.value = null;
-      if (except) this.#changes.value = findChanges(scene, before, set, except);
+      if (except) this.#changes.value = findChanges(scene, before, set, except, unit);
     });
   }
 

@@ -215,13 +215,15 @@ export class Editor {
   readonly dragging = computed(() => this.drag.value !== null);
   readonly events = computed<readonly TrafficEvent[]>(() => {
     const s = this.scene.value;
-    return s && !this.dragging.value ? readEvents(s, this.motion.value) : NO_EVENTS;
+    return s && !this.dragging.value ? readEvents(s, this.motion.value, this.speedUnit.value) : NO_EVENTS;
   });
   /** What the timeline shows: the events, and while a hand moves what is wrong with the future that is shown. */
   readonly shownEvents = computed<readonly TrafficEvent[]>(() => {
     const s = this.scene.value;
     const d = this.dragging.value ? this.draft.value : null;
-    return s && d ? eventsOf(s, this.motion.value, d.id, d.futures, this.chosen.value) : this.events.value;
+    return s && d
+      ? eventsOf(s, this.motion.value, d.id, d.futures, this.chosen.value, this.speedUnit.value)
+      : this.events.value;
   });
   /** Are the futures of the selected road user from before the last change? */
   readonly outdated = computed(

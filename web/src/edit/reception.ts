@@ -206,7 +206,8 @@ export class Reception {
     if (!editor.dragging.peek()) return;
     this.hooks.answered();
     const set = motionAfter(editor.motion.peek(), scene, e, w, (a) => this.#lettersOf(a, true));
-    this.#steady.hear(findChanges(scene, editor.motion.peek(), set, this.#subjects(scene, w.step)));
+    const subjects = this.#subjects(scene, w.step);
+    this.#steady.hear(findChanges(scene, editor.motion.peek(), set, subjects, editor.speedUnit.peek()));
     const key = sceneKey(scene);
     const id = w.step?.agent;
     const f = id && set.futures.get(id);
@@ -290,7 +291,7 @@ export class Reception {
     const selected = editor.selection.peek();
     this.#names.rest();
     editor.answers.dropLiveReach();
-    editor.answers.settle(scene, set, this.#subjects(scene, step));
+    editor.answers.settle(scene, set, this.#subjects(scene, step), editor.speedUnit.peek());
     this.settled(step, ms);
     if (selected && !set.futures.has(selected)) hooks.look(selected);
     if (!set.score) hooks.score(step);

@@ -7,7 +7,7 @@ import { answersAhead, guessReaction, reactionWords, type Answered, type Reactio
 import type { Agent, Scene } from './scene';
 import { doing, GOAL_TIME, startPose, staysAway } from './scene';
 import { heldStill, nowhere, straightOn } from './motion';
-import { num } from './units';
+import { num, type SpeedUnit } from './units';
 
 /** A road user that does something else, and where it waits or is slowest. */
 export interface Change {
@@ -73,7 +73,13 @@ interface Moved {
 }
 
 /** Everybody but `except`, the ones asked something, whose motion is another; who loses most time comes first. */
-export function findChanges(scene: Scene, before: MotionSet, after: MotionSet, except: ReadonlySet<string>): Change[] {
+export function findChanges(
+  scene: Scene,
+  before: MotionSet,
+  after: MotionSet,
+  except: ReadonlySet<string>,
+  unit: SpeedUnit = 'km/h',
+): Change[] {
   const moved: Moved[] = [];
   for (const agent of scene.agents.values()) {
     const m0 = motionOf(scene, before, agent),
@@ -88,11 +94,11 @@ export function findChanges(scene: Scene, before: MotionSet, after: MotionSet, e
   }));
   return moved
     .filter(({ agent: { id } }) => !except.has(id) && after.driving.has(id))
-    .flatMap((m) => changeOf(scene, after, m, causes) ?? [])
+    .flatMap((m) => changeOf(scene, after, m, causes, unit) ?? [])
     .sort((x, y) => y.lost - x.lost || y.size - x.size);
 }
 
-function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answered[]): Change | null {
+function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answered[], unit: SpeedUnit): Change | null {
   const { agent: a, before, after } = m;
   const { d: size } = furthest(before, after, scene.duration);
   const lost = secondsLost(before, after);
@@ -104,7 +110,7 @@ function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answe
   const at = reaction?.time ?? furthest(before, after, scene.duration).t;
   const place = reaction?.place ?? poseAt(after, at);
   if (!place) return null;
-  const words = reaction ? reactionWords(a, reaction) : 'worked out anew';
+  const words = reaction ? reactionWords(a, reaction, unit) : 'worked out anew';
   const { id, name } = a;
   return { id, name, reaction, words, size, lost: reaction?.delay ?? lost, before, after, at, place };
 }

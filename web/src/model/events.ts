@@ -5,7 +5,7 @@ import { motionOf } from './changes';
 import type { Futures, MotionSet, Score, Stretch } from './futures';
 import { poseAt } from './motion';
 import { nameIn, touched, type Agent, type Scene } from './scene';
-import { metres, num, seconds, speedLabel } from './units';
+import { metres, num, seconds, speedLabel, type SpeedUnit } from './units';
 import { placeWord } from './verdict-words';
 import { wrapAngle, type Pose, type Vec } from './geometry';
 
@@ -50,7 +50,7 @@ interface Raw {
 }
 
 /** Everything that happens in the scene as it is followed. */
-export function readEvents(scene: Scene, set: MotionSet): TrafficEvent[] {
+export function readEvents(scene: Scene, set: MotionSet, unit: SpeedUnit = 'km/h'): TrafficEvent[] {
   const said: Raw[] = [];
   const judged = new Set<string>();
   for (const id of set.driving) {
@@ -64,14 +64,22 @@ export function readEvents(scene: Scene, set: MotionSet): TrafficEvent[] {
   // Of those that were asked something the timeline says what the verdict on their shown future says, nothing else.
   const told = (r: Raw): boolean => judged.has(r.a) || (r.b !== null && judged.has(r.b));
   const own = said.filter((r) => judged.has(r.a) || !told(r));
-  return inWords(scene, set, [...own, ...scored.filter((r) => !told(r))]);
+  return inWords(scene, set, unit, [...own, ...scored.filter((r) => !told(r))]);
 }
 
 /** What is wrong with one future on its way, while nobody follows it yet. */
-export function eventsOf(scene: Scene, set: MotionSet, id: string, f: Futures, chosen: number): TrafficEvent[] {
+export function eventsOf(
+  scene: Scene,
+  set: MotionSet,
+  id: string,
+  f: Futures,
+  chosen: number,
+  unit: SpeedUnit = 'km/h',
+): TrafficEvent[] {
   return inWords(
     scene,
     set,
+    unit,
     (f.modes[chosen]?.about?.faults ?? []).map((fault) => ofFault(id, fault)),
   );
 }
@@ -128,7 +136,7 @@ function replaysLog(scene: Scene, set: MotionSet, id: string, time: number): boo
 }
 
 /** One event a meeting and a stretch, by time. */
-function inWords(scene: Scene, set: MotionSet, all: readonly Raw[]): TrafficEvent[] {
+function inWords(scene: Scene, set: MotionSet, unit: SpeedUnit, all: readonly Raw[]): TrafficEvent[] {
   const kept: Raw[] = [];
   const pairOf = (r: Raw): string => (r.b === null ? '' : r.a < r.b ? `${r.a}|${r.b}` : `${r.b}|${r.a}`);
   const hit = new Set(all.filter((r) => r.what === 'collision').map(pairOf));
@@ -142,7 +150,7 @@ function inWords(scene: Scene, set: MotionSet, all: readonly Raw[]): TrafficEven
     kept.push(r);
   }
   return kept
-    .flatMap((r) => event(scene, set, r) ?? [])
+    .flatMap((r) => event(scene, set, r, unit) ?? [])
     .sort((x, y) => x.time - y.time || compareMarks(x.kind, y.kind));
 }
 
@@ -168,13 +176,13 @@ const WORDS: Readonly<Record<FaultKind, string>> = {
 };
 
 /** How bad it is, in the unit of its kind. */
-function extentWords(r: Raw): string | null {
+function extentWords(r: Raw, unit: SpeedUnit): string | null {
   if (r.extent === null) return r.ttc === null ? null : `${num(r.ttc, 1)} s to collision`;
   switch (r.what) {
     case 'collision':
-      return `closing at ${speedLabel(r.extent, 'km/h')}`;
+      return `closing at ${speedLabel(r.extent, unit)}`;
     case 'red_light':
-      return `at ${speedLabel(r.extent, 'km/h')}`;
+      return `at ${speedLabel(r.extent, unit)}`;
     case 'harsh_braking':
     case 'harsh_steering':
       return `${num(r.extent, 1)} m/s²`;
@@ -186,7 +194,7 @@ function extentWords(r: Raw): string | null {
   }
 }
 
-function event(scene: Scene, set: MotionSet, r: Raw): TrafficEvent | null {
+function event(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit): TrafficEvent | null {
   const a = scene.agents.get(r.a),
     b = r.b === null ? null : scene.agents.get(r.b);
   if (!a || b === undefined) return null;
@@ -195,7 +203,7 @@ function event(scene: Scene, set: MotionSet, r: Raw): TrafficEvent | null {
   const at = placeOf(r, pa, pb);
   if (!at || (b && !r.at && !pb)) return null;
   const kind = faultMark({ kind: r.what }) as TrafficEvent['kind'];
-  const extent = extentWords(r);
+  const extent = extentWords(r, unit);
   const words = extent ? `${WORDS[r.what]}, ${extent}` : WORDS[r.what];
   return {
     kind,
@@ -210,7 +218,7 @@ function event(scene: Scene, set: MotionSet, r: Raw): TrafficEvent | null {
     label: `${WORDS[r.what]} ${num(r.time, 1)} s`,
     words: r.inLog ? `${words} · in the log` : words,
     at,
-    facts: factsOf(scene, set, r, [a, pa], [b, pb]),
+    facts: factsOf(scene, set, r, unit, [a, pa], [b, pb]),
   };
 }
 
@@ -237,18 +245,18 @@ function shortOf(scene: Scene, r: Raw): string {
 
 type Part = readonly [Agent | null, Pose | null];
 
-function factsOf(scene: Scene, set: MotionSet, r: Raw, ...who: readonly Part[]): [string, string][] {
-  const speed = (x: Agent, v: number) => (x.type === 'pedestrian' ? speedLabel(v, 'm/s') : speedLabel(v, 'km/h'));
+function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: readonly Part[]): [string, string][] {
+  const speed = (x: Agent, v: number) => (x.type === 'pedestrian' ? speedLabel(v, 'm/s') : speedLabel(v, unit));
   const facts = who.flatMap(([x, p]): [string, string][] =>
     x && p ? [[x.name, `${speed(x, p.speed)}, ${doing(scene, set, x, r.time)}`]] : [],
   );
   const [[, pa], [, pb]] = who;
   const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
-  if (r.what === 'collision' && closing !== null) facts.push(['Closing speed', speedLabel(closing, 'km/h')]);
+  if (r.what === 'collision' && closing !== null) facts.push(['Closing speed', speedLabel(closing, unit)]);
   if (r.what === 'near_miss' && r.extent !== null) facts.push(['Closest gap', `${num(r.extent, 1)} m`]);
   if (r.ttc !== null) facts.push(['Time to collision', `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
-  if (fact && r.extent !== null) facts.push([fact, extentWords(r)!.replace(/^at /, '')]);
+  if (fact && r.extent !== null) facts.push([fact, extentWords(r, unit)!.replace(/^at /, '')]);
   if (r.until > r.time + 0.15) facts.push(['From, to', `${num(r.time, 1)} to ${seconds(r.until)}`]);
   if (r.inLog) facts.push(['Where from', 'in the log, not counted']);
   return facts;

@@ -3,7 +3,7 @@ import { wrapAngle, type Pose } from './geometry';
 import type { ReactionKind } from './json';
 import { poseAt, STEP_S, type Motion } from './motion';
 import type { Agent } from './scene';
-import { num, speedText } from './units';
+import { num, speedText, type SpeedUnit } from './units';
 
 export interface Reaction {
   readonly kind: ReactionKind;
@@ -32,7 +32,7 @@ export interface Answered {
 const TOLD_S = 0.5;
 
 /** `waits 2 s for Car 7`, `slows to 8 km/h behind Car 12`: the verb first, the other's name last. */
-export function reactionWords(a: Agent, r: Reaction): string {
+export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'): string {
   const whom = `${r.ahead ? 'behind' : 'for'} ${r.cause.name}`;
   switch (r.kind) {
     case 'waits': {
@@ -40,7 +40,7 @@ export function reactionWords(a: Agent, r: Reaction): string {
       return `waits${long} ${whom}`;
     }
     case 'slows': {
-      const unit = a.type === 'pedestrian' ? 'm/s' : 'km/h';
+      const unit = a.type === 'pedestrian' ? 'm/s' : shown;
       const speed = speedText(Math.abs(r.place.speed), unit);
       return Number(speed) ? `slows to ${speed} ${unit} ${whom}` : `stops briefly ${whom}`;
     }

@@ -3,6 +3,11 @@ import { deg } from './geometry';
 
 export type SpeedUnit = 'km/h' | 'm/s' | 'mph';
 
+/** Those that one may see speeds of vehicles in; people on foot are always told in m/s. */
+const SPEED_UNITS: readonly SpeedUnit[] = ['km/h', 'mph', 'm/s'];
+export const nextSpeedUnit = (unit: SpeedUnit): SpeedUnit =>
+  SPEED_UNITS[(SPEED_UNITS.indexOf(unit) + 1) % SPEED_UNITS.length];
+
 const PER_MPS: Record<SpeedUnit, number> = { 'km/h': 3.6, 'm/s': 1, mph: 2.2369362920544 };
 
 export const toUnit = (mps: number, unit: SpeedUnit): number => mps * PER_MPS[unit];

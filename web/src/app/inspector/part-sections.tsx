@@ -5,7 +5,7 @@ import { clamp, deg, rad, wrapAngle, type Vec } from '../../model/geometry';
 import { rangesOf, topSpeed } from '../../model/domain';
 import { KIND_NAMES, PLACED_KINDS, PRESETS, type PlacedKind } from '../../model/kinds';
 import { hasGoal, type GoalSpec } from '../../model/scene';
-import { fromUnit, num, sizeText, speedText, toUnit } from '../../model/units';
+import { fromUnit, nextSpeedUnit, num, sizeText, speedText, toUnit } from '../../model/units';
 import type { Field, HandleName, Part } from '../../edit/editor';
 import { goalTime, timeRange, resize, shownPose, toggleField, withField } from '../../edit/moves';
 import { setKind } from '../../edit/several';
@@ -269,7 +269,7 @@ function SpeedRow(props: PartProps) {
         text={() => about(free(), shown()?.speed, (v) => speedText(v, unit()))}
         free={free}
         live={() => dragged('speed')}
-        onUnit={onFoot ? undefined : () => editor.setUnit(editor.speedUnit.peek() === 'km/h' ? 'mph' : 'km/h')}
+        onUnit={onFoot ? undefined : () => editor.setUnit(nextSpeedUnit(editor.speedUnit.peek()))}
         onFocus={focused('speed')}
       />
     </Row>

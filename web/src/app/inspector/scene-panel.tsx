@@ -9,6 +9,7 @@ import { Icon } from '../parts/icons';
 import { Controls } from '../parts/asking';
 import { OTHERS } from '../parts/others';
 import { EventList } from './event-list';
+import { SceneScore } from './scene-score';
 
 const FIRST_EVENTS = 6;
 
@@ -77,6 +78,7 @@ function About({ scene }: { scene: Scene }) {
         </h3>
         <EventList most={FIRST_EVENTS} />
       </section>
+      <SceneScore />
       {form.sheet.value ? (
         <section class="sect">
           <h3>Futures</h3>

@@ -1,0 +1,43 @@
+// The scene in four figures: how often somebody is hit, how close it gets, how many goals are reached, how far from
+// the log.
+import { counted } from '../../model/events';
+import { comparedWithLog } from '../../model/changes';
+import { canChange } from '../../model/scene';
+import { metres, num } from '../../model/units';
+import { useApp } from '../parts/app-context';
+import type { Editor } from '../../edit/editor';
+
+export function SceneScore() {
+  const { editor } = useApp();
+  const rows = figures(editor);
+  if (!rows.length) return null;
+  return (
+    <section class="sect">
+      <h3>Score</h3>
+      <dl class="wh">
+        {rows.flatMap(([what, value]) => [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{value}</dd>])}
+      </dl>
+    </section>
+  );
+}
+
+function figures(e: Editor): (readonly [string, string])[] {
+  const [scene, set] = [e.scene.value, e.motion.value];
+  if (!scene?.agents.size || !set.score || set.stale) return [];
+  const all = [...scene.agents.values()].filter((a) => a.type !== 'other');
+  const hits = counted(e.events.value).filter((ev) => ev.kind === 'collision').length;
+  const goals = all.filter((a) => a.goal.pos !== null && canChange(a));
+  const reached = goals.filter((a) => set.reach.get(a.id)?.status === 'reached').length;
+  const far = all.flatMap((a) =>
+    set.driving.has(a.id) ? (comparedWithLog(a, e.motionFor(a), scene.duration) ?? []) : [],
+  );
+  const furthest = far.reduce((most, c) => Math.max(most, c.d), 0);
+  const { minTtc, pet } = set.score;
+  return [
+    ['Collisions per road user', num(hits / Math.max(1, all.length), 2)],
+    ['Least time to collision', minTtc === null ? 'none on the way' : `${num(minTtc, 1)} s`],
+    ...(pet == null ? [] : [['Least gap in time', `${num(pet, 1)} s`] as const]),
+    ...(goals.length ? [['Goals reached', `${reached} of ${goals.length}`] as const] : []),
+    ...(furthest > 0 ? [['Furthest from the log', metres(furthest, 1)] as const] : []),
+  ];
+}
