@@ -281,6 +281,6 @@ describe('whether somebody is in the way', () => {
     } as unknown as FinalEvent;
     s.others.last.on.final(about(answer, { ...BLOCKED, with: null }), 30);
     expect(s.editor.futures.peek()!.modes[0].about!.faults[0].kind).toBe('collision');
-    expect(said()).toMatchObject({ title: 'Somebody is in the way', outranked: true });
+    expect(said()).toMatchObject({ title: 'Car 2 is in the way', outranked: true });
   });
 });
