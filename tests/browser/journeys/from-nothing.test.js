@@ -82,6 +82,11 @@ journeys('from nothing', (stage) => {
       const mark = e.page.locator('.fu').nth(i).locator('.mk');
       if (hits) assert.match(await mark.getAttribute('class'), /collision/, `${i}`);
     }
+    await e.picture('cut-in');
+    const events = await e.page.locator('.badge').count();
+    const words = await e.text('.status');
+    assert.ok(events > 0 || /futures|near|collision|rule/i.test(words), words);
+
     // One that collides, picked, is a collision in the headline too.
     const collides = e.page.locator('.fu:has(.mk.collision)').first();
     if (await collides.count()) {
@@ -92,10 +97,6 @@ journeys('from nothing', (stage) => {
       await e.key('Control+z');
       await e.settled();
     }
-    await e.picture('cut-in');
-    const events = await e.page.locator('.badge').count();
-    const words = await e.text('.status');
-    assert.ok(events > 0 || /futures|near|collision|rule/i.test(words), words);
 
     // Its pennant stays when somebody else is selected, and leads back to it.
     await leaveField(e);

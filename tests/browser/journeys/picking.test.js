@@ -4,12 +4,12 @@ import { it } from 'node:test';
 import { carBehindAnother } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-/** How everybody but `id` drives in the scene that a question is about. */
+/** How everybody but `id` drives in the scene that a question is about; whom they come close to may change with `id`. */
 const driving = ({ body }, id) =>
   new Map(
     Object.entries(body.scene?.generated?.samples[0].agents ?? {})
       .filter(([other]) => other !== id)
-      .map(([other, f]) => [other, JSON.stringify(f)]),
+      .map(([other, f]) => [other, JSON.stringify({ ...f, modes: f.modes.map((m) => ({ ...m, faults: undefined })) })]),
   );
 
 journeys('picking', (stage) => {

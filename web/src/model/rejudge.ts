@@ -13,6 +13,8 @@ const SAME_S = 1.5;
 
 /** Two nearer than this come close to each other, metres. */
 const NEAR_M = 1;
+/** A near miss stays one while the gap is no wider than it was by more than this, metres. */
+const AS_NEAR_M = 0.5;
 
 /** A goal that is missed by more, in metres, is not reached. */
 const REACHED_M = 2;
@@ -102,10 +104,13 @@ function meetingWith(a: Agent, own: Motion, other: Changed, old: readonly Fault[
     const pose = poseAtStep(m, step);
     return pose && { pose, length: of.length, width: of.width };
   };
+  // Fast towards each other is close at a larger distance, too.
+  const was = old.find((x) => x.kind === 'near_miss' && x.with === other.agent.id);
+  const near = Math.max(NEAR_M, (was?.extent ?? 0) + AS_NEAR_M);
   let least = Infinity;
   for (let step = Math.max(0, own.first); step <= lastStep(own); step++) {
     const [p, q] = [boxOf(a, own, step), boxOf(other.agent, other.motion, step)];
-    if (!p || !q || gapAtLeast(p, q) > NEAR_M) continue;
+    if (!p || !q || gapAtLeast(p, q) > near) continue;
     const gap = gapBetween(p, q);
     least = Math.min(least, gap);
     if (gap > 0) continue;
@@ -116,8 +121,7 @@ function meetingWith(a: Agent, own: Motion, other: Changed, old: readonly Fault[
     const at: Vec = [p.pose.x, p.pose.y];
     return known ?? { kind: 'collision', time, until: time, at, extent: null, with: other.agent.id, edge: null };
   }
-  const was = old.find((x) => x.kind === 'near_miss' && x.with === other.agent.id);
-  return least < NEAR_M ? (was ?? null) : null;
+  return least < near ? (was ?? null) : null;
 }
 
 /** Null for a meeting of others, or one where the future knows no place. */

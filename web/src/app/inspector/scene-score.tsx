@@ -35,8 +35,8 @@ function figures(e: Editor): (readonly [string, string])[] {
   const { minTtc, pet } = set.score;
   return [
     ['Collisions per road user', num(hits / Math.max(1, all.length), 2)],
-    ['Least time to collision', minTtc === null ? 'none on the way' : `${num(minTtc, 1)} s`],
-    ...(pet == null ? [] : [['Least gap in time', `${num(pet, 1)} s`] as const]),
+    ['Least time to collision, log too', minTtc === null ? 'none on the way' : `${num(minTtc, 1)} s`],
+    ...(pet == null ? [] : [['Least gap in time, log too', `${num(pet, 1)} s`] as const]),
     ...(goals.length ? [['Goals reached', `${reached} of ${goals.length}`] as const] : []),
     ...(furthest > 0 ? [['Furthest from the log', metres(furthest, 1)] as const] : []),
   ];

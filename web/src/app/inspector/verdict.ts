@@ -39,7 +39,7 @@ export function verdictOn(c: Context, a: Agent): Verdict | null {
   if (bad && judged) return { ...judged, remedies: true };
   if (judged && judged.kind !== 'ok') {
     const log = againstLog(c, a);
-    return log ? { ...judged, words: `${judged.words} Beside the log: ${log.words}` } : judged;
+    return log ? { ...judged, words: `${judged.words} ${log.words}` } : judged;
   }
   if (e.dragging.value) return judged ?? onQuickReach(c, a);
   if (offLanes(c, a)) return NO_LANE;
