@@ -104,13 +104,13 @@ journeys('correcting a log', (stage) => {
 
     // Half of it undone, and done again.
     const done = await e.inspector();
-    for (const _ of [1, 2]) {
+    for (let i = 0; i < 2; i++) {
       await e.key('Control+z');
       await e.settled();
     }
     assert.notDeepEqual(await e.inspector(), done);
     assert.notEqual(await e.value('goal-speed'), 72);
-    for (const _ of [1, 2]) {
+    for (let i = 0; i < 2; i++) {
       await e.key('Control+Shift+z');
       await e.settled();
     }

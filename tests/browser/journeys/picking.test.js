@@ -4,7 +4,7 @@ import { it } from 'node:test';
 import { carBehindAnother } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
 
-/** How everybody but `id` drives in the scene that a question is about; whom they come close to may change with `id`. */
+/** How everybody but `id` drives in the scene that a question is about; whom they meet may change with `id`. */
 const driving = ({ body }, id) =>
   new Map(
     Object.entries(body.scene?.generated?.samples[0].agents ?? {})

@@ -23,7 +23,7 @@ export class Editor {
   /** What the page complained about; a connection that broke is not the page's fault. */
   errors = [];
 
-  /** With `stopwatch: false` the page measures no time: its clock for durations stands still. With `now` so do dates. */
+  /** With `stopwatch: false` the page measures no time: its clock stands still. With `now` so do dates. */
   static async open(browser, url, { stopwatch = true, now, ...options } = {}) {
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
     if (!stopwatch)
