@@ -55,10 +55,10 @@ const HOUSES: &[House] = &[
         floors: &[
             &["limits", "loss", "files", "source", "polyline", "bounds"],
             &["problem", "surface"],
-            &["unpack", "lights"],
+            &["unpack", "lights", "sides", "markup"],
             &["xml", "format", "identities"],
-            &["map_file"],
-            &["native", "womd", "sumo", "opendrive", "lanelet2", "table"],
+            &["map_file", "tree", "unwritten"],
+            &["native", "womd", "sumo", "opendrive", "lanelet2", "commonroad", "table"],
             &["registry"],
             &["checks"],
         ],

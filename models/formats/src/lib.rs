@@ -2,7 +2,7 @@
 //!
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
 //! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`opendrive`]
-//! and [`lanelet2`] read maps; [`table`] writes motion for notebooks. No format knows another. Readers are
+//! and [`lanelet2`] read maps; `commonroad` is the planners' scenario; [`table`] writes motion for notebooks. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 //!
 //! ```
@@ -26,6 +26,7 @@
 
 mod bounds;
 pub mod checks;
+mod commonroad;
 pub mod files;
 pub mod format;
 pub mod identities;
@@ -34,16 +35,20 @@ mod lights;
 pub mod limits;
 pub mod loss;
 mod map_file;
+mod markup;
 pub mod native;
 pub mod opendrive;
 pub mod polyline;
 pub mod problem;
 pub mod registry;
+mod sides;
 pub mod source;
 pub mod sumo;
 mod surface;
 pub mod table;
+mod tree;
 mod unpack;
+mod unwritten;
 pub mod womd;
 mod xml;
 

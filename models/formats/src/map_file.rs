@@ -11,6 +11,9 @@ use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Shared, Signal, Vec2};
 use std::collections::BTreeMap;
 use std::io;
 
+/// What stands behind the id of a lane that traffic uses both ways, for the way against its direction.
+pub(crate) const AGAINST: &str = ".back";
+
 /// A format of maps in XML, plain or gzip.
 pub(crate) struct MapFile {
     /// Word for `--from` and `?format=`.

@@ -1,5 +1,6 @@
 //! One table of formats, for the server, the command line and the documentation.
 
+use crate::commonroad::format::CommonRoad;
 use crate::format::{Format, ImportOptions, Scenes};
 use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
@@ -12,8 +13,8 @@ use crate::table::Table;
 use crate::womd::format::Womd;
 
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 7] =
-    [&NativeJson, &Womd, &SUMO_NET, &SumoFcd, &OPENDRIVE, &LANELET2, &Table];
+pub static FORMATS: [&dyn Format; 8] =
+    [&NativeJson, &Womd, &SUMO_NET, &SumoFcd, &OPENDRIVE, &LANELET2, &CommonRoad, &Table];
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {

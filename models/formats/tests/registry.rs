@@ -12,8 +12,17 @@ use formats::{ExportOptions, ImportOptions};
 use std::collections::BTreeSet;
 
 /// Every loss code that a writer here can give.
-const LOSS_CODES: [&str; 16] = [
+const LOSS_CODES: [&str; 25] = [
     code::NO_MAP,
+    code::NO_Z,
+    code::NO_LINES,
+    code::NO_AREAS,
+    code::NO_NEIGHBORS,
+    code::NO_VALIDITY_GAPS,
+    code::SINGLE_EGO,
+    code::NO_TIMING,
+    code::NO_SIGNAL_STATES,
+    code::LATE_ROAD_USERS,
     code::NO_SIGNALS,
     code::NO_SIZES,
     code::NO_JUDGEMENTS,
