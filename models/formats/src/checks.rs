@@ -27,6 +27,8 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("opendrive", |bytes| map_of("opendrive", bytes)),
     ("lanelet2", |bytes| map_of("lanelet2", bytes)),
     ("commonroad", |bytes| both_ways("commonroad", bytes)),
+    ("scenarionet", |bytes| both_ways("scenarionet", bytes)),
+    ("gpudrive", |bytes| both_ways("gpudrive", bytes)),
     ("sniff", sniff),
 ];
 

@@ -44,8 +44,12 @@ pub(crate) fn futures(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
 
 /// Name, tags, notes and the like, where a file is called `id` and has no place for them.
 pub(crate) fn notes(scene: &Scene, id: &str) -> Option<Loss> {
-    let meta = &scene.meta;
-    let noted = !meta.tags.is_empty() || !meta.notes.is_empty() || meta.parent_id.is_some();
-    let lost = noted || scene.name != id || !scene.extra.is_empty();
+    let lost = !scene.meta.tags.is_empty() || is_noted(scene, id);
     lost.then(|| Loss::new(code::NO_NOTES, "name, tags, notes and members of other tools"))
+}
+
+/// Somebody said of the scene more than its name and its tags.
+pub(crate) fn is_noted(scene: &Scene, id: &str) -> bool {
+    let meta = &scene.meta;
+    !meta.notes.is_empty() || meta.parent_id.is_some() || scene.name != id || !scene.extra.is_empty()
 }

@@ -96,11 +96,8 @@ fn obstacles_and_the_problem_are_road_users() {
     assert_eq!(truck.track.valid_steps().collect::<Vec<_>>(), [0, 1, 2, 3, 5, 6]);
     let walker = agent("42");
     let state = walker.track.at(2).unwrap();
-    assert_eq!(
-        (walker.agent_type, walker.size.length_m, state.vy_mps.round()),
-        (AgentType::Pedestrian, 0.8, 2.0)
-    );
-    assert!(state.vx_mps.abs() < 1e-6);
+    assert_eq!((walker.agent_type, walker.size.length_m), (AgentType::Pedestrian, 0.8));
+    assert!(state.vx_mps.abs() < 1e-6 && (state.vy_mps - 1.5).abs() < 1e-6);
     let parked = agent("40");
     assert_eq!((parked.track.valid_steps().count(), parked.track.at(9).unwrap().x_m), (41, 31.0));
     assert!((parked.track.at(9).unwrap().heading_rad - 1.570_796_3).abs() < 1e-9);
@@ -151,7 +148,7 @@ fn refusals_say_what_and_where() {
     assert!(of("<rightBound>", "<right>").contains("</rightBound> found, </right> expected"));
     assert!(of("<x>20</x>", "<x>70000</x>").contains("a map reaches"));
     assert!(of("<?xml version=\"1.0\" encoding=\"UTF-8\"?>", "<!DOCTYPE a>").contains("format-unknown"));
-    assert!(of("<time><exact>0</exact></time>", "").contains("line 16: <initialState> has no <time>"));
+    assert!(of("<time><exact>0</exact></time>", "").contains("<initialState> has no <time>"));
 }
 
 #[test]

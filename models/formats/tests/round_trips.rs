@@ -5,6 +5,7 @@ mod generated;
 
 use formats::{ExportOptions, ExportedMotion, ImportOptions, registry};
 use proptest::prelude::*;
+use scene::map::{Lane, Points};
 use scene::{Agent, Scene, SignalState, State, Subtype, Vec2};
 use std::collections::BTreeSet;
 
@@ -37,7 +38,10 @@ fn same_state(scenes: [&Scene; 2], states: [&State; 2], off: f64) -> bool {
 }
 
 /// Rings are the same from whichever corner on.
-fn same_ring(a: &[Vec2], b: &[Vec2], off: f64) -> bool {
+fn same_ring(scenes: [&Scene; 2], a: &[Vec2], b: &[Vec2], off: f64) -> bool {
+    let place =
+        |i: usize, ring: &[Vec2]| -> Vec<Vec2> { ring.iter().map(|p| placed(scenes[i], *p)).collect() };
+    let (a, b) = (place(0, a), place(1, b));
     a.len() == b.len()
         && (0..a.len()).any(|k| (0..a.len()).all(|i| (a[i] - b[(i + k) % b.len()]).norm() <= off))
 }
@@ -69,6 +73,60 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
+    fn scenarionet_loses_only_what_it_says(scene in generated::scene()) {
+        let scene = scene.checked().unwrap();
+        let (again, codes) = through("scenarionet", &scene);
+        let expected = ["geometry-approximated", "no-conditions", "no-z"];
+        prop_assert!(codes.iter().all(|code| expected.contains(code)) && codes.contains("geometry-approximated"), "{:?}", codes);
+        // A place of 9 km in single precision.
+        let off = 1e-3;
+        same_lanes([&scene, &again], off);
+        for (a, b) in scene.map.lanes.iter().zip(&again.map.lanes) {
+            let plain = |lane: &Lane| Lane { points: Points::default(), speed_limit_mps: None, ..lane.clone() };
+            prop_assert_eq!(plain(a), plain(b));
+            prop_assert!(close(a.speed_limit_mps.unwrap_or(-1.0), b.speed_limit_mps.unwrap_or(-1.0), 1e-9));
+        }
+        same_features([&scene, &again], off);
+        same_signals([&scene, &again], off)?;
+        same_agents([&scene, &again], off, true)?;
+        prop_assert_eq!(&scene.meta.licence, &again.meta.licence);
+        prop_assert_eq!((&scene.name, &scene.meta.source, &scene.meta.source_id), (&again.name, &again.meta.source, &again.meta.source_id));
+        prop_assert_eq!((&scene.meta.objects_of_interest, &scene.meta.tracks_to_predict), (&again.meta.objects_of_interest, &again.meta.tracks_to_predict));
+        prop_assert_eq!(scene.time, again.time);
+    }
+
+    #[test]
+    fn gpudrive_loses_only_what_it_says(scene in generated::scene()) {
+        let scene = scene.checked().unwrap();
+        let (again, codes) = through("gpudrive", &scene);
+        let expected = ["no-lane-graph", "no-speed-limits", "no-conditions", "no-z", "no-licence", "no-timing"];
+        prop_assert!(codes.iter().all(|code| expected.contains(code)) && codes.contains("no-lane-graph"), "{:?}", codes);
+        let off = 1e-7;
+        same_lanes([&scene, &again], off);
+        for (a, b) in scene.map.lanes.iter().zip(&again.map.lanes) {
+            prop_assert_eq!((&a.id, b.speed_limit_mps, b.successors.len()), (&b.id, None, 0));
+        }
+        same_features([&scene, &again], off);
+        same_signals([&scene, &again], off)?;
+        same_agents([&scene, &again], off, true)?;
+        prop_assert_eq!((&scene.name, &scene.meta.source_id), (&again.name, &again.meta.source_id));
+        prop_assert_eq!((&scene.meta.objects_of_interest, &scene.meta.tracks_to_predict), (&again.meta.objects_of_interest, &again.meta.tracks_to_predict));
+        prop_assert_eq!(scene.time.steps, again.time.steps);
+    }
+
+    #[test]
+    fn nocturne_loses_only_what_it_says(scene in generated::scene()) {
+        let scene = scene.checked().unwrap();
+        let (again, codes) = through("nocturne", &scene);
+        for code in ["no-ids", "no-lane-graph", "no-lane-type", "no-licence", "no-roles"] {
+            prop_assert!(codes.contains(code), "{}: {:?}", code, codes);
+        }
+        let off = 1e-7;
+        prop_assert_eq!(scene.map.lanes.len(), again.map.lanes.len());
+        same_agents([&scene, &again], off, false)?;
+    }
+
+    #[test]
     fn commonroad_loses_only_what_it_says(scene in generated::scene()) {
         let scene = scene.checked().unwrap();
         let (again, codes) = through("commonroad", &scene);
@@ -89,9 +147,12 @@ proptest! {
         }
         let rings = scene.map.crosswalks.iter().filter(|area| area.polygon.xy.len() > 2);
         for (a, b) in rings.zip(&again.map.crosswalks) {
-            prop_assert!(same_ring(&a.polygon.xy, &b.polygon.xy, off), "{:?} {:?}", a, b);
+            prop_assert!(same_ring([&scene, &again], &a.polygon.xy, &b.polygon.xy, off), "{:?} {:?}", a, b);
         }
-        prop_assert_eq!(&scene.map.stop_signs, &again.map.stop_signs);
+        for (a, b) in scene.map.stop_signs.iter().zip(&again.map.stop_signs) {
+            prop_assert_eq!((&a.id, &a.lanes), (&b.id, &b.lanes));
+            prop_assert!((placed(&scene, a.position) - placed(&again, b.position)).norm() < off);
+        }
         prop_assert_eq!(scene.signals.iter().filter(|s| scene.map.lane_index(&s.lane).is_some()).count(), again.signals.len());
         for signal in &again.signals {
             let own = scene.signals.iter().find(|own| own.lane == signal.lane).unwrap();
@@ -99,11 +160,10 @@ proptest! {
                 prop_assert_eq!(plain(own.at(step)), signal.at(step));
             }
             if let (Some(p), Some(q)) = (own.stop, signal.stop) {
-                prop_assert!((p - q).norm() < off);
+                prop_assert!((placed(&scene, p) - placed(&again, q)).norm() < off);
             }
         }
         prop_assert_eq!(&scene.meta.licence, &again.meta.licence);
-        prop_assert_eq!((scene.meta.origin.x_m, scene.meta.origin.y_m), (again.meta.origin.x_m, again.meta.origin.y_m));
         for agent in &scene.agents {
             let seen: Vec<usize> = agent.track.valid_steps().collect();
             let Some(other) = again.agent(&agent.id) else {
@@ -135,4 +195,60 @@ fn same_motion(before: &Scene, after: &Scene, (a, b): (&Agent, &Agent), begin: u
         let (Some(p), Some(q)) = states else { panic!("{}: nothing at step {step}", a.id) };
         assert!(same_state([before, after], [p, q], off), "{}: {p:?} {q:?}", a.id);
     }
+}
+
+/// Lines, edges and areas are the same, in the frame of the source.
+fn same_features(scenes: [&Scene; 2], off: f64) {
+    let lines = |scene: &Scene| -> Vec<(String, String, Vec<Vec2>)> {
+        let map = &scene.map;
+        let lines = map.road_lines.iter().chain(&map.road_edges);
+        let lines = lines.map(|line| (line.id.clone(), line.line_type.clone(), &line.points));
+        let areas = map.crosswalks.iter().chain(&map.speed_bumps).chain(&map.driveways);
+        let all = lines.chain(areas.map(|area| (area.id.clone(), String::new(), &area.polygon)));
+        all.map(|(id, kind, points)| (id, kind, points.xy.iter().map(|p| placed(scene, *p)).collect()))
+            .collect()
+    };
+    let [before, after] = scenes.map(lines);
+    assert_eq!(before.len(), after.len());
+    for (a, b) in before.iter().zip(&after) {
+        assert_eq!((&a.0, &a.1, a.2.len()), (&b.0, &b.1, b.2.len()));
+        assert!(a.2.iter().zip(&b.2).all(|(p, q)| (p - q).norm() <= off), "{}", a.0);
+    }
+}
+
+/// Signals show the same, at the same places.
+fn same_signals(scenes: [&Scene; 2], off: f64) -> Result<(), TestCaseError> {
+    let [before, after] = scenes;
+    let known = before.signals.iter().filter(|signal| before.map.lane_index(&signal.lane).is_some());
+    for (a, b) in known.zip(&after.signals) {
+        prop_assert_eq!(&a.lane, &b.lane);
+        for step in 0..before.time.steps {
+            prop_assert_eq!(a.at(step), b.at(step));
+        }
+        prop_assert_eq!(a.stop.is_some(), b.stop.is_some());
+        if let (Some(p), Some(q)) = (a.stop, b.stop) {
+            prop_assert!((placed(before, p) - placed(after, q)).norm() <= off);
+        }
+    }
+    Ok(())
+}
+
+/// Road users are the same, in their order, where they were seen and where not.
+fn same_agents(scenes: [&Scene; 2], off: f64, named: bool) -> Result<(), TestCaseError> {
+    let [before, after] = scenes;
+    prop_assert_eq!(before.agents.len(), after.agents.len());
+    for (a, b) in before.agents.iter().zip(&after.agents) {
+        prop_assert_eq!((a.agent_type, a.subtype), (b.agent_type, b.subtype));
+        if named {
+            prop_assert_eq!((&a.id, &a.role), (&b.id, &b.role));
+        }
+        prop_assert_eq!(a.track.valid_steps().collect::<Vec<_>>(), b.track.valid_steps().collect::<Vec<_>>());
+        if a.track.valid_steps().next().is_some() {
+            prop_assert!(
+                close(a.size.length_m, b.size.length_m, off) && close(a.size.width_m, b.size.width_m, off)
+            );
+        }
+        same_motion(before, after, (a, b), 0, off);
+    }
+    Ok(())
 }

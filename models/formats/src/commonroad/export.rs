@@ -7,9 +7,10 @@ use super::words::{TAGS, VERSION};
 use crate::format::{ExportOptions, Exported};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
+use crate::numbers::Numbers;
 use crate::unwritten;
 use scene::{STEP_S, Scene};
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 use std::io;
 
 /// Writes a scene, in its own frame: where that lies is in the file's location.
@@ -22,7 +23,10 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     }
     let mut losses = BTreeSet::new();
-    let mut ids = Ids::of(scene);
+    let map = &scene.map;
+    let own = map.lanes.iter().map(|lane| &lane.id).chain(map.crosswalks.iter().map(|area| &area.id));
+    let own = own.chain(map.stop_signs.iter().map(|sign| &sign.id)).chain(scene.agents.iter().map(|a| &a.id));
+    let mut ids = Numbers::of(own);
     let drawn = Drawn::of(scene, &mut ids, &mut losses);
     let problem = Problem::of(scene, options.motion);
     let name = benchmark_id(scene);
@@ -42,10 +46,13 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     );
     location(scene, &mut out);
     out.open("scenarioTags", &[]);
-    let tags: BTreeSet<&str> =
-        TAGS.into_iter().filter(|tag| scene.meta.tags.iter().any(|t| t == tag)).collect();
-    tags.iter()
-        .for_each(|tag| out.empty(TAGS.into_iter().find(|known| known == tag).unwrap_or_default(), &[]));
+    let mut tags: Vec<&'static str> = Vec::new();
+    for tag in scene.meta.tags.iter().filter_map(|tag| TAGS.into_iter().find(|known| known == tag)) {
+        if !tags.contains(&tag) {
+            tags.push(tag);
+            out.empty(tag, &[]);
+        }
+    }
     out.close();
     drawn.write(&mut out);
     let numbers: Vec<i64> = scene.agents.iter().map(|agent| ids.take(&agent.id)).collect();
@@ -54,16 +61,12 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
         let detail = "ids that are no whole numbers above zero, or not unique among all that is in a scenario, got new ones";
         losses.insert(Loss::new(code::IDS_RENUMBERED, detail));
     }
-    if scene.meta.tags.iter().any(|tag| !TAGS.contains(&tag.as_str())) || scene.meta.timestamps_s.is_some() {
-        losses.insert(Loss::new(
-            code::NO_NOTES,
-            "tags that the format has no word for, times of the recording",
-        ));
+    let foreign = scene.meta.tags.iter().any(|tag| !TAGS.contains(&tag.as_str()));
+    if foreign || scene.meta.timestamps_s.is_some() || unwritten::is_noted(scene, &name) {
+        let detail = "names and tags that the format has no words for, notes, times of the recording, members of other tools";
+        losses.insert(Loss::new(code::NO_NOTES, detail));
     }
     losses.extend(unwritten::futures(scene, options.motion));
-    let mut untagged = scene.clone();
-    untagged.meta.tags.clear();
-    losses.extend(unwritten::notes(&untagged, &name));
     Ok(Exported { bytes: out.finish(), losses: losses.into_iter().collect() })
 }
 
@@ -124,51 +127,6 @@ fn location(scene: &Scene, out: &mut Markup) {
     out.leaf("zRotation", origin.rotation_rad);
     out.leaf("scaling", 1);
     (0..3).for_each(|_| out.close());
-}
-
-/// Numbers of all that is in a scenario, each used once.
-pub(super) struct Ids {
-    own: HashSet<i64>,
-    used: HashSet<i64>,
-    next: i64,
-    pub renumbered: bool,
-}
-
-impl Ids {
-    /// Free numbers come after those that the scene has.
-    fn of(scene: &Scene) -> Self {
-        let map = &scene.map;
-        let ids = map.lanes.iter().map(|lane| &lane.id).chain(map.crosswalks.iter().map(|area| &area.id));
-        let ids =
-            ids.chain(map.stop_signs.iter().map(|sign| &sign.id)).chain(scene.agents.iter().map(|a| &a.id));
-        let own: HashSet<i64> = ids.filter_map(|id| number(id)).collect();
-        let next = own.iter().max().map_or(1, |most| most + 1);
-        Self { own, used: HashSet::new(), next, renumbered: false }
-    }
-
-    /// The id's own number where it is one that is not used yet, else a free one.
-    pub fn take(&mut self, id: &str) -> i64 {
-        match number(id).filter(|number| self.used.insert(*number)) {
-            Some(number) => number,
-            None => {
-                self.renumbered = true;
-                self.free()
-            }
-        }
-    }
-
-    /// A number for what has none.
-    pub fn free(&mut self) -> i64 {
-        while self.own.contains(&self.next) {
-            self.next += 1;
-        }
-        self.next += 1;
-        self.next - 1
-    }
-}
-
-fn number(id: &str) -> Option<i64> {
-    id.parse().ok().filter(|n: &i64| (1..1 << 48).contains(n) && n.to_string() == id)
 }
 
 #[cfg(test)]

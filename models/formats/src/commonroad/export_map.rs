@@ -1,9 +1,9 @@
 //! A lane map as lanelets, signs and lights.
 
-use super::export::Ids;
 use super::words::{INTERSECTION, color, lane_word, marking};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
+use crate::numbers::Numbers;
 use crate::polyline::offset_right;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, StopSign};
 use scene::{Scene, Signal, Vec2};
@@ -33,7 +33,7 @@ pub(super) struct Drawn<'a> {
 
 impl<'a> Drawn<'a> {
     /// Gives numbers to all that is drawn, and says what is not.
-    pub fn of(scene: &'a Scene, ids: &mut Ids, losses: &mut BTreeSet<Loss>) -> Self {
+    pub fn of(scene: &'a Scene, ids: &mut Numbers, losses: &mut BTreeSet<Loss>) -> Self {
         let map = &scene.map;
         let number = |lane: &'a Lane| (lane.id.as_str(), (ids.take(&lane.id), lane.points.xy.len() - 1));
         let lanes: HashMap<&str, (i64, usize)> = map.lanes.iter().map(number).collect();

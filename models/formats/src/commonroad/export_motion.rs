@@ -6,7 +6,7 @@ use crate::format::{EGO, ExportedMotion};
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::unwritten;
-use scene::{Agent, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, State, Subtype, Vec2, wrap_angle};
+use scene::{Agent, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, State, Subtype, Track, Vec2, wrap_angle};
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -31,8 +31,7 @@ impl Problem {
         let ego = agents.iter().position(|agent| agent.role.as_deref() == Some(EGO));
         let agent = ego.or_else(|| agents.iter().position(|agent| !agent.conditions.goal.is_free()))?;
         let shown = motion.of(scene, &agents[agent]);
-        let first_step = shown.track.valid_steps().next()?;
-        let start = *shown.track.at(first_step)?;
+        let (first_step, start) = *known(&shown.track, &agents[agent]).first()?;
         let mut goal = agents[agent].conditions.goal;
         if goal.is_free() {
             // Where it went is where it has to go.
@@ -137,8 +136,7 @@ fn obstacle(
 ) {
     let shown = motion.of(scene, agent);
     lost.conditions |= unwritten::is_fixed(scene, agent, motion);
-    let known: Vec<(usize, State)> =
-        shown.track.valid_steps().filter_map(|step| Some((step, *shown.track.at(step)?))).collect();
+    let known = known(&shown.track, agent);
     let states = filled(&known);
     lost.gaps |= states.len() != known.len();
     let Some((first, rest)) = states.split_first() else {
@@ -168,6 +166,18 @@ fn obstacle(
     }
     out.close();
     out.close();
+}
+
+/// States of a road user; of one that was drawn, and never moved, where its user has put it.
+fn known(track: &Track, agent: &Agent) -> Vec<(usize, State)> {
+    let mut known: Vec<_> = track.valid_steps().filter_map(|step| Some((step, *track.at(step)?))).collect();
+    let start = &agent.conditions.start;
+    if let (true, Some(p)) = (known.is_empty(), start.position) {
+        let heading_rad = start.heading_rad.unwrap_or(0.0);
+        let v = scene::geometry::direction(heading_rad) * start.speed_mps.unwrap_or(0.0);
+        known.push((0, State { x_m: p.x, y_m: p.y, heading_rad, vx_mps: v.x, vy_mps: v.y }));
+    }
+    known
 }
 
 /// Two states or more at steps that follow each other, with straight motion where there were gaps.
@@ -210,6 +220,11 @@ fn along(state: &State) -> (f64, f64) {
     if slip.abs() > FRAC_PI_2 { (-speed, wrap_angle(slip + PI)) } else { (speed, slip) }
 }
 
+/// Radians to the billionth: at some distance less would be seen.
+fn angle(angle_rad: f64) -> String {
+    ((wrap_angle(angle_rad) * 1e9).round() / 1e9 + 0.0).to_string()
+}
+
 fn exact(name: &'static str, value: impl std::fmt::Display, out: &mut Markup) {
     out.open(name, &[]);
     out.leaf("exact", value);
@@ -219,11 +234,11 @@ fn exact(name: &'static str, value: impl std::fmt::Display, out: &mut Markup) {
 fn state((step, state): (usize, State), slips: bool, out: &mut Markup) {
     let (speed, slip) = along(&state);
     position(state.position(), out);
-    exact("orientation", decimal(wrap_angle(state.heading_rad)), out);
+    exact("orientation", angle(state.heading_rad), out);
     exact("time", step, out);
     exact("velocity", decimal(speed), out);
     if slips {
-        exact("slipAngle", decimal(slip), out);
+        exact("slipAngle", angle(slip), out);
     }
 }
 
@@ -241,9 +256,9 @@ fn planning_problem(problem: &Problem, id: i64, out: &mut Markup) {
     let (speed, slip) = along(start);
     position(start.position(), out);
     exact("velocity", decimal(speed), out);
-    exact("orientation", decimal(wrap_angle(start.heading_rad)), out);
+    exact("orientation", angle(start.heading_rad), out);
     exact("yawRate", 0, out);
-    exact("slipAngle", decimal(slip), out);
+    exact("slipAngle", angle(slip), out);
     exact("time", problem.first_step, out);
     out.close();
     out.open("goalState", &[]);

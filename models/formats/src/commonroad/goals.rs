@@ -5,10 +5,11 @@ use super::map::Lanes;
 use super::motion::Clock;
 use crate::polyline;
 use scene::map::LaneMap;
-use scene::{Agent, AgentType, Conditions, Goal, State, Subtype, Track, Vec2, wrap_angle};
+use scene::{Agent, AgentType, Conditions, Goal, MAX_COORDINATE_M, State, Subtype, Track, Vec2, wrap_angle};
 
-/// Greatest speed and coordinate that a goal takes, m/s and m.
-const MAX_SPEED_MPS: f64 = 150.0;
+/// Greatest speed of a goal, and when it can be due, m/s and s.
+const MAX_SPEED_MPS: f64 = 60.0;
+const DUE_S: (f64, f64) = (0.5, 80.0);
 
 /// The road user that a problem is about: where it starts, and what it must reach; whether that was a region.
 pub(super) fn agent(problem: &Problem, (map, lanes): (&LaneMap, &Lanes), clock: Clock) -> (Agent, bool) {
@@ -35,7 +36,7 @@ fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), cl
         let at = if from <= clock.first as f64 + 1.0 { to } else { middle((from, to)) };
         clock.seconds(at)
     });
-    let time_s = time_s.filter(|time_s| *time_s > 0.0);
+    let time_s = time_s.filter(|time_s| *time_s > 0.0).map(|time_s| time_s.clamp(DUE_S.0, DUE_S.1));
     let heading_rad = goal.heading_rad.map(|(from, to)| {
         // The shorter way round, unless the file says that any heading will do.
         wrap_angle(from + (to - from) / 2.0)
@@ -44,6 +45,8 @@ fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), cl
     let speed_mps = goal.speed_mps.map(middle).map(|v| v.clamp(0.0, MAX_SPEED_MPS));
     let there = start.position() + start.velocity() * time_s.unwrap_or(9.0);
     let place = goal.places.first().map(|place| place.centre);
+    let in_reach = |p: &Vec2| p.amax() <= MAX_COORDINATE_M;
+    let place = place.filter(in_reach);
     let position = place.or_else(|| on_lanelets(&goal.lanelets, there, (map, lanes)));
     let is_region = is_wide(goal.time)
         || is_wide(goal.heading_rad)

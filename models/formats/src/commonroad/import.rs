@@ -4,9 +4,10 @@ use super::document::{self, Document};
 use super::motion::{Changed, Clock};
 use super::{goals, map, motion, signals};
 use crate::format::{EGO, ImportOptions, MAP_TIMING};
-use crate::limits::{MAX_AGENTS, MAX_STEPS};
+use crate::limits::MAX_STEPS;
 use crate::map_file;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::settle;
 use crate::source::Source;
 use scene::geometry::rotate;
 use scene::{Agent, MAX_COORDINATE_M, Meta, Origin, Scene, Timing, Vec2};
@@ -144,29 +145,16 @@ fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
     Clock { steps: steps.min(MAX_STEPS), ..clock }
 }
 
-/// The road users that a scene has room for: the ego and those nearest to it. Of two with one id the first.
+/// The road users that a scene has room for. Of two with one id the first.
 fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<Warning>) -> Vec<Agent> {
     let count = agents.len();
     let mut ids = HashSet::new();
     agents.retain(|agent| ids.insert(agent.id.clone()));
-    if agents.len() > MAX_AGENTS {
-        let at = |agent: &Agent| agent.track.states.iter().flatten().next().map(scene::State::position);
-        let centre = agents.first().and_then(at).unwrap_or_default();
-        let mut order: Vec<(f64, usize)> = agents
-            .iter()
-            .enumerate()
-            .map(|(i, agent)| (at(agent).map_or(f64::INFINITY, |p| (p - centre).norm()), i))
-            .collect();
-        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let near: HashSet<usize> = order.into_iter().take(MAX_AGENTS).map(|(_, i)| i).collect();
-        let mut i = 0..;
-        agents.retain(|_| i.next().is_some_and(|i| near.contains(&i)));
-    }
     if agents.len() < count {
-        let detail =
-            format!("{count} road users; {} with ids of their own nearest the ego are kept", agents.len());
+        let detail = format!("{} obstacles with an id that another has are left out", count - agents.len());
         warnings.push(Warning::new("agents-dropped", detail));
     }
+    warnings.extend(settle::nearest(&mut agents, 0));
     agents
 }
 
