@@ -79,6 +79,8 @@ fn origin(scene: &Scene, map: &LaneMap) -> Vec2 {
     let states = scene.agents.iter().filter_map(|agent| state_about(agent, now)).map(State::position);
     let lines = map.lanes.iter().map(|lane| &lane.points);
     let lines = lines.chain(map.road_lines.iter().chain(&map.road_edges).map(|line| &line.points));
+    let areas = map.crosswalks.iter().chain(&map.speed_bumps).chain(&map.driveways).map(|area| &area.polygon);
+    let lines = lines.chain(areas);
     let mut bounds: Option<(Vec2, Vec2)> = None;
     for p in states.chain(lines.flat_map(|line| line.xy.iter().copied())).filter(|p| finite(*p) == *p) {
         bounds = Some(bounds.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))));

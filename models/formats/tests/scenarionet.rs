@@ -110,7 +110,7 @@ fn broken_pickles_say_where() {
         (b"\x80\x04\x8e\xff\xff\xff\xff\xff\xff\xff\xff", 2, "the file ends within"),
         (b"\x80\x02t.", 2, "the end of what was not begun"),
         (b"\x80\x02h\x05.", 2, "never kept"),
-        (b"\x80\x02NNs.", 4, "empty stack"),
+        (b"\x80\x02NNs.", 4, "no dictionary"),
         (b"\x80\x02}NNs", 6, "the file ends"),
         (b"\x80\x02Na.", 3, "empty stack"),
         (b"\x80\x02}(Nu.", 5, "a key without a value"),

@@ -73,11 +73,11 @@ pub(super) struct Light {
     pub x: Vec<f64>,
     #[serde(default, deserialize_with = "bounded::<_, _, MAX_STEPS>")]
     pub y: Vec<f64>,
-    #[serde(default, deserialize_with = "bounded::<_, _, MAX_STEPS>")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, MAX_STEPS>")]
     pub z: Vec<f64>,
     #[serde(default, deserialize_with = "bounded::<_, _, MAX_STEPS>")]
     pub time_index: Vec<usize>,
-    #[serde(default, deserialize_with = "bounded::<_, _, MAX_STEPS>")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "bounded::<_, _, MAX_STEPS>")]
     pub lane_id: Vec<i64>,
 }
 

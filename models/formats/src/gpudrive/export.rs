@@ -216,7 +216,7 @@ fn lights(
             y: each(|p| Some(p.y)),
             z: each(|p| p.z),
             time_index: (0..steps).collect(),
-            lane_id: vec![*id; steps],
+            lane_id: if frame.flat { Vec::new() } else { vec![*id; steps] },
         };
         lights.push((lane, light));
     }

@@ -17,6 +17,9 @@ use std::f64::consts::TAU;
 const LEAST_SIZE_M: f64 = 0.05;
 /// Who is faster than this moves along the heading, m/s.
 const MOVES_MPS: f64 = 2.0;
+/// So many states say how headings are meant, when their mean cosine to the motion is above this.
+const ENOUGH: i32 = 10;
+const ALONG: f64 = 0.9;
 /// Numbers of the map elements by kind: where the words of lines and edges begin.
 pub(super) const FIRST_LINE: i64 = 5;
 pub(super) const FIRST_EDGE: i64 = 14;
@@ -31,7 +34,10 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     let steps = document.objects.iter().map(|object| object.position.len()).max().unwrap_or(0);
     let lit = document.tl_states.0.iter().map(|(_, light)| light.state.len()).max().unwrap_or(0);
     let steps = steps.max(lit).max(1);
-    let degrees = in_degrees(&document.objects);
+    // Files of Nocturne, which have degrees, are in the plane.
+    let flat = document.scenario_id.is_none()
+        && document.objects.iter().flat_map(|object| &object.position).all(|p| p.z.is_none());
+    let degrees = in_degrees(&document.objects, flat);
     if degrees {
         warnings
             .push(Warning::new("headings-in-degrees", "headings are in degrees and were turned to radians"));
@@ -84,25 +90,31 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions, source: &str) -> 
     settle::settled(scene, map, warnings, options)
 }
 
-/// Headings are degrees where one is more than a turn in radians, or where those who move go along them as degrees
-/// rather than as radians.
-fn in_degrees(objects: &[Object]) -> bool {
-    let (mut large, mut degrees, mut radians) = (false, 0.0, 0.0);
+/// Headings are degrees where one is more than a turn in radians. Else they are what the engine has, unless those
+/// who move go along them as the other.
+fn in_degrees(objects: &[Object], usual: bool) -> bool {
+    let (mut count, mut degrees, mut radians) = (0, 0.0, 0.0);
     for object in objects {
         for (i, heading) in object.heading.iter().enumerate() {
             if object.valid.get(i) != Some(&true) {
                 continue;
             }
-            large |= heading.abs() > TAU;
+            if heading.abs() > TAU {
+                return true;
+            }
             let velocity = object.velocity.get(i).map(|v| Vec2::new(v.x, v.y)).unwrap_or_default();
             if velocity.norm() > MOVES_MPS {
                 let way = velocity / velocity.norm();
+                count += 1;
                 degrees += geometry::direction(heading.to_radians()).dot(&way);
                 radians += geometry::direction(*heading).dot(&way);
             }
         }
     }
-    large || degrees > radians + 1e-9
+    let (other, own) = if usual { (radians, degrees) } else { (degrees, radians) };
+    let mean = other / f64::from(count).max(1.0);
+    let is_other = count >= ENOUGH && mean > ALONG && mean > own / f64::from(count) + 0.2;
+    usual != is_other
 }
 
 fn agent(object: &Object, index: usize, id: String, degrees: bool) -> Result<Agent, ReadError> {

@@ -220,12 +220,17 @@ fn agent(pickle: &Pickle, id: &str, track: &Value, steps: usize) -> Result<(Agen
             return Err(invalid(&at("position"), format!("step {step} is valid and not finite")));
         }
         states.push(seen(step).then_some(state));
-        heights.push(if seen(step) && across == 3 { place(2) } else { 0.0 });
+        let height = if across == 3 { place(2) } else { 0.0 };
+        heights.push(if seen(step) && height.is_finite() { height } else { 0.0 });
     }
     let side = |name: &str| {
+        let is_size = |v: &f64| v.is_finite() && *v > 0.0;
+        // One for all steps, or one for each.
+        if let Some(only) = pickle.get(state, name).and_then(|value| pickle.number(value)) {
+            return Some((only, false)).filter(|(only, _)| is_size(only));
+        }
         let (_, numbers) = rows(name, steps)?;
-        let known =
-            numbers.iter().enumerate().filter(|(step, v)| (numbers.len() == 1 || seen(*step)) && **v > 0.0);
+        let known = numbers.iter().enumerate().filter(|(step, v)| seen(*step) && is_size(v));
         let mut known: Vec<f64> = known.map(|(_, v)| *v).collect();
         known.sort_by(f64::total_cmp);
         let median = known.get(known.len() / 2).copied()?;
