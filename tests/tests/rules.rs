@@ -69,6 +69,7 @@ const HOUSES: &[House] = &[
                 "gpudrive",
                 "table",
             ],
+            &["openscenario"],
             &["registry"],
             &["checks"],
         ],

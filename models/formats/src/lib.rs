@@ -43,6 +43,7 @@ mod markup;
 pub mod native;
 mod numbers;
 pub mod opendrive;
+mod openscenario;
 pub mod polyline;
 pub mod problem;
 pub mod registry;

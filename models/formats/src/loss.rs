@@ -68,7 +68,7 @@ pub mod code {
     pub const NO_SIGNAL_STATES: &str = "no-signal-states";
     /// Road users that come after the first step, of which the format's own readers know and its schema does not.
     pub const LATE_ROAD_USERS: &str = "late-road-users";
-    /// Numbers that are rounded so that it can be seen, by how much at most.
+    /// Lines that are not where they were, or numbers that are rounded so that it can be seen, by how much at most.
     pub const GEOMETRY_APPROXIMATED: &str = "geometry-approximated";
     /// What follows which lane, what lies beside it, and who obeys a sign.
     pub const NO_LANE_GRAPH: &str = "no-lane-graph";
@@ -76,6 +76,8 @@ pub mod code {
     pub const NO_IDS: &str = "no-ids";
     /// Speed limits.
     pub const NO_SPEED_LIMITS: &str = "no-speed-limits";
+    /// Speeds other than the first one, where readers find them from places and times.
+    pub const NO_VELOCITY: &str = "no-velocity";
     /// Ids that the format cannot hold.
     pub const IDS_RENUMBERED: &str = "ids-renumbered";
 }

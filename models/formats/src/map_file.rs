@@ -28,6 +28,8 @@ pub(crate) struct MapFile {
     pub source: &'static str,
     /// The reader.
     pub read: fn(&dyn Source) -> Result<MapRead, ReadError>,
+    /// The writer, where there is one.
+    pub write: Option<fn(&Scene, &ExportOptions) -> io::Result<Exported>>,
 }
 
 /// What a file holds.
@@ -73,7 +75,7 @@ impl Format for MapFile {
             media_type: "application/xml",
             extensions: self.extensions,
             import: true,
-            export: false,
+            export: self.write.is_some(),
             many: false,
             takes_net: false,
         }
@@ -95,8 +97,12 @@ impl Format for MapFile {
         one(self.scene(file, options))
     }
 
-    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
-        Err(only_read(&self.info()))
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        match (self.write, scenes) {
+            (None, _) => Err(only_read(&self.info())),
+            (Some(write), [scene]) => write(scene, options),
+            (Some(_), _) => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
 use crate::opendrive::format::OPENDRIVE;
+use crate::openscenario::format::OpenScenario;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::scenarionet::format::ScenarioNet;
 use crate::source::{Source, head};
@@ -19,12 +20,13 @@ use crate::womd::format::Womd;
 const BY_CONTENT: u8 = 2;
 
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 11] = [
+pub static FORMATS: [&dyn Format; 12] = [
     &NativeJson,
     &Womd,
     &SUMO_NET,
     &SumoFcd,
     &OPENDRIVE,
+    &OpenScenario,
     &LANELET2,
     &CommonRoad,
     &ScenarioNet,
