@@ -2,7 +2,7 @@
 //! a broken promise panics.
 #![allow(clippy::panic, clippy::expect_used, reason = "a panic is how a promise is reported broken")]
 
-use crate::format::{ExportedMotion, ImportOptions};
+use crate::format::{ExportOptions, ExportedMotion, ImportOptions};
 use crate::native::{self, ConditionsDoc, Context, Window};
 use crate::osm::extract;
 use crate::registry;
@@ -28,6 +28,9 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("opendrive", |bytes| map_of("opendrive", bytes)),
     ("lanelet2", |bytes| map_of("lanelet2", bytes)),
     ("osm", osm),
+    ("commonroad", |bytes| both_ways("commonroad", bytes)),
+    ("scenarionet", |bytes| both_ways("scenarionet", bytes)),
+    ("gpudrive", |bytes| both_ways("gpudrive", bytes)),
     ("sniff", sniff),
 ];
 
@@ -50,7 +53,7 @@ pub fn native(bytes: &[u8]) -> bool {
 /// When it does not.
 pub fn osm(bytes: &[u8]) -> bool {
     let Ok(roads) = extract::read(&bytes) else { return false };
-    let again = extract::read(&roads.xml.as_bytes()).expect("what was written is read");
+    let again = extract::read(&roads.xml).expect("what was written is read");
     assert_eq!(again.xml, roads.xml, "writing is not stable");
     true
 }
@@ -118,6 +121,29 @@ pub fn sumo_pair(bytes: &[u8]) -> bool {
 /// When it is not.
 pub fn map_of(format: &str, bytes: &[u8]) -> bool {
     imported(format, bytes, None)
+}
+
+/// A scenario in the format with this id that is read is a scene that the native format holds; what is written of it
+/// is read again with as many road users.
+///
+/// # Panics
+/// When it is not.
+pub fn both_ways(format: &str, bytes: &[u8]) -> bool {
+    let format = registry::by_id(format).expect("the format is in the table");
+    let options = ImportOptions { max_scenes: 4, ..ImportOptions::default() };
+    let mut read = false;
+    for (scene, _) in format.import(bytes, &options).into_iter().flatten() {
+        native::read(&native::write(&scene)).expect("what was written is read");
+        works(&scene);
+        let options = ExportOptions { motion: ExportedMotion::Log, ..ExportOptions::default() };
+        // A scene without a map may be one that the format has no place for.
+        if let Ok(file) = format.export(&[&scene], &options) {
+            let again = format.import(&file.bytes, &ImportOptions::default()).pop();
+            assert!(matches!(again, Some(Ok(_))), "what was written is not read: {again:?}");
+        }
+        read = true;
+    }
+    read
 }
 
 fn imported(format: &str, bytes: &[u8], net: Option<&[u8]>) -> bool {

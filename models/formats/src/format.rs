@@ -5,8 +5,9 @@ use crate::loss::Loss;
 use crate::netconvert::Netconvert;
 use crate::problem::{Imported, ReadError};
 use crate::source::Source;
-use scene::{Scene, Timing};
+use scene::{Agent, Scene, Shown, Timing};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io;
 use std::sync::Arc;
 
@@ -79,6 +80,18 @@ pub enum ExportedMotion {
     Chosen,
 }
 
+impl ExportedMotion {
+    /// A road user as a file has it: as it is shown, or as it was recorded.
+    pub(crate) fn of<'a>(self, scene: &Scene, agent: &'a Agent) -> Shown<'a> {
+        match self {
+            Self::Chosen => scene.shown(agent),
+            Self::Log => {
+                Shown { agent_type: agent.agent_type, size: agent.size, track: Cow::Borrowed(&agent.track) }
+            }
+        }
+    }
+}
+
 /// How to write a file of any format.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ExportOptions {
@@ -110,6 +123,9 @@ pub type Scenes<'a> = Box<dyn Iterator<Item = Result<Imported, ReadError>> + 'a>
 pub(crate) fn one<'a>(scene: Result<Imported, ReadError>) -> Scenes<'a> {
     Box::new(std::iter::once(scene))
 }
+
+/// Role of the vehicle that recorded a scene, or whose way is to be found in it.
+pub(crate) const EGO: &str = "ego";
 
 /// Time of a scene that is made of a map alone: a second that has passed and eight to come.
 pub(crate) const MAP_TIMING: Timing = Timing { steps: 91, now_step: 10 };

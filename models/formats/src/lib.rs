@@ -2,7 +2,8 @@
 //!
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
 //! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`opendrive`]
-//! and [`lanelet2`] read maps; [`table`] writes motion for notebooks. No format knows another. Readers are
+//! and [`lanelet2`] read maps; `commonroad`, `scenarionet` and `gpudrive` are what planners and
+//! simulators read; [`table`] writes motion for notebooks. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 //!
 //! ```
@@ -26,27 +27,40 @@
 
 mod bounds;
 pub mod checks;
+mod commonroad;
 pub mod files;
 pub mod format;
+mod gpudrive;
 pub mod identities;
+mod kinds;
 pub mod lanelet2;
 mod lights;
 pub mod limits;
+mod lists;
 pub mod loss;
 mod map_file;
+mod markup;
 pub mod native;
 pub mod netconvert;
+mod numbers;
 pub mod opendrive;
+mod openscenario;
 mod osm;
 pub mod polyline;
 pub mod problem;
 mod projection;
 pub mod registry;
+mod scenarionet;
+mod settle;
+mod sides;
 pub mod source;
 pub mod sumo;
 mod surface;
 pub mod table;
+mod tree;
+mod units;
 mod unpack;
+mod unwritten;
 pub mod womd;
 mod xml;
 

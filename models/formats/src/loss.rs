@@ -50,6 +50,34 @@ pub mod code {
     pub const NO_LANE_TYPE: &str = "no-lane-type";
     /// More steps than the scene, because a future is longer: readers made for recordings may not take it.
     pub const LONG_RECORD: &str = "long-record";
+    /// Heights.
+    pub const NO_Z: &str = "no-z";
+    /// Painted lines and road edges as lines of their own.
+    pub const NO_LINES: &str = "no-lines";
+    /// Areas of the map that the format has no word for.
+    pub const NO_AREAS: &str = "no-areas";
+    /// Lanes beside each other over a part of their length.
+    pub const NO_NEIGHBORS: &str = "no-neighbors";
+    /// Steps at which nobody saw a road user, between others.
+    pub const NO_VALIDITY_GAPS: &str = "no-validity-gaps";
+    /// One road user alone has a goal, and nothing else is known of it.
+    pub const SINGLE_EGO: &str = "single-ego";
+    /// How many steps there are and which of them is the present.
+    pub const NO_TIMING: &str = "no-timing";
+    /// What signals show beside red, yellow and green.
+    pub const NO_SIGNAL_STATES: &str = "no-signal-states";
+    /// Road users that come after the first step, of which the format's own readers know and its schema does not.
+    pub const LATE_ROAD_USERS: &str = "late-road-users";
+    /// Lines that are not where they were, or numbers that are rounded so that it can be seen, by how much at most.
+    pub const GEOMETRY_APPROXIMATED: &str = "geometry-approximated";
+    /// What follows which lane, what lies beside it, and who obeys a sign.
+    pub const NO_LANE_GRAPH: &str = "no-lane-graph";
+    /// Ids: what is read again is numbered.
+    pub const NO_IDS: &str = "no-ids";
+    /// Speed limits.
+    pub const NO_SPEED_LIMITS: &str = "no-speed-limits";
+    /// Speeds other than the first one, where readers find them from places and times.
+    pub const NO_VELOCITY: &str = "no-velocity";
     /// Ids that the format cannot hold.
     pub const IDS_RENUMBERED: &str = "ids-renumbered";
 }

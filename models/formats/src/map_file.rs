@@ -11,6 +11,9 @@ use scene::{MAX_COORDINATE_M, Meta, Origin, Scene, Shared, Signal, Vec2};
 use std::collections::BTreeMap;
 use std::io;
 
+/// What stands behind the id of a lane that traffic uses both ways, for the way against its direction.
+pub(crate) const AGAINST: &str = ".back";
+
 /// A format of maps in XML, plain or gzip.
 pub(crate) struct MapFile {
     /// Word for `--from` and `?format=`.
@@ -25,6 +28,8 @@ pub(crate) struct MapFile {
     pub source: &'static str,
     /// The reader.
     pub read: fn(&dyn Source) -> Result<MapRead, ReadError>,
+    /// The writer, where there is one.
+    pub write: Option<fn(&Scene, &ExportOptions) -> io::Result<Exported>>,
 }
 
 /// What a file holds.
@@ -73,7 +78,7 @@ impl Format for MapFile {
             media_type: "application/xml",
             extensions: self.extensions,
             import: true,
-            export: false,
+            export: self.write.is_some(),
             many: false,
             takes_net: false,
         }
@@ -95,8 +100,12 @@ impl Format for MapFile {
         one((self.read)(file).and_then(|read| read.scene(self.source, options.licence.clone())))
     }
 
-    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
-        Err(only_read(&self.info()))
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        match (self.write, scenes) {
+            (None, _) => Err(only_read(&self.info())),
+            (Some(write), [scene]) => write(scene, options),
+            (Some(_), _) => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
+        }
     }
 }
 

@@ -102,12 +102,19 @@ pub fn meeting(p: Vec2, d: Vec2, q: Vec2, e: Vec2) -> Option<(f64, f64)> {
 
 /// Smallest distance from `p` to the line.
 pub fn distance_to(points: &[Vec2], p: Vec2) -> f64 {
-    let segment = |w: &[Vec2]| {
-        let d = w[1] - w[0];
-        let share = ((p - w[0]).dot(&d) / d.norm_squared().max(1e-12)).clamp(0.0, 1.0);
-        (p - w[0] - d * share).norm()
-    };
-    points.windows(2).map(segment).fold(f64::INFINITY, f64::min)
+    points.windows(2).map(|w| (foot(w, p) - p).norm()).fold(f64::INFINITY, f64::min)
+}
+
+/// Point of the line that is nearest to `p`; `p` itself for a line without pieces.
+pub fn nearest(points: &[Vec2], p: Vec2) -> Vec2 {
+    let feet = points.windows(2).map(|w| foot(w, p));
+    feet.min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm())).unwrap_or(p)
+}
+
+fn foot(ends: &[Vec2], p: Vec2) -> Vec2 {
+    let d = ends[1] - ends[0];
+    let share = ((p - ends[0]).dot(&d) / d.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+    ends[0] + d * share
 }
 
 /// True when `p` lies inside the ring.

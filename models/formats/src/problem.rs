@@ -28,6 +28,7 @@ pub mod code {
     pub const UNSUPPORTED_VERSION: &str = "unsupported-version";
     pub const FORMAT_UNKNOWN: &str = "format-unknown";
     pub const CANNOT_REPRESENT: &str = "cannot-represent";
+    pub const PICKLE_REFUSED: &str = "pickle-refused";
 }
 
 /// Text as one token of a JSON pointer (RFC 6901): `~` and `/` are escaped.

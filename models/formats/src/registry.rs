@@ -1,20 +1,41 @@
 //! One table of formats, for the server, the command line and the documentation.
 
+use crate::commonroad::format::CommonRoad;
 use crate::format::{Format, ImportOptions, Scenes};
+use crate::gpudrive::format::{GPUDRIVE, NOCTURNE};
+use crate::kinds;
 use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
 use crate::opendrive::format::OPENDRIVE;
+use crate::openscenario::format::OpenScenario;
 use crate::osm::format::OsmExtract;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::scenarionet::format::ScenarioNet;
 use crate::source::{Source, head};
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::Table;
 use crate::womd::format::Womd;
 
+/// A format that is this sure knows a file by its content.
+const BY_CONTENT: u8 = 2;
+
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 8] =
-    [&NativeJson, &Womd, &SUMO_NET, &SumoFcd, &OPENDRIVE, &LANELET2, &OsmExtract, &Table];
+pub static FORMATS: [&dyn Format; 13] = [
+    &NativeJson,
+    &Womd,
+    &SUMO_NET,
+    &SumoFcd,
+    &OPENDRIVE,
+    &OpenScenario,
+    &LANELET2,
+    &OsmExtract,
+    &CommonRoad,
+    &ScenarioNet,
+    &GPUDRIVE,
+    &NOCTURNE,
+    &Table,
+];
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {
@@ -23,8 +44,25 @@ pub fn by_id(id: &str) -> Option<&'static dyn Format> {
 
 /// The format that a file that begins so most likely has. `name` is a label only; it is never opened.
 pub fn sniff(bytes: &[u8], name: &str) -> Option<&'static dyn Format> {
+    recognised(bytes, name).ok()
+}
+
+/// The same, or why it is none that is read: a file of another kind that is known is named.
+///
+/// # Errors
+/// `format-unknown`.
+pub fn recognised(bytes: &[u8], name: &str) -> Result<&'static dyn Format, ReadError> {
     let scored = FORMATS.iter().map(|format| (format.sniff(bytes, name), *format));
-    scored.filter(|(score, _)| *score > 0).max_by_key(|(score, _)| *score).map(|(_, format)| format)
+    let best = scored.filter(|(score, _)| *score > 0).max_by_key(|(score, _)| *score);
+    if let Some((BY_CONTENT.., format)) = best {
+        return Ok(format);
+    }
+    // What a file holds says more than what it is called.
+    let ends: Vec<&str> = FORMATS.iter().flat_map(|format| format.info().extensions).copied().collect();
+    if let Some(refusal) = kinds::refusal(bytes, name, &ends) {
+        return Err(refusal);
+    }
+    best.map(|(_, format)| format).ok_or_else(unknown)
 }
 
 /// Reads a file in memory of the given format (`auto` looks at its content and name).
@@ -50,8 +88,9 @@ pub fn scenes<'a>(
     format: &str,
     options: &'a ImportOptions,
 ) -> Result<Scenes<'a>, ReadError> {
-    let found = if format == "auto" { sniff(&head(file), name) } else { by_id(format) };
-    Ok(found.ok_or_else(unknown)?.scenes(file, options))
+    let found =
+        if format == "auto" { recognised(&head(file), name)? } else { by_id(format).ok_or_else(unknown)? };
+    Ok(found.scenes(file, options))
 }
 
 /// `format-unknown`.

@@ -176,6 +176,57 @@ fn lanelets(count: usize) -> Vec<u8> {
     gzip(format!("<osm>{nodes}{ways}{relations}</osm>").as_bytes())
 }
 
+/// A street of lanelets of 20 points a side, and cars with 200 states.
+fn scenario(lanelets: usize, cars: usize) -> Vec<u8> {
+    let mut text =
+        String::from("<commonRoad commonRoadVersion=\"2020a\" timeStepSize=\"0.1\" benchmarkID=\"ZAM_a-1\">");
+    let point = |x: f64, y: f64| format!("<point><x>{x:.3}</x><y>{y:.3}</y></point>");
+    for i in 0..lanelets {
+        let y = i as f64 * 4.0 - 4_000.0;
+        let side = |off: f64| -> String {
+            (0..20)
+                .map(|k| point(f64::from(k) * 4.0, y + off + noise(5, i as u64 * 20 + k as u64) / 1e4))
+                .collect()
+        };
+        write!(
+            text,
+            "<lanelet id=\"{}\"><leftBound>{}</leftBound><rightBound>{}</rightBound><laneletType>urban</laneletType></lanelet>",
+            i + 1,
+            side(3.0),
+            side(0.0)
+        )
+        .unwrap();
+    }
+    for car in 0..cars {
+        write!(
+            text,
+            "<dynamicObstacle id=\"{}\"><type>car</type><shape><rectangle><length>4</length><width>2</width></rectangle></shape>",
+            car + 100_000
+        )
+        .unwrap();
+        for step in 0..200 {
+            let name = if step == 0 { "initialState" } else { "state" };
+            let begin = if step == 1 { "<trajectory>" } else { "" };
+            write!(
+                text,
+                "{begin}<{name}><position>{}</position><orientation><exact>0</exact></orientation><time><exact>{step}</exact></time>\
+                 <velocity><exact>{:.3}</exact></velocity></{name}>",
+                point(f64::from(step), car as f64 * 4.0 - 600.0),
+                noise(car as u64, step as u64) / 100.0
+            )
+            .unwrap();
+        }
+        text.push_str("</trajectory></dynamicObstacle>");
+    }
+    gzip((text + "</commonRoad>").as_bytes())
+}
+
+/// What a format writes of many road users over many steps.
+fn exported(format: &str) -> Vec<u8> {
+    let scene = busy(256, 600);
+    registry::by_id(format).unwrap().export(&[&scene], &formats::ExportOptions::default()).unwrap().bytes
+}
+
 /// Reads a file, one scene after another: how many there are, the first fault, and the most bytes that were
 /// allocated beside the file.
 fn read(file: &dyn Source, format: &str) -> (usize, Option<&'static str>, usize) {
@@ -237,6 +288,43 @@ fn reading_takes_little_beside_the_file() {
             16,
         ),
         ("lanelets", "lanelet2", Box::new(lanelets(1_500)), 1, None, 64),
+        ("scenario", "commonroad", Box::new(scenario(1_500, 250)), 1, None, 96),
+        (
+            "empty obstacles",
+            "commonroad",
+            Box::new(repeated(
+                b"<commonRoad commonRoadVersion='2020a' timeStepSize='0.1'><lanelet>",
+                b"<a/>",
+                8 << 20,
+                b"</lanelet></commonRoad>",
+            )),
+            0,
+            Some("out-of-range"),
+            96,
+        ),
+        ("pickle", "scenarionet", Box::new(exported("scenarionet")), 1, None, 112),
+        (
+            "lists in a pickle",
+            "scenarionet",
+            Box::new([&b"\x80\x02]("[..], &b"]".repeat(4 << 20)].concat()),
+            0,
+            Some("decoded-too-large"),
+            96,
+        ),
+        ("gpudrive", "gpudrive", Box::new(Wrapped(gzip(&exported("gpudrive")))), 1, None, 64),
+        (
+            "points of a road",
+            "gpudrive",
+            Box::new(Wrapped(repeated(
+                b"{\"objects\":[],\"roads\":[{\"type\":\"lane\",\"geometry\":[{\"x\":0,\"y\":0}",
+                b",{\"x\":0,\"y\":0}",
+                6 << 20,
+                b"]}]}",
+            ))),
+            0,
+            Some("invalid-field"),
+            96,
+        ),
         (
             "white space",
             "dragtraffic",

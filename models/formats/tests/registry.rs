@@ -12,8 +12,21 @@ use formats::{ExportOptions, ImportOptions};
 use std::collections::BTreeSet;
 
 /// Every loss code that a writer here can give.
-const LOSS_CODES: [&str; 16] = [
+const LOSS_CODES: [&str; 29] = [
     code::NO_MAP,
+    code::NO_Z,
+    code::NO_IDS,
+    code::NO_LANE_GRAPH,
+    code::NO_SPEED_LIMITS,
+    code::GEOMETRY_APPROXIMATED,
+    code::NO_LINES,
+    code::NO_AREAS,
+    code::NO_NEIGHBORS,
+    code::NO_VALIDITY_GAPS,
+    code::SINGLE_EGO,
+    code::NO_TIMING,
+    code::NO_SIGNAL_STATES,
+    code::LATE_ROAD_USERS,
     code::NO_SIGNALS,
     code::NO_SIZES,
     code::NO_JUDGEMENTS,
@@ -56,7 +69,9 @@ fn every_format_reads_what_it_writes_and_knows_its_own() {
             let list =
                 registry::import(&exported.bytes, "upload", "auto", &ImportOptions::default()).unwrap();
             let (again, _) = list.into_iter().next().unwrap().unwrap();
-            assert_eq!(again.agents.len(), scene.agents.len(), "{}", info.id);
+            // Some have no place for road users whom nobody saw.
+            let seen = scene.agents.iter().filter(|agent| agent.track.valid_steps().next().is_some()).count();
+            assert!([seen, scene.agents.len()].contains(&again.agents.len()), "{}", info.id);
         }
     }
 }
@@ -79,6 +94,25 @@ fn licence_can_be_given_and_unknown_content_is_refused() {
     let other = registry::import(b"[1, 2]", "tfrecord-00001.json", "auto", &options).unwrap_err();
     assert_eq!(other.code(), "format-unknown");
     assert_eq!(registry::import(JUNCTION, "", "nothing", &options).unwrap_err().code(), "format-unknown");
+}
+
+#[test]
+fn a_file_of_a_known_kind_is_called_what_it_is() {
+    let refused = |bytes: &[u8], name: &str| {
+        let error = registry::import(bytes, name, "auto", &ImportOptions::default()).unwrap_err();
+        (error.code(), error.problems[0].detail.clone())
+    };
+    let (code, detail) = refused(b"%PDF-1.4\n%...", "map.xodr");
+    assert_eq!(code, "format-unknown");
+    assert!(
+        detail.starts_with("a PDF document is not read") && detail.contains("its name ends in .xodr"),
+        "{detail}"
+    );
+    let (_, detail) = refused(b"import osc.standard.all\nscenario top:\n  do serial:\n", "cut_in.osc");
+    assert_eq!(detail, "an OpenSCENARIO 2 text is not read; export XML 1.x");
+    // A name alone says what a file would be, until its content says what it is.
+    assert_eq!(registry::sniff(b"", "map.xodr").map(|format| format.info().id), Some("opendrive"));
+    assert!(registry::sniff(b"PK\x03\x04", "map.xodr").is_none());
 }
 
 #[test]

@@ -68,6 +68,7 @@ codes! {
     UnsupportedVersion "unsupported-version" 422 "Newer version" "The document was written by a newer version of the format.";
     FormatUnknown "format-unknown" 422 "Format not recognised" "The file is in no format this server reads, or no format has this name.";
     CannotRepresent "cannot-represent" 422 "Format cannot hold this" "The format has no place for something that the scene cannot do without.";
+    PickleRefused "pickle-refused" 422 "Pickle refused" "The pickle asks for something beside numbers, texts, lists and arrays. Nothing that a pickle names is ever called.";
     LicenceRefused "licence-refused" 422 "Licence refused" "This server was started with --refuse-nc and the source is for non-commercial use only.";
     PreconditionRequired "precondition-required" 428 "Precondition needed" "Send If-Match with the ETag last read (or If-None-Match: * to create), so that no change is lost.";
     HeadersTooLarge "headers-too-large" 431 "Headers too large" "The request has more than `limit` header fields or bytes.";

@@ -144,7 +144,7 @@ struct Order {
 }
 
 refusals!(Refused: CHANGES BODY QUERY SCENE STORE WORK,
-    FormatUnknown, CannotRepresent, LicenceRefused, StoreFull);
+    FormatUnknown, CannotRepresent, PickleRefused, LicenceRefused, StoreFull);
 
 /// Stores the scenes of a file.
 #[utoipa::path(post, path = "/v1/import", operation_id = "importScenes", tag = "files", params(ImportParams),

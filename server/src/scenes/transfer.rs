@@ -116,10 +116,10 @@ impl Wanted {
         (skip, most): (usize, usize),
     ) -> Result<Self, Problem> {
         let found = match format {
-            Some(format) => registry::by_id(known(format)),
-            None => registry::sniff(&source::head(file), name),
+            Some(format) => registry::by_id(known(format)).ok_or_else(registry::unknown)?,
+            None => registry::recognised(&source::head(file), name)?,
         };
-        let info = found.ok_or_else(registry::unknown)?.info();
+        let info = found.info();
         if net.is_some() && !info.takes_net {
             let detail = format!("a file of format {} comes without a network", info.id);
             return Err(Problem::field(NET_POINTER, Code::InvalidField, detail));

@@ -6,11 +6,13 @@
 //! `cargo xtask schemathesis`: the API against its document, with many examples.
 //!
 //! `cargo xtask test NAME…` runs some. What is missing on this machine (a browser) is skipped with a
-//! printed reason; a check that fails does not stop the others.
+//! printed reason; a check that fails does not stop the others. With `--strict`, foreign checkers whose packages
+//! cannot be had fail.
 
 #![allow(clippy::print_stdout, reason = "it talks to people")]
 
 mod advisories;
+mod checkers;
 mod dependencies;
 mod figures;
 mod fuzzing;
@@ -54,6 +56,7 @@ const CHECKS: &[Check] = &[
     ("package", || cargo(&[&["package", "--allow-dirty"][..], PACKAGES].concat())),
     ("python", python),
     ("maps", maps),
+    ("checkers", checkers::check),
     ("schemathesis", schemathesis::check),
     ("figures", figures::drag),
     ("browser", browser),
@@ -80,7 +83,7 @@ fn main() -> ExitCode {
             let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
             let names = names.join(", ");
             eprintln!(
-                "usage: cargo xtask test [NAME…]\n       cargo xtask golden [--accept]\n       \
+                "usage: cargo xtask test [NAME…] [--strict]\n       cargo xtask golden [--accept]\n       \
                  cargo xtask soak clients|kills|faults|schedule [--minutes N | --count N] [--seed S]\n       \
                  cargo xtask dependencies [--accept]\n       cargo xtask fuzz [TARGET…] [--seconds N] [--seed S]\n       \
                  cargo xtask schemathesis [--examples N] [--seed S]\nchecks: {names}"
@@ -91,13 +94,17 @@ fn main() -> ExitCode {
 }
 
 fn test(names: &[String]) -> ExitCode {
-    if let Some(unknown) = names.iter().find(|name| !CHECKS.iter().any(|check| check.0 == *name)) {
+    let strict = |name: &String| name == "--strict";
+    checkers::STRICT.store(names.iter().any(strict), std::sync::atomic::Ordering::Relaxed);
+    let names: Vec<&String> = names.iter().filter(|name| !strict(name)).collect();
+    if let Some(unknown) = names.iter().find(|name| !CHECKS.iter().any(|check| check.0 == name.as_str())) {
         eprintln!("no check is named {unknown}");
         return ExitCode::from(2);
     }
     let mut lines = Vec::new();
     let mut failed = false;
-    for (name, check) in CHECKS.iter().filter(|check| names.is_empty() || names.iter().any(|n| n == check.0))
+    for (name, check) in
+        CHECKS.iter().filter(|check| names.is_empty() || names.iter().any(|n| n.as_str() == check.0))
     {
         println!("== {name}");
         let began = Instant::now();

@@ -14,4 +14,5 @@ pub(crate) static LANELET2: MapFile = MapFile {
     root: "osm",
     source: "lanelet2",
     read: import::read,
+    write: None,
 };

@@ -83,7 +83,7 @@ fn draw(lanelets: &[Lanelet<'_>], map: &mut LaneMap) -> Vec<Vec<usize>> {
         let walked = lane_type == scene::map::LaneType::Sidewalk;
         let ways: &[bool] = if lanelet.two_way() && !walked { &[true, false] } else { &[true] };
         for forward in ways {
-            let id = format!("{}{}", lanelet.id, if *forward { "" } else { "~" });
+            let id = format!("{}{}", lanelet.id, if *forward { "" } else { map_file::AGAINST });
             if !ids.insert(id.clone()) {
                 continue;
             }

@@ -1,15 +1,10 @@
 //! Lanelets: their sides in the direction of travel, their middle, what they are for.
 
 use super::osm::{Osm, Relation, Tags};
-use crate::polyline::{arc_lengths, length, point_at};
+use crate::sides;
 use scene::Vec2;
 use scene::geometry::cross;
 use scene::map::LaneType;
-
-/// Distance of points of a centre line, metres.
-const SPACING_M: f64 = 1.0;
-/// Most pieces of a centre line.
-const MAX_PIECES: f64 = 4_000.0;
 
 /// One lanelet.
 pub(super) struct Lanelet<'a> {
@@ -39,44 +34,12 @@ impl Lanelet<'_> {
 
     /// Points a metre apart halfway between the sides, and the mean width.
     pub fn middle(&self) -> (Vec<Vec2>, f64) {
-        let lengths = [arc_lengths(&self.left), arc_lengths(&self.right)];
-        let totals = [length(&self.left), length(&self.right)];
-        let pieces = (totals[0].max(totals[1]) / SPACING_M).ceil().clamp(1.0, MAX_PIECES) as usize;
-        let mut sides = Vec::with_capacity(pieces + 1);
-        let points = (0..=pieces).map(|i| {
-            let share = i as f64 / pieces as f64;
-            let (l, r) = (
-                point_at(&self.left, &lengths[0], totals[0] * share),
-                point_at(&self.right, &lengths[1], totals[1] * share),
-            );
-            sides.push(l - r);
-            ((l + r) / 2.0).map(|v| (v * 1e4).round() / 1e4)
-        });
-        let points: Vec<Vec2> = points.collect();
-        // Across the way: opposite points of a lane that opens or bends may lie askew.
-        let across = |(i, side): (usize, &Vec2)| {
-            let way = points[(i + 1).min(pieces)] - points[i.saturating_sub(1)];
-            cross(way, *side).abs() / way.norm().max(1e-9)
-        };
-        let width_m = sides.iter().enumerate().map(across).sum::<f64>() / sides.len() as f64;
-        (points, width_m)
+        sides::middle(&self.left, &self.right)
     }
 
-    /// Both sides as equally many points.
+    /// Right and left side with as many points.
     pub fn sides(&self) -> (Vec<Vec2>, Vec<Vec2>) {
-        let lengths = [arc_lengths(&self.left), arc_lengths(&self.right)];
-        let totals = [length(&self.left), length(&self.right)];
-        let mut shares: Vec<f64> = lengths
-            .iter()
-            .zip(totals)
-            .flat_map(|(all, total)| all.iter().map(move |s| s / total.max(1e-9)))
-            .collect();
-        shares.sort_by(f64::total_cmp);
-        shares.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
-        let side = |k: usize, line: &[Vec2]| {
-            shares.iter().map(|share| point_at(line, &lengths[k], totals[k] * share)).collect()
-        };
-        (side(1, &self.right), side(0, &self.left))
+        sides::matched(&self.left, &self.right)
     }
 }
 

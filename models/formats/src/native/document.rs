@@ -3,10 +3,10 @@
 use super::agent::AgentDoc;
 use super::any::AnyDoc;
 use super::generated::GeneratedDoc;
-use super::lists::bounded;
 use super::map::{MapDoc, MapField, MapRef};
 use super::value::{Members, PointDoc};
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
+use crate::lists::bounded;
 use crate::problem::{FieldProblem, Problems, ReadError, code};
 use scene::{Agent, ContentHash, LaneMap, Meta, Origin, STEP_S, Scene, Shared, Signal, SignalState, Timing};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};

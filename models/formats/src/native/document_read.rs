@@ -3,9 +3,9 @@
 
 use super::any::AnyDoc;
 use super::document::SceneDoc;
-use super::lists::Capped;
 use super::value::{MAX_MEMBERS, Members};
 use crate::limits::{MAX_AGENTS, MAX_SIGNALS};
+use crate::lists::Capped;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,8 +1,8 @@
 //! The generator's part of a scene document.
 
 use super::any::AnyDoc;
-use super::lists::bounded;
 use super::value::{Members, check_integer, round_m, round_rad};
+use crate::lists::bounded;
 use crate::problem::Problems;
 use scene::judge::{About, Fault, Manoeuvre, Reaction, Relation};
 use scene::{AgentFutures, Future, Generated, MAX_COORDINATE_M, Sample, State};

@@ -1,8 +1,8 @@
 //! The map part of a scene document.
 
-use super::lists::{bounded, capped};
 use super::value::{PointDoc, PointsDoc, id, words};
 use crate::limits::MAX_POLYLINES;
+use crate::lists::{bounded, capped};
 use scene::map::LaneType;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize};

@@ -11,7 +11,6 @@ mod document_read;
 pub(crate) mod format;
 mod generated;
 mod json;
-mod lists;
 mod map;
 mod map_domain;
 mod objects;

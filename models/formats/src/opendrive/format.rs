@@ -1,6 +1,6 @@
 //! OpenDRIVE as users import it.
 
-use super::import;
+use super::{export, import};
 use crate::map_file::MapFile;
 
 /// A map (`.xodr`, OpenDRIVE 1.4 to 1.9), plain or gzip: a scene with a map and signals, without road users. The
@@ -12,4 +12,5 @@ pub(crate) static OPENDRIVE: MapFile = MapFile {
     root: "OpenDRIVE",
     source: "opendrive",
     read: import::read,
+    write: Some(export::write),
 };

@@ -1,6 +1,7 @@
 //! Lanes of a network as lanes of a map: which of them traffic uses, and what follows what.
 
 use super::sections::{MAX_PIECES, Section, SectionLane, dense};
+use crate::map_file;
 use scene::Vec2;
 use scene::map::{Lane, LaneMap, LaneType, Neighbor, Points};
 use std::collections::{HashMap, HashSet};
@@ -109,13 +110,14 @@ pub(super) fn draw(network: &RoadNetwork, sections: &[Section], map: &mut LaneMa
     found
 }
 
-/// Such as `12.0.-1`: road, section and lane; `~` for the way against a two-way lane.
+/// Such as `12.0.-1`: road, section and lane, and [`map_file::AGAINST`] for the way against a two-way lane.
 fn id_of(section: &Section, lane: &SectionLane, forward: bool, ids: &mut HashSet<String>) -> String {
-    let road: String = section.road.chars().filter(|c| !c.is_control()).take(60).collect();
-    let against = if !forward && lane.direction == Direction::Both { "~" } else { "" };
+    let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
+    let road: String = section.road.chars().take(36).map(legal).collect();
+    let against = if !forward && lane.direction == Direction::Both { map_file::AGAINST } else { "" };
     let mut id = format!("{road}.{}.{}{against}", section.number, lane.number);
     while !ids.insert(id.clone()) {
-        id.push('+');
+        id.push('_');
     }
     id
 }

@@ -3,11 +3,14 @@
 //! The crate `xodr` reads them; what it builds becomes lanes, lines, edges and signals of a scene here. Roads are
 //! flat across: superelevation and lateral shapes are left out, heights along the road are kept.
 
+mod course;
+pub(crate) mod export;
 mod filter;
 pub(crate) mod format;
 mod import;
 mod lanes;
 mod marks;
 mod objects;
+mod roads;
 mod sections;
 mod signals;

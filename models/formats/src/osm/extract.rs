@@ -1,13 +1,13 @@
 //! What netconvert needs of an extract: roads, the points that they have, which turns are allowed. All else is left
 //! out, so that what is handed to another program is small and of our own writing.
 
+use crate::markup::Markup;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::projection::Projection;
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Event, Scanner};
 use std::collections::HashSet;
-use std::fmt::Write as _;
 
 /// Most bytes of a file once decompressed, and of one tag.
 const MAX_BYTES: u64 = 256 << 20;
@@ -26,7 +26,7 @@ const MAX_REACH_DEG: f64 = 0.25;
 #[derive(Debug)]
 pub(crate) struct Extract {
     /// XML that netconvert reads.
-    pub xml: String,
+    pub xml: Vec<u8>,
     /// About the middle of the roads.
     pub projection: Projection,
     /// Latitude and longitude of the middle, degrees.
@@ -36,7 +36,7 @@ pub(crate) struct Extract {
 /// A node, way or relation.
 #[derive(Debug, Default)]
 struct Item {
-    kind: String,
+    kind: &'static str,
     id: i64,
     degrees: Option<(f64, f64)>,
     tags: Vec<(String, String)>,
@@ -118,7 +118,8 @@ fn begun(element: &Element) -> Option<Item> {
     let in_range = |(lat, lon): &(f64, f64)| lat.abs() < 85.0 && lon.abs() <= 180.0;
     let degrees = degree("lat").zip(degree("lon")).filter(in_range);
     let id = number(element, "id").filter(|_| !gone)?;
-    Some(Item { kind: element.name.clone(), id, degrees, ..Item::default() })
+    let kind = ["node", "way", "relation"].into_iter().find(|kind| *kind == element.name)?;
+    Some(Item { kind, id, degrees, ..Item::default() })
 }
 
 fn number(element: &Element, name: &str) -> Option<i64> {
@@ -147,11 +148,12 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
     if ways.is_empty() {
         return Err(cannot("no roads: nothing in it is tagged `highway`".into()));
     }
-    let mut xml = String::from("<osm version=\"0.6\">\n");
+    let mut out = Markup::new();
+    out.open("osm", &[("version", "0.6")]);
     let mut places = Vec::new();
     let mut members = 0;
     each(file, |item| {
-        let kept = match item.kind.as_str() {
+        let kept = match item.kind {
             "node" => used.contains(&item.id) && item.degrees.is_some(),
             "way" => ways.contains(&item.id),
             _ => {
@@ -163,11 +165,10 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
         };
         if kept {
             places.extend(item.degrees);
-            write(&mut xml, &item);
+            write(&item, &mut out);
         }
         Ok(())
     })?;
-    xml.push_str("</osm>\n");
     let corner = |pick: fn(f64, f64) -> f64| {
         let first = places.first().copied().unwrap_or_default();
         places.iter().fold(first, |a, b| (pick(a.0, b.0), pick(a.1, b.1)))
@@ -178,43 +179,23 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
         let detail = format!("roads over {:.0} km; cut out some kilometres", reach_deg * 111.0);
         return Err(FieldProblem::new("", code::MAP_TOO_LARGE, detail).into());
     };
-    Ok(Extract { xml, projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
+    Ok(Extract { xml: out.finish(), projection, middle: ((low.0 + high.0) / 2.0, (low.1 + high.1) / 2.0) })
 }
 
 /// Writes an item as OpenStreetMap does.
-fn write(xml: &mut String, item: &Item) {
-    // Writing to a text cannot fail.
-    let _ = write!(xml, "<{} id=\"{}\"", item.kind, item.id);
-    if let Some((lat, lon)) = item.degrees {
-        let _ = write!(xml, " lat=\"{lat}\" lon=\"{lon}\"");
-    }
-    xml.push_str(">\n");
-    for node in &item.nodes {
-        let _ = writeln!(xml, "<nd ref=\"{node}\"/>");
-    }
+fn write(item: &Item, out: &mut Markup) {
+    let id = item.id.to_string();
+    let (lat, lon) = item.degrees.map(|(lat, lon)| (lat.to_string(), lon.to_string())).unzip();
+    let mut attributes = vec![("id", id.as_str())];
+    attributes.extend(lat.as_deref().map(|lat| ("lat", lat)));
+    attributes.extend(lon.as_deref().map(|lon| ("lon", lon)));
+    out.open(item.kind, &attributes);
+    item.nodes.iter().for_each(|node| out.empty("nd", &[("ref", &node.to_string())]));
     for (sort, id, role) in &item.members {
-        let _ = writeln!(xml, "<member type=\"{}\" ref=\"{id}\" role=\"{}\"/>", escaped(sort), escaped(role));
+        out.empty("member", &[("type", sort), ("ref", &id.to_string()), ("role", role)]);
     }
-    for (key, value) in &item.tags {
-        let _ = writeln!(xml, "<tag k=\"{}\" v=\"{}\"/>", escaped(key), escaped(value));
-    }
-    let _ = writeln!(xml, "</{}>", item.kind);
-}
-
-/// Text as it may stand in an attribute.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c if c.is_control() => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
+    item.tags.iter().for_each(|(key, value)| out.empty("tag", &[("k", key), ("v", value)]));
+    out.close();
 }
 
 fn bound(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
@@ -248,13 +229,14 @@ mod tests {
             <relation id="6"><member type="way" ref="8" role="outer"/><tag k="type" v="multipolygon"/></relation></osm>"#,
         )
         .unwrap();
-        assert_eq!(found.xml.matches("<node").count(), 2);
-        assert_eq!(found.xml.matches("<way").count(), 1);
-        assert_eq!(found.xml.matches("<relation").count(), 1);
-        assert!(found.xml.contains(r#"v="a &amp; &quot;b&quot;""#));
+        let text = std::str::from_utf8(&found.xml).unwrap();
+        assert_eq!(text.matches("<node").count(), 2);
+        assert_eq!(text.matches("<way").count(), 1);
+        assert_eq!(text.matches("<relation").count(), 1);
+        assert!(text.contains(r#"v="a &amp; &quot;b&quot;""#));
         assert!((found.middle.0 - 48.1005).abs() < 1e-9);
         // What was written reads again to the same.
-        assert_eq!(extract(&found.xml).unwrap().xml, found.xml);
+        assert_eq!(extract(text).unwrap().xml, found.xml);
     }
 
     #[test]

@@ -71,7 +71,7 @@ impl OsmExtract {
 }
 
 /// The network that netconvert makes of roads.
-fn network(options: &ImportOptions, xml: &str, projection: &str, left: bool) -> Result<Vec<u8>, ReadError> {
+fn network(options: &ImportOptions, xml: &[u8], projection: &str, left: bool) -> Result<Vec<u8>, ReadError> {
     let cannot = |detail: String| ReadError::from(FieldProblem::new("", code::CANNOT_REPRESENT, detail));
     let Some(netconvert) = &options.netconvert else { return Err(cannot(WITHOUT.into())) };
     let mut arguments: Vec<String> = ARGUMENTS.map(str::to_owned).into();
@@ -80,7 +80,7 @@ fn network(options: &ImportOptions, xml: &str, projection: &str, left: bool) -> 
     {
         arguments.extend([name.to_owned(), value.to_owned()]);
     }
-    netconvert.network(FILE, xml.as_bytes(), &arguments).map_err(|error| match error.kind() {
+    netconvert.network(FILE, xml, &arguments).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => cannot(WITHOUT.into()),
         _ => cannot(format!("netconvert could not make a network of it: {error}")),
     })

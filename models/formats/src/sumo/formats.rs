@@ -24,6 +24,7 @@ pub(crate) static SUMO_NET: MapFile = MapFile {
     root: "net",
     source: "sumo",
     read: read_net,
+    write: None,
 };
 
 /// A recording (`--fcd-output`), XML or CSV, plain or gzip: scenes of 9.1 s. Angles are degrees clockwise

@@ -2,18 +2,18 @@
 
 use super::export_map::{MapIds, features};
 use super::frame::Frame;
-use super::import::{EGO, SIGNAL_STATES};
+use super::import::SIGNAL_STATES;
 use super::proto::{
     DynamicMapState, ObjectState, RequiredPrediction, Scenario, Track, TrafficSignalLaneState,
 };
 use super::record::write_record;
-use crate::format::ExportedMotion;
+use crate::format::{EGO, ExportedMotion};
 use crate::loss::{Loss, code};
+use crate::unwritten;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use prost::Message;
-use scene::{Agent, AgentType, STEP_S, Scene, Shown, Signal, Size, Start, State, Subtype};
-use std::borrow::Cow;
+use scene::{Agent, AgentType, STEP_S, Scene, Shown, Signal, Size, State, Subtype};
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::io::{self, Write};
 
@@ -60,7 +60,7 @@ pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) 
     let mut losses = Vec::new();
     let ids = agent_ids(&scene.agents, &mut losses);
     let map_ids = MapIds::new(&scene.map, &mut losses);
-    let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| written(scene, agent, motion)).collect();
+    let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| motion.of(scene, agent)).collect();
     let ends = shown.iter().map(|shown| shown.track.first_step + shown.track.states.len());
     let steps = ends.fold(scene.time.steps, usize::max);
     if steps > scene.time.steps {
@@ -121,16 +121,6 @@ fn agent_ids(agents: &[Agent], losses: &mut Vec<Loss>) -> Vec<i32> {
         losses.push(Loss::new(code::IDS_RENUMBERED, "road users' ids that are no numbers got new ones"));
     }
     ids
-}
-
-/// A road user as the file has it: as it is shown, or as it was recorded.
-fn written<'a>(scene: &Scene, agent: &'a Agent, motion: ExportedMotion) -> Shown<'a> {
-    match motion {
-        ExportedMotion::Chosen => scene.shown(agent),
-        ExportedMotion::Log => {
-            Shown { agent_type: agent.agent_type, size: agent.size, track: Cow::Borrowed(&agent.track) }
-        }
-    }
 }
 
 /// Its state at each step; heights are the log's, the last known one where it has none.
@@ -209,43 +199,10 @@ fn signal_rows(signals: &[Signal], steps: usize, frame: Frame, ids: &MapIds) -> 
     (0..steps).map(row).collect()
 }
 
-/// What users fixed that the file does not have. Types, sizes and the starts of futures are in its states.
-fn unwritten_conditions(scene: &Scene, motion: ExportedMotion) -> Option<&'static str> {
-    let is_lost = |agent: &Agent| {
-        let mut rest = agent.conditions.clone();
-        if motion == ExportedMotion::Chosen {
-            (rest.agent_type, rest.length_m, rest.width_m) = (None, None, None);
-            let generated = scene.generated.as_ref();
-            if generated.is_some_and(|g| g.chosen_future(&agent.id).is_some()) {
-                rest.start = Start::default();
-            }
-        }
-        !rest.is_empty()
-    };
-    let lost = scene.agents.iter().any(is_lost);
-    lost.then_some(match motion {
-        ExportedMotion::Chosen => "goals, and starts of road users that were not generated from them",
-        ExportedMotion::Log => "types, sizes, starts and goals that the user fixed",
-    })
-}
-
 fn scene_losses(scene: &Scene, motion: ExportedMotion, id: &str, losses: &mut Vec<Loss>) {
     let agents = &scene.agents;
-    if let Some(fixed) = unwritten_conditions(scene, motion) {
-        losses.push(Loss::new(code::NO_CONDITIONS, fixed));
-    }
-    if let Some(generated) = &scene.generated {
-        if motion == ExportedMotion::Chosen {
-            losses.push(Loss::new(code::NO_GENERATED, "read again, generated motion counts as recorded"));
-        }
-        let futures = || generated.samples.iter().flat_map(|s| s.agents.values());
-        if motion == ExportedMotion::Log
-            || generated.samples.len() > 1
-            || futures().any(|f| f.modes.len() > 1)
-        {
-            losses.push(Loss::new(code::NO_MODES, "generated futures other than the exported one"));
-        }
-    }
+    losses.extend(unwritten::conditions(scene, motion));
+    losses.extend(unwritten::futures(scene, motion));
     if agents.iter().any(|a| a.subtype != Subtype::Unknown) {
         losses.push(Loss::new(code::NO_SUBTYPE, "finer kinds such as truck or child"));
     }
@@ -256,9 +213,5 @@ fn scene_losses(scene: &Scene, motion: ExportedMotion, id: &str, losses: &mut Ve
     if scene.licence().is_some() {
         losses.push(Loss::new(code::NO_LICENCE, "the file has no place for a licence"));
     }
-    let meta = &scene.meta;
-    let noted = !meta.tags.is_empty() || !meta.notes.is_empty() || meta.parent_id.is_some();
-    if noted || scene.name != id || !scene.extra.is_empty() {
-        losses.push(Loss::new(code::NO_NOTES, "name, tags, notes and members of other tools"));
-    }
+    losses.extend(unwritten::notes(scene, id));
 }

@@ -1,12 +1,12 @@
 //! A lane map as map features.
 
 use super::frame::Frame;
-use super::import_map::MPS_PER_MPH;
 use super::proto::{
     BoundarySegment, FeatureData, LaneCenter, LaneNeighbor, MapFeature, MapPoint, Polygon, StopSign,
     TypedLine,
 };
 use crate::loss::{Loss, code};
+use crate::units::mph;
 use scene::LaneMap;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points};
 use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
@@ -162,8 +162,6 @@ fn lane_center(lane: &Lane, frame: Frame, ids: &MapIds) -> LaneCenter {
     let numbers = |list: &[String]| list.iter().map(|id| ids.lane(id)).collect();
     let neighbors = |list: &[Neighbor]| list.iter().map(|n| lane_neighbor(n, ids)).collect();
     let boundaries = |list: &[Boundary]| list.iter().map(|b| boundary_segment(b, ids)).collect();
-    // Millionths of a mile an hour: the quotient of a product is not always the factor.
-    let mph = |mps: f64| (mps / MPS_PER_MPH * 1e6).round() / 1e6;
     LaneCenter {
         speed_limit_mph: lane.speed_limit_mps.map(mph),
         lane_type: Some(lane_type),

@@ -3,14 +3,13 @@
 use super::ids::UniqueIds;
 use super::proto::{DynamicMapState, ObjectState, RequiredPrediction, Scenario, Track};
 use super::{LICENCE_OWN, LICENCE_WAYMO, Options, SYNTHETIC_PREFIX, import_map};
+use crate::format::EGO;
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning};
 use scene::{Agent, AgentType, Conditions, Meta, Origin, STEP_S, Scene, Size, State, Subtype, Timing};
 use scene::{Signal, SignalState, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Role of the vehicle that recorded the scene.
-pub(crate) const EGO: &str = "ego";
 /// Least size that a box can have, metres.
 const LEAST_SIZE_M: f64 = 0.05;
 

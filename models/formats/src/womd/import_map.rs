@@ -6,12 +6,10 @@ use super::proto::{
     TypedLine,
 };
 use crate::problem::Warning;
+use crate::units::MPS_PER_MPH;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points, StopSign as Sign, TypedLine as Line};
 use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
 use scene::{LaneMap, Vec2};
-
-/// Metres a second in a mile an hour.
-pub(crate) const MPS_PER_MPH: f64 = 0.447_04;
 
 /// Some point of a feature: its first.
 pub(super) fn any_point(feature: &MapFeature) -> Option<MapPoint> {

@@ -35,21 +35,21 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ListVisitor<T, N
 }
 
 /// Keeps the first `N` entries; the reader refuses lists of that length with the code of their kind.
-pub(super) fn capped<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
+pub(crate) fn capped<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     deserializer: D,
 ) -> Result<Vec<T>, D::Error> {
     deserializer.deserialize_seq(ListVisitor::<T, N> { refuse: false, item: PhantomData })
 }
 
 /// Refuses more than `N` entries.
-pub(super) fn bounded<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
+pub(crate) fn bounded<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     deserializer: D,
 ) -> Result<Vec<T>, D::Error> {
     deserializer.deserialize_seq(ListVisitor::<T, N> { refuse: true, item: PhantomData })
 }
 
 /// [`capped`] as a type.
-pub(super) struct Capped<T, const N: usize>(pub Vec<T>);
+pub(crate) struct Capped<T, const N: usize>(pub Vec<T>);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Capped<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

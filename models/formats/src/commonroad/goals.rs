@@ -1,0 +1,64 @@
+//! Planning problems as road users with goals.
+
+use super::document::{GoalState, Problem, Range};
+use super::map::Lanes;
+use super::motion::Clock;
+use crate::polyline;
+use scene::map::LaneMap;
+use scene::{Agent, AgentType, Conditions, Goal, MAX_COORDINATE_M, State, Subtype, Track, Vec2, wrap_angle};
+
+/// Greatest speed of a goal, and when it can be due, m/s and s.
+const MAX_SPEED_MPS: f64 = 60.0;
+const DUE_S: (f64, f64) = (0.5, 80.0);
+
+/// The road user that a problem is about: where it starts, and what it must reach; whether that was a region.
+pub(super) fn agent(problem: &Problem, (map, lanes): (&LaneMap, &Lanes), clock: Clock) -> (Agent, bool) {
+    let start = &problem.start;
+    let velocity = start.velocity.unwrap_or_default();
+    let heading_rad = start.heading_rad.unwrap_or(0.0);
+    let state =
+        State { x_m: start.at.x, y_m: start.at.y, heading_rad, vx_mps: velocity.x, vy_mps: velocity.y };
+    let mut agent = Agent::bare(problem.id.to_string(), AgentType::Vehicle, Subtype::Car, Vec::new());
+    let first_step = clock.step(start.step).min(clock.steps.saturating_sub(1));
+    agent.track = Track { first_step, states: vec![Some(state)], z_m: None }.into();
+    let Some(goal) = problem.goals.first() else { return (agent, false) };
+    let (goal, is_region) = reached(goal, &state, (map, lanes), clock);
+    agent.conditions = Conditions { goal, ..Conditions::default() };
+    (agent, is_region)
+}
+
+/// The middle of what is to be reached; whether there was more than a point of it.
+fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), clock: Clock) -> (Goal, bool) {
+    let middle = |(from, to): Range| (from + to) / 2.0;
+    let is_wide = |range: Option<Range>| range.is_some_and(|(from, to)| from != to);
+    // Where nothing is said of the earliest moment, the latest one counts.
+    let time_s = goal.time.map(|(from, to)| {
+        let at = if from <= clock.first as f64 + 1.0 { to } else { middle((from, to)) };
+        clock.seconds(at)
+    });
+    let time_s = time_s.filter(|time_s| *time_s > 0.0).map(|time_s| time_s.clamp(DUE_S.0, DUE_S.1));
+    let heading_rad = goal.heading_rad.map(|(from, to)| {
+        // The shorter way round, unless the file says that any heading will do.
+        wrap_angle(from + (to - from) / 2.0)
+    });
+    let all_round = goal.heading_rad.is_some_and(|(from, to)| to - from > 6.0);
+    let speed_mps = goal.speed_mps.map(middle).map(|v| v.clamp(0.0, MAX_SPEED_MPS));
+    let there = start.position() + start.velocity() * time_s.unwrap_or(9.0);
+    let place = goal.places.first().map(|place| place.centre);
+    let in_reach = |p: &Vec2| p.amax() <= MAX_COORDINATE_M;
+    let place = place.filter(in_reach);
+    let position = place.or_else(|| on_lanelets(&goal.lanelets, there, (map, lanes)));
+    let is_region = is_wide(goal.time)
+        || is_wide(goal.heading_rad)
+        || is_wide(goal.speed_mps)
+        || goal.places.iter().any(|place| place.is_area)
+        || !goal.lanelets.is_empty();
+    (Goal { position, heading_rad: heading_rad.filter(|_| !all_round), speed_mps, time_s }, is_region)
+}
+
+/// The point in the middle of any of these lanelets that is nearest to where one would be without turning.
+fn on_lanelets(ids: &[i64], there: Vec2, (map, lanes): (&LaneMap, &Lanes)) -> Option<Vec2> {
+    let all = ids.iter().filter_map(|id| lanes.get(id)?.first()).map(|lane| &map.lanes[*lane].points.xy);
+    let feet = all.map(|line| polyline::nearest(line, there));
+    feet.min_by(|a, b| (a - there).norm().total_cmp(&(b - there).norm()))
+}

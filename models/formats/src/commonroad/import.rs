@@ -1,0 +1,197 @@
+//! From a scenario to a scene.
+
+use super::document::{self, Document};
+use super::motion::{Changed, Clock};
+use super::{goals, map, motion, signals};
+use crate::format::{EGO, ImportOptions, MAP_TIMING};
+use crate::limits::MAX_STEPS;
+use crate::map_file;
+use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::settle;
+use crate::source::Source;
+use scene::geometry::rotate;
+use scene::{Agent, MAX_COORDINATE_M, Meta, Origin, Scene, Timing, Vec2};
+use std::collections::{BTreeMap, HashSet};
+
+/// What stands before the licence in the source of a file that we wrote.
+pub(super) const LICENCE: &str = "; licence ";
+
+/// Reads a file, plain or gzip.
+///
+/// # Errors
+/// Those of [`document::read`]; `map-too-large`; the faults of a scene.
+pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+    let mut document = document::read(file)?;
+    let shift = about_the_middle(&mut document)?;
+    let mut warnings = Vec::new();
+    let (map, lanes) = map::lane_map(&document, &mut warnings);
+    let clock = clock(&document, &mut warnings);
+    let mut changed = Changed::default();
+    let (mut regions, mut sizes) = (0, 0);
+    let mut agents: Vec<Agent> = Vec::new();
+    let mut planned = HashSet::new();
+    for (i, problem) in document.problems.iter().enumerate() {
+        let (mut agent, is_region) = goals::agent(problem, (&map, &lanes), clock);
+        // Some files say of the same road user how it went.
+        let driven = document.obstacles.iter().find(|obstacle| obstacle.id == problem.id);
+        match driven.and_then(|obstacle| motion::agent(obstacle, clock, &mut changed)) {
+            Some(driven) => agent = Agent { conditions: agent.conditions, ..driven },
+            None => sizes += 1,
+        }
+        planned.insert(problem.id);
+        agent.role = (i == 0).then(|| EGO.to_owned());
+        regions += usize::from(is_region);
+        agents.push(agent);
+    }
+    let others = document.obstacles.iter().filter(|obstacle| !planned.contains(&obstacle.id));
+    agents.extend(others.filter_map(|obstacle| motion::agent(obstacle, clock, &mut changed)));
+    agents = kept(agents, &mut warnings);
+    let signals = signals::signals(&document, (&map, &lanes), clock.first, clock.steps, &mut warnings);
+    tell(&document, &changed, (regions, sizes), &mut warnings);
+    let (source, licence) = match document.source.split_once(LICENCE) {
+        Some((source, licence)) => (source.to_owned(), Some(licence.to_owned())),
+        None => ("commonroad".to_owned(), None),
+    };
+    let turned = rotate(shift, document.origin.rotation_rad);
+    let origin = Origin {
+        x_m: document.origin.x_m + turned.x,
+        y_m: document.origin.y_m + turned.y,
+        ..document.origin
+    };
+    let name =
+        if document.name.is_empty() { "CommonRoad scenario".to_owned() } else { document.name.clone() };
+    let now_step =
+        if document.obstacles.is_empty() && document.problems.is_empty() { MAP_TIMING.now_step } else { 0 };
+    let scene = Scene {
+        id: None,
+        name,
+        meta: Meta {
+            source,
+            source_id: Some(document.name).filter(|name| !name.is_empty()),
+            licence: options.licence.clone().or(licence),
+            origin,
+            tags: document.tags,
+            ..Meta::default()
+        },
+        time: Timing { steps: clock.steps, now_step },
+        map: map.into(),
+        signals,
+        agents,
+        generated: None,
+        extra: BTreeMap::new(),
+    };
+    match scene.checked() {
+        Ok(scene) => Ok((scene, warnings)),
+        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+    }
+}
+
+/// All places of a document.
+fn places(document: &mut Document) -> impl Iterator<Item = &mut Vec2> {
+    let lanelets = document.lanelets.iter_mut().flat_map(|lanelet| {
+        let stop = lanelet.stop.iter_mut().flatten().flat_map(|(a, b)| [a, b]);
+        lanelet.left.points.iter_mut().chain(&mut lanelet.right.points).chain(stop)
+    });
+    let signs = document.signs.values_mut().filter_map(|sign| sign.position.as_mut());
+    let states =
+        document.obstacles.iter_mut().flat_map(|obstacle| &mut obstacle.states).map(|state| &mut state.at);
+    let problems = document.problems.iter_mut().flat_map(|problem| {
+        let goals = problem.goals.iter_mut().flat_map(|goal| &mut goal.places).map(|place| &mut place.centre);
+        std::iter::once(&mut problem.start.at).chain(goals)
+    });
+    lanelets.chain(signs).chain(states).chain(problems)
+}
+
+/// Moves all places so that a scene can have them, by whole metres; most files lie about their origin already.
+fn about_the_middle(document: &mut Document) -> Result<Vec2, ReadError> {
+    let corners = places(document).fold(None, |corners: Option<(Vec2, Vec2)>, p| {
+        Some(corners.map_or((*p, *p), |(low, high)| (low.inf(p), high.sup(p))))
+    });
+    let (low, high) = corners.unwrap_or_default();
+    if low.amax().max(high.amax()) < MAX_COORDINATE_M / 2.0 {
+        return Ok(Vec2::zeros());
+    }
+    let (middle, half) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
+    if map_file::is_too_wide(half) {
+        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(half)).into());
+    }
+    places(document).for_each(|p| *p -= middle);
+    Ok(middle)
+}
+
+/// The steps of the scene: from the first state to the last one or the end of the first goal.
+fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
+    let moving = document.obstacles.iter().filter(|obstacle| !obstacle.fixed);
+    let starts = document.problems.iter().map(|problem| problem.start.step);
+    let states = moving.flat_map(|obstacle| &obstacle.states).map(|state| state.step);
+    let goals = document.problems.iter().flat_map(|problem| problem.goals.first());
+    let ends = goals.filter_map(|goal| goal.time).map(|(_, to)| to.ceil().clamp(-1e9, 1e9) as i64);
+    let seen: Vec<i64> = states.chain(starts).collect();
+    let (Some(first), Some(last)) = (seen.iter().min(), seen.iter().copied().chain(ends).max()) else {
+        return Clock { step_s: document.step_s, first: 0, steps: MAP_TIMING.steps };
+    };
+    let clock = Clock { step_s: document.step_s, first: *first, steps: 0 };
+    let all_s = clock.seconds(last as f64);
+    let steps = clock.step(last) + 1;
+    if steps > MAX_STEPS {
+        let detail =
+            format!("{all_s:.1} s; a scene has {MAX_STEPS} steps of 0.1 s, and the first of them are kept");
+        warnings.push(Warning::new("steps-dropped", detail));
+    }
+    if !clock.is_even() {
+        let detail = format!("steps of {} s; states each 0.1 s lie straight between them", document.step_s);
+        warnings.push(Warning::new("time-resampled", detail));
+    }
+    Clock { steps: steps.min(MAX_STEPS), ..clock }
+}
+
+/// The road users that a scene has room for. Of two with one id the first.
+fn kept(mut agents: Vec<Agent>, warnings: &mut Vec<Warning>) -> Vec<Agent> {
+    let count = agents.len();
+    let mut ids = HashSet::new();
+    agents.retain(|agent| ids.insert(agent.id.clone()));
+    if agents.len() < count {
+        let detail = format!("{} obstacles with an id that another has are left out", count - agents.len());
+        warnings.push(Warning::new("agents-dropped", detail));
+    }
+    warnings.extend(settle::nearest(&mut agents, 0));
+    agents
+}
+
+/// What had to be changed or left out.
+fn tell(
+    document: &Document,
+    changed: &Changed,
+    (regions, sizes): (usize, usize),
+    warnings: &mut Vec<Warning>,
+) {
+    let further: usize = document.problems.iter().map(|problem| problem.goals.len().saturating_sub(1)).sum();
+    let no_lanes = usize::from(document.lanelets.is_empty());
+    let mut tell = |count: usize, code, detail: &str| {
+        if count > 0 {
+            warnings.push(Warning::new(code, format!("{detail}: {count}")));
+        }
+    };
+    tell(regions, "goal-interval", "goals that are regions, of which the middle is taken");
+    tell(further, "goals-dropped", "further goals of the same road users, left out");
+    tell(sizes, "sizes-assumed", "planning problems, which say nothing of a size: that of a car is taken");
+    tell(
+        changed.uncertain,
+        "uncertain-states",
+        "obstacles with uncertain states, of which the middle is taken",
+    );
+    tell(
+        changed.sets,
+        "occupancy-sets",
+        "obstacles that say where they may be, not how they go: the first state is kept",
+    );
+    tell(changed.shapes, "shapes-approximated", "obstacles that are no boxes: boxes around them are taken");
+    tell(
+        changed.dropped,
+        "obstacles-dropped",
+        "obstacles without a place, or without a size up to 60 m, left out",
+    );
+    tell(changed.cut, "obstacles-empty", "obstacles that are not there at any step that is kept");
+    tell(document.others, "elements-dropped", "elements that a scene has no place for, left out");
+    tell(no_lanes, "no-map", "files without lanelets: there is no map");
+}

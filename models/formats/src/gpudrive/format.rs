@@ -1,0 +1,77 @@
+//! GPUDrive and Nocturne as formats among others.
+
+use super::{export, import};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::source::Source;
+use crate::unpack;
+use scene::Scene;
+use std::io;
+
+/// Scenarios of one of the two engines. Both are read by either; they are written as their engine reads them.
+pub(crate) struct Engine {
+    id: &'static str,
+    name: &'static str,
+    flavour: Flavour,
+}
+
+/// What an engine reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Flavour {
+    /// With heights, ids and what the map elements are, headings in radians.
+    GpuDrive,
+    /// In the plane, headings in degrees.
+    Nocturne,
+}
+
+/// GPUDrive.
+pub(crate) static GPUDRIVE: Engine =
+    Engine { id: "gpudrive", name: "GPUDrive scenario (JSON)", flavour: Flavour::GpuDrive };
+/// Nocturne.
+pub(crate) static NOCTURNE: Engine =
+    Engine { id: "nocturne", name: "Nocturne scenario (JSON)", flavour: Flavour::Nocturne };
+
+/// What kind of file it is, by how it begins.
+fn flavour(head: &[u8]) -> Option<Flavour> {
+    let object = head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
+    let has = |name: &str| head.windows(name.len()).any(|part| part == name.as_bytes());
+    if !object
+        || !has("\"objects\"")
+        || !(has("\"goalPosition\"") || (has("\"roads\"") && has("\"geometry\"")))
+    {
+        return None;
+    }
+    Some(if has("\"z\"") || has("\"scenario_id\"") { Flavour::GpuDrive } else { Flavour::Nocturne })
+}
+
+impl Format for Engine {
+    fn info(&self) -> Info {
+        Info {
+            id: self.id,
+            name: self.name,
+            media_type: "application/json",
+            extensions: &["json"],
+            import: true,
+            export: true,
+            many: false,
+            takes_net: false,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], _: &str) -> u8 {
+        if flavour(&unpack::head(head)) == Some(self.flavour) { 2 } else { 0 }
+    }
+
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        if options.skip > 0 || options.max_scenes == 0 {
+            return Box::new(std::iter::empty());
+        }
+        one(import::read(file, options, self.id))
+    }
+
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        match scenes {
+            [scene] => export::write(scene, options, self.flavour),
+            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
+        }
+    }
+}

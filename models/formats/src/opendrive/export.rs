@@ -1,0 +1,422 @@
+//! From a map to OpenDRIVE 1.7: each lane is a road of its own, so that nothing of its course is lost.
+
+use super::course;
+use super::roads::{Link, Road, Roads, roads};
+use crate::format::{ExportOptions, Exported};
+use crate::loss::{Loss, code};
+use crate::markup::{Markup, decimal};
+use crate::polyline::{arc_lengths, distance_to, length};
+use scene::geometry::polyline::Polyline;
+use scene::map::{LaneMap, LaneType};
+use scene::{Scene, Vec2};
+use std::collections::{BTreeMap, HashMap};
+use std::io;
+
+/// A lane that is not as wide as the one before it becomes so over this length, metres.
+const TAPER_M: f64 = 10.0;
+/// Shortest road that is written, metres.
+const SHORTEST_M: f64 = 0.01;
+/// Lights, and stop signs of the German catalogue, on which OpenDRIVE's own leans.
+const LIGHT: &str = "1000001";
+const STOP_SIGN: &str = "206";
+/// Day of files that do not depend on when they were written.
+const DAY: &str = "1970-01-01T00:00:00";
+
+/// Id of the light of a signal of a scene, by its position.
+pub(crate) fn light_id(signal: usize) -> String {
+    (signal + 1).to_string()
+}
+
+/// Writes the map of a scene, in the scene's own frame.
+///
+/// # Errors
+/// `InvalidInput` for a scene without a lane, since a map has one road at least.
+pub(crate) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exported> {
+    let drawn = roads(&scene.map);
+    if drawn.roads.iter().all(|road| length(&road.points) < SHORTEST_M) {
+        let detail = "an OpenDRIVE map has one road or more; this scene has no lane";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+    }
+    let beside = Beside::of(scene, &drawn);
+    let mut out = Markup::new();
+    out.open("OpenDRIVE", &[]);
+    header(scene, &mut out);
+    let mut off_m = 0.0_f64;
+    for (i, road) in drawn.roads.iter().enumerate() {
+        off_m = off_m.max(write_road(i, (road, &drawn), &scene.map, &beside, &mut out));
+    }
+    for (number, connecting) in &drawn.junctions {
+        write_junction(*number, connecting, &drawn, &mut out);
+    }
+    out.close();
+    Ok(Exported { bytes: out.finish(), losses: losses(scene, &drawn, off_m) })
+}
+
+fn header(scene: &Scene, out: &mut Markup) {
+    let points = || scene.map.lanes.iter().flat_map(|lane| &lane.points.xy);
+    let first = points().next().copied().unwrap_or_default();
+    let (low, high) = points().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+    out.open(
+        "header",
+        &[
+            ("revMajor", "1"),
+            ("revMinor", "7"),
+            ("name", &scene.name),
+            ("version", "1"),
+            ("date", DAY),
+            ("north", &decimal(high.y)),
+            ("south", &decimal(low.y)),
+            ("east", &decimal(high.x)),
+            ("west", &decimal(low.x)),
+            ("vendor", "DragTraffic"),
+        ],
+    );
+    let origin = &scene.meta.origin;
+    if let Some(crs) = &origin.crs {
+        out.leaf("geoReference", crs);
+        let place = [
+            ("x", &*decimal(origin.x_m)),
+            ("y", &*decimal(origin.y_m)),
+            ("z", &*decimal(origin.z_m)),
+            ("hdg", &*decimal(origin.rotation_rad)),
+        ];
+        out.empty("offset", &place);
+    }
+    if let Some(licence) = scene.licence() {
+        out.empty("userData", &[("code", "licence"), ("value", &licence)]);
+    }
+    out.close();
+}
+
+/// What stands and lies beside roads, by road.
+#[derive(Default)]
+struct Beside {
+    /// Lights: position among the scene's, where traffic stops.
+    lights: BTreeMap<usize, Vec<(usize, Vec2)>>,
+    stop_signs: BTreeMap<usize, Vec<(usize, Vec2)>>,
+    crosswalks: BTreeMap<usize, Vec<usize>>,
+    /// Signals of nothing that is a road.
+    lost_signals: usize,
+}
+
+impl Beside {
+    fn of(scene: &Scene, drawn: &Roads<'_>) -> Self {
+        let mut beside = Self::default();
+        let lanes: HashMap<&str, usize> =
+            scene.map.lanes.iter().enumerate().map(|(i, lane)| (lane.id.as_str(), i)).collect();
+        for (i, signal) in scene.signals.iter().enumerate() {
+            let Some(lane) = lanes.get(signal.lane.as_str()) else {
+                beside.lost_signals += 1;
+                continue;
+            };
+            let first = drawn.roads[*lane].points.first().copied().unwrap_or_default();
+            beside.lights.entry(*lane).or_default().push((i, signal.stop.unwrap_or(first)));
+        }
+        for (i, sign) in scene.map.stop_signs.iter().enumerate() {
+            for lane in sign.lanes.iter().filter_map(|id| lanes.get(id.as_str())) {
+                beside.stop_signs.entry(*lane).or_default().push((i, sign.position));
+            }
+        }
+        for (i, area) in scene.map.crosswalks.iter().enumerate() {
+            let middle = middle(&area.polygon.xy);
+            let away = |road: &usize| distance_to(&drawn.roads[*road].points, middle);
+            let nearest = (0..scene.map.lanes.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+            beside.crosswalks.entry(nearest.unwrap_or_default()).or_default().push(i);
+        }
+        beside
+    }
+}
+
+fn middle(ring: &[Vec2]) -> Vec2 {
+    ring.iter().sum::<Vec2>() / ring.len().max(1) as f64
+}
+
+/// Writes a road; gives how far its reference line is off the centre line, metres.
+fn write_road(
+    number: usize,
+    (road, drawn): (&Road<'_>, &Roads<'_>),
+    map: &LaneMap,
+    beside: &Beside,
+    out: &mut Markup,
+) -> f64 {
+    let line = &road.line;
+    let pieces = course::pieces(road, drawn);
+    let total = course::length(&pieces);
+    let lane = road.lane;
+    out.open(
+        "road",
+        &[
+            ("name", &lane.id),
+            ("length", &decimal(total)),
+            ("id", &number.to_string()),
+            ("junction", &road.junction.map_or("-1".to_owned(), |j| junction_id(j, drawn))),
+            ("rule", "RHT"),
+        ],
+    );
+    out.open("link", &[]);
+    for (name, link, contact) in
+        [("predecessor", road.predecessor, "end"), ("successor", road.successor, "start")]
+    {
+        match link {
+            Some(Link::Road(other)) => out.empty(
+                name,
+                &[("elementType", "road"), ("elementId", &other.to_string()), ("contactPoint", contact)],
+            ),
+            Some(Link::Junction(other)) => {
+                out.empty(name, &[("elementType", "junction"), ("elementId", &junction_id(other, drawn))]);
+            }
+            None => {}
+        }
+    }
+    out.close();
+    speed(road, out);
+    out.open("planView", &[]);
+    course::write(&pieces, out);
+    out.close();
+    heights(road, out);
+    lanes(road, drawn, total, out);
+    let path = Polyline::new(line.iter().copied());
+    crosswalks(number, &path, map, beside, out);
+    signals(number, &path, beside, out);
+    out.close();
+    road.points.iter().map(|p| distance_to(line, *p)).fold(0.0, f64::max)
+}
+
+fn speed(road: &Road<'_>, out: &mut Markup) {
+    let kind = match road.lane.lane_type {
+        LaneType::Freeway => "motorway",
+        LaneType::BikeLane => "bicycle",
+        LaneType::Sidewalk => "pedestrian",
+        _ => "town",
+    };
+    out.open("type", &[("s", "0"), ("type", kind)]);
+    if let Some(limit_mps) = road.lane.speed_limit_mps {
+        out.empty("speed", &[("max", &decimal(limit_mps)), ("unit", "m/s")]);
+    }
+    out.close();
+}
+
+/// Heights at the points of the lane, straight between them.
+fn heights(road: &Road<'_>, out: &mut Markup) {
+    let Some(z_m) = &road.lane.points.z_m else { return };
+    let arc = arc_lengths(&road.lane.points.xy);
+    let total = length(&road.lane.points.xy);
+    // A road that is a part of its lane begins where it begins, or ends where it ends.
+    let from = match road.points.first() == road.lane.points.xy.first() {
+        true => 0.0,
+        false => total - length(&road.points),
+    };
+    out.open("elevationProfile", &[]);
+    let mut begun = false;
+    for ((s, z), next) in arc.windows(2).zip(z_m.windows(2)).zip(arc.iter().skip(1)) {
+        let slope = (z[1] - z[0]) / (s[1] - s[0]).max(1e-9);
+        if *next <= from || s[0] - from >= length(&road.points) || (begun && (z[1] - z[0]).abs() < 1e-9) {
+            continue;
+        }
+        let start = (s[0] - from).max(0.0);
+        let height = z[0] + slope * (start + from - s[0]);
+        out.empty(
+            "elevation",
+            &[
+                ("s", &decimal(start)),
+                ("a", &decimal(height)),
+                ("b", &decimal(slope)),
+                ("c", "0"),
+                ("d", "0"),
+            ],
+        );
+        begun = true;
+    }
+    if !begun {
+        let height = z_m.first().copied().unwrap_or_default();
+        out.empty("elevation", &[("s", "0"), ("a", &decimal(height)), ("b", "0"), ("c", "0"), ("d", "0")]);
+    }
+    out.close();
+}
+
+/// Widths along a road, straight between them: where, and how wide, metres. Roads that meet are equally wide there.
+fn widths(road: &Road<'_>, drawn: &Roads<'_>, total: f64) -> Vec<(f64, f64)> {
+    let width = |road: &Road<'_>| road.lane.width_or_assumed_m();
+    let at = |link: Option<Link>| match link {
+        Some(Link::Road(other)) => Some(width(&drawn.roads[other])),
+        _ => None,
+    };
+    let own = width(road);
+    match (road.junction, at(road.predecessor), at(road.successor)) {
+        (Some(_), Some(from), Some(to)) => vec![(0.0, from), (total, to)],
+        (_, Some(from), _) if from != own => vec![(0.0, from), (TAPER_M.min(total), own)],
+        _ => vec![(0.0, own)],
+    }
+}
+
+/// The one lane, whose middle is the reference line.
+fn lanes(road: &Road<'_>, drawn: &Roads<'_>, total: f64, out: &mut Markup) {
+    let kind = match road.lane.lane_type {
+        LaneType::BikeLane => "biking",
+        LaneType::Sidewalk => "sidewalk",
+        LaneType::Parking => "parking",
+        LaneType::BusLane => "bus",
+        _ => "driving",
+    };
+    let widths = widths(road, drawn, total);
+    // From each place on: the width there, and what it grows by a metre.
+    let pieces: Vec<(f64, f64, f64)> = widths
+        .iter()
+        .enumerate()
+        .filter(|(i, (s, _))| *i == 0 || total - s > SHORTEST_M)
+        .map(|(i, (s, width))| {
+            let next = widths.get(i + 1).map_or(0.0, |(t, wide)| (wide - width) / (t - s).max(SHORTEST_M));
+            (*s, *width, next)
+        })
+        .collect();
+    let cubic = |name, place, s: f64, a: f64, b: f64, out: &mut Markup| {
+        let numbers =
+            [(place, &*decimal(s)), ("a", &*decimal(a)), ("b", &*decimal(b)), ("c", "0"), ("d", "0")];
+        out.empty(name, &numbers);
+    };
+    out.open("lanes", &[]);
+    for (s, width, slope) in &pieces {
+        cubic("laneOffset", "s", *s, width / 2.0, slope / 2.0, out);
+    }
+    out.open("laneSection", &[("s", "0")]);
+    out.open("center", &[]);
+    out.open("lane", &[("id", "0"), ("type", "none"), ("level", "false")]);
+    out.close();
+    out.close();
+    out.open("right", &[]);
+    out.open("lane", &[("id", "-1"), ("type", kind), ("level", "false")]);
+    out.open("link", &[]);
+    for (name, link) in [("predecessor", road.predecessor), ("successor", road.successor)] {
+        if let Some(Link::Road(_)) = link {
+            out.empty(name, &[("id", "-1")]);
+        }
+    }
+    out.close();
+    for (s, width, slope) in &pieces {
+        cubic("width", "sOffset", *s, *width, *slope, out);
+    }
+    out.close();
+    out.close();
+    out.close();
+    out.close();
+}
+
+fn crosswalks(number: usize, path: &Polyline, map: &LaneMap, beside: &Beside, out: &mut Markup) {
+    let Some(areas) = beside.crosswalks.get(&number) else { return };
+    out.open("objects", &[]);
+    for i in areas {
+        let ring = &map.crosswalks[*i].polygon.xy;
+        let middle = middle(ring);
+        let foot = path.project(middle);
+        let turned = |p: &Vec2| scene::geometry::rotate(p - middle, -foot.heading_rad);
+        out.open(
+            "object",
+            &[
+                ("type", "crosswalk"),
+                ("id", &format!("crosswalk{i}")),
+                ("name", "crosswalk"),
+                ("s", &decimal(foot.s_m)),
+                ("t", &decimal(foot.lateral_m)),
+                ("zOffset", "0"),
+                ("hdg", "0"),
+                ("orientation", "none"),
+            ],
+        );
+        out.open("outlines", &[]);
+        out.open("outline", &[("id", "0"), ("closed", "true"), ("outer", "true")]);
+        for (k, corner) in ring.iter().map(turned).enumerate() {
+            out.empty(
+                "cornerLocal",
+                &[
+                    ("u", &decimal(corner.x)),
+                    ("v", &decimal(corner.y)),
+                    ("z", "0"),
+                    ("height", "0"),
+                    ("id", &k.to_string()),
+                ],
+            );
+        }
+        out.close();
+        out.close();
+        out.close();
+    }
+    out.close();
+}
+
+fn signals(number: usize, path: &Polyline, beside: &Beside, out: &mut Markup) {
+    let (lights, signs) = (beside.lights.get(&number), beside.stop_signs.get(&number));
+    if lights.is_none() && signs.is_none() {
+        return;
+    }
+    out.open("signals", &[]);
+    let mut write = |id: &str, place: Vec2, dynamic: &str, kind: [&str; 2], name: &str| {
+        let foot = path.project(place);
+        out.open(
+            "signal",
+            &[
+                ("s", &decimal(foot.s_m)),
+                ("t", &decimal(foot.lateral_m)),
+                ("id", id),
+                ("name", name),
+                ("dynamic", dynamic),
+                ("orientation", "+"),
+                ("zOffset", "3"),
+                ("country", kind[0]),
+                ("type", kind[1]),
+                ("subtype", "-1"),
+                ("hOffset", "0"),
+            ],
+        );
+        out.empty("validity", &[("fromLane", "-1"), ("toLane", "-1")]);
+        out.close();
+    };
+    for (i, stop) in lights.into_iter().flatten() {
+        write(&light_id(*i), *stop, "yes", ["OpenDRIVE", LIGHT], "light");
+    }
+    for (i, place) in signs.into_iter().flatten() {
+        write(&format!("stop{i}-{number}"), *place, "no", ["DE", STOP_SIGN], "stop");
+    }
+    out.close();
+}
+
+fn junction_id(number: usize, drawn: &Roads<'_>) -> String {
+    (drawn.roads.len() + number).to_string()
+}
+
+fn write_junction(number: usize, connecting: &[usize], drawn: &Roads<'_>, out: &mut Markup) {
+    let id = junction_id(number, drawn);
+    out.open("junction", &[("name", &format!("junction {id}")), ("id", &id), ("type", "default")]);
+    for (k, road) in connecting.iter().enumerate() {
+        let Some(Link::Road(incoming)) = drawn.roads[*road].predecessor else { continue };
+        out.open(
+            "connection",
+            &[
+                ("id", &k.to_string()),
+                ("incomingRoad", &incoming.to_string()),
+                ("connectingRoad", &road.to_string()),
+                ("contactPoint", "start"),
+            ],
+        );
+        out.empty("laneLink", &[("from", "-1"), ("to", "-1")]);
+        out.close();
+    }
+    out.close();
+}
+
+fn losses(scene: &Scene, drawn: &Roads<'_>, off_m: f64) -> Vec<Loss> {
+    let map: &LaneMap = &scene.map;
+    let mut losses = Vec::new();
+    let mut lose = |lost: bool, code, detail: String| losses.extend(lost.then(|| Loss::new(code, detail)));
+    let detail = format!("lanes are lines within {off_m:.3} m, and {} begin with a way into them", drawn.cut);
+    lose(true, code::GEOMETRY_APPROXIMATED, detail);
+    let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
+    lose(lines, code::NO_LINES, "painted lines and road edges".into());
+    lose(!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas".into());
+    let areas = !map.speed_bumps.is_empty() || !map.driveways.is_empty();
+    lose(areas, code::NO_AREAS, "speed bumps and driveways".into());
+    let beside =
+        |lane: &scene::map::Lane| !lane.left_neighbors.is_empty() || !lane.right_neighbors.is_empty();
+    lose(map.lanes.iter().any(beside), code::NO_NEIGHBORS, "which lanes lie beside each other".into());
+    lose(!scene.signals.is_empty(), code::NO_SIGNALS, "what signals show: their heads are there".into());
+    losses
+}

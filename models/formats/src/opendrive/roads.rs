@@ -1,0 +1,233 @@
+//! Lanes as roads of one lane each, and where several meet as junctions.
+//!
+//! A lane that leads through a junction between two others is a connecting road. Where lanes part or meet without one,
+//! the first metre of the lane that is entered becomes a connecting road for each lane that enters it.
+
+use crate::polyline::{length, part, simplify};
+use scene::Vec2;
+use scene::map::{Lane, LaneMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Length of a connecting road that is cut off a lane, and the most of the lane that it may take, metres and a share.
+const CUT_M: f64 = 1.0;
+const CUT_SHARE: f64 = 0.25;
+/// Reference lines are within this of centre lines, in pieces no longer than, metres.
+const KEPT_M: (f64, f64) = (0.02, 1_000.0);
+/// Most connecting roads that are looked at for crossing each other.
+const MOST_CROSSING: usize = 1_500;
+
+/// What an end of a road leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Link {
+    /// The other end of that road.
+    Road(usize),
+    Junction(usize),
+}
+
+/// A road of one lane.
+#[derive(Clone, Debug)]
+pub(super) struct Road<'a> {
+    /// Whose type, width and limit it has.
+    pub lane: &'a Lane,
+    pub points: Vec<Vec2>,
+    /// The same in fewer points: the reference line.
+    pub line: Vec<Vec2>,
+    /// The junction that it leads through.
+    pub junction: Option<usize>,
+    pub predecessor: Option<Link>,
+    pub successor: Option<Link>,
+}
+
+/// Roads by number; those of the lanes come first, in their order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Roads<'a> {
+    pub roads: Vec<Road<'a>>,
+    /// Of each junction its connecting roads.
+    pub junctions: BTreeMap<usize, Vec<usize>>,
+    /// Beginnings of lanes that became roads of their own.
+    pub cut: usize,
+}
+
+/// Ends of lanes that belong to one junction.
+struct Groups(Vec<usize>);
+
+impl Groups {
+    fn root(&mut self, mut i: usize) -> usize {
+        while self.0[i] != i {
+            self.0[i] = self.0[self.0[i]];
+            i = self.0[i];
+        }
+        i
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}
+
+/// Number of the end, or the beginning, of a lane among [`Groups`].
+fn end_of(lane: usize) -> usize {
+    2 * lane
+}
+
+fn start_of(lane: usize) -> usize {
+    2 * lane + 1
+}
+
+/// Which lane leads into which, each pair once.
+fn links(map: &LaneMap) -> BTreeSet<(usize, usize)> {
+    let places: HashMap<&str, usize> =
+        map.lanes.iter().enumerate().map(|(i, l)| (l.id.as_str(), i)).collect();
+    let mut links = BTreeSet::new();
+    for (i, lane) in map.lanes.iter().enumerate() {
+        links.extend(lane.successors.iter().filter_map(|id| Some((i, *places.get(id.as_str())?))));
+        links.extend(lane.predecessors.iter().filter_map(|id| Some((*places.get(id.as_str())?, i))));
+    }
+    links.retain(|(a, b)| a != b);
+    links
+}
+
+/// What becomes of the links between lanes.
+struct Joints {
+    links: BTreeSet<(usize, usize)>,
+    /// Lanes that are connecting roads, with what they connect.
+    connectors: BTreeMap<usize, (usize, usize)>,
+    /// Lanes whose beginnings are cut off.
+    cut: BTreeSet<usize>,
+}
+
+impl Joints {
+    fn of(map: &LaneMap) -> Self {
+        let links = links(map);
+        let count = map.lanes.len();
+        let (mut ins, mut outs) = (vec![Vec::new(); count], vec![Vec::new(); count]);
+        for (a, b) in &links {
+            outs[*a].push(*b);
+            ins[*b].push(*a);
+        }
+        let mut connectors: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
+        for (i, lane) in map.lanes.iter().enumerate() {
+            if let (true, [from], [to]) = (lane.interpolating, &ins[i][..], &outs[i][..])
+                && from != to
+                && !connectors.contains_key(from)
+                && !map.lanes[*to].interpolating
+            {
+                connectors.insert(i, (*from, *to));
+            }
+        }
+        // A lane that is entered through a cut beginning is entered so by everybody.
+        loop {
+            let plain = |a: usize, b: usize| outs[a].len() == 1 && ins[b].len() == 1;
+            let bare = |a: &usize, b: &usize| !connectors.contains_key(a) && !connectors.contains_key(b);
+            let cut: BTreeSet<usize> =
+                links.iter().filter(|(a, b)| bare(a, b) && !plain(*a, *b)).map(|(_, b)| *b).collect();
+            let before = connectors.len();
+            connectors.retain(|_, (_, to)| !cut.contains(to));
+            if connectors.len() == before {
+                return Self { links, connectors, cut };
+            }
+        }
+    }
+}
+
+/// The roads of a map.
+pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
+    let Joints { links, connectors, cut } = Joints::of(map);
+    let mut groups = Groups((0..2 * map.lanes.len()).collect());
+    let road = |lane| Road {
+        lane,
+        points: Vec::new(),
+        line: Vec::new(),
+        junction: None,
+        predecessor: None,
+        successor: None,
+    };
+    let mut all: Vec<Road<'_>> = map.lanes.iter().map(road).collect();
+    for (i, road) in all.iter_mut().enumerate() {
+        let points = &map.lanes[i].points.xy;
+        road.points =
+            if cut.contains(&i) { part(points, cut_m(points), length(points)) } else { points.clone() };
+    }
+    // Connecting roads, with the lanes that they connect.
+    let mut connecting: Vec<(usize, usize, usize)> =
+        connectors.iter().map(|(road, (from, to))| (*road, *from, *to)).collect();
+    for (a, b) in &links {
+        if connectors.contains_key(a) || connectors.contains_key(b) {
+            continue;
+        }
+        if cut.contains(b) {
+            let lane = &map.lanes[*b];
+            connecting.push((all.len(), *a, *b));
+            let mut points = part(&lane.points.xy, 0.0, cut_m(&lane.points.xy));
+            // Where the lanes do not quite meet, it leads from one to the other.
+            if let (Some(first), Some(end)) = (points.first_mut(), map.lanes[*a].points.xy.last()) {
+                *first = *end;
+            }
+            all.push(Road { points, ..road(lane) });
+        } else {
+            all[*a].successor = Some(Link::Road(*b));
+            all[*b].predecessor = Some(Link::Road(*a));
+        }
+    }
+    for road in &mut all {
+        road.line = simplify(&road.points, KEPT_M.0, KEPT_M.1);
+    }
+    for (_, from, to) in &connecting {
+        groups.join(end_of(*from), start_of(*to));
+    }
+    join_crossing(&all, &connecting, &mut groups);
+    let mut junctions: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (i, from, to) in &connecting {
+        let junction = groups.root(end_of(*from));
+        junctions.entry(junction).or_default().push(*i);
+        all[*i] = Road {
+            junction: Some(junction),
+            predecessor: Some(Link::Road(*from)),
+            successor: Some(Link::Road(*to)),
+            ..all[*i].clone()
+        };
+        all[*from].successor = Some(Link::Junction(junction));
+        all[*to].predecessor = Some(Link::Junction(junction));
+    }
+    Roads { roads: all, junctions, cut: cut.len() }
+}
+
+fn cut_m(points: &[Vec2]) -> f64 {
+    CUT_M.min(CUT_SHARE * length(points))
+}
+
+/// Ways that cross each other lead through the same junction.
+fn join_crossing(roads: &[Road<'_>], connecting: &[(usize, usize, usize)], groups: &mut Groups) {
+    if connecting.len() > MOST_CROSSING {
+        return;
+    }
+    let boxes: Vec<(Vec2, Vec2)> = connecting
+        .iter()
+        .map(|(road, ..)| {
+            let points = &roads[*road].points;
+            let first = points.first().copied().unwrap_or_default();
+            points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)))
+        })
+        .collect();
+    for (i, (a, a_from, _)) in connecting.iter().enumerate() {
+        for (j, (b, b_from, _)) in connecting.iter().enumerate().skip(i + 1) {
+            let apart = |k: usize| boxes[i].0[k] > boxes[j].1[k] || boxes[j].0[k] > boxes[i].1[k];
+            let same = groups.root(end_of(*a_from)) == groups.root(end_of(*b_from));
+            if !same && !apart(0) && !apart(1) && cross(&roads[*a].points, &roads[*b].points) {
+                groups.join(end_of(*a_from), end_of(*b_from));
+            }
+        }
+    }
+}
+
+/// Two lines cross or touch.
+fn cross(a: &[Vec2], b: &[Vec2]) -> bool {
+    let side = |p: Vec2, q: Vec2, r: Vec2| scene::geometry::cross(q - p, r - p);
+    a.windows(2).any(|a| {
+        b.windows(2).any(|b| {
+            side(a[0], a[1], b[0]) * side(a[0], a[1], b[1]) <= 0.0
+                && side(b[0], b[1], a[0]) * side(b[0], b[1], a[1]) <= 0.0
+        })
+    })
+}

@@ -1,0 +1,639 @@
+//! A machine for pickles that builds values and calls nothing.
+//!
+//! Python's own loader calls whatever a pickle names; that is how a file becomes a program. Here a name is one of a
+//! short list ([`KNOWN`]) or the whole file is refused, and what the names of the list would make is made by hand:
+//! arrays, ordered dictionaries, sets.
+
+use super::array::{Array, Dtype};
+use super::value::{Object, Pickle, Value};
+use crate::problem::{FieldProblem, ReadError, code};
+use std::rc::Rc;
+
+/// Newest protocol.
+const PROTOCOL: u8 = 5;
+/// Most things on the stack over a whole file, most lists and the like, and most that it remembers.
+const MAX_VALUES: usize = 1_000_000;
+const MAX_OBJECTS: usize = 250_000;
+const MAX_MEMO: usize = 500_000;
+/// Deepest nesting of what is begun and not ended.
+const MAX_DEPTH: usize = 64;
+/// Longest line of the older protocols, and longest name.
+const MAX_LINE: usize = 1 << 20;
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Known {
+    /// An array to be filled by what follows.
+    Reconstruct,
+    /// An array of a shape, a type and bytes.
+    Ndarray,
+    /// A copy of an array.
+    Copy,
+    /// A type of array.
+    Dtype,
+    /// A number of a type of array.
+    Scalar,
+    /// An array of bytes, a type and a shape.
+    FromBuffer,
+    Dict,
+    /// One whose first argument is what it makes of missing keys.
+    DefaultDict,
+    List,
+    /// Bytes of a text whose letters are below 256.
+    Encode,
+}
+
+/// All names that a pickle may have.
+const KNOWN: &[(&str, &str, Known)] = &[
+    ("numpy.core.multiarray", "_reconstruct", Known::Reconstruct),
+    ("numpy._core.multiarray", "_reconstruct", Known::Reconstruct),
+    ("numpy.multiarray", "_reconstruct", Known::Reconstruct),
+    ("numpy.core.multiarray", "scalar", Known::Scalar),
+    ("numpy._core.multiarray", "scalar", Known::Scalar),
+    ("numpy.multiarray", "scalar", Known::Scalar),
+    ("numpy.core.numeric", "_frombuffer", Known::FromBuffer),
+    ("numpy._core.numeric", "_frombuffer", Known::FromBuffer),
+    ("numpy.numeric", "_frombuffer", Known::FromBuffer),
+    ("numpy", "ndarray", Known::Ndarray),
+    ("numpy", "array", Known::Copy),
+    ("numpy", "dtype", Known::Dtype),
+    ("collections", "OrderedDict", Known::Dict),
+    ("collections", "defaultdict", Known::DefaultDict),
+    ("builtins", "dict", Known::Dict),
+    ("builtins", "list", Known::List),
+    ("builtins", "set", Known::List),
+    ("__builtin__", "dict", Known::Dict),
+    ("__builtin__", "list", Known::List),
+    ("__builtin__", "set", Known::List),
+    ("metadrive.scenario.scenario_description", "ScenarioDescription", Known::Dict),
+    ("_codecs", "encode", Known::Encode),
+];
+
+/// Reads a pickle.
+///
+/// # Errors
+/// `malformed-file` with the byte of what is broken; `pickle-refused` for a name that is not known, or for what only
+/// a program could make of it; `decoded-too-large`.
+pub(super) fn read(bytes: &[u8]) -> Result<Pickle, ReadError> {
+    let mut machine = Machine {
+        bytes,
+        at: 0,
+        op: 0,
+        stack: Vec::new(),
+        marks: Vec::new(),
+        memo: Vec::new(),
+        objects: Vec::new(),
+        pushed: 0,
+        made: 0,
+    };
+    let root = machine.run()?;
+    Ok(Pickle { objects: machine.objects, root })
+}
+
+struct Machine<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    /// Where the present instruction begins.
+    op: usize,
+    stack: Vec<Value>,
+    marks: Vec<usize>,
+    memo: Vec<Option<Value>>,
+    objects: Vec<Object>,
+    pushed: usize,
+    /// Bytes that were made beside those of the file.
+    made: usize,
+}
+
+type Done<T> = Result<T, ReadError>;
+
+impl<'a> Machine<'a> {
+    fn broken(&self, detail: impl Into<String>) -> ReadError {
+        ReadError::malformed(self.op as u64, format!("pickle: {}", detail.into()))
+    }
+
+    fn refused(&self, detail: String) -> ReadError {
+        FieldProblem::new("", code::PICKLE_REFUSED, format!("byte {}: {detail}", self.op)).into()
+    }
+
+    fn too_many(&self, most: usize, what: &str) -> ReadError {
+        ReadError::too_large(
+            code::DECODED_TOO_LARGE,
+            most as u64,
+            format!("more than {most} {what} in a pickle"),
+        )
+    }
+
+    fn take(&mut self, count: usize) -> Done<&'a [u8]> {
+        let end = self.at.checked_add(count).filter(|end| *end <= self.bytes.len());
+        let taken = end.and_then(|end| self.bytes.get(self.at..end));
+        let Some(taken) = taken else { return Err(self.broken("the file ends within an instruction")) };
+        self.at += count;
+        Ok(taken)
+    }
+
+    /// A number of so many bytes, the least ones first.
+    fn number(&mut self, size: usize) -> Done<u64> {
+        let bytes = self.take(size)?;
+        Ok(bytes.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte)))
+    }
+
+    fn length(&mut self, size: usize) -> Done<usize> {
+        let length = self.number(size)?;
+        usize::try_from(length).map_err(|_| self.broken("a length beyond the file"))
+    }
+
+    fn line(&mut self) -> Done<String> {
+        let rest = self.bytes.get(self.at..).unwrap_or_default();
+        let end = rest.iter().take(MAX_LINE).position(|byte| *byte == b'\n');
+        let Some(end) = end else { return Err(self.broken("a line without an end")) };
+        let line = self.take(end + 1)?;
+        let line = line.get(..end).unwrap_or_default();
+        // Letters of one byte, as the older protocols have them.
+        Ok(line.iter().map(|byte| char::from(*byte)).collect())
+    }
+
+    fn push(&mut self, value: Value) -> Done<()> {
+        self.pushed += 1;
+        if self.pushed > MAX_VALUES {
+            return Err(self.too_many(MAX_VALUES, "values"));
+        }
+        self.stack.push(value);
+        Ok(())
+    }
+
+    fn push_object(&mut self, object: Object) -> Done<()> {
+        if self.objects.len() >= MAX_OBJECTS {
+            return Err(self.too_many(MAX_OBJECTS, "lists, dictionaries and arrays"));
+        }
+        self.objects.push(object);
+        self.push(Value::Object(self.objects.len() - 1))
+    }
+
+    fn push_text(&mut self, length: usize) -> Done<()> {
+        let bytes = self.take(length)?;
+        let text = std::str::from_utf8(bytes).map(Rc::from);
+        let text = text.map_err(|_| self.broken("a text that is not UTF-8"))?;
+        self.push(Value::Text(text))
+    }
+
+    fn push_bytes(&mut self, length: usize) -> Done<()> {
+        let bytes = Rc::from(self.take(length)?);
+        self.push(Value::Bytes(bytes))
+    }
+
+    /// A text of Python 2, which had bytes for both.
+    fn push_old_text(&mut self, length: usize) -> Done<()> {
+        let bytes = self.take(length)?;
+        let value = match std::str::from_utf8(bytes) {
+            Ok(text) if text.is_ascii() => Value::Text(Rc::from(text)),
+            _ => Value::Bytes(Rc::from(bytes)),
+        };
+        self.push(value)
+    }
+
+    fn pop(&mut self) -> Done<Value> {
+        let floor = self.marks.last().copied().unwrap_or(0);
+        let value = if self.stack.len() > floor { self.stack.pop() } else { None };
+        value.ok_or_else(|| self.broken("something is taken from an empty stack"))
+    }
+
+    fn mark(&mut self) -> Done<()> {
+        if self.marks.len() >= MAX_DEPTH {
+            return Err(self.broken(format!("nested deeper than {MAX_DEPTH}")));
+        }
+        self.marks.push(self.stack.len());
+        Ok(())
+    }
+
+    /// What was put on the stack since the last mark.
+    fn since_mark(&mut self) -> Done<Vec<Value>> {
+        let mark = self.marks.pop().ok_or_else(|| self.broken("the end of what was not begun"))?;
+        Ok(self.stack.split_off(mark.min(self.stack.len())))
+    }
+
+    fn remember(&mut self, place: usize) -> Done<()> {
+        let value = self.stack.last().cloned().ok_or_else(|| self.broken("nothing to remember"))?;
+        if place >= MAX_MEMO {
+            return Err(self.too_many(MAX_MEMO, "things to remember"));
+        }
+        // Places come one after another; a far one may not ask for all before it.
+        if place > self.memo.len() + 1024 {
+            return Err(self.broken("a place of the memory out of turn"));
+        }
+        if place >= self.memo.len() {
+            self.memo.resize(place + 1, None);
+        }
+        if let Some(slot) = self.memo.get_mut(place) {
+            *slot = Some(value);
+        }
+        Ok(())
+    }
+
+    fn recall(&mut self, place: usize) -> Done<()> {
+        let value = self.memo.get(place).cloned().flatten();
+        let value = value.ok_or_else(|| self.broken("something is recalled that was never kept"))?;
+        self.push(value)
+    }
+
+    fn place(&mut self) -> Done<usize> {
+        self.line()?.parse().map_err(|_| self.broken("no place of the memory"))
+    }
+
+    fn global(&mut self, module: &str, name: &str) -> Done<()> {
+        match KNOWN.iter().position(|(m, n, _)| *m == module && *n == name) {
+            Some(known) => self.push(Value::Known(known)),
+            None => {
+                let shown =
+                    |text: &str| text.chars().filter(|c| !c.is_control()).take(80).collect::<String>();
+                let (module, name) = (shown(module), shown(name));
+                Err(self.refused(format!("the pickle asks for {module}.{name}; numbers, texts, lists and arrays are read, nothing is called")))
+            }
+        }
+    }
+
+    fn run(&mut self) -> Done<Value> {
+        loop {
+            self.op = self.at;
+            let op = self.take(1)?.first().copied().unwrap_or_default();
+            match op {
+                b'.' => return self.pop(),
+                0x80 => {
+                    let protocol = self.number(1)?;
+                    if protocol > u64::from(PROTOCOL) {
+                        return Err(self.broken(format!("protocol {protocol}; 0 to {PROTOCOL} are read")));
+                    }
+                }
+                0x95 => {
+                    self.take(8)?;
+                }
+                b'(' => self.mark()?,
+                b'0' => match self.marks.last() {
+                    Some(mark) if *mark == self.stack.len() => {
+                        self.marks.pop();
+                    }
+                    _ => drop(self.pop()?),
+                },
+                b'1' => drop(self.since_mark()?),
+                b'2' => {
+                    let top = self.pop()?;
+                    self.stack.push(top.clone());
+                    self.push(top)?;
+                }
+                _ => self.make(op)?,
+            }
+        }
+    }
+
+    /// Instructions that put something new on the stack.
+    fn make(&mut self, op: u8) -> Done<()> {
+        match op {
+            b'N' => self.push(Value::None),
+            0x88 => self.push(Value::Bool(true)),
+            0x89 => self.push(Value::Bool(false)),
+            b'K' => self.number(1).and_then(|v| self.push(Value::Int(v as i64))),
+            b'M' => self.number(2).and_then(|v| self.push(Value::Int(v as i64))),
+            b'J' => self.number(4).and_then(|v| self.push(Value::Int(i64::from(v as u32 as i32)))),
+            b'G' => {
+                let eight = self.take(8)?.try_into().unwrap_or_default();
+                self.push(Value::Float(f64::from_be_bytes(eight)))
+            }
+            0x8a => self.length(1).and_then(|length| self.long(length)),
+            0x8b => self.length(4).and_then(|length| self.long(length)),
+            b'I' | b'L' | b'F' => self.number_line(op),
+            b'X' => self.length(4).and_then(|length| self.push_text(length)),
+            0x8c => self.length(1).and_then(|length| self.push_text(length)),
+            0x8d => self.length(8).and_then(|length| self.push_text(length)),
+            b'V' | b'S' => self.text_line(op),
+            b'B' => self.length(4).and_then(|length| self.push_bytes(length)),
+            b'C' => self.length(1).and_then(|length| self.push_bytes(length)),
+            b'T' => self.length(4).and_then(|length| self.push_old_text(length)),
+            b'U' => self.length(1).and_then(|length| self.push_old_text(length)),
+            0x8e | 0x96 => self.length(8).and_then(|length| self.push_bytes(length)),
+            b']' | 0x8f => self.push_object(Object::List(Vec::new())),
+            b'}' => self.push_object(Object::Dict(Vec::new())),
+            b')' => self.push(Value::Tuple(Rc::from([]))),
+            b'l' | 0x91 => self.since_mark().and_then(|items| self.push_object(Object::List(items))),
+            b'd' => {
+                let entries = self.since_mark().and_then(|items| self.paired(items))?;
+                self.push_object(Object::Dict(entries))
+            }
+            b't' => self.since_mark().and_then(|items| self.push(Value::Tuple(items.into()))),
+            0x85..=0x87 => {
+                let mut items = Vec::new();
+                for _ in 0..=op - 0x85 {
+                    items.push(self.pop()?);
+                }
+                items.reverse();
+                self.push(Value::Tuple(items.into()))
+            }
+            b'q' => self.length(1).and_then(|place| self.remember(place)),
+            b'r' => self.length(4).and_then(|place| self.remember(place)),
+            b'p' => self.place().and_then(|place| self.remember(place)),
+            0x94 => self.remember(self.memo.len()),
+            b'h' => self.length(1).and_then(|place| self.recall(place)),
+            b'j' => self.length(4).and_then(|place| self.recall(place)),
+            b'g' => self.place().and_then(|place| self.recall(place)),
+            _ => self.change(op),
+        }
+    }
+
+    /// Instructions that change what is on the stack.
+    fn change(&mut self, op: u8) -> Done<()> {
+        match op {
+            b'a' => {
+                let item = self.pop()?;
+                self.extend(vec![item])
+            }
+            b'e' | 0x90 => {
+                let items = self.since_mark()?;
+                self.extend(items)
+            }
+            b's' => {
+                let (value, key) = (self.pop()?, self.pop()?);
+                self.set(vec![(key, value)])
+            }
+            b'u' => {
+                let entries = self.since_mark().and_then(|items| self.paired(items))?;
+                self.set(entries)
+            }
+            b'c' => {
+                let (module, name) = (self.line()?, self.line()?);
+                self.global(&module, &name)
+            }
+            0x93 => match (self.pop()?, self.pop()?) {
+                (Value::Text(name), Value::Text(module)) => self.global(&module, &name),
+                _ => Err(self.broken("a name that is no text")),
+            },
+            b'R' => {
+                let (arguments, callee) = (self.pop()?, self.pop()?);
+                self.reduce(&callee, &arguments)
+            }
+            0x81 => {
+                let (_, class) = (self.pop()?, self.pop()?);
+                self.reduce(&class, &Value::Tuple(Rc::from([])))
+            }
+            b'b' => {
+                let state = self.pop()?;
+                self.build(&state)
+            }
+            b'P' | b'Q' => Err(self.refused("a reference to something outside of the file".into())),
+            b'i' | b'o' | 0x92 => Err(self.refused("an object of a class".into())),
+            0x82..=0x84 => Err(self.refused("a name by its number in a registry".into())),
+            0x97 | 0x98 => Err(self.refused("bytes outside of the file".into())),
+            _ => Err(self.broken(format!("instruction {op:#04x} is not known"))),
+        }
+    }
+
+    fn long(&mut self, length: usize) -> Done<()> {
+        let bytes = self.take(length)?;
+        let negative = bytes.last().is_some_and(|byte| byte & 0x80 != 0);
+        let mut eight = if negative { [0xff; 8] } else { [0; 8] };
+        if bytes.len() > 8 {
+            return Err(self.broken("a number of more than eight bytes"));
+        }
+        eight.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
+        self.push(Value::Int(i64::from_le_bytes(eight)))
+    }
+
+    fn number_line(&mut self, op: u8) -> Done<()> {
+        let line = self.line()?;
+        let text = line.trim().trim_end_matches('L');
+        let value = match (op, text) {
+            (b'I', "00") => Some(Value::Bool(false)),
+            (b'I', "01") => Some(Value::Bool(true)),
+            (b'F', _) => text.parse().ok().map(Value::Float),
+            _ => text.parse().ok().map(Value::Int),
+        };
+        let value = value.ok_or_else(|| self.broken("no number"))?;
+        self.push(value)
+    }
+
+    /// A text on a line of its own: as it is, or in quotes. Escapes stay as they are but for those of Unicode.
+    fn text_line(&mut self, op: u8) -> Done<()> {
+        let line = self.line()?;
+        if op == b'S' {
+            let quoted = line.trim();
+            let inner = ['\'', '"'].iter().find_map(|q| quoted.strip_prefix(*q)?.strip_suffix(*q));
+            let inner = inner.ok_or_else(|| self.broken("a text without quotes"))?;
+            return self.push(Value::Text(Rc::from(inner)));
+        }
+        let mut text = String::with_capacity(line.len());
+        let mut rest = line.as_str();
+        while let Some((before, after)) = rest.split_once("\\u") {
+            text.push_str(before);
+            let letter =
+                after.get(..4).and_then(|hex| u32::from_str_radix(hex, 16).ok()).and_then(char::from_u32);
+            text.push(letter.ok_or_else(|| self.broken("an escape that is no letter"))?);
+            rest = after.get(4..).unwrap_or_default();
+        }
+        text.push_str(rest);
+        self.push(Value::Text(text.into()))
+    }
+
+    fn paired(&self, items: Vec<Value>) -> Done<Vec<(Value, Value)>> {
+        if items.len() % 2 != 0 {
+            return Err(self.broken("a key without a value"));
+        }
+        let mut entries = Vec::with_capacity(items.len() / 2);
+        let mut items = items.into_iter();
+        while let (Some(key), Some(value)) = (items.next(), items.next()) {
+            entries.push((key, value));
+        }
+        Ok(entries)
+    }
+
+    /// The object on top of the stack.
+    fn top(&mut self) -> Option<&mut Object> {
+        match self.stack.last() {
+            Some(Value::Object(at)) => self.objects.get_mut(*at),
+            _ => None,
+        }
+    }
+
+    fn extend(&mut self, items: Vec<Value>) -> Done<()> {
+        match self.top() {
+            Some(Object::List(list)) => list.extend(items),
+            _ => return Err(self.broken("something is added to what is no list")),
+        }
+        Ok(())
+    }
+
+    fn set(&mut self, entries: Vec<(Value, Value)>) -> Done<()> {
+        match self.top() {
+            Some(Object::Dict(dict)) => dict.extend(entries),
+            _ => return Err(self.broken("an entry of what is no dictionary")),
+        }
+        Ok(())
+    }
+
+    /// What a known name makes of its arguments.
+    fn reduce(&mut self, callee: &Value, arguments: &Value) -> Done<()> {
+        let known = match callee {
+            Value::Known(at) => KNOWN.get(*at).map(|(.., known)| *known),
+            _ => None,
+        };
+        let Some(known) = known else { return Err(self.refused("a call of what is no name".into())) };
+        let Value::Tuple(arguments) = arguments else {
+            return Err(self.broken("arguments that are no tuple"));
+        };
+        let arguments = Rc::clone(arguments);
+        match (known, &*arguments) {
+            (Known::Reconstruct, _) => self.push_object(Object::Array(Array::empty())),
+            (Known::Dtype, [word, ..]) => {
+                let dtype = self.dtype(word)?;
+                self.push_object(Object::Dtype(dtype))
+            }
+            (Known::Ndarray, [shape, dtype, data]) => self.array(shape, dtype, data, false),
+            (Known::FromBuffer, [data, dtype, shape, order]) => {
+                let fortran = matches!(order, Value::Text(order) if &**order == "F");
+                self.array(shape, dtype, data, fortran)
+            }
+            (Known::Copy, [array, ..]) => self.push(array.clone()),
+            (Known::Scalar, [dtype, data]) => {
+                self.array(&Value::Tuple(Rc::from([])), dtype, data, false)?;
+                match self.pop()? {
+                    Value::Object(at) => {
+                        let number = match self.objects.get(at) {
+                            Some(Object::Array(array)) => array.number(0).map(Value::Float),
+                            _ => None,
+                        };
+                        self.push(number.unwrap_or(Value::None))
+                    }
+                    _ => Ok(()),
+                }
+            }
+            (Known::Dict, []) | (Known::DefaultDict, []) | (Known::DefaultDict, [_]) => {
+                self.push_object(Object::Dict(Vec::new()))
+            }
+            (Known::Dict, [from]) => self.dict_of(from),
+            (Known::List, []) => self.push_object(Object::List(Vec::new())),
+            (Known::List, [from]) => {
+                let items = self.items(from)?;
+                self.push_object(Object::List(items))
+            }
+            (Known::Encode, [Value::Text(text), ..]) => {
+                self.make_bytes(text.len())?;
+                let bytes: Option<Vec<u8>> = text.chars().map(|c| u8::try_from(u32::from(c)).ok()).collect();
+                let bytes = bytes.ok_or_else(|| self.broken("bytes that are none"))?;
+                self.push(Value::Bytes(bytes.into()))
+            }
+            _ => Err(self.broken("a known name with arguments that it does not take")),
+        }
+    }
+
+    /// Counts bytes beside those of the file.
+    fn make_bytes(&mut self, count: usize) -> Done<()> {
+        self.made += count;
+        if self.made > self.bytes.len() {
+            return Err(self.broken("more bytes are made than there are in the file"));
+        }
+        Ok(())
+    }
+
+    /// A copy of the items of a list or tuple, which counts.
+    fn items(&mut self, from: &Value) -> Done<Vec<Value>> {
+        let items = match from {
+            Value::Tuple(items) => items.to_vec(),
+            Value::Object(at) => match self.objects.get(*at) {
+                Some(Object::List(items)) => items.clone(),
+                _ => return Err(self.broken("a list expected")),
+            },
+            _ => return Err(self.broken("a list expected")),
+        };
+        self.pushed += items.len();
+        if self.pushed > MAX_VALUES {
+            return Err(self.too_many(MAX_VALUES, "values"));
+        }
+        Ok(items)
+    }
+
+    fn dict_of(&mut self, from: &Value) -> Done<()> {
+        let mut entries = Vec::new();
+        for pair in self.items(from)? {
+            match self.items(&pair)?.as_slice() {
+                [key, value] => entries.push((key.clone(), value.clone())),
+                _ => return Err(self.broken("a pair expected")),
+            }
+        }
+        self.push_object(Object::Dict(entries))
+    }
+
+    fn dtype(&self, value: &Value) -> Done<Dtype> {
+        let found = match value {
+            Value::Text(word) => Dtype::of(word),
+            Value::Object(at) => match self.objects.get(*at) {
+                Some(Object::Dtype(dtype)) => Some(*dtype),
+                _ => None,
+            },
+            _ => None,
+        };
+        found.ok_or_else(|| match value {
+            Value::Text(word) => {
+                let word: String = word.chars().take(20).collect();
+                self.refused(format!("an array of \"{word}\"; numbers, truth values and texts are read"))
+            }
+            _ => self.broken("no type of array"),
+        })
+    }
+
+    fn shape(&self, value: &Value) -> Done<Vec<usize>> {
+        let side = |value: &Value| match value {
+            Value::Int(n) => usize::try_from(*n).ok(),
+            _ => None,
+        };
+        let sides = match value {
+            Value::Tuple(items) if items.len() <= 8 => items.iter().map(side).collect(),
+            value => side(value).map(|n| vec![n]),
+        };
+        sides.ok_or_else(|| self.broken("no shape of an array"))
+    }
+
+    fn array(&mut self, shape: &Value, dtype: &Value, data: &Value, fortran: bool) -> Done<()> {
+        let (shape, dtype) = (self.shape(shape)?, self.dtype(dtype)?);
+        let data = match data {
+            Value::Bytes(data) => Rc::clone(data),
+            Value::Text(text) => {
+                self.make_bytes(text.len())?;
+                Rc::from(text.as_bytes())
+            }
+            _ => return Err(self.broken("an array without bytes")),
+        };
+        let array = Array { shape, dtype: Some(dtype), fortran, data };
+        if !array.is_whole() {
+            return Err(self.broken("an array that has another size than its bytes"));
+        }
+        self.push_object(Object::Array(array))
+    }
+
+    /// Fills what was made empty.
+    fn build(&mut self, state: &Value) -> Done<()> {
+        let Some(Value::Object(at)) = self.stack.last().cloned() else {
+            return Err(self.refused("a state of what is no array".into()));
+        };
+        let filled = match (self.objects.get(at), state) {
+            (Some(Object::Array(_)), Value::Tuple(state)) => match &**state {
+                [_, shape, dtype, fortran, data] | [shape, dtype, fortran, data] => {
+                    let fortran = matches!(fortran, Value::Bool(true) | Value::Int(1));
+                    self.array(shape, dtype, data, fortran)?;
+                    match self.pop()? {
+                        Value::Object(made) => self.objects.get(made).cloned(),
+                        _ => None,
+                    }
+                }
+                _ => return Err(self.broken("no state of an array")),
+            },
+            (Some(Object::Dtype(dtype)), Value::Tuple(state)) => {
+                let order = state.get(1);
+                let big = matches!(order, Some(Value::Text(order)) if &**order == ">");
+                Some(Object::Dtype(Dtype { big, ..*dtype }))
+            }
+            // Members of a dictionary's class are of no use.
+            (Some(Object::Dict(_)), _) => None,
+            _ => return Err(self.refused("a state of what is no array".into())),
+        };
+        if let (Some(filled), Some(slot)) = (filled, self.objects.get_mut(at)) {
+            *slot = filled;
+        }
+        Ok(())
+    }
+}

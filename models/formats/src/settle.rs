@@ -1,0 +1,166 @@
+//! Recordings in the frame of their source as scenes about the ego.
+
+use crate::format::{EGO, ImportOptions};
+use crate::identities;
+use crate::limits::MAX_AGENTS;
+use crate::problem::{FieldProblem, Imported, ReadError, Warning};
+use scene::geometry::rotate;
+use scene::map::{LaneMap, Points};
+use scene::{Agent, Scene, State, Vec2};
+use std::collections::HashSet;
+
+/// A scene of a recording and its map, in the frame of their source: of too many road users the nearest are kept,
+/// those with two ids are joined, and the ego's place at the present step becomes the origin.
+///
+/// # Errors
+/// The faults of a scene.
+pub(crate) fn settled(
+    mut scene: Scene,
+    mut map: LaneMap,
+    mut warnings: Vec<Warning>,
+    options: &ImportOptions,
+) -> Result<Imported, ReadError> {
+    let now = scene.time.now_step;
+    warnings.extend(nearest(&mut scene.agents, now));
+    let by = origin(&scene, &map);
+    shift(&mut scene, &mut map, by);
+    let turned = rotate(by, scene.meta.origin.rotation_rad);
+    (scene.meta.origin.x_m, scene.meta.origin.y_m) =
+        (scene.meta.origin.x_m + turned.x, scene.meta.origin.y_m + turned.y);
+    scene.map = map.into();
+    if options.join_identities {
+        warnings.extend(identities::join(&mut scene));
+    }
+    if let Some(licence) = &options.licence {
+        scene.meta.licence = Some(licence.clone());
+    }
+    match scene.checked() {
+        Ok(scene) => Ok((scene, warnings)),
+        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+    }
+}
+
+/// The state nearest in time to a step.
+fn state_about(agent: &Agent, step: usize) -> Option<&State> {
+    agent.track.valid_steps().min_by_key(|i| i.abs_diff(step)).and_then(|i| agent.track.at(i))
+}
+
+/// Keeps the road users that a scene has room for: the ego and those nearest to it, else to the first one.
+pub(crate) fn nearest(agents: &mut Vec<Agent>, now: usize) -> Option<Warning> {
+    let count = agents.len();
+    if count <= MAX_AGENTS {
+        return None;
+    }
+    let is_ego = |agent: &Agent| agent.role.as_deref() == Some(EGO);
+    let ego = agents.iter().position(is_ego).unwrap_or(0);
+    let centre =
+        agents.get(ego).and_then(|agent| state_about(agent, now)).map(State::position).unwrap_or_default();
+    let distance = |(i, agent): (usize, &Agent)| {
+        let away = state_about(agent, now).map_or(f64::INFINITY, |state| (state.position() - centre).norm());
+        (if i == ego { -1.0 } else { away }, i)
+    };
+    let mut order: Vec<(f64, usize)> = agents.iter().enumerate().map(distance).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let near: HashSet<usize> = order.into_iter().take(MAX_AGENTS).map(|(_, i)| i).collect();
+    let mut i = 0..;
+    agents.retain(|_| i.next().is_some_and(|i| near.contains(&i)));
+    let detail = format!("{count} road users; the {MAX_AGENTS} nearest the ego are kept");
+    Some(Warning::new("agents-dropped", detail))
+}
+
+/// Where the ego is at the present step; without one the middle of everything, in whole metres so that it is found
+/// again after a round trip.
+fn origin(scene: &Scene, map: &LaneMap) -> Vec2 {
+    let now = scene.time.now_step;
+    let ego = scene.agents.iter().find(|agent| agent.role.as_deref() == Some(EGO));
+    if let Some(state) = ego.and_then(|ego| state_about(ego, now)) {
+        return finite(state.position());
+    }
+    let states = scene.agents.iter().filter_map(|agent| state_about(agent, now)).map(State::position);
+    let lines = map.lanes.iter().map(|lane| &lane.points);
+    let lines = lines.chain(map.road_lines.iter().chain(&map.road_edges).map(|line| &line.points));
+    let areas = map.crosswalks.iter().chain(&map.speed_bumps).chain(&map.driveways).map(|area| &area.polygon);
+    let lines = lines.chain(areas);
+    let mut bounds: Option<(Vec2, Vec2)> = None;
+    for p in states.chain(lines.flat_map(|line| line.xy.iter().copied())).filter(|p| finite(*p) == *p) {
+        bounds = Some(bounds.map_or((p, p), |(low, high)| (low.inf(&p), high.sup(&p))));
+    }
+    bounds.map_or(Vec2::zeros(), |(low, high)| finite(((low + high) / 2.0).map(f64::round)))
+}
+
+fn finite(p: Vec2) -> Vec2 {
+    if p.x.is_finite() && p.y.is_finite() { p } else { Vec2::zeros() }
+}
+
+/// Moves all places.
+fn shift(scene: &mut Scene, map: &mut LaneMap, by: Vec2) {
+    let line = |points: &mut Points| points.xy.iter_mut().for_each(|p| *p -= by);
+    map.lanes.iter_mut().for_each(|lane| line(&mut lane.points));
+    map.road_lines.iter_mut().chain(&mut map.road_edges).for_each(|edge| line(&mut edge.points));
+    let areas = map.crosswalks.iter_mut().chain(&mut map.speed_bumps).chain(&mut map.driveways);
+    for area in areas.chain(&mut map.drivable) {
+        line(&mut area.polygon);
+        area.holes.iter_mut().for_each(line);
+    }
+    map.stop_signs.iter_mut().for_each(|sign| sign.position -= by);
+    scene.signals.iter_mut().filter_map(|signal| signal.stop.as_mut()).for_each(|stop| *stop -= by);
+    for agent in &mut scene.agents {
+        for state in agent.track.states.iter_mut().flatten() {
+            (state.x_m, state.y_m) = (state.x_m - by.x, state.y_m - by.y);
+        }
+    }
+}
+
+/// Ids as a scene can have them, each once.
+#[derive(Default)]
+pub(crate) struct Ids {
+    taken: HashSet<String>,
+    pub changed: usize,
+}
+
+impl Ids {
+    /// The id itself where a scene can have it and nobody has it yet.
+    pub fn take(&mut self, id: &str) -> String {
+        let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
+        let mut clean: String = id.chars().map(legal).take(64).collect();
+        if clean.is_empty() {
+            clean.push('_');
+        }
+        let mut name = clean.clone();
+        // Most are free; of those that are not, each next one begins where none was yet.
+        let mut count = 1 + self.changed;
+        while !self.taken.insert(name.clone()) {
+            count += 1;
+            clean.truncate(50);
+            name = format!("{clean}.{count}");
+        }
+        self.changed += usize::from(name != id);
+        name
+    }
+
+    /// Tells of ids that were changed.
+    pub fn warning(&self, what: &str) -> Option<Warning> {
+        let detail = format!(
+            "{} {what} got other ids: a scene has each once, with letters, digits and _ . : -",
+            self.changed
+        );
+        (self.changed > 0).then(|| Warning::new("ids-changed", detail))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_become_legal_and_single() {
+        let mut ids = Ids::default();
+        let taken: Vec<String> = ["a", "a", "lane 7/b", "", "a.2"].iter().map(|id| ids.take(id)).collect();
+        assert_eq!(taken.iter().collect::<HashSet<_>>().len(), 5, "{taken:?}");
+        assert_eq!(
+            (taken[0].as_str(), taken[2].as_str(), ids.take(&"x".repeat(90)).len()),
+            ("a", "lane_7_b", 64)
+        );
+        assert!(ids.warning("lanes").is_some());
+    }
+}

@@ -1,0 +1,153 @@
+//! Elements of XML with what is in them, one at a time: for formats whose files are lists of small elements.
+
+use crate::problem::{FieldProblem, ReadError, code};
+use crate::xml::{Element, Event, Missing, Scanner};
+use std::io::BufRead;
+
+/// Most elements in one, and most bytes of their names, attributes and texts.
+const MAX_NODES: usize = 100_000;
+const MAX_BYTES: usize = 16 << 20;
+
+/// An element with its attributes, its text and the elements in it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Node {
+    pub element: Element,
+    pub children: Vec<Node>,
+    /// Trimmed; all pieces of it.
+    pub text: String,
+}
+
+impl Node {
+    /// What follows a start tag, to its end.
+    ///
+    /// # Errors
+    /// Those of the scanner; `out-of-range` for an element that holds more than any should.
+    pub fn read<R: BufRead>(scanner: &mut Scanner<R>, element: Element) -> Result<Self, ReadError> {
+        let (line, mut nodes, mut bytes) = (element.line, 1, 0);
+        let mut open = vec![Self { element, ..Self::default() }];
+        while let Some(event) = scanner.next()? {
+            match event {
+                Event::Start(element) => {
+                    nodes += 1;
+                    bytes += element.name.len();
+                    bytes += element
+                        .attributes
+                        .iter()
+                        .map(|(name, value)| name.len() + value.len())
+                        .sum::<usize>();
+                    open.push(Self { element, ..Self::default() });
+                }
+                Event::Text(text) => {
+                    bytes += text.len();
+                    if let Some(node) = open.last_mut() {
+                        node.text.push_str(&text);
+                    }
+                }
+                Event::End => {
+                    let Some(mut node) = open.pop() else { break };
+                    node.children.shrink_to_fit();
+                    match open.last_mut() {
+                        Some(parent) => parent.children.push(node),
+                        None => return Ok(node),
+                    }
+                }
+            }
+            if nodes > MAX_NODES || bytes > MAX_BYTES {
+                let detail =
+                    format!("line {line}: an element with more than {MAX_NODES} others or {MAX_BYTES} bytes");
+                return Err(FieldProblem::new("", code::OUT_OF_RANGE, detail).into());
+            }
+        }
+        // The scanner reports what is left open.
+        Ok(open.swap_remove(0))
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.element.name
+    }
+
+    /// The first element of this name in it.
+    pub fn child(&self, name: &str) -> Option<&Self> {
+        self.children.iter().find(|child| child.name() == name)
+    }
+
+    /// The first element at the end of this way.
+    pub fn at(&self, way: &[&str]) -> Option<&Self> {
+        way.iter().try_fold(self, |node, name| node.child(name))
+    }
+
+    /// All elements of this name in it.
+    pub fn all<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Self> {
+        self.children.iter().filter(move |child| child.name() == name)
+    }
+
+    /// The first element of this name in it.
+    ///
+    /// # Errors
+    /// `invalid-field` when there is none.
+    pub fn required(&self, name: &str) -> Result<&Self, ReadError> {
+        let detail = || format!("line {}: <{}> has no <{name}>", self.element.line, shown(self.name()));
+        self.child(name).ok_or_else(|| FieldProblem::new("", code::INVALID_FIELD, detail()).into())
+    }
+
+    /// Its text as a finite number.
+    ///
+    /// # Errors
+    /// `invalid-field`.
+    pub fn number(&self) -> Result<f64, ReadError> {
+        let number = self.text.parse().ok().filter(|v: &f64| v.is_finite());
+        number.ok_or_else(|| self.wrong(&self.text, "a number"))
+    }
+
+    /// An attribute as a whole number.
+    ///
+    /// # Errors
+    /// `invalid-field`.
+    pub fn whole(&self, attribute: &'static str) -> Result<i64, ReadError> {
+        let text = self.element.required(attribute).map_err(|missing: Missing| ReadError::from(missing))?;
+        text.trim().parse().map_err(|_| self.wrong(text, "a whole number"))
+    }
+
+    /// What was found in it in place of what was expected.
+    pub fn wrong(&self, found: &str, expected: &str) -> ReadError {
+        let (line, name, found) = (self.element.line, shown(self.name()), shown(found));
+        let detail = format!("line {line}: \"{found}\" found in <{name}>, {expected} expected");
+        FieldProblem::new("", code::INVALID_FIELD, detail).into()
+    }
+}
+
+fn shown(text: &str) -> String {
+    text.chars().take(40).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Node, ReadError> {
+        let mut scanner = Scanner::new(text.as_bytes(), 1 << 10).with_texts();
+        match scanner.next()? {
+            Some(Event::Start(element)) => Node::read(&mut scanner, element),
+            _ => panic!("an element expected"),
+        }
+    }
+
+    #[test]
+    fn elements_are_found_by_their_way() {
+        let node = read("<a id='7'>\n<b><c> 1.5 </c></b><b/>x</a>").unwrap();
+        assert_eq!(node.at(&["b", "c"]).unwrap().number().unwrap(), 1.5);
+        assert_eq!((node.all("b").count(), node.text.as_str(), node.whole("id").unwrap()), (2, "x", 7));
+        let missing = node.required("d").unwrap_err();
+        assert_eq!(missing.problems[0].detail, "line 1: <a> has no <d>");
+        let wrong = node.child("b").unwrap().number().unwrap_err();
+        assert_eq!(wrong.problems[0].detail, "line 2: \"\" found in <b>, a number expected");
+    }
+
+    #[test]
+    fn an_element_does_not_grow_for_ever() {
+        let many = format!("<a>{}</a>", "<b/>".repeat(MAX_NODES));
+        assert_eq!(read(&many).unwrap_err().code(), "out-of-range");
+        assert!(read("<a><b>").is_err());
+    }
+}

@@ -1,0 +1,55 @@
+//! What several writers have no place for.
+
+use crate::format::ExportedMotion;
+use crate::loss::{Loss, code};
+use scene::{Agent, Scene, Start};
+
+/// Users fixed something of a road user that boxes and states do not say. Types, sizes and the starts of futures are
+/// in these.
+pub(crate) fn is_fixed(scene: &Scene, agent: &Agent, motion: ExportedMotion) -> bool {
+    let mut rest = agent.conditions.clone();
+    if motion == ExportedMotion::Chosen {
+        (rest.agent_type, rest.length_m, rest.width_m) = (None, None, None);
+        let generated = scene.generated.as_ref();
+        if generated.is_some_and(|g| g.chosen_future(&agent.id).is_some()) {
+            rest.start = Start::default();
+        }
+    }
+    !rest.is_empty()
+}
+
+/// What users fixed, where a file has boxes and states alone.
+pub(crate) fn conditions(scene: &Scene, motion: ExportedMotion) -> Option<Loss> {
+    let lost = scene.agents.iter().any(|agent| is_fixed(scene, agent, motion));
+    let detail = match motion {
+        ExportedMotion::Chosen => "goals, and starts of road users that were not generated from them",
+        ExportedMotion::Log => "types, sizes, starts and goals that the user fixed",
+    };
+    lost.then(|| Loss::new(code::NO_CONDITIONS, detail))
+}
+
+/// Futures, where a file has one motion of each road user.
+pub(crate) fn futures(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
+    let Some(generated) = &scene.generated else { return Vec::new() };
+    let mut losses = Vec::new();
+    if motion == ExportedMotion::Chosen {
+        losses.push(Loss::new(code::NO_GENERATED, "read again, generated motion counts as recorded"));
+    }
+    let mut futures = generated.samples.iter().flat_map(|s| s.agents.values());
+    if motion == ExportedMotion::Log || generated.samples.len() > 1 || futures.any(|f| f.modes.len() > 1) {
+        losses.push(Loss::new(code::NO_MODES, "generated futures other than the exported one"));
+    }
+    losses
+}
+
+/// Name, tags, notes and the like, where a file is called `id` and has no place for them.
+pub(crate) fn notes(scene: &Scene, id: &str) -> Option<Loss> {
+    let lost = !scene.meta.tags.is_empty() || is_noted(scene, id);
+    lost.then(|| Loss::new(code::NO_NOTES, "name, tags, notes and members of other tools"))
+}
+
+/// Somebody said of the scene more than its name and its tags.
+pub(crate) fn is_noted(scene: &Scene, id: &str) -> bool {
+    let meta = &scene.meta;
+    !meta.notes.is_empty() || meta.parent_id.is_some() || scene.name != id || !scene.extra.is_empty()
+}

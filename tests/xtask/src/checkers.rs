@@ -1,0 +1,106 @@
+//! `checkers`: foreign programs read what we write. Each script of `tests/checkers` names the packages that it needs
+//! (PEP 723, and under `[tool.dragtraffic]` those to be had without what they ask for), is called with the program
+//! and a folder to work in, and says `N passed, N failed` in its last line.
+
+use crate::{Outcome, program, root};
+use anyhow::{Context, ensure};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+const SCRIPTS: &str = "tests/checkers";
+/// A script whose packages cannot be had fails, where it would be passed over.
+pub static STRICT: AtomicBool = AtomicBool::new(false);
+
+/// All scripts, each in an environment of its own.
+pub fn check() -> anyhow::Result<Outcome> {
+    let program = program()?;
+    let entries = std::fs::read_dir(root().join(SCRIPTS)).context(SCRIPTS)?;
+    let mut scripts: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    scripts.retain(|path| path.extension().is_some_and(|end| end == "py"));
+    scripts.sort();
+    ensure!(!scripts.is_empty(), "no script in {SCRIPTS}");
+    let (mut told, mut skipped, mut failed) = (Vec::new(), Vec::new(), Vec::new());
+    for script in scripts {
+        let name = script.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        match environment(&name, &script)? {
+            Ok(python) => match run(&python, &script, &program, &name)? {
+                Ok(line) => told.push(format!("{name}: {line}")),
+                Err(line) => failed.push(format!("{name}: {line}")),
+            },
+            Err(why) => skipped.push(format!("{name}: {why}")),
+        }
+    }
+    if STRICT.load(Ordering::Relaxed) {
+        failed.append(&mut skipped);
+    }
+    if !failed.is_empty() {
+        return Ok(Outcome::Failed(failed.join("; ")));
+    }
+    if told.is_empty() {
+        return Ok(Outcome::Skipped(skipped.join("; ")));
+    }
+    told.extend(skipped.into_iter().map(|why| format!("skipped {why}")));
+    Ok(Outcome::Told(told.join("; ")))
+}
+
+/// Strings of a list in the metadata of a script.
+fn list(text: &str, name: &str) -> Vec<String> {
+    let head: Vec<&str> = text.lines().map_while(|line| line.strip_prefix('#')).map(str::trim).collect();
+    let head = head.join("\n");
+    let Some((_, rest)) = head.split_once(&format!("\n{name} = [")) else { return Vec::new() };
+    let rest = rest.split(']').next().unwrap_or_default();
+    rest.split('"').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+/// Python with the packages of a script, or why not.
+fn environment(name: &str, script: &Path) -> anyhow::Result<Result<PathBuf, String>> {
+    let text = std::fs::read_to_string(script)?;
+    let (with, without) = (list(&text, "dependencies"), list(&text, "no-deps"));
+    let folder = root().join("target/python").join(name);
+    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let wanted = format!("{}\n\n{}\n", with.join("\n"), without.join("\n"));
+    let stamp = folder.join("installed.txt");
+    if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
+        return Ok(Ok(own));
+    }
+    let ready = |program: &Path, arguments: &[&str], packages: &[String]| {
+        let mut command = Command::new(program);
+        command.args(arguments).args(packages).current_dir(root());
+        command.status().is_ok_and(|status| status.success())
+    };
+    if !ready(Path::new("python3"), &["-m", "venv", &folder.to_string_lossy()], &[]) {
+        return Ok(Err("python3 with venv is not here".into()));
+    }
+    let pip = ["-m", "pip", "install", "-q", "--disable-pip-version-check"];
+    let bare = ["-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-deps"];
+    let had =
+        (with.is_empty() || ready(&own, &pip, &with)) && (without.is_empty() || ready(&own, &bare, &without));
+    if !had {
+        return Ok(Err("its packages cannot be had".into()));
+    }
+    std::fs::write(&stamp, wanted)?;
+    Ok(Ok(own))
+}
+
+/// The last line of a script, as a success or a failure.
+fn run(python: &Path, script: &Path, program: &Path, name: &str) -> anyhow::Result<Result<String, String>> {
+    let folder = root().join("target/checkers").join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder)?;
+    }
+    std::fs::create_dir_all(&folder)?;
+    let output = Command::new(python)
+        .arg(script)
+        .args([program, &folder])
+        .current_dir(root())
+        .stderr(Stdio::inherit())
+        .output()
+        .with_context(|| script.display().to_string())?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    print!("{text}");
+    let line = text.lines().last().unwrap_or("said nothing").to_owned();
+    // A script that checks nothing has not passed.
+    let passed = output.status.success() && line.ends_with(" 0 failed") && !line.starts_with("0 passed");
+    Ok(if passed { Ok(line) } else { Err(line) })
+}
