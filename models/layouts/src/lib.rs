@@ -231,11 +231,13 @@ pub fn build(layout: &Layout) -> Result<Built, Vec<Fault>> {
         return Err(faults);
     }
     let mut draft = match layout {
-        Layout::ThreeArms(p) | Layout::FourArms(p) => junction::draw(p),
-        Layout::Roundabout(p) => roundabout::draw(p),
+        Layout::ThreeArms(p) | Layout::FourArms(p) => junction::draw(&p.clone().without_slivers()),
+        Layout::Roundabout(p) => roundabout::draw(&p.clone().without_slivers()),
         Layout::Merge(p) => merge::draw(p),
-        Layout::Straight(p) | Layout::Curve(p) | Layout::SchoolStreet(p) => road::draw(p),
-        Layout::CarPark(p) => car_park::draw(p),
+        Layout::Straight(p) | Layout::Curve(p) | Layout::SchoolStreet(p) => {
+            road::draw(&p.clone().without_slivers())
+        }
+        Layout::CarPark(p) => car_park::draw(&p.clone().without_slivers()),
     };
     if let Layout::ThreeArms(Junction { arms, .. })
     | Layout::FourArms(Junction { arms, .. })

@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 
 /// Fewest and most arms that meet.
 pub const ARMS: (usize, usize) = (3, 6);
+/// Least width of a strip that is one, metres.
+const LEAST_STRIP_M: f64 = 0.5;
 /// Least angle between two arms, degrees.
 pub const LEAST_BETWEEN_ARMS_DEG: f64 = 20.0;
 
@@ -108,13 +110,13 @@ pub struct Arm {
     /// Speed limit, km/h.
     #[schemars(range(min = 10.0, max = 130.0))]
     pub speed_limit_kmh: f64,
-    /// Width of a cycle lane on both sides, metres; 0 is none.
+    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub cycle_lane_m: f64,
-    /// Width of a raised strip between the directions, metres; 0 is none.
+    /// Width of a raised strip between the directions, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub median_m: f64,
-    /// Width of the crosswalk over it, metres; 0 is none.
+    /// Width of the crosswalk over it, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 8.0))]
     pub crosswalk_m: f64,
     /// With `priority`: its traffic goes first.
@@ -162,7 +164,7 @@ pub struct Junction {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; 0 is none.
+    /// Width of the pavements, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.
@@ -217,7 +219,7 @@ pub struct Roundabout {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; 0 is none.
+    /// Width of the pavements, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.
@@ -309,16 +311,16 @@ pub struct Road {
     /// Speed limit, km/h.
     #[schemars(range(min = 10.0, max = 130.0))]
     pub speed_limit_kmh: f64,
-    /// Width of a cycle lane on both sides, metres; 0 is none.
+    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub cycle_lane_m: f64,
-    /// Width of a strip for parked cars on both sides, metres; 0 is none.
+    /// Width of a strip for parked cars on both sides, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub parking_m: f64,
-    /// Width of a raised strip between the directions, metres; 0 is none.
+    /// Width of a raised strip between the directions, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub median_m: f64,
-    /// Width of a crosswalk half way, metres; 0 is none.
+    /// Width of a crosswalk half way, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 8.0))]
     pub crosswalk_m: f64,
     /// Speed bumps before and behind the crosswalk.
@@ -326,7 +328,7 @@ pub struct Road {
     /// Width of lanes, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; 0 is none.
+    /// Width of the pavements, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.
@@ -403,7 +405,7 @@ pub struct CarPark {
     /// Width of the lanes of the street, metres.
     #[schemars(range(min = 2.5, max = 4.0))]
     pub lane_width_m: f64,
-    /// Width of the pavements, metres; 0 is none.
+    /// Width of the pavements, metres; less than half a metre is none.
     #[schemars(range(min = 0.0, max = 4.0))]
     pub sidewalk_m: f64,
     /// Side of the road that traffic keeps to.
@@ -424,5 +426,49 @@ impl Default for CarPark {
             sidewalk_m: 2.5,
             traffic: Traffic::RightHand,
         }
+    }
+}
+
+/// A strip that is too narrow to be one is none.
+fn strip(width_m: &mut f64) {
+    if *width_m < LEAST_STRIP_M {
+        *width_m = 0.0;
+    }
+}
+
+fn arm_strips(arms: &mut [Arm]) {
+    for arm in arms {
+        [&mut arm.cycle_lane_m, &mut arm.median_m, &mut arm.crosswalk_m].into_iter().for_each(strip);
+    }
+}
+
+impl Junction {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        arm_strips(&mut self.arms);
+        strip(&mut self.sidewalk_m);
+        self
+    }
+}
+
+impl Roundabout {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        arm_strips(&mut self.arms);
+        strip(&mut self.sidewalk_m);
+        self
+    }
+}
+
+impl Road {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        let widths = [&mut self.cycle_lane_m, &mut self.parking_m, &mut self.median_m, &mut self.crosswalk_m];
+        widths.into_iter().chain([&mut self.sidewalk_m]).for_each(strip);
+        self
+    }
+}
+
+impl CarPark {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        strip(&mut self.sidewalk_m);
+        self
     }
 }

@@ -106,7 +106,7 @@ pub fn faults(layout: &Layout) -> Vec<Fault> {
         if !arms.iter().any(|arm| arm.lanes_in > 0) || !arms.iter().any(|arm| arm.lanes_out > 0) {
             faults.push(Fault::new("/arms", "a lane in and a lane out expected, at any arm"));
         }
-        let bare = arms.iter().position(|arm| arm.lanes_in + arm.lanes_out == 0);
+        let bare = arms.iter().position(|arm| arm.lanes_in == 0 && arm.lanes_out == 0);
         if let Some(i) = bare {
             faults.push(Fault::new(format!("/arms/{i}/lanes_in"), "an arm needs a lane in or out"));
         }

@@ -9,6 +9,8 @@ use std::f64::consts::PI;
 
 /// A strip in the middle narrower than this is painted, not raised, metres.
 const RAISED_M: f64 = 0.8;
+/// Paved between the outer lane and the kerb, metres.
+pub const GAP_M: f64 = 0.4;
 /// Room between a raised strip and the lanes, metres.
 const GUTTER_M: f64 = 0.2;
 /// Lanes are told apart by solid lines so far before a stop line, metres.
@@ -70,9 +72,9 @@ impl Profile {
     pub fn kerb_m(&self, side: usize, median_m: f64) -> f64 {
         let lanes = self.lanes[side];
         if lanes == 0 {
-            return 0.0;
+            return GAP_M;
         }
-        self.middle_m(median_m) / 2.0 + lanes as f64 * self.lane_m + self.cycle_m + self.parking_m
+        self.middle_m(median_m) / 2.0 + lanes as f64 * self.lane_m + self.cycle_m + self.parking_m + GAP_M
     }
 
     /// Width of the strip in the middle; one direction alone has none.
@@ -97,11 +99,11 @@ impl Plan<'_> {
 
     /// The kerb beside the lanes along the line (0) or against it (1), in the direction of the line.
     pub fn kerb(&self, side: usize) -> Vec<Vec2> {
-        if self.profile.lanes[side] == 0 {
-            return self.axis.to_vec();
-        }
         let profile = self.profile;
-        self.offset(side, profile.lanes[side] as f64 * profile.lane_m + profile.cycle_m + profile.parking_m)
+        if profile.lanes[side] == 0 {
+            return self.offset(side, GAP_M);
+        }
+        self.offset(side, profile.kerb_m(side, 0.0))
     }
 
     /// Draws lanes and paint. Kerbs are the caller's.
