@@ -185,18 +185,28 @@ fn meet(a: &Lane, b: &Lane) -> bool {
         || pieces(&a.points.xy, 0).any(|p| pieces(&b.points.xy, 1).any(|q| p.crosses(q.from, q.to)))
 }
 
-/// Of two ways from different arms that meet, only one that turns may have green with the other.
+/// The arms that a way leads from and to, out of its id.
+fn ends(id: &str) -> (&str, &str) {
+    let arm = |text: &str| text.find('.').unwrap_or(text.len());
+    let to = id.rfind("-arm").map_or("", |at| &id[at + 1..]);
+    (&id[..arm(id)], &to[..arm(to)])
+}
+
+/// Two ways that meet have green together only where one gives way by the rules of the road: it turns across oncoming
+/// traffic, both turn across, or they turn into the same arm.
 fn greens_give_way(built: &Built) -> Result<(), TestCaseError> {
     let lanes = by_id(&built.map);
-    let arm = |id: &str| id.split('.').next().unwrap_or_default().to_owned();
-    let straight = |lane: &Lane| {
+    let turns = |lane: &Lane| {
         let p = &lane.points.xy;
-        wrap_angle(heading(p[p.len() - 2], p[p.len() - 1]) - heading(p[0], p[1])).abs() < 0.3
+        wrap_angle(heading(p[p.len() - 2], p[p.len() - 1]) - heading(p[0], p[1])).abs() > 0.3
     };
     let ways: Vec<_> = built.signals.iter().filter_map(|s| Some((s, *lanes.get(s.lane.as_str())?))).collect();
     for (i, (s, a)) in ways.iter().enumerate() {
         for (t, b) in &ways[..i] {
-            if arm(&a.id) == arm(&b.id) || !straight(a) || !straight(b) || !meet(a, b) {
+            let (of_a, of_b) = (ends(&a.id), ends(&b.id));
+            let oncoming = of_a.1 == of_b.0 || of_b.1 == of_a.0 || of_a.1 == of_b.1;
+            let apart = of_a.0 == of_b.0 || oncoming || (turns(a) && turns(b));
+            if apart || !meet(a, b) {
                 continue;
             }
             for step in 0..91 {

@@ -92,7 +92,7 @@ export class Overlay {
       bottom: 0,
     });
     for (const r of this.panels(v)) this.labels.block(...r);
-    if (making) {
+    if (making || !scene) {
       this.arms.paint(g, v);
       return;
     }
