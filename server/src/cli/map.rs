@@ -95,7 +95,7 @@ fn body(args: &MapArgs) -> Result<Value, Failure> {
     let (mut template, mut parameters) = (args.template.map(|template| json!(template)), json!({}));
     if let Some(path) = &args.parameters_file {
         let bytes = output::read(path)?;
-        let file: Value = formats::native::from_json::<native::AnyDoc>(&bytes)
+        let file: Value = native::from_json::<native::AnyDoc>(&bytes)
             .map_err(|error| Failure::input(format!("{}: {error}", path.display())))?
             .0;
         match file.get("template") {
