@@ -13,6 +13,7 @@ use std::process::Command;
 const ARROWS: &[(&str, &[&str])] = &[
     ("scene", &[]),
     ("formats", &["scene"]),
+    ("layouts", &["scene"]),
     ("experts", &["scene"]),
     ("lab-synthesize", &["scene", "formats"]),
     ("lab-train", &["scene", "formats", "experts"]),
@@ -20,7 +21,16 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("lab-reproduce", &["scene", "formats", "experts", "lab-train", "lab-eval"]),
     (
         "dragtraffic",
-        &["scene", "formats", "experts", "lab-synthesize", "lab-train", "lab-eval", "lab-reproduce"],
+        &[
+            "scene",
+            "formats",
+            "layouts",
+            "experts",
+            "lab-synthesize",
+            "lab-train",
+            "lab-eval",
+            "lab-reproduce",
+        ],
     ),
     ("samples", &[]),
     ("tests", &["formats"]),

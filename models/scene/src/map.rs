@@ -190,4 +190,43 @@ impl LaneMap {
     pub fn lane_index(&self, id: &str) -> Option<usize> {
         self.lanes.iter().position(|l| l.id == id)
     }
+
+    /// The mirror image: y turned over, left and right swapped. Who drives on the right drives on the left in it.
+    pub fn mirrored(&self) -> Self {
+        let point = |p: Vec2| Vec2::new(p.x, -p.y);
+        let points = |line: &Points| Points {
+            xy: line.xy.iter().copied().map(point).collect(),
+            z_m: line.z_m.clone(),
+        };
+        let lines = |list: &[TypedLine]| {
+            list.iter().map(|l| TypedLine { points: points(&l.points), ..l.clone() }).collect()
+        };
+        let areas = |list: &[Area]| {
+            let area = |a: &Area| Area {
+                id: a.id.clone(),
+                polygon: points(&a.polygon),
+                holes: a.holes.iter().map(points).collect(),
+            };
+            list.iter().map(area).collect()
+        };
+        let lane = |l: &Lane| Lane {
+            points: points(&l.points),
+            left_boundary: l.right_boundary.clone(),
+            right_boundary: l.left_boundary.clone(),
+            left_neighbors: l.right_neighbors.clone(),
+            right_neighbors: l.left_neighbors.clone(),
+            ..l.clone()
+        };
+        let sign = |s: &StopSign| StopSign { position: point(s.position), ..s.clone() };
+        Self {
+            lanes: self.lanes.iter().map(lane).collect(),
+            road_lines: lines(&self.road_lines),
+            road_edges: lines(&self.road_edges),
+            crosswalks: areas(&self.crosswalks),
+            speed_bumps: areas(&self.speed_bumps),
+            driveways: areas(&self.driveways),
+            stop_signs: self.stop_signs.iter().map(sign).collect(),
+            drivable: areas(&self.drivable),
+        }
+    }
 }

@@ -7,6 +7,7 @@ use scene::limits::Limits;
 use scene::{AgentType, Size, Subtype};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// What one kind of road user can do; answers never go beyond it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
@@ -93,18 +94,20 @@ impl ConditionRanges {
 }
 
 /// All of them, as `assets/domain.json` has them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Domain {
     limits: KindLimits,
     condition_ranges: ConditionRanges,
     defaults: Defaults,
+    /// By kind of layout and parameter.
+    layout_ranges: BTreeMap<&'static str, BTreeMap<String, [f64; 2]>>,
 }
 
 impl Domain {
     /// Those of this build.
     pub fn current() -> Self {
         let (limits, condition_ranges) = (KindLimits::current(), ConditionRanges::current());
-        Self { limits, condition_ranges, defaults: DEFAULTS }
+        Self { limits, condition_ranges, defaults: DEFAULTS, layout_ranges: layouts::ranges() }
     }
 }
 

@@ -9,6 +9,7 @@ mod generate;
 mod inputs;
 mod interrupt;
 mod lab;
+mod map;
 mod output;
 mod parallel;
 mod place;
@@ -71,6 +72,9 @@ enum Command {
     /// Generate futures of scenes.
     #[command(after_help = examples!("dragtraffic generate scene.json --agents 6 --goal 6=ahead:40,left:3.5,time:4 --react -o out.json", "dragtraffic generate scenes/ --template brake,cut-in --seeds 20 --where 'actor.min_ttc_s < 1.5 && collisions == 0' -o found/"))]
     Generate(Box<generate::GenerateArgs>),
+    /// Draw a map from a template: crossings, roundabouts, merges, roads, car parks.
+    #[command(after_help = examples!("dragtraffic map --template four-arms --set arms.1.angle_deg=71 --set kerb_radius_m=6 -o crossing.json", "dragtraffic map --list"))]
+    Map(map::MapArgs),
     /// Place road users on the maps of scenes.
     #[command(after_help = examples!("dragtraffic place scene.json --count 30 --keep --seed 7 -o placed.json", "dragtraffic place scenes/ --density 12 --types vehicle=0.7,pedestrian=0.3 -o placed/"))]
     Place(place::PlaceArgs),
@@ -188,6 +192,7 @@ impl Command {
             Self::Serve(args) => serve::run(args, common),
             Self::Backup(args) => backup::run(args, common),
             Self::Generate(args) => generate::run(*args, common),
+            Self::Map(args) => map::run(args, common),
             Self::Place(args) => place::run(args, common),
             Self::Convert(args) => convert::convert(args, common),
             Self::Score(args) => score::score(args, common),

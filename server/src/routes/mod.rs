@@ -11,6 +11,7 @@ pub mod health;
 pub mod import;
 pub mod info;
 pub mod jobs;
+pub mod layouts;
 pub mod maps;
 pub mod openapi;
 pub mod place;
@@ -40,6 +41,8 @@ fn documented() -> OpenApiRouter<App> {
         .routes(routes!(import::import))
         .routes(routes!(maps::list))
         .routes(routes!(maps::read))
+        .routes(routes!(layouts::make))
+        .routes(routes!(layouts::templates))
         .routes(routes!(generate::generate))
         .routes(routes!(jobs::cancel))
         .routes(routes!(place::place))

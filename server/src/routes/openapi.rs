@@ -1,7 +1,7 @@
 //! The OpenAPI 3.1 document: paths from the handlers, schemas from the Rust types, problems from the
 //! table of codes.
 
-use super::{generate, health, import, info, maps, place, scenes, score};
+use super::{generate, health, import, info, layouts, maps, place, scenes, score};
 use crate::base::problem::ProblemDoc;
 use crate::generation::events;
 use formats::native::{MapDoc, SceneDoc};
@@ -104,6 +104,8 @@ fn replies(generator: &mut SchemaGenerator) {
     generator.subschema_for::<scenes::SceneList>();
     generator.subschema_for::<scenes::Saved>();
     generator.subschema_for::<maps::MapList>();
+    generator.subschema_for::<layouts::MapReply>();
+    generator.subschema_for::<layouts::TemplateList>();
 }
 
 /// What requests are made of, and the documents that travel both ways: members with a default may be left
@@ -114,6 +116,7 @@ fn requests(generator: &mut SchemaGenerator) {
     generator.subschema_for::<generate::GenerateRequest>();
     generator.subschema_for::<score::ScoreRequest>();
     generator.subschema_for::<place::PlaceBody>();
+    generator.subschema_for::<layouts::MapBody>();
     generator.subschema_for::<scenes::ScenePatch>();
     generator.subschema_for::<scenes::DuplicateRequest>();
 }

@@ -37,6 +37,8 @@ pub enum Kind {
     Generate,
     /// Road users on a map.
     Place,
+    /// Maps from templates.
+    Map,
     /// Scores of given motion.
     Score,
     /// Scenes out of a file.
@@ -53,6 +55,7 @@ impl Kind {
         match self {
             Self::Generate => "generate",
             Self::Place => "place",
+            Self::Map => "map",
             Self::Score => "score",
             Self::Import => "import",
             Self::Export => "export",
@@ -65,6 +68,7 @@ impl Kind {
         match self {
             Self::Generate => "generation",
             Self::Place => "placement",
+            Self::Map => "map",
             Self::Score => "score",
             Self::Import => "import",
             Self::Export => "export",

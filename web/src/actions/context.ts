@@ -2,6 +2,7 @@
 import type { Copying } from '../edit/copying';
 import type { Editor } from '../edit/editor';
 import type { Filler } from '../edit/filler';
+import type { LayoutMaker } from '../edit/layout-maker';
 import type { Library } from '../edit/library';
 import type { Importing } from '../edit/importing';
 import type { Saving } from '../edit/saving';
@@ -40,6 +41,7 @@ export interface Context {
   readonly client: Client;
   readonly copying: Copying;
   readonly filler: Filler;
+  readonly maker: LayoutMaker;
   readonly variants: Variants;
   readonly rounds: Rounds;
   readonly trial: Trial;

@@ -15,7 +15,8 @@ function letGo({ editor, gestures, importing, rounds, ui, variants }: Context): 
   else if (ui.eventsPanel.value) {
     ui.showEvents(false);
     editor.pickEvent(null);
-  } else if (rounds.isOpen.value) rounds.close();
+  } else if (editor.layouts.isOpen.value) editor.layouts.close();
+  else if (rounds.isOpen.value) rounds.close();
   else if (editor.tool.value !== 'select') editor.chooseTool('select');
   else if (variants.pair.value || variants.picked.value !== null) variants.endCompare();
   else editor.select(null);

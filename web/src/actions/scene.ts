@@ -22,6 +22,10 @@ const own = (c: Context): true | string => {
   return !id ? 'No scene is open.' : c.scenes.isOwn(id) ? true : 'Examples stay as they are. Copy one to change it.';
 };
 
+const making = (c: Context): boolean => c.editor.layouts.isOpen.value;
+
+const isMaking = (c: Context): true | string => (making(c) ? true : 'No map is being made.');
+
 export const scene = inGroup('Scene', [
   {
     id: 'scenes',
@@ -51,6 +55,61 @@ export const scene = inGroup('Scene', [
     when: hasScene,
     checked: (c) => c.ui.drawer.value === 'history',
     run: (c) => c.ui.toggleDrawer('history'),
+  },
+  {
+    id: 'new-map',
+    label: 'New map',
+    keys: ['Ctrl+N'],
+    icon: 'plus',
+    help: 'Crossings, roundabouts, merges, roads and car parks from templates',
+    run: (c) => c.maker.begin(),
+  },
+  {
+    id: 'change-map',
+    label: 'Change the map',
+    icon: 'pencil',
+    help: 'Other parameters for a map from a template; the scene gets a copy with it',
+    when: (c) =>
+      !c.editor.isOpen.value ? 'No scene is open.' : c.maker.madeFrom ? true : 'This map is from no template.',
+    run: (c) => c.maker.change(),
+  },
+  {
+    id: 'use-map',
+    label: 'Use this map',
+    keys: ['Enter'],
+    help: 'A scene with the map that is being made',
+    onOffer: making,
+    when: isMaking,
+    run: (c) => void c.maker.use(),
+  },
+  {
+    id: 'arm-previous',
+    label: 'Previous arm',
+    keys: ['['],
+    icon: 'prev',
+    help: 'The arm before, of a map that is being made',
+    onOffer: making,
+    when: isMaking,
+    run: (c) => c.editor.layouts.step(-1),
+  },
+  {
+    id: 'arm-next',
+    label: 'Next arm',
+    keys: [']'],
+    icon: 'next',
+    help: 'The arm after it, of a map that is being made',
+    onOffer: making,
+    when: isMaking,
+    run: (c) => c.editor.layouts.step(1),
+  },
+  {
+    id: 'arm-remove',
+    label: 'Remove the arm',
+    keys: ['Del'],
+    help: 'Three stay at least',
+    onOffer: making,
+    when: isMaking,
+    run: (c) => c.editor.layouts.removeArm(c.editor.layouts.arm.peek()),
   },
   {
     id: 'new-scene',

@@ -1,5 +1,6 @@
 // Where the picture looks: the whole map, the part where things move on opening, after the one that is followed, and
 // where it looked when a step was done.
+import { effect } from '@preact/signals-core';
 import type { Context } from '../actions/context';
 import { busyBox, openingCentre } from '../model/busy';
 import { boxOf } from '../model/geometry';
@@ -15,11 +16,25 @@ const OPENING_ZOOMS = [4.4, 8.5] as const;
 const SAME_PX = 4;
 
 export function fitScene({ editor, stage }: Context): void {
-  const scene = editor.scene.peek();
+  const scene = editor.layouts.made.peek()?.scene ?? editor.scene.peek();
   if (!scene) return;
   stage.resize();
   stage.invalidate('map');
   stage.glide.by((v) => v.fit(scene.map.box));
+}
+
+/** A map that is made is looked at anew with each template; while its parameters change the picture stays. */
+export function lookAtMade({ editor, stage }: Context): void {
+  let looked: string | null = null;
+  effect(() => {
+    const made = editor.layouts.made.value;
+    if (!editor.layouts.isOpen.value) looked = null;
+    if (!made || made.layout.template === looked) return;
+    looked = made.layout.template;
+    const { x0, y0, x1, y1 } = made.scene.map.box;
+    const near = (v: number, far: number): number => Math.min(far, Math.max(-far, v));
+    stage.glide.by((v) => v.fit({ x0: near(x0, 62), y0: near(y0, 42), x1: near(x1, 62), y1: near(y1, 42) }));
+  });
 }
 
 /** The same stretch of road on every screen, where most things move: a junction with the beginnings of its arms. */

@@ -12,6 +12,7 @@ import { Ui } from '../actions/ui';
 import { Copying } from '../edit/copying';
 import { Editor } from '../edit/editor';
 import { Filler } from '../edit/filler';
+import { LayoutMaker } from '../edit/layout-maker';
 import { Generation } from '../edit/generation';
 import { Journal } from '../edit/journal';
 import { Gestures } from '../edit/gestures/pointer';
@@ -38,7 +39,7 @@ import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
 import { focusAgent, focusField, focusGroup, focusName, focusText } from './focus';
 import { followView, gliding } from './hud/view-tick';
-import { fitScene, followSelected, lookAtOpened, lookWhereItWas, openMenu, reveal } from './look';
+import { fitScene, followSelected, lookAtMade, lookAtOpened, lookWhereItWas, openMenu, reveal } from './look';
 import { listenToPage } from './page-input';
 import { drawPage } from './shell';
 import { coach, reportCrashes, waitForServer } from './watching';
@@ -48,7 +49,7 @@ const FIRST_SCENE = 'demo-crossing';
 const WIDE_PX = 1300;
 /** What panels cover of the picture's edges, in pixels; on the left by what stands there. */
 const INSET = { right: 12, top: 12, bottom: 56 };
-const INSET_LEFT = { scenes: 324, users: 368, history: 432, rail: 68 };
+const INSET_LEFT = { scenes: 324, map: 348, users: 368, history: 432, rail: 68 };
 /** How wide a sheet at the side is. */
 const SIDE_SHEET_PX = 352;
 /** How wide the loupe is, where there is room and where there is little. */
@@ -92,6 +93,7 @@ function makeParts(): Context {
   const copying = new Copying(editor);
   const filler = new Filler(editor, file, client);
   const parts = {
+    maker: new LayoutMaker(editor, file, care, client),
     copying,
     editor,
     filler,
@@ -138,19 +140,21 @@ function connect(c: Context): void {
   ui.showDrawer(innerWidth >= WIDE_PX ? 'scenes' : null);
   followView(stage);
   lookWhereItWas(c);
+  lookAtMade(c);
   stage.onFrame = (now) => {
     gestures.frame(now);
     playback.frame(now);
     followSelected(c);
   };
   effect(() => {
-    stage.element.classList.toggle('bare', editor.scene.value === null);
+    stage.element.classList.toggle('bare', editor.scene.value === null && !editor.layouts.isOpen.value);
   });
   // For screen readers, and for scripts that drive the page: what is on screen is not the last word yet.
   effect(() => {
     const asked =
       generation.busy.value ||
       editor.filling.asking.value ||
+      editor.layouts.asking.value ||
       variants.busy.value ||
       editor.deck.asking.value ||
       trial.asking.value;
@@ -162,7 +166,7 @@ function connect(c: Context): void {
     stage.themeChanged();
   });
   effect(() => {
-    const drawer = ui.drawer.value;
+    const drawer = editor.layouts.isOpen.value ? 'map' : ui.drawer.value;
     stage.view.inset = form.sheet.value ? insetBesideSheet(c) : { ...INSET, left: INSET_LEFT[drawer ?? 'rail'] };
     stage.element.dataset.drawer = drawer ?? '';
   });

@@ -40,19 +40,22 @@ export function drawPage(c: Context, root: HTMLElement): void {
 
 function OverPicture() {
   const { editor, ui } = useApp();
-  const drawer = useComputed(() => (editor.scene.value ? ui.drawer.value : null)).value;
+  const making = editor.layouts.isOpen.value;
+  const drawer = useComputed(() => (editor.scene.value && !editor.layouts.isOpen.value ? ui.drawer.value : null)).value;
   return (
     <>
-      <Empty />
+      {making ? null : <Empty />}
       <RoadUsers />
       <HandleSliders />
       <Hud />
+      {making ? <Later load={templates} /> : null}
       {drawer === 'scenes' ? <Drawer /> : null}
       {drawer === 'history' ? <HistoryPanel /> : null}
     </>
   );
 }
 
+const templates = () => import('./layouts/templates').then((m) => m.default);
 const compareView = () => import('./variants/compare-view').then((m) => m.default);
 const roundStrip = () => import('./rounds/strip').then((m) => m.default);
 const variantStrip = () => import('./variants/strip').then((m) => m.default);

@@ -42,7 +42,7 @@ export class MapPicture {
     for (const lane of map.lanes.values()) this.addLane(lane);
     for (const d of map.drivable) {
       this.drivable.add(d.outer, true);
-      for (const h of d.holes) this.drivable.add(h, true);
+      for (const h of d.holes) this.drivable.add(h, true, d.outer);
     }
     for (const p of map.driveways) this.driveways.add(p, true);
     for (const p of map.bumps) this.bumps.add(p, true);

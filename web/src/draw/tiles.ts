@@ -18,9 +18,10 @@ export class Layer {
     return this.tiles.size === 0;
   }
 
-  add(pts: readonly Vec[], closed = false): void {
+  /** `along`: the line that it stays with, as a hole does with what it is in. */
+  add(pts: readonly Vec[], closed = false, along: readonly Vec[] = pts): void {
     if (pts.length < 2) return;
-    const mid = pts[pts.length >> 1];
+    const mid = along[along.length >> 1];
     const tile = this.tile(`${Math.floor(mid[0] / SIZE)},${Math.floor(mid[1] / SIZE)}`);
     tile.shape.add(pts, closed);
     for (const [x, y] of pts) growBox(tile.box, x, y);

@@ -14,6 +14,7 @@ import type { SpeedUnit } from '../model/units';
 import { keep, recall } from '../net/storage';
 import { Answers } from './answers';
 import { Filling } from './filling';
+import { Layouts } from './layouts';
 import type { ToolName } from './gestures/tools';
 import { Layers, type LayerName } from './layers';
 import { Notices } from './notices';
@@ -101,6 +102,8 @@ export class Editor {
   readonly notices = new Notices();
   readonly placement = new Placement();
   readonly filling = new Filling();
+  /** A map that is being made. */
+  readonly layouts = new Layouts();
   /** Speeds drawn by hand. */
   readonly curve: SpeedCurve = new SpeedCurve(this);
   readonly deck = new Deck();
@@ -256,6 +259,7 @@ export class Editor {
       this.playhead.rewind();
       this.placement.stop();
       this.filling.close();
+      this.layouts.close();
       if (this.#tool.peek() === 'fill') this.#tool.value = 'select';
       this.#sweep.value = null;
       this.#beside.value = null;

@@ -14,6 +14,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { outOfReach, verdictsHold } from './goal-verdict';
+import { ArmsOverlay } from './overlay-arms';
 import { paintBeside, paintTried } from './overlay-beside';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
@@ -42,6 +43,7 @@ export class Overlay {
   private readonly ghosts: GhostOverlay;
   private readonly several: SeveralOverlay;
   private readonly hovered: HoveredOverlay;
+  private readonly arms: ArmsOverlay;
 
   constructor(
     private readonly editor: Editor,
@@ -56,6 +58,7 @@ export class Overlay {
     this.ghosts = new GhostOverlay(editor, this.labels, poseNow);
     this.several = new SeveralOverlay(editor, this.labels, poseNow);
     this.hovered = new HoveredOverlay(editor);
+    this.arms = new ArmsOverlay(editor, this.labels);
   }
 
   /** Where the time tag was painted, for the pointer. */
@@ -79,7 +82,8 @@ export class Overlay {
     this.chips = [];
     this.goal.timeTag = null;
     this.verdicts.roadSign = null;
-    if (!scene) return;
+    const making = e.layouts.isOpen.value;
+    if (!scene && !making) return;
     const { left, right } = v.inset;
     this.labels.reset(v.w, v.h, {
       left: left > 20 ? left - 12 : 0,
@@ -88,6 +92,10 @@ export class Overlay {
       bottom: 0,
     });
     for (const r of this.panels(v)) this.labels.block(...r);
+    if (making || !scene) {
+      this.arms.paint(g, v);
+      return;
+    }
     for (const r of this.below()) this.labels.keepOff(r);
     if (e.notices.toast.value) {
       const middle = (v.w + (left > 100 ? left : 0)) / 2;

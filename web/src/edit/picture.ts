@@ -59,7 +59,7 @@ export class Picture {
     let mapOf: unknown = null;
     let lastMotion = e.motion.peek();
     effect(() => {
-      const s = e.scene.value;
+      const s = e.layouts.made.value?.scene ?? e.scene.value;
       if (s && s.map !== mapOf) {
         mapOf = s.map;
         this.map = new MapPicture(s.map, isRecorded(s.source));
@@ -110,6 +110,10 @@ export class Picture {
         e.filling.wish.value,
         e.filling.drawn.value,
         e.filling.answer.value,
+        e.layouts.made.value,
+        e.layouts.arm.value,
+        e.layouts.turned.value,
+        e.layouts.fault.value,
         e.notices.toast.value,
       ];
       stage.invalidate('overlay');
@@ -146,6 +150,13 @@ export class Picture {
 
   private paintAgents(g: Pen, v: View): void {
     const { editor: e } = this;
+    const making = e.layouts.made.value;
+    if (making) {
+      this.boxes = this.names = [];
+      this.pennants = [];
+      paintSignals(g, v, making.scene, e.time.value);
+      return;
+    }
     const scene = e.scene.value;
     if (!scene) return;
     const dragging = e.drag.value !== null;

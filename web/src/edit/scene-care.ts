@@ -28,6 +28,12 @@ export class SceneCare {
     return body ? this.#begin(withoutRoadUsers(body)) : Promise.resolve();
   }
 
+  /** A map that was made here, or a scene with another map. */
+  newOnMap(body: SceneJson, name: string, more = ''): Promise<void> {
+    const free = this.#freeName(name);
+    return this.#create(body, free, more || `“${free}”: the map is in. It saves itself.`);
+  }
+
   newOnPlainGround(): Promise<void> {
     return this.#begin(emptyScene());
   }

@@ -140,6 +140,43 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/map": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Draws a map from a template and its parameters: lanes with links, neighbours and boundaries, kerbs, crosswalks,
+         *     stop signs, lights over nine seconds. Stores nothing.
+         */
+        post: operations["makeMap"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/map/templates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Lists the templates of maps with their parameters. */
+        get: operations["listTemplates"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/maps": {
         parameters: {
             query?: never;
@@ -579,6 +616,87 @@ export interface components {
             polygon_m: components["schemas"]["Points"];
         };
         /**
+         * Arm
+         * @description A road that leads to a junction, seen from the junction.
+         */
+        Arm: {
+            /**
+             * Format: double
+             * @description Where it leads, counter-clockwise from east, degrees.
+             * @default 0
+             */
+            angle_deg: number;
+            /**
+             * Format: double
+             * @description Width of the crosswalk over it, metres; 0 is none.
+             * @default 3
+             */
+            crosswalk_m: number;
+            /**
+             * Format: double
+             * @description Width of a cycle lane on both sides, metres; 0 is none.
+             * @default 0
+             */
+            cycle_lane_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes towards the junction.
+             * @default 1
+             */
+            lanes_in: number;
+            /**
+             * Format: uint8
+             * @description Lanes away from it.
+             * @default 1
+             */
+            lanes_out: number;
+            /**
+             * Format: double
+             * @description From the middle of the junction to the rim of the map, metres; longer where the junction needs it.
+             * @default 90
+             */
+            length_m: number;
+            /**
+             * @description With `priority`: its traffic goes first.
+             * @default false
+             */
+            main: boolean;
+            /**
+             * Format: double
+             * @description Width of a raised strip between the directions, metres; 0 is none.
+             * @default 0
+             */
+            median_m: number;
+            /**
+             * Format: double
+             * @description Speed limit, km/h.
+             * @default 50
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Where each lane towards the junction leads, from the left one (right-hand traffic; from the right one
+             *     in left-hand traffic) to the kerb; null is the usual.
+             * @default null
+             */
+            turns: components["schemas"]["Turn"][][] | null;
+        };
+        /**
+         * ArmPlace
+         * @description Where an arm lies, for whoever draws handles on it.
+         */
+        ArmPlace: {
+            /** @description Where the arm leaves the map, metres. */
+            end_m: number[];
+            /** @description From the middle to the kerb beside the lanes in and beside the lanes out, metres. */
+            kerbs_m: number[];
+            /** @description Where traffic towards the junction stops, in the middle of the arm, metres. */
+            mouth_m: number[];
+            /** @description Such as `North`. */
+            name: string;
+            /** @description Where its lanes in lead, from the middle of the road to the kerb. */
+            turns: components["schemas"]["Turn"][][];
+        };
+        /**
          * Bound
          * @description One bound as it is in force.
          */
@@ -650,6 +768,92 @@ export interface components {
              */
             y_m: number;
         };
+        /**
+         * CarPark
+         * @description A street with a car park beside it: in at one end, along aisles, out at the other.
+         */
+        CarPark: {
+            /**
+             * Format: double
+             * @description Width of the aisles, metres.
+             * @default 5.5
+             */
+            aisle_m: number;
+            /**
+             * Format: uint8
+             * @description Aisles with bays on both sides.
+             * @default 3
+             */
+            aisles: number;
+            /**
+             * Format: double
+             * @description Length of a bay, metres.
+             * @default 5
+             */
+            bay_length_m: number;
+            /**
+             * Format: double
+             * @description Width of a bay, metres.
+             * @default 2.5
+             */
+            bay_width_m: number;
+            /**
+             * Format: uint8
+             * @description Bays along each side of an aisle.
+             * @default 12
+             */
+            bays: number;
+            /**
+             * Format: double
+             * @description Radius of the kerbs at corners, metres.
+             * @default 6
+             */
+            kerb_radius_m: number;
+            /**
+             * Format: double
+             * @description Width of the lanes of the street, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; 0 is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * Format: double
+             * @description Speed limit of the street, km/h.
+             * @default 50
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
+         * Check
+         * @description One check, or one failure of it.
+         */
+        Check: {
+            /** @description Where it fails, metres. */
+            at_m: number[] | null;
+            /** @description What it is about. */
+            kind: components["schemas"]["CheckKind"];
+            /** @description Lanes it is about. */
+            lanes: string[];
+            /** @description All is well. */
+            passed: boolean;
+            /** @description In words. */
+            text: string;
+        };
+        /**
+         * CheckKind
+         * @description What a check is about.
+         */
+        CheckKind: "lanes-lead" | "turns" | "widths" | "signals-apart";
         /**
          * CircleDoc
          * @description A circle.
@@ -817,6 +1021,26 @@ export interface components {
              * @description Metres.
              */
             width_m?: number | null;
+        };
+        /**
+         * Control
+         * @description Who goes first where roads meet.
+         */
+        Control: "signals" | "priority" | "equal";
+        /**
+         * CornerPlace
+         * @description Where a kerb bends.
+         */
+        CornerPlace: {
+            /** @description The arms that it joins. */
+            arms: number[];
+            /** @description The middle of the bend, metres. */
+            at_m: number[];
+            /**
+             * Format: double
+             * @description Its radius, metres: less than asked where arms are too close.
+             */
+            radius_m: number;
         };
         /**
          * Counts
@@ -1704,6 +1928,105 @@ export interface components {
             y_m: number;
         };
         /**
+         * Junction
+         * @description Roads that meet at grade.
+         */
+        Junction: {
+            /**
+             * @description 3 to 6 of them, at least 20 degrees apart.
+             * @default [
+             *       {
+             *         "angle_deg": 3,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 1.8,
+             *         "lanes_in": 2,
+             *         "lanes_out": 2,
+             *         "length_m": 90,
+             *         "main": true,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 92,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 2,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 182,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 1.8,
+             *         "lanes_in": 2,
+             *         "lanes_out": 2,
+             *         "length_m": 90,
+             *         "main": true,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 272,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 0,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       }
+             *     ]
+             */
+            arms: components["schemas"]["Arm"][];
+            /**
+             * @description Who goes first.
+             * @default signals
+             */
+            control: components["schemas"]["Control"];
+            /**
+             * Format: double
+             * @description Radius of the kerbs at corners, metres; less where arms are too close for it.
+             * @default 8
+             */
+            kerb_radius_m: number;
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * @description Lights, with `signals`.
+             * @default {
+             *       "all_red_s": 1,
+             *       "green_s": 10,
+             *       "offset_s": 7,
+             *       "turns_across": "permissive",
+             *       "yellow_s": 3
+             *     }
+             */
+            program: components["schemas"]["Program"];
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; 0 is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
          * KeptFutures
          * @description What becomes of the futures that the scene has from earlier calls, of those who are not part of this one.
          */
@@ -1832,6 +2155,43 @@ export interface components {
             width_m?: number | null;
         };
         /**
+         * Layout
+         * @description A template with its parameters.
+         */
+        Layout: {
+            parameters: components["schemas"]["Junction"];
+            /** @constant */
+            template: "three-arms";
+        } | {
+            parameters: components["schemas"]["Junction"];
+            /** @constant */
+            template: "four-arms";
+        } | {
+            parameters: components["schemas"]["Roundabout"];
+            /** @constant */
+            template: "roundabout";
+        } | {
+            parameters: components["schemas"]["Merge"];
+            /** @constant */
+            template: "merge";
+        } | {
+            parameters: components["schemas"]["Road"];
+            /** @constant */
+            template: "straight";
+        } | {
+            parameters: components["schemas"]["Road"];
+            /** @constant */
+            template: "curve";
+        } | {
+            parameters: components["schemas"]["Road"];
+            /** @constant */
+            template: "school-street";
+        } | {
+            parameters: components["schemas"]["CarPark"];
+            /** @constant */
+            template: "car-park";
+        };
+        /**
          * LearnedWish
          * @description A wish with what it rests on.
          */
@@ -1904,6 +2264,27 @@ export interface components {
          */
         Manoeuvre: "straight" | "left" | "right" | "turn_round" | "lane_left" | "lane_right" | "stays" | "reverse";
         Map: components["schemas"]["MapDoc"];
+        /**
+         * MapBody
+         * @description Body of a new map.
+         */
+        MapBody: {
+            /**
+             * @description Name of the scene; that of the template when left out.
+             * @default null
+             */
+            name?: string | null;
+            /**
+             * @description In place of the template's own parameters; those that are left out stay, and a list replaces a list. Names and
+             *     ranges are those of the template in `Layout`.
+             * @default null
+             */
+            parameters?: {
+                [key: string]: unknown;
+            } | null;
+            /** @description What to start from. */
+            template: components["schemas"]["Template"];
+        };
         /**
          * MapDoc
          * @description Everything that does not move.
@@ -1992,6 +2373,79 @@ export interface components {
         MapRef: {
             /** @description `sha256:` and 64 hex digits, see `scene::LaneMap::hash`. */
             ref: string;
+        };
+        /**
+         * MapReply
+         * @description A new map.
+         */
+        MapReply: {
+            /** @description Where the arms lie, in the order of the parameters. */
+            arms: components["schemas"]["ArmPlace"][];
+            /** @description What was looked at. A check that failed forbids nothing. */
+            checks: components["schemas"]["Check"][];
+            /** @description Where kerbs bend between them. */
+            corners: components["schemas"]["CornerPlace"][];
+            /** @description The template with all its parameters. */
+            layout: components["schemas"]["Layout"];
+            /** @description A scene with the map and nobody in it. Its `x_layout` says what it was made from. */
+            scene: components["schemas"]["SceneDoc"];
+        };
+        /**
+         * Merge
+         * @description A carriageway of one direction with a ramp that joins it, one that leaves it, or both.
+         */
+        Merge: {
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.5
+             */
+            lane_width_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes that go through.
+             * @default 2
+             */
+            lanes: number;
+            /**
+             * @description A ramp leaves, before the other one joins.
+             * @default false
+             */
+            off_ramp: boolean;
+            /**
+             * @description A ramp joins.
+             * @default true
+             */
+            on_ramp: boolean;
+            /**
+             * Format: double
+             * @description Length beside the through lanes on which to speed up or slow down, metres.
+             * @default 150
+             */
+            parallel_m: number;
+            /**
+             * Format: double
+             * @description Angle between ramp and carriageway, degrees.
+             * @default 10
+             */
+            ramp_angle_deg: number;
+            /**
+             * Format: double
+             * @description Speed limit of the ramps, km/h.
+             * @default 60
+             */
+            ramp_speed_limit_kmh: number;
+            /**
+             * Format: double
+             * @description Speed limit, km/h.
+             * @default 100
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
         };
         /**
          * MetaDoc
@@ -2396,6 +2850,41 @@ export interface components {
             updated_at?: string;
         };
         /**
+         * Program
+         * @description The lights of a junction: its phases follow one another without end.
+         */
+        Program: {
+            /**
+             * Format: double
+             * @description Red for all before the next green, seconds.
+             * @default 1
+             */
+            all_red_s: number;
+            /**
+             * Format: double
+             * @description Green of each phase, seconds.
+             * @default 10
+             */
+            green_s: number;
+            /**
+             * Format: double
+             * @description How long the first green has been on when the scene begins, seconds.
+             * @default 7
+             */
+            offset_s: number;
+            /**
+             * @description Turns across oncoming traffic.
+             * @default permissive
+             */
+            turns_across: components["schemas"]["TurnAcross"];
+            /**
+             * Format: double
+             * @description Yellow after it, seconds.
+             * @default 3
+             */
+            yellow_s: number;
+        };
+        /**
          * Reach
          * @description Whether a goal was met, and what would have been needed: `unreachable` gives the nearest state and
          *     what it would take.
@@ -2608,6 +3097,94 @@ export interface components {
             y_m: components["schemas"]["Field"];
         };
         /**
+         * Road
+         * @description One road, straight or bent.
+         */
+        Road: {
+            /**
+             * Format: double
+             * @description Change of direction, degrees, positive to the left; 0 is straight.
+             * @default 0
+             */
+            bend_deg: number;
+            /**
+             * Format: double
+             * @description Width of a crosswalk half way, metres; 0 is none.
+             * @default 0
+             */
+            crosswalk_m: number;
+            /**
+             * Format: double
+             * @description Width of a cycle lane on both sides, metres; 0 is none.
+             * @default 0
+             */
+            cycle_lane_m: number;
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes the other way.
+             * @default 2
+             */
+            lanes_backward: number;
+            /**
+             * Format: uint8
+             * @description Lanes eastwards, where the road begins.
+             * @default 2
+             */
+            lanes_forward: number;
+            /**
+             * Format: double
+             * @description Length, metres; more where the bend needs it.
+             * @default 200
+             */
+            length_m: number;
+            /**
+             * Format: double
+             * @description Width of a raised strip between the directions, metres; 0 is none.
+             * @default 0
+             */
+            median_m: number;
+            /**
+             * Format: double
+             * @description Width of a strip for parked cars on both sides, metres; 0 is none.
+             * @default 0
+             */
+            parking_m: number;
+            /**
+             * Format: double
+             * @description Radius of the bend in the middle of the road, metres; more where the road is too wide for it.
+             * @default 60
+             */
+            radius_m: number;
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; 0 is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * @description Speed bumps before and behind the crosswalk.
+             * @default false
+             */
+            speed_bumps: boolean;
+            /**
+             * Format: double
+             * @description Speed limit, km/h.
+             * @default 50
+             */
+            speed_limit_kmh: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
+        };
+        /**
          * RoadEdgeDoc
          * @description The end of the road's surface.
          */
@@ -2665,6 +3242,113 @@ export interface components {
             places: {
                 [key: string]: number[][];
             };
+        };
+        /**
+         * Roundabout
+         * @description Roads that meet at a ring.
+         */
+        Roundabout: {
+            /**
+             * @description 3 to 6 of them, at least 20 degrees apart.
+             * @default [
+             *       {
+             *         "angle_deg": 0,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 90,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 180,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       },
+             *       {
+             *         "angle_deg": 270,
+             *         "crosswalk_m": 3,
+             *         "cycle_lane_m": 0,
+             *         "lanes_in": 1,
+             *         "lanes_out": 1,
+             *         "length_m": 90,
+             *         "main": false,
+             *         "median_m": 2,
+             *         "speed_limit_kmh": 50,
+             *         "turns": null
+             *       }
+             *     ]
+             */
+            arms: components["schemas"]["Arm"][];
+            /**
+             * Format: double
+             * @description Radius of the island in the middle, metres; more where the arms need it.
+             * @default 12
+             */
+            island_radius_m: number;
+            /**
+             * Format: double
+             * @description Radius of the kerbs at corners, metres; less where arms are too close for it.
+             * @default 12
+             */
+            kerb_radius_m: number;
+            /**
+             * Format: double
+             * @description Width of lanes, metres.
+             * @default 3.25
+             */
+            lane_width_m: number;
+            /**
+             * Format: double
+             * @description Width of the lanes of the ring, metres.
+             * @default 5
+             */
+            ring_lane_width_m: number;
+            /**
+             * Format: uint8
+             * @description Lanes of the ring.
+             * @default 1
+             */
+            ring_lanes: number;
+            /**
+             * Format: double
+             * @description Speed limit in the ring, km/h.
+             * @default 30
+             */
+            ring_speed_limit_kmh: number;
+            /**
+             * Format: double
+             * @description Width of the pavements, metres; 0 is none.
+             * @default 2.5
+             */
+            sidewalk_m: number;
+            /**
+             * @description Side of the road that traffic keeps to.
+             * @default right-hand
+             */
+            traffic: components["schemas"]["Traffic"];
         };
         /**
          * SampleDoc
@@ -3209,6 +3893,29 @@ export interface components {
             seq: number;
         };
         /**
+         * Template
+         * @description A layout by name, to start from.
+         * @enum {string}
+         */
+        Template: "three-arms" | "four-arms" | "roundabout" | "merge" | "straight" | "curve" | "school-street" | "car-park";
+        /**
+         * TemplateItem
+         * @description A template and its own parameters.
+         */
+        TemplateItem: {
+            /** @description The template with all its parameters. */
+            layout: components["schemas"]["Layout"];
+            /** @description Its name for people. */
+            title: string;
+        };
+        /**
+         * TemplateList
+         * @description All templates.
+         */
+        TemplateList: {
+            templates: components["schemas"]["TemplateItem"][];
+        };
+        /**
          * Thresholds
          * @description Numbers that decide what counts. Those absent in a document have their defaults.
          */
@@ -3389,6 +4096,12 @@ export interface components {
             z_m?: number[] | null;
         };
         /**
+         * Traffic
+         * @description Side of the road that traffic keeps to.
+         * @enum {string}
+         */
+        Traffic: "right-hand" | "left-hand";
+        /**
          * Trait
          * @description Something about a motion that a person can name and wish otherwise.
          */
@@ -3438,6 +4151,17 @@ export interface components {
             x_m: number[];
             y_m: number[];
         };
+        /**
+         * Turn
+         * @description A way out of a junction, as seen by who comes in.
+         * @enum {string}
+         */
+        Turn: "left" | "straight" | "right";
+        /**
+         * TurnAcross
+         * @description What left turns (right turns in left-hand traffic) do while oncoming traffic has green.
+         */
+        TurnAcross: "permissive" | "protected";
         /**
          * VelocityDoc
          * @description A velocity in place of a speed: `x_mps` and `y_mps`, or, in a goal of frame `agent`,
@@ -4778,6 +5502,323 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
                         code?: "not-found";
+                    };
+                };
+            };
+            /** @description head-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+        };
+    };
+    makeMap: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "parameters": {
+                 *         "control": "equal",
+                 *         "kerb_radius_m": 6
+                 *       },
+                 *       "template": "four-arms"
+                 *     }
+                 */
+                "application/json": components["schemas"]["MapBody"];
+            };
+        };
+        responses: {
+            /** @description the map */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapReply"];
+                };
+            };
+            /** @description bad-header, bad-host, malformed-json, malformed-file */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host" | "malformed-json" | "malformed-file";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site, bad-origin */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site" | "bad-origin";
+                    };
+                };
+            };
+            /** @description head-timeout, body-timeout */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "head-timeout" | "body-timeout";
+                    };
+                };
+            };
+            /** @description cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cancelled";
+                    };
+                };
+            };
+            /** @description body-too-large, decoded-too-large, expansion-too-high */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "body-too-large" | "decoded-too-large" | "expansion-too-high";
+                    };
+                };
+            };
+            /** @description uri-too-long */
+            414: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "uri-too-long";
+                    };
+                };
+            };
+            /** @description unsupported-media-type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unsupported-media-type";
+                    };
+                };
+            };
+            /** @description host-not-allowed */
+            421: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "host-not-allowed";
+                    };
+                };
+            };
+            /** @description invalid-field, out-of-range */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "invalid-field" | "out-of-range";
+                    };
+                };
+            };
+            /** @description headers-too-large */
+            431: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "headers-too-large";
+                    };
+                };
+            };
+            /** @description internal */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "internal";
+                    };
+                };
+            };
+            /** @description busy, shutting-down */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "busy" | "shutting-down";
+                    };
+                };
+            };
+            /** @description generate-timeout */
+            504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "generate-timeout";
+                    };
+                };
+            };
+        };
+    };
+    listTemplates: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all templates */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TemplateList"];
+                };
+            };
+            /** @description bad-header, bad-host */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "bad-header" | "bad-host";
+                    };
+                };
+            };
+            /** @description unauthorized */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "unauthorized";
+                    };
+                };
+            };
+            /** @description cross-site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"] & {
+                        /** @enum {unknown} */
+                        code?: "cross-site";
                     };
                 };
             };

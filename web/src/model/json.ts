@@ -192,6 +192,8 @@ export interface SceneJson {
   agents: AgentJson[];
   generated?: GeneratedJson | null;
   x_editor?: EditorJson;
+  /** What the map was made from. */
+  x_layout?: unknown;
 }
 
 export const isMapRef = (m: MapJson | MapRef): m is MapRef => typeof (m as MapRef).ref === 'string';

@@ -1,6 +1,16 @@
 // Plain requests to the server. Every failure is one of two things: an answer that says no (`Refused`), or no
 // answer at all (`Away`).
-import type { ImportReply, PlaceReply, Problem, SceneJson, SceneList, ScoreReply } from './types';
+import type {
+  ImportReply,
+  MapReply,
+  Parameters,
+  PlaceReply,
+  Problem,
+  SceneJson,
+  SceneList,
+  ScoreReply,
+  TemplateName,
+} from './types';
 import type { MapJson } from '../model/json';
 
 export class Away extends Error {}
@@ -167,6 +177,16 @@ export class Client {
       signal,
     });
     return (await reply.json()) as PlaceReply;
+  }
+
+  /** A map drawn from a template; nothing is stored. */
+  async makeMap(template: TemplateName, parameters: Parameters | null): Promise<MapReply> {
+    const reply = await this.request('/v1/map', {
+      method: 'POST',
+      body: JSON.stringify({ template, ...(parameters ? { parameters } : {}) }),
+      headers: { 'Content-Type': 'application/json' },
+    });
+    return (await reply.json()) as MapReply;
   }
 
   async exportScene(body: SceneJson, format: string): Promise<{ blob: Blob; name: string; loss: string | null }> {

@@ -42,4 +42,14 @@ export type GenerateEvent =
 export type Resolved = Schemas['Resolved'];
 export type ScoreReply = Schemas['ScoreReply'];
 
+export type TemplateName = Schemas['Template'];
+export type MapReply = Schemas['MapReply'];
+/** A template with its parameters, as the server says them: nothing is left out. */
+export type Layout = MapReply['layout'];
+export type Arm = Required<Omit<Schemas['Arm'], 'turns'>> & { turns: Schemas['Arm']['turns'] };
+/** Parameters of any template: each has some of them. */
+export type Parameters = Partial<
+  Omit<Schemas['Junction'] & Schemas['Roundabout'] & Schemas['Merge'] & Schemas['Road'] & Schemas['CarPark'], 'arms'>
+> & { arms?: readonly Arm[] };
+
 export type { SceneJson };

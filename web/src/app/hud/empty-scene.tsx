@@ -20,7 +20,7 @@ export function EmptyScene() {
     () =>
       editor.tool.value === 'select' && editor.scene.value !== null && ui.emptyHidden.value !== editor.scene.value.id,
   ).value;
-  return nobody && shown ? <Card scene={scene!} /> : null;
+  return nobody && shown && !editor.layouts.isOpen.value ? <Card scene={scene!} /> : null;
 }
 
 function Card({ scene }: { scene: string }) {
@@ -48,7 +48,10 @@ function Card({ scene }: { scene: string }) {
         })}
       </div>
       <p class="mut">
-        <KeyCaps of="Ctrl+K" /> for everything else
+        <button type="button" data-action="new-map" onClick={() => perform(c, 'new-map')}>
+          New map
+        </button>{' '}
+        <KeyCaps of="Ctrl+N" /> instead of this one · <KeyCaps of="Ctrl+K" /> for everything else
       </p>
     </section>
   );

@@ -14,6 +14,7 @@ export function Coach() {
       !editor.dragging.value &&
       !editor.notices.toast.value &&
       !editor.filling.wish.value &&
+      !editor.layouts.isOpen.value &&
       editor.scene.value !== null,
   );
   if (!shown.value) return null;

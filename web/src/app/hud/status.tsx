@@ -20,6 +20,7 @@ export function Status() {
   const s = editor.status.value;
   // At an event the line says what happens in the scene, not what the generator did last.
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
+  if (editor.layouts.isOpen.value) return <Row {...mapLine(c)} />;
   const kind = placedBy(c);
   if (editor.filling.wish.value) return <Row dot="" text="Preview: nothing added yet" />;
   if (kind) return <Row dot="" text={`Placing: ${KIND_NAMES[kind].toLowerCase()}`} />;
@@ -28,6 +29,17 @@ export function Status() {
   if (some > 1 && (s.kind === 'settled' || s.kind === 'ready'))
     return <Row dot="busy" text={`${some} of ${editor.scene.value!.agents.size} selected`} />;
   return <Row {...lineFor(c, s)} />;
+}
+
+/** What the map that is being made holds. */
+function mapLine({ editor }: Context): Line {
+  const made = editor.layouts.made.value;
+  if (!made) return { dot: 'busy', text: 'Drawing …' };
+  const { lanes, crosswalks } = made.scene.map;
+  const driven = [...lanes.values()].filter((l) => l.kind === 'road').length;
+  const bad = made.checks.some((k) => !k.passed);
+  const words = `${driven} lanes · ${crosswalks.length} crosswalks · worked out in ${Math.round(made.ms)} ms`;
+  return { dot: bad ? 'near' : '', text: words };
 }
 
 function Row({ dot, text }: Line) {

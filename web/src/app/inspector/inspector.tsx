@@ -7,11 +7,13 @@ import { EventsPanel } from './events-panel';
 import { ScenePanel } from './scene-panel';
 import { SeveralPanel } from './several-panel';
 
+const layoutPanel = () => import('../layouts/panel').then((m) => m.default);
 const roundsPanel = () => import('../rounds/panel').then((m) => m.default);
 const comparePanel = () => import('../variants/compare-panel').then((m) => m.default);
 
 export function Inspector() {
   const { editor, rounds, ui, variants } = useApp();
+  const making = editor.layouts.isOpen.value;
   const judging = rounds.isOpen.value;
   const comparing = useComputed(() => variants.compared.value !== null).value;
   const events = useComputed(() => ui.eventsPanel.value && editor.events.value.length > 0).value;
@@ -20,7 +22,9 @@ export function Inspector() {
   const several = useComputed(() => editor.selected.value.length > 1).value;
   return (
     <aside class="insp" aria-label="Inspector" data-group="inspector">
-      {comparing ? (
+      {making ? (
+        <Later key="layout" load={layoutPanel} />
+      ) : comparing ? (
         <Later key="compare" load={comparePanel} />
       ) : judging ? (
         <Later key="rounds" load={roundsPanel} />

@@ -5,7 +5,7 @@ import type { SceneListItem } from '../../net/types';
 import { isRecorded } from '../../model/scene';
 import { countAll, isExample } from '../../edit/scene-list';
 import { useApp } from '../parts/app-context';
-import { IconButton } from '../parts/buttons';
+import { ActionButton, IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { dayAndTime } from './dates';
 import { Thumbnail } from './thumbnail';
@@ -21,6 +21,7 @@ export function Drawer() {
       <h2>
         Scenes
         <span class="grow" />
+        <ActionButton id="new-map" class="line" size={14} />
         <IconButton id="new-scene" size={16} />
         <IconButton id="scenes" icon="x" size={16} />
       </h2>

@@ -1,6 +1,7 @@
 // The first screen when there is no scene to open.
 import { useComputed } from '@preact/signals';
 import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
 import { about, ChooseFiles } from './drawer';
 import { Thumbnail } from './thumbnail';
 
@@ -33,6 +34,8 @@ export function Empty() {
           <b>Drop scene files anywhere</b>
           {'Scenario records, lane maps or saved scenes · or '}
           <ChooseFiles />
+          {' · '}
+          <ActionButton id="new-map" class="line" size={14} />
         </div>
       </div>
     </div>

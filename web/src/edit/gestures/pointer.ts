@@ -4,6 +4,7 @@ import type { Stage } from '../../draw/stage';
 import type { Editor } from '../editor';
 import { agentsAt, hitTest, type HitContext } from '../hit';
 import type { Picture } from '../picture';
+import { MAKE } from './arms';
 import { Chart, type MenuOn, type Modifiers, type Previews } from './chart';
 import { toolOf } from './tools';
 
@@ -58,7 +59,7 @@ export class Gestures {
         this.onMenu?.(at, on);
       },
       tapped: (fingers) => this.onTap?.(fingers),
-      tool: toolOf,
+      tool: (name) => (editor.layouts.isOpen.peek() && name !== 'pan' ? MAKE : toolOf(name)),
     });
     this.#listen(stage.element);
   }

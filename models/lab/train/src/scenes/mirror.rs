@@ -1,12 +1,11 @@
 //! The mirror image of a scene: left and right swapped, so that a few recorded scenes teach twice as much.
 
-use scene::map::{Area, Lane, LaneMap, Points, TypedLine};
 use scene::{Scene, State, Vec2};
 
 /// The scene with y and all headings turned over. What drives on the right drives on the left in it.
 pub fn mirrored(scene: &Scene) -> Scene {
     let mut out = scene.clone();
-    out.map = map(&scene.map).into();
+    out.map = scene.map.mirrored().into();
     out.generated = None;
     for signal in &mut out.signals {
         signal.stop = signal.stop.map(point);
@@ -29,46 +28,6 @@ pub fn mirrored(scene: &Scene) -> Scene {
 
 fn point(p: Vec2) -> Vec2 {
     Vec2::new(p.x, -p.y)
-}
-
-fn points(line: &Points) -> Points {
-    Points { xy: line.xy.iter().copied().map(point).collect(), z_m: line.z_m.clone() }
-}
-
-fn map(map: &LaneMap) -> LaneMap {
-    let lines = |list: &[TypedLine]| {
-        list.iter().map(|l| TypedLine { points: points(&l.points), ..l.clone() }).collect()
-    };
-    let areas = |list: &[Area]| {
-        let area = |a: &Area| Area {
-            id: a.id.clone(),
-            polygon: points(&a.polygon),
-            holes: a.holes.iter().map(points).collect(),
-        };
-        list.iter().map(area).collect()
-    };
-    let lane = |l: &Lane| Lane {
-        points: points(&l.points),
-        left_boundary: l.right_boundary.clone(),
-        right_boundary: l.left_boundary.clone(),
-        left_neighbors: l.right_neighbors.clone(),
-        right_neighbors: l.left_neighbors.clone(),
-        ..l.clone()
-    };
-    LaneMap {
-        lanes: map.lanes.iter().map(lane).collect(),
-        road_lines: lines(&map.road_lines),
-        road_edges: lines(&map.road_edges),
-        crosswalks: areas(&map.crosswalks),
-        speed_bumps: areas(&map.speed_bumps),
-        driveways: areas(&map.driveways),
-        stop_signs: map
-            .stop_signs
-            .iter()
-            .map(|s| scene::map::StopSign { position: point(s.position), ..s.clone() })
-            .collect(),
-        drivable: areas(&map.drivable),
-    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,180 @@
+//! What is looked at in every map: each failed check says where and what, and forbids nothing.
+
+use crate::curve::{curvature, turn};
+use crate::draft::{Draft, Vehicle, place};
+use crate::lights::{gives_way, meet};
+use scene::limits::Limits;
+use scene::map::LaneType;
+use scene::{AgentType, HORIZON_STEPS, SignalState, Subtype};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Least width of a lane for motor vehicles and of a cycle lane, metres.
+const LEAST_M: f64 = 2.5;
+const LEAST_CYCLE_M: f64 = 1.5;
+/// Most failures of one kind that are listed.
+const MOST: usize = 8;
+
+/// What a check is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CheckKind {
+    /// Every lane leads somewhere.
+    LanesLead,
+    /// A bus of 12 m (in a car park: a car) can turn.
+    Turns,
+    /// No lane is too narrow.
+    Widths,
+    /// Nobody has green who would meet another.
+    SignalsApart,
+}
+
+/// One check, or one failure of it.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Check {
+    /// What it is about.
+    pub kind: CheckKind,
+    /// All is well.
+    pub passed: bool,
+    /// In words.
+    pub text: String,
+    /// Where it fails, metres.
+    pub at_m: Option<[f64; 2]>,
+    /// Lanes it is about.
+    pub lanes: Vec<String>,
+}
+
+impl Check {
+    fn passed(kind: CheckKind, text: &str) -> Self {
+        Self { kind, passed: true, text: text.into(), at_m: None, lanes: Vec::new() }
+    }
+
+    pub(crate) fn mirrored(mut self) -> Self {
+        if let Some(at) = &mut self.at_m {
+            at[1] = -at[1];
+        }
+        self
+    }
+}
+
+/// All checks of a drawing.
+pub fn all(draft: &Draft) -> Vec<Check> {
+    let mut checks = Vec::new();
+    let mut add = |passed: Check, failed: Vec<Check>| {
+        if failed.is_empty() {
+            checks.push(passed);
+        } else {
+            checks.extend(failed.into_iter().take(MOST));
+        }
+    };
+    add(Check::passed(CheckKind::LanesLead, "Every lane leads somewhere"), ends(draft));
+    let (vehicle, _) = vehicle(draft.turns);
+    add(Check::passed(CheckKind::Turns, &format!("A {vehicle} can turn")), bends(draft));
+    add(Check::passed(CheckKind::Widths, "Nothing is narrower than 2.5 m"), widths(draft));
+    if !draft.signals.is_empty() {
+        add(Check::passed(CheckKind::SignalsApart, "Signal phases do not meet"), greens(draft));
+    }
+    checks
+}
+
+fn fault(draft: &Draft, kind: CheckKind, text: String, lane: usize, share: f64) -> Check {
+    let points = draft.points(lane);
+    let at = points[((points.len() - 1) as f64 * share).round() as usize];
+    let lanes = vec![draft.map.lanes[lane].id.clone()];
+    Check { kind, passed: false, text, at_m: Some(place(at)), lanes }
+}
+
+/// Lanes for vehicles and cycles.
+fn travelled(draft: &Draft) -> impl Iterator<Item = usize> + '_ {
+    let used = |kind: LaneType| kind.carries_vehicles() || kind.carries_cyclists();
+    (0..draft.map.lanes.len()).filter(move |i| used(draft.map.lanes[*i].lane_type))
+}
+
+fn ends(draft: &Draft) -> Vec<Check> {
+    let carries = |id: &String, vehicles: bool| {
+        let lane = draft.map.lanes.iter().find(|lane| lane.id == *id);
+        lane.is_some_and(|lane| !vehicles || lane.lane_type.carries_vehicles())
+    };
+    let lost = |i: &usize| {
+        let lane = &draft.map.lanes[*i];
+        let vehicles = lane.lane_type.carries_vehicles();
+        !draft.about[*i].open[1] && !lane.successors.iter().any(|id| carries(id, vehicles))
+    };
+    travelled(draft)
+        .filter(lost)
+        .map(|i| {
+            let text = format!("Lane {} leads nowhere", draft.map.lanes[i].id);
+            fault(draft, CheckKind::LanesLead, text, i, 1.0)
+        })
+        .collect()
+}
+
+/// In words, and what it can do.
+fn vehicle(vehicle: Vehicle) -> (&'static str, Limits) {
+    match vehicle {
+        Vehicle::Bus => ("12 m bus", Limits::of(AgentType::Vehicle, Subtype::Bus, 12.0)),
+        Vehicle::Car => ("5 m car", Limits::of(AgentType::Vehicle, Subtype::Car, 5.0)),
+    }
+}
+
+fn bends(draft: &Draft) -> Vec<Check> {
+    let (vehicle, limits) = vehicle(draft.turns);
+    let most = limits.curvature_per_m;
+    let mut failed: Vec<(f64, Check)> = Vec::new();
+    for i in travelled(draft).filter(|i| draft.map.lanes[*i].lane_type.carries_vehicles()) {
+        let bend = curvature(draft.points(i));
+        if bend <= most || turn(draft.points(i)).abs() < 0.2 {
+            continue;
+        }
+        let name = |arm: usize| draft.arms.get(arm).map_or("", |arm| arm.name.as_str());
+        let movement = draft.movements.iter().find(|movement| movement.lane == i);
+        let which = movement.map_or_else(
+            || format!("Lane {}", draft.map.lanes[i].id),
+            |m| format!("{} to {}", name(m.from), name(m.to)),
+        );
+        let text = format!("{which} is tight: {:.1} m, a {vehicle} needs {:.1} m", 1.0 / bend, 1.0 / most);
+        if failed.iter().all(|(_, other)| other.text != text) {
+            failed.push((bend, fault(draft, CheckKind::Turns, text, i, 0.5)));
+        }
+    }
+    failed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    failed.into_iter().map(|(_, check)| check).collect()
+}
+
+fn widths(draft: &Draft) -> Vec<Check> {
+    let narrow = |i: &usize| {
+        let lane = &draft.map.lanes[*i];
+        let least = if lane.lane_type.carries_vehicles() { LEAST_M } else { LEAST_CYCLE_M };
+        !lane.interpolating && lane.width_or_assumed_m() < least - 1e-9
+    };
+    travelled(draft)
+        .filter(narrow)
+        .map(|i| {
+            let lane = &draft.map.lanes[i];
+            let text = format!("Lane {} is {:.1} m wide", lane.id, lane.width_or_assumed_m());
+            fault(draft, CheckKind::Widths, text, i, 0.5)
+        })
+        .collect()
+}
+
+fn greens(draft: &Draft) -> Vec<Check> {
+    let state = |lane: usize, step: usize| {
+        let id = &draft.map.lanes[lane].id;
+        draft.signals.iter().find(|signal| signal.lane == *id).map_or(SignalState::Unknown, |s| s.at(step))
+    };
+    let mut failed = Vec::new();
+    for (k, a) in draft.movements.iter().enumerate() {
+        for b in &draft.movements[..k] {
+            if gives_way(a, b) {
+                continue;
+            }
+            let both = |step: usize| [a, b].iter().all(|m| state(m.lane, step) == SignalState::Go);
+            if (0..=HORIZON_STEPS).step_by(5).any(both) && meet(draft, a, b) {
+                let name = |arm: usize| draft.arms.get(arm).map_or("", |arm| arm.name.as_str());
+                let text = format!("{} and {} have green together and meet", name(a.from), name(b.from));
+                failed.push(fault(draft, CheckKind::SignalsApart, text, a.lane, 0.5));
+            }
+        }
+    }
+    failed
+}

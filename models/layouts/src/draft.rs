@@ -1,0 +1,232 @@
+//! A map while it is drawn.
+
+use crate::curve::{self, Pose};
+use crate::turns::Movement;
+use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, StopSign, TypedLine};
+use scene::{Signal, Vec2};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// Where an arm lies, for whoever draws handles on it.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct ArmPlace {
+    /// Such as `North`.
+    pub name: String,
+    /// Where traffic towards the junction stops, in the middle of the arm, metres.
+    pub mouth_m: [f64; 2],
+    /// Where the arm leaves the map, metres.
+    pub end_m: [f64; 2],
+    /// From the middle to the kerb beside the lanes in and beside the lanes out, metres.
+    pub kerbs_m: [f64; 2],
+    /// Where its lanes in lead, from the middle of the road to the kerb.
+    pub turns: Vec<Vec<crate::Turn>>,
+}
+
+/// Where a kerb bends.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct CornerPlace {
+    /// The middle of the bend, metres.
+    pub at_m: [f64; 2],
+    /// Its radius, metres: less than asked where arms are too close.
+    pub radius_m: f64,
+    /// The arms that it joins.
+    pub arms: [usize; 2],
+}
+
+/// What is known of a lane beside what the map says.
+#[derive(Clone, Debug, Default)]
+pub struct About {
+    /// The road goes on beyond the map at its beginning and its end.
+    pub open: [bool; 2],
+}
+
+/// Who has to get round every bend.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Vehicle {
+    #[default]
+    Bus,
+    Car,
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Draft {
+    pub map: LaneMap,
+    pub signals: Vec<Signal>,
+    /// By lane.
+    pub about: Vec<About>,
+    pub movements: Vec<Movement>,
+    pub turns: Vehicle,
+    pub arms: Vec<ArmPlace>,
+    pub corners: Vec<CornerPlace>,
+    /// Raised ground within the carriageway.
+    pub islands: Vec<Vec<Vec2>>,
+}
+
+pub fn place(p: Vec2) -> [f64; 2] {
+    [p.x, p.y]
+}
+
+impl Draft {
+    /// A lane; its index.
+    pub fn lane(
+        &mut self,
+        id: String,
+        lane_type: LaneType,
+        line: Vec<Vec2>,
+        width_m: f64,
+        limit_kmh: f64,
+    ) -> usize {
+        let lane = Lane {
+            lane_type,
+            width_m: Some(width_m),
+            speed_limit_mps: (limit_kmh > 0.0).then_some(limit_kmh / 3.6),
+            ..Lane::street(id, line)
+        };
+        self.map.lanes.push(lane);
+        self.about.push(About::default());
+        self.map.lanes.len() - 1
+    }
+
+    pub fn points(&self, lane: usize) -> &[Vec2] {
+        &self.map.lanes[lane].points.xy
+    }
+
+    /// Where a lane begins.
+    pub fn start(&self, lane: usize) -> Pose {
+        let line = self.points(lane);
+        let way = line[1] - line[0];
+        Pose { at: line[0], heading_rad: way.y.atan2(way.x) }
+    }
+
+    /// Where it ends.
+    pub fn end(&self, lane: usize) -> Pose {
+        let line = self.points(lane);
+        let last = line.len() - 1;
+        let way = line[last] - line[last - 1];
+        Pose { at: line[last], heading_rad: way.y.atan2(way.x) }
+    }
+
+    pub fn link(&mut self, from: usize, to: usize) {
+        let (a, b) = (self.map.lanes[from].id.clone(), self.map.lanes[to].id.clone());
+        if !self.map.lanes[from].successors.contains(&b) {
+            self.map.lanes[from].successors.push(b);
+            self.map.lanes[to].predecessors.push(a);
+        }
+    }
+
+    /// A way through a junction between two lanes; its index.
+    pub fn through(&mut self, from: usize, to: usize, line: Vec<Vec2>, lane_type: LaneType) -> usize {
+        let (a, b) = (&self.map.lanes[from], &self.map.lanes[to]);
+        let id = format!("{}-{}", a.id, b.id);
+        let width_m = a.width_or_assumed_m().min(b.width_or_assumed_m());
+        let limit_mps = a.speed_limit_mps.unwrap_or(13.9).min(b.speed_limit_mps.unwrap_or(13.9));
+        // What is comfortable in a bend: 2.6 m/s2 to the side.
+        let bend = curve::curvature(&line).max(1e-4);
+        let limit_mps = limit_mps.min((2.6 / bend).sqrt()).max(2.0);
+        let lane = self.lane(id, lane_type, line, width_m, limit_mps * 3.6);
+        self.map.lanes[lane].interpolating = true;
+        self.link(from, lane);
+        self.link(lane, to);
+        lane
+    }
+
+    /// Two lanes of one direction side by side over all of their length; they have as many points.
+    pub fn beside(&mut self, left: usize, right: usize) {
+        let range = |lane: usize| (0, self.map.lanes[lane].points.xy.len() - 1);
+        let (l, r) = (range(left), range(right));
+        let neighbor = |lane: &Lane, own: (usize, usize), other: (usize, usize)| Neighbor {
+            lane: lane.id.clone(),
+            own_range: own,
+            other_range: other,
+            boundaries: Vec::new(),
+        };
+        let of_left = neighbor(&self.map.lanes[right], l, r);
+        let of_right = neighbor(&self.map.lanes[left], r, l);
+        self.map.lanes[left].right_neighbors.push(of_left);
+        self.map.lanes[right].left_neighbors.push(of_right);
+    }
+
+    /// A painted line; its id.
+    pub fn line(&mut self, line_type: &str, points: Vec<Vec2>) -> String {
+        let id = format!("line{}", self.map.road_lines.len() + 1);
+        self.map.road_lines.push(TypedLine {
+            id: id.clone(),
+            line_type: line_type.into(),
+            points: points.into(),
+        });
+        id
+    }
+
+    /// A kerb; its id.
+    pub fn edge(&mut self, line_type: &str, points: Vec<Vec2>) -> String {
+        let id = format!("edge{}", self.map.road_edges.len() + 1);
+        self.map.road_edges.push(TypedLine {
+            id: id.clone(),
+            line_type: line_type.into(),
+            points: points.into(),
+        });
+        id
+    }
+
+    /// A line or kerb along the left (or right) side of a whole lane.
+    pub fn bound(&mut self, lane: usize, left: bool, line: &str) {
+        let lane = &mut self.map.lanes[lane];
+        let to = lane.points.xy.len() - 1;
+        let side = if left { &mut lane.left_boundary } else { &mut lane.right_boundary };
+        side.push(Boundary { line: line.to_owned(), from: 0, to, kind: None });
+    }
+
+    /// A raised island: its kerb, closed, and no ground to drive on.
+    pub fn island(&mut self, ring: Vec<Vec2>) -> String {
+        let mut kerb = ring.clone();
+        kerb.extend(ring.first().copied());
+        self.islands.push(ring);
+        self.edge("median", kerb)
+    }
+
+    pub fn crosswalk(&mut self, ring: [Vec2; 4]) -> String {
+        let id = format!("crosswalk{}", self.map.crosswalks.len() + 1);
+        let polygon = ring.to_vec().into();
+        self.map.crosswalks.push(Area { id: id.clone(), polygon, holes: Vec::new() });
+        id
+    }
+
+    pub fn bump(&mut self, ring: [Vec2; 4]) {
+        let id = format!("bump{}", self.map.speed_bumps.len() + 1);
+        self.map.speed_bumps.push(Area { id, polygon: ring.to_vec().into(), holes: Vec::new() });
+    }
+
+    /// Ground to drive on; `holes` in it.
+    pub fn ground(&mut self, ring: Vec<Vec2>, holes: Vec<Vec<Vec2>>) {
+        let id = format!("ground{}", self.map.drivable.len() + 1);
+        let holes = holes.into_iter().map(Into::into).collect();
+        self.map.drivable.push(Area { id, polygon: ring.into(), holes });
+    }
+
+    pub fn stop_sign(&mut self, position: Vec2, lanes: Vec<String>) {
+        let id = format!("stop{}", self.map.stop_signs.len() + 1);
+        self.map.stop_signs.push(StopSign { id, position, z_m: None, lanes });
+    }
+
+    pub fn sidewalk(&mut self, line: Vec<Vec2>, width_m: f64, corner: bool) -> usize {
+        let id = format!("walk{}", self.map.lanes.len() + 1);
+        let lane = self.lane(id, LaneType::Sidewalk, curve::tidy(line), width_m, 0.0);
+        self.map.lanes[lane].interpolating = corner;
+        lane
+    }
+
+    /// Left and right swapped.
+    pub fn mirrored(mut self) -> Self {
+        self.map = self.map.mirrored();
+        for signal in &mut self.signals {
+            signal.stop = signal.stop.map(|p| Vec2::new(p.x, -p.y));
+        }
+        let flip = |p: &mut [f64; 2]| p[1] = -p[1];
+        for arm in &mut self.arms {
+            flip(&mut arm.mouth_m);
+            flip(&mut arm.end_m);
+        }
+        self.corners.iter_mut().for_each(|corner| flip(&mut corner.at_m));
+        self
+    }
+}

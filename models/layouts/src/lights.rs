@@ -1,0 +1,139 @@
+//! Signal programs: phases in which nobody meets who does not give way.
+
+use crate::draft::Draft;
+use crate::parameters::{Program, Turn, TurnAcross};
+use crate::turns::Movement;
+use scene::geometry::segments::{Segment, SegmentIndex, pieces};
+use scene::{HORIZON_STEPS, STEP_S, Signal, SignalState, Vec2};
+
+/// Movements that have green together, by their place in the draft's list.
+type Phase = Vec<usize>;
+
+/// A crosswalk with a light: its id, the arm it crosses, and where people wait.
+#[derive(Clone, Debug)]
+pub struct Crossing {
+    pub id: String,
+    pub arm: usize,
+    pub from: Vec2,
+}
+
+/// Two ways meet: they cross, or end in one lane.
+pub fn meet(draft: &Draft, a: &Movement, b: &Movement) -> bool {
+    if a.from == b.from {
+        return false;
+    }
+    let (here, there) = (&draft.map.lanes[a.lane], &draft.map.lanes[b.lane]);
+    if here.successors == there.successors {
+        return true;
+    }
+    let index = SegmentIndex::new(pieces(&here.points.xy, 0).collect());
+    pieces(&there.points.xy, 1).any(|piece: Segment| {
+        let middle = 0.5 * (piece.from + piece.to);
+        let reach = 0.5 * (piece.to - piece.from).norm() + 1.0;
+        index.near(middle, reach).any(|other| other.crosses(piece.from, piece.to))
+    })
+}
+
+/// One of two ways gives way to the other while both have green: it turns.
+pub fn gives_way(a: &Movement, b: &Movement) -> bool {
+    a.turn != Turn::Straight || b.turn != Turn::Straight
+}
+
+/// The phases of a junction of so many arms.
+fn phases(draft: &Draft, arms: usize, turns_across: TurnAcross) -> Vec<Phase> {
+    let movements = &draft.movements;
+    let of = |arm: usize| (0..movements.len()).filter(move |i| movements[*i].from == arm);
+    let straight = |arm: usize| {
+        let ahead = movements.iter().find(|m| m.from == arm && m.turn == Turn::Straight);
+        ahead.map(|m| m.to)
+    };
+    let mut done = vec![false; arms];
+    let mut phases = Vec::new();
+    for arm in 0..arms {
+        if done[arm] || of(arm).next().is_none() {
+            continue;
+        }
+        done[arm] = true;
+        let opposite = straight(arm).filter(|other| straight(*other) == Some(arm) && !done[*other]);
+        let Some(other) = opposite else {
+            phases.push(of(arm).collect());
+            continue;
+        };
+        done[other] = true;
+        let both = || of(arm).chain(of(other));
+        match turns_across {
+            TurnAcross::Permissive => phases.push(both().collect()),
+            TurnAcross::Protected => protected(draft, both().collect(), [arm, other], &mut phases),
+        }
+    }
+    phases
+}
+
+/// Turns across have their own phase where they have their own lanes; else one arm goes after the other.
+fn protected(draft: &Draft, both: Phase, arms: [usize; 2], phases: &mut Vec<Phase>) {
+    let movements = &draft.movements;
+    let across = |i: &usize| movements[*i].turn == Turn::Left;
+    let lane_in = |i: &usize| draft.map.lanes[movements[*i].lane].predecessors.first();
+    let (lefts, rest): (Phase, Phase) = both.iter().copied().partition(across);
+    let shared = lefts.iter().any(|i| rest.iter().any(|j| lane_in(i) == lane_in(j)));
+    let cross = lefts.iter().any(|i| lefts.iter().any(|j| meet(draft, &movements[*i], &movements[*j])));
+    if lefts.is_empty() {
+        phases.push(rest);
+    } else if shared || cross {
+        phases.extend(
+            arms.map(|arm| both.iter().copied().filter(|i| movements[*i].from == arm).collect::<Phase>()),
+        );
+    } else {
+        phases.push(rest);
+        phases.push(lefts);
+    }
+}
+
+/// Gives the ways of a junction their lights.
+pub fn draw(draft: &mut Draft, arms: usize, program: &Program, crossings: &[Crossing]) {
+    let phases = phases(draft, arms, program.turns_across);
+    let mut signals = Vec::new();
+    for (i, movement) in draft.movements.iter().enumerate() {
+        let green: Vec<bool> = phases.iter().map(|phase| phase.contains(&i)).collect();
+        let stop = draft.points(movement.lane).first().copied();
+        let runs = runs(&green, program, true);
+        signals.push(Signal { lane: draft.map.lanes[movement.lane].id.clone(), stop, stop_z_m: None, runs });
+    }
+    for crossing in crossings {
+        // Nobody drives out of the arm, and nobody straight into it.
+        let quiet = |phase: &Phase| {
+            phase
+                .iter()
+                .map(|i| &draft.movements[*i])
+                .all(|m| m.from != crossing.arm && !(m.to == crossing.arm && m.turn == Turn::Straight))
+        };
+        let green: Vec<bool> = phases.iter().map(quiet).collect();
+        let runs = runs(&green, program, false);
+        signals.push(Signal { lane: crossing.id.clone(), stop: Some(crossing.from), stop_z_m: None, runs });
+    }
+    draft.signals = signals;
+}
+
+/// What somebody sees who has green in these phases, over one planning window.
+fn runs(green: &[bool], program: &Program, yellow: bool) -> Vec<(usize, SignalState)> {
+    let turn_s = program.green_s + program.yellow_s + program.all_red_s;
+    // A junction with one phase is red for as long as another would take.
+    let cycle_s = turn_s * green.len().max(2) as f64;
+    let mut runs: Vec<(usize, SignalState)> = Vec::new();
+    for step in 0..=HORIZON_STEPS {
+        // In the middle of a step, so that no sum of tenths decides.
+        let at_s = ((step as f64 + 0.5) * STEP_S + program.offset_s).rem_euclid(cycle_s);
+        let phase = (at_s / turn_s) as usize;
+        let in_turn_s = at_s - phase as f64 * turn_s;
+        let state = match in_turn_s {
+            _ if !green.get(phase).copied().unwrap_or(false) => SignalState::Stop,
+            s if s < program.green_s => SignalState::Go,
+            s if yellow && s < program.green_s + program.yellow_s => SignalState::Caution,
+            _ => SignalState::Stop,
+        };
+        if runs.last().is_none_or(|(_, last)| *last != state) {
+            runs.push((step, state));
+        }
+    }
+    runs
+}

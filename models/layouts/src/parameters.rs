@@ -1,0 +1,474 @@
+//! What a map is made from: one struct a kind of layout, with ranges and defaults.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Fewest and most arms that meet.
+pub const ARMS: (usize, usize) = (3, 6);
+/// Least width of a strip that is one, metres.
+const LEAST_STRIP_M: f64 = 0.5;
+/// Least angle between two arms, degrees.
+pub const LEAST_BETWEEN_ARMS_DEG: f64 = 20.0;
+
+/// Side of the road that traffic keeps to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Traffic {
+    #[default]
+    RightHand,
+    LeftHand,
+}
+
+/// Who goes first where roads meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Control {
+    /// Traffic lights.
+    #[default]
+    Signals,
+    /// Stop signs at the arms that are not main.
+    Priority,
+    /// Stop signs at all arms.
+    Equal,
+}
+
+/// What left turns (right turns in left-hand traffic) do while oncoming traffic has green.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TurnAcross {
+    /// They have green with it and give way.
+    #[default]
+    Permissive,
+    /// They have a phase of their own.
+    Protected,
+}
+
+/// A way out of a junction, as seen by who comes in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Turn {
+    Left,
+    Straight,
+    Right,
+}
+
+/// The lights of a junction: its phases follow one another without end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Program {
+    /// Green of each phase, seconds.
+    #[schemars(range(min = 4.0, max = 60.0))]
+    pub green_s: f64,
+    /// Yellow after it, seconds.
+    #[schemars(range(min = 2.0, max = 6.0))]
+    pub yellow_s: f64,
+    /// Red for all before the next green, seconds.
+    #[schemars(range(min = 0.5, max = 5.0))]
+    pub all_red_s: f64,
+    /// How long the first green has been on when the scene begins, seconds.
+    #[schemars(range(min = 0.0, max = 600.0))]
+    pub offset_s: f64,
+    /// Turns across oncoming traffic.
+    pub turns_across: TurnAcross,
+}
+
+impl Default for Program {
+    /// Both directions have green within the first nine seconds.
+    fn default() -> Self {
+        Self {
+            green_s: 10.0,
+            yellow_s: 3.0,
+            all_red_s: 1.0,
+            offset_s: 7.0,
+            turns_across: TurnAcross::Permissive,
+        }
+    }
+}
+
+/// A road that leads to a junction, seen from the junction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Arm {
+    /// Where it leads, counter-clockwise from east, degrees.
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub angle_deg: f64,
+    /// From the middle of the junction to the rim of the map, metres; longer where the junction needs it.
+    #[schemars(range(min = 40.0, max = 200.0))]
+    pub length_m: f64,
+    /// Lanes towards the junction.
+    #[schemars(range(max = 5))]
+    pub lanes_in: u8,
+    /// Lanes away from it.
+    #[schemars(range(max = 5))]
+    pub lanes_out: u8,
+    /// Where each lane towards the junction leads, from the left one (right-hand traffic; from the right one
+    /// in left-hand traffic) to the kerb; null is the usual.
+    #[schemars(length(max = 5))]
+    pub turns: Option<Vec<Vec<Turn>>>,
+    /// Speed limit, km/h.
+    #[schemars(range(min = 10.0, max = 130.0))]
+    pub speed_limit_kmh: f64,
+    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 3.0))]
+    pub cycle_lane_m: f64,
+    /// Width of a raised strip between the directions, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub median_m: f64,
+    /// Width of the crosswalk over it, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 8.0))]
+    pub crosswalk_m: f64,
+    /// With `priority`: its traffic goes first.
+    pub main: bool,
+}
+
+impl Default for Arm {
+    fn default() -> Self {
+        Self {
+            angle_deg: 0.0,
+            length_m: 90.0,
+            lanes_in: 1,
+            lanes_out: 1,
+            turns: None,
+            speed_limit_kmh: 50.0,
+            cycle_lane_m: 0.0,
+            median_m: 0.0,
+            crosswalk_m: 3.0,
+            main: false,
+        }
+    }
+}
+
+impl Arm {
+    /// With so many lanes in and out, leading there.
+    pub(crate) fn leading(angle_deg: f64, lanes_in: u8, lanes_out: u8) -> Self {
+        Self { angle_deg, lanes_in, lanes_out, ..Self::default() }
+    }
+}
+
+/// Roads that meet at grade.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Junction {
+    /// 3 to 6 of them, at least 20 degrees apart.
+    #[schemars(length(min = 3, max = 6))]
+    pub arms: Vec<Arm>,
+    /// Who goes first.
+    pub control: Control,
+    /// Lights, with `signals`.
+    pub program: Program,
+    /// Radius of the kerbs at corners, metres; less where arms are too close for it.
+    #[schemars(range(min = 3.0, max = 20.0))]
+    pub kerb_radius_m: f64,
+    /// Width of lanes, metres.
+    #[schemars(range(min = 2.5, max = 4.0))]
+    pub lane_width_m: f64,
+    /// Width of the pavements, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 4.0))]
+    pub sidewalk_m: f64,
+    /// Side of the road that traffic keeps to.
+    pub traffic: Traffic,
+}
+
+impl Default for Junction {
+    fn default() -> Self {
+        let wide = |angle_deg| Arm { cycle_lane_m: 1.8, main: true, ..Arm::leading(angle_deg, 2, 2) };
+        Self {
+            arms: vec![wide(3.0), Arm::leading(92.0, 2, 1), wide(182.0), Arm::leading(272.0, 1, 1)],
+            control: Control::Signals,
+            program: Program::default(),
+            kerb_radius_m: 8.0,
+            lane_width_m: 3.25,
+            sidewalk_m: 2.5,
+            traffic: Traffic::RightHand,
+        }
+    }
+}
+
+impl Junction {
+    pub(crate) fn three_arms() -> Self {
+        let main = |angle_deg| Arm { main: true, ..Arm::leading(angle_deg, 1, 1) };
+        let side = Arm { speed_limit_kmh: 30.0, ..Arm::leading(270.0, 1, 1) };
+        Self { arms: vec![main(0.0), main(180.0), side], control: Control::Priority, ..Self::default() }
+    }
+}
+
+/// Roads that meet at a ring.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Roundabout {
+    /// 3 to 6 of them, at least 20 degrees apart.
+    #[schemars(length(min = 3, max = 6))]
+    pub arms: Vec<Arm>,
+    /// Radius of the island in the middle, metres; more where the arms need it.
+    #[schemars(range(min = 6.0, max = 40.0))]
+    pub island_radius_m: f64,
+    /// Lanes of the ring.
+    #[schemars(range(min = 1, max = 2))]
+    pub ring_lanes: u8,
+    /// Width of the lanes of the ring, metres.
+    #[schemars(range(min = 3.5, max = 6.0))]
+    pub ring_lane_width_m: f64,
+    /// Speed limit in the ring, km/h.
+    #[schemars(range(min = 10.0, max = 60.0))]
+    pub ring_speed_limit_kmh: f64,
+    /// Radius of the kerbs at corners, metres; less where arms are too close for it.
+    #[schemars(range(min = 3.0, max = 20.0))]
+    pub kerb_radius_m: f64,
+    /// Width of lanes, metres.
+    #[schemars(range(min = 2.5, max = 4.0))]
+    pub lane_width_m: f64,
+    /// Width of the pavements, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 4.0))]
+    pub sidewalk_m: f64,
+    /// Side of the road that traffic keeps to.
+    pub traffic: Traffic,
+}
+
+impl Default for Roundabout {
+    fn default() -> Self {
+        let arm = |angle_deg| Arm { median_m: 2.0, ..Arm::leading(angle_deg, 1, 1) };
+        Self {
+            arms: vec![arm(0.0), arm(90.0), arm(180.0), arm(270.0)],
+            island_radius_m: 12.0,
+            ring_lanes: 1,
+            ring_lane_width_m: 5.0,
+            ring_speed_limit_kmh: 30.0,
+            kerb_radius_m: 12.0,
+            lane_width_m: 3.25,
+            sidewalk_m: 2.5,
+            traffic: Traffic::RightHand,
+        }
+    }
+}
+
+/// A carriageway of one direction with a ramp that joins it, one that leaves it, or both.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Merge {
+    /// Lanes that go through.
+    #[schemars(range(min = 1, max = 5))]
+    pub lanes: u8,
+    /// A ramp joins.
+    pub on_ramp: bool,
+    /// A ramp leaves, before the other one joins.
+    pub off_ramp: bool,
+    /// Length beside the through lanes on which to speed up or slow down, metres.
+    #[schemars(range(min = 40.0, max = 400.0))]
+    pub parallel_m: f64,
+    /// Angle between ramp and carriageway, degrees.
+    #[schemars(range(min = 4.0, max = 30.0))]
+    pub ramp_angle_deg: f64,
+    /// Speed limit, km/h.
+    #[schemars(range(min = 30.0, max = 130.0))]
+    pub speed_limit_kmh: f64,
+    /// Speed limit of the ramps, km/h.
+    #[schemars(range(min = 20.0, max = 100.0))]
+    pub ramp_speed_limit_kmh: f64,
+    /// Width of lanes, metres.
+    #[schemars(range(min = 2.5, max = 4.0))]
+    pub lane_width_m: f64,
+    /// Side of the road that traffic keeps to.
+    pub traffic: Traffic,
+}
+
+impl Default for Merge {
+    fn default() -> Self {
+        Self {
+            lanes: 2,
+            on_ramp: true,
+            off_ramp: false,
+            parallel_m: 150.0,
+            ramp_angle_deg: 10.0,
+            speed_limit_kmh: 100.0,
+            ramp_speed_limit_kmh: 60.0,
+            lane_width_m: 3.5,
+            traffic: Traffic::RightHand,
+        }
+    }
+}
+
+/// One road, straight or bent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Road {
+    /// Length, metres; more where the bend needs it.
+    #[schemars(range(min = 40.0, max = 800.0))]
+    pub length_m: f64,
+    /// Change of direction, degrees, positive to the left; 0 is straight.
+    #[schemars(range(min = -170.0, max = 170.0))]
+    pub bend_deg: f64,
+    /// Radius of the bend in the middle of the road, metres; more where the road is too wide for it.
+    #[schemars(range(min = 15.0, max = 500.0))]
+    pub radius_m: f64,
+    /// Lanes eastwards, where the road begins.
+    #[schemars(range(min = 1, max = 5))]
+    pub lanes_forward: u8,
+    /// Lanes the other way.
+    #[schemars(range(max = 5))]
+    pub lanes_backward: u8,
+    /// Speed limit, km/h.
+    #[schemars(range(min = 10.0, max = 130.0))]
+    pub speed_limit_kmh: f64,
+    /// Width of a cycle lane on both sides, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 3.0))]
+    pub cycle_lane_m: f64,
+    /// Width of a strip for parked cars on both sides, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 3.0))]
+    pub parking_m: f64,
+    /// Width of a raised strip between the directions, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub median_m: f64,
+    /// Width of a crosswalk half way, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 8.0))]
+    pub crosswalk_m: f64,
+    /// Speed bumps before and behind the crosswalk.
+    pub speed_bumps: bool,
+    /// Width of lanes, metres.
+    #[schemars(range(min = 2.5, max = 4.0))]
+    pub lane_width_m: f64,
+    /// Width of the pavements, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 4.0))]
+    pub sidewalk_m: f64,
+    /// Side of the road that traffic keeps to.
+    pub traffic: Traffic,
+}
+
+impl Default for Road {
+    fn default() -> Self {
+        Self {
+            length_m: 200.0,
+            bend_deg: 0.0,
+            radius_m: 60.0,
+            lanes_forward: 2,
+            lanes_backward: 2,
+            speed_limit_kmh: 50.0,
+            cycle_lane_m: 0.0,
+            parking_m: 0.0,
+            median_m: 0.0,
+            crosswalk_m: 0.0,
+            speed_bumps: false,
+            lane_width_m: 3.25,
+            sidewalk_m: 2.5,
+            traffic: Traffic::RightHand,
+        }
+    }
+}
+
+impl Road {
+    pub(crate) fn curve() -> Self {
+        Self { bend_deg: 80.0, lanes_forward: 1, lanes_backward: 1, lane_width_m: 3.5, ..Self::default() }
+    }
+
+    pub(crate) fn school_street() -> Self {
+        Self {
+            length_m: 160.0,
+            lanes_forward: 1,
+            lanes_backward: 1,
+            speed_limit_kmh: 30.0,
+            parking_m: 2.3,
+            crosswalk_m: 4.0,
+            speed_bumps: true,
+            lane_width_m: 3.0,
+            sidewalk_m: 3.0,
+            ..Self::default()
+        }
+    }
+}
+
+/// A street with a car park beside it: in at one end, along aisles, out at the other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CarPark {
+    /// Aisles with bays on both sides.
+    #[schemars(range(min = 1, max = 6))]
+    pub aisles: u8,
+    /// Bays along each side of an aisle.
+    #[schemars(range(min = 3, max = 30))]
+    pub bays: u8,
+    /// Width of a bay, metres.
+    #[schemars(range(min = 2.3, max = 3.5))]
+    pub bay_width_m: f64,
+    /// Length of a bay, metres.
+    #[schemars(range(min = 4.5, max = 6.5))]
+    pub bay_length_m: f64,
+    /// Width of the aisles, metres.
+    #[schemars(range(min = 3.5, max = 7.0))]
+    pub aisle_m: f64,
+    /// Speed limit of the street, km/h.
+    #[schemars(range(min = 10.0, max = 130.0))]
+    pub speed_limit_kmh: f64,
+    /// Radius of the kerbs at corners, metres.
+    #[schemars(range(min = 3.0, max = 12.0))]
+    pub kerb_radius_m: f64,
+    /// Width of the lanes of the street, metres.
+    #[schemars(range(min = 2.5, max = 4.0))]
+    pub lane_width_m: f64,
+    /// Width of the pavements, metres; less than half a metre is none.
+    #[schemars(range(min = 0.0, max = 4.0))]
+    pub sidewalk_m: f64,
+    /// Side of the road that traffic keeps to.
+    pub traffic: Traffic,
+}
+
+impl Default for CarPark {
+    fn default() -> Self {
+        Self {
+            aisles: 3,
+            bays: 12,
+            bay_width_m: 2.5,
+            bay_length_m: 5.0,
+            aisle_m: 5.5,
+            speed_limit_kmh: 50.0,
+            kerb_radius_m: 6.0,
+            lane_width_m: 3.25,
+            sidewalk_m: 2.5,
+            traffic: Traffic::RightHand,
+        }
+    }
+}
+
+/// A strip that is too narrow to be one is none.
+fn strip(width_m: &mut f64) {
+    if *width_m < LEAST_STRIP_M {
+        *width_m = 0.0;
+    }
+}
+
+fn arm_strips(arms: &mut [Arm]) {
+    for arm in arms {
+        [&mut arm.cycle_lane_m, &mut arm.median_m, &mut arm.crosswalk_m].into_iter().for_each(strip);
+    }
+}
+
+impl Junction {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        arm_strips(&mut self.arms);
+        strip(&mut self.sidewalk_m);
+        self
+    }
+}
+
+impl Roundabout {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        arm_strips(&mut self.arms);
+        strip(&mut self.sidewalk_m);
+        self
+    }
+}
+
+impl Road {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        let widths = [&mut self.cycle_lane_m, &mut self.parking_m, &mut self.median_m, &mut self.crosswalk_m];
+        widths.into_iter().chain([&mut self.sidewalk_m]).for_each(strip);
+        self
+    }
+}
+
+impl CarPark {
+    pub(crate) fn without_slivers(mut self) -> Self {
+        strip(&mut self.sidewalk_m);
+        self
+    }
+}

@@ -1,0 +1,165 @@
+//! `dragtraffic map`: the same work as `POST /v1/map`, to a file.
+
+use super::{Common, Failure, output};
+use crate::routes::layouts::{MapBody, TemplateList};
+use clap::Args;
+use formats::native;
+use layouts::Template;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Flags of `map`.
+#[derive(Args, Clone, Debug)]
+pub struct MapArgs {
+    /// What to start from; the file of --parameters may name it, too.
+    #[arg(long, value_enum, required_unless_present_any = ["parameters_file", "list"])]
+    template: Option<Template>,
+    /// List the templates with their parameters as JSON.
+    #[arg(long, exclusive = true)]
+    list: bool,
+    /// JSON file with `template` and `parameters`, or with parameters alone; - is stdin.
+    #[arg(long = "parameters", value_name = "FILE")]
+    parameters_file: Option<PathBuf>,
+    /// One parameter, by its place, such as kerb_radius_m=6 or arms.1.angle_deg=71; after the file's.
+    #[arg(long, value_name = "PATH=VALUE", value_parser = setting)]
+    set: Vec<Setting>,
+    /// Name of the scene.
+    #[arg(long)]
+    name: Option<String>,
+    /// File to write the scene to; - or absent is stdout.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Overwrite the output.
+    #[arg(long)]
+    force: bool,
+}
+
+/// A parameter and its value.
+#[derive(Clone, Debug, PartialEq)]
+struct Setting {
+    path: Vec<String>,
+    value: Value,
+}
+
+/// `PATH=VALUE`; a value that is no JSON is a word.
+fn setting(text: &str) -> Result<Setting, String> {
+    let (path, value) = text.split_once('=').ok_or("a place and = expected first, as in kerb_radius_m=6")?;
+    let path: Vec<String> = path.split('.').map(str::to_owned).collect();
+    if path.iter().any(String::is_empty) {
+        return Err("names with dots between them expected before =, as in arms.1.angle_deg=71".into());
+    }
+    let value = serde_json::from_str(value).unwrap_or_else(|_| Value::from(value));
+    Ok(Setting { path, value })
+}
+
+/// Draws a map and writes the scene with it.
+///
+/// # Errors
+/// Exit 2, 3, 8.
+pub fn run(args: MapArgs, common: &Common) -> Result<(), Failure> {
+    if args.list {
+        let mut text = serde_json::to_string_pretty(&TemplateList::new()).unwrap_or_default();
+        text.push('\n');
+        return output::print(text.as_bytes());
+    }
+    if let Some(path) = &args.output {
+        output::keep(path, args.force)?;
+    }
+    let body: MapBody =
+        serde_json::from_value(body(&args)?).map_err(|error| Failure::usage(format!("options: {error}")))?;
+    let (_, scene, built) = body.run().map_err(|problem| {
+        let faults: Vec<String> = problem
+            .members
+            .errors
+            .iter()
+            .flatten()
+            .map(|fault| format!("{}: {}", flag(&fault.pointer), fault.detail))
+            .collect();
+        Failure::usage(faults.join("; "))
+    })?;
+    if !common.quiet {
+        for check in &built.checks {
+            output::complain(&format!("{} {}", if check.passed { "ok  " } else { "LOOK" }, check.text));
+        }
+    }
+    output::write(args.output.as_deref(), &native::write(&scene), args.force)
+}
+
+/// A pointer into the body as `--set` has it.
+fn flag(pointer: &str) -> String {
+    pointer.trim_start_matches("/parameters").trim_start_matches('/').replace('/', ".")
+}
+
+/// The body of `POST /v1/map` that says the same.
+fn body(args: &MapArgs) -> Result<Value, Failure> {
+    let (mut template, mut parameters) = (args.template.map(|template| json!(template)), json!({}));
+    if let Some(path) = &args.parameters_file {
+        let bytes = output::read(path)?;
+        let file: Value = native::from_json::<native::AnyDoc>(&bytes)
+            .map_err(|error| Failure::input(format!("{}: {error}", path.display())))?
+            .0;
+        match file.get("template") {
+            Some(named) => {
+                template.get_or_insert_with(|| named.clone());
+                parameters = file.get("parameters").cloned().unwrap_or_else(|| json!({}));
+            }
+            None => parameters = file,
+        }
+    }
+    let template = template.ok_or_else(|| Failure::usage("--template is needed: the file names none"))?;
+    for setting in &args.set {
+        put(&mut parameters, &template, setting)?;
+    }
+    let mut body = json!({ "template": template, "parameters": parameters });
+    if let Some(name) = &args.name {
+        body["name"] = json!(name);
+    }
+    Ok(body)
+}
+
+/// Puts one value in its place; a list that is reached into is first taken from the template.
+fn put(parameters: &mut Value, template: &Value, setting: &Setting) -> Result<(), Failure> {
+    let unknown = || Failure::usage(format!("--set {}: there is no such parameter", setting.path.join(".")));
+    let template: Template = serde_json::from_value(template.clone()).map_err(|_| unknown())?;
+    let own = template.layout().parameters();
+    let first = setting.path.first().ok_or_else(unknown)?;
+    if setting.path.len() > 1 && parameters.get(first).is_none() {
+        parameters[first.as_str()] = own.get(first).cloned().ok_or_else(unknown)?;
+    }
+    let mut place = parameters;
+    for name in &setting.path {
+        place = match place {
+            Value::Array(items) => {
+                name.parse::<usize>().ok().and_then(|i| items.get_mut(i)).ok_or_else(unknown)?
+            }
+            Value::Object(members) => members.entry(name.clone()).or_insert(Value::Null),
+            _ => return Err(unknown()),
+        };
+    }
+    *place = setting.value.clone();
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_put_in_their_place() {
+        let mut parameters = json!({});
+        for text in ["kerb_radius_m=6", "arms.1.angle_deg=71", "control=equal", "program.green_s=20"] {
+            put(&mut parameters, &json!("four-arms"), &setting(text).unwrap()).unwrap();
+        }
+        assert_eq!(parameters["kerb_radius_m"], 6);
+        assert_eq!(parameters["arms"].as_array().unwrap().len(), 4);
+        assert_eq!(parameters["arms"][1]["angle_deg"], 71);
+        assert_eq!(
+            (&parameters["control"], &parameters["program"]["green_s"]),
+            (&json!("equal"), &json!(20))
+        );
+        for bad in ["arms.9.angle_deg=1", "kerb.a.b=1", "kerb_radius_m.x=1"] {
+            assert!(put(&mut parameters, &json!("four-arms"), &setting(bad).unwrap()).is_err(), "{bad}");
+        }
+        assert!(setting("kerb").is_err() && setting("a..b=1").is_err());
+    }
+}

@@ -1,0 +1,121 @@
+// A map from a template: chosen, bent to one's liking, used, filled, and driven on.
+import assert from 'node:assert/strict';
+import { it } from 'node:test';
+import { journeys } from '../support/journey.js';
+
+const making = (e) => e.page.evaluate(() => document.querySelector('.stage').getAttribute('aria-busy') === 'false');
+
+/** The map that was asked for last is on the picture. */
+async function drawn(e) {
+  await e.frames(2);
+  await e.until(() => /worked out in/.test(document.querySelector('.status')?.textContent ?? ''));
+  await e.settled();
+  assert.ok(await making(e));
+}
+
+const angle = (e) => e.value('layout-arms.angle_deg');
+
+const checks = (e) => e.page.locator('.checks li').allTextContents();
+
+/** Where a place so far out on an arm at this angle lies on the picture. */
+const onArm = (e, degrees, out) =>
+  e.at(out * Math.cos((degrees * Math.PI) / 180), out * Math.sin((degrees * Math.PI) / 180));
+
+/** The open scene, as the server has it. */
+async function stored(e) {
+  const id = new URL(e.page.url()).searchParams.get('scene');
+  return (await e.page.request.get(new URL(`/v1/scenes/${id}`, e.page.url()).href)).json();
+}
+
+journeys('new map', (stage) => {
+  it('a crossing: turned, with stop signs, used, filled, and a car dragged over it', { timeout: 180_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    await e.key('Control+n');
+    await e.page.waitForSelector('.templates');
+    await e.page.click('[data-template="roundabout"]');
+    await drawn(e);
+    assert.match(await e.text('.ih p'), /roundabout/);
+    await e.page.click('[data-template="four-arms"]');
+    await drawn(e);
+    assert.equal(await e.page.locator('[data-template]').count(), 8);
+    assert.ok((await checks(e)).includes('Every lane leads somewhere'));
+    await e.picture('new-map');
+
+    // The arm to the north is turned by its knob, and sticks at nothing on the way.
+    await e.key(']');
+    assert.equal(await angle(e), 92);
+    const stop = await e.page.evaluate(async () => {
+      const reply = await fetch('/v1/map', {
+        method: 'POST',
+        headers: { 'Content-Type': 'application/json' },
+        body: JSON.stringify({ template: 'four-arms' }),
+      });
+      const { arms } = await reply.json();
+      return Math.hypot(...arms[1].mouth_m);
+    });
+    const knob = stop + 9;
+    await e.drag(await onArm(e, 92, knob), await onArm(e, 71, knob), {
+      then: async () => {
+        await drawn(e);
+        assert.match(await e.text('.layouts'), /was 92°/);
+        await e.picture('new-map-turned');
+      },
+    });
+    await drawn(e);
+    assert.equal(await angle(e), 71);
+
+    // Too near to the one in the east: refused in words, and the arm goes back to where a map could be drawn.
+    await e.type('layout-arms.angle_deg', '10');
+    await e.until(() => /Arms need 20° between them/.test(document.querySelector('.checks').textContent));
+    await e.type('layout-arms.angle_deg', '71');
+    await drawn(e);
+    assert.ok(!(await checks(e)).some((text) => text.includes('20°')));
+
+    await e.page.getByRole('group', { name: 'Who goes first' }).getByText('Equal').click();
+    await drawn(e);
+    await e.page.getByRole('group', { name: 'Who goes first' }).getByText('Signals').click();
+    await e.type('layout-kerb_radius_m', '10');
+    await drawn(e);
+    await e.page.click('[data-action="use-map"]');
+    await e.page.waitForSelector('.nobody');
+    await e.settled();
+    const scene = await stored(e);
+    assert.equal(scene.x_layout.template, 'four-arms');
+    const { parameters } = scene.x_layout;
+    assert.equal(parameters.arms[1].angle_deg, 71);
+    assert.equal(parameters.kerb_radius_m, 10);
+    assert.equal(parameters.control, 'signals');
+    assert.ok(scene.signals.length > 8);
+
+    // Filled, and somebody is taken by the hand.
+    await e.key('d');
+    await e.page.waitForSelector('.filling');
+    await e.settled();
+    await e.until(() => document.querySelectorAll('[data-preview]').length > 4);
+    await e.key('Enter');
+    await e.settled();
+    const cars = (await e.roadUsers()).filter((u) => u.kind === 'Car');
+    assert.ok(cars.length > 2, `${cars.length} cars`);
+    await e.key('Escape');
+    await e.choose(cars.sort((a, b) => b.speed - a.speed)[0].id);
+    await e.settled();
+    const before = await e.pose('Goal');
+    await e.type('goal-speed', '10');
+    await e.settled();
+    assert.ok(before && (await e.page.locator('.fu').count()) >= 1, 'it has futures');
+    await e.picture('new-map-driven');
+
+    // The map can be changed later; the scene that it was made for stays.
+    await e.key('Escape');
+    await e.key('Control+k');
+    await e.page.keyboard.type('Change the map');
+    await e.page.keyboard.press('Enter');
+    await drawn(e);
+    assert.match(await e.text('.ih h2'), /Change the map/);
+    assert.equal(await e.value('layout-kerb_radius_m'), 10);
+    await e.key('Escape');
+    assert.equal(await e.shows('.templates'), false);
+    assert.equal((await stored(e)).x_layout.parameters.kerb_radius_m, 10);
+  });
+});

@@ -1,0 +1,390 @@
+// The parameters of a map that is being made: the arm in hand, the whole, and what was looked at.
+import type { ComponentChildren } from 'preact';
+import { rangeOf, TEMPLATE_TITLES } from '../../model/layouts';
+import { num, type Quantity } from '../../model/units';
+import type { Arm, Parameters } from '../../net/types';
+import { FEWEST_ARMS, MOST_ARMS } from '../../edit/layouts';
+import { useApp } from '../parts/app-context';
+import { ActionButton } from '../parts/buttons';
+import { Icon } from '../parts/icons';
+import { NumberField } from '../parts/number-field';
+import '../../styles/layouts.css';
+
+/** What stands in the panel for each number, in its order; `whole` are counted. */
+interface Line {
+  readonly label: string;
+  readonly unit: string;
+  readonly step: number;
+  readonly quantity?: Quantity;
+}
+const LINES: Readonly<Record<string, Line>> = {
+  length_m: { label: 'Length', unit: 'm', step: 10 },
+  bend_deg: { label: 'Bend', unit: '°', step: 5, quantity: 'angle' },
+  radius_m: { label: 'Radius', unit: 'm', step: 5 },
+  lanes: { label: 'Lanes', unit: '', step: 1 },
+  lanes_forward: { label: 'Lanes forward', unit: '', step: 1 },
+  lanes_backward: { label: 'Lanes back', unit: '', step: 1 },
+  island_radius_m: { label: 'Island', unit: 'm', step: 1 },
+  ring_lanes: { label: 'Ring lanes', unit: '', step: 1 },
+  ring_lane_width_m: { label: 'Ring lane width', unit: 'm', step: 0.25 },
+  ring_speed_limit_kmh: { label: 'Ring speed limit', unit: 'km/h', step: 5 },
+  parallel_m: { label: 'Beside', unit: 'm', step: 10 },
+  ramp_angle_deg: { label: 'Ramp angle', unit: '°', step: 1, quantity: 'angle' },
+  ramp_speed_limit_kmh: { label: 'Ramp speed limit', unit: 'km/h', step: 10 },
+  aisles: { label: 'Aisles', unit: '', step: 1 },
+  bays: { label: 'Bays on a side', unit: '', step: 1 },
+  bay_width_m: { label: 'Bay width', unit: 'm', step: 0.1 },
+  bay_length_m: { label: 'Bay length', unit: 'm', step: 0.1 },
+  aisle_m: { label: 'Aisle width', unit: 'm', step: 0.25 },
+  speed_limit_kmh: { label: 'Speed limit', unit: 'km/h', step: 10 },
+  cycle_lane_m: { label: 'Cycle lane', unit: 'm', step: 0.1 },
+  parking_m: { label: 'Parking', unit: 'm', step: 0.1 },
+  median_m: { label: 'Median', unit: 'm', step: 0.5 },
+  crosswalk_m: { label: 'Crosswalk', unit: 'm', step: 0.5 },
+  kerb_radius_m: { label: 'Kerb radius', unit: 'm', step: 0.5 },
+  lane_width_m: { label: 'Lane width', unit: 'm', step: 0.25 },
+  sidewalk_m: { label: 'Pavement', unit: 'm', step: 0.5 },
+};
+const SWITCHES: Readonly<Record<string, string>> = {
+  on_ramp: 'Ramp joins',
+  off_ramp: 'Ramp leaves',
+  speed_bumps: 'Speed bumps',
+};
+/** Widths that a switch turns on. */
+const USUAL: Readonly<Record<string, number>> = { cycle_lane_m: 1.8, crosswalk_m: 3, median_m: 2, parking_m: 2.3 };
+
+export default function LayoutPanel() {
+  const { editor } = useApp();
+  const { layouts } = editor;
+  const wish = layouts.wish.value;
+  const parameters = layouts.parameters.value;
+  if (!wish) return null;
+  const title = layouts.base ? 'Change the map' : 'New map';
+  return (
+    <>
+      <div class="ih">
+        <div class="ag t-ink">
+          <Icon name="layers" size={20} />
+        </div>
+        <div class="grow">
+          <h2>{title}</h2>
+          <p>{TEMPLATE_TITLES[wish.template].toLowerCase()}</p>
+        </div>
+      </div>
+      <div class="layouts">
+        {parameters?.arms ? <ArmSection arms={parameters.arms} /> : null}
+        {parameters ? <Whole parameters={parameters} /> : null}
+        <Checks />
+      </div>
+      <div class="layouts-foot">
+        <ActionButton id="use-map" class="pri" icon="" withKey>
+          Use this map
+        </ActionButton>
+        <button type="button" class="btn line" onClick={() => layouts.close()}>
+          Cancel
+        </button>
+      </div>
+    </>
+  );
+}
+
+function Row({ label, children }: { label: string; children: ComponentChildren }) {
+  return (
+    <div class="line">
+      <span>{label}</span>
+      {children}
+    </div>
+  );
+}
+
+interface NumberRowProps {
+  place: string;
+  name: string;
+  value: () => number;
+  set: (v: number) => void;
+}
+
+function NumberRow({ place, name, value, set }: NumberRowProps) {
+  const { layouts } = useApp().editor;
+  const { label, unit, step, quantity = 'length' } = LINES[name];
+  const template = layouts.wish.value!.template;
+  const whole = Number.isInteger(step) && !unit;
+  const digits = whole ? 0 : step < 1 ? 2 : 0;
+  return (
+    <Row label={label}>
+      <NumberField
+        label={label}
+        field={`layout-${place}`}
+        unit={() => unit}
+        quantity={() => quantity}
+        step={step}
+        value={value}
+        text={() => num(value(), Number.isInteger(value()) ? 0 : digits || 1)}
+        set={(v) => set(whole ? Math.round(v) : v)}
+        range={() => rangeOf(template, place)}
+      />
+    </Row>
+  );
+}
+
+function Switch({ label, on, set }: { label: string; on: boolean; set: (on: boolean) => void }) {
+  return (
+    <button
+      type="button"
+      class={`pillb ${on ? 'on' : ''}`}
+      role="switch"
+      aria-checked={on}
+      aria-label={label}
+      onClick={() => set(!on)}
+    >
+      {on ? 'On' : 'Off'}
+    </button>
+  );
+}
+
+function ArmSection({ arms }: { arms: readonly Arm[] }) {
+  const { layouts } = useApp().editor;
+  const index = Math.min(layouts.arm.value, arms.length - 1);
+  const arm = arms[index];
+  const set = (change: Partial<Arm>) => layouts.setArm(index, change);
+  const now = (): Arm => layouts.arms.value[Math.min(layouts.arm.value, layouts.arms.value.length - 1)];
+  const name = layouts.made.value?.arms[index]?.name ?? 'Arm';
+  const turned = layouts.turned.value;
+  const number = (key: 'length_m' | 'speed_limit_kmh' | 'cycle_lane_m' | 'crosswalk_m' | 'median_m') => (
+    <NumberRow
+      key={key}
+      place={`arms.${key}`}
+      name={key}
+      value={() => now()?.[key] ?? 0}
+      set={(v) => set({ [key]: v })}
+    />
+  );
+  const priority = layouts.parameters.value?.control === 'priority';
+  return (
+    <section class="sect" aria-label={`${name} arm`}>
+      <h3>
+        {name} arm
+        <span class="grow" />
+        <ActionButton id="arm-previous" iconOnly icon="prev" size={14} />
+        <small>
+          {index + 1} of {arms.length}
+        </small>
+        <ActionButton id="arm-next" iconOnly icon="next" size={14} />
+      </h3>
+      <Row label="Angle">
+        <NumberField
+          label="Angle"
+          field="layout-arms.angle_deg"
+          unit={() => '°'}
+          quantity={() => 'angle'}
+          step={1}
+          value={() => now()?.angle_deg ?? 0}
+          text={() => num(now()?.angle_deg ?? 0, Number.isInteger(now()?.angle_deg) ? 0 : 1)}
+          set={(v) => set({ angle_deg: v })}
+          range={() => [-360, 360]}
+        />
+        {turned?.index === index ? <small>was {num(turned.before.angle_deg, 0)}°</small> : null}
+      </Row>
+      <Row label="Lanes in">
+        <Count label="Lanes in" value={arm.lanes_in} set={(v) => set({ lanes_in: v })} />
+        <span class="mut">out</span>
+        <Count label="Lanes out" value={arm.lanes_out} set={(v) => set({ lanes_out: v })} />
+      </Row>
+      {layouts.wish.value?.template === 'roundabout' ? null : <TurnLanes index={index} arm={arm} />}
+      {number('length_m')}
+      {number('speed_limit_kmh')}
+      {(['cycle_lane_m', 'crosswalk_m', 'median_m'] as const).map((key) =>
+        arm[key] > 0 ? (
+          <div key={key} class="with">
+            {number(key)}
+            <Switch label={LINES[key].label} on set={() => set({ [key]: 0 })} />
+          </div>
+        ) : (
+          <Row key={key} label={LINES[key].label}>
+            <Switch label={LINES[key].label} on={false} set={() => set({ [key]: USUAL[key] })} />
+          </Row>
+        ),
+      )}
+      {priority ? (
+        <Row label="Goes first">
+          <Switch label="Goes first" on={arm.main} set={(main) => set({ main })} />
+        </Row>
+      ) : null}
+      <div class="row">
+        <button
+          type="button"
+          class="btn line"
+          disabled={arms.length >= MOST_ARMS}
+          onClick={() => layouts.addArm(layouts.widestGap())}
+        >
+          Add an arm
+        </button>
+        <button
+          type="button"
+          class="btn line"
+          disabled={arms.length <= FEWEST_ARMS}
+          onClick={() => layouts.removeArm(index)}
+        >
+          Remove it
+        </button>
+      </div>
+    </section>
+  );
+}
+
+function Count({ label, value, set }: { label: string; value: number; set: (v: number) => void }) {
+  return (
+    <span class="count" role="group" aria-label={label}>
+      <button type="button" aria-label={`${label}, one less`} disabled={value <= 0} onClick={() => set(value - 1)}>
+        −
+      </button>
+      <b>{value}</b>
+      <button type="button" aria-label={`${label}, one more`} disabled={value >= 5} onClick={() => set(value + 1)}>
+        +
+      </button>
+    </span>
+  );
+}
+
+const TURNS = ['left', 'straight', 'right'] as const;
+const SIGNS = { left: '↰', straight: '↑', right: '↱' } as const;
+
+/** Where each lane leads; a click on a sign adds or takes it. */
+function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
+  const { layouts } = useApp().editor;
+  const shown = arm.turns ?? layouts.made.value?.arms[index]?.turns ?? [];
+  if (!shown.length) return null;
+  const toggle = (lane: number, turn: (typeof TURNS)[number]) =>
+    layouts.setArm(index, {
+      turns: shown.map((t, i) =>
+        i !== lane
+          ? [...t]
+          : t.includes(turn)
+            ? t.filter((x) => x !== turn)
+            : TURNS.filter((x) => x === turn || t.includes(x)),
+      ),
+    });
+  return (
+    <Row label="Turn lanes">
+      <span class="turns">
+        {shown.map((turns, lane) => (
+          <span key={lane} role="group" aria-label={`Lane ${lane + 1}`}>
+            {TURNS.map((turn) => (
+              <button
+                key={turn}
+                type="button"
+                aria-pressed={turns.includes(turn)}
+                aria-label={`Lane ${lane + 1}, ${turn}`}
+                class={turns.includes(turn) ? 'on' : ''}
+                onClick={() => toggle(lane, turn)}
+              >
+                {SIGNS[turn]}
+              </button>
+            ))}
+          </span>
+        ))}
+      </span>
+    </Row>
+  );
+}
+
+const CONTROLS = [
+  ['signals', 'Signals'],
+  ['priority', 'Priority'],
+  ['equal', 'Equal'],
+] as const;
+const SIDES = [
+  ['right-hand', 'Right-hand'],
+  ['left-hand', 'Left-hand'],
+] as const;
+
+function Choice<T extends string>({
+  label,
+  items,
+  value,
+  set,
+}: {
+  label: string;
+  items: readonly (readonly [T, string])[];
+  value: T | undefined;
+  set: (v: T) => void;
+}) {
+  return (
+    <Row label={label}>
+      <div class="seg" role="group" aria-label={label}>
+        {items.map(([id, text]) => (
+          <button
+            key={id}
+            type="button"
+            class={`btn ${id === value ? 'on' : ''}`}
+            aria-pressed={id === value}
+            onClick={() => set(id)}
+          >
+            {text}
+          </button>
+        ))}
+      </div>
+    </Row>
+  );
+}
+
+function Whole({ parameters }: { parameters: Parameters }) {
+  const { layouts } = useApp().editor;
+  const keys = Object.keys(LINES).filter((k) => k in parameters);
+  const now = (key: string): number =>
+    ((layouts.parameters.value as Record<string, unknown> | null)?.[key] as number | undefined) ?? 0;
+  const switches = Object.keys(SWITCHES).filter((k) => k in parameters) as (keyof Parameters)[];
+  return (
+    <section class="sect">
+      <h3>{parameters.arms ? 'Junction' : 'Road'}</h3>
+      {parameters.control ? (
+        <Choice
+          label="Who goes first"
+          items={CONTROLS}
+          value={parameters.control}
+          set={(control) => layouts.set({ control })}
+        />
+      ) : null}
+      {keys.map((key) => (
+        <NumberRow key={key} place={key} name={key} value={() => now(key)} set={(v) => layouts.set({ [key]: v })} />
+      ))}
+      {switches.map((key) => (
+        <Row key={key} label={SWITCHES[key]}>
+          <Switch label={SWITCHES[key]} on={!!parameters[key]} set={(on) => layouts.set({ [key]: on })} />
+        </Row>
+      ))}
+      <Choice label="Traffic" items={SIDES} value={parameters.traffic} set={(traffic) => layouts.set({ traffic })} />
+    </section>
+  );
+}
+
+function Checks() {
+  const { editor, stage } = useApp();
+  const made = editor.layouts.made.value;
+  const fault = editor.layouts.fault.value;
+  return (
+    <section class="sect last" aria-label="Checks">
+      <h3>Checks</h3>
+      <ul class="checks">
+        {fault ? <li class="bad">{fault}</li> : null}
+        {made?.checks.map((c) => (
+          <li key={c.text} class={c.passed ? 'ok' : 'bad'}>
+            {c.at_m ? (
+              <button
+                type="button"
+                onClick={() => {
+                  const [x, y] = c.at_m!;
+                  stage.glide.by((v) => Object.assign(v, { cx: x, cy: y }));
+                }}
+              >
+                {c.text}
+              </button>
+            ) : (
+              c.text
+            )}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

@@ -1,0 +1,208 @@
+// A map that is being made, under the pointer: arms are turned, lanes come and go, kerbs bend wider.
+import { clamp, type Point, type Vec } from '../../model/geometry';
+import type { Arm } from '../../net/types';
+import type { Layouts } from '../layouts';
+import type { View } from '../../draw/view';
+import type { Chart, State } from './chart';
+import { Panning } from './panning';
+import type { Press } from './pressed';
+import type { Tool } from './tools';
+
+/** The knob of an arm lies so far out from its stop line, its lane buttons and those that take lanes away, metres. */
+const KNOB_M = 9;
+const MORE_M = 15;
+const FEWER_M = 19;
+const ASIDE_M = 2.6;
+/** Knobs are taken hold of from so far, pixels. */
+const REACH_PX = 12;
+const REACH_TOUCH_PX = 24;
+/** An arm sticks at right angles to another within so many degrees. */
+const STICKS_DEG = 3;
+const MOST_LANES = 5;
+const KERB_M: readonly [number, number] = [3, 20];
+
+/** What can be taken hold of. */
+export type Knob =
+  | { readonly kind: 'arm'; readonly arm: number; readonly at: Vec }
+  | { readonly kind: 'lane'; readonly arm: number; readonly side: 'in' | 'out'; readonly by: 1 | -1; readonly at: Vec }
+  | { readonly kind: 'kerb'; readonly corner: number; readonly at: Vec };
+
+/** All knobs of the map that is being made, in metres. */
+export function knobs(layouts: Layouts): Knob[] {
+  const made = layouts.made.value;
+  const arms = layouts.arms.value;
+  if (!made || arms.length !== made.arms.length) return [];
+  const inLeft = layouts.parameters.value?.traffic === 'left-hand' ? -1 : 1;
+  const all: Knob[] = made.corners.map((c, corner) => ({ kind: 'kerb', corner, at: [c.at_m[0], c.at_m[1]] }));
+  made.arms.forEach((place, arm) => {
+    const [mx, my] = place.mouth_m;
+    const long = Math.hypot(place.end_m[0] - mx, place.end_m[1] - my) || 1;
+    const [ux, uy] = [(place.end_m[0] - mx) / long, (place.end_m[1] - my) / long];
+    const at = (out: number, left: number): Vec => [mx + ux * out - uy * left, my + uy * out + ux * left];
+    for (const [side, sign, kerb] of [
+      ['in', inLeft, place.kerbs_m[0]],
+      ['out', -inLeft, place.kerbs_m[1]],
+    ] as const) {
+      const lanes = side === 'in' ? arms[arm].lanes_in : arms[arm].lanes_out;
+      const aside = sign * (kerb + ASIDE_M);
+      if (lanes < MOST_LANES) all.push({ kind: 'lane', arm, side, by: 1, at: at(MORE_M, aside) });
+      const last = arms[arm].lanes_in + arms[arm].lanes_out === 1;
+      if (arm === layouts.arm.value && lanes > 0 && !last)
+        all.push({ kind: 'lane', arm, side, by: -1, at: at(FEWER_M, aside) });
+    }
+    all.push({ kind: 'arm', arm, at: at(KNOB_M, 0) });
+  });
+  return all;
+}
+
+function knobAt(chart: Chart, p: Point, touch: boolean): Knob | null {
+  const v: View = chart.surface.view;
+  const reach = touch ? REACH_TOUCH_PX : REACH_PX;
+  const far = (k: Knob): number => Math.hypot(v.x(k.at[0]) - p.x, v.y(k.at[1]) - p.y);
+  const near = knobs(chart.editor.layouts)
+    .filter((k) => far(k) <= reach)
+    .sort((a, b) => far(a) - far(b));
+  return near[0] ?? null;
+}
+
+/** What is refused is not kept: the last map that could be drawn is the one in hand. */
+function keepDrawn(layouts: Layouts): void {
+  const made = layouts.made.peek();
+  if (layouts.fault.peek() && made) layouts.set(made.layout.parameters);
+}
+
+class TurningArm implements State {
+  readonly name = 'turning an arm';
+  readonly followsModifiers = true;
+  readonly #before: Arm;
+
+  constructor(
+    private readonly chart: Chart,
+    private readonly arm: number,
+  ) {
+    const { layouts } = chart.editor;
+    this.#before = layouts.arms.peek()[arm];
+    layouts.take(arm);
+    layouts.turn({ index: arm, before: this.#before });
+  }
+
+  enter(): void {
+    this.chart.surface.setCursor('grabbing');
+  }
+
+  leave(): void {
+    this.chart.surface.setCursor('');
+    this.chart.editor.layouts.turn(null);
+  }
+
+  move(): void {
+    const { chart } = this;
+    const { layouts } = chart.editor;
+    const [x, y] = chart.surface.view.from(chart.at.x, chart.at.y);
+    const others = layouts.arms.peek().filter((_, i) => i !== this.arm);
+    const angle_deg = snapped((Math.atan2(y, x) * 180) / Math.PI, others, chart.modifiers);
+    if (angle_deg !== layouts.arms.peek()[this.arm].angle_deg) layouts.setArm(this.arm, { angle_deg });
+  }
+
+  up(): void {
+    this.move();
+    this.chart.rest();
+    keepDrawn(this.chart.editor.layouts);
+  }
+
+  cancel(): boolean {
+    this.chart.editor.layouts.setArm(this.arm, this.#before);
+    return true;
+  }
+}
+
+/** Whole degrees; 15 with Shift, tenths with Alt; at right angles to another arm it sticks. */
+export function snapped(
+  degrees: number,
+  others: readonly Pick<Arm, 'angle_deg'>[],
+  { alt, shift }: { alt: boolean; shift: boolean },
+): number {
+  const whole = (v: number): number => ((v % 360) + 360) % 360;
+  if (alt) return whole(Math.round(degrees * 10) / 10);
+  if (shift) return whole(Math.round(degrees / 15) * 15);
+  for (const other of others) {
+    const right = other.angle_deg + Math.round((degrees - other.angle_deg) / 90) * 90;
+    if (Math.abs(degrees - right) <= STICKS_DEG) return whole(right);
+  }
+  return whole(Math.round(degrees));
+}
+
+class BendingKerb implements State {
+  readonly name = 'bending a kerb';
+  readonly #from: Vec;
+  readonly #radius: number;
+  readonly #before: number;
+  /** Which way the knob goes when the radius grows, and how far for a metre. */
+  readonly #way: Vec;
+
+  constructor(
+    private readonly chart: Chart,
+    knob: Extract<Knob, { kind: 'kerb' }>,
+  ) {
+    const { layouts } = chart.editor;
+    const corner = layouts.made.peek()!.corners[knob.corner];
+    const [a, b] = corner.arms.map((i) => (layouts.arms.peek()[i].angle_deg * Math.PI) / 180);
+    const [x, y] = [Math.cos(a) + Math.cos(b), Math.sin(a) + Math.sin(b)];
+    const long = Math.hypot(x, y) || 1;
+    const half = Math.acos(clamp(long / 2, 0.05, 0.999));
+    const per = Math.max(0.08, 1 / Math.sin(half) - 1);
+    this.#way = [x / long / per, y / long / per];
+    this.#from = chart.surface.view.from(chart.at.x, chart.at.y);
+    this.#radius = corner.radius_m;
+    this.#before = layouts.parameters.peek()!.kerb_radius_m!;
+  }
+
+  move(): void {
+    const { chart } = this;
+    const [x, y] = chart.surface.view.from(chart.at.x, chart.at.y);
+    const by = (x - this.#from[0]) * this.#way[0] + (y - this.#from[1]) * this.#way[1];
+    const kerb_radius_m = clamp(Math.round((this.#radius + by) * 2) / 2, ...KERB_M);
+    if (kerb_radius_m !== chart.editor.layouts.parameters.peek()!.kerb_radius_m)
+      chart.editor.layouts.set({ kerb_radius_m });
+  }
+
+  up(): void {
+    this.move();
+    this.chart.rest();
+  }
+
+  cancel(): boolean {
+    this.chart.editor.layouts.set({ kerb_radius_m: this.#before });
+    return true;
+  }
+}
+
+/** What the pointer does while a map is being made, whatever tool is chosen in the rail. */
+export const MAKE: Tool = {
+  name: 'make',
+  label: 'Make a map',
+  key: '',
+  icon: 'plus',
+  help: '',
+  cursor: '',
+  picks: false,
+  hover: (chart) => chart.surface.setCursor(knobAt(chart, chart.at, false) ? 'grab' : ''),
+  drag(chart, press): State {
+    const knob = knobAt(chart, press, press.touch);
+    if (knob?.kind === 'arm') return new TurningArm(chart, knob.arm);
+    if (knob?.kind === 'kerb') return new BendingKerb(chart, knob);
+    return new Panning(chart, press);
+  },
+  click(chart: Chart, press: Press): void {
+    const { layouts } = chart.editor;
+    const knob = knobAt(chart, press, press.touch);
+    if (!knob || knob.kind === 'kerb') return;
+    layouts.take(knob.arm);
+    if (knob.kind === 'arm') return;
+    const arm = layouts.arms.peek()[knob.arm];
+    layouts.setArm(
+      knob.arm,
+      knob.side === 'in' ? { lanes_in: arm.lanes_in + knob.by } : { lanes_out: arm.lanes_out + knob.by },
+    );
+  },
+};

@@ -1,0 +1,132 @@
+// Asks the server for the map as often as the wish changes, and makes a scene of it.
+import { effect } from '@preact/signals-core';
+import { nearestLanes } from '../model/lanemap';
+import { isMapRef, type AgentJson, type SceneJson } from '../model/json';
+import { readScene } from '../model/read';
+import { startPose } from '../model/scene';
+import { Away, Refused, type Client } from '../net/client';
+import { keep, recall } from '../net/storage';
+import type { Layout, Parameters, TemplateName } from '../net/types';
+import type { Editor } from './editor';
+import type { MapWish } from './layouts';
+import type { SceneCare } from './scene-care';
+import type { SceneFile } from './scene-file';
+
+const FIRST_TEMPLATE: TemplateName = 'four-arms';
+/** Who stands farther from every lane than this does not stand on one, metres. */
+const ON_LANE_M = 2.5;
+
+export class LayoutMaker {
+  /** One question on its way, and the newest that came meanwhile. */
+  #running = false;
+  #waiting: MapWish | null = null;
+
+  constructor(
+    private readonly editor: Editor,
+    private readonly file: SceneFile,
+    private readonly care: SceneCare,
+    private readonly client: Client,
+  ) {
+    effect(() => {
+      const wish = editor.layouts.wish.value;
+      if (wish) this.#ask(wish);
+      else this.#waiting = null;
+    });
+  }
+
+  /** A new map, from the template that was chosen last. */
+  begin(): void {
+    this.editor.playhead.pause();
+    this.editor.chooseTool('select');
+    this.editor.select(null);
+    this.editor.layouts.choose(recall<TemplateName>('template') ?? FIRST_TEMPLATE);
+  }
+
+  choose(template: TemplateName): void {
+    keep('template', template);
+    this.editor.layouts.choose(template);
+  }
+
+  /** What the map of the open scene was made from; null where it came from elsewhere. */
+  get madeFrom(): Layout | null {
+    const layout = this.file.raw?.x_layout as Layout | undefined;
+    return layout?.template && layout.parameters ? layout : null;
+  }
+
+  /** The map of the open scene, to be changed. */
+  change(): void {
+    const base = this.file.complete();
+    const layout = this.madeFrom;
+    if (!base || !layout) return;
+    this.editor.playhead.pause();
+    this.editor.chooseTool('select');
+    this.editor.select(null);
+    this.editor.layouts.change(layout, base);
+  }
+
+  #ask(wish: MapWish): void {
+    if (this.#running) {
+      this.#waiting = wish;
+      return;
+    }
+    void this.#run(wish);
+  }
+
+  async #run(first: MapWish): Promise<void> {
+    const { layouts } = this.editor;
+    this.#running = true;
+    layouts.ask();
+    for (let wish: MapWish | null = first; wish; wish = this.#next()) {
+      try {
+        const began = performance.now();
+        const reply = await this.client.makeMap(wish.template, wish.parameters);
+        // What was closed or replaced by another template meanwhile is not shown.
+        if (layouts.wish.peek()?.template === wish.template) layouts.settle(reply, performance.now() - began);
+      } catch (e) {
+        if (!(e instanceof Refused) && !(e instanceof Away)) throw e;
+        layouts.refuse(e instanceof Refused ? e.message : 'The server is not answering.');
+      }
+    }
+    this.#running = false;
+  }
+
+  #next(): MapWish | null {
+    const next = this.#waiting;
+    this.#waiting = null;
+    return next;
+  }
+
+  /** For pictures of templates. */
+  async preview(template: TemplateName, parameters: Parameters | null = null): Promise<SceneJson> {
+    return (await this.client.makeMap(template, parameters)).scene as unknown as SceneJson;
+  }
+
+  /** The map becomes a scene of its own; whose map was changed stays as it was. */
+  async use(): Promise<void> {
+    const { layouts } = this.editor;
+    const made = layouts.made.peek();
+    const base = layouts.base;
+    if (!made || layouts.asking.peek()) return;
+    layouts.close();
+    if (!base) return this.care.newOnMap(made.json, made.json.name ?? 'New map');
+    const agents: AgentJson[] = base.agents;
+    const body: SceneJson = { ...base, map: made.json.map, signals: made.json.signals, agents, generated: null };
+    Object.assign(body, { x_layout: made.layout });
+    const lost = offTheLanes(body);
+    const said = lost.length ? `${lost.length} no longer stand on a lane: ${lost.slice(0, 5).join(', ')}.` : '';
+    return this.care.newOnMap(body, `${base.name}, other map`, said);
+  }
+}
+
+/** Names of those on wheels who stand on no lane. */
+function offTheLanes(json: SceneJson): string[] {
+  if (isMapRef(json.map)) return [];
+  const scene = readScene(json);
+  return [...scene.agents.values()]
+    .filter((a) => {
+      const p = startPose(a);
+      if (!p || a.parked || a.type === 'pedestrian' || a.type === 'other') return false;
+      return !nearestLanes(scene.map, p.x, p.y, null, ON_LANE_M, (l) => l.kind !== 'walk').length;
+    })
+    .map((a) => a.name);
+}

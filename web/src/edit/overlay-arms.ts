@@ -1,0 +1,177 @@
+// What the overlay shows of a map that is being made: knobs and names of the arms, the way an arm lay before, where its
+// lanes lead.
+import type { Vec } from '../model/geometry';
+import { num } from '../model/units';
+import { pill, type Labels } from '../draw/labels';
+import type { Pen } from '../draw/pen';
+import { colours } from '../draw/theme';
+import type { View } from '../draw/view';
+import type { Editor } from './editor';
+import { knobs, type Knob } from './gestures/arms';
+import type { Made } from './layouts';
+
+const KNOB_PX = 9;
+const BUTTON_PX = 8;
+const HEAD_PX = 9;
+
+export class ArmsOverlay {
+  constructor(
+    private readonly editor: Editor,
+    private readonly labels: Labels,
+  ) {}
+
+  paint(g: Pen, v: View): void {
+    const { layouts } = this.editor;
+    const made = layouts.made.value;
+    if (!made) return;
+    const all = knobs(layouts);
+    this.#paintWays(g, v, made, layouts.arm.value);
+    this.#paintBefore(g, v, made);
+    for (const k of all) if (k.kind === 'arm') this.#paintStem(g, v, made, k);
+    for (const k of all) {
+      this.labels.block(v.x(k.at[0]) - 11, v.y(k.at[1]) - 11, 22, 22);
+      if (k.kind === 'lane') paintButton(g, v.to(...k.at), k.by, k.arm === layouts.arm.value);
+      else paintKnob(g, v.to(...k.at), k.kind === 'arm' ? KNOB_PX : 6, k.kind === 'arm' && k.arm === layouts.arm.value);
+    }
+    this.#paintNames(g, v, made, all);
+  }
+
+  /** Where the lanes of the arm in hand lead; those of the others are dashed. */
+  #paintWays(g: Pen, v: View, made: Made, inHand: number): void {
+    const c = colours();
+    for (const lane of made.scene.map.lanes.values()) {
+      const from = /^arm(\d+)\.in\d+-/.exec(lane.id);
+      if (!from) continue;
+      const mine = Number(from[1]) - 1 === inHand;
+      g.beginPath();
+      lane.line.pts.forEach(([x, y], i) => (i ? g.lineTo(v.x(x), v.y(y)) : g.moveTo(v.x(x), v.y(y))));
+      g.strokeStyle = mine ? c.ok : c['ink-3'];
+      g.lineWidth = mine ? 2 : 1;
+      g.globalAlpha = mine ? 1 : 0.45;
+      g.setLineDash(mine ? [] : [4, 4]);
+      g.stroke();
+      g.setLineDash([]);
+      if (mine) paintHead(g, v, lane.line.pts, c.ok);
+      g.globalAlpha = 1;
+    }
+  }
+
+  /** The old place of an arm that is turned, and the turn as an arc. */
+  #paintBefore(g: Pen, v: View, made: Made): void {
+    const turned = this.editor.layouts.turned.value;
+    const now = turned && this.editor.layouts.arms.value[turned.index];
+    const place = turned && made.arms[turned.index];
+    if (!turned || !now || !place) return;
+    const from = (turned.before.angle_deg * Math.PI) / 180;
+    const to = (now.angle_deg * Math.PI) / 180;
+    const far = Math.hypot(...place.end_m);
+    const near = Math.hypot(...place.mouth_m);
+    const c = colours();
+    g.strokeStyle = c['ink-2'];
+    g.lineWidth = 1.25;
+    g.setLineDash([6, 5]);
+    const side = (left: number): void => {
+      const at = (out: number): Vec => [
+        Math.cos(from) * out - Math.sin(from) * left,
+        Math.sin(from) * out + Math.cos(from) * left,
+      ];
+      g.beginPath();
+      g.moveTo(...v.to(...at(near)));
+      g.lineTo(...v.to(...at(far)));
+      g.stroke();
+    };
+    side(place.kerbs_m[0]);
+    side(-place.kerbs_m[1]);
+    g.setLineDash([]);
+    const [x, y] = v.to(0, 0);
+    const r = (near + 9) * v.z;
+    const back = Math.sin(to - from) < 0;
+    g.beginPath();
+    g.arc(x, y, r, -from, -to, !back);
+    g.strokeStyle = c.ok;
+    g.lineWidth = 2;
+    g.stroke();
+  }
+
+  #paintStem(g: Pen, v: View, made: Made, k: Extract<Knob, { kind: 'arm' }>): void {
+    const [mx, my] = made.arms[k.arm].mouth_m;
+    g.beginPath();
+    g.moveTo(v.x(mx), v.y(my));
+    g.lineTo(v.x(k.at[0]), v.y(k.at[1]));
+    g.strokeStyle = k.arm === this.editor.layouts.arm.value ? colours().ok : colours().ink;
+    g.lineWidth = 2;
+    g.stroke();
+  }
+
+  #paintNames(g: Pen, v: View, made: Made, all: readonly Knob[]): void {
+    const { layouts } = this.editor;
+    const c = colours();
+    for (const k of all) {
+      const [x, y] = v.to(...k.at);
+      if (k.kind === 'arm') {
+        const angle = layouts.arms.value[k.arm]?.angle_deg ?? 0;
+        const words = `${made.arms[k.arm].name} · ${num(angle, Number.isInteger(angle) ? 0 : 1)}°`;
+        const mine = k.arm === layouts.arm.value;
+        pill(g, this.labels, x, y, words, {
+          ...(mine ? { bg: c.ok, fg: c.surface } : {}),
+          tries: [
+            [16, -10],
+            [-46, 14],
+            [-46, -34],
+            [-110, -10],
+          ],
+        });
+      } else if (k.kind === 'kerb' && k.corner === 0)
+        pill(g, this.labels, x, y, `Kerb ${num(made.corners[0].radius_m, 1)} m`, { must: false });
+    }
+    const fault = layouts.fault.value;
+    const [x, y] = v.to(...(all.find((k) => k.kind === 'arm' && k.arm === layouts.arm.value)?.at ?? [0, 0]));
+    if (fault) pill(g, this.labels, x, y, fault, { icon: 'triangle', bg: c.surface, fg: c.ink });
+  }
+}
+
+function paintKnob(g: Pen, [x, y]: Vec, r: number, inHand: boolean): void {
+  const c = colours();
+  g.beginPath();
+  g.arc(x, y, r + 1.5, 0, Math.PI * 2);
+  g.fillStyle = c.surface;
+  g.fill();
+  g.strokeStyle = inHand ? c.ok : c.ink;
+  g.lineWidth = 2;
+  g.stroke();
+  g.beginPath();
+  g.arc(x, y, r - 3, 0, Math.PI * 2);
+  g.fillStyle = inHand ? c.ok : c.ink;
+  g.fill();
+}
+
+function paintButton(g: Pen, [x, y]: Vec, by: 1 | -1, inHand: boolean): void {
+  const c = colours();
+  g.beginPath();
+  g.arc(x, y, BUTTON_PX, 0, Math.PI * 2);
+  g.fillStyle = inHand ? c.ok : c['ink-2'];
+  g.fill();
+  g.beginPath();
+  g.moveTo(x - 4, y);
+  g.lineTo(x + 4, y);
+  if (by > 0) {
+    g.moveTo(x, y - 4);
+    g.lineTo(x, y + 4);
+  }
+  g.strokeStyle = c.surface;
+  g.lineWidth = 1.8;
+  g.stroke();
+}
+
+function paintHead(g: Pen, v: View, pts: readonly Vec[], colour: string): void {
+  const [a, b] = [pts[Math.max(0, pts.length - 4)], pts.at(-1)!];
+  const [x, y] = v.to(...b);
+  const h = Math.atan2(y - v.y(a[1]), x - v.x(a[0]));
+  g.beginPath();
+  g.moveTo(x, y);
+  g.lineTo(x - HEAD_PX * Math.cos(h - 0.42), y - HEAD_PX * Math.sin(h - 0.42));
+  g.lineTo(x - HEAD_PX * Math.cos(h + 0.42), y - HEAD_PX * Math.sin(h + 0.42));
+  g.closePath();
+  g.fillStyle = colour;
+  g.fill();
+}
