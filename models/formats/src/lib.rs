@@ -2,7 +2,7 @@
 //!
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
 //! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`opendrive`]
-//! and [`lanelet2`] read maps; [`table`] writes motion for notebooks. No format knows another. Readers are
+//! and [`lanelet2`] read maps; [`table`] is motion for notebooks, as CSV and Parquet. No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 //!
 //! ```
@@ -24,10 +24,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod av2;
 mod bounds;
 pub mod checks;
+mod columnar;
 pub mod files;
 pub mod format;
+pub mod foxglove;
+mod frame;
+pub mod geojson;
+pub mod html;
 pub mod identities;
 pub mod lanelet2;
 mod lights;
@@ -41,6 +47,7 @@ mod osm;
 pub mod polyline;
 pub mod problem;
 mod projection;
+mod recording;
 pub mod registry;
 pub mod source;
 pub mod sumo;
@@ -50,7 +57,9 @@ mod unpack;
 pub mod womd;
 mod xml;
 
-pub use format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes};
+pub use format::{
+    COLUMNS_POINTER, ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes,
+};
 pub use loss::Loss;
 pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning, never_null, pointer_token};
 pub use source::Source;

@@ -42,6 +42,14 @@ pub mod code {
     pub const NO_SIZES: &str = "no-sizes";
     /// What is said of futures: probabilities, faults, relations, reactions.
     pub const NO_JUDGEMENTS: &str = "no-judgements";
+    /// The present step, steps beyond what is known of road users, the source's times.
+    pub const NO_TIMING: &str = "no-timing";
+    /// Which lanes follow each other, lie side by side, and end at which lines.
+    pub const NO_LANE_GRAPH: &str = "no-lane-graph";
+    /// Heights.
+    pub const NO_Z: &str = "no-z";
+    /// Road users whom nobody saw.
+    pub const NO_UNSEEN: &str = "no-unseen";
     /// Drivable areas.
     pub const NO_DRIVABLE: &str = "no-drivable";
     /// Widths of lanes.

@@ -1,6 +1,10 @@
 //! One table of formats, for the server, the command line and the documentation.
 
+use crate::av2::Argoverse;
 use crate::format::{Format, ImportOptions, Scenes};
+use crate::foxglove::Mcap;
+use crate::geojson::GeoJson;
+use crate::html::Page;
 use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
 use crate::native::format::NativeJson;
@@ -9,12 +13,25 @@ use crate::osm::format::OsmExtract;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::source::{Source, head};
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
-use crate::table::Table;
+use crate::table::{Csv, Parquet};
 use crate::womd::format::Womd;
 
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 8] =
-    [&NativeJson, &Womd, &SUMO_NET, &SumoFcd, &OPENDRIVE, &LANELET2, &OsmExtract, &Table];
+pub static FORMATS: &[&dyn Format] = &[
+    &NativeJson,
+    &Womd,
+    &SUMO_NET,
+    &SumoFcd,
+    &OPENDRIVE,
+    &LANELET2,
+    &OsmExtract,
+    &Csv,
+    &Parquet,
+    &Argoverse,
+    &GeoJson,
+    &Page,
+    &Mcap,
+];
 
 /// The format with this id.
 pub fn by_id(id: &str) -> Option<&'static dyn Format> {

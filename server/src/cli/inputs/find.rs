@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 /// Most files of one call.
 const MOST_FILES: usize = 1_000_000;
 /// Ends of file names that say nothing about the scene.
-const ENDS: [&str; 9] = [".json", ".tfrecord", ".gz", ".net.xml", ".xml", ".csv", ".scene", ".fcd", ".zst"];
+const ENDS: [&str; 10] =
+    [".json", ".tfrecord", ".gz", ".net.xml", ".xml", ".csv", ".parquet", ".scene", ".fcd", ".zst"];
 
 /// Names that were given.
 #[derive(Default)]
