@@ -96,7 +96,9 @@ fn the_readmes_task_runs_and_repeats() {
     let kept = names(&first.join("kept"));
     assert!(!kept.is_empty() && kept.len() <= rows.len());
     let motion = std::fs::read_to_string(first.join("motion.csv")).unwrap();
-    assert!(motion.starts_with("scenario_id,agent_id,type,subtype,sample,mode,probability,step,time_s,x_m,y_m,"));
+    assert!(
+        motion.starts_with("scenario_id,agent_id,type,subtype,sample,mode,probability,step,time_s,x_m,y_m,")
+    );
     assert_eq!(motion.matches("scenario_id,agent_id").count(), 1, "one heading");
     for name in &kept {
         assert!(motion.contains(&format!("\n{},", name.strip_suffix(".json").unwrap())), "{name}");
@@ -261,7 +263,10 @@ fn many_files_have_one_verdict_each() {
     assert!(!at("one.json").exists());
     let (csv, told) = ends(folder.path(), &["convert", "in", "--to", "csv"], 0);
     assert_eq!(csv.lines().count(), 1 + 91 * (2 + 3 + 4 + 5 + 6 + 7));
-    assert!(told.contains("not in csv: no-licence, no-map, no-timing") && told.lines().count() == 1, "{told}");
+    assert!(
+        told.contains("not in csv: no-licence, no-map, no-timing") && told.lines().count() == 1,
+        "{told}"
+    );
     assert_eq!(ends(folder.path(), &["-q", "convert", "in", "--to", "csv", "-o", "t.csv"], 0).1, "");
     assert_eq!(std::fs::read_to_string(at("t.csv")).unwrap(), csv);
     // One bad file fails alone, and is told by its name.

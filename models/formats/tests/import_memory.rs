@@ -112,7 +112,8 @@ fn long_table(rows: usize) -> Vec<u8> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
     encoder.write_all(b"agent_id,type,time_s,x_m,y_m\n").unwrap();
     for row in 0..rows as u64 {
-        let text = format!("7,car,{:.1},{:.3},{:.3}\n", row as f64 / 10.0, noise(1, row) / 1e3, noise(2, row) / 1e3);
+        let text =
+            format!("7,car,{:.1},{:.3},{:.3}\n", row as f64 / 10.0, noise(1, row) / 1e3, noise(2, row) / 1e3);
         encoder.write_all(text.as_bytes()).unwrap();
     }
     encoder.finish().unwrap()

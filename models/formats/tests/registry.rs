@@ -123,7 +123,9 @@ fn a_table_has_a_line_for_each_road_user_future_and_step() {
     let rows = lines.to_owned().leak().lines().map(fields);
     let shown = rows.filter(|row| row[place("agent_id")] == id && row[place("chosen")] == "1");
     let shown: Vec<_> = shown
-        .filter(|row| row[place("source")] == "log" || (row[place("sample")] == "0" && row[place("mode")] == chosen))
+        .filter(|row| {
+            row[place("source")] == "log" || (row[place("sample")] == "0" && row[place("mode")] == chosen)
+        })
         .collect();
     let times: BTreeSet<&str> = shown.iter().map(|row| row[place("time_s")]).collect();
     assert_eq!(shown.len(), times.len());

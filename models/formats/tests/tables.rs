@@ -12,7 +12,11 @@ fn junction() -> Scene {
     formats::native::read(JUNCTION).unwrap()
 }
 
-fn read_all(format: &str, bytes: &[u8], columns: Option<&str>) -> Vec<Result<formats::Imported, formats::ReadError>> {
+fn read_all(
+    format: &str,
+    bytes: &[u8],
+    columns: Option<&str>,
+) -> Vec<Result<formats::Imported, formats::ReadError>> {
     let columns = columns.map(|text| Arc::new(text.as_bytes().to_vec()) as Arc<dyn Source>);
     by_id(format).unwrap().import(bytes, &ImportOptions { columns, ..ImportOptions::default() })
 }
@@ -31,7 +35,8 @@ fn codes(warnings: &[formats::Warning]) -> Vec<&str> {
 fn a_file_of_many_scenes_gives_them_one_by_one() {
     let scene = junction();
     for format in ["csv", "parquet"] {
-        let file = by_id(format).unwrap().export(&[&scene, &scene, &scene], &ExportOptions::default()).unwrap();
+        let file =
+            by_id(format).unwrap().export(&[&scene, &scene, &scene], &ExportOptions::default()).unwrap();
         let names = |options: &ImportOptions| -> Vec<String> {
             let list = registry::import(&file.bytes, "", "auto", options).unwrap();
             list.into_iter().map(|read| read.unwrap().0.name).collect()
@@ -143,7 +148,10 @@ fn faults_are_told_with_their_row() {
         assert_eq!((error.code(), error.problems[0].pointer.as_str()), (code, at), "{rows}");
     }
     let error = read_all("csv", b"a,b\n1,2\n", None).remove(0).unwrap_err();
-    assert!(error.to_string().contains("agent_id, x_m, y_m, time_s or step") && error.to_string().contains("a, b"));
+    assert!(
+        error.to_string().contains("agent_id, x_m, y_m, time_s or step")
+            && error.to_string().contains("a, b")
+    );
     let error = read_all("csv", head.as_bytes(), Some(r#"{"type": "klass"}"#)).remove(0).unwrap_err();
     assert_eq!(error.problems[0].pointer, "/columns/type");
     let apart = format!("scenario_id,{head}s,a,0,1,1\nt,a,0,1,1\ns,a,0.1,1,1\n");

@@ -139,7 +139,8 @@ impl Wanted {
             return Err(Problem::field(COLUMNS_POINTER, Code::InvalidField, detail));
         }
         let netconvert: Option<Arc<dyn Netconvert>> = Some(Arc::new(Installed));
-        let options = ImportOptions { skip, max_scenes: most, net, netconvert, columns, ..ImportOptions::default() };
+        let options =
+            ImportOptions { skip, max_scenes: most, net, netconvert, columns, ..ImportOptions::default() };
         Ok(Self { format: info.id, options })
     }
 

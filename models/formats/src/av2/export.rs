@@ -36,8 +36,10 @@ pub(super) fn write(scene: &Scene, motion: ExportedMotion) -> io::Result<Exporte
         losses.push(Loss::new(code::LONG_RECORD, detail));
     }
     lost(scene, motion, &mut losses);
-    let rows: Vec<(&Track<'_>, usize, State)> =
-        tracks.iter().flat_map(|track| track.states.iter().map(move |(step, state)| (track, *step, *state))).collect();
+    let rows: Vec<(&Track<'_>, usize, State)> = tracks
+        .iter()
+        .flat_map(|track| track.states.iter().map(move |(step, state)| (track, *step, *state)))
+        .collect();
     let text = |of: &dyn Fn(&Track<'_>) -> String| {
         Values::Text(rows.iter().map(|(track, ..)| Some(of(track))).collect())
     };
@@ -80,7 +82,8 @@ pub(super) fn write(scene: &Scene, motion: ExportedMotion) -> io::Result<Exporte
 
 /// The road user in the middle of interest: the format has one always.
 fn focal(scene: &Scene) -> Option<&str> {
-    let listed = scene.meta.objects_of_interest.first().or(scene.meta.tracks_to_predict.first().map(|(id, _)| id));
+    let listed =
+        scene.meta.objects_of_interest.first().or(scene.meta.tracks_to_predict.first().map(|(id, _)| id));
     let asked = || {
         let sample = scene.generated.as_ref().and_then(|g| g.samples.get(g.chosen_sample));
         sample.and_then(|sample| sample.agents.keys().next())
@@ -156,7 +159,8 @@ fn lost(scene: &Scene, motion: ExportedMotion, losses: &mut Vec<Loss>) {
     let further = samples().count() > 1 || futures().any(|f| f.modes.len() > 1);
     let plain = |agent: &Agent| {
         let known = matches!(agent.subtype, Subtype::Unknown)
-            || agent.agent_type == AgentType::Vehicle && matches!(agent.subtype, Subtype::Bus | Subtype::Motorcycle);
+            || agent.agent_type == AgentType::Vehicle
+                && matches!(agent.subtype, Subtype::Bus | Subtype::Motorcycle);
         !known
     };
     let ego = |agent: &&Agent| agent.role.as_deref() == Some(EGO);
@@ -182,5 +186,7 @@ fn lost(scene: &Scene, motion: ExportedMotion, losses: &mut Vec<Loss>) {
         (unseen, code::NO_UNSEEN, "road users whom nobody saw"),
         (noted || scene.name != *id, code::NO_NOTES, "name, tags, notes and members of other tools"),
     ];
-    losses.extend(all.into_iter().filter(|(there, ..)| *there).map(|(_, code, detail)| Loss::new(code, detail)));
+    losses.extend(
+        all.into_iter().filter(|(there, ..)| *there).map(|(_, code, detail)| Loss::new(code, detail)),
+    );
 }

@@ -2,7 +2,9 @@
 
 use super::{export, import, map};
 use crate::columnar::{is_parquet, names_in};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one};
+use crate::format::{
+    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one,
+};
 use crate::map_file;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::source::{Source, head};

@@ -22,8 +22,15 @@ const NEEDED: [&str; 9] = [
     "velocity_x",
     "velocity_y",
 ];
-const OPTIONAL: [&str; 7] =
-    ["observed", "scenario_id", "focal_track_id", "city", "start_timestamp", "end_timestamp", "num_timestamps"];
+const OPTIONAL: [&str; 7] = [
+    "observed",
+    "scenario_id",
+    "focal_track_id",
+    "city",
+    "start_timestamp",
+    "end_timestamp",
+    "num_timestamps",
+];
 /// Coordinates reach so far, metres.
 const MAX_METRES: f64 = 1e7;
 
@@ -46,7 +53,8 @@ impl Rows {
         at.extend(OPTIONAL.into_iter().filter_map(|name| Some((name, place(name)?))));
         let mut chosen: Vec<usize> = at.values().copied().collect();
         chosen.sort_unstable();
-        let order: HashMap<usize, usize> = chosen.iter().enumerate().map(|(i, column)| (*column, i)).collect();
+        let order: HashMap<usize, usize> =
+            chosen.iter().enumerate().map(|(i, column)| (*column, i)).collect();
         at.values_mut().for_each(|column| *column = order.get(column).copied().unwrap_or(usize::MAX));
         table.choose(chosen)?;
         Ok(Self { table, at })
@@ -184,8 +192,16 @@ pub(super) fn read(
         source: "argoverse".into(),
         source_id: Some(first.scenario.clone()).filter(|id| !id.is_empty()),
         licence: licence.or(own),
-        tags: Some(first.city.clone()).filter(|city| !city.is_empty()).map(|city| format!("{CITY}{city}")).into_iter().collect(),
-        objects_of_interest: index.contains_key(&first.focal).then(|| first.focal.clone()).into_iter().collect(),
+        tags: Some(first.city.clone())
+            .filter(|city| !city.is_empty())
+            .map(|city| format!("{CITY}{city}"))
+            .into_iter()
+            .collect(),
+        objects_of_interest: index
+            .contains_key(&first.focal)
+            .then(|| first.focal.clone())
+            .into_iter()
+            .collect(),
         tracks_to_predict: predicted,
         timestamps_s: timestamps(&first, steps),
         ..Meta::default()

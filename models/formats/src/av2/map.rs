@@ -101,7 +101,9 @@ fn line_type(mark: Option<&str>) -> Option<&'static str> {
         "DASHED_YELLOW" => "broken_single_yellow",
         "SOLID_WHITE" | "SOLID_BLUE" => "solid_single_white",
         "SOLID_YELLOW" => "solid_single_yellow",
-        "DOUBLE_SOLID_WHITE" | "DOUBLE_DASH_WHITE" | "SOLID_DASH_WHITE" | "DASH_SOLID_WHITE" => "solid_double_white",
+        "DOUBLE_SOLID_WHITE" | "DOUBLE_DASH_WHITE" | "SOLID_DASH_WHITE" | "DASH_SOLID_WHITE" => {
+            "solid_double_white"
+        }
         "DOUBLE_SOLID_YELLOW" => "solid_double_yellow",
         "DOUBLE_DASH_YELLOW" => "broken_double_yellow",
         "SOLID_DASH_YELLOW" | "DASH_SOLID_YELLOW" => "passing_double_yellow",
@@ -259,7 +261,9 @@ fn paint(segments: &[&Segment], origin: Vec2, map: &mut LaneMap) {
             (&segment.right_lane_boundary, &segment.right_lane_mark_type),
         ];
         for (side, (points, mark)) in sides.into_iter().enumerate() {
-            let (points, Some(line_type)) = (about(points, origin), line_type(mark.as_deref())) else { continue };
+            let (points, Some(line_type)) = (about(points, origin), line_type(mark.as_deref())) else {
+                continue;
+            };
             let (Some(first), Some(last)) = (points.first(), points.last()) else { continue };
             let cell = |p: &Vec2| ((p.x / SAME_M).round() as i64, (p.y / SAME_M).round() as i64);
             let mut ends = [cell(first), cell(last)];

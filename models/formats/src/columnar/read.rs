@@ -117,7 +117,18 @@ impl Table {
                 return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most, detail));
             }
             let (readers, batch, chosen) = (Vec::new(), Vec::new(), Vec::new());
-            Ok(Self { file: file.clone(), reader, names, chosen, group: 0, readers, left: 0, batch, at: 0, row: 0 })
+            Ok(Self {
+                file: file.clone(),
+                reader,
+                names,
+                chosen,
+                group: 0,
+                readers,
+                left: 0,
+                batch,
+                at: 0,
+                row: 0,
+            })
         })
     }
 
@@ -158,7 +169,8 @@ impl Table {
                 together = together.saturating_add(vet::pages(&self.file, &chunk)?);
             }
             if together > MAX_PAGES + self.file.len() as u64 {
-                let detail = format!("pages of a row group that take {together} bytes together once unpacked");
+                let detail =
+                    format!("pages of a row group that take {together} bytes together once unpacked");
                 return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGES, detail));
             }
         }
@@ -175,7 +187,10 @@ impl Table {
             return Ok(());
         }
         let name = column.path().parts().join(".");
-        let detail = format!("column {name} is a {}, a flat column of numbers or text expected", column.physical_type());
+        let detail = format!(
+            "column {name} is a {}, a flat column of numbers or text expected",
+            column.physical_type()
+        );
         Err(FieldProblem::new(format!("/{name}"), code::CANNOT_REPRESENT, detail).into())
     }
 
@@ -244,7 +259,9 @@ fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<Cell>) -> Resul
             let mut values = values.into_iter().take(known).map($cell);
             // Without levels every value is there.
             let present = (0..records).map(|i| levels.get(i).is_none_or(|level| *level > 0));
-            cells.extend(present.map(|there| if there { values.next() } else { None }.unwrap_or(Cell::Nothing)));
+            cells.extend(
+                present.map(|there| if there { values.next() } else { None }.unwrap_or(Cell::Nothing)),
+            );
         }};
     }
     match reader {

@@ -64,11 +64,7 @@ impl<'a> Reader<'a> {
         self.fields(0, &mut take)
     }
 
-    fn fields(
-        &mut self,
-        depth: usize,
-        take: &mut dyn FnMut(&mut Self, Field) -> Option<bool>,
-    ) -> Option<()> {
+    fn fields(&mut self, depth: usize, take: &mut dyn FnMut(&mut Self, Field) -> Option<bool>) -> Option<()> {
         let mut id: i16 = 0;
         loop {
             let head = self.byte()?;
@@ -76,7 +72,11 @@ impl<'a> Reader<'a> {
                 return Some(());
             }
             let (delta, kind) = (head >> 4, head & 0x0f);
-            id = if delta == 0 { i16::try_from(self.signed()?).ok()? } else { id.checked_add(i16::from(delta))? };
+            id = if delta == 0 {
+                i16::try_from(self.signed()?).ok()?
+            } else {
+                id.checked_add(i16::from(delta))?
+            };
             if !take(self, Field { id, kind })? {
                 self.skip(kind, depth)?;
             }

@@ -118,7 +118,8 @@ pub(super) fn pages(bytes: &[u8], chunk: &Chunk) -> Result<u64, ReadError> {
             largest = largest.max(page.unpacked);
         }
         first = false;
-        at = at.saturating_add(page.header).saturating_add(usize::try_from(page.packed).unwrap_or(usize::MAX));
+        at =
+            at.saturating_add(page.header).saturating_add(usize::try_from(page.packed).unwrap_or(usize::MAX));
         if at > end {
             return Err(broken(end, "a page goes on beyond its column"));
         }
@@ -141,8 +142,15 @@ struct Page {
 }
 
 fn page(bytes: &[u8]) -> Option<Page> {
-    let mut page =
-        Page { header: 0, kind: -1, is_dictionary: false, packed: -1, unpacked: -1, values: -1, encoding: -1 };
+    let mut page = Page {
+        header: 0,
+        kind: -1,
+        is_dictionary: false,
+        packed: -1,
+        unpacked: -1,
+        values: -1,
+        encoding: -1,
+    };
     let mut reader = Reader::new(bytes);
     reader.each(|reader, field| {
         match field.id {

@@ -133,7 +133,8 @@ impl Writer {
     /// Those of the compression; none is expected.
     pub fn message(&mut self, channel: u16, time_ns: u64, data: &[u8]) -> io::Result<()> {
         let count = self.counts.entry(channel).or_default();
-        let message = Content::default().u16(channel).u32(*count as u32).u64(time_ns).u64(time_ns).bytes(data);
+        let message =
+            Content::default().u16(channel).u32(*count as u32).u64(time_ns).u64(time_ns).bytes(data);
         *count += 1;
         let place = self.chunk.records.len() as u64;
         self.chunk.places.entry(channel).or_default().push((time_ns, place));

@@ -104,7 +104,8 @@ fn about(scene: &Scene) -> BTreeMap<String, String> {
         ("units".to_owned(), "metres, seconds, radians".to_owned()),
         (
             "frame".to_owned(),
-            "scene: x east, y north (or the source's axes), z up; source: scene turned and moved by /tf".to_owned(),
+            "scene: x east, y north (or the source's axes), z up; source: scene turned and moved by /tf"
+                .to_owned(),
         ),
         ("step_s".to_owned(), STEP_S.to_string()),
         ("now_step".to_owned(), scene.time.now_step.to_string()),
@@ -124,7 +125,11 @@ fn lost(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
     let noted = !meta.tags.is_empty() || !meta.notes.is_empty() || !scene.extra.is_empty();
     let all = [
         (fixed, code::NO_CONDITIONS, "starts, goals, sizes and types that the user fixed"),
-        (!scene.map.lanes.is_empty(), code::NO_LANE_GRAPH, "which lanes follow each other: the map is a picture"),
+        (
+            !scene.map.lanes.is_empty(),
+            code::NO_LANE_GRAPH,
+            "which lanes follow each other: the map is a picture",
+        ),
         (
             generated && (motion == ExportedMotion::Log || further),
             code::NO_MODES,

@@ -80,13 +80,15 @@ pub(super) fn map(map: &LaneMap) -> Value {
     let areas = |list: &[Area], shade: [u8; 3]| -> Vec<Value> {
         list.iter().map(|area| line(&area.polygon.xy, true, 0.2, colour(shade, 1.0))).collect()
     };
-    let lanes = map.lanes.iter().map(|lane| line(&lane.points.xy, false, 0.1, colour([0x86, 0x8e, 0x98], 0.6)));
+    let lanes =
+        map.lanes.iter().map(|lane| line(&lane.points.xy, false, 0.1, colour([0x86, 0x8e, 0x98], 0.6)));
     let paint = map.road_lines.iter().map(|painted| {
         let yellow = painted.line_type.contains("yellow");
         let shade = if yellow { [0xd7, 0x9a, 0x00] } else { [0xff, 0xff, 0xff] };
         line(&painted.points.xy, false, 0.14, colour(shade, 1.0))
     });
-    let edges = map.road_edges.iter().map(|edge| line(&edge.points.xy, false, 0.24, colour([0x83, 0x8b, 0x95], 1.0)));
+    let edges =
+        map.road_edges.iter().map(|edge| line(&edge.points.xy, false, 0.24, colour([0x83, 0x8b, 0x95], 1.0)));
     let stops = map.stop_signs.iter().map(|sign| {
         json!({
             "pose": pose(sign.position, 1.0, 0.0),

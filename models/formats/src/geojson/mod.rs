@@ -134,8 +134,7 @@ impl Features<'_> {
         if points.len() < 3 {
             return None;
         }
-        let twice_m2: f64 =
-            (0..points.len()).map(|i| cross(points[i], points[(i + 1) % points.len()])).sum();
+        let twice_m2: f64 = (0..points.len()).map(|i| cross(points[i], points[(i + 1) % points.len()])).sum();
         let mut ring: Vec<Value> = points.iter().map(|p| self.position(*p)).collect();
         if (twice_m2 < 0.0) != hole {
             ring.reverse();
@@ -151,11 +150,7 @@ impl Features<'_> {
         Some(json!({"type": "Polygon", "coordinates": rings}))
     }
 
-    fn each(
-        &self,
-        options: &ExportOptions,
-        take: &mut dyn FnMut(Value) -> io::Result<()>,
-    ) -> io::Result<()> {
+    fn each(&self, options: &ExportOptions, take: &mut dyn FnMut(Value) -> io::Result<()>) -> io::Result<()> {
         let map = &self.scene.map;
         let areas = [
             ("drivable_area", &map.drivable),
@@ -163,7 +158,9 @@ impl Features<'_> {
             ("speed_bump", &map.speed_bumps),
             ("driveway", &map.driveways),
         ];
-        for (kind, area) in areas.into_iter().flat_map(|(kind, list)| list.iter().map(move |area| (kind, area))) {
+        for (kind, area) in
+            areas.into_iter().flat_map(|(kind, list)| list.iter().map(move |area| (kind, area)))
+        {
             let Some(polygon) = self.polygon(area) else { continue };
             take(feature(format!("{kind}/{}", area.id), polygon, json!({"kind": kind, "id": area.id})))?;
         }
@@ -313,16 +310,26 @@ fn lost(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
     let heights = agents.iter().any(|agent| agent.track.z_m.is_some())
         || scene.map.lanes.iter().any(|lane| lane.points.z_m.is_some());
     let meta = &scene.meta;
-    let noted = !meta.tags.is_empty() || !meta.notes.is_empty() || meta.parent_id.is_some() || !scene.extra.is_empty();
+    let noted = !meta.tags.is_empty()
+        || !meta.notes.is_empty()
+        || meta.parent_id.is_some()
+        || !scene.extra.is_empty();
     let all = [
         (agents.iter().any(rest), code::NO_CONDITIONS, "starts, sizes and types that the user fixed"),
         (generated && motion == ExportedMotion::Log, code::NO_MODES, "generated futures"),
         (generated, code::NO_JUDGEMENTS, "anchors, faults, relations and reactions"),
-        (scene.map.lanes.iter().any(neighbours), code::NO_LANE_GRAPH, "lanes beside each other, and their sides"),
+        (
+            scene.map.lanes.iter().any(neighbours),
+            code::NO_LANE_GRAPH,
+            "lanes beside each other, and their sides",
+        ),
         (heights, code::NO_Z, "heights"),
         (noted, code::NO_NOTES, "tags, notes and members of other tools"),
     ];
-    let there: BTreeSet<Loss> =
-        all.into_iter().filter(|(there, ..)| *there).map(|(_, code, detail)| Loss::new(code, detail)).collect();
+    let there: BTreeSet<Loss> = all
+        .into_iter()
+        .filter(|(there, ..)| *there)
+        .map(|(_, code, detail)| Loss::new(code, detail))
+        .collect();
     there.into_iter().collect()
 }

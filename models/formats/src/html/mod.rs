@@ -52,7 +52,8 @@ impl Format for Page {
         let name = if scene.name.is_empty() { "Scene" } else { &scene.name };
         // Inside a script nothing may look like markup.
         let data = played(scene, options.motion).to_string().replace('<', "\\u003c");
-        let parts = [head, &escaped(name), before_style, STYLE, before_scene, &data, before_player, PLAYER, foot];
+        let parts =
+            [head, &escaped(name), before_style, STYLE, before_scene, &data, before_player, PLAYER, foot];
         Ok(Exported { bytes: parts.concat().into_bytes(), losses: lost(scene, options.motion) })
     }
 }
@@ -173,7 +174,11 @@ fn lost(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
     let noted = !meta.tags.is_empty() || !meta.notes.is_empty() || !scene.extra.is_empty();
     let all = [
         (scene.agents.iter().any(rest), code::NO_CONDITIONS, "what the user fixed, but for places of goals"),
-        (!scene.map.lanes.is_empty(), code::NO_LANE_GRAPH, "which lanes follow each other: the page is a picture"),
+        (
+            !scene.map.lanes.is_empty(),
+            code::NO_LANE_GRAPH,
+            "which lanes follow each other: the page is a picture",
+        ),
         (
             generated && (motion == ExportedMotion::Log || further),
             code::NO_MODES,

@@ -76,7 +76,8 @@ impl Recording {
         let times = |first: bool| {
             let lists = self.users.iter().map(|user| &user.samples);
             let logged = lists.filter_map(|list| if first { list.first() } else { list.last() });
-            let drawn = self.futures.iter().filter_map(|f| if first { f.samples.first() } else { f.samples.last() });
+            let drawn =
+                self.futures.iter().filter_map(|f| if first { f.samples.first() } else { f.samples.last() });
             let logged: Vec<f64> = logged.map(|s| s.time_s).collect();
             if logged.is_empty() { drawn.map(|s| s.time_s).collect() } else { logged }
         };
@@ -105,11 +106,8 @@ struct Made {
 
 impl Made {
     fn windows(self, steps: usize) -> impl Iterator<Item = Result<Imported, ReadError>> {
-        let (count, window) = if steps <= MAX_STEPS {
-            (1, steps.max(1))
-        } else {
-            (steps.div_ceil(WINDOW_STEPS), WINDOW_STEPS)
-        };
+        let (count, window) =
+            if steps <= MAX_STEPS { (1, steps.max(1)) } else { (steps.div_ceil(WINDOW_STEPS), WINDOW_STEPS) };
         let mut given = false;
         (0..count).filter_map(move |i| {
             let steps = window.min(steps.saturating_sub(i * window)).max(1);
@@ -187,8 +185,7 @@ impl Made {
             return None;
         }
         self.warn(assumed, resampled || self.off_steps(start_s), ids.changed, windowed, &mut warnings);
-        let generated =
-            if windowed { None } else { self.generated(&names, start_s, frame, &mut warnings) };
+        let generated = if windowed { None } else { self.generated(&names, start_s, frame, &mut warnings) };
         let name = if windowed { format!("{} {start_s:.1} s", said.name) } else { said.name.clone() };
         let timestamps_s = match &said.meta.timestamps_s {
             None if windowed => Some((0..steps).map(|i| start_s + i as f64 * STEP_S).collect()),
@@ -271,13 +268,24 @@ impl Made {
         samples.take(10_000).any(|s| step_at(s.time_s, start_s).is_none())
     }
 
-    fn warn(&self, assumed: usize, resampled: bool, ids_changed: usize, windowed: bool, to: &mut Vec<Warning>) {
+    fn warn(
+        &self,
+        assumed: usize,
+        resampled: bool,
+        ids_changed: usize,
+        windowed: bool,
+        to: &mut Vec<Warning>,
+    ) {
         let mut warn = |said: bool, code, detail: String| {
             if said {
                 to.push(Warning::new(code, detail));
             }
         };
-        warn(assumed > 0, "sizes-assumed", format!("{assumed} road users have the default size of their type"));
+        warn(
+            assumed > 0,
+            "sizes-assumed",
+            format!("{assumed} road users have the default size of their type"),
+        );
         let spacing_s = self.spacing_s;
         let detail = format!("rows are {spacing_s:.3} s apart; motion is found anew each {STEP_S} s");
         warn(resampled, "time-resampled", detail);
@@ -315,13 +323,11 @@ impl Made {
                 dropped += 1;
                 continue;
             }
-            list.push((
-                drawn,
-                Future::bare(drawn.probability.unwrap_or(f64::NAN), track.first_step, states),
-            ));
+            list.push((drawn, Future::bare(drawn.probability.unwrap_or(f64::NAN), track.first_step, states)));
         }
         if dropped > 0 {
-            let detail = format!("{dropped} possible motions are empty, impossible or more than a scene has room for");
+            let detail =
+                format!("{dropped} possible motions are empty, impossible or more than a scene has room for");
             warnings.push(Warning::new("futures-dropped", detail));
         }
         let samples: Vec<scene::Sample> = samples.into_values().map(answer).collect();
@@ -344,9 +350,8 @@ fn answer(agents: BTreeMap<String, Vec<(&Drawn, Future)>>) -> scene::Sample {
                 future.probability = even;
             }
         }
-        let by_belief = |a: &usize, b: &usize| {
-            list[*a].1.probability.total_cmp(&list[*b].1.probability).then(b.cmp(a))
-        };
+        let by_belief =
+            |a: &usize, b: &usize| list[*a].1.probability.total_cmp(&list[*b].1.probability).then(b.cmp(a));
         let likeliest = (0..list.len()).max_by(by_belief);
         let chosen = list.iter().position(|(drawn, _)| drawn.chosen).or(likeliest).unwrap_or(0);
         AgentFutures::of(chosen, list.into_iter().map(|(_, future)| future).collect())

@@ -189,7 +189,8 @@ mod tests {
 
     #[test]
     fn steady_motion_at_25_hertz_is_found_at_steps() {
-        let list: Vec<Sample> = (0..=25).map(|i| sample(f64::from(i) * 0.04, f64::from(i) * 0.4, 10.0)).collect();
+        let list: Vec<Sample> =
+            (0..=25).map(|i| sample(f64::from(i) * 0.04, f64::from(i) * 0.4, 10.0)).collect();
         let (track, filled) = track(&list, 0.0, 11, 0.04, frame());
         assert!(filled);
         for (i, state) in track.states.iter().enumerate() {
@@ -206,7 +207,8 @@ mod tests {
             velocity: Vec2::new(f64::NAN, f64::NAN),
             ..sample(t, 0.0, 0.0)
         };
-        let mut list = [unknown(0.0, 0.0, 0.0), unknown(0.1, 0.0, 0.0), unknown(0.2, 0.0, 1.0), unknown(0.3, 0.0, 2.0)];
+        let mut list =
+            [unknown(0.0, 0.0, 0.0), unknown(0.1, 0.0, 0.0), unknown(0.2, 0.0, 1.0), unknown(0.3, 0.0, 2.0)];
         let derived = complete(&mut list, 0.1);
         assert!(derived.headings && derived.velocities);
         assert!((list[3].velocity.y - 10.0).abs() < 1e-9 && (list[2].velocity.y - 10.0).abs() < 1e-9);

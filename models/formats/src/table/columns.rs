@@ -75,7 +75,8 @@ fn unit_factor(unit: &str) -> Option<f64> {
 impl Columns {
     /// Our own names.
     pub fn own() -> Self {
-        let own = |name| (name, Origin { column: Some(String::from(name)), factor: 1.0, ..Origin::default() });
+        let own =
+            |name| (name, Origin { column: Some(String::from(name)), factor: 1.0, ..Origin::default() });
         Self(names().map(own).collect())
     }
 
@@ -126,7 +127,9 @@ impl More {
         let value = match self.value {
             None => None,
             Some(serde_json::Value::String(text)) => Some(text),
-            Some(value @ (serde_json::Value::Number(_) | serde_json::Value::Bool(_))) => Some(value.to_string()),
+            Some(value @ (serde_json::Value::Number(_) | serde_json::Value::Bool(_))) => {
+                Some(value.to_string())
+            }
             Some(_) => return Err("a text, a number or a boolean expected as value".into()),
         };
         if self.column.is_some() == value.is_some() {

@@ -46,7 +46,11 @@ impl Format for Csv {
         let head = unpack::head(head);
         let first = head.split(|byte| *byte == b'\n').next().unwrap_or_default();
         let has = |column: &&str| first.windows(column.len()).any(|window| window == column.as_bytes());
-        if !is_parquet(&head) && OURS.iter().all(has) && std::str::from_utf8(first).is_ok() && !first.contains(&b'{') {
+        if !is_parquet(&head)
+            && OURS.iter().all(has)
+            && std::str::from_utf8(first).is_ok()
+            && !first.contains(&b'{')
+        {
             return 2;
         }
         let name = name.to_ascii_lowercase();

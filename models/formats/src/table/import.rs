@@ -102,7 +102,8 @@ impl<'a> Scenarios<'a> {
         }
         rows.choose(picked.values().filter_map(|picked| picked.at).collect())?;
         // Notes of others under our key say nothing.
-        let notes = rows.notes().get(KEY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
+        let notes =
+            rows.notes().get(KEY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
         Ok(Self {
             rows,
             columns: picked,
@@ -326,7 +327,8 @@ impl<'a> Scenarios<'a> {
         self.ended.insert(hasher.finish());
         let note = self.notes.scenes.iter().find(|note| note.scenario_id == gathered.name);
         let mut said = Said { name: gathered.name.clone(), ..Said::default() };
-        said.meta = note.map_or_else(|| Meta { source: "table".into(), ..Meta::default() }, |note| note.meta());
+        said.meta =
+            note.map_or_else(|| Meta { source: "table".into(), ..Meta::default() }, |note| note.meta());
         if let Some(note) = note {
             said.origin = note.origin();
             said.timing = Some(note.timing());

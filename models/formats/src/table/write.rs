@@ -167,8 +167,9 @@ fn decimal(value: f64) -> String {
 /// The rows of a scene as columns.
 pub(super) fn columns(scene: &(&Scene, String), options: &ExportOptions) -> Vec<Column> {
     let column = |(i, name): (usize, &'static str)| {
-        let required = !matches!(name, "sample" | "mode" | "probability" | "x_m" | "y_m" | "z_m" | "heading_rad")
-            && !matches!(name, "vx_mps" | "vy_mps" | "height_m");
+        let required =
+            !matches!(name, "sample" | "mode" | "probability" | "x_m" | "y_m" | "z_m" | "heading_rad")
+                && !matches!(name, "vx_mps" | "vy_mps" | "height_m");
         Column { name, required, values: values(scene, options, i) }
     };
     COLUMNS.into_iter().enumerate().map(column).collect()
@@ -279,7 +280,11 @@ pub(super) fn lost(scene: &Scene, motion: ExportedMotion, noted: bool) -> Vec<Lo
         (!noted && agents.iter().any(|a| a.role.is_some()), code::NO_ROLES, "roles such as the ego's"),
         (!noted && scene.licence().is_some(), code::NO_LICENCE, "the licence"),
         (!noted, code::NO_TIMING, "the present, how long the scene is, the source's times, and its frame"),
-        (said || linked || picked, code::NO_NOTES, "tags, notes, road users of interest, members of other tools"),
+        (
+            said || linked || picked,
+            code::NO_NOTES,
+            "tags, notes, road users of interest, members of other tools",
+        ),
     ];
     all.into_iter().filter(|(there, ..)| *there).map(|(_, code, detail)| Loss::new(code, detail)).collect()
 }
