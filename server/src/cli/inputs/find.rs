@@ -88,7 +88,9 @@ fn is_scene(path: &Path) -> bool {
     if name.starts_with('.') || name.ends_with(".tmp") {
         return false;
     }
-    let mut readable = FORMATS.iter().map(|format| format.info()).filter(|info| info.import);
+    // Tables that commands write lie beside scenes: manifest.csv is none.
+    let mut readable =
+        FORMATS.iter().map(|format| format.info()).filter(|info| info.import && info.id != "csv");
     // Shards have a number behind the ending.
     name.contains("tfrecord") || readable.any(|info| info.extensions.iter().any(|end| has_end(&name, end)))
 }
