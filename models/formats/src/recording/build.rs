@@ -10,11 +10,13 @@ use scene::{
     Agent, AgentFutures, Conditions, Future, Generated, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene,
     Shared, State, Timing, Vec2,
 };
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Steps of the scenes of a long recording, and the step that is the present: as recordings of other sources have.
 const WINDOW_STEPS: usize = 91;
 const NOW_STEP: usize = 10;
+/// Most scenes of one recording: a day of it.
+const MAX_WINDOWS: usize = 10_000;
 /// A file whose coordinates stay this near to its zero keeps its frame, metres.
 const NEAR_M: f64 = 1_000.0;
 /// Most answers, and most futures of a road user in one, that a scene document holds.
@@ -63,6 +65,8 @@ pub(crate) struct Recording {
 impl Recording {
     /// Its scenes. Each is made when it is asked for.
     pub fn scenes(mut self) -> impl Iterator<Item = Result<Imported, ReadError>> {
+        let can_be = |time: &Timing| (1..=MAX_STEPS).contains(&time.steps) && time.now_step < time.steps;
+        self.said.timing = self.said.timing.filter(can_be);
         for list in self.lists() {
             list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         }
@@ -106,21 +110,37 @@ struct Made {
 
 impl Made {
     fn windows(self, steps: usize) -> impl Iterator<Item = Result<Imported, ReadError>> {
-        let (count, window) =
-            if steps <= MAX_STEPS { (1, steps.max(1)) } else { (steps.div_ceil(WINDOW_STEPS), WINDOW_STEPS) };
-        let mut given = false;
-        (0..count).filter_map(move |i| {
-            let steps = window.min(steps.saturating_sub(i * window)).max(1);
+        let windowed = steps > MAX_STEPS;
+        let mut list: Vec<usize> = vec![0];
+        if windowed {
+            // Those in which anybody is seen: pauses may be as long as they like.
+            let window_s = WINDOW_STEPS as f64 * STEP_S;
+            let at = |s: &Sample| ((s.time_s - self.start_s) / window_s + 1e-6).floor().max(0.0) as usize;
+            let samples = self.recording.users.iter().flat_map(|user| &user.samples);
+            let windows: BTreeSet<usize> = samples.filter(|s| s.is_seen()).map(at).collect();
+            list = windows.into_iter().collect();
+        }
+        let mut fault = (list.len() > MAX_WINDOWS).then(|| {
+            let detail = format!("{} scenes of 9.1 s in one scenario; at most {MAX_WINDOWS}", list.len());
+            FieldProblem::new("", code::CANNOT_REPRESENT, detail)
+        });
+        if fault.is_some() {
+            list.clear();
+        }
+        let (mut given, count) = (false, list.len());
+        let window = if windowed { WINDOW_STEPS } else { steps.max(1) };
+        let mut scenes = list.into_iter().enumerate().filter_map(move |(k, i)| {
+            let steps = window.min(steps.saturating_sub(i.saturating_mul(window))).max(1);
             // A single step at the end is the beginning of a window that was not recorded.
-            if steps == 1 && i > 0 {
-                return None;
-            }
-            let scene = self.scene(self.start_s + (i * window) as f64 * STEP_S, steps, count > 1);
+            let begun = steps == 1 && k > 0;
+            let start_s = self.start_s + i as f64 * window as f64 * STEP_S;
+            let scene = if begun { None } else { self.scene(start_s, steps, windowed) };
             given |= scene.is_some();
             let detail = "no road user is seen in it";
             let empty = || Some(Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into()));
-            if i + 1 == count && !given { scene.or_else(empty) } else { scene }
-        })
+            if k + 1 == count && !given { scene.or_else(empty) } else { scene }
+        });
+        std::iter::from_fn(move || fault.take().map(|fault| Err(fault.into())).or_else(|| scenes.next()))
     }
 
     fn scene(&self, start_s: f64, steps: usize, windowed: bool) -> Option<Result<Imported, ReadError>> {
