@@ -34,7 +34,7 @@ for path in sorted((root / "assets/scenes").glob("*.json"))[:4]:
         summary = reader.get_summary()
         messages = list(reader.iter_messages())
         notes = {note.name: note.metadata for note in reader.iter_metadata()}
-        some = list(reader.iter_messages(topics=["/road_users"], start_time=10**9, end_time=2 * 10**9))
+        some = list(reader.iter_messages(topics=["/road_users"], starting_at=10**9, ending_before=2 * 10**9))
     check(f"{path.name}: indexed", summary is not None and len(summary.chunk_indexes) > 0)
     check(f"{path.name}: counted", summary.statistics.message_count == len(messages))
     check(f"{path.name}: a second of messages", [m.log_time for _, _, m in some] == [10**9 + i * 10**8 for i in range(10)])

@@ -94,7 +94,7 @@ for number, path in enumerate(scenes):
         keys = frame.assign(g=frame["source"] == "generated")
         order = keys[["g", "sample", "step"]].fillna(-1)
         groups = (frame[["source", "sample", "agent_id", "mode"]].astype("string").fillna("") + "|").sum(axis=1)
-        together = groups.ne(groups.shift()).sum() == groups.nunique()
+        together = groups.ne(groups.shift()).fillna(True).sum() == groups.nunique()
         check(f"{table.name}: rows of one motion stand together", together)
         check(f"{table.name}: recorded rows first", order["g"].is_monotonic_increasing)
         compare(table.name, frame, scene, 1e-9 if ending == "parquet" else 1e-6)
