@@ -3948,9 +3948,12 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "application/geo+json": string;
                     "application/octet-stream": string;
+                    "application/vnd.apache.parquet": string;
                     "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
                     "text/csv": string;
+                    "text/html": string;
                 };
             };
             /** @description bad-header, bad-host, malformed-json, malformed-file */
@@ -4391,6 +4394,8 @@ export interface operations {
             content: {
                 "application/octet-stream": number[];
                 "multipart/form-data": {
+                    /** Format: binary */
+                    columns?: string;
                     /** Format: binary */
                     file: string;
                     /** Format: binary */
@@ -6857,9 +6862,12 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "application/geo+json": string;
                     "application/octet-stream": string;
+                    "application/vnd.apache.parquet": string;
                     "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
                     "text/csv": string;
+                    "text/html": string;
                 };
             };
             /** @description bad-header, bad-host */
