@@ -258,8 +258,8 @@ impl Made {
     /// Those that a scene has room for, in the order of the file: near enough to the origin, and nearest to the
     /// middle of all.
     fn kept(&self, present: &[(usize, Vec2)], origin: &Origin, warnings: &mut Vec<Warning>) -> Vec<usize> {
-        let centre = Vec2::new(origin.x_m, origin.y_m);
-        let far = |s: &Sample| s.is_seen() && (s.at - centre).norm() > MAX_COORDINATE_M;
+        let frame = Frame::of(origin);
+        let far = |s: &Sample| s.is_seen() && frame.place_back(s.at).amax() > MAX_COORDINATE_M;
         let middle = middle(present.iter().map(|(_, at)| *at).filter(|at| at.x.is_finite()));
         let samples = |i: usize| self.recording.users.get(i).map_or(&[][..], |user| &user.samples);
         let is_ego =

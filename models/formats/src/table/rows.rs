@@ -121,16 +121,16 @@ pub(super) struct CsvRows<'a> {
 
 impl<'a> CsvRows<'a> {
     fn open(file: &'a dyn Source) -> Result<Self, ReadError> {
+        let fault = |error: io::Error| unpack::fault(&error, 0);
+        let head = unpack::head(file.open().map_err(fault)?);
         let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_DECODED_BYTES)));
-        let mut input = input.map_err(|error| unpack::fault(&error, 0))?;
-        let head = input.fill_buf().map_err(|error| unpack::fault(&error, 0))?;
-        if is_parquet(head) {
+        let mut input = input.map_err(fault)?;
+        if is_parquet(&head) {
             return Err(ReadError::malformed(0, "a Parquet file, not CSV"));
         }
-        let delimiter = delimiter(head);
-        let bom = head.starts_with(b"\xef\xbb\xbf");
-        if bom {
-            input.consume(3);
+        let delimiter = delimiter(&head);
+        if head.starts_with(b"\xef\xbb\xbf") {
+            input.read_exact(&mut [0; 3]).map_err(fault)?;
         }
         let input: Box<dyn BufRead + 'a> = Box::new(input);
         // A row may begin at the end of what was read for the one before it.
