@@ -4,5 +4,5 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    formats::checks::sumo_pair(bytes);
+    formats::checks::pair("sumo-fcd", bytes);
 });

@@ -24,11 +24,13 @@ def plot(scene: Scene, ax: Axes | None, *, modes: bool) -> Axes:
     document = scene.document
     _draw_map(document["map"], ax)
     frame = scene.to_frame()
-    made = set(frame.loc[frame["mode"] != "log", "agent"])
-    for (agent, kind, mode), rows in frame.groupby(["agent", "type", "mode"], sort=False):
+    frame = frame[frame["valid"]]
+    made = set(frame.loc[frame["source"] == "generated", "agent_id"])
+    keys = ["agent_id", "type", "source", "mode"]
+    for (agent, kind, source, _), rows in frame.groupby(keys, sort=False, dropna=False):
         shown = bool(rows["chosen"].iloc[0])
         colour = COLOURS.get(str(kind), GREY)
-        if mode == "log":
+        if source == "log":
             style: dict[str, Any] = {"color": GREY, "lw": 0.8, "ls": "--" if agent in made else "-"}
         elif shown:
             style = {"color": colour, "lw": 2.2}
@@ -37,7 +39,7 @@ def plot(scene: Scene, ax: Axes | None, *, modes: bool) -> Axes:
         else:
             continue
         ax.plot(rows["x_m"], rows["y_m"], zorder=3, **style)
-    starts = frame[frame["mode"] == "log"].groupby("agent", sort=False).first()
+    starts = frame[frame["source"] == "log"].groupby("agent_id", sort=False).first()
     sizes = {agent["id"]: (agent["length_m"], agent["width_m"]) for agent in document["agents"]}
     for agent, row in starts.iterrows():
         colour = COLOURS.get(str(row["type"]), GREY)
@@ -47,7 +49,7 @@ def plot(scene: Scene, ax: Axes | None, *, modes: bool) -> Axes:
         if agent in made:
             ax.annotate(str(agent), corners[0], fontsize=8, zorder=5)
     ax.set_aspect("equal")
-    _look_at(frame[frame["agent"].isin(made)] if made else frame, ax)
+    _look_at(frame[frame["agent_id"].isin(made)] if made else frame, ax)
     ax.set_xlabel("x, metres")
     ax.set_ylabel("y, metres")
     ax.set_title(scene.name)

@@ -161,14 +161,20 @@ class Scene:
         return dict(json.loads(run(["score", "--json", "-"], scene.bytes())))
 
     def to_frame(self) -> pandas.DataFrame:
-        """A long table of all motion, one row for each road user, future and step: recorded rows have the mode
-        ``log``, futures their number, and ``chosen`` those that are shown. Needs pandas."""
+        """A long table of all motion in the frame of the scene, one row for each road user, future and step:
+        ``source`` is ``log`` or ``generated``, futures have ``sample``, ``mode`` and ``probability``, ``chosen`` are
+        those that are shown, and ``valid`` is false where nobody saw the road user. Needs pandas."""
         import pandas
 
-        text = run(["export", "-", "--format", "csv", "-o", "-"], self.bytes())
-        words = {name: "string" for name in ("scene", "agent", "type", "mode")}
-        frame = pandas.read_csv(io.BytesIO(text), dtype={**words, "sample": "Int64"})
-        return frame.assign(scene=self.name).astype({"scene": "string", "chosen": bool})
+        # Tables have the frame of the source; without an origin that is the scene's own.
+        meta = {name: value for name, value in self.document.get("meta", {}).items() if name != "origin"}
+        here = Scene({**self.document, "meta": meta})
+        text = run(["export", "-", "--format", "csv", "-o", "-"], here.bytes())
+        words = {name: "string" for name in ("scenario_id", "agent_id", "type", "subtype", "source")}
+        whole = {name: "Int64" for name in ("sample", "mode")}
+        frame = pandas.read_csv(io.BytesIO(text), dtype={**words, **whole})
+        frame = frame.assign(scenario_id=self.name)
+        return frame.astype({"scenario_id": "string", "chosen": bool, "valid": bool})
 
     def plot(self, ax: Axes | None = None, *, modes: bool = True) -> Axes:
         """The scene from above, about those who have futures: map, recorded tracks in grey, what is shown in

@@ -60,13 +60,14 @@ def test_edits_chain(turned: Scene) -> None:
 def test_frames_hold_every_step(turned: Scene) -> None:
     frame = turned.to_frame()
     assert isinstance(frame, pandas.DataFrame)
-    wanted = {"scene", "sample", "agent", "type", "mode", "chosen", "t_s", "x_m", "y_m", "heading_rad", "v_mps"}
+    wanted = {"scenario_id", "agent_id", "type", "sample", "mode", "probability", "step", "time_s", "x_m", "y_m"}
+    wanted |= {"heading_rad", "vx_mps", "vy_mps", "length_m", "width_m", "valid", "source", "chosen"}
     assert wanted <= set(frame.columns)
-    ours = frame[(frame["agent"] == "4") & (frame["sample"] == 0) & (frame["mode"] != "log")]
+    ours = frame[(frame["agent_id"] == "4") & (frame["sample"] == 0) & (frame["source"] == "generated")]
     assert ours["mode"].nunique() == 6 and len(ours) == 6 * 90
     shown = ours[ours["chosen"]].iloc[-1]
-    assert (shown["x_m"], shown["y_m"], shown["t_s"]) == pytest.approx((2.0, 27.5, 9.0), abs=0.05)
-    assert set(frame[frame["mode"] == "log"]["agent"]) == set(turned.agents)
+    assert (shown["x_m"], shown["y_m"], shown["time_s"]) == pytest.approx((2.0, 27.5, 9.0), abs=0.05)
+    assert set(frame[frame["source"] == "log"]["agent_id"]) == set(turned.agents)
 
 
 def test_conditions_in_the_road_users_own_frame(scene: Scene) -> None:
@@ -109,8 +110,8 @@ def test_a_plot_shows_map_boxes_and_futures(turned: Scene) -> None:
     matplotlib.use("Agg")
     axes = turned.plot()
     frame = turned.to_frame()
-    assert len(axes.lines) > frame["agent"].nunique()
-    assert len(axes.patches) >= frame[frame["mode"] == "log"]["agent"].nunique()
+    assert len(axes.lines) > frame["agent_id"].nunique()
+    assert len(axes.patches) >= frame[frame["source"] == "log"]["agent_id"].nunique()
     assert {"4", "2"} <= {text.get_text() for text in axes.texts}
 
 

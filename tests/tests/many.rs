@@ -96,8 +96,10 @@ fn the_readmes_task_runs_and_repeats() {
     let kept = names(&first.join("kept"));
     assert!(!kept.is_empty() && kept.len() <= rows.len());
     let motion = std::fs::read_to_string(first.join("motion.csv")).unwrap();
-    assert!(motion.starts_with("scene,sample,agent,type,mode,chosen,t_s,x_m,y_m,heading_rad,v_mps\n"));
-    assert_eq!(motion.matches("scene,sample").count(), 1, "one heading");
+    assert!(
+        motion.starts_with("scenario_id,agent_id,type,subtype,sample,mode,probability,step,time_s,x_m,y_m,")
+    );
+    assert_eq!(motion.matches("scenario_id,agent_id").count(), 1, "one heading");
     for name in &kept {
         assert!(motion.contains(&format!("\n{},", name.strip_suffix(".json").unwrap())), "{name}");
     }
@@ -148,8 +150,8 @@ fn values_are_told_in_words_of_the_command_line() {
         assert!(told.contains(expected) && !told.contains("/horizon_s"), "{flags:?}: {told}");
     }
     let told = ends(folder.path(), &["convert", &scene, "--to", "netcdf"], 2).1;
-    assert!(told.contains("dragtraffic, womd, csv can be written"), "{told}");
-    let told = ends(folder.path(), &["convert", &scene, "--from", "csv"], 2).1;
+    assert!(told.contains("dragtraffic, womd, csv, parquet") && told.contains("can be written"), "{told}");
+    let told = ends(folder.path(), &["convert", &scene, "--from", "geojson"], 2).1;
     assert!(told.contains("can be read"), "{told}");
     let told = ends(folder.path(), &["--port", "1", "score", &scene], 2).1;
     assert!(told.contains("--port is a flag of serve"), "{told}");
@@ -261,7 +263,10 @@ fn many_files_have_one_verdict_each() {
     assert!(!at("one.json").exists());
     let (csv, told) = ends(folder.path(), &["convert", "in", "--to", "csv"], 0);
     assert_eq!(csv.lines().count(), 1 + 91 * (2 + 3 + 4 + 5 + 6 + 7));
-    assert!(told.contains("not in csv: no-licence, no-map, no-sizes") && told.lines().count() == 1, "{told}");
+    assert!(
+        told.contains("not in csv: no-licence, no-map, no-timing") && told.lines().count() == 1,
+        "{told}"
+    );
     assert_eq!(ends(folder.path(), &["-q", "convert", "in", "--to", "csv", "-o", "t.csv"], 0).1, "");
     assert_eq!(std::fs::read_to_string(at("t.csv")).unwrap(), csv);
     // One bad file fails alone, and is told by its name.

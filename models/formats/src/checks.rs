@@ -24,13 +24,18 @@ pub const TARGETS: &[(&str, Check)] = &[
     ("womd", womd),
     ("sumo-net", |bytes| sumo("sumo-net", bytes)),
     ("sumo-fcd", |bytes| sumo("sumo-fcd", bytes)),
-    ("sumo-pair", sumo_pair),
+    ("sumo-pair", |bytes| pair("sumo-fcd", bytes)),
     ("opendrive", |bytes| map_of("opendrive", bytes)),
     ("lanelet2", |bytes| map_of("lanelet2", bytes)),
     ("osm", osm),
     ("commonroad", |bytes| both_ways("commonroad", bytes)),
     ("scenarionet", |bytes| both_ways("scenarionet", bytes)),
     ("gpudrive", |bytes| both_ways("gpudrive", bytes)),
+    ("csv", |bytes| recording("csv", bytes)),
+    ("csv-columns", columns_pair),
+    ("parquet", |bytes| recording("parquet", bytes)),
+    ("av2", |bytes| recording("av2", bytes)),
+    ("av2-pair", |bytes| pair("av2", bytes)),
     ("sniff", sniff),
 ];
 
@@ -105,14 +110,37 @@ pub fn sumo(format: &str, bytes: &[u8]) -> bool {
     imported(format, bytes, None)
 }
 
-/// A recording and, before it and a zero byte, the network it belongs to.
+/// A recording in the format with this id that is read is a scene that the native format holds.
+///
+/// # Panics
+/// When it is not.
+pub fn recording(format: &str, bytes: &[u8]) -> bool {
+    imported(format, bytes, None)
+}
+
+/// What stands before the first zero byte, and what behind it.
+fn parts(bytes: &[u8]) -> (&[u8], &[u8]) {
+    let mut parts = bytes.splitn(2, |byte| *byte == 0);
+    (parts.next().unwrap_or_default(), parts.next().unwrap_or_default())
+}
+
+/// A recording and, before it and a zero byte, the network or map it belongs to.
 ///
 /// # Panics
 /// When a scene is read that the native format does not hold.
-pub fn sumo_pair(bytes: &[u8]) -> bool {
-    let mut parts = bytes.splitn(2, |byte| *byte == 0);
-    let (net, file) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
-    imported("sumo-fcd", file, Some(net))
+pub fn pair(format: &str, bytes: &[u8]) -> bool {
+    let (net, file) = parts(bytes);
+    imported(format, file, Some(net))
+}
+
+/// A table in CSV and, before it and a zero byte, what its columns are.
+///
+/// # Panics
+/// When a scene is read that the native format does not hold.
+pub fn columns_pair(bytes: &[u8]) -> bool {
+    let (columns, file) = parts(bytes);
+    let columns = Some(Arc::new(columns.to_vec()) as Arc<dyn Source>);
+    read("csv", file, &ImportOptions { max_scenes: 4, columns, ..ImportOptions::default() })
 }
 
 /// A map in the format with this id that is read is a scene that the native format holds.
@@ -148,10 +176,13 @@ pub fn both_ways(format: &str, bytes: &[u8]) -> bool {
 
 fn imported(format: &str, bytes: &[u8], net: Option<&[u8]>) -> bool {
     let net = net.map(|net| Arc::new(net.to_vec()) as Arc<dyn Source>);
-    let options = ImportOptions { max_scenes: 4, net, ..ImportOptions::default() };
+    read(format, bytes, &ImportOptions { max_scenes: 4, net, ..ImportOptions::default() })
+}
+
+fn read(format: &str, bytes: &[u8], options: &ImportOptions) -> bool {
     let format = registry::by_id(format).expect("the format is in the table");
     let mut read = false;
-    for (scene, _) in format.import(bytes, &options).into_iter().flatten() {
+    for (scene, _) in format.import(bytes, options).into_iter().flatten() {
         native::read(&native::write(&scene)).expect("what was written is read");
         works(&scene);
         read = true;

@@ -47,14 +47,19 @@ pub struct ImportOptions {
     /// Join the tracks of road users that a recording has under two ids.
     pub join_identities: bool,
     /// The network that a recording belongs to, for formats whose info has `takes_net`: a SUMO `net.xml`,
-    /// plain or gzip. Faults in it are reported under [`NET_POINTER`].
+    /// plain or gzip, or the map of an Argoverse scenario. Faults in it are reported under [`NET_POINTER`].
     pub net: Option<Arc<dyn Source>>,
     /// For extracts of OpenStreetMap.
     pub netconvert: Option<Arc<dyn Netconvert>>,
+    /// Which columns of a table say what, for formats that take it ([`Format::takes_columns`]): a JSON object of
+    /// our names and theirs. Faults in it are reported under [`COLUMNS_POINTER`].
+    pub columns: Option<Arc<dyn Source>>,
 }
 
 /// Pointer of faults in [`ImportOptions::net`].
 pub const NET_POINTER: &str = "/net";
+/// Pointer of faults in [`ImportOptions::columns`].
+pub const COLUMNS_POINTER: &str = "/columns";
 
 impl Default for ImportOptions {
     fn default() -> Self {
@@ -66,6 +71,7 @@ impl Default for ImportOptions {
             join_identities: true,
             net: None,
             netconvert: None,
+            columns: None,
         }
     }
 }
@@ -142,6 +148,11 @@ pub trait Format: Sync {
 
     /// How sure it is that a file that begins so is its own: 0 not at all, 1 by name, 2 by content.
     fn sniff(&self, head: &[u8], name: &str) -> u8;
+
+    /// May come with names of columns ([`ImportOptions::columns`]).
+    fn takes_columns(&self) -> bool {
+        false
+    }
 
     /// Reads the scenes of a file.
     fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a>;

@@ -3,7 +3,8 @@
 //! [`native`] is the program's own JSON; [`womd`] is the Waymo Open Motion Dataset's Scenario
 //! record; [`sumo`] reads what the traffic simulator writes: networks and recordings; [`opendrive`]
 //! and [`lanelet2`] read maps; `commonroad`, `scenarionet` and `gpudrive` are what planners and
-//! simulators read; [`table`] writes motion for notebooks. No format knows another. Readers are
+//! simulators read; [`av2`] reads Argoverse 2, [`table`] is motion for notebooks, as CSV and Parquet.
+//! No format knows another. Readers are
 //! bounded in time and memory, never follow references, never panic, and say where a fault lies.
 //!
 //! ```
@@ -25,12 +26,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod av2;
 mod bounds;
 pub mod checks;
+mod columnar;
 mod commonroad;
 pub mod files;
 pub mod format;
+pub mod foxglove;
+mod frame;
+pub mod geojson;
 mod gpudrive;
+pub mod html;
 pub mod identities;
 mod kinds;
 pub mod lanelet2;
@@ -49,6 +56,7 @@ mod osm;
 pub mod polyline;
 pub mod problem;
 mod projection;
+mod recording;
 pub mod registry;
 mod scenarionet;
 mod settle;
@@ -64,7 +72,9 @@ mod unwritten;
 pub mod womd;
 mod xml;
 
-pub use format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes};
+pub use format::{
+    COLUMNS_POINTER, ExportOptions, Exported, ExportedMotion, Format, ImportOptions, NET_POINTER, Scenes,
+};
 pub use loss::Loss;
 pub use problem::{FieldProblem, Imported, Kind, ReadError, Warning, never_null, pointer_token};
 pub use source::Source;

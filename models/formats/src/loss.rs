@@ -42,6 +42,14 @@ pub mod code {
     pub const NO_SIZES: &str = "no-sizes";
     /// What is said of futures: probabilities, faults, relations, reactions.
     pub const NO_JUDGEMENTS: &str = "no-judgements";
+    /// The present step, steps beyond what is known of road users, the source's times.
+    pub const NO_TIMING: &str = "no-timing";
+    /// Which lanes follow each other, lie side by side, and end at which lines.
+    pub const NO_LANE_GRAPH: &str = "no-lane-graph";
+    /// Heights.
+    pub const NO_Z: &str = "no-z";
+    /// Road users whom nobody saw.
+    pub const NO_UNSEEN: &str = "no-unseen";
     /// Drivable areas.
     pub const NO_DRIVABLE: &str = "no-drivable";
     /// Widths of lanes.
@@ -50,8 +58,6 @@ pub mod code {
     pub const NO_LANE_TYPE: &str = "no-lane-type";
     /// More steps than the scene, because a future is longer: readers made for recordings may not take it.
     pub const LONG_RECORD: &str = "long-record";
-    /// Heights.
-    pub const NO_Z: &str = "no-z";
     /// Painted lines and road edges as lines of their own.
     pub const NO_LINES: &str = "no-lines";
     /// Areas of the map that the format has no word for.
@@ -62,16 +68,12 @@ pub mod code {
     pub const NO_VALIDITY_GAPS: &str = "no-validity-gaps";
     /// One road user alone has a goal, and nothing else is known of it.
     pub const SINGLE_EGO: &str = "single-ego";
-    /// How many steps there are and which of them is the present.
-    pub const NO_TIMING: &str = "no-timing";
     /// What signals show beside red, yellow and green.
     pub const NO_SIGNAL_STATES: &str = "no-signal-states";
     /// Road users that come after the first step, of which the format's own readers know and its schema does not.
     pub const LATE_ROAD_USERS: &str = "late-road-users";
     /// Lines that are not where they were, or numbers that are rounded so that it can be seen, by how much at most.
     pub const GEOMETRY_APPROXIMATED: &str = "geometry-approximated";
-    /// What follows which lane, what lies beside it, and who obeys a sign.
-    pub const NO_LANE_GRAPH: &str = "no-lane-graph";
     /// Ids: what is read again is numbered.
     pub const NO_IDS: &str = "no-ids";
     /// Speed limits.

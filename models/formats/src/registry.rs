@@ -1,8 +1,12 @@
 //! One table of formats, for the server, the command line and the documentation.
 
+use crate::av2::Argoverse;
 use crate::commonroad::format::CommonRoad;
 use crate::format::{Format, ImportOptions, Scenes};
+use crate::foxglove::Mcap;
+use crate::geojson::GeoJson;
 use crate::gpudrive::format::{GPUDRIVE, NOCTURNE};
+use crate::html::Page;
 use crate::kinds;
 use crate::lanelet2::format::LANELET2;
 use crate::loss::Loss;
@@ -14,14 +18,14 @@ use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::scenarionet::format::ScenarioNet;
 use crate::source::{Source, head};
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
-use crate::table::Table;
+use crate::table::{Csv, Parquet};
 use crate::womd::format::Womd;
 
 /// A format that is this sure knows a file by its content.
 const BY_CONTENT: u8 = 2;
 
 /// All formats, the native one first.
-pub static FORMATS: [&dyn Format; 13] = [
+pub static FORMATS: &[&dyn Format] = &[
     &NativeJson,
     &Womd,
     &SUMO_NET,
@@ -34,7 +38,12 @@ pub static FORMATS: [&dyn Format; 13] = [
     &ScenarioNet,
     &GPUDRIVE,
     &NOCTURNE,
-    &Table,
+    &Csv,
+    &Parquet,
+    &Argoverse,
+    &GeoJson,
+    &Page,
+    &Mcap,
 ];
 
 /// The format with this id.

@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 /// Most bytes by which a file is recognised.
 const HEAD: u64 = 128 << 10;
+/// Most bytes of its end.
+const TAIL: u64 = 64 << 10;
 
 /// A file that can be read from its beginning more than once: to recognise it, to read it, and again to find
 /// the place of a fault.
@@ -50,12 +52,22 @@ impl<S: Source + ?Sized> Source for Arc<S> {
     }
 }
 
-/// The first bytes of a file, by which it is recognised.
+/// The first bytes of a file, by which it is recognised; of one that says at its end what it is (Parquet), the last
+/// ones follow.
 pub fn head(file: &dyn Source) -> Vec<u8> {
     let mut head = Vec::new();
     // A broken file is recognised by what comes before the fault.
     if let Ok(input) = file.open() {
-        let _ = input.take(HEAD).read_to_end(&mut head);
+        let mut input = input.take(HEAD);
+        let _ = input.read_to_end(&mut head);
+        if head.starts_with(b"PAR1") {
+            let mut tail = Vec::new();
+            let mut rest = input.into_inner();
+            while rest.by_ref().take(TAIL).read_to_end(&mut tail).is_ok_and(|count| count > 0) {
+                tail.drain(..tail.len().saturating_sub(TAIL as usize));
+            }
+            head.append(&mut tail);
+        }
     }
     head
 }

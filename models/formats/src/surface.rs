@@ -95,7 +95,31 @@ pub(crate) fn draw(
     ways: &[Vec<Vec2>],
     id: impl FnMut() -> String,
 ) -> bool {
-    let rings: Vec<Vec<(Vec2, Label)>> = strips.iter().filter_map(ring).collect();
+    draw_rings(map, strips.iter().filter_map(ring).collect(), ways, id)
+}
+
+/// The same of areas that are known as polygons, which touch and may lie over each other.
+pub(crate) fn draw_areas(
+    map: &mut LaneMap,
+    areas: &[Vec<Vec2>],
+    ways: &[Vec<Vec2>],
+    id: impl FnMut() -> String,
+) -> bool {
+    let label = Label { side: Side::Outer, junction: false };
+    let ring = |area: &Vec<Vec2>| -> Vec<(Vec2, Label)> {
+        let twice_m2: f64 = (0..area.len()).map(|i| cross(area[i], area[(i + 1) % area.len()])).sum();
+        let corners = area.iter().map(|p| (*p, label));
+        if twice_m2 < 0.0 { corners.rev().collect() } else { corners.collect() }
+    };
+    draw_rings(map, areas.iter().filter(|area| area.len() > 2).map(ring).collect(), ways, id)
+}
+
+fn draw_rings(
+    map: &mut LaneMap,
+    rings: Vec<Vec<(Vec2, Label)>>,
+    ways: &[Vec<Vec2>],
+    id: impl FnMut() -> String,
+) -> bool {
     let mut drawing = Drawing { map, id };
     let (pairs, pieces) = pairs(&rings);
     if pairs > (PAIRS_ANYWAY + PAIRS_A_PIECE * pieces).min(MOST_PAIRS) {

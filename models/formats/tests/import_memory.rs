@@ -100,6 +100,25 @@ fn fcd(steps: u64, cars: u64) -> Vec<u8> {
     encoder.finish().unwrap()
 }
 
+/// So many scenes of 200 road users.
+fn table(format: &str, count: usize) -> Vec<u8> {
+    let scene = busy(200, 91);
+    let scenes = vec![&scene; count];
+    registry::by_id(format).unwrap().export(&scenes, &Default::default()).unwrap().bytes
+}
+
+/// One road user for so many steps.
+fn long_table(rows: usize) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(b"agent_id,type,time_s,x_m,y_m\n").unwrap();
+    for row in 0..rows as u64 {
+        let text =
+            format!("7,car,{:.1},{:.3},{:.3}\n", row as f64 / 10.0, noise(1, row) / 1e3, noise(2, row) / 1e3);
+        encoder.write_all(text.as_bytes()).unwrap();
+    }
+    encoder.finish().unwrap()
+}
+
 fn net(edges: usize) -> Vec<u8> {
     let mut text = String::from("<net>");
     for edge in 0..edges {
@@ -287,6 +306,20 @@ fn reading_takes_little_beside_the_file() {
             Some("expansion-too-high"),
             16,
         ),
+        // A table of one scenario as long as is let through, plain columns and repeated ones.
+        ("csv", "csv", Box::new(gzip(&table("csv", 16))), 16, None, 16),
+        ("parquet", "parquet", Box::new(table("parquet", 16)), 16, None, 64),
+        ("one long scenario", "csv", Box::new(long_table(980_000)), 200, None, 128),
+        ("too long a scenario", "csv", Box::new(long_table(1_100_000)), 0, Some("too-many-agents"), 128),
+        (
+            "a row without end",
+            "csv",
+            Box::new(repeated(b"agent_id,time_s,x_m,y_m\n\"", &[b'a'; MIB], 90, b"")),
+            0,
+            Some("decoded-too-large"),
+            8,
+        ),
+        ("av2", "av2", Box::new(table("av2", 1)), 1, None, 64),
         ("lanelets", "lanelet2", Box::new(lanelets(1_500)), 1, None, 64),
         ("scenario", "commonroad", Box::new(scenario(1_500, 250)), 1, None, 96),
         (

@@ -64,6 +64,48 @@ fn snap(mut scene: Scene, model: &Scene) -> Scene {
     scene
 }
 
+/// Leaves out steps at either end of a track at which nobody saw the road user.
+fn trim(scene: &mut Scene) {
+    for agent in &mut scene.agents {
+        let track = &mut agent.track;
+        let Some(first) = track.states.iter().position(Option::is_some) else { continue };
+        track.first_step += first;
+        track.states.drain(..first);
+        while track.states.last().is_some_and(Option::is_none) {
+            track.states.pop();
+        }
+    }
+}
+
+/// Moves numbers that differ by little onto those of `model`.
+fn near_enough(mut scene: Scene, model: &Scene, most: f64) -> Scene {
+    let fix = |own: &mut f64, wanted: f64| {
+        if (*own - wanted).abs() <= most {
+            *own = wanted;
+        }
+    };
+    for (agent, wanted) in scene.agents.iter_mut().zip(&model.agents) {
+        fix(&mut agent.size.length_m, wanted.size.length_m);
+        fix(&mut agent.size.width_m, wanted.size.width_m);
+        if let (Some(own), Some(wanted)) = (&mut agent.size.height_m, wanted.size.height_m) {
+            fix(own, wanted);
+        }
+        let track = &mut agent.track;
+        for (state, wanted) in track.states.iter_mut().zip(&wanted.track.states) {
+            if let (Some(s), Some(w)) = (state, wanted) {
+                let pairs = [(&mut s.x_m, w.x_m), (&mut s.y_m, w.y_m), (&mut s.heading_rad, w.heading_rad)];
+                pairs.into_iter().for_each(|(own, wanted)| fix(own, wanted));
+                fix(&mut s.vx_mps, w.vx_mps);
+                fix(&mut s.vy_mps, w.vy_mps);
+            }
+        }
+        if let (Some(own), Some(wanted)) = (&mut track.z_m, &wanted.track.z_m) {
+            own.iter_mut().zip(wanted).for_each(|(own, wanted)| fix(own, *wanted));
+        }
+    }
+    scene
+}
+
 fn mutated(bytes: &[u8], edits: &[(usize, u8, u8)]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for (at, value, kind) in edits {
@@ -120,6 +162,82 @@ proptest! {
         womd::write(&[&first], &mut file, gzip, ExportedMotion::Log).unwrap();
         let (second, _) = womd::read_all(&file, &Options::default()).remove(0).unwrap();
         prop_assert_eq!(first, second);
+    }
+
+    #[test]
+    fn tables_lose_only_what_they_say(scene in scene(), parquet in any::<bool>(), gzip in any::<bool>()) {
+        let scene = scene.checked().unwrap();
+        let format = formats::registry::by_id(if parquet { "parquet" } else { "csv" }).unwrap();
+        let options = formats::ExportOptions { motion: ExportedMotion::Log, gzip, ..Default::default() };
+        let file = format.export(&[&scene], &options).unwrap();
+        let codes: Vec<_> = file.losses.iter().map(|l| l.code).collect();
+        let (first, warnings) = format.import(&file.bytes, &Default::default()).remove(0).unwrap();
+        let mut expected = scene.clone();
+        expected.map = Default::default();
+        expected.signals.clear();
+        expected.agents.iter_mut().for_each(|a| a.conditions = Conditions::default());
+        // What is known of notes alone is all that the two differ in.
+        (expected.meta.objects_of_interest, expected.meta.tracks_to_predict) = Default::default();
+        let noted = ["no-conditions", "no-map", "no-notes", "no-signals"];
+        let all = ["no-conditions", "no-licence", "no-map", "no-notes", "no-roles", "no-signals", "no-timing"];
+        let possible = if parquet { &noted[..] } else { &all[..] };
+        prop_assert!(codes.iter().all(|code| possible.contains(code)), "{:?}", codes);
+        prop_assert!(codes.contains(&"no-map"));
+        prop_assert!(warnings.is_empty(), "{:?}", warnings);
+        if !parquet {
+            expected.agents[0].role = None;
+            expected.meta = first.meta.clone();
+            expected.time = first.time;
+        }
+        // Without notes the frame is the table's: places are compared in that of the source.
+        let (own, its) = (scene.meta.origin.clone(), first.meta.origin.clone());
+        let shift = Vec2::new(own.x_m - its.x_m, own.y_m - its.y_m);
+        for agent in &mut expected.agents {
+            for state in agent.track.states.iter_mut().flatten() {
+                (state.x_m, state.y_m) = (state.x_m + shift.x, state.y_m + shift.y);
+            }
+        }
+        // CSV has millionths.
+        let most = if parquet { 1e-9 } else { 2e-6 };
+        let fixed = near_enough(first.clone(), &expected, most);
+        prop_assert_eq!(fixed, expected);
+        // What came from a file goes back into one bit for bit.
+        let again = format.export(&[&first], &options).unwrap();
+        let (second, _) = format.import(&again.bytes, &Default::default()).remove(0).unwrap();
+        prop_assert_eq!(near_enough(second, &first, 1e-9), first);
+    }
+
+    #[test]
+    fn argoverse_loses_only_what_it_says(scene in scene()) {
+        let scene = scene.checked().unwrap();
+        let format = formats::registry::by_id("av2").unwrap();
+        let options = formats::ExportOptions { motion: ExportedMotion::Log, ..Default::default() };
+        let file = format.export(&[&scene], &options).unwrap();
+        let (first, warnings) = format.import(&file.bytes, &Default::default()).remove(0).unwrap();
+        let warned: Vec<_> = warnings.iter().map(|w| w.code).collect();
+        prop_assert_eq!(warned, ["no-map", "sizes-assumed"]);
+        let seen = |agent: &&Agent| agent.track.valid_steps().next().is_some();
+        let mut expected: Vec<Agent> = scene.agents.iter().filter(seen).cloned().collect();
+        let unseen = file.losses.iter().any(|loss| loss.code == "no-unseen");
+        prop_assert_eq!(unseen, expected.len() < scene.agents.len());
+        prop_assert_eq!(first.time, scene.time);
+        prop_assert_eq!(first.meta.licence.as_deref(), scene.meta.licence.as_deref());
+        let (own, its) = (&scene.meta.origin, &first.meta.origin);
+        for agent in &mut expected {
+            agent.conditions = Conditions::default();
+            agent.size = Size::default_for(agent.agent_type, agent.subtype);
+            if agent.role.is_some() {
+                agent.id = "AV".into();
+            }
+            let track = &mut agent.track;
+            track.z_m = None;
+            for state in track.states.iter_mut().flatten() {
+                (state.x_m, state.y_m) = (state.x_m + own.x_m - its.x_m, state.y_m + own.y_m - its.y_m);
+            }
+        }
+        let mut expected = Scene { agents: expected, ..first.clone() };
+        trim(&mut expected);
+        prop_assert_eq!(near_enough(first.clone(), &expected, 1e-9), expected);
     }
 
     #[test]

@@ -51,6 +51,7 @@ const UPLOADS: &[&str] = &[
     "application/xml",
     "text/xml",
     "text/csv",
+    "application/vnd.apache.parquet",
     MULTIPART,
 ];
 const MULTIPART: &str = "multipart/form-data";
@@ -60,21 +61,25 @@ struct File {
     file: Arc<dyn Source>,
     /// Name that the file was given: a label, nothing is opened.
     label: Option<String>,
-    /// The network that the file belongs to.
-    net: Option<Arc<dyn Source>>,
+    /// What came with it.
+    beside: transfer::Beside,
 }
 
 impl File {
-    /// What was uploaded: a file, or the parts `file` and, where there is one, `net` of a form of this type.
+    /// What was uploaded: a file, or the parts `file` and, where they are there, `net` and `columns` of a form of
+    /// this type.
     fn of(upload: &Arc<Upload>, form: Option<&str>) -> Result<Self, Problem> {
         let Some(content_type) = form else {
-            return Ok(Self { file: Arc::<Upload>::clone(upload), label: None, net: None });
+            let beside = transfer::Beside::default();
+            return Ok(Self { file: Arc::<Upload>::clone(upload), label: None, beside });
         };
         let missing = || Problem::field("/file", Code::InvalidField, "the form needs a part named file");
-        let [file, net] = upload::parts(upload, content_type, ["file", "net"])?;
+        let [file, net, columns] = upload::parts(upload, content_type, ["file", "net", "columns"])?;
         let mut file = file.ok_or_else(missing)?;
         let label = file.label.take();
-        Ok(Self { file: Arc::new(file), label, net: net.map(|net| Arc::new(net) as Arc<dyn Source>) })
+        let source = |part| Arc::new(part) as Arc<dyn Source>;
+        let beside = transfer::Beside { net: net.map(source), columns: columns.map(source) };
+        Ok(Self { file: Arc::new(file), label, beside })
     }
 }
 
@@ -218,9 +223,9 @@ impl Order {
     }
 
     fn read(&self, room: &Room, cancel: &Cancel) -> Result<Ready, Problem> {
-        let File { file, label, net } = File::of(&self.upload, self.form.as_deref())?;
+        let File { file, label, beside } = File::of(&self.upload, self.form.as_deref())?;
         let name = self.name.clone().or(label).unwrap_or_default();
-        let wanted = transfer::Wanted::of(&file, self.format.as_deref(), &name, net, self.window)?;
+        let wanted = transfer::Wanted::of(&file, self.format.as_deref(), &name, &beside, self.window)?;
         let format = wanted.format;
         let mut taken = Taken::new(self, format)?;
         let skipped = wanted.each(&file, |imported| {

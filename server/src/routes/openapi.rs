@@ -61,8 +61,8 @@ fn tidy(document: &mut Value) {
         }
         if id == "importScenes" {
             let part = json!({"type": "string", "format": "binary"});
-            let form =
-                json!({"type": "object", "required": ["file"], "properties": {"file": part, "net": part}});
+            let form = json!({"type": "object", "required": ["file"], "properties":
+                    {"file": part, "net": part, "columns": part}});
             content.insert("multipart/form-data".into(), json!({"schema": form}));
         }
     }

@@ -232,7 +232,7 @@ fn read_file(path: &Path) -> Result<(Vec<u8>, Vec<Scene>), String> {
         return Err(format!("larger than {MOST_BYTES} bytes"));
     }
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let read = transfer::read(&bytes, None, &name, 0, MOST_FILES, None);
+    let read = transfer::read(&bytes, None, &name, 0, MOST_FILES, &transfer::Beside::default());
     let read = read.map_err(|problem| problem.detail)?;
     Ok((bytes, read.scenes.into_iter().map(|s| s.scene).collect()))
 }

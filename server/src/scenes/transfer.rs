@@ -5,7 +5,7 @@ use crate::base::netconvert::Installed;
 use crate::base::problem::{Code, Problem};
 use formats::netconvert::Netconvert;
 use formats::registry::{self, FORMATS};
-use formats::{ExportOptions, ExportedMotion, ImportOptions, NET_POINTER, Source, source};
+use formats::{COLUMNS_POINTER, ExportOptions, ExportedMotion, ImportOptions, NET_POINTER, Source, source};
 use scene::Scene;
 use serde::Deserialize;
 use std::sync::Arc;
@@ -72,10 +72,10 @@ pub fn known(name: &str) -> &str {
 }
 
 /// Reads a file; the format is recognised from its content when `format` is `None`. `skip` scenes
-/// are passed over and at most `most` given. `net` is the network that a recording belongs to.
+/// are passed over and at most `most` given. `beside` is what comes with the file.
 ///
 /// # Errors
-/// `format-unknown`, `invalid-field` for a network beside a file that takes none, or why not one scene
+/// `format-unknown`, `invalid-field` for something beside a file that takes none, or why not one scene
 /// of the file can be read.
 pub fn read(
     bytes: &[u8],
@@ -83,16 +83,24 @@ pub fn read(
     name: &str,
     skip: usize,
     most: usize,
-    net: Option<Vec<u8>>,
+    beside: &Beside,
 ) -> Result<Read, Problem> {
-    let net = net.map(|net| Arc::new(net) as Arc<dyn Source>);
-    let wanted = Wanted::of(&bytes, format, name, net, (skip, most))?;
+    let wanted = Wanted::of(&bytes, format, name, beside, (skip, most))?;
     let mut scenes = Vec::new();
     let skipped = wanted.each(&bytes, |imported| {
         scenes.push(imported);
         Ok(())
     })?;
     Ok(Read { scenes, skipped })
+}
+
+/// What may come with a file.
+#[derive(Clone, Debug, Default)]
+pub struct Beside {
+    /// The network or map that a recording belongs to.
+    pub net: Option<Arc<dyn Source>>,
+    /// Which columns of a table say what.
+    pub columns: Option<Arc<dyn Source>>,
 }
 
 /// What is to be read out of a file.
@@ -107,12 +115,12 @@ impl Wanted {
     /// take.
     ///
     /// # Errors
-    /// `format-unknown`, or `invalid-field` for a network beside a file that takes none.
+    /// `format-unknown`, or `invalid-field` for something beside a file that takes none.
     pub fn of(
         file: &dyn Source,
         format: Option<&str>,
         name: &str,
-        net: Option<Arc<dyn Source>>,
+        beside: &Beside,
         (skip, most): (usize, usize),
     ) -> Result<Self, Problem> {
         let found = match format {
@@ -120,12 +128,18 @@ impl Wanted {
             None => registry::recognised(&source::head(file), name)?,
         };
         let info = found.info();
+        let Beside { net, columns } = beside.clone();
         if net.is_some() && !info.takes_net {
             let detail = format!("a file of format {} comes without a network", info.id);
             return Err(Problem::field(NET_POINTER, Code::InvalidField, detail));
         }
+        if columns.is_some() && !found.takes_columns() {
+            let detail = format!("a file of format {} has no columns to name", info.id);
+            return Err(Problem::field(COLUMNS_POINTER, Code::InvalidField, detail));
+        }
         let netconvert: Option<Arc<dyn Netconvert>> = Some(Arc::new(Installed));
-        let options = ImportOptions { skip, max_scenes: most, net, netconvert, ..ImportOptions::default() };
+        let options =
+            ImportOptions { skip, max_scenes: most, net, netconvert, columns, ..ImportOptions::default() };
         Ok(Self { format: info.id, options })
     }
 

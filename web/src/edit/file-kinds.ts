@@ -31,6 +31,7 @@ const CALLED: Record<string, string> = {
   tfrecord: 'scenario record',
   xml: 'network',
   csv: 'table',
+  parquet: 'table',
 };
 
 /** What its name says that it is. */

@@ -65,7 +65,7 @@ export class Importing {
     const { notices } = this.editor;
     const verdicts: FileVerdict[] = [];
     notices.show({ text: `Reading ${files.length === 1 ? files[0].name : `${files.length} files`} …` }, READING_MS);
-    for (const f of files) verdicts.push(await this.#one(f));
+    for (const { file, net } of inPairs(files)) verdicts.push(await this.#one(file, net));
     await this.list.refresh().catch(() => undefined);
     notices.hide();
     const good = verdicts.flatMap((v) => v.scenes);
@@ -99,15 +99,15 @@ export class Importing {
     } else this.#verdicts.value = rest;
   }
 
-  async #one(file: File): Promise<FileVerdict> {
+  async #one(file: File, net?: File): Promise<FileVerdict> {
     const foreign = await foreignKind(file);
     if (foreign) return foreignVerdict(file.name, foreign);
-    return this.#send(file.name, file);
+    return this.#send(file.name, file, [], net);
   }
 
-  async #send(name: string, file: Blob, without: readonly string[] = []): Promise<FileVerdict> {
+  async #send(name: string, file: Blob, without: readonly string[] = [], net?: File): Promise<FileVerdict> {
     try {
-      const v = verdictOf(name, await this.client.importFile(name, file));
+      const v = verdictOf(name, await this.client.importFile(name, file, net));
       return without.length && v.ok ? { ...v, wrong: `Without ${without.join(', ')}.` } : v;
     } catch (e) {
       if (!(e instanceof Refused)) return awayVerdict(name, file);
@@ -133,6 +133,24 @@ export class Importing {
   }
 }
 
+/** A recording and, in the same drop, the map that it was made on: each of these goes with the one beside it. */
+const PAIRS: readonly (readonly [recording: RegExp, map: RegExp])[] = [
+  [/^scenario_.*\.parquet$|\.av2\.parquet$/i, /^log_map_archive_.*\.json$/i],
+  [/\.fcd\.(xml|csv)(\.gz)?$/i, /\.net\.xml(\.gz)?$/i],
+];
+
+/** Files with what belongs to them; one map goes with all its recordings, by name where there are several. */
+export function inPairs(files: readonly File[]): { readonly file: File; readonly net?: File }[] {
+  const stem = (name: string) => name.replace(/^(scenario_|log_map_archive_)/i, '').replace(/\..*$/, '');
+  const netOf = (file: File): File | undefined => {
+    const pair = PAIRS.find(([recording]) => recording.test(file.name));
+    const maps = pair ? files.filter((f) => pair[1].test(f.name)) : [];
+    return maps.find((f) => stem(f.name) === stem(file.name)) ?? (maps.length === 1 ? maps[0] : undefined);
+  };
+  const pairs = files.map((file) => ({ file, net: netOf(file) }));
+  return pairs.filter(({ file }) => !pairs.some(({ net }) => net === file));
+}
+
 const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
 
 function sceneIn(text: string): SceneJson | null {
@@ -149,10 +167,10 @@ function lineAt(text: string, pointer: string | undefined): number | null {
   return at === null ? null : lineOf(text, at);
 }
 
-const READABLE = 'Scenario records, lane maps and saved scenes can be read.';
+const READABLE = 'Scenario records, lane maps, tables of motion and saved scenes can be read.';
 
 function foreignVerdict(file: string, kind: string): FileVerdict {
-  const ending = /\.(json|tfrecord|xml|csv)(\.gz)?$/i.exec(file)?.[0];
+  const ending = /\.(json|tfrecord|xml|csv|parquet)(\.gz)?$/i.exec(file)?.[0];
   const wrong = ending ? `Named ${ending}, but it is ${kind}.` : `“${file}” is not a scene: it is ${kind}.`;
   return {
     file,

@@ -4672,9 +4672,12 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "application/geo+json": string;
                     "application/octet-stream": string;
+                    "application/vnd.apache.parquet": string;
                     "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
                     "text/csv": string;
+                    "text/html": string;
                 };
             };
             /** @description bad-header, bad-host, malformed-json, malformed-file */
@@ -5115,6 +5118,8 @@ export interface operations {
             content: {
                 "application/octet-stream": number[];
                 "multipart/form-data": {
+                    /** Format: binary */
+                    columns?: string;
                     /** Format: binary */
                     file: string;
                     /** Format: binary */
@@ -7898,9 +7903,12 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "application/geo+json": string;
                     "application/octet-stream": string;
+                    "application/vnd.apache.parquet": string;
                     "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
                     "text/csv": string;
+                    "text/html": string;
                 };
             };
             /** @description bad-header, bad-host */

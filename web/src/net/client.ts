@@ -138,12 +138,16 @@ export class Client {
     await this.request(`/v1/scenes/${encodeURIComponent(id)}`, { method: 'DELETE', headers: { 'If-Match': etag } });
   }
 
-  async importFile(name: string, body: Blob): Promise<ImportReply> {
+  /** `net` is the network or map that the file belongs to. */
+  async importFile(name: string, body: Blob, net?: Blob): Promise<ImportReply> {
     const isJson = /\.json$/i.test(name);
+    const form = new FormData();
+    form.append('file', body, name);
+    if (net) form.append('net', net);
+    const type = isJson ? 'application/json' : 'application/octet-stream';
     const reply = await this.request(`/v1/import?name=${encodeURIComponent(name.slice(-120))}`, {
       method: 'POST',
-      body,
-      headers: { 'Content-Type': isJson ? 'application/json' : 'application/octet-stream' },
+      ...(net ? { body: form } : { body, headers: { 'Content-Type': type } }),
     });
     return (await reply.json()) as ImportReply;
   }

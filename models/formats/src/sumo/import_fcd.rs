@@ -7,11 +7,12 @@ use super::rows::{Item, Row, Rows};
 use super::window::{Between, MAX_FILLED_S, SAME_S, Sample, between, track};
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::recording::{Ids, middle};
 use scene::geometry::direction;
 use scene::{
     Agent, AgentType, Conditions, MAX_COORDINATE_M, Meta, Origin, STEP_S, Scene, Shared, Timing, Vec2,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Steps of a scene: 9.1 s, as recordings of other sources have.
 const STEPS: usize = 91;
@@ -355,38 +356,5 @@ impl Iterator for Windows<'_> {
     /// After a fault of the file nothing follows.
     fn next(&mut self) -> Option<Self::Item> {
         if self.ended { None } else { self.advance() }
-    }
-}
-
-/// The median of each coordinate: a few stragglers do not move it.
-fn middle(points: impl Iterator<Item = Vec2>) -> Vec2 {
-    let (mut x, mut y): (Vec<f64>, Vec<f64>) = points.map(|p| (p.x, p.y)).unzip();
-    let median = |list: &mut Vec<f64>| {
-        list.sort_by(f64::total_cmp);
-        list.get(list.len() / 2).copied().unwrap_or(0.0)
-    };
-    Vec2::new(median(&mut x), median(&mut y))
-}
-
-/// Ids as a scene can have them, each once.
-#[derive(Default)]
-struct Ids {
-    taken: BTreeSet<String>,
-    changed: usize,
-}
-
-impl Ids {
-    fn take(&mut self, id: &str) -> String {
-        let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
-        let clean: String = id.chars().map(legal).take(56).collect();
-        let mut name = clean.clone();
-        let mut count = 1;
-        while self.taken.contains(&name) {
-            count += 1;
-            name = format!("{clean}.{count}");
-        }
-        self.changed += usize::from(name != id);
-        self.taken.insert(name.clone());
-        name
     }
 }

@@ -1,13 +1,13 @@
 //! From a scene to a Scenario message and its file.
 
-use super::export_map::{MapIds, features};
-use super::frame::Frame;
+use super::export_map::{MapIds, features, map_point};
 use super::import::SIGNAL_STATES;
 use super::proto::{
     DynamicMapState, ObjectState, RequiredPrediction, Scenario, Track, TrafficSignalLaneState,
 };
 use super::record::write_record;
 use crate::format::{EGO, ExportedMotion};
+use crate::frame::Frame;
 use crate::loss::{Loss, code};
 use crate::unwritten;
 use flate2::Compression;
@@ -191,7 +191,7 @@ fn signal_rows(signals: &[Signal], steps: usize, frame: Frame, ids: &MapIds) -> 
             TrafficSignalLaneState {
                 lane: Some(ids.lane(&signal.lane)),
                 state: i32::try_from(number).ok(),
-                stop_point: signal.stop.map(|p| frame.point(p, signal.stop_z_m)),
+                stop_point: signal.stop.map(|p| map_point(frame, p, signal.stop_z_m)),
             }
         };
         DynamicMapState { lane_states: shown.map(lane_state).collect() }

@@ -1,15 +1,15 @@
 //! A lane map as map features.
 
-use super::frame::Frame;
 use super::proto::{
     BoundarySegment, FeatureData, LaneCenter, LaneNeighbor, MapFeature, MapPoint, Polygon, StopSign,
     TypedLine,
 };
+use crate::frame::Frame;
 use crate::loss::{Loss, code};
 use crate::units::mph;
-use scene::LaneMap;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, Points};
 use scene::map::{ROAD_EDGE_TYPES, ROAD_LINE_TYPES};
+use scene::{LaneMap, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// First number given to a feature whose id is no number.
@@ -112,7 +112,7 @@ pub(super) fn features(map: &LaneMap, frame: Frame, ids: &MapIds, losses: &mut V
     }
     for sign in &map.stop_signs {
         let lane = sign.lanes.iter().map(|id| ids.lane(id)).collect();
-        let position = Some(frame.point(sign.position, sign.z_m));
+        let position = Some(map_point(frame, sign.position, sign.z_m));
         push(Kind::Sign, &sign.id, FeatureData::StopSign(StopSign { lane, position }));
     }
     let polygon = |area: &Area| Polygon { polygon: points(&area.polygon, frame) };
@@ -147,9 +147,14 @@ fn word_number(word: &str, words: &[&str]) -> Option<i32> {
     i32::try_from(words.iter().position(|w| *w == word).unwrap_or(0)).ok()
 }
 
+pub(super) fn map_point(frame: Frame, p: Vec2, z_m: Option<f64>) -> MapPoint {
+    let p = frame.place(p);
+    MapPoint { x: Some(p.x), y: Some(p.y), z: z_m.map(|z| frame.height(z)) }
+}
+
 fn points(points: &Points, frame: Frame) -> Vec<MapPoint> {
     let height = |i: usize| points.z_m.as_ref().and_then(|z| z.get(i)).copied();
-    points.xy.iter().enumerate().map(|(i, p)| frame.point(*p, height(i))).collect()
+    points.xy.iter().enumerate().map(|(i, p)| map_point(frame, *p, height(i))).collect()
 }
 
 fn lane_center(lane: &Lane, frame: Frame, ids: &MapIds) -> LaneCenter {

@@ -7,7 +7,6 @@
 mod export;
 mod export_map;
 pub(crate) mod format;
-mod frame;
 mod ids;
 mod import;
 mod import_map;

@@ -15,6 +15,7 @@ use one::{One, too_many};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Flags of `convert`.
 #[derive(Args, Clone, Debug)]
@@ -25,15 +26,18 @@ pub struct ConvertArgs {
     /// take all of them into one file.
     #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
-    /// Format of the output: dragtraffic, womd (or waymo), csv.
+    /// Format of the output: dragtraffic, womd (or waymo), csv, parquet, av2, geojson, html, mcap.
     #[arg(long, visible_alias = "format", value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable)]
     to: &'static str,
     /// Format of the input; recognised from its content when absent.
     #[arg(long, value_name = "FORMAT", value_parser = readable)]
     from: Option<&'static str>,
-    /// Network that a SUMO recording belongs to.
+    /// Network that a SUMO recording belongs to, or map of an Argoverse scenario.
     #[arg(long, value_name = "FILE")]
     net: Option<PathBuf>,
+    /// Which columns of a table say what: JSON of our names and theirs, with units and factors.
+    #[arg(long, value_name = "FILE")]
+    columns: Option<PathBuf>,
     /// Scenes to take of each file: one number, or FIRST..LAST.
     #[arg(long, value_name = "WHICH", value_parser = values::index)]
     index: Option<Range<usize>>,
@@ -88,8 +92,12 @@ struct Converted {
 /// Exit 2, 3, 4, 5, 8.
 pub fn convert(args: ConvertArgs, common: &Common) -> Result<(), Failure> {
     let sources = args.inputs.sources()?;
-    let net = args.net.as_deref().map(output::read).transpose()?;
-    let reading = Reading { from: args.from.map(str::to_owned), net, index: args.index.clone() };
+    let file = |path: &Option<PathBuf>| {
+        let bytes = path.as_deref().map(output::read).transpose()?;
+        Ok::<_, Failure>(bytes.map(|bytes| Arc::new(bytes) as Arc<dyn formats::Source>))
+    };
+    let beside = transfer::Beside { net: file(&args.net)?, columns: file(&args.columns)? };
+    let reading = Reading { from: args.from.map(str::to_owned), beside, index: args.index.clone() };
     let progress = Progress::new("files", sources.len() as u64, common.quiet);
     let mut losses = Losses::new();
     let mut tally = Tally::default();

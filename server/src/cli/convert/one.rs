@@ -27,6 +27,8 @@ impl One {
         let format = registry::by_id(args.to);
         let many = format.is_some_and(|format| format.info().many);
         let heading = format.and_then(|format| format.export(&[], &formats::ExportOptions::default()).ok());
+        // One that is written as a whole alone takes one scene here.
+        let many = many && heading.is_some();
         let heading = heading.filter(|_| many).map_or_else(Vec::new, |exported| exported.bytes);
         let path = args.output.as_deref().filter(|path| *path != Path::new("-"));
         if let Some(path) = path {

@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 /// Most files of one call.
 const MOST_FILES: usize = 1_000_000;
 /// Ends of file names that say nothing about the scene.
-const ENDS: [&str; 9] = [".json", ".tfrecord", ".gz", ".net.xml", ".xml", ".csv", ".scene", ".fcd", ".zst"];
+const ENDS: [&str; 10] =
+    [".json", ".tfrecord", ".gz", ".net.xml", ".xml", ".csv", ".parquet", ".scene", ".fcd", ".zst"];
 
 /// Names that were given.
 #[derive(Default)]
@@ -87,7 +88,9 @@ fn is_scene(path: &Path) -> bool {
     if name.starts_with('.') || name.ends_with(".tmp") {
         return false;
     }
-    let mut readable = FORMATS.iter().map(|format| format.info()).filter(|info| info.import);
+    // Tables that commands write lie beside scenes: manifest.csv is none.
+    let mut readable =
+        FORMATS.iter().map(|format| format.info()).filter(|info| info.import && info.id != "csv");
     // Shards have a number behind the ending.
     name.contains("tfrecord") || readable.any(|info| info.extensions.iter().any(|end| has_end(&name, end)))
 }

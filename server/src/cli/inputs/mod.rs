@@ -42,8 +42,8 @@ pub struct Source {
 pub struct Reading {
     /// Format; recognised when absent.
     pub from: Option<String>,
-    /// The network that recordings belong to.
-    pub net: Option<Vec<u8>>,
+    /// What comes with each file.
+    pub beside: transfer::Beside,
     /// Scenes of each file; all when absent.
     pub index: Option<Range<usize>>,
 }
@@ -106,7 +106,7 @@ impl Source {
         let mut known = Known::default();
         while at < wanted.end {
             let most = AT_A_TIME.min(wanted.end - at);
-            let read = transfer::read(&bytes, reading.from.as_deref(), &name, at, most, reading.net.clone());
+            let read = transfer::read(&bytes, reading.from.as_deref(), &name, at, most, &reading.beside);
             let read = match read {
                 Err(problem) if at == wanted.start => return Err(refused(&self.path, &problem)),
                 Err(problem) => {

@@ -48,6 +48,11 @@ const FORMATS: Kind[] = [
   ofServer('dragtraffic', 'Saved scene', '.json', 'layers'),
   ofServer('womd', 'Scenario record', '.tfrecord', 'file'),
   ofServer('csv', 'Table of motion', '.csv', 'table'),
+  ofServer('parquet', 'Table of motion', '.parquet', 'table'),
+  ofServer('html', 'Page that plays', '.html', 'film'),
+  ofServer('geojson', 'GeoJSON', '.geojson', 'layers'),
+  ofServer('av2', 'Argoverse scenario', '.av2.parquet', 'file'),
+  ofServer('mcap', 'Foxglove log', '.mcap', 'file'),
 ];
 
 function kindsFor(c: Context): Kind[] {

@@ -1,0 +1,96 @@
+//! Argoverse scenarios as users import and export them.
+
+use super::{export, import, map};
+use crate::columnar::{is_parquet, names_in};
+use crate::format::{
+    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one,
+};
+use crate::map_file;
+use crate::problem::{FieldProblem, Imported, ReadError, code};
+use crate::source::{Source, head};
+use crate::unpack;
+use scene::{Meta, Origin, Scene, Vec2};
+use std::collections::BTreeMap;
+use std::io;
+
+/// Scenario with or without the map of its place; the map alone is a scene without road users.
+pub struct Argoverse;
+
+impl Format for Argoverse {
+    fn info(&self) -> Info {
+        Info {
+            id: "av2",
+            name: "Argoverse 2 scenario (Parquet, map JSON)",
+            media_type: "application/vnd.apache.parquet",
+            extensions: &["av2.parquet"],
+            import: true,
+            export: true,
+            many: false,
+            takes_net: true,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], name: &str) -> u8 {
+        let name = name.to_ascii_lowercase();
+        if is_parquet(head) {
+            let known = names_in(head, &["track_id", "focal_track_id", "timestep", "position_x"]);
+            return if known { 2 } else { u8::from(name.ends_with(".av2.parquet")) };
+        }
+        let head = unpack::head(head);
+        let has = |text: &[u8]| head.windows(text.len()).any(|window| window == text);
+        let map = head.trim_ascii_start().starts_with(b"{")
+            && (has(b"\"left_lane_boundary\"") || has(b"\"area_boundary\""));
+        if map { 2 } else { 0 }
+    }
+
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        if options.skip > 0 || options.max_scenes == 0 {
+            return Box::new(std::iter::empty());
+        }
+        if is_parquet(&head(file)) { one(scenario(file, options)) } else { one(place(file, options)) }
+    }
+
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        match scenes {
+            [scene] => export::write(scene, options.motion),
+            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "an Argoverse file holds one scenario")),
+        }
+    }
+}
+
+fn scenario(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+    let map = options.net.as_ref().map(|net| map::read(net)).transpose();
+    let map = map.map_err(|error| error.under(NET_POINTER))?;
+    import::read(file, map, options.licence.clone())
+}
+
+/// A map alone.
+fn place(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadError> {
+    let place = map::read(file)?;
+    let (low, high) = place.corners().unwrap_or_default();
+    let (origin, half): (Vec2, Vec2) = (((low + high) / 2.0).map(f64::round), (high - low) / 2.0);
+    if map_file::is_too_wide(half) {
+        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, map_file::extent(half)).into());
+    }
+    let (map, warnings) = place.lane_map(origin);
+    let scene = Scene {
+        id: None,
+        name: "Argoverse map".into(),
+        meta: Meta {
+            source: "argoverse".into(),
+            licence: Some(options.licence.clone().unwrap_or_else(|| super::LICENCE.into())),
+            origin: Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
+            ..Meta::default()
+        },
+        time: MAP_TIMING,
+        map: map.into(),
+        signals: Vec::new(),
+        agents: Vec::new(),
+        generated: None,
+        extra: BTreeMap::new(),
+    };
+    match scene.checked() {
+        Ok(scene) => Ok((scene, warnings)),
+        Err(faults) => Err(ReadError::invalid(faults.into_iter().map(FieldProblem::from).collect())),
+    }
+}

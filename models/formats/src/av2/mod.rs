@@ -1,0 +1,26 @@
+//! Argoverse 2 motion forecasting: a scenario as Parquet, a row for each track and step, and the map of its place as
+//! JSON. Names of columns and members are those of its public API (`av2.datasets.motion_forecasting`,
+//! `av2.map.map_api`).
+
+mod export;
+mod format;
+mod import;
+mod map;
+
+pub use format::Argoverse;
+
+/// Licence of the data set.
+const LICENCE: &str = "cc-by-nc-sa-4.0";
+/// The id that the recording vehicle has.
+const AV: &str = "AV";
+/// Role of it in a scene.
+const EGO: &str = "ego";
+/// Categories of tracks: part of one, none that is scored, scored, the one in the middle.
+const FRAGMENT: i64 = 0;
+const UNSCORED: i64 = 1;
+const SCORED: i64 = 2;
+const FOCAL: i64 = 3;
+/// A tag of a scene that says its city.
+const CITY: &str = "city:";
+/// Note of our own files.
+const NOTE: &str = "dragtraffic";

@@ -1,0 +1,277 @@
+//! Flat columns of a Parquet file, row by row.
+
+use super::vet::{self, Chunk, MAGIC};
+use crate::limits::memory_for;
+use crate::problem::{FieldProblem, ReadError, code};
+use crate::source::Source;
+use crate::unpack;
+use bytes::Bytes;
+use parquet::basic::Type;
+use parquet::column::reader::ColumnReader;
+use parquet::data_type::ByteArray;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Most bytes of a file: as a whole it is in memory, because what it is stands at its end. One that unfolded on its
+/// way here is measured by the bytes that came.
+fn most_bytes(file: &dyn Source) -> u64 {
+    (memory_for(file.encoded_len()) / 4).min(256 << 20)
+}
+/// Most bytes that the columns of a row take at a time beside the file.
+const MAX_PAGES: u64 = 40 << 20;
+/// Rows of any file, beside one for each of its bytes: one that repeats a value tells nothing with more.
+const MAX_ROWS: u64 = 1 << 20;
+/// Rows that are decoded at a time.
+const BATCH: usize = 1_024;
+/// Bytes at the end of a file in which its columns' names stand.
+const TAIL: usize = 64 << 10;
+
+/// True for the first bytes of a Parquet file.
+pub(crate) fn is_parquet(head: &[u8]) -> bool {
+    head.starts_with(MAGIC)
+}
+
+/// True where all these names stand at the end of a Parquet file.
+pub(crate) fn names_in(bytes: &[u8], names: &[&str]) -> bool {
+    let tail = bytes.get(bytes.len().saturating_sub(TAIL)..).unwrap_or_default();
+    let has = |name: &&str| tail.windows(name.len()).any(|window| window == name.as_bytes());
+    is_parquet(bytes) && names.iter().all(has)
+}
+
+/// A value of a row.
+#[derive(Clone, Debug, PartialEq)]
+enum Cell {
+    Nothing,
+    Flag(bool),
+    Whole(i64),
+    Number(f64),
+    Text(ByteArray),
+}
+
+/// A value of a row, as readers of tables take it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Value<'a> {
+    Nothing,
+    Flag(bool),
+    Whole(i64),
+    Number(f64),
+    Text(&'a str),
+}
+
+/// A Parquet file that is being read.
+pub(crate) struct Table {
+    file: Bytes,
+    reader: SerializedFileReader<Bytes>,
+    names: Vec<String>,
+    /// Of those that are read: index in the file.
+    chosen: Vec<usize>,
+    /// The row group that is read next, and the readers of the one before it.
+    group: usize,
+    readers: Vec<ColumnReader>,
+    left: usize,
+    batch: Vec<Vec<Cell>>,
+    at: usize,
+    row: u64,
+}
+
+fn unreadable(error: &ParquetError) -> ReadError {
+    ReadError::malformed(0, format!("cannot be read as Parquet: {error}"))
+}
+
+/// Lies that the library does not expect end it; here they refuse the file.
+fn guarded<T>(work: impl FnOnce() -> Result<T, ReadError>) -> Result<T, ReadError> {
+    let ended = |_| Err(ReadError::malformed(0, "cannot be read as Parquet: it contradicts itself"));
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(ended)
+}
+
+impl Table {
+    /// Reads a file as a whole, and looks at what it says of itself.
+    ///
+    /// # Errors
+    /// `malformed-file`, `decoded-too-large`, `cannot-represent` for more columns or rows than are read.
+    pub fn open(file: &dyn Source) -> Result<Self, ReadError> {
+        let mut bytes = Vec::new();
+        let fault = |error: &std::io::Error| unpack::fault(error, 0);
+        let input = file.open().map_err(|error| fault(&error))?;
+        let most = most_bytes(file);
+        input.take(most + 1).read_to_end(&mut bytes).map_err(|error| fault(&error))?;
+        if bytes.len() as u64 > most {
+            let detail = format!("a Parquet file of more than {most} bytes");
+            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most, detail));
+        }
+        vet::frame(&bytes)?;
+        let file = Bytes::from(bytes);
+        guarded(|| {
+            let reader = SerializedFileReader::new(file.clone()).map_err(|error| unreadable(&error))?;
+            let columns = reader.metadata().file_metadata().schema_descr().columns();
+            let names = columns.iter().map(|column| column.path().parts().join(".")).collect();
+            let most = MAX_ROWS + file.len() as u64;
+            let rows = |group: &parquet::file::metadata::RowGroupMetaData| u64::try_from(group.num_rows());
+            let mut rows = reader.metadata().row_groups().iter().map(rows);
+            let rows = rows.try_fold(0u64, |sum, rows| rows.ok().and_then(|rows| sum.checked_add(rows)));
+            if rows.is_none_or(|rows| rows > most) {
+                let detail = format!("more than {most} rows");
+                return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most, detail));
+            }
+            let (readers, batch, chosen) = (Vec::new(), Vec::new(), Vec::new());
+            Ok(Self {
+                file: file.clone(),
+                reader,
+                names,
+                chosen,
+                group: 0,
+                readers,
+                left: 0,
+                batch,
+                at: 0,
+                row: 0,
+            })
+        })
+    }
+
+    /// Names of all columns.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// What the file says beside its columns, by name.
+    pub fn notes(&self) -> BTreeMap<String, String> {
+        let notes = self.reader.metadata().file_metadata().key_value_metadata();
+        let notes = notes.into_iter().flatten();
+        notes.filter_map(|note| Some((note.key.clone(), note.value.clone()?))).collect()
+    }
+
+    /// Says which columns are read; looks at all their pages.
+    ///
+    /// # Errors
+    /// `malformed-file`, `decoded-too-large`, `cannot-represent` for a column that is no flat list of values.
+    pub fn choose(&mut self, chosen: Vec<usize>) -> Result<(), ReadError> {
+        for &column in &chosen {
+            self.is_flat(column)?;
+        }
+        let metadata = self.reader.metadata();
+        for group in metadata.row_groups() {
+            let mut together = 0u64;
+            for &column in &chosen {
+                let missing = || ReadError::malformed(0, "a row group without one of the columns");
+                let chunk = group.columns().get(column).ok_or_else(missing)?;
+                let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
+                let least = match chunk.column_type() {
+                    Type::INT32 | Type::FLOAT | Type::BYTE_ARRAY => 4,
+                    Type::INT64 | Type::DOUBLE => 8,
+                    _ => 0,
+                };
+                let range = start..start.saturating_add(chunk.compressed_size().max(0));
+                let chunk = Chunk { range, least, rows: group.num_rows() };
+                together = together.saturating_add(vet::pages(&self.file, &chunk)?);
+            }
+            if together > MAX_PAGES + self.file.len() as u64 {
+                let detail =
+                    format!("pages of a row group that take {together} bytes together once unpacked");
+                return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGES, detail));
+            }
+        }
+        self.batch = vec![Vec::new(); chosen.len()];
+        self.chosen = chosen;
+        Ok(())
+    }
+
+    fn is_flat(&self, column: usize) -> Result<(), ReadError> {
+        let columns = self.reader.metadata().file_metadata().schema_descr().columns();
+        let Some(column) = columns.get(column) else { return Ok(()) };
+        let known = !matches!(column.physical_type(), Type::INT96 | Type::FIXED_LEN_BYTE_ARRAY);
+        if column.max_rep_level() == 0 && column.max_def_level() <= 1 && known {
+            return Ok(());
+        }
+        let name = column.path().parts().join(".");
+        let detail = format!(
+            "column {name} is a {}, a flat column of numbers or text expected",
+            column.physical_type()
+        );
+        Err(FieldProblem::new(format!("/{name}"), code::CANNOT_REPRESENT, detail).into())
+    }
+
+    /// Goes to the next row; false at the end.
+    ///
+    /// # Errors
+    /// `malformed-file`.
+    pub fn advance(&mut self) -> Result<bool, ReadError> {
+        self.row += 1;
+        self.at += 1;
+        if self.batch.first().is_some_and(|column| self.at < column.len()) {
+            return Ok(true);
+        }
+        self.at = 0;
+        guarded(|| self.decode())
+    }
+
+    /// Number of the row, from 1.
+    pub fn row(&self) -> u64 {
+        self.row
+    }
+
+    /// Value of the row that was gone to, by position in the list of those that were chosen.
+    pub fn value(&self, column: usize) -> Value<'_> {
+        match self.batch.get(column).and_then(|cells| cells.get(self.at)) {
+            None | Some(Cell::Nothing) => Value::Nothing,
+            Some(Cell::Flag(flag)) => Value::Flag(*flag),
+            Some(Cell::Whole(whole)) => Value::Whole(*whole),
+            Some(Cell::Number(number)) => Value::Number(*number),
+            Some(Cell::Text(text)) => text.as_utf8().map_or(Value::Nothing, Value::Text),
+        }
+    }
+
+    /// Decodes the next rows of the group, or of the next one that has any.
+    fn decode(&mut self) -> Result<bool, ReadError> {
+        while self.left == 0 {
+            if self.group >= self.reader.num_row_groups() {
+                self.batch.iter_mut().for_each(Vec::clear);
+                return Ok(false);
+            }
+            let group = self.reader.get_row_group(self.group).map_err(|error| unreadable(&error))?;
+            let readers = self.chosen.iter().map(|column| group.get_column_reader(*column));
+            self.readers = readers.collect::<Result<_, _>>().map_err(|error| unreadable(&error))?;
+            self.left = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+            self.group += 1;
+        }
+        let count = self.left.min(BATCH);
+        for (reader, cells) in self.readers.iter_mut().zip(&mut self.batch) {
+            cells.clear();
+            fill(reader, count, cells).map_err(|error| unreadable(&error))?;
+            if cells.len() != count {
+                return Err(ReadError::malformed(0, "a column ends before the others"));
+            }
+        }
+        self.left -= count;
+        Ok(count > 0 && !self.batch.is_empty())
+    }
+}
+
+/// Reads so many values of a column.
+fn fill(reader: &mut ColumnReader, count: usize, cells: &mut Vec<Cell>) -> Result<(), ParquetError> {
+    macro_rules! read {
+        ($reader:expr, $cell:expr) => {{
+            let (mut values, mut levels) = (Vec::new(), Vec::new());
+            let (records, known, _) = $reader.read_records(count, Some(&mut levels), None, &mut values)?;
+            let mut values = values.into_iter().take(known).map($cell);
+            // Without levels every value is there.
+            let present = (0..records).map(|i| levels.get(i).is_none_or(|level| *level > 0));
+            cells.extend(
+                present.map(|there| if there { values.next() } else { None }.unwrap_or(Cell::Nothing)),
+            );
+        }};
+    }
+    match reader {
+        ColumnReader::BoolColumnReader(reader) => read!(reader, Cell::Flag),
+        ColumnReader::Int32ColumnReader(reader) => read!(reader, |v| Cell::Whole(i64::from(v))),
+        ColumnReader::Int64ColumnReader(reader) => read!(reader, Cell::Whole),
+        ColumnReader::FloatColumnReader(reader) => read!(reader, |v| Cell::Number(f64::from(v))),
+        ColumnReader::DoubleColumnReader(reader) => read!(reader, Cell::Number),
+        ColumnReader::ByteArrayColumnReader(reader) => read!(reader, Cell::Text),
+        ColumnReader::Int96ColumnReader(_) | ColumnReader::FixedLenByteArrayColumnReader(_) => {}
+    }
+    Ok(())
+}

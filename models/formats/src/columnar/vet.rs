@@ -1,0 +1,179 @@
+//! What a Parquet file says of itself, looked at before anything is reserved or decoded by it.
+
+use super::thrift::Reader;
+use crate::problem::{ReadError, code};
+use std::ops::Range;
+
+/// First and last bytes of a file.
+pub(super) const MAGIC: &[u8] = b"PAR1";
+/// Most bytes of the description at a file's end, beside an eighth of the file: decoded they take many times as much.
+const MAX_FOOTER: usize = 1 << 20;
+/// Most column chunks, beside one for each 512 bytes of the file.
+const MAX_CHUNKS: u64 = 50_000;
+/// Most bytes that a page of a column holds once unpacked.
+const MAX_PAGE: i64 = 8 << 20;
+
+/// A column's part of a row group.
+pub(super) struct Chunk {
+    /// Where its pages lie.
+    pub range: Range<i64>,
+    /// Bytes that a value takes at least in a dictionary.
+    pub least: i64,
+    /// Rows of the group.
+    pub rows: i64,
+}
+
+/// Looks at the frame of a file and at the shape of its description.
+///
+/// # Errors
+/// `malformed-file`, `decoded-too-large`.
+pub(super) fn frame(bytes: &[u8]) -> Result<(), ReadError> {
+    let whole = bytes.len();
+    let broken = |offset: usize, detail: &str| Err(ReadError::malformed(offset as u64, detail));
+    if !bytes.starts_with(MAGIC) {
+        return broken(0, "not a Parquet file: it does not begin with PAR1");
+    }
+    let Some((rest, [a, b, c, d, magic @ ..])) = bytes.split_last_chunk::<8>() else {
+        return broken(whole, "a Parquet file that breaks off");
+    };
+    if magic != MAGIC {
+        return broken(whole - 4, "a Parquet file that breaks off: it does not end with PAR1");
+    }
+    let length = u32::from_le_bytes([*a, *b, *c, *d]) as usize;
+    let most = MAX_FOOTER + whole / 8;
+    if length > most && length <= whole {
+        let detail = format!("a description of {length} bytes; at most {most}");
+        return Err(ReadError::too_large(code::DECODED_TOO_LARGE, most as u64, detail));
+    }
+    let Some(start) = rest.len().checked_sub(length).filter(|start| *start >= MAGIC.len()) else {
+        return broken(whole - 8, "the description is longer than the file");
+    };
+    let footer = rest.get(start..).unwrap_or_default();
+    let mut chunks = 0;
+    let seen = Reader::new(footer).each(|reader, field| {
+        if field.id != 4 {
+            return Some(false);
+        }
+        for _ in 0..reader.structs(field)? {
+            reader.each(|reader, field| {
+                if field.id != 1 {
+                    return Some(false);
+                }
+                let count = reader.structs(field)?;
+                chunks += count;
+                for _ in 0..count {
+                    reader.each(|_, _| Some(false))?;
+                }
+                Some(true)
+            })?;
+        }
+        Some(true)
+    });
+    let most = MAX_CHUNKS + whole as u64 / 512;
+    match seen {
+        Some(()) if chunks <= most => Ok(()),
+        Some(()) => broken(start, &format!("more than {most} column chunks")),
+        None => broken(start, "the description breaks off or is no Thrift"),
+    }
+}
+
+/// Looks at the headers of all pages of a chunk; gives the most bytes that it takes in memory at a time.
+///
+/// # Errors
+/// `malformed-file`, `decoded-too-large`.
+pub(super) fn pages(bytes: &[u8], chunk: &Chunk) -> Result<u64, ReadError> {
+    let broken = |offset: usize, detail: &str| ReadError::malformed(offset as u64, detail);
+    let ends = (usize::try_from(chunk.range.start), usize::try_from(chunk.range.end));
+    let (Ok(mut at), Ok(end)) = ends else { return Err(broken(0, "a column lies before the file")) };
+    if at < MAGIC.len() || end > bytes.len() || at > end {
+        return Err(broken(at, "a column lies outside the file"));
+    }
+    let (mut values, mut largest, mut dictionary, mut first) = (0i64, 0i64, 0i64, true);
+    while at < end && values < chunk.rows {
+        let page = page(bytes.get(at..end).unwrap_or_default())
+            .ok_or_else(|| broken(at, "the header of a page breaks off"))?;
+        if page.unpacked > MAX_PAGE {
+            let detail = format!("a page of {} bytes once unpacked; at most {MAX_PAGE}", page.unpacked);
+            return Err(ReadError::too_large(code::DECODED_TOO_LARGE, MAX_PAGE as u64, detail));
+        }
+        let sound = page.packed >= 0 && page.unpacked >= 0 && page.values >= 0;
+        // A dictionary comes first; index pages are written nowhere.
+        let in_place = if page.is_dictionary { first } else { page.kind != 1 };
+        // Encodings by difference reserve what their data says, which is known once it is unpacked alone.
+        let readable = matches!(page.encoding, 0 | 2 | 3 | 8 | 9);
+        if !(sound && in_place) {
+            return Err(broken(at, "the header of a page says what cannot be"));
+        }
+        if !readable {
+            return Err(broken(at, &format!("encoding {} of a page is not read", page.encoding)));
+        }
+        if page.is_dictionary {
+            if page.values.saturating_mul(chunk.least) > page.unpacked {
+                return Err(broken(at, "a dictionary of more values than it has bytes for"));
+            }
+            // A text of a few bytes takes 40 once it is known where it lies.
+            dictionary = page.unpacked.saturating_add(page.values.saturating_mul(48));
+        } else {
+            values = values.saturating_add(page.values);
+            largest = largest.max(page.unpacked);
+        }
+        first = false;
+        at =
+            at.saturating_add(page.header).saturating_add(usize::try_from(page.packed).unwrap_or(usize::MAX));
+        if at > end {
+            return Err(broken(end, "a page goes on beyond its column"));
+        }
+    }
+    if values != chunk.rows {
+        return Err(broken(at, "a column has not as many values as there are rows"));
+    }
+    Ok(u64::try_from(dictionary.saturating_add(largest)).unwrap_or(u64::MAX))
+}
+
+/// What the header of a page says.
+struct Page {
+    header: usize,
+    kind: i64,
+    is_dictionary: bool,
+    packed: i64,
+    unpacked: i64,
+    values: i64,
+    encoding: i64,
+}
+
+fn page(bytes: &[u8]) -> Option<Page> {
+    let mut page = Page {
+        header: 0,
+        kind: -1,
+        is_dictionary: false,
+        packed: -1,
+        unpacked: -1,
+        values: -1,
+        encoding: -1,
+    };
+    let mut reader = Reader::new(bytes);
+    reader.each(|reader, field| {
+        match field.id {
+            1 => page.kind = reader.whole(field)?,
+            2 => page.unpacked = reader.whole(field)?,
+            3 => page.packed = reader.whole(field)?,
+            // Data, dictionary, data of version 2: the encoding is the second number, of version 2 the fourth.
+            id @ (5 | 7 | 8) => {
+                let encoding = if id == 8 { 4 } else { 2 };
+                reader.each(|reader, field| {
+                    match field.id {
+                        1 => page.values = reader.whole(field)?,
+                        id if id == encoding => page.encoding = reader.whole(field)?,
+                        _ => return Some(false),
+                    }
+                    Some(true)
+                })?;
+            }
+            _ => return Some(false),
+        }
+        Some(true)
+    })?;
+    page.is_dictionary = page.kind == 2;
+    page.header = reader.position();
+    Some(page)
+}

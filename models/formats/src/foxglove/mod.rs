@@ -1,0 +1,142 @@
+//! MCAP with Foxglove's schemas, for the viewers of robotics: the road, its signals and who is on it as
+//! `foxglove.SceneUpdate`, and where the scene lies in its source as `foxglove.FrameTransform`. Messages are JSON.
+
+mod mcap;
+mod scene_update;
+
+use crate::format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one};
+use crate::loss::{Loss, code};
+use crate::problem::{FieldProblem, code as problem};
+use crate::source::Source;
+use mcap::Writer;
+use scene::{Agent, Conditions, STEP_S, Scene, Shown};
+use serde_json::{Value, json};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::io;
+
+/// A scene as a log of messages, ten a second.
+pub struct Mcap;
+
+const SCENE_UPDATE: &str = include_str!("scene_update.schema.json");
+const FRAME_TRANSFORM: &str = include_str!("frame_transform.schema.json");
+
+impl Format for Mcap {
+    fn info(&self) -> Info {
+        Info {
+            id: "mcap",
+            name: "MCAP (Foxglove schemas)",
+            media_type: "application/octet-stream",
+            extensions: &["mcap"],
+            import: false,
+            export: true,
+            many: false,
+            takes_net: false,
+        }
+    }
+
+    fn sniff(&self, _: &[u8], _: &str) -> u8 {
+        0
+    }
+
+    fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
+        let detail = "mcap is written, never read: messages are pictures of the scene";
+        one(Err(FieldProblem::new("", problem::FORMAT_UNKNOWN, detail).into()))
+    }
+
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        let [scene] = scenes else {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "an MCAP file holds one scene"));
+        };
+        Ok(Exported { bytes: log(scene, options.motion)?, losses: lost(scene, options.motion) })
+    }
+}
+
+const STEP_NS: u64 = 100_000_000;
+
+/// A time as messages have it.
+fn time(step: usize) -> Value {
+    let ns = step as u64 * STEP_NS;
+    json!({"sec": ns / 1_000_000_000, "nsec": ns % 1_000_000_000})
+}
+
+fn log(scene: &Scene, motion: ExportedMotion) -> io::Result<Vec<u8>> {
+    let mut file = Writer::new(concat!("dragtraffic ", env!("CARGO_PKG_VERSION")));
+    let update = file.schema("foxglove.SceneUpdate", SCENE_UPDATE);
+    let transform = file.schema("foxglove.FrameTransform", FRAME_TRANSFORM);
+    let frames = file.channel("/tf", transform);
+    let map = file.channel("/map", update);
+    let signals = file.channel("/signals", update);
+    let users = file.channel("/road_users", update);
+    let put = |file: &mut Writer, channel: u16, step: usize, message: &Value| {
+        file.message(channel, step as u64 * STEP_NS, message.to_string().as_bytes())
+    };
+    put(&mut file, frames, 0, &scene_update::transform(scene))?;
+    put(&mut file, map, 0, &scene_update::map(&scene.map))?;
+    let tracks: Vec<(&Agent, Shown<'_>)> = scene
+        .agents
+        .iter()
+        .map(|agent| match motion {
+            ExportedMotion::Chosen => (agent, scene.shown(agent)),
+            ExportedMotion::Log => {
+                let track = Cow::Borrowed(&*agent.track);
+                (agent, Shown { agent_type: agent.agent_type, size: agent.size, track })
+            }
+        })
+        .collect();
+    let ends = tracks.iter().map(|(_, shown)| shown.track.first_step + shown.track.states.len());
+    for step in 0..ends.fold(scene.time.steps, usize::max) {
+        let changes = scene.signals.iter().any(|signal| signal.runs.iter().any(|(first, _)| *first == step));
+        if changes || (step == 0 && !scene.signals.is_empty()) {
+            put(&mut file, signals, step, &scene_update::signals(scene, step))?;
+        }
+        put(&mut file, users, step, &scene_update::users(&tracks, step))?;
+    }
+    file.metadata("dragtraffic", &about(scene));
+    file.finish()
+}
+
+fn about(scene: &Scene) -> BTreeMap<String, String> {
+    let origin = &scene.meta.origin;
+    let mut about = BTreeMap::from([
+        ("name".to_owned(), scene.name.clone()),
+        ("source".to_owned(), scene.meta.source.clone()),
+        ("units".to_owned(), "metres, seconds, radians".to_owned()),
+        (
+            "frame".to_owned(),
+            "scene: x east, y north (or the source's axes), z up; source: scene turned and moved by /tf"
+                .to_owned(),
+        ),
+        ("step_s".to_owned(), STEP_S.to_string()),
+        ("now_step".to_owned(), scene.time.now_step.to_string()),
+    ]);
+    about.extend(origin.crs.clone().map(|crs| ("crs".to_owned(), crs)));
+    about.extend(scene.licence().map(|licence| ("licence".to_owned(), licence)));
+    about
+}
+
+fn lost(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
+    let generated = scene.generated.is_some();
+    let samples = || scene.generated.iter().flat_map(|generated| &generated.samples);
+    let further =
+        samples().count() > 1 || samples().flat_map(|s| s.agents.values()).any(|f| f.modes.len() > 1);
+    let fixed = scene.agents.iter().any(|agent| agent.conditions != Conditions::default());
+    let meta = &scene.meta;
+    let noted = !meta.tags.is_empty() || !meta.notes.is_empty() || !scene.extra.is_empty();
+    let all = [
+        (fixed, code::NO_CONDITIONS, "starts, goals, sizes and types that the user fixed"),
+        (
+            !scene.map.lanes.is_empty(),
+            code::NO_LANE_GRAPH,
+            "which lanes follow each other: the map is a picture",
+        ),
+        (
+            generated && (motion == ExportedMotion::Log || further),
+            code::NO_MODES,
+            "generated futures other than the exported one",
+        ),
+        (generated, code::NO_JUDGEMENTS, "probabilities, faults, relations and reactions"),
+        (noted, code::NO_NOTES, "tags, notes and members of other tools"),
+    ];
+    all.into_iter().filter(|(there, ..)| *there).map(|(_, code, detail)| Loss::new(code, detail)).collect()
+}

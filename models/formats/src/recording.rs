@@ -1,0 +1,125 @@
+//! From positions at times to scenes: what formats that list the motion of road users row by row have in common.
+
+mod build;
+mod motion;
+
+pub(crate) use build::{Drawn, Recording, Said};
+
+use scene::{AgentType, Size, Subtype, Vec2};
+use std::collections::BTreeSet;
+
+/// Most rows that one scenario may have.
+pub(crate) const MAX_SAMPLES: usize = 1_000_000;
+/// Most road users of one scenario, of which 256 are chosen.
+pub(crate) const MAX_USERS: usize = 20_000;
+
+/// A road user at a time, in the frame of the file. What the file does not say is NaN; without a position it is
+/// known that nobody saw the road user then.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sample {
+    pub time_s: f64,
+    /// Centre of the box, metres.
+    pub at: Vec2,
+    pub heading_rad: f64,
+    pub velocity: Vec2,
+    pub z_m: f64,
+}
+
+impl Sample {
+    /// Somebody saw the road user.
+    pub fn is_seen(&self) -> bool {
+        self.at.x.is_finite() && self.at.y.is_finite()
+    }
+}
+
+/// A road user of a file.
+#[derive(Clone, Debug)]
+pub(crate) struct User {
+    pub id: String,
+    pub agent_type: AgentType,
+    pub subtype: Subtype,
+    pub role: Option<String>,
+    /// Length, width and height as far as the file says them, metres.
+    pub size_m: [Option<f64>; 3],
+    pub samples: Vec<Sample>,
+}
+
+impl User {
+    /// The box, with the usual size where the file says none, and whether it does.
+    fn size(&self) -> (Size, bool) {
+        let usual = Size::default_for(self.agent_type, self.subtype);
+        let [length, width, height] = self.size_m;
+        let said = length.is_some() && width.is_some();
+        let size = Size {
+            length_m: length.unwrap_or(usual.length_m),
+            width_m: width.unwrap_or(usual.width_m),
+            height_m: if said { height } else { height.or(usual.height_m) },
+        };
+        (size, said)
+    }
+}
+
+/// The median of each coordinate: a few stragglers do not move it.
+pub(crate) fn middle(points: impl Iterator<Item = Vec2>) -> Vec2 {
+    let (mut x, mut y): (Vec<f64>, Vec<f64>) = points.map(|p| (p.x, p.y)).unzip();
+    let median = |list: &mut Vec<f64>| {
+        list.sort_by(f64::total_cmp);
+        list.get(list.len() / 2).copied().unwrap_or(0.0)
+    };
+    Vec2::new(median(&mut x), median(&mut y))
+}
+
+/// Ids as a scene can have them, each once.
+#[derive(Default)]
+pub(crate) struct Ids {
+    taken: BTreeSet<String>,
+    pub changed: usize,
+}
+
+impl Ids {
+    /// The id itself where it is legal and free.
+    pub fn take(&mut self, id: &str) -> String {
+        let legal = |c: char| if c.is_ascii_alphanumeric() || "_.:-".contains(c) { c } else { '_' };
+        let mut clean: String = id.chars().map(legal).take(if id.len() > 64 { 56 } else { 64 }).collect();
+        if clean.is_empty() {
+            clean.push('_');
+        }
+        let mut name = clean.clone();
+        let mut count = 1;
+        while self.taken.contains(&name) {
+            count += 1;
+            clean.truncate(56);
+            name = format!("{clean}.{count}");
+        }
+        self.changed += usize::from(name != id);
+        self.taken.insert(name.clone());
+        name
+    }
+}
+
+/// Kind of a road user by a word for it; nothing where the word says nothing.
+pub(crate) fn kind_of(word: &str) -> Option<(AgentType, Subtype)> {
+    use AgentType::{Cyclist, Other, Pedestrian, Vehicle};
+    let word = word.trim().to_ascii_lowercase().replace([' ', '-'], "_");
+    Some(match word.as_str() {
+        "vehicle" | "motor_vehicle" => (Vehicle, Subtype::Unknown),
+        "car" | "passenger_car" | "passenger" => (Vehicle, Subtype::Car),
+        "truck" | "truck_bus" | "lorry" => (Vehicle, Subtype::Truck),
+        "bus" => (Vehicle, Subtype::Bus),
+        "van" => (Vehicle, Subtype::Van),
+        "motorcycle" | "motorcyclist" | "motorbike" => (Vehicle, Subtype::Motorcycle),
+        "trailer" => (Vehicle, Subtype::Trailer),
+        "emergency" => (Vehicle, Subtype::Emergency),
+        "pedestrian" | "person" | "walker" => (Pedestrian, Subtype::Unknown),
+        "adult" => (Pedestrian, Subtype::Adult),
+        "child" => (Pedestrian, Subtype::Child),
+        "wheelchair" => (Pedestrian, Subtype::Wheelchair),
+        "cyclist" | "pedestrian/bicycle" => (Cyclist, Subtype::Unknown),
+        "bicycle" | "bike" | "riding_bicycle" => (Cyclist, Subtype::Bicycle),
+        "scooter" => (Cyclist, Subtype::Scooter),
+        "other" | "static" | "background" | "construction" | "unknown" | "riderless_bicycle" => {
+            (Other, Subtype::Unknown)
+        }
+        _ => return None,
+    })
+}

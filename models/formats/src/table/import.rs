@@ -1,0 +1,437 @@
+//! From a table to scenes: rows of a scenario stand together, its road users in any order.
+
+use super::columns::{Columns, Origin};
+use super::notes::{KEY, Notes};
+use super::rows::Rows;
+use super::{GENERATED, LOG, SPEED};
+use crate::columnar::Value;
+use crate::format::{COLUMNS_POINTER, ImportOptions};
+use crate::limits::MAX_STEPS;
+use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
+use crate::recording::{Drawn, MAX_SAMPLES, MAX_USERS, Recording, Said, Sample, User, kind_of};
+use crate::source::Source;
+use scene::geometry::direction;
+use scene::{AgentType, Meta, STEP_S, Subtype, Vec2};
+use std::borrow::Cow;
+use std::collections::hash_map::DefaultHasher;
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::hash::{Hash, Hasher};
+
+/// Coordinates reach so far, metres; times, seconds (a clock that counts nanoseconds as seconds is none).
+const MAX_METRES: f64 = 1e9;
+const MAX_SECONDS: f64 = 1e11;
+/// Bytes of an id.
+const MAX_ID: usize = 256;
+/// Most possible motions of one scenario.
+const MAX_FUTURES: usize = 100_000;
+
+/// A column that is read.
+struct Picked {
+    /// Position in the file; nothing where every row has the same value.
+    at: Option<usize>,
+    origin: Origin,
+}
+
+/// Scenes of a table, scenario after scenario.
+pub(super) struct Scenarios<'a> {
+    rows: Rows<'a>,
+    columns: BTreeMap<&'static str, Picked>,
+    options: &'a ImportOptions,
+    notes: Notes,
+    gathered: Option<Gathered>,
+    /// Scenarios that came to their end, by hash.
+    ended: HashSet<u64>,
+    ready: Option<Box<dyn Iterator<Item = Result<Imported, ReadError>>>>,
+    /// A row was gone to that belongs to nobody yet.
+    pending: bool,
+    given: bool,
+    over: bool,
+}
+
+/// A scenario that is being read.
+struct Gathered {
+    name: String,
+    recording: Recording,
+    users: HashMap<String, usize>,
+    futures: HashMap<(usize, u64, u64), usize>,
+    samples: usize,
+    /// Every time is that of its step, and the last one.
+    aligned: bool,
+    last_step: f64,
+    unknown_words: usize,
+    untyped: bool,
+}
+
+impl<'a> Scenarios<'a> {
+    pub fn open(file: &'a dyn Source, options: &'a ImportOptions, parquet: bool) -> Result<Self, ReadError> {
+        let columns = match &options.columns {
+            Some(file) => Columns::read(file).map_err(|error| error.under(COLUMNS_POINTER))?,
+            None => Columns::own(),
+        };
+        let mut rows = Rows::open(file, parquet)?;
+        let mut picked = BTreeMap::new();
+        for (name, origin) in columns.0 {
+            let at = match &origin.column {
+                None => None,
+                Some(column) => match rows.names().iter().position(|found| found == column) {
+                    Some(at) => Some(at),
+                    // One that a person told of has to be there.
+                    None if column != name => {
+                        let detail = format!("no column \"{column}\"; there are {}", shown(rows.names()));
+                        let pointer = format!("{COLUMNS_POINTER}/{name}");
+                        return Err(FieldProblem::new(pointer, code::INVALID_FIELD, detail).into());
+                    }
+                    None => continue,
+                },
+            };
+            picked.insert(name, Picked { at, origin });
+        }
+        let has = |name: &str| picked.contains_key(name);
+        let needed = ["agent_id", "x_m", "y_m"].into_iter().filter(|name| !has(name));
+        let mut missing: Vec<&str> = needed.collect();
+        if !has("time_s") && !has("step") {
+            missing.push("time_s or step");
+        }
+        if !missing.is_empty() {
+            let detail = format!(
+                "no column {}; there are {}. A file of columns can name them (--columns, a part columns of a form)",
+                missing.join(", "),
+                shown(rows.names())
+            );
+            return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+        }
+        rows.choose(picked.values().filter_map(|picked| picked.at).collect())?;
+        // Notes of others under our key say nothing.
+        let notes =
+            rows.notes().get(KEY).and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
+        Ok(Self {
+            rows,
+            columns: picked,
+            options,
+            notes,
+            gathered: None,
+            ended: HashSet::new(),
+            ready: None,
+            pending: false,
+            given: false,
+            over: false,
+        })
+    }
+
+    fn value(&self, name: &str) -> Value<'_> {
+        let Some(picked) = self.columns.get(name) else { return Value::Nothing };
+        match (picked.at, &picked.origin.value) {
+            (Some(at), _) => self.rows.value(at),
+            (None, Some(value)) => Value::Text(value),
+            (None, None) => Value::Nothing,
+        }
+    }
+
+    fn text(&self, name: &str) -> Option<Cow<'_, str>> {
+        let text = match self.value(name) {
+            Value::Nothing => return None,
+            Value::Text(text) => Cow::Borrowed(text),
+            Value::Whole(whole) => Cow::Owned(whole.to_string()),
+            Value::Number(number) => Cow::Owned(number.to_string()),
+            Value::Flag(flag) => Cow::Owned(flag.to_string()),
+        };
+        let words = self.columns.get(name).map(|picked| &picked.origin.words);
+        match words.and_then(|words| words.get(text.as_ref())) {
+            Some(word) => Some(Cow::Borrowed(word)),
+            None => Some(text).filter(|text| !text.is_empty()),
+        }
+    }
+
+    fn fault(&self, name: &str, found: &str, expected: &str) -> ReadError {
+        let shown: String = found.chars().take(40).collect();
+        let found = if shown.is_empty() { "nothing".into() } else { format!("\"{shown}\"") };
+        let place = self.rows.place();
+        let detail = format!("{place}: {found} found, {expected} expected");
+        let pointer = format!("/{}/{name}", place.replace(' ', "/"));
+        FieldProblem::new(pointer, code::INVALID_FIELD, detail).into()
+    }
+
+    /// A number in our unit; NaN where there is none.
+    fn number(&self, name: &str, most: f64, expected: &str) -> Result<f64, ReadError> {
+        let number = match self.value(name) {
+            Value::Nothing => return Ok(f64::NAN),
+            Value::Whole(whole) => whole as f64,
+            Value::Number(number) if number.is_nan() => return Ok(f64::NAN),
+            Value::Number(number) => number,
+            Value::Flag(flag) => f64::from(u8::from(flag)),
+            Value::Text(text) if is_missing(text) => return Ok(f64::NAN),
+            Value::Text(text) => {
+                let number = text.parse::<f64>();
+                number.map_err(|_| self.fault(name, text, expected))?
+            }
+        };
+        let number = self.columns.get(name).map_or(number, |picked| {
+            let Origin { factor, offset, .. } = picked.origin;
+            if (factor, offset) == (1.0, 0.0) { number } else { number * factor + offset }
+        });
+        if number.is_finite() && number.abs() <= most {
+            Ok(number)
+        } else {
+            Err(self.fault(name, &number.to_string(), expected))
+        }
+    }
+
+    fn flag(&self, name: &str) -> Option<bool> {
+        match self.value(name) {
+            Value::Nothing => None,
+            Value::Flag(flag) => Some(flag),
+            Value::Whole(whole) => Some(whole != 0),
+            Value::Number(number) => Some(number != 0.0),
+            Value::Text(text) => Some(!matches!(text, "0" | "false" | "False" | "FALSE" | "0.0")),
+        }
+    }
+
+    /// Takes in the row that was gone to.
+    fn add(&mut self) -> Result<(), ReadError> {
+        let Some(mut gathered) = self.gathered.take() else { return Ok(()) };
+        let added = self.add_to(&mut gathered);
+        self.gathered = Some(gathered);
+        added
+    }
+
+    fn add_to(&self, to: &mut Gathered) -> Result<(), ReadError> {
+        let id = self.text("agent_id").ok_or_else(|| self.fault("agent_id", "", "an id"))?;
+        if id.len() > MAX_ID {
+            return Err(self.fault("agent_id", &id, "an id of 1 to 256 bytes"));
+        }
+        let step = self.number("step", 1e9, "a step")?;
+        let mut time_s = self.number("time_s", MAX_SECONDS, "a time in seconds")?;
+        if time_s.is_nan() {
+            time_s = step * STEP_S;
+        }
+        if time_s.is_nan() {
+            return Err(self.fault("time_s", "", "a time in seconds, or a step"));
+        }
+        to.aligned &= step >= 0.0 && (time_s - step * STEP_S).abs() < 1e-3;
+        to.last_step = to.last_step.max(step);
+        let sample = self.sample(time_s)?;
+        let user = match to.users.get(id.as_ref()) {
+            Some(user) => *user,
+            None => {
+                let user = self.user(&id, to)?;
+                to.users.insert(id.clone().into_owned(), to.recording.users.len());
+                to.recording.users.push(user);
+                to.recording.users.len() - 1
+            }
+        };
+        to.samples += 1;
+        if to.samples > MAX_SAMPLES || to.users.len() > MAX_USERS || to.futures.len() > MAX_FUTURES {
+            let detail = format!(
+                "{}: more than {MAX_SAMPLES} rows, {MAX_USERS} road users or {MAX_FUTURES} futures in one scenario",
+                self.rows.place()
+            );
+            return Err(FieldProblem::new("", code::TOO_MANY_AGENTS, detail).into());
+        }
+        let list = match self.future()? {
+            None => to.recording.users.get_mut(user).map(|user| &mut user.samples),
+            Some((sample, mode)) => {
+                let next = to.recording.futures.len();
+                let at = *to.futures.entry((user, sample, mode)).or_insert(next);
+                if at == next {
+                    let probability = self.number("probability", 1.0, "a probability")?;
+                    to.recording.futures.push(Drawn {
+                        user,
+                        sample,
+                        mode,
+                        probability: (probability >= 0.0).then_some(probability),
+                        chosen: self.flag("chosen") == Some(true),
+                        samples: Vec::new(),
+                    });
+                }
+                to.recording.futures.get_mut(at).map(|future| &mut future.samples)
+            }
+        };
+        if let Some(list) = list {
+            list.push(sample);
+        }
+        Ok(())
+    }
+
+    fn sample(&self, time_s: f64) -> Result<Sample, ReadError> {
+        let metres = |name| self.number(name, MAX_METRES, "a coordinate in metres");
+        let nothing = Vec2::new(f64::NAN, f64::NAN);
+        let (heading_rad, z_m) = (self.number("heading_rad", 1e6, "a heading in radians")?, metres("z_m")?);
+        let unseen = Sample { time_s, at: nothing, heading_rad, velocity: nothing, z_m };
+        if self.flag("valid") == Some(false) {
+            return Ok(unseen);
+        }
+        let at = Vec2::new(metres("x_m")?, metres("y_m")?);
+        if at.iter().any(|value| value.is_nan()) {
+            let name = if at.x.is_nan() { "x_m" } else { "y_m" };
+            return Err(self.fault(name, "", "a coordinate in metres (or valid = 0)"));
+        }
+        let mps = |name| self.number(name, 1e4, "a velocity in m/s");
+        let mut velocity = Vec2::new(mps("vx_mps")?, mps("vy_mps")?);
+        if velocity.iter().any(|value| value.is_nan()) {
+            velocity = direction(heading_rad) * mps(SPEED)?;
+        }
+        Ok(Sample { at, velocity, ..unseen })
+    }
+
+    fn user(&self, id: &str, to: &mut Gathered) -> Result<User, ReadError> {
+        let metres = |name| {
+            let metres = self.number(name, 1e4, "a size in metres")?;
+            Ok::<_, ReadError>((!metres.is_nan()).then_some(metres))
+        };
+        let word = self.text("type");
+        let (agent_type, mut subtype) = match &word {
+            None => {
+                to.untyped = true;
+                (AgentType::Vehicle, Subtype::Unknown)
+            }
+            Some(word) => kind_of(word).unwrap_or_else(|| {
+                to.unknown_words += 1;
+                (AgentType::Other, Subtype::Unknown)
+            }),
+        };
+        if let Some((_, finer)) = self.text("subtype").and_then(|word| kind_of(&word)) {
+            subtype = finer;
+        }
+        Ok(User {
+            id: id.to_owned(),
+            agent_type,
+            subtype,
+            role: None,
+            size_m: [metres("length_m")?, metres("width_m")?, metres("height_m")?],
+            samples: Vec::new(),
+        })
+    }
+
+    /// Sample and mode of a row that is part of a future.
+    fn future(&self) -> Result<Option<(u64, u64)>, ReadError> {
+        let number = |name| {
+            let number = self.number(name, 1e6, "a number of a future")?;
+            Ok::<_, ReadError>(if number >= 0.0 { number as u64 } else { 0 })
+        };
+        match self.text("source").as_deref() {
+            Some(LOG) => Ok(None),
+            Some(GENERATED) => Ok(Some((number("sample")?, number("mode")?))),
+            // A table without that word has modes for futures alone.
+            _ => {
+                let mode = self.number("mode", 1e6, "a number of a future")?;
+                if mode.is_nan() { Ok(None) } else { Ok(Some((number("sample")?, number("mode")?))) }
+            }
+        }
+    }
+
+    /// Scenes of what was gathered.
+    fn finish(&mut self) {
+        let Some(mut gathered) = self.gathered.take() else { return };
+        let mut hasher = DefaultHasher::new();
+        gathered.name.hash(&mut hasher);
+        self.ended.insert(hasher.finish());
+        let note = self.notes.scenes.iter().find(|note| note.scenario_id == gathered.name);
+        let mut said = Said { name: gathered.name.clone(), ..Said::default() };
+        said.meta =
+            note.map_or_else(|| Meta { source: "table".into(), ..Meta::default() }, |note| note.meta());
+        if let Some(note) = note {
+            said.origin = note.origin();
+            said.timing = Some(note.timing());
+            for user in &mut gathered.recording.users {
+                user.role = note.roles.get(&user.id).cloned();
+            }
+        }
+        if let Some(licence) = &self.options.licence {
+            said.meta.licence = Some(licence.clone());
+        }
+        // Tables of ours count steps from the scene's first one, whoever is seen first.
+        if gathered.aligned && (gathered.last_step as usize) < 2 * MAX_STEPS {
+            said.start_s = Some(0.0);
+        }
+        if gathered.untyped {
+            let detail = "the table has no types; all road users count as vehicles";
+            said.warnings.push(Warning::new("types-assumed", detail));
+        }
+        if gathered.unknown_words > 0 {
+            let detail = format!(
+                "{} road users have a type that is none of ours; they are shown, and never generated",
+                gathered.unknown_words
+            );
+            said.warnings.push(Warning::new("types-unknown", detail));
+        }
+        gathered.recording.said = said;
+        self.ready = Some(Box::new(gathered.recording.scenes()));
+    }
+
+    /// Reads on to the end of the scenario.
+    fn read(&mut self) -> Result<(), ReadError> {
+        loop {
+            if !self.pending && !self.rows.advance()? {
+                self.over = true;
+                self.finish();
+                return Ok(());
+            }
+            self.pending = false;
+            let name = self.text("scenario_id").unwrap_or_default();
+            if self.gathered.as_ref().is_some_and(|gathered| gathered.name != name) {
+                self.pending = true;
+                self.finish();
+                return Ok(());
+            }
+            if self.gathered.is_none() {
+                let name = name.into_owned();
+                let mut hasher = DefaultHasher::new();
+                name.hash(&mut hasher);
+                if name.len() > MAX_ID || self.ended.contains(&hasher.finish()) {
+                    let expected = "a scenario whose rows stand together, with a name of up to 256 bytes";
+                    return Err(self.fault("scenario_id", &name, expected));
+                }
+                self.gathered = Some(Gathered {
+                    name,
+                    recording: Recording::default(),
+                    users: HashMap::new(),
+                    futures: HashMap::new(),
+                    samples: 0,
+                    aligned: true,
+                    last_step: 0.0,
+                    unknown_words: 0,
+                    untyped: false,
+                });
+            }
+            self.add()?;
+        }
+    }
+}
+
+/// Words for a value that is not there.
+fn is_missing(text: &str) -> bool {
+    matches!(text, "" | "nan" | "NaN" | "NA" | "null" | "None")
+}
+
+fn shown(names: &[String]) -> String {
+    let mut list: Vec<String> = names.iter().take(40).map(|name| name.chars().take(40).collect()).collect();
+    if names.len() > 40 {
+        list.push("...".into());
+    }
+    list.join(", ")
+}
+
+impl Iterator for Scenarios<'_> {
+    type Item = Result<Imported, ReadError>;
+
+    /// After a fault of the file nothing follows.
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some(scene) = self.ready.as_mut().and_then(Iterator::next) {
+                self.given = true;
+                return Some(scene);
+            }
+            self.ready = None;
+            if self.over {
+                let detail = "a table without rows";
+                let empty = FieldProblem::new("", code::CANNOT_REPRESENT, detail);
+                return (!std::mem::replace(&mut self.given, true)).then(|| Err(empty.into()));
+            }
+            if let Err(error) = self.read() {
+                (self.over, self.given) = (true, true);
+                self.gathered = None;
+                return Some(Err(error));
+            }
+        }
+    }
+}

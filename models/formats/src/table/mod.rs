@@ -1,0 +1,43 @@
+//! Motion as one long table, a row for each road user, future and step, as notebooks and spreadsheets take it: CSV
+//! and Parquet with the same columns, both ways. Positions are those of the scene's source: its origin is added back.
+
+mod columns;
+mod format;
+mod import;
+mod notes;
+mod rows;
+mod write;
+
+pub use format::{Csv, Parquet};
+
+/// What a row says, in the order of the columns; units are in their names. `sample`, `mode` and `probability` are of
+/// futures alone, `source` is `log` or `generated`, `valid` is false where nobody saw the road user, and `chosen`
+/// is true for what is shown.
+pub const COLUMNS: [&str; 21] = [
+    "scenario_id",
+    "agent_id",
+    "type",
+    "subtype",
+    "sample",
+    "mode",
+    "probability",
+    "step",
+    "time_s",
+    "x_m",
+    "y_m",
+    "z_m",
+    "heading_rad",
+    "vx_mps",
+    "vy_mps",
+    "length_m",
+    "width_m",
+    "valid",
+    "source",
+    "height_m",
+    "chosen",
+];
+/// Read where a table has it, in place of two velocities; never written.
+const SPEED: &str = "speed_mps";
+/// The two words of `source`.
+const LOG: &str = "log";
+const GENERATED: &str = "generated";

@@ -1,0 +1,177 @@
+//! Rows of a table, whatever file they are in.
+
+use crate::columnar::{self, Value, is_parquet};
+use crate::limits::MAX_DECODED_BYTES;
+use crate::problem::{ReadError, code};
+use crate::source::Source;
+use crate::unpack::{self, Bounds};
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, Read};
+
+/// Most bytes of a row of CSV.
+const MAX_ROW: u64 = 64 << 10;
+/// Most columns of CSV.
+const MAX_COLUMNS: usize = 1_024;
+
+/// Rows of a table.
+pub(super) enum Rows<'a> {
+    Csv(CsvRows<'a>),
+    Parquet(Box<columnar::Table>, Vec<usize>),
+}
+
+impl<'a> Rows<'a> {
+    /// Opens a file; its first bytes tell what it is.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn open(file: &'a dyn Source, parquet: bool) -> Result<Self, ReadError> {
+        if parquet {
+            return Ok(Self::Parquet(Box::new(columnar::Table::open(file)?), Vec::new()));
+        }
+        CsvRows::open(file).map(Self::Csv)
+    }
+
+    /// Names of the columns.
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::Csv(rows) => &rows.names,
+            Self::Parquet(table, _) => table.names(),
+        }
+    }
+
+    /// What the file says beside its rows.
+    pub fn notes(&self) -> BTreeMap<String, String> {
+        match self {
+            Self::Csv(_) => BTreeMap::new(),
+            Self::Parquet(table, _) => table.notes(),
+        }
+    }
+
+    /// Says which columns are read, by position.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn choose(&mut self, mut columns: Vec<usize>) -> Result<(), ReadError> {
+        columns.sort_unstable();
+        columns.dedup();
+        match self {
+            Self::Csv(_) => Ok(()),
+            Self::Parquet(table, chosen) => {
+                chosen.clone_from(&columns);
+                table.choose(columns)
+            }
+        }
+    }
+
+    /// Goes to the next row; false at the end.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn advance(&mut self) -> Result<bool, ReadError> {
+        match self {
+            Self::Csv(rows) => rows.advance(),
+            Self::Parquet(table, _) => table.advance(),
+        }
+    }
+
+    /// The value of a column that was chosen, by position in the file.
+    pub fn value(&self, column: usize) -> Value<'_> {
+        match self {
+            Self::Csv(rows) => rows.value(column),
+            Self::Parquet(table, chosen) => {
+                chosen.binary_search(&column).map_or(Value::Nothing, |at| table.value(at))
+            }
+        }
+    }
+
+    /// Where the row is, for messages.
+    pub fn place(&self) -> String {
+        match self {
+            Self::Csv(rows) => format!("line {}", rows.record.position().map_or(0, csv::Position::line)),
+            Self::Parquet(table, _) => format!("row {}", table.row()),
+        }
+    }
+}
+
+/// A reader that gives so many bytes and then fails.
+pub(super) struct Measured<R> {
+    inner: R,
+    left: u64,
+}
+
+impl<R: Read> Read for Measured<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.left == 0 {
+            let detail = format!("a row of more than {MAX_ROW} bytes");
+            return Err(unpack::excess(code::DECODED_TOO_LARGE, MAX_ROW, detail));
+        }
+        let most = usize::try_from(self.left).unwrap_or(usize::MAX).min(buffer.len());
+        let count = self.inner.read(buffer.get_mut(..most).unwrap_or_default())?;
+        self.left -= count as u64;
+        Ok(count)
+    }
+}
+
+/// Rows of CSV, separated by comma, semicolon or tabulator, with the columns' names in the first line.
+pub(super) struct CsvRows<'a> {
+    reader: csv::Reader<Measured<Box<dyn BufRead + 'a>>>,
+    names: Vec<String>,
+    record: csv::StringRecord,
+}
+
+impl<'a> CsvRows<'a> {
+    fn open(file: &'a dyn Source) -> Result<Self, ReadError> {
+        let fault = |error: io::Error| unpack::fault(&error, 0);
+        let head = unpack::head(file.open().map_err(fault)?);
+        let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_DECODED_BYTES)));
+        let mut input = input.map_err(fault)?;
+        if is_parquet(&head) {
+            return Err(ReadError::malformed(0, "a Parquet file, not CSV"));
+        }
+        let delimiter = delimiter(&head);
+        if head.starts_with(b"\xef\xbb\xbf") {
+            input.read_exact(&mut [0; 3]).map_err(fault)?;
+        }
+        let input: Box<dyn BufRead + 'a> = Box::new(input);
+        // A row may begin at the end of what was read for the one before it.
+        let input = Measured { inner: input, left: 2 * MAX_ROW };
+        let reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
+            .flexible(true)
+            .has_headers(false)
+            .buffer_capacity(MAX_ROW as usize / 4)
+            .from_reader(input);
+        let mut rows = Self { reader, names: Vec::new(), record: csv::StringRecord::new() };
+        rows.advance()?;
+        rows.names = rows.record.iter().take(MAX_COLUMNS).map(|name| name.trim().to_owned()).collect();
+        Ok(rows)
+    }
+
+    fn advance(&mut self) -> Result<bool, ReadError> {
+        self.reader.get_mut().left = 2 * MAX_ROW;
+        let line = self.reader.position().line();
+        let offset = self.reader.position().byte();
+        self.reader.read_record(&mut self.record).map_err(|error| {
+            let told = error.to_string();
+            match error.into_kind() {
+                csv::ErrorKind::Io(error) => unpack::fault(&error, offset),
+                _ => ReadError::malformed(offset, format!("line {line}: {told}")),
+            }
+        })
+    }
+
+    fn value(&self, column: usize) -> Value<'_> {
+        match self.record.get(column).map(str::trim) {
+            None | Some("") => Value::Nothing,
+            Some(text) => Value::Text(text),
+        }
+    }
+}
+
+/// What separates values: what the first line has most of.
+pub(super) fn delimiter(head: &[u8]) -> u8 {
+    let line = head.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let count = |delimiter: &u8| line.iter().filter(|byte| *byte == delimiter).count();
+    // The last of equals: commas where there is nothing.
+    [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
+}
