@@ -628,13 +628,13 @@ export interface components {
             angle_deg: number;
             /**
              * Format: double
-             * @description Width of the crosswalk over it, metres; 0 is none.
+             * @description Width of the crosswalk over it, metres; less than half a metre is none.
              * @default 3
              */
             crosswalk_m: number;
             /**
              * Format: double
-             * @description Width of a cycle lane on both sides, metres; 0 is none.
+             * @description Width of a cycle lane on both sides, metres; less than half a metre is none.
              * @default 0
              */
             cycle_lane_m: number;
@@ -663,7 +663,7 @@ export interface components {
             main: boolean;
             /**
              * Format: double
-             * @description Width of a raised strip between the directions, metres; 0 is none.
+             * @description Width of a raised strip between the directions, metres; less than half a metre is none.
              * @default 0
              */
             median_m: number;
@@ -817,7 +817,7 @@ export interface components {
             lane_width_m: number;
             /**
              * Format: double
-             * @description Width of the pavements, metres; 0 is none.
+             * @description Width of the pavements, metres; less than half a metre is none.
              * @default 2.5
              */
             sidewalk_m: number;
@@ -2016,7 +2016,7 @@ export interface components {
             program: components["schemas"]["Program"];
             /**
              * Format: double
-             * @description Width of the pavements, metres; 0 is none.
+             * @description Width of the pavements, metres; less than half a metre is none.
              * @default 2.5
              */
             sidewalk_m: number;
@@ -2787,7 +2787,7 @@ export interface components {
              * @description The word to switch on.
              * @enum {string}
              */
-            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
+            code: "malformed-json" | "malformed-file" | "bad-header" | "bad-host" | "unauthorized" | "bad-origin" | "cross-site" | "read-only" | "not-found" | "method-not-allowed" | "not-acceptable" | "head-timeout" | "body-timeout" | "exists" | "superseded" | "stale-revision" | "cancelled" | "stale-etag" | "body-too-large" | "decoded-too-large" | "expansion-too-high" | "uri-too-long" | "unsupported-media-type" | "host-not-allowed" | "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-agent" | "unknown-map" | "too-many-agents" | "map-too-large" | "reply-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused" | "precondition-required" | "headers-too-large" | "internal" | "non-finite-output" | "busy" | "not-ready" | "store-unavailable" | "shutting-down" | "generate-timeout" | "store-full";
             /**
              * Format: uint
              * @description Column of the fault in bytes, from 1.
@@ -3109,13 +3109,13 @@ export interface components {
             bend_deg: number;
             /**
              * Format: double
-             * @description Width of a crosswalk half way, metres; 0 is none.
+             * @description Width of a crosswalk half way, metres; less than half a metre is none.
              * @default 0
              */
             crosswalk_m: number;
             /**
              * Format: double
-             * @description Width of a cycle lane on both sides, metres; 0 is none.
+             * @description Width of a cycle lane on both sides, metres; less than half a metre is none.
              * @default 0
              */
             cycle_lane_m: number;
@@ -3145,13 +3145,13 @@ export interface components {
             length_m: number;
             /**
              * Format: double
-             * @description Width of a raised strip between the directions, metres; 0 is none.
+             * @description Width of a raised strip between the directions, metres; less than half a metre is none.
              * @default 0
              */
             median_m: number;
             /**
              * Format: double
-             * @description Width of a strip for parked cars on both sides, metres; 0 is none.
+             * @description Width of a strip for parked cars on both sides, metres; less than half a metre is none.
              * @default 0
              */
             parking_m: number;
@@ -3163,7 +3163,7 @@ export interface components {
             radius_m: number;
             /**
              * Format: double
-             * @description Width of the pavements, metres; 0 is none.
+             * @description Width of the pavements, metres; less than half a metre is none.
              * @default 2.5
              */
             sidewalk_m: number;
@@ -3340,7 +3340,7 @@ export interface components {
             ring_speed_limit_kmh: number;
             /**
              * Format: double
-             * @description Width of the pavements, metres; 0 is none.
+             * @description Width of the pavements, metres; less than half a metre is none.
              * @default 2.5
              */
             sidewalk_m: number;
@@ -4673,9 +4673,12 @@ export interface operations {
                 };
                 content: {
                     "application/geo+json": string;
+                    "application/json": string;
                     "application/octet-stream": string;
                     "application/vnd.apache.parquet": string;
                     "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "application/xml": string;
+                    "application/zip": string;
                     "text/csv": string;
                     "text/html": string;
                 };
@@ -5254,7 +5257,7 @@ export interface operations {
                     };
                 };
             };
-            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent, licence-refused */
+            /** @description invalid-field, out-of-range, half-position, start-missing, unknown-map, unknown-agent, too-many-agents, map-too-large, unsupported-version, format-unknown, cannot-represent, pickle-refused, licence-refused */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -5262,7 +5265,7 @@ export interface operations {
                 content: {
                     "application/problem+json": components["schemas"]["Problem"] & {
                         /** @enum {unknown} */
-                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "licence-refused";
+                        code?: "invalid-field" | "out-of-range" | "half-position" | "start-missing" | "unknown-map" | "unknown-agent" | "too-many-agents" | "map-too-large" | "unsupported-version" | "format-unknown" | "cannot-represent" | "pickle-refused" | "licence-refused";
                     };
                 };
             };
@@ -7904,9 +7907,12 @@ export interface operations {
                 };
                 content: {
                     "application/geo+json": string;
+                    "application/json": string;
                     "application/octet-stream": string;
                     "application/vnd.apache.parquet": string;
                     "application/vnd.dragtraffic.scene+json": components["schemas"]["Scene"];
+                    "application/xml": string;
+                    "application/zip": string;
                     "text/csv": string;
                     "text/html": string;
                 };
