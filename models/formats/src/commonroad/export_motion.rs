@@ -144,8 +144,8 @@ fn obstacle(
         return;
     };
     lost.late |= first.0 > 0;
-    let (word, exact) = road_user_word(shown.agent_type, agent.subtype);
-    lost.subtype |= !exact || (word == "car" && agent.subtype == Subtype::Unknown);
+    let (word, says_all) = road_user_word(shown.agent_type, agent.subtype);
+    lost.subtype |= !says_all || (word == "car" && agent.subtype == Subtype::Unknown);
     out.open("dynamicObstacle", &[("id", &id.to_string())]);
     out.leaf("type", word);
     out.open("shape", &[]);
