@@ -10,6 +10,8 @@ import pathlib
 import subprocess
 import sys
 
+# The package has the name of this script.
+del sys.path[0]
 import commonroad
 import numpy
 from commonroad.common.file_reader import CommonRoadFileReader

@@ -1,6 +1,6 @@
 # /// script
 # requires-python = ">=3.10, <3.12"
-# dependencies = ["numpy==1.26.4"]
+# dependencies = ["numpy==1.26.4", "scipy==1.13.1"]
 # [tool.dragtraffic]
 # no-deps = ["metadrive-simulator==0.4.3"]
 # ///
@@ -32,7 +32,7 @@ def description():
     """The class that checks, without the simulator and the pictures that its packages would load."""
     spec = importlib.machinery.PathFinder.find_spec("metadrive")
     folder = pathlib.Path(spec.submodule_search_locations[0])
-    for name in ("metadrive", "metadrive.scenario"):
+    for name in ("metadrive", "metadrive.scenario", "metadrive.utils"):
         package = types.ModuleType(name)
         package.__path__ = [str(folder.joinpath(*name.split(".")[1:]))]
         sys.modules[name] = package

@@ -112,7 +112,7 @@ fn broken_pickles_say_where() {
         (b"\x80\x02h\x05.", 2, "never kept"),
         (b"\x80\x02NNs.", 4, "no dictionary"),
         (b"\x80\x02}NNs", 6, "the file ends"),
-        (b"\x80\x02Na.", 3, "empty stack"),
+        (b"\x80\x02Na.", 3, "no list"),
         (b"\x80\x02}(Nu.", 5, "a key without a value"),
         (b"\x80\x02r\xff\xff\xff\x7f", 2, "nothing to remember"),
         (b"\x80\x02\x8a\x09123456789.", 2, "more than eight bytes"),

@@ -7,7 +7,7 @@ use crate::numbers::Numbers;
 use crate::polyline::offset_right;
 use scene::map::{Area, Boundary, Lane, LaneType, Neighbor, StopSign};
 use scene::{Scene, Signal, Vec2};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 
 /// Half the length of a stop line, in widths of its lane.
 const HALF: f64 = 0.5;
@@ -22,8 +22,9 @@ pub(super) struct Drawn<'a> {
     /// How lines and edges are marked.
     markings: HashMap<&'a str, &'static str>,
     crosswalks: Vec<(i64, &'a Area)>,
-    /// By the bits of the limit.
-    limits: BTreeMap<u64, i64>,
+    /// Signs of lanes with a limit. Each has its own: readers look for the lane at which a sign begins, and where
+    /// lanes with the same one go round there is none.
+    limits: HashMap<&'a str, i64>,
     /// Signs at which lanes stop.
     stops: Vec<(i64, &'a StopSign)>,
     lights: Vec<(i64, &'a Signal)>,
@@ -44,10 +45,8 @@ impl<'a> Drawn<'a> {
         let known = |id: &String| lanes.contains_key(id.as_str());
         let signs = map.stop_signs.iter().filter(|sign| sign.lanes.iter().any(known));
         let stops: Vec<_> = signs.map(|sign| (ids.take(&sign.id), sign)).collect();
-        let mut limits = BTreeMap::new();
-        for limit in map.lanes.iter().filter_map(|lane| lane.speed_limit_mps) {
-            limits.entry(limit.to_bits()).or_insert_with(|| ids.free());
-        }
+        let limited = map.lanes.iter().filter(|lane| lane.speed_limit_mps.is_some());
+        let limits = limited.map(|lane| (lane.id.as_str(), ids.free())).collect();
         let ruled = scene.signals.iter().filter(|signal| known(&signal.lane));
         let lights: Vec<_> = ruled.map(|signal| (ids.free(), signal)).collect();
         let mut obeys: HashMap<&str, (Vec<usize>, Vec<usize>)> = HashMap::new();
@@ -133,11 +132,13 @@ impl<'a> Drawn<'a> {
         for (id, area) in &self.crosswalks {
             crosswalk(*id, area, out);
         }
-        for (bits, id) in &self.limits {
+        for lane in &self.scene.map.lanes {
+            let limit = lane.speed_limit_mps.zip(self.limits.get(lane.id.as_str()));
+            let Some((limit, id)) = limit else { continue };
             out.open("trafficSign", &[("id", &id.to_string())]);
             out.open("trafficSignElement", &[]);
             out.leaf("trafficSignID", "274");
-            out.leaf("additionalValue", f64::from_bits(*bits));
+            out.leaf("additionalValue", limit);
             out.close();
             out.leaf("virtual", true);
             out.close();
@@ -191,7 +192,7 @@ impl<'a> Drawn<'a> {
             out.leaf("laneletType", INTERSECTION);
         }
         users(lane.lane_type).iter().for_each(|(name, user)| out.leaf(name, user));
-        let limit = lane.speed_limit_mps.and_then(|limit| self.limits.get(&limit.to_bits()));
+        let limit = self.limits.get(lane.id.as_str());
         for id in limit.into_iter().chain(&signs) {
             out.empty("trafficSignRef", &[("ref", &id.to_string())]);
         }

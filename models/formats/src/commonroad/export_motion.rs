@@ -144,8 +144,8 @@ fn obstacle(
         return;
     };
     lost.late |= first.0 > 0;
-    let (word, exact) = road_user_word(shown.agent_type, agent.subtype);
-    lost.subtype |= !exact || (word == "car" && agent.subtype == Subtype::Unknown);
+    let (word, says_all) = road_user_word(shown.agent_type, agent.subtype);
+    lost.subtype |= !says_all || (word == "car" && agent.subtype == Subtype::Unknown);
     out.open("dynamicObstacle", &[("id", &id.to_string())]);
     out.leaf("type", word);
     out.open("shape", &[]);
@@ -157,6 +157,11 @@ fn obstacle(
     let slips = states.iter().any(|(_, state)| along(state).1.abs() > 1e-6);
     out.open("initialState", &[]);
     state(*first, slips, out);
+    // CommonRoad's own reader goes no further in a first state than to what is missing: slip comes after these.
+    let (next, speeds) = (rest.first().unwrap_or(first), |state: &State| along(state).0);
+    let turned = wrap_angle(next.1.heading_rad - first.1.heading_rad);
+    exact("acceleration", decimal((speeds(&next.1) - speeds(&first.1)) / STEP_S), out);
+    exact("yawRate", decimal(turned / STEP_S), out);
     out.close();
     out.open("trajectory", &[]);
     for next in rest {

@@ -317,7 +317,10 @@ fn signals(
         }
         let stop =
             pickle.get(light, "stop_point").and_then(|value| pickle.rows(value, 3)).map(|(_, stop)| stop);
-        let stop = stop.filter(|stop| stop.len() >= 2 && stop.iter().all(|v| v.is_finite()));
+        // Zeros stand for a place that nobody knows.
+        let stop = stop.filter(|stop| {
+            stop.len() >= 2 && stop.iter().all(|v| v.is_finite()) && stop.iter().any(|v| *v != 0.0)
+        });
         if runs.is_empty() {
             empty += 1;
             continue;

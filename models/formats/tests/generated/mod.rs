@@ -61,7 +61,7 @@ fn agent(steps: usize) -> impl Strategy<Value = Agent> {
 }
 
 fn points(least: usize) -> impl Strategy<Value = Points> {
-    let list = proptest::collection::vec((-9e3..9e3f64, -9e3..9e3f64, -50.0..50.0f64), least..6);
+    let list = proptest::collection::vec((-5e3..5e3f64, -5e3..5e3f64, -50.0..50.0f64), least..6);
     (list, any::<bool>()).prop_map(|(list, with_z)| Points {
         xy: list.iter().map(|p| Vec2::new(p.0, p.1)).collect(),
         z_m: with_z.then(|| list.iter().map(|p| p.2).collect()),
@@ -118,7 +118,7 @@ fn lane() -> impl Strategy<Value = Lane> {
 
 fn signal(steps: usize) -> impl Strategy<Value = Signal> {
     let states = proptest::collection::vec(0..9usize, steps);
-    let stop = proptest::option::of((-9e3..9e3f64, -9e3..9e3f64, proptest::option::of(-5.0..5.0f64)));
+    let stop = proptest::option::of((-5e3..5e3f64, -5e3..5e3f64, proptest::option::of(-5.0..5.0f64)));
     (states, stop).prop_map(|(states, stop)| {
         let all = [
             SignalState::Unknown,
