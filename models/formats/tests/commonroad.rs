@@ -100,7 +100,7 @@ fn obstacles_and_the_problem_are_road_users() {
     assert!(state.vx_mps.abs() < 1e-6 && (state.vy_mps - 1.5).abs() < 1e-6);
     let parked = agent("40");
     assert_eq!((parked.track.valid_steps().count(), parked.track.at(9).unwrap().x_m), (41, 31.0));
-    assert!((parked.track.at(9).unwrap().heading_rad - 1.570_796_3).abs() < 1e-9);
+    assert!((parked.track.at(9).unwrap().heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-6);
     let uncertain = agent("43");
     assert_eq!((uncertain.size.length_m, uncertain.track.valid_steps().count()), (4.0, 1));
 }

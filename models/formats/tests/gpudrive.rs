@@ -29,7 +29,8 @@ fn a_scenario_is_read() {
     assert_eq!(kinds, expected);
     assert_eq!(scene.agent("9").unwrap().track.valid_steps().collect::<Vec<_>>(), [1, 3]);
     assert_eq!(scene.agent("9").unwrap().track.z_m.as_deref(), Some(&[0.0, 1.5, 0.0, 1.5][..]));
-    assert_eq!(scene.agent("8").unwrap().track.at(0).unwrap().heading_rad, 3.141_592_65);
+    let eighth = scene.agent("8").unwrap().track.at(0).unwrap().heading_rad;
+    assert!((eighth - std::f64::consts::PI).abs() < 1e-8, "{eighth}");
     assert_eq!(
         (&scene.meta.objects_of_interest[0], &scene.meta.tracks_to_predict[0].0),
         (&"9".to_owned(), &"9".to_owned())
@@ -79,7 +80,7 @@ fn each_engine_gets_its_own_file() {
     };
     let (full, flat) = (text("gpudrive"), text("nocturne"));
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
-    assert!((number(&full["objects"][1]["heading"][0]) - 3.141_592_65).abs() < 1e-9);
+    assert!((number(&full["objects"][1]["heading"][0]) - std::f64::consts::PI).abs() < 1e-8);
     assert!((number(&flat["objects"][1]["heading"][0]) - 180.0).abs() < 1e-6);
     assert_eq!((full["roads"][0]["map_element_id"].as_i64(), flat["roads"][0].get("id")), (Some(2), None));
     assert_eq!(

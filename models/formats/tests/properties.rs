@@ -216,8 +216,8 @@ proptest! {
         let (first, warnings) = format.import(&file.bytes, &Default::default()).remove(0).unwrap();
         let warned: Vec<_> = warnings.iter().map(|w| w.code).collect();
         prop_assert_eq!(warned, ["no-map", "sizes-assumed"]);
-        let seen = |agent: &&Agent| agent.track.valid_steps().next().is_some();
-        let mut expected: Vec<Agent> = scene.agents.iter().filter(seen).cloned().collect();
+        let seen = |agent: &&scene::Agent| agent.track.valid_steps().next().is_some();
+        let mut expected: Vec<scene::Agent> = scene.agents.iter().filter(seen).cloned().collect();
         let unseen = file.losses.iter().any(|loss| loss.code == "no-unseen");
         prop_assert_eq!(unseen, expected.len() < scene.agents.len());
         prop_assert_eq!(first.time, scene.time);
@@ -225,7 +225,7 @@ proptest! {
         let (own, its) = (&scene.meta.origin, &first.meta.origin);
         for agent in &mut expected {
             agent.conditions = Conditions::default();
-            agent.size = Size::default_for(agent.agent_type, agent.subtype);
+            agent.size = scene::Size::default_for(agent.agent_type, agent.subtype);
             if agent.role.is_some() {
                 agent.id = "AV".into();
             }

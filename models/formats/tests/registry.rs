@@ -51,7 +51,7 @@ const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");
 #[test]
 fn every_format_reads_what_it_writes_and_knows_its_own() {
     let scene = formats::native::read(JUNCTION).unwrap();
-    for format in FORMATS.iter().copied() {
+    for format in FORMATS {
         let info = format.info();
         if !info.export {
             let error = format.export(&[&scene], &ExportOptions::default()).unwrap_err();

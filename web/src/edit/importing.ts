@@ -220,7 +220,8 @@ function explain(file: string, p: Problem | undefined): Explanation {
 function inWords(file: string, p: Problem): string {
   const said = p.errors?.[0]?.detail ?? p.reason ?? p.detail ?? p.title;
   // A file of a kind that is known is called what it is.
-  if (p.code === 'format-unknown' && said.startsWith('not a file of a known format')) return `“${file}” is not a scene.`;
+  if (p.code === 'format-unknown' && said.startsWith('not a file of a known format'))
+    return `“${file}” is not a scene.`;
   const points = /^(\d+) points; (\d+) to \d+ expected$/.exec(said);
   if (points)
     return `it has ${points[1] === '1' ? 'only one point' : `${points[1]} points`}, and needs ${points[2]} at least`;

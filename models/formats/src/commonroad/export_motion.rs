@@ -317,7 +317,7 @@ mod tests {
     fn gaps_are_filled_and_one_state_becomes_two() {
         let at = |x_m: f64| State { x_m, vx_mps: 10.0, ..State::default() };
         let filled = |known: &[(usize, State)]| -> Vec<(usize, f64)> {
-            super::filled(known).iter().map(|(step, state)| (*step, state.x_m)).collect()
+            filled(known).iter().map(|(step, state)| (*step, state.x_m)).collect()
         };
         assert_eq!(filled(&[(2, at(2.0)), (5, at(8.0))]), [(2, 2.0), (3, 4.0), (4, 6.0), (5, 8.0)]);
         assert_eq!(filled(&[(4, at(1.0))]), [(4, 1.0), (5, 2.0)]);

@@ -238,7 +238,7 @@ fn tell(scene: &Scene, options: &ExportOptions, full: bool, renumbered: bool, lo
     let foreign = |t: LaneType| matches!(t, LaneType::BusLane | LaneType::Sidewalk | LaneType::Parking);
     let untyped = map.lanes.iter().any(|lane| foreign(lane.lane_type) || !full)
         || map.road_edges.iter().any(|edge| edge.line_type == "sidewalk")
-        || (!full && !(map.road_lines.is_empty() && map.road_edges.is_empty()));
+        || !(full || map.road_lines.is_empty() && map.road_edges.is_empty());
     let known: BTreeSet<&str> = scene.signals.iter().map(|signal| signal.lane.as_str()).collect();
     let lost_lights =
         known.len() < scene.signals.len() || known.iter().any(|lane| map.lane_index(lane).is_none());
@@ -252,7 +252,7 @@ fn tell(scene: &Scene, options: &ExportOptions, full: bool, renumbered: bool, lo
         || !meta.notes.is_empty()
         || meta.parent_id.is_some()
         || !scene.extra.is_empty();
-    let asked = !full && !(meta.objects_of_interest.is_empty() && meta.tracks_to_predict.is_empty());
+    let asked = !(full || meta.objects_of_interest.is_empty() && meta.tracks_to_predict.is_empty());
     let guessed = usize::from(scene.time.steps == 91) * 10;
     let all = [
         (
@@ -285,7 +285,7 @@ fn tell(scene: &Scene, options: &ExportOptions, full: bool, renumbered: bool, lo
             code::IDS_RENUMBERED,
             "ids that are no whole numbers above zero, or not unique, got new ones",
         ),
-        (!full && !(agents.is_empty() && map.lanes.is_empty()), code::NO_IDS, "ids"),
+        (!(full || agents.is_empty() && map.lanes.is_empty()), code::NO_IDS, "ids"),
         (!full && meta.source_id.is_some(), code::NO_NOTES, "the id in its source"),
     ];
     losses.extend(

@@ -326,7 +326,7 @@ impl Made {
         frame: Frame,
         warnings: &mut Vec<Warning>,
     ) -> Option<Generated> {
-        let mut samples: BTreeMap<u64, BTreeMap<String, Vec<(&Drawn, Future)>>> = BTreeMap::new();
+        let mut samples: BTreeMap<u64, Futures<'_>> = BTreeMap::new();
         let mut dropped = 0;
         for drawn in &self.recording.futures {
             let Some(id) = names.get(&drawn.user) else { continue };
@@ -355,13 +355,16 @@ impl Made {
     }
 }
 
+/// Possible motions of a sample, by road user.
+type Futures<'a> = BTreeMap<String, Vec<(&'a Drawn, Future)>>;
+
 /// A state that a future can have: a little beyond where a track may be.
 fn can_be(state: &State) -> bool {
     state.position().amax() <= 2.0 * MAX_COORDINATE_M && state.velocity().amax() <= MAX_SPEED_MPS
 }
 
 /// One answer for several road users; probabilities that are not said are even.
-fn answer(agents: BTreeMap<String, Vec<(&Drawn, Future)>>) -> scene::Sample {
+fn answer(agents: Futures<'_>) -> scene::Sample {
     let of_agent = |mut list: Vec<(&Drawn, Future)>| {
         list.sort_by_key(|(drawn, _)| drawn.mode);
         let even = 1.0 / list.len() as f64;

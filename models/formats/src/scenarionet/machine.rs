@@ -431,7 +431,7 @@ impl<'a> Machine<'a> {
     }
 
     fn paired(&self, items: Vec<Value>) -> Done<Vec<(Value, Value)>> {
-        if items.len() % 2 != 0 {
+        if !items.len().is_multiple_of(2) {
             return Err(self.broken("a key without a value"));
         }
         let mut entries = Vec::with_capacity(items.len() / 2);
