@@ -34,6 +34,8 @@ pub mod code {
     pub const NO_LICENCE: &str = "no-licence";
     /// Name, tags, notes and the like.
     pub const NO_NOTES: &str = "no-notes";
+    /// Road users, where a file is a map alone.
+    pub const NO_ROAD_USERS: &str = "no-road-users";
     /// Lanes, lines, edges and areas.
     pub const NO_MAP: &str = "no-map";
     /// Traffic signals.

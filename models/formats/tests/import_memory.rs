@@ -309,7 +309,7 @@ fn reading_takes_little_beside_the_file() {
         // A table of one scenario as long as is let through, plain columns and repeated ones.
         ("csv", "csv", Box::new(gzip(&table("csv", 16))), 16, None, 16),
         ("parquet", "parquet", Box::new(table("parquet", 16)), 16, None, 64),
-        ("one long scenario", "csv", Box::new(long_table(980_000)), 200, None, 128),
+        ("one long scenario", "csv", Box::new(long_table(900_000)), 200, None, 128),
         ("too long a scenario", "csv", Box::new(long_table(1_100_000)), 0, Some("too-many-agents"), 128),
         (
             "a row without end",

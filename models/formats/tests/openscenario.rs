@@ -47,11 +47,9 @@ fn a_map_comes_back_with_its_lanes_and_links() {
             let Some(back) = map.lanes.iter().find(|other| near(lane, other)) else { continue };
             same += 1;
             assert!((length_m(lane) - length_m(back)).abs() < 0.05, "{name}: lane {}", lane.id);
-            assert!(
-                (lane.width_or_assumed_m() - back.width_m.unwrap()).abs() < 0.5,
-                "{name}: lane {}",
-                lane.id
-            );
+            // Ways through junctions are as wide at their ends as the lanes that they connect.
+            let off_m = (lane.width_or_assumed_m() - back.width_m.unwrap()).abs();
+            assert!(off_m < 0.5 || lane.interpolating, "{name}: lane {}: {off_m}", lane.id);
             links += usize::from(lane.successors.is_empty() == back.successors.is_empty());
         }
         // A lane whose beginning became a way through a junction is shorter.

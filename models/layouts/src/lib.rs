@@ -8,9 +8,9 @@
 //!
 //! let mut layout = Template::FourArms.layout();
 //! if let Layout::FourArms(junction) = &mut layout {
-//!     junction.kerb_radius_m = 6.0;
+//!     junction.kerb_radius_m = 12.0;
 //! }
-//! let built = layouts::build(&layout).expect("six metres are in range");
+//! let built = layouts::build(&layout).expect("twelve metres are in range");
 //! assert!(built.checks.iter().all(|check| check.passed));
 //! ```
 

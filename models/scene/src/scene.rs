@@ -275,7 +275,9 @@ impl Scene {
         check_ids("/agents", self.agents.iter().map(|a| &a.id), problems);
         for (i, agent) in self.agents.iter().enumerate() {
             let size = [agent.size.length_m, agent.size.width_m];
-            if size.iter().any(|v| !(0.05..=60.0).contains(v)) {
+            if size.iter().any(|v| !(0.05..=60.0).contains(v))
+                || agent.size.height_m.is_some_and(|h| !(0.0..=60.0).contains(&h))
+            {
                 let reason = format!("size {} x {} m; 0.05 to 60 m expected", size[0], size[1]);
                 problems.push(SceneError::new(format!("/agents/{i}/length_m"), "out-of-range", reason));
             }

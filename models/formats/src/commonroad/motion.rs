@@ -149,7 +149,7 @@ mod tests {
         let clock = |step_s| Clock { step_s, first: 0, steps: 600 };
         let xs = |states: &[i64], step_s| {
             let (begin, states) = resampled(&driven(states), clock(step_s));
-            (begin, states.iter().map(|s| s.map(|s| s.x_m)).collect::<Vec<_>>())
+            (begin, states.iter().map(|s| s.map(|s| (s.x_m * 1e9).round() / 1e9)).collect::<Vec<_>>())
         };
         assert_eq!(xs(&[1, 2, 4], 0.1), (1, vec![Some(1.0), Some(2.0), None, Some(4.0)]));
         assert_eq!(xs(&[0, 1, 2], 0.2), (0, vec![Some(0.0), Some(0.5), Some(1.0), Some(1.5), Some(2.0)]));

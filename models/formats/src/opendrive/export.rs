@@ -409,6 +409,7 @@ fn losses(scene: &Scene, drawn: &Roads<'_>, off_m: f64) -> Vec<Loss> {
     let mut lose = |lost: bool, code, detail: String| losses.extend(lost.then(|| Loss::new(code, detail)));
     let detail = format!("lanes are lines within {off_m:.3} m, and {} begin with a way into them", drawn.cut);
     lose(true, code::GEOMETRY_APPROXIMATED, detail);
+    lose(!scene.agents.is_empty(), code::NO_ROAD_USERS, "road users and their motion".into());
     let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
     lose(lines, code::NO_LINES, "painted lines and road edges".into());
     lose(!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas".into());

@@ -48,7 +48,8 @@ fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     if let (Some(map), Some(file)) = (map, road_file) {
         zip.start_file(file, how)?;
         zip.write_all(&map.bytes)?;
-        losses.extend(map.losses.into_iter().filter(|loss| loss.code != code::NO_SIGNALS));
+        let elsewhere = [code::NO_SIGNALS, code::NO_ROAD_USERS];
+        losses.extend(map.losses.into_iter().filter(|loss| !elsewhere.contains(&loss.code)));
     }
     let losses: Vec<Loss> = losses.into_iter().collect();
     Ok(Exported { bytes: zip.finish()?.into_inner(), losses })
