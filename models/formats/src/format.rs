@@ -96,6 +96,15 @@ impl ExportedMotion {
             }
         }
     }
+
+    /// All road users as a file has them, and steps until the last of them ends: what was made may go on when the
+    /// scene is over.
+    pub(crate) fn all(self, scene: &Scene) -> (Vec<Shown<'_>>, usize) {
+        let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| self.of(scene, agent)).collect();
+        let ends = shown.iter().map(|shown| shown.track.first_step + shown.track.states.len());
+        let steps = ends.fold(scene.time.steps, usize::max);
+        (shown, steps)
+    }
 }
 
 /// How to write a file of any format.

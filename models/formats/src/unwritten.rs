@@ -42,6 +42,12 @@ pub(crate) fn futures(scene: &Scene, motion: ExportedMotion) -> Vec<Loss> {
     losses
 }
 
+/// A file of more steps than the scene has.
+pub(crate) fn length(scene: &Scene, steps: usize) -> Option<Loss> {
+    let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
+    (steps > scene.time.steps).then(|| Loss::new(code::LONG_RECORD, detail))
+}
+
 /// Name, tags, notes and the like, where a file is called `id` and has no place for them.
 pub(crate) fn notes(scene: &Scene, id: &str) -> Option<Loss> {
     let lost = !scene.meta.tags.is_empty() || is_noted(scene, id);

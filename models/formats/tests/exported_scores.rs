@@ -9,7 +9,7 @@ use scene::map::{Lane, TypedLine};
 use scene::score::{Drivable, ScoreInput};
 use scene::{
     Agent, AgentFutures, AgentType, Conditions, Future, Generated, Goal, LaneMap, Sample, Scene, Signal,
-    SignalState, Start, State, Subtype, Vec2,
+    SignalState, Size, Start, State, Subtype, Timing, Vec2,
 };
 use serde_json::Value;
 use std::borrow::Cow;
@@ -115,29 +115,55 @@ fn scene() -> impl Strategy<Value = Scene> {
 }
 
 /// The score as JSON, without what the declared losses take away, its places in the source's frame.
-fn scored(scene: &Scene, steps: &std::ops::Range<usize>, losses: &[&str]) -> Value {
+fn scored(scene: &Scene, time: &Timing, steps: &std::ops::Range<usize>, losses: &[&str]) -> Value {
+    let mut scene = scene.clone();
+    if losses.contains(&"no-timing") {
+        scene.time = time.clone();
+    }
+    if losses.contains(&"no-conditions") {
+        for agent in &mut scene.agents {
+            agent.conditions.goal = Goal::default();
+            // Where motion that was made becomes a record, its start is in it.
+            if !losses.contains(&"no-generated") {
+                agent.conditions.start = Start::default();
+            }
+        }
+    }
+    if losses.contains(&"no-ids") {
+        let numbered = scene.agents.iter_mut().zip(1..);
+        numbered.for_each(|(agent, number)| agent.id = number.to_string());
+    }
     let drivable = Drivable::new(&scene.map);
-    let mut input = ScoreInput::of_scene(scene, &drivable);
+    let mut input = ScoreInput::of_scene(&scene, &drivable);
     input.steps = steps.clone();
     let tracks: Vec<_> = input.actors.iter().map(|actor| actor.track.clone().into_owned()).collect();
     for (actor, track) in input.actors.iter_mut().zip(&tracks) {
-        if losses.contains(&"no-conditions") {
-            actor.goal = Goal::default();
-        }
         if losses.contains(&"no-generated") {
             (actor.generated, actor.reference, actor.modes) = (false, None, &[]);
             (actor.log, actor.track) = (Some(track), Cow::Borrowed(track));
         }
+        if losses.contains(&"no-sizes") {
+            actor.size = Size::default_for(actor.agent_type, Subtype::Unknown);
+        }
     }
     let mut value = serde_json::to_value(scene::score::score(&input)).unwrap();
     // Where lanes or the ground are not the same, nobody is judged by them.
-    if losses.iter().any(|code| ["no-lane-type", "no-lane-graph", "no-drivable", "no-lines"].contains(code)) {
-        let agents = value.get_mut("agents").and_then(Value::as_object_mut).into_iter().flatten();
-        for (_, agent) in agents {
-            for figure in ["offroad_max_m", "offroad_share", "wrong_way_share"] {
-                agent.as_object_mut().map(|figures| figures.remove(figure));
-            }
+    let ground = ["no-map", "no-lane-type", "no-lane-graph", "no-drivable", "no-lines"];
+    if losses.iter().any(|code| ground.contains(code)) {
+        for figure in
+            ["offroad_max_m", "offroad_share", "wrong_way_share", "off_road", "wrong_way", "over_median"]
+        {
+            let agents = value["agents"].as_object_mut().into_iter().flat_map(|agents| agents.values_mut());
+            let mut judged: Vec<&mut Value> = agents.collect();
+            judged
+                .iter_mut()
+                .filter_map(|one| one.as_object_mut())
+                .for_each(|figures| drop(figures.remove(figure)));
+            value["scene"].as_object_mut().map(|figures| figures.remove(figure));
         }
+    }
+    if losses.contains(&"no-signals") || losses.contains(&"no-map") {
+        value["scene"].as_object_mut().map(|figures| figures.remove("red_lights"));
     }
     place(&mut value, Vec2::new(scene.meta.origin.x_m, scene.meta.origin.y_m));
     value
@@ -189,13 +215,14 @@ proptest! {
             let id = format.info().id;
             let exported = format.export(&[&scene], &ExportOptions::default()).unwrap();
             let codes: Vec<&str> = exported.losses.iter().map(|loss| loss.code).collect();
-            if codes.contains(&"no-road-users") {
+            // Those of whom no motion is left cannot be scored.
+            if codes.contains(&"no-road-users") || codes.contains(&"single-ego") {
                 continue;
             }
             let (back, _) = format.import(&exported.bytes, &options).remove(0).unwrap();
             let drivable = Drivable::new(&scene.map);
             let steps = ScoreInput::of_scene(&scene, &drivable).steps;
-            let (before, after) = (scored(&scene, &steps, &codes), scored(&back, &steps, &codes));
+            let (before, after) = (scored(&scene, &scene.time, &steps, &codes), scored(&back, &scene.time, &steps, &codes));
             let different = difference(&before, &after, "");
             prop_assert!(different.is_none(), "{id}, losses {codes:?}: {}", different.unwrap());
         }

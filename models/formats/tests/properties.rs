@@ -214,9 +214,7 @@ proptest! {
         let options = formats::ExportOptions { motion: ExportedMotion::Log, ..Default::default() };
         let file = format.export(&[&scene], &options).unwrap();
         let (first, warnings) = format.import(&file.bytes, &Default::default()).remove(0).unwrap();
-        // Who is seen but now and then may seem to be recorded at another pace.
-        let warned = warnings.iter().map(|w| w.code).filter(|code| *code != "time-resampled");
-        prop_assert_eq!(warned.collect::<Vec<_>>(), ["no-map", "sizes-assumed"]);
+        prop_assert_eq!(warnings.iter().map(|w| w.code).collect::<Vec<_>>(), ["no-map", "sizes-assumed"]);
         let seen = |agent: &&scene::Agent| agent.track.valid_steps().next().is_some();
         let mut expected: Vec<scene::Agent> = scene.agents.iter().filter(seen).cloned().collect();
         let unseen = file.losses.iter().any(|loss| loss.code == "no-unseen");

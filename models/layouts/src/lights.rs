@@ -4,7 +4,7 @@ use crate::draft::Draft;
 use crate::parameters::{Program, Turn, TurnAcross};
 use crate::turns::Movement;
 use scene::geometry::segments::{Segment, SegmentIndex, pieces};
-use scene::{HORIZON_STEPS, STEP_S, Signal, SignalState, Vec2};
+use scene::{HORIZON_STEPS, STEP_S, Signal, SignalState, Vec2, wrap_angle};
 
 /// Movements that have green together, by their place in the draft's list.
 type Phase = Vec<usize>;
@@ -39,6 +39,24 @@ pub fn gives_way(a: &Movement, b: &Movement) -> bool {
     a.turn != Turn::Straight || b.turn != Turn::Straight
 }
 
+/// A way that bends less than this looks like straight on to who drives it, radians.
+const LOOKS_STRAIGHT_RAD: f64 = 0.3;
+
+/// Two ways of opposite arms may have green together: they do not meet, or who turns sees whom to give way to. That
+/// is so before oncoming traffic and into the same arm, and where both turn; not where a way that looks straight
+/// on is crossed by one from the side.
+fn go_together(draft: &Draft, a: &Movement, b: &Movement) -> bool {
+    let bends = |m: &Movement| {
+        let path = draft.points(m.lane);
+        let direction = |pair: &[Vec2]| (pair[1] - pair[0]).y.atan2((pair[1] - pair[0]).x);
+        let (first, last) = (path.windows(2).next(), path.windows(2).last());
+        let change = first.zip(last).map_or(0.0, |(f, l)| wrap_angle(direction(l) - direction(f)));
+        change.abs() > LOOKS_STRAIGHT_RAD
+    };
+    let oncoming = a.to == b.from || b.to == a.from || a.to == b.to;
+    oncoming || (bends(a) && bends(b)) || !meet(draft, a, b)
+}
+
 /// The phases of a junction of so many arms.
 fn phases(draft: &Draft, arms: usize, turns_across: TurnAcross) -> Vec<Phase> {
     let movements = &draft.movements;
@@ -54,7 +72,11 @@ fn phases(draft: &Draft, arms: usize, turns_across: TurnAcross) -> Vec<Phase> {
             continue;
         }
         done[arm] = true;
-        let opposite = straight(arm).filter(|other| straight(*other) == Some(arm) && !done[*other]);
+        let fit = |other: usize| {
+            of(arm).all(|i| of(other).all(|j| go_together(draft, &movements[i], &movements[j])))
+        };
+        let opposite =
+            straight(arm).filter(|other| straight(*other) == Some(arm) && !done[*other] && fit(*other));
         let Some(other) = opposite else {
             phases.push(of(arm).collect());
             continue;

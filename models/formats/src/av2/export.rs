@@ -5,6 +5,7 @@ use crate::columnar::{self, Column, Values};
 use crate::format::{Exported, ExportedMotion};
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
+use crate::unwritten;
 use scene::map::LaneMap;
 use scene::{Agent, AgentType, Conditions, STEP_S, Scene, Shown, State, Subtype};
 use std::borrow::Cow;
@@ -31,10 +32,7 @@ pub(super) fn write(scene: &Scene, motion: ExportedMotion) -> io::Result<Exporte
         scene.agents.iter().map(|agent| track(scene, agent, motion, focal, frame)).collect();
     let steps = tracks.iter().flat_map(|track| track.states.last()).map(|(step, _)| step + 1);
     let steps = steps.fold(scene.time.steps, usize::max);
-    if steps > scene.time.steps {
-        let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
-        losses.push(Loss::new(code::LONG_RECORD, detail));
-    }
+    losses.extend(unwritten::length(scene, steps));
     lost(scene, motion, &mut losses);
     let rows: Vec<(&Track<'_>, usize, State)> = tracks
         .iter()

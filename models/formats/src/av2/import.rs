@@ -212,6 +212,7 @@ pub(super) fn read(
         origin: Some(Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() }),
         start_s: Some(0.0),
         timing: Some(Timing { steps, now_step }),
+        spacing_s: Some(STEP_S),
         map: map.into(),
         warnings,
     };

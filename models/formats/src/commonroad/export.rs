@@ -27,7 +27,7 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     let own = map.lanes.iter().map(|lane| &lane.id).chain(map.crosswalks.iter().map(|area| &area.id));
     let own = own.chain(map.stop_signs.iter().map(|sign| &sign.id)).chain(scene.agents.iter().map(|a| &a.id));
     let mut ids = Numbers::of(own);
-    let drawn = Drawn::of(scene, &mut ids, &mut losses);
+    let drawn = Drawn::of(scene, options.motion.all(scene).1, &mut ids, &mut losses);
     let problem = Problem::of(scene, options.motion);
     let name = benchmark_id(scene);
     let mut out = Markup::new();

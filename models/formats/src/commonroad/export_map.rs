@@ -17,6 +17,8 @@ const CURB: &str = "curb";
 /// What a map is in a scenario.
 pub(super) struct Drawn<'a> {
     scene: &'a Scene,
+    /// How long signals go on.
+    steps: usize,
     /// Number and last point.
     lanes: HashMap<&'a str, (i64, usize)>,
     /// How lines and edges are marked.
@@ -33,8 +35,8 @@ pub(super) struct Drawn<'a> {
 }
 
 impl<'a> Drawn<'a> {
-    /// Gives numbers to all that is drawn, and says what is not.
-    pub fn of(scene: &'a Scene, ids: &mut Numbers, losses: &mut BTreeSet<Loss>) -> Self {
+    /// Gives numbers to all that is drawn, and says what is not; signals go on for so many steps.
+    pub fn of(scene: &'a Scene, steps: usize, ids: &mut Numbers, losses: &mut BTreeSet<Loss>) -> Self {
         let map = &scene.map;
         let number = |lane: &'a Lane| (lane.id.as_str(), (ids.take(&lane.id), lane.points.xy.len() - 1));
         let lanes: HashMap<&str, (i64, usize)> = map.lanes.iter().map(number).collect();
@@ -56,7 +58,7 @@ impl<'a> Drawn<'a> {
         for (i, (_, signal)) in lights.iter().enumerate() {
             obeys.entry(&signal.lane).or_default().1.push(i);
         }
-        let drawn = Self { scene, lanes, markings, crosswalks, limits, stops, lights, obeys };
+        let drawn = Self { scene, steps, lanes, markings, crosswalks, limits, stops, lights, obeys };
         drawn.tell(losses);
         drawn
     }
@@ -153,7 +155,7 @@ impl<'a> Drawn<'a> {
             out.close();
         }
         for (id, signal) in &self.lights {
-            light(*id, signal, self.scene.time.steps, out);
+            light(*id, signal, self.steps, out);
         }
     }
 
@@ -274,7 +276,7 @@ fn crosswalk(id: i64, area: &Area, out: &mut Markup) {
     out.close();
 }
 
-/// What a signal shows over the scene, as a cycle that is as long.
+/// What a signal shows until everybody arrives, as a cycle that is as long.
 fn light(id: i64, signal: &Signal, steps: usize, out: &mut Markup) {
     out.open("trafficLight", &[("id", &id.to_string())]);
     out.open("cycle", &[]);

@@ -119,7 +119,8 @@ fn about_the_middle(document: &mut Document) -> Result<Vec2, ReadError> {
     Ok(middle)
 }
 
-/// The steps of the scene: from the first state to the last one or the end of the first goal.
+/// The steps of the scene: to the last state or the end of the first goal, from the zero of the file where that is
+/// not too long before, else from the first state.
 fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
     let moving = document.obstacles.iter().filter(|obstacle| !obstacle.fixed);
     let starts = document.problems.iter().map(|problem| problem.start.step);
@@ -130,7 +131,9 @@ fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
     let (Some(first), Some(last)) = (seen.iter().min(), seen.iter().copied().chain(ends).max()) else {
         return Clock { step_s: document.step_s, first: 0, steps: MAP_TIMING.steps };
     };
-    let clock = Clock { step_s: document.step_s, first: *first, steps: 0 };
+    let since_zero = Clock { step_s: document.step_s, first: 0, steps: 0 };
+    let near = (0..MAX_STEPS).contains(&since_zero.step(last)) && *first >= 0;
+    let clock = if near { since_zero } else { Clock { first: *first, ..since_zero } };
     let all_s = clock.seconds(last as f64);
     let steps = clock.step(last) + 1;
     if steps > MAX_STEPS {

@@ -11,7 +11,6 @@ use crate::source::Source;
 use mcap::Writer;
 use scene::{Agent, Conditions, STEP_S, Scene, Shown};
 use serde_json::{Value, json};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io;
 
@@ -73,19 +72,9 @@ fn log(scene: &Scene, motion: ExportedMotion) -> io::Result<Vec<u8>> {
     };
     put(&mut file, frames, 0, &scene_update::transform(scene))?;
     put(&mut file, map, 0, &scene_update::map(&scene.map))?;
-    let tracks: Vec<(&Agent, Shown<'_>)> = scene
-        .agents
-        .iter()
-        .map(|agent| match motion {
-            ExportedMotion::Chosen => (agent, scene.shown(agent)),
-            ExportedMotion::Log => {
-                let track = Cow::Borrowed(&*agent.track);
-                (agent, Shown { agent_type: agent.agent_type, size: agent.size, track })
-            }
-        })
-        .collect();
-    let ends = tracks.iter().map(|(_, shown)| shown.track.first_step + shown.track.states.len());
-    for step in 0..ends.fold(scene.time.steps, usize::max) {
+    let (shown, steps) = motion.all(scene);
+    let tracks: Vec<(&Agent, Shown<'_>)> = scene.agents.iter().zip(shown).collect();
+    for step in 0..steps {
         let changes = scene.signals.iter().any(|signal| signal.runs.iter().any(|(first, _)| *first == step));
         if changes || (step == 0 && !scene.signals.is_empty()) {
             put(&mut file, signals, step, &scene_update::signals(scene, step))?;

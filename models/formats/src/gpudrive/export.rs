@@ -23,13 +23,8 @@ const UNSEEN: f64 = -10_000.0;
 pub(super) fn write(scene: &Scene, options: &ExportOptions, flavour: Flavour) -> io::Result<Exported> {
     let mut losses = BTreeSet::new();
     let frame = Frame { origin: &scene.meta.origin, flat: flavour == Flavour::Nocturne };
-    let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| options.motion.of(scene, agent)).collect();
-    let ends = shown.iter().map(|shown| shown.track.first_step + shown.track.states.len());
-    let steps = ends.fold(scene.time.steps, usize::max);
-    if steps > scene.time.steps {
-        let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
-        losses.insert(Loss::new(code::LONG_RECORD, detail));
-    }
+    let (shown, steps) = options.motion.all(scene);
+    losses.extend(unwritten::length(scene, steps));
     let mut ids = Numbers::of(scene.agents.iter().map(|agent| &agent.id));
     let numbers: Vec<i64> = scene.agents.iter().map(|agent| ids.take(&agent.id)).collect();
     let (roads, lanes, renumbered) = roads(scene, frame);
@@ -265,6 +260,11 @@ fn tell(scene: &Scene, options: &ExportOptions, full: bool, renumbered: bool, lo
         (untyped, code::NO_LANE_TYPE, "types of lanes, lines and edges that the format has no number for"),
         (!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas"),
         (lost_lights, code::NO_SIGNALS, "signals of no lane, and all but one of each lane"),
+        (
+            !full && !known.is_empty(),
+            code::NO_SIGNALS,
+            "which lanes signals are for: lanes have no ids there",
+        ),
         (
             if full { heights } else { flat },
             code::NO_Z,

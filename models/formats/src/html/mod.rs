@@ -7,7 +7,6 @@ use crate::source::Source;
 use scene::map::{Area, LaneType, TypedLine};
 use scene::{Agent, Conditions, STEP_S, Scene, Shown, Signal, State, Vec2};
 use serde_json::{Value, json};
-use std::borrow::Cow;
 use std::io;
 
 const PAGE: &str = include_str!("page.html");
@@ -75,18 +74,7 @@ fn flat<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> Vec<f64> {
 
 /// All that the page shows.
 fn played(scene: &Scene, motion: ExportedMotion) -> Value {
-    let tracks: Vec<Shown<'_>> = scene
-        .agents
-        .iter()
-        .map(|agent| match motion {
-            ExportedMotion::Chosen => scene.shown(agent),
-            ExportedMotion::Log => {
-                Shown { agent_type: agent.agent_type, size: agent.size, track: Cow::Borrowed(&agent.track) }
-            }
-        })
-        .collect();
-    let ends = tracks.iter().map(|shown| shown.track.first_step + shown.track.states.len());
-    let steps = ends.fold(scene.time.steps, usize::max);
+    let (tracks, steps) = motion.all(scene);
     let map = &scene.map;
     let areas = |list: &[Area]| -> Vec<Vec<Vec<f64>>> {
         let rings = |area: &Area| {

@@ -75,7 +75,7 @@ impl Format for OpenScenario {
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
         let detail = "OpenSCENARIO is written, not read";
-        one(Err(FieldProblem::new("", problem::code::CANNOT_REPRESENT, detail).into()))
+        one(Err(FieldProblem::new("", problem::code::FORMAT_UNKNOWN, detail).into()))
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

@@ -36,6 +36,8 @@ pub(crate) struct Said {
     /// Time of the first step in the file, seconds; that of the first sample where absent.
     pub start_s: Option<f64>,
     pub timing: Option<Timing>,
+    /// Time from one sample to the next, seconds; what most of them have where absent.
+    pub spacing_s: Option<f64>,
     /// About the origin.
     pub map: Shared<LaneMap>,
     pub warnings: Vec<Warning>,
@@ -70,7 +72,8 @@ impl Recording {
         for list in self.lists() {
             list.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         }
-        let spacing_s = spacing_s(self.users.iter().map(|user| user.samples.as_slice()));
+        let usual = || spacing_s(self.users.iter().map(|user| user.samples.as_slice()));
+        let spacing_s = self.said.spacing_s.unwrap_or_else(usual);
         let mut derived = Derived::default();
         for list in self.lists() {
             let found = complete(list, spacing_s);

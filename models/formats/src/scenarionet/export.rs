@@ -19,13 +19,8 @@ const DATASET: &str = "dragtraffic";
 /// Writes a scene, in its own frame; where that lies is in the metadata.
 pub(super) fn write(scene: &Scene, options: &ExportOptions) -> Exported {
     let mut losses = BTreeSet::new();
-    let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| options.motion.of(scene, agent)).collect();
-    let ends = shown.iter().map(|shown| shown.track.first_step + shown.track.states.len());
-    let steps = ends.fold(scene.time.steps, usize::max);
-    if steps > scene.time.steps {
-        let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
-        losses.insert(Loss::new(code::LONG_RECORD, detail));
-    }
+    let (shown, steps) = options.motion.all(scene);
+    losses.extend(unwritten::length(scene, steps));
     let mut out = Writer::new();
     out.dict(|w| {
         let id = scene.meta.source_id.as_deref().or(scene.id.as_deref()).unwrap_or(&scene.name);

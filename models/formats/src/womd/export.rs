@@ -60,13 +60,8 @@ pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) 
     let mut losses = Vec::new();
     let ids = agent_ids(&scene.agents, &mut losses);
     let map_ids = MapIds::new(&scene.map, &mut losses);
-    let shown: Vec<Shown<'_>> = scene.agents.iter().map(|agent| motion.of(scene, agent)).collect();
-    let ends = shown.iter().map(|shown| shown.track.first_step + shown.track.states.len());
-    let steps = ends.fold(scene.time.steps, usize::max);
-    if steps > scene.time.steps {
-        let detail = format!("nothing is cut: {steps} steps, where the scene has {}", scene.time.steps);
-        losses.push(Loss::new(code::LONG_RECORD, detail));
-    }
+    let (shown, steps) = motion.all(scene);
+    losses.extend(unwritten::length(scene, steps));
     let tracks: Vec<Track> = scene
         .agents
         .iter()
