@@ -53,6 +53,7 @@ mod numbers;
 pub mod opendrive;
 mod openscenario;
 mod osm;
+mod osm_items;
 pub mod polyline;
 pub mod problem;
 mod projection;

@@ -1,5 +1,7 @@
 //! Bounds on outside data; `scene::Scene::checked` holds the same ones.
 
+use crate::problem::{FieldProblem, ReadError, code};
+
 pub use scene::{MAX_AGENTS, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 
 /// Most scenes that one import gives.
@@ -8,10 +10,18 @@ pub const MAX_SCENES: usize = 200;
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 /// Most values of a native document.
 pub const MAX_DOCUMENT_VALUES: u64 = 32 << 20;
+/// Greatest ratio of decompressed to compressed bytes, looked at after the first MiB.
+pub const MAX_EXPANSION: u64 = 100;
 
 /// What reading a file of so many bytes, as they came, takes of memory at most.
 pub const fn memory_for(encoded: u64) -> u64 {
     encoded.saturating_mul(8).saturating_add(64 << 20)
 }
-/// Greatest ratio of decompressed to compressed bytes, looked at after the first MiB.
-pub const MAX_EXPANSION: u64 = 100;
+
+/// Nothing, unless a map has more of something than is read.
+pub(crate) fn at_most(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
+    if count > most {
+        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, format!("more than {most} {what}")).into());
+    }
+    Ok(())
+}

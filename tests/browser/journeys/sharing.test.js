@@ -4,20 +4,7 @@ import { readFileSync } from 'node:fs';
 import { it } from 'node:test';
 import { carOnTheMove } from '../support/casting.js';
 import { journeys } from '../support/journey.js';
-
-const broken = {
-  format: 'dragtraffic.scene',
-  version: 1,
-  name: 'Two lanes',
-  time: { step_s: 0.1, steps: 91, now_step: 0 },
-  map: {
-    lanes: [
-      { id: 'E1', points_m: [[0, 0], [80, 0]], successors: ['E2'] }, // prettier-ignore
-      { id: 'E2', points_m: [[80, 0]], predecessors: ['E1'] },
-    ],
-  },
-  agents: [],
-};
+import { brokenScene } from '../support/maps.js';
 
 journeys('sharing', (stage) => {
   it('opens a link in another browser, to look at and to copy', { timeout: 90_000 }, async () => {
@@ -90,7 +77,7 @@ journeys('sharing', (stage) => {
   it('takes what it can of a broken file, and of one that is too large', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();
-    await e.drop('junction.json', Buffer.from(JSON.stringify(broken, null, 1)));
+    await e.drop('junction.json', Buffer.from(JSON.stringify(brokenScene, null, 1)));
     await e.page.waitForSelector('.dlg.import');
     assert.match(await e.text('.dlg.import'), /Lane “E2”: it has only one point.*junction\.json, line \d+/s);
     await e.page.getByRole('button', { name: /^Show line/ }).click();

@@ -3,7 +3,7 @@
 import { carBesideMedian, carOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
 import { devices } from '../support/devices.js';
 import { Fingers } from '../support/fingers.js';
-import { along, emptyScene, lanesBeside } from '../support/maps.js';
+import { along, brokenScene, emptyScene, lanesBeside } from '../support/maps.js';
 
 /** A corner of the picture where the pointer is over nobody and no panel. */
 const REST = [700, 120];
@@ -91,20 +91,6 @@ async function variants(e, count) {
   await e.settled();
 }
 
-const broken = {
-  format: 'dragtraffic.scene',
-  version: 1,
-  name: 'Two lanes',
-  time: { step_s: 0.1, steps: 91, now_step: 0 },
-  map: {
-    lanes: [
-      { id: 'E1', points_m: [[0, 0], [80, 0]], successors: ['E2'] }, // prettier-ignore
-      { id: 'E2', points_m: [[80, 0]], predecessors: ['E1'] },
-    ],
-  },
-  agents: [],
-};
-
 const dark = { colorScheme: 'dark' };
 
 /** `[name, how to reach it, what the page is like]`. */
@@ -189,7 +175,7 @@ export const STATES = [
   [
     '14-import-error',
     async (e) => {
-      await e.drop('junction_b.json', Buffer.from(JSON.stringify(broken, null, 1)));
+      await e.drop('junction_b.json', Buffer.from(JSON.stringify(brokenScene, null, 1)));
       await e.page.waitForSelector('.dlg');
     },
   ],

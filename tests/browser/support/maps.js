@@ -8,6 +8,21 @@ export async function emptyScene(e) {
   return { json, bytes: Buffer.from(JSON.stringify(json)) };
 }
 
+/** A scene of which one lane cannot be read. */
+export const brokenScene = {
+  format: 'dragtraffic.scene',
+  version: 1,
+  name: 'Two lanes',
+  time: { step_s: 0.1, steps: 91, now_step: 0 },
+  map: {
+    lanes: [
+      { id: 'E1', points_m: [[0, 0], [80, 0]], successors: ['E2'] }, // prettier-ignore
+      { id: 'E2', points_m: [[80, 0]], predecessors: ['E1'] },
+    ],
+  },
+  agents: [],
+};
+
 const heading = ([ax, ay], [bx, by]) => Math.atan2(by - ay, bx - ax);
 
 /** Two lanes side by side that lead the same way, with a stretch of both: `{ a, b }` as lists of points. */

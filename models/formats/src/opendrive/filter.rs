@@ -5,6 +5,7 @@
 //! real maps are far from; the rest (surfaces, boards, railways, what lies in other files) is left out. Coordinates
 //! are moved to the middle of the file's first road, since the crate keeps them in single precision.
 
+use crate::limits::at_most;
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
@@ -260,14 +261,14 @@ impl Filter {
     fn keep(&mut self, element: &Element, values: &[(&str, f64)]) -> Result<(), ReadError> {
         self.kept += 1;
         self.road.records += 1;
-        bound(self.kept, MAX_KEPT, "elements of roads")?;
+        at_most(self.kept, MAX_KEPT, "elements of roads")?;
         match element.name.as_str() {
             "signal" | "signalReference" => self.signals += 1,
             "object" => self.objects += 1,
             _ => {}
         }
-        bound(self.signals, MAX_SIGNALS, "signals")?;
-        bound(self.objects, MAX_OBJECTS, "objects")?;
+        at_most(self.signals, MAX_SIGNALS, "signals")?;
+        at_most(self.objects, MAX_OBJECTS, "objects")?;
         let text = &mut self.out.text;
         let _ = write!(text, "<{}", element.name);
         let named = |name: &String| name.bytes().all(|b| b.is_ascii_alphanumeric()) && name != "xmlns";
@@ -284,7 +285,7 @@ impl Filter {
             }
         }
         text.push('>');
-        bound(text.len(), MAX_KEPT_BYTES, "bytes of roads")?;
+        at_most(text.len(), MAX_KEPT_BYTES, "bytes of roads")?;
         self.open.push(element.name.clone());
         Ok(())
     }
@@ -320,11 +321,11 @@ impl Filter {
 
     fn lane(&mut self, element: &Element) -> Result<(), ReadError> {
         self.lanes += 1;
-        bound(self.lanes, MAX_LANES, "lanes")?;
+        at_most(self.lanes, MAX_LANES, "lanes")?;
         self.lane = element.get("id").and_then(|id| id.trim().parse().ok());
         if let Some(section) = self.road.sections.last_mut() {
             section.lanes += 1;
-            bound(section.lanes, MAX_SECTION_LANES, "lanes in one lane section")?;
+            at_most(section.lanes, MAX_SECTION_LANES, "lanes in one lane section")?;
         }
         Ok(())
     }
@@ -377,13 +378,6 @@ pub(super) fn is_stop_line(element: &Element) -> bool {
 
 fn number(element: &Element, name: &str) -> Option<f64> {
     element.get(name)?.trim().parse().ok().filter(|value: &f64| value.is_finite())
-}
-
-fn bound(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
-    if count > most {
-        return Err(too_large(format!("more than {most} {what}")));
-    }
-    Ok(())
 }
 
 fn too_large(detail: String) -> ReadError {

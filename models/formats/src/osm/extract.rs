@@ -1,24 +1,20 @@
 //! What netconvert needs of an extract: roads, the points that they have, which turns are allowed. All else is left
 //! out, so that what is handed to another program is small and of our own writing.
 
+use crate::limits::at_most;
 use crate::markup::Markup;
+use crate::osm_items::{Item, Member, each};
 use crate::problem::{FieldProblem, ReadError, code};
 use crate::projection::Projection;
 use crate::source::Source;
-use crate::unpack::{self, Bounds};
-use crate::xml::{Element, Event, Scanner};
 use std::collections::HashSet;
 
-/// Most bytes of a file once decompressed, and of one tag.
-const MAX_BYTES: u64 = 256 << 20;
-const MAX_TAG: usize = 64 << 10;
 /// Most points and ways of roads, and references among them: a town of 4 km has about 30,000 points.
 const MAX_POINTS: usize = 60_000;
 const MAX_WAYS: usize = 20_000;
 const MAX_MEMBERS: usize = 200_000;
-/// Most tags of anything, and bytes of a value.
-const MAX_TAGS: usize = 200;
-const MAX_VALUE: usize = 255;
+/// Farther north or south the projection that netconvert takes has no place, degrees.
+const MAX_LATITUDE_DEG: f64 = 85.0;
 /// Farthest that roads may reach from north to south, degrees: a map is some kilometres wide.
 const MAX_REACH_DEG: f64 = 0.25;
 
@@ -33,97 +29,11 @@ pub(crate) struct Extract {
     pub middle: (f64, f64),
 }
 
-/// A node, way or relation.
-#[derive(Debug, Default)]
-struct Item {
-    kind: &'static str,
-    id: i64,
-    degrees: Option<(f64, f64)>,
-    tags: Vec<(String, String)>,
-    /// Points of a way.
-    nodes: Vec<i64>,
-    /// Members of a relation: sort, id, role.
-    members: Vec<(String, i64, String)>,
-}
-
-impl Item {
-    fn tag(&self, key: &str) -> Option<&str> {
-        self.tags.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_str())
-    }
-
-    /// A road, path or way that people drive, ride or walk on; not one that is planned or gone.
-    fn is_road(&self) -> bool {
-        let gone = ["proposed", "construction", "abandoned", "razed", "platform", "elevator", "corridor"];
-        let surface = self.tag("area") != Some("yes") && self.tag("indoor") != Some("yes");
-        self.kind == "way" && surface && self.tag("highway").is_some_and(|kind| !gone.contains(&kind))
-    }
-}
-
-/// Hands the items of a file to `take`, one after the other.
-fn each(file: &dyn Source, mut take: impl FnMut(Item) -> Result<(), ReadError>) -> Result<(), ReadError> {
-    let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
-    let mut scanner = Scanner::new(input.map_err(|error| unpack::fault(&error, 0))?, MAX_TAG);
-    let (mut item, mut depth) = (None, 0_usize);
-    while let Some(event) = scanner.next()? {
-        let element = match event {
-            Event::Start(element) => element,
-            Event::Text(_) => continue,
-            Event::End => {
-                depth = depth.saturating_sub(1);
-                if depth == 1
-                    && let Some(item) = item.take()
-                {
-                    take(item)?;
-                }
-                continue;
-            }
-        };
-        depth += 1;
-        match (depth, element.name.as_str(), &mut item) {
-            (1, "osm", _) => {}
-            (1, ..) => {
-                let found: String = element.name.chars().take(40).collect();
-                return Err(cannot(format!("expected <osm>, found <{found}>")));
-            }
-            (2, "node" | "way" | "relation", _) => item = begun(&element),
-            (3, "tag", Some(item)) => {
-                if let (Some(key), Some(value)) = (element.get("k"), element.get("v"))
-                    && item.tags.len() < MAX_TAGS
-                    && value.len() <= MAX_VALUE
-                {
-                    item.tags.push((key.to_owned(), value.to_owned()));
-                }
-            }
-            (3, "nd", Some(item)) => {
-                item.nodes.extend(number(&element, "ref"));
-                bound(item.nodes.len(), MAX_POINTS, "points of a way")?;
-            }
-            (3, "member", Some(item)) => {
-                let (sort, role) = (element.get("type"), element.get("role"));
-                if let (Some(sort), Some(id)) = (sort, number(&element, "ref")) {
-                    item.members.push((sort.to_owned(), id, role.unwrap_or_default().to_owned()));
-                }
-                bound(item.members.len(), MAX_MEMBERS, "members of a relation")?;
-            }
-            _ => {}
-        }
-    }
-    Ok(())
-}
-
-/// An item, unless it was deleted or has no number.
-fn begun(element: &Element) -> Option<Item> {
-    let gone = element.get("action") == Some("delete") || element.get("visible") == Some("false");
-    let degree = |name| element.get(name).and_then(|text| text.parse::<f64>().ok());
-    let in_range = |(lat, lon): &(f64, f64)| lat.abs() < 85.0 && lon.abs() <= 180.0;
-    let degrees = degree("lat").zip(degree("lon")).filter(in_range);
-    let id = number(element, "id").filter(|_| !gone)?;
-    let kind = ["node", "way", "relation"].into_iter().find(|kind| *kind == element.name)?;
-    Some(Item { kind, id, degrees, ..Item::default() })
-}
-
-fn number(element: &Element, name: &str) -> Option<i64> {
-    element.get(name)?.parse().ok()
+/// A road, path or way that people drive, ride or walk on; not one that is planned or gone.
+fn is_road(item: &Item) -> bool {
+    let gone = ["proposed", "construction", "abandoned", "razed", "platform", "elevator", "corridor"];
+    let surface = item.tag("area") != Some("yes") && item.tag("indoor") != Some("yes");
+    item.kind == "way" && surface && item.tag("highway").is_some_and(|kind| !gone.contains(&kind))
 }
 
 /// Reads the roads of an extract, plain or gzip.
@@ -137,11 +47,11 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
         if item.kind == "relation" && item.tag("type") == Some("lanelet") {
             return Err(cannot("it has lanelets: a Lanelet2 map, which is read as lanelet2".into()));
         }
-        if item.is_road() {
+        if is_road(&item) {
             ways.insert(item.id);
             used.extend(item.nodes);
-            bound(ways.len(), MAX_WAYS, "roads")?;
-            bound(used.len(), MAX_POINTS, "points of roads")?;
+            at_most(ways.len(), MAX_WAYS, "roads")?;
+            at_most(used.len(), MAX_POINTS, "points of roads")?;
         }
         Ok(())
     })?;
@@ -154,7 +64,10 @@ pub(crate) fn read(file: &dyn Source) -> Result<Extract, ReadError> {
     let mut members = 0;
     each(file, |item| {
         let kept = match item.kind {
-            "node" => used.contains(&item.id) && item.degrees.is_some(),
+            "node" => {
+                used.contains(&item.id)
+                    && item.degrees.is_some_and(|(latitude, _)| latitude.abs() < MAX_LATITUDE_DEG)
+            }
             "way" => ways.contains(&item.id),
             _ => {
                 item.tag("type") == Some("restriction") && {
@@ -191,18 +104,11 @@ fn write(item: &Item, out: &mut Markup) {
     attributes.extend(lon.as_deref().map(|lon| ("lon", lon)));
     out.open(item.kind, &attributes);
     item.nodes.iter().for_each(|node| out.empty("nd", &[("ref", &node.to_string())]));
-    for (sort, id, role) in &item.members {
+    for Member { sort, id, role } in &item.members {
         out.empty("member", &[("type", sort), ("ref", &id.to_string()), ("role", role)]);
     }
     item.tags.iter().for_each(|(key, value)| out.empty("tag", &[("k", key), ("v", value)]));
     out.close();
-}
-
-fn bound(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
-    if count > most {
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, format!("more than {most} {what}")).into());
-    }
-    Ok(())
 }
 
 fn cannot(detail: String) -> ReadError {

@@ -1,0 +1,128 @@
+//! The XML of OpenStreetMap, item by item: points, lines of points, and relations of them, with what is said of each.
+//! Maps of roads and Lanelet2 maps both are such files.
+
+use crate::limits::at_most;
+use crate::problem::{FieldProblem, ReadError, code};
+use crate::source::Source;
+use crate::unpack::{self, Bounds};
+use crate::xml::{Element, Event, Scanner};
+
+/// Most bytes of a file once decompressed, and of one tag.
+const MAX_BYTES: u64 = 256 << 20;
+const MAX_TAG: usize = 64 << 10;
+/// Most references of one item, tags of it, and bytes of a value.
+const MAX_REFERENCES: usize = 200_000;
+const MAX_TAGS: usize = 200;
+const MAX_VALUE: usize = 255;
+
+/// A node, way or relation.
+#[derive(Debug, Default)]
+pub(crate) struct Item {
+    pub kind: &'static str,
+    pub id: i64,
+    /// Latitude and longitude of a node.
+    pub degrees: Option<(f64, f64)>,
+    pub tags: Vec<(String, String)>,
+    /// Points of a way.
+    pub nodes: Vec<i64>,
+    /// Members of a relation.
+    pub members: Vec<Member>,
+}
+
+/// A member of a relation.
+#[derive(Debug)]
+pub(crate) struct Member {
+    /// What it is: a node, way or relation.
+    pub sort: String,
+    pub id: i64,
+    pub role: String,
+}
+
+impl Item {
+    pub fn tag(&self, key: &str) -> Option<&str> {
+        self.tags.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_str())
+    }
+}
+
+/// Hands the items of a file, plain or gzip, to `take`, one after the other; those that were deleted are left out.
+///
+/// # Errors
+/// `malformed-file` for broken XML or gzip, the bounds of a file, `cannot-represent` for another sort of file,
+/// `invalid-field` for what is no number, `map-too-large`, and those of `take`.
+pub(crate) fn each(
+    file: &dyn Source,
+    mut take: impl FnMut(Item) -> Result<(), ReadError>,
+) -> Result<(), ReadError> {
+    let input = file.open().and_then(|input| unpack::open(input, Bounds::of(MAX_BYTES)));
+    let mut scanner = Scanner::new(input.map_err(|error| unpack::fault(&error, 0))?, MAX_TAG);
+    let (mut item, mut depth) = (None, 0_usize);
+    while let Some(event) = scanner.next()? {
+        let element = match event {
+            Event::Start(element) => element,
+            Event::Text(_) => continue,
+            Event::End => {
+                depth = depth.saturating_sub(1);
+                if depth == 1
+                    && let Some(item) = item.take()
+                {
+                    take(item)?;
+                }
+                continue;
+            }
+        };
+        depth += 1;
+        match (depth, element.name.as_str(), &mut item) {
+            (1, "osm", _) => {}
+            (1, ..) => {
+                let found: String = element.name.chars().take(40).collect();
+                let detail = format!("expected <osm>, found <{found}>");
+                return Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into());
+            }
+            (2, "node", _) => item = begun("node", &element)?,
+            (2, "way", _) => item = begun("way", &element)?,
+            (2, "relation", _) => item = begun("relation", &element)?,
+            (3, "tag", Some(item)) => {
+                if let (Some(key), Some(value)) = (element.get("k"), element.get("v"))
+                    && item.tags.len() < MAX_TAGS
+                    && value.len() <= MAX_VALUE
+                {
+                    item.tags.push((key.to_owned(), value.to_owned()));
+                }
+            }
+            (3, "nd", Some(item)) => {
+                item.nodes.push(id(&element, "ref")?);
+                at_most(item.nodes.len(), MAX_REFERENCES, "points of a way")?;
+            }
+            (3, "member", Some(item)) => {
+                let text = |name| element.get(name).unwrap_or_default().to_owned();
+                item.members.push(Member {
+                    sort: text("type"),
+                    id: id(&element, "ref")?,
+                    role: text("role"),
+                });
+                at_most(item.members.len(), MAX_REFERENCES, "members of a relation")?;
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn begun(kind: &'static str, element: &Element) -> Result<Option<Item>, ReadError> {
+    if element.get("action") == Some("delete") || element.get("visible") == Some("false") {
+        return Ok(None);
+    }
+    let degree = |name| element.get(name).and_then(|text| text.parse::<f64>().ok());
+    let in_range = |(lat, lon): &(f64, f64)| lat.abs() < 89.0 && lon.abs() <= 180.0;
+    let degrees = degree("lat").zip(degree("lon")).filter(in_range);
+    Ok(Some(Item { kind, id: id(element, "id")?, degrees, ..Item::default() }))
+}
+
+fn id(element: &Element, attribute: &'static str) -> Result<i64, ReadError> {
+    let text = element.required(attribute)?;
+    text.parse().map_err(|_| {
+        let found: String = text.chars().take(40).collect();
+        let detail = format!("line {}: \"{found}\" found where an id was expected", element.line);
+        FieldProblem::new("", code::INVALID_FIELD, detail).into()
+    })
+}
