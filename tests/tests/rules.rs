@@ -81,7 +81,7 @@ const HOUSES: &[House] = &[
             &["problem", "surface"],
             &["unpack", "lights", "sides", "markup", "recording"],
             &["xml", "format", "identities", "columnar"],
-            &["map_file", "tree", "unwritten", "settle", "kinds"],
+            &["osm_items", "map_file", "tree", "unwritten", "settle", "kinds"],
             &[
                 "native",
                 "womd",

@@ -1,7 +1,5 @@
 //! Bounds on outside data; `scene::Scene::checked` holds the same ones.
 
-use crate::problem::{FieldProblem, ReadError, code};
-
 pub use scene::{MAX_AGENTS, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 
 /// Most scenes that one import gives.
@@ -16,12 +14,4 @@ pub const MAX_EXPANSION: u64 = 100;
 /// What reading a file of so many bytes, as they came, takes of memory at most.
 pub const fn memory_for(encoded: u64) -> u64 {
     encoded.saturating_mul(8).saturating_add(64 << 20)
-}
-
-/// Nothing, unless a map has more of something than is read.
-pub(crate) fn at_most(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
-    if count > most {
-        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, format!("more than {most} {what}")).into());
-    }
-    Ok(())
 }

@@ -1,8 +1,7 @@
 //! The XML of OpenStreetMap, item by item: points, lines of points, and relations of them, with what is said of each.
 //! Maps of roads and Lanelet2 maps both are such files.
 
-use crate::limits::at_most;
-use crate::problem::{FieldProblem, ReadError, code};
+use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Event, Scanner};

@@ -269,3 +269,11 @@ impl Problems {
         inside
     }
 }
+
+/// Nothing, unless a map has more of something than is read.
+pub(crate) fn at_most(count: usize, most: usize, what: &str) -> Result<(), ReadError> {
+    if count > most {
+        return Err(FieldProblem::new("", code::MAP_TOO_LARGE, format!("more than {most} {what}")).into());
+    }
+    Ok(())
+}

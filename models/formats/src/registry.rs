@@ -2,7 +2,7 @@
 
 use crate::av2::Argoverse;
 use crate::commonroad::format::CommonRoad;
-use crate::format::{Format, ImportOptions, Scenes};
+use crate::format::{Format, ImportOptions, Info, Scenes};
 use crate::foxglove::Mcap;
 use crate::geojson::GeoJson;
 use crate::gpudrive::format::{GPUDRIVE, NOCTURNE};
@@ -99,7 +99,25 @@ pub fn scenes<'a>(
 ) -> Result<Scenes<'a>, ReadError> {
     let found =
         if format == "auto" { recognised(&head(file), name)? } else { by_id(format).ok_or_else(unknown)? };
-    Ok(found.scenes(file, options))
+    let called = called(name, &found.info());
+    let named = move |(mut scene, warnings): Imported| {
+        if scene.name.is_empty() {
+            scene.name.clone_from(&called);
+        }
+        (scene, warnings)
+    };
+    Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
+}
+
+/// What a scene is called that its file gives no name: as the file, else as what the format is of.
+fn called(file: &str, info: &Info) -> String {
+    let file: String = file.chars().filter(|c| !c.is_control()).collect();
+    let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
+    let file = file.strip_suffix(".gz").unwrap_or(file);
+    let ends = info.extensions.iter().filter_map(|end| file.strip_suffix(end)?.strip_suffix('.'));
+    let stem = ends.min_by_key(|stem| stem.len()).unwrap_or(file).trim();
+    let name = if stem.is_empty() { info.name } else { stem };
+    name.chars().take(scene::MAX_NAME_CHARS).collect()
 }
 
 /// `format-unknown`.

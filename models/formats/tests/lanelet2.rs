@@ -100,3 +100,16 @@ fn cut_and_damaged_files_never_panic() {
         formats::checks::map_of("lanelet2", &bytes);
     }
 }
+
+#[test]
+fn a_street_used_both_ways_is_a_scene_that_can_be_kept() {
+    let road = "<tag k='subtype' v='road'/><tag k='turn_direction' v='straight'/>";
+    let both = STREET.replace(road, &format!("{road}<tag k='one_way' v='no'/>"));
+    let (scene, _) = import(&both).unwrap();
+    let (there, back) = (lane(&scene.map, "4"), lane(&scene.map, "4.back"));
+    assert!(there.points.xy.iter().eq(back.points.xy.iter().rev()));
+    assert_eq!((there.predecessors.as_slice(), back.successors.len()), (&["1".to_owned()][..], 0));
+    let native = registry::by_id("dragtraffic").unwrap();
+    let file = native.export(&[&scene], &formats::ExportOptions::default()).unwrap();
+    assert_eq!(formats::native::read(&file.bytes).unwrap().map, scene.map);
+}

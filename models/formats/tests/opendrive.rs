@@ -291,3 +291,17 @@ fn files_are_known_by_what_they_hold() {
         Some("sumo-net")
     );
 }
+
+#[test]
+fn a_lane_used_both_ways_is_a_scene_that_can_be_kept() {
+    let one = r#"<lane id="-1" type="driving" level="false""#;
+    let scene = scene(&STREET.replace(one, &format!(r#"{one} direction="both""#)));
+    let against: Vec<&str> =
+        scene.map.lanes.iter().filter_map(|lane| lane.id.strip_suffix(".back")).collect();
+    let [id] = against[..] else { panic!("{against:?}") };
+    let (there, back) = (lane(&scene.map, id), lane(&scene.map, &format!("{id}.back")));
+    assert!(there.points.xy.iter().eq(back.points.xy.iter().rev()));
+    let native = registry::by_id("dragtraffic").unwrap();
+    let file = native.export(&[&scene], &formats::ExportOptions::default()).unwrap();
+    assert_eq!(formats::native::read(&file.bytes).unwrap().map, scene.map);
+}

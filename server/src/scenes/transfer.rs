@@ -107,6 +107,8 @@ pub struct Beside {
 pub struct Wanted {
     /// Id of the format.
     pub format: &'static str,
+    /// What the file is called.
+    name: String,
     options: ImportOptions,
 }
 
@@ -140,7 +142,7 @@ impl Wanted {
         let netconvert: Option<Arc<dyn Netconvert>> = Some(Arc::new(Installed));
         let options =
             ImportOptions { skip, max_scenes: most, net, netconvert, columns, ..ImportOptions::default() };
-        Ok(Self { format: info.id, options })
+        Ok(Self { format: info.id, name: name.to_owned(), options })
     }
 
     /// Hands each scene to `take` before the next one is read; gives the records that are no scenes: position and
@@ -154,7 +156,7 @@ impl Wanted {
         mut take: impl FnMut(Imported) -> Result<(), Problem>,
     ) -> Result<Vec<(usize, Problem)>, Problem> {
         let (mut skipped, mut taken) = (Vec::new(), false);
-        let scenes = registry::scenes(file, "", self.format, &self.options)?;
+        let scenes = registry::scenes(file, &self.name, self.format, &self.options)?;
         for (index, result) in scenes.enumerate() {
             match result {
                 Ok((scene, warnings)) => take(Imported { scene, warnings })?,

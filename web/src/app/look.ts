@@ -12,6 +12,8 @@ import { startPose, type Agent } from '../model/scene';
 /** How much of the map the height of the picture shows at first, in metres, and within which zooms. */
 const OPENING_M = 88;
 const OPENING_ZOOMS = [4.4, 8.5] as const;
+/** A map with nobody on it is shown whole unless it would be smaller than this. */
+const EMPTY_ZOOM = 1.6;
 /** A picture that shows the same place within so many pixels looks where it did. */
 const SAME_PX = 4;
 
@@ -47,8 +49,12 @@ export function lookAtOpened({ editor, stage }: Context): void {
   const [min, max] = OPENING_ZOOMS;
   const h = v.h - v.inset.top - v.inset.bottom;
   const z = Math.max(min, Math.min(max, h / OPENING_M));
-  v.fit(busyBox(scene), 1.1 * z, z);
-  v.centre(...openingCentre(scene, (v.w - v.inset.left - v.inset.right) / v.z / 2, h / v.z / 2));
+  if (scene.agents.size) v.fit(busyBox(scene), 1.1 * z, z);
+  else v.fit(scene.map.box, z, EMPTY_ZOOM);
+  const half = [(v.w - v.inset.left - v.inset.right) / v.z / 2, h / v.z / 2] as const;
+  const { x0, y0, x1, y1 } = scene.map.box;
+  const whole = !scene.agents.size && x1 - x0 <= 2 * half[0] && y1 - y0 <= 2 * half[1];
+  if (!whole) v.centre(...openingCentre(scene, ...half));
   stage.invalidate('map');
   stage.viewChanged();
 }

@@ -51,13 +51,18 @@ export function openingCentre(scene: Scene, halfWidth: number, halfHeight: numbe
 
 const JUNCTION_M = 30;
 
-/** The middle of the junction the busy part is about; without one near it, the busy middle itself. */
+/**
+ * The middle of the junction the busy part is about; without one near it, the busy middle itself. Where nobody is,
+ * the largest junction, else a place on a road near the middle of the map.
+ */
 export function sceneCentre(scene: Scene): [number, number] {
   const [bx, by] = busyCentre(scene);
-  const inside = [...scene.map.lanes.values()]
-    .filter((l) => l.inside && l.kind === 'road')
-    .map((l) => l.line.pts[l.line.pts.length >> 1])
-    .filter(([x, y]) => Math.hypot(x - bx, y - by) < 2 * JUNCTION_M);
+  const within = scene.agents.size ? 2 * JUNCTION_M : Infinity;
+  const middles = [...scene.map.lanes.values()]
+    .filter((l) => l.kind === 'road')
+    .map((l) => ({ at: l.line.pts[l.line.pts.length >> 1], inside: l.inside }));
+  const away = ([x, y]: Vec): number => Math.hypot(x - bx, y - by);
+  const inside = middles.filter((m) => m.inside && away(m.at) < within).map((m) => m.at);
   let best: readonly Vec[] = [],
     score = 0;
   for (const [x, y] of inside) {
@@ -68,7 +73,11 @@ export function sceneCentre(scene: Scene): [number, number] {
       best = round;
     }
   }
-  if (best.length < 4) return [bx, by];
+  if (best.length < 4) {
+    if (scene.agents.size || !middles.length) return [bx, by];
+    const [x, y] = middles.map((m) => m.at).reduce((a, b) => (away(b) < away(a) ? b : a));
+    return [x, y];
+  }
   const mean = (i: 0 | 1): number => best.reduce((sum, p) => sum + p[i], 0) / best.length;
   return [mean(0), mean(1)];
 }

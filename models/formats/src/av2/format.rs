@@ -75,7 +75,7 @@ fn place(file: &dyn Source, options: &ImportOptions) -> Result<Imported, ReadErr
     let (map, warnings) = place.lane_map(origin);
     let scene = Scene {
         id: None,
-        name: "Argoverse map".into(),
+        name: String::new(),
         meta: Meta {
             source: "argoverse".into(),
             licence: Some(options.licence.clone().unwrap_or_else(|| super::LICENCE.into())),

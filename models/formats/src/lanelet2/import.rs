@@ -45,7 +45,7 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     warnings.extend(made);
     let crs = osm.projection.map(|projection| projection.name());
     let origin = Origin { x_m: origin.x, y_m: origin.y, crs, ..Origin::default() };
-    Ok(MapRead { name: "Lanelet2 map".into(), map: map.into(), signals, origin, warnings })
+    Ok(MapRead { name: String::new(), map: map.into(), signals, origin, warnings })
 }
 
 /// Moves all points so that the middle of the lines that lanelets have is the origin, by whole metres.

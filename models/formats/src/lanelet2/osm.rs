@@ -1,8 +1,7 @@
 //! A file of lanelets: points, lines of points, and relations of them.
 
-use crate::limits::at_most;
 use crate::osm_items::{Member, each};
-use crate::problem::{FieldProblem, ReadError};
+use crate::problem::{FieldProblem, ReadError, at_most};
 use crate::projection::Projection;
 use crate::source::Source;
 use scene::Vec2;

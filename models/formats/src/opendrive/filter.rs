@@ -5,8 +5,7 @@
 //! real maps are far from; the rest (surfaces, boards, railways, what lies in other files) is left out. Coordinates
 //! are moved to the middle of the file's first road, since the crate keeps them in single precision.
 
-use crate::limits::at_most;
-use crate::problem::{FieldProblem, ReadError, code};
+use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
 use crate::xml::{Element, Event, Scanner};

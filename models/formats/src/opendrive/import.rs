@@ -63,7 +63,7 @@ pub(super) fn read(file: &dyn Source) -> Result<MapRead, ReadError> {
     warnings.extend((ruled.unused > 0).then(|| Warning::new("signals-dropped", detail)));
     warnings.extend(made);
     let name: String = network.header().name.chars().filter(|c| !c.is_control()).take(NAME_CHARS).collect();
-    let name = if name.trim().is_empty() { "OpenDRIVE map".to_owned() } else { name };
+    let name = name.trim().to_owned();
     let middle = file.origin + frame.middle;
     let origin = Origin { x_m: middle.x, y_m: middle.y, crs: file.projection, ..Origin::default() };
     Ok(MapRead { name, map: map.into(), signals, origin, warnings })

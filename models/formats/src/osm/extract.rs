@@ -1,10 +1,9 @@
 //! What netconvert needs of an extract: roads, the points that they have, which turns are allowed. All else is left
 //! out, so that what is handed to another program is small and of our own writing.
 
-use crate::limits::at_most;
 use crate::markup::Markup;
 use crate::osm_items::{Item, Member, each};
-use crate::problem::{FieldProblem, ReadError, code};
+use crate::problem::{FieldProblem, ReadError, at_most, code};
 use crate::projection::Projection;
 use crate::source::Source;
 use std::collections::HashSet;

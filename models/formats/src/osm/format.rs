@@ -60,7 +60,7 @@ impl OsmExtract {
             let detail = "traffic keeps to the left, as it does where the map lies";
             warnings.push(Warning::new("left-hand", detail));
         }
-        let read = MapRead { name: "OpenStreetMap extract".into(), map, signals, origin, warnings };
+        let read = MapRead { name: String::new(), map, signals, origin, warnings };
         let (mut scene, warnings) = read.scene("openstreetmap", Some(LICENCE.into()))?;
         if let Some(licence) = &options.licence {
             scene.meta.licence = Some(licence.clone());

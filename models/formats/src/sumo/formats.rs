@@ -35,7 +35,7 @@ pub struct SumoFcd;
 pub(crate) fn read_net(file: &dyn Source) -> Result<MapRead, ReadError> {
     let net = import_net::read(file)?;
     Ok(MapRead {
-        name: "SUMO network".into(),
+        name: String::new(),
         signals: net.signals(0.0, MAP_TIMING.steps),
         map: net.map,
         origin: Origin { x_m: net.origin.x, y_m: net.origin.y, ..Origin::default() },

@@ -26,11 +26,9 @@ pub struct ConvertArgs {
     /// take all of them into one file.
     #[arg(short, long, value_name = "FILE|DIR/")]
     output: Option<PathBuf>,
-    /// Format of the output: dragtraffic, womd (or waymo), csv, parquet, av2, geojson, html, mcap.
-    #[arg(long, visible_alias = "format", value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable)]
+    #[arg(long, visible_alias = "format", value_name = "FORMAT", default_value = "dragtraffic", value_parser = writable, help = format!("Format of the output: {}", ids(|info| info.export)))]
     to: &'static str,
-    /// Format of the input; recognised from its content when absent.
-    #[arg(long, value_name = "FORMAT", value_parser = readable)]
+    #[arg(long, value_name = "FORMAT", value_parser = readable, help = format!("Format of the input; recognised from its content when absent: {}", ids(|info| info.import)))]
     from: Option<&'static str>,
     /// Network that a SUMO recording belongs to, or map of an Argoverse scenario.
     #[arg(long, value_name = "FILE")]
@@ -64,12 +62,15 @@ fn readable(text: &str) -> Result<&'static str, String> {
 }
 
 fn format_of(text: &str, done: &str, can: fn(&Info) -> bool) -> Result<&'static str, String> {
-    let infos = || FORMATS.iter().map(|format| format.info()).filter(can);
-    let found = infos().find(|info| info.id == transfer::known(text)).map(|info| info.id);
-    found.ok_or_else(|| {
-        let ids: Vec<&str> = infos().map(|info| info.id).collect();
-        format!("{} can be {done}", ids.join(", "))
-    })
+    let id = transfer::known(text);
+    let found = FORMATS.iter().map(|format| format.info()).find(|info| can(info) && info.id == id);
+    found.map(|info| info.id).ok_or_else(|| format!("{} can be {done}", ids(can)))
+}
+
+/// Ids of the formats for which this holds.
+fn ids(can: fn(&Info) -> bool) -> String {
+    let infos = FORMATS.iter().map(|format| format.info()).filter(can);
+    infos.map(|info| info.id).collect::<Vec<_>>().join(", ")
 }
 
 /// Codes of what was lost, with a sentence each.

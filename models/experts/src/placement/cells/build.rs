@@ -205,7 +205,11 @@ impl Cells<'_> {
                 self.push_walk(CellKind::Pavement, index, false, from_m, to_m, region, |graph, center| {
                     let hit =
                         graph.nearest_for(center, EDGE_REACH_M, AgentType::Vehicle).into_iter().next()?;
-                    let foot = graph.lanes()[hit.lane].path.sample(hit.s_m).position;
+                    let lane = &graph.lanes()[hit.lane];
+                    if lane.lane_type == LaneType::Freeway {
+                        return None;
+                    }
+                    let foot = lane.path.sample(hit.s_m).position;
                     let outwards = -1f64.copysign(cross(direction(heading_rad), foot - center));
                     Some((outwards, pavement_features(graph, center, Some(&hit), 0.0, median)))
                 });
