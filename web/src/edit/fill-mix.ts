@@ -78,3 +78,8 @@ const as = (n: Newcomer, kind: PlacedKind, size: Preset): Newcomer => ({
 /** Steps through a list so that neighbours do not follow each other: every third, then those between. */
 const spread = (list: readonly number[]): number[] =>
   [0, 1, 2].flatMap((from) => list.filter((_, i) => i % 3 === from));
+
+/** So many of them, evenly out of all. */
+export function thinned<T>(all: readonly T[], most: number): T[] {
+  return all.filter((_, i) => Math.floor(((i + 1) * most) / all.length) > Math.floor((i * most) / all.length));
+}

@@ -11,11 +11,11 @@ import { castJson, wholeAgentJson } from '../model/write';
 import { inOneStep, removeAgents } from '../model/commands';
 import { Away, Refused, type Client } from '../net/client';
 import type { Editor } from './editor';
-import { recast, typesOf } from './fill-mix';
+import { recast, thinned, typesOf } from './fill-mix';
 import type { FillAnswer, FillWish } from './filling';
 import { inTheWay, standing } from './room';
 import type { SceneFile } from './scene-file';
-import { addThem, tooMany } from './several';
+import { MOST_AT_ONCE, addThem, tooMany } from './several';
 
 /** A slider that moves asks when it rests so long. */
 const REST_MS = 80;
@@ -86,7 +86,11 @@ export class Filler {
     const stay = standing(scene).filter((f) => !gone.has(f.agent.id));
     const taken = [...stay, ...wish.pinned];
     const drawn = agents.flatMap((a) => newcomerOf(a) ?? []).filter((n) => !inTheWay(n, taken));
-    return { all: recast(withoutThoseOf(wish.pinned, drawn), wish.mix, taken), reason, replaced };
+    const all = recast(withoutThoseOf(wish.pinned, drawn), wish.mix, taken);
+    const most = MOST_AT_ONCE - wish.pinned.length;
+    if (all.length <= most) return { all, reason, replaced };
+    const why = `The generator works out ${MOST_AT_ONCE} at once. For more, fill one area after the other.`;
+    return { all: thinned(all, most), reason: why, replaced };
   }
 
   /** What is previewed comes into the scene: one step. */

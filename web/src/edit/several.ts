@@ -21,6 +21,8 @@ import { shifted } from '../model/newcomer';
 
 /** The server takes no more in one scene. */
 const MOST_IN_SCENE = 256;
+/** The server works out the motion of no more at once. */
+export const MOST_AT_ONCE = 128;
 
 /** `Car 7`, or `10 road users`; of one kind alone `10 pedestrians`. */
 export function whoWords(all: readonly Pick<Agent, 'name' | 'kind'>[]): string {

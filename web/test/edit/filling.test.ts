@@ -1,7 +1,7 @@
 // Filling an area: outlines drawn by hand, kinds shared out, pins that stay.
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { FILL_KINDS, EVEN_MIX, recast, shareOf, typesOf } from '../../src/edit/fill-mix';
+import { FILL_KINDS, EVEN_MIX, recast, shareOf, thinned, typesOf } from '../../src/edit/fill-mix';
 import { Filling } from '../../src/edit/filling';
 import { simplified } from '../../src/edit/gestures/filling';
 import { inTheWay } from '../../src/edit/room';
@@ -101,5 +101,18 @@ describe('a preview', () => {
     f.close();
     expect(f.wish.value).toBeNull();
     expect(f.all.value).toEqual([]);
+  });
+});
+
+describe('too many at once', () => {
+  it('leaves an even share', () => {
+    const all = Array.from({ length: 256 }, (_, i) => i);
+    const some = thinned(all, 100);
+    expect(some).toHaveLength(100);
+    for (let from = 0; from < 256; from += 64) {
+      const there = some.filter((i) => i >= from && i < from + 64);
+      expect(Math.abs(there.length - 25)).toBeLessThanOrEqual(1);
+    }
+    expect(thinned([1, 2], 5)).toEqual([1, 2]);
   });
 });
