@@ -77,6 +77,8 @@ const HOUSES: &[House] = &[
                 "projection",
                 "netconvert",
                 "frame",
+                "joints",
+                "pack",
             ],
             &["problem", "surface"],
             &["unpack", "lights", "sides", "markup", "recording"],

@@ -17,6 +17,7 @@ use crate::osm::format::OsmExtract;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::scenarionet::format::ScenarioNet;
 use crate::source::{Source, head};
+use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::{Csv, Parquet};
 use crate::womd::format::Womd;
@@ -30,6 +31,7 @@ pub static FORMATS: &[&dyn Format] = &[
     &Womd,
     &SUMO_NET,
     &SumoFcd,
+    &SumoFolder,
     &OPENDRIVE,
     &OpenScenario,
     &LANELET2,

@@ -45,6 +45,7 @@ const LOSS_CODES: &[&str] = &[
     code::NO_SPEED_LIMITS,
     code::NO_VELOCITY,
     code::IDS_RENUMBERED,
+    code::NO_TRIPS,
 ];
 
 const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");
