@@ -58,6 +58,9 @@ pub(super) fn document(scene: &Scene, network: &Network<'_>) -> Option<Vec<u8>> 
     for junction in &network.junctions {
         write_junction(network, junction, &mut out);
     }
+    for link in network.junctions.iter().flat_map(|junction| &junction.links) {
+        waiting(network, link, &mut out);
+    }
     for junction in &network.junctions {
         for (i, link) in junction.links.iter().enumerate() {
             connection(network, junction, (link, junction.rules.get(i)), &mut out);
@@ -199,6 +202,26 @@ fn write_junction(network: &Network<'_>, junction: &Junction, out: &mut Markup) 
         out.empty("request", &[("index", &index), ("response", &first), ("foes", &foes), ("cont", "0")]);
     }
     out.close();
+}
+
+/// Where the parts of a way meet, which is where SUMO lets traffic wait within a junction.
+fn waiting(network: &Network<'_>, link: &Link, out: &mut Markup) {
+    for pair in link.via.windows(2) {
+        let [(_, before), (lane, id)] = pair else { continue };
+        let at = network.lines[*lane].first().copied().unwrap_or_default();
+        let (id, before) = (format!("{id}_0"), format!("{before}_0"));
+        out.empty(
+            "junction",
+            &[
+                ("id", &*id),
+                ("type", "internal"),
+                ("x", &decimal(at.x)),
+                ("y", &decimal(at.y)),
+                ("incLanes", &before),
+                ("intLanes", ""),
+            ],
+        );
+    }
 }
 
 fn connection(

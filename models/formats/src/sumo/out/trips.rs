@@ -98,6 +98,8 @@ fn write_trip(network: &Network<'_>, trip: &Trip<'_>, out: &mut Markup) {
             ("departPos", &at),
             ("departSpeed", &speed),
             ("speedFactor", &factor),
+            // They begin as they are, be it before a red light or near each other.
+            ("insertionChecks", "none"),
         ],
     );
     out.empty("route", &[("edges", &edges)]);
