@@ -3,7 +3,7 @@
 use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
 use crate::netconvert::Netconvert;
-use crate::problem::{Imported, ReadError};
+use crate::problem::{self, FieldProblem, Imported, ReadError};
 use crate::source::Source;
 use scene::{Agent, Scene, Shown, Timing};
 use serde::Serialize;
@@ -152,6 +152,11 @@ pub(crate) const MAP_TIMING: Timing = Timing { steps: RECORDED_STEPS, now_step: 
 /// Refusal of a writer that there is not.
 pub(crate) fn only_read(info: &Info) -> io::Error {
     io::Error::new(io::ErrorKind::Unsupported, format!("{} is read, not written", info.name))
+}
+
+/// Refusal of a reader that there is not.
+pub(crate) fn written_only<'a>(detail: &str) -> Scenes<'a> {
+    one(Err(FieldProblem::new("", problem::code::FORMAT_UNKNOWN, detail).into()))
 }
 
 /// The scene of a file that has room for one.

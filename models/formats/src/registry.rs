@@ -20,7 +20,9 @@ use crate::source::{Source, head};
 use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::{Csv, Parquet};
+use crate::womd::example::WomdExample;
 use crate::womd::format::Womd;
+use crate::womd::rollouts::SimAgents;
 
 /// A format that is this sure knows a file by its content.
 const BY_CONTENT: u8 = 2;
@@ -29,6 +31,8 @@ const BY_CONTENT: u8 = 2;
 pub static FORMATS: &[&dyn Format] = &[
     &NativeJson,
     &Womd,
+    &WomdExample,
+    &SimAgents,
     &SUMO_NET,
     &SumoFcd,
     &SumoFolder,

@@ -46,6 +46,7 @@ const LOSS_CODES: &[&str] = &[
     code::NO_VELOCITY,
     code::IDS_RENUMBERED,
     code::NO_TRIPS,
+    code::NO_ROLLOUTS,
 ];
 
 const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");
