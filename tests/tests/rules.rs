@@ -81,7 +81,7 @@ const HOUSES: &[House] = &[
                 "pack",
             ],
             &["problem", "surface"],
-            &["unpack", "lights", "sides", "markup", "recording"],
+            &["unpack", "describe", "lights", "sides", "markup", "recording"],
             &["xml", "format", "identities", "columnar"],
             &["osm_items", "map_file", "tree", "unwritten", "settle", "kinds"],
             &[

@@ -31,6 +31,7 @@ mod bounds;
 pub mod checks;
 mod columnar;
 mod commonroad;
+mod describe;
 pub mod files;
 pub mod format;
 pub mod foxglove;

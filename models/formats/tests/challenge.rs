@@ -26,7 +26,8 @@ fn examples(bytes: &[u8]) -> Vec<BTreeMap<String, FeatureKind>> {
     let options = Options { max_expansion: 10_000, ..Options::default() };
     let records = RecordReader::new(bytes, &options).unwrap();
     let lists = |data: &[u8]| Example::decode(data).unwrap().features.unwrap().feature;
-    let named = |data: &[u8]| lists(data).into_iter().map(|(name, list)| (name, list.kind.unwrap())).collect();
+    let named =
+        |data: &[u8]| lists(data).into_iter().map(|(name, list)| (name, list.kind.unwrap())).collect();
     records.map(|record| named(&record.unwrap().data)).collect()
 }
 
@@ -52,8 +53,19 @@ fn shapes() -> BTreeMap<String, usize> {
     }
     for (part, steps) in [("past", 10), ("current", 1), ("future", 80)] {
         for name in [
-            "x", "y", "z", "bbox_yaw", "length", "width", "height", "velocity_x", "velocity_y", "speed", "vel_yaw",
-            "timestamp_micros", "valid",
+            "x",
+            "y",
+            "z",
+            "bbox_yaw",
+            "length",
+            "width",
+            "height",
+            "velocity_x",
+            "velocity_y",
+            "speed",
+            "vel_yaw",
+            "timestamp_micros",
+            "valid",
         ] {
             shapes.insert(format!("state/{part}/{name}"), 128 * steps);
         }
@@ -74,7 +86,11 @@ fn records_have_the_lists_of_the_dataset() {
     for gzip in [false, true] {
         let options = ExportOptions { gzip, ..ExportOptions::default() };
         let file = export("womd-example", &[&scene, &scene], &options);
-        assert_eq!(file, export("womd-example", &[&scene, &scene], &options), "the same scene is the same bytes");
+        assert_eq!(
+            file,
+            export("womd-example", &[&scene, &scene], &options),
+            "the same scene is the same bytes"
+        );
         let records = examples(&file.bytes);
         assert_eq!((records.len(), &records[0]), (2, &records[1]));
         let lengths = records[0].iter().map(|(name, list)| {
@@ -132,7 +148,11 @@ fn samples_are_rollouts() {
     }
     // What is there of fewer samples is said to be too little.
     let codes = |scene: &Scene| -> Vec<&str> {
-        export("sim-agents", &[scene], &ExportOptions::default()).losses.iter().map(|loss| loss.code).collect()
+        export("sim-agents", &[scene], &ExportOptions::default())
+            .losses
+            .iter()
+            .map(|loss| loss.code)
+            .collect()
     };
     assert!(codes(&with_samples(&plain, 3)).contains(&"no-rollouts"));
     assert!(!codes(&scene).contains(&"no-rollouts"));

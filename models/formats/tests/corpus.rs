@@ -34,7 +34,8 @@ fn update_seeds() {
         let format = registry::by_id(format).unwrap();
         for (name, scene) in [("junction", &scene), ("one", &small)] {
             let file = format.export(&[scene], &ExportOptions::default()).unwrap();
-            std::fs::write(folder.join(format!("{name}.{}", format.info().extensions[0])), file.bytes).unwrap();
+            std::fs::write(folder.join(format!("{name}.{}", format.info().extensions[0])), file.bytes)
+                .unwrap();
         }
     }
     for (name, scene, gzip) in [
@@ -79,6 +80,9 @@ fn every_reader_is_fuzzed() {
         let reads = |path: &PathBuf| check(&std::fs::read(path).unwrap());
         assert!(seeds.iter().any(reads), "nothing of fuzz/corpus/{name} is read");
         let target = format!("{}.rs", name.replace('-', "_"));
-        assert!(root().join("fuzz/fuzz_targets").join(&target).is_file(), "fuzz/fuzz_targets/{target} is missing");
+        assert!(
+            root().join("fuzz/fuzz_targets").join(&target).is_file(),
+            "fuzz/fuzz_targets/{target} is missing"
+        );
     }
 }

@@ -376,7 +376,7 @@ fn same_agents(scenes: [&Scene; 2], off: f64, named: bool) -> Result<(), TestCas
                 close(a.size.length_m, b.size.length_m, off) && close(a.size.width_m, b.size.width_m, off)
             );
         }
-        same_motion(before, after, (a, b), 0, off);
+        same_motion(before, after, (a, b), off);
     }
     Ok(())
 }

@@ -224,7 +224,9 @@ fn driven(agent: &Value, copy: usize, shift: [f64; 2], steps: usize) -> Option<V
             "y_m" => shift[1],
             _ => 0.0,
         };
-        let Some(own) = list.as_array().filter(|list| list.len() == count && list[0].is_number()) else { continue };
+        let Some(own) = list.as_array().filter(|list| list.len() == count && list[0].is_number()) else {
+            continue;
+        };
         let at = |step: usize| {
             let place = step % (2 * (count - 1));
             own[place.min(2 * (count - 1) - place)].as_f64().unwrap_or_default() + by

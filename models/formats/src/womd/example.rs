@@ -3,8 +3,8 @@
 
 use super::export::scenario;
 use super::proto::{
-    BytesList, Example, Feature, FeatureData, FeatureKind, Features, FloatList, Int64List, MapFeature, MapPoint,
-    ObjectState, Scenario, Track,
+    BytesList, Example, Feature, FeatureData, FeatureKind, Features, FloatList, Int64List, MapFeature,
+    MapPoint, ObjectState, Scenario, Track,
 };
 use super::record::write_record;
 use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, NOW_STEP, Scenes, written_only};
@@ -183,7 +183,8 @@ fn road_users(scenario: &Scenario, now: usize, kept: &[usize], lists: &mut Lists
     };
     lists.floats("state/id", float(|track| track.id));
     lists.floats("state/type", float(|track| track.object_type));
-    let whole = |value: &dyn Fn(usize) -> i64| (0..ROOM.0).map(|i| kept.get(i).map_or(-1, |i| value(*i))).collect();
+    let whole =
+        |value: &dyn Fn(usize) -> i64| (0..ROOM.0).map(|i| kept.get(i).map_or(-1, |i| value(*i))).collect();
     let at = |index: Option<i32>| index.and_then(|index| usize::try_from(index).ok());
     lists.whole("state/is_sdc", whole(&|i| i64::from(at(scenario.sdc_track_index) == Some(i))));
     let predicted = |i: usize| scenario.tracks_to_predict.iter().find(|p| at(p.track_index) == Some(i));
@@ -240,7 +241,9 @@ fn lights(scenario: &Scenario, now: usize, lists: &mut Lists, losses: &mut BTree
             [("x", |p| p.x), ("y", |p| p.y), ("z", |p| p.z)];
         for (axis, value) in along {
             let value = |stop: MapPoint| value(&stop).unwrap_or_default() as f32;
-            let stop = |light: &Option<super::proto::TrafficSignalLaneState>| light.and_then(|light| light.stop_point);
+            let stop = |light: &Option<super::proto::TrafficSignalLaneState>| {
+                light.and_then(|light| light.stop_point)
+            };
             lists.floats(name(axis), shown.iter().map(|light| stop(light).map_or(NOTHING, value)).collect());
         }
         let times = steps.iter().map(|step| match step.filter(|step| *step < rows.len()) {
@@ -348,7 +351,10 @@ fn roads(features: &[MapFeature], lists: &mut Lists, losses: &mut BTreeSet<Loss>
         }
     }
     if left_out > 0 {
-        losses.insert(Loss::new(code::NO_MAP, format!("{left_out} points of {} that there is room for", ROOM.2)));
+        losses.insert(Loss::new(
+            code::NO_MAP,
+            format!("{left_out} points of {} that there is room for", ROOM.2),
+        ));
     }
     let valid = (0..ROOM.2).map(|i| i64::from(i < ids.len())).collect();
     lists.whole("roadgraph_samples/valid", valid);

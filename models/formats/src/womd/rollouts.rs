@@ -70,7 +70,10 @@ fn rollouts(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>)
         None => samples.into_iter().map(Some).collect(),
     };
     if samples.len() != ROLLOUTS {
-        let detail = format!("{} of the {ROLLOUTS} rollouts that the challenge takes: generate as many samples", samples.len());
+        let detail = format!(
+            "{} of the {ROLLOUTS} rollouts that the challenge takes: generate as many samples",
+            samples.len()
+        );
         losses.insert(Loss::new(code::NO_ROLLOUTS, detail));
     }
     let mut made_up = 0;
@@ -102,8 +105,10 @@ fn rollout(
     let now = scene.time.now_step;
     let mut state = *shown.track.at(now)?;
     let heights = agent.track.z_m.as_deref().unwrap_or_default();
-    let height = |step: usize| step.checked_sub(agent.track.first_step).and_then(|slot| heights.get(slot)).copied();
-    let mut z_m = (0..=now).rev().filter(|step| agent.track.at(*step).is_some()).find_map(height).unwrap_or(0.0);
+    let height =
+        |step: usize| step.checked_sub(agent.track.first_step).and_then(|slot| heights.get(slot)).copied();
+    let mut z_m =
+        (0..=now).rev().filter(|step| agent.track.at(*step).is_some()).find_map(height).unwrap_or(0.0);
     let mut way = SimulatedTrajectory { object_id: Some(id), ..SimulatedTrajectory::default() };
     let mut unseen = false;
     for step in now + 1..=now + STEPS {
@@ -146,7 +151,8 @@ fn lost(scene: &Scene, options: &ExportOptions, losses: &mut BTreeSet<Loss>) {
     lose(scene.licence().is_some(), code::NO_LICENCE, "the file has no place for a licence");
     lose(true, code::NO_NOTES, "who submits it, and what they state: that is theirs to fill in");
     if let Some(generated) = &scene.generated {
-        let modes = generated.samples.iter().flat_map(|sample| sample.agents.values()).any(|f| f.modes.len() > 1);
+        let modes =
+            generated.samples.iter().flat_map(|sample| sample.agents.values()).any(|f| f.modes.len() > 1);
         lose(modes, code::NO_MODES, "futures other than the chosen one of each sample");
         lose(true, code::NO_JUDGEMENTS, "probabilities and what is said of futures");
     }
