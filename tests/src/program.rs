@@ -274,3 +274,10 @@ impl Drop for Server {
         let _ = self.child.wait();
     }
 }
+
+/// Highest resident memory of a process so far, where the system tells.
+pub fn peak_memory_mb(process: &str) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim().strip_suffix(" kB")?.parse::<u64>().ok()? / 1024)
+}

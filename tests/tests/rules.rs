@@ -77,9 +77,11 @@ const HOUSES: &[House] = &[
                 "projection",
                 "netconvert",
                 "frame",
+                "joints",
+                "pack",
             ],
             &["problem", "surface"],
-            &["unpack", "lights", "sides", "markup", "recording"],
+            &["unpack", "describe", "lights", "sides", "markup", "recording"],
             &["xml", "format", "identities", "columnar"],
             &["osm_items", "map_file", "tree", "unwritten", "settle", "kinds"],
             &[

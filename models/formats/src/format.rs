@@ -3,7 +3,7 @@
 use crate::limits::MAX_SCENES;
 use crate::loss::Loss;
 use crate::netconvert::Netconvert;
-use crate::problem::{Imported, ReadError};
+use crate::problem::{self, FieldProblem, Imported, ReadError};
 use crate::source::Source;
 use scene::{Agent, Scene, Shown, Timing};
 use serde::Serialize;
@@ -142,12 +142,32 @@ pub(crate) fn one<'a>(scene: Result<Imported, ReadError>) -> Scenes<'a> {
 /// Role of the vehicle that recorded a scene, or whose way is to be found in it.
 pub(crate) const EGO: &str = "ego";
 
+/// Steps of a window of a longer recording: 9.1 s, as recordings of other sources have.
+pub(crate) const RECORDED_STEPS: usize = 91;
+/// The step of a window that is its present, as in recordings of other sources.
+pub(crate) const NOW_STEP: usize = 10;
 /// Time of a scene that is made of a map alone: a second that has passed and eight to come.
-pub(crate) const MAP_TIMING: Timing = Timing { steps: 91, now_step: 10 };
+pub(crate) const MAP_TIMING: Timing = Timing { steps: RECORDED_STEPS, now_step: NOW_STEP };
 
 /// Refusal of a writer that there is not.
 pub(crate) fn only_read(info: &Info) -> io::Error {
     io::Error::new(io::ErrorKind::Unsupported, format!("{} is read, not written", info.name))
+}
+
+/// Refusal of a reader that there is not.
+pub(crate) fn written_only<'a>(detail: &str) -> Scenes<'a> {
+    one(Err(FieldProblem::new("", problem::code::FORMAT_UNKNOWN, detail).into()))
+}
+
+/// The scene of a file that has room for one.
+///
+/// # Errors
+/// `InvalidInput` for more of them, or none.
+pub(crate) fn one_scene<'a>(scenes: &[&'a Scene]) -> io::Result<&'a Scene> {
+    match scenes {
+        [scene] => Ok(scene),
+        _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
+    }
 }
 
 /// A reader and writer of one format.

@@ -2,6 +2,8 @@
 
 pub use scene::{MAX_AGENTS, MAX_MAP_POINTS, MAX_POLYLINE_POINTS, MAX_POLYLINES, MAX_SIGNALS, MAX_STEPS};
 
+/// Farthest a goal may lie from the start, metres.
+pub const MAX_GOAL_DISTANCE_M: f64 = 1_500.0;
 /// Most scenes that one import gives.
 pub const MAX_SCENES: usize = 200;
 /// Most bytes of an import once decompressed.

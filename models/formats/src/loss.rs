@@ -82,6 +82,10 @@ pub mod code {
     pub const NO_SPEED_LIMITS: &str = "no-speed-limits";
     /// Speeds other than the first one, where readers find them from places and times.
     pub const NO_VELOCITY: &str = "no-velocity";
+    /// Where road users go in the network, of those who are on no lane.
+    pub const NO_TRIPS: &str = "no-trips";
+    /// Rollouts that the format asks for and the scene has no samples for.
+    pub const NO_ROLLOUTS: &str = "no-rollouts";
     /// Ids that the format cannot hold.
     pub const IDS_RENUMBERED: &str = "ids-renumbered";
 }

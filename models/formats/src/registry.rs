@@ -17,9 +17,12 @@ use crate::osm::format::OsmExtract;
 use crate::problem::{FieldProblem, Imported, ReadError, code};
 use crate::scenarionet::format::ScenarioNet;
 use crate::source::{Source, head};
+use crate::sumo::folder::SumoFolder;
 use crate::sumo::formats::{SUMO_NET, SumoFcd};
 use crate::table::{Csv, Parquet};
+use crate::womd::example::WomdExample;
 use crate::womd::format::Womd;
+use crate::womd::rollouts::SimAgents;
 
 /// A format that is this sure knows a file by its content.
 const BY_CONTENT: u8 = 2;
@@ -28,8 +31,11 @@ const BY_CONTENT: u8 = 2;
 pub static FORMATS: &[&dyn Format] = &[
     &NativeJson,
     &Womd,
+    &WomdExample,
+    &SimAgents,
     &SUMO_NET,
     &SumoFcd,
+    &SumoFolder,
     &OPENDRIVE,
     &OpenScenario,
     &LANELET2,

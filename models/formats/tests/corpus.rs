@@ -6,9 +6,8 @@
     reason = "a test stops at the first surprise"
 )]
 
-use formats::ExportedMotion;
-use formats::checks;
 use formats::womd;
+use formats::{ExportOptions, ExportedMotion, checks, registry};
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -22,13 +21,23 @@ fn files(folder: PathBuf) -> Vec<PathBuf> {
     list
 }
 
-/// With `UPDATE_CORPUS` set, writes the record seeds from the fixture scene.
-fn update_womd_seeds() {
+/// With `UPDATE_CORPUS` set, writes seeds from the fixture scene.
+fn update_seeds() {
     let folder = root().join("fuzz/corpus/womd");
     let scene = formats::native::read(include_bytes!("fixtures/junction.scene.json")).unwrap();
     let mut small = scene.clone();
     small.map = Default::default();
     small.agents.truncate(1);
+    for format in ["nocturne", "sumo"] {
+        let folder = root().join("fuzz/corpus").join(format);
+        std::fs::create_dir_all(&folder).unwrap();
+        let format = registry::by_id(format).unwrap();
+        for (name, scene) in [("junction", &scene), ("one", &small)] {
+            let file = format.export(&[scene], &ExportOptions::default()).unwrap();
+            std::fs::write(folder.join(format!("{name}.{}", format.info().extensions[0])), file.bytes)
+                .unwrap();
+        }
+    }
     for (name, scene, gzip) in [
         ("junction.tfrecord", &scene, false),
         ("junction.tfrecord.gz", &scene, true),
@@ -42,7 +51,7 @@ fn update_womd_seeds() {
 #[test]
 fn corpus_and_fixtures_keep_the_promises() {
     if std::env::var_os("UPDATE_CORPUS").is_some() {
-        update_womd_seeds();
+        update_seeds();
     }
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures");
     let all = checks::TARGETS.iter().map(|(target, _)| files(root().join("fuzz/corpus").join(target)));
@@ -57,4 +66,23 @@ fn corpus_and_fixtures_keep_the_promises() {
     }
     println!("{count} inputs");
     assert!(count > 100);
+}
+
+#[test]
+fn every_reader_is_fuzzed() {
+    for info in registry::FORMATS.iter().map(|format| format.info()).filter(|info| info.import) {
+        // The product's own format has other names for its files.
+        let name = if info.id == registry::FORMATS[0].info().id { "native" } else { info.id };
+        let (_, check) = checks::TARGETS.iter().find(|(target, _)| *target == name).unwrap_or_else(|| {
+            panic!("{name} has no target in checks::TARGETS");
+        });
+        let seeds = files(root().join("fuzz/corpus").join(name));
+        let reads = |path: &PathBuf| check(&std::fs::read(path).unwrap());
+        assert!(seeds.iter().any(reads), "nothing of fuzz/corpus/{name} is read");
+        let target = format!("{}.rs", name.replace('-', "_"));
+        assert!(
+            root().join("fuzz/fuzz_targets").join(&target).is_file(),
+            "fuzz/fuzz_targets/{target} is missing"
+        );
+    }
 }

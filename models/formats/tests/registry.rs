@@ -45,6 +45,8 @@ const LOSS_CODES: &[&str] = &[
     code::NO_SPEED_LIMITS,
     code::NO_VELOCITY,
     code::IDS_RENUMBERED,
+    code::NO_TRIPS,
+    code::NO_ROLLOUTS,
 ];
 
 const JUNCTION: &[u8] = include_bytes!("fixtures/junction.scene.json");

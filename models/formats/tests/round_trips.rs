@@ -189,6 +189,133 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn recordings_of_sumo_lose_only_what_they_say(scene in generated::scene()) {
+        let scene = scene.checked().unwrap();
+        let (again, codes) = through("sumo-fcd", &scene);
+        let expected = [
+            "no-conditions", "no-licence", "no-map", "no-notes", "no-roles", "no-signals", "no-subtype", "no-timing",
+            "no-unseen", "no-velocity", "no-z",
+        ];
+        prop_assert!(codes.iter().all(|code| expected.contains(code)), "{:?}", codes);
+        recorded([&scene, &again], &codes)?;
+        prop_assert_eq!(again.map.lanes.len(), 0);
+    }
+
+    #[test]
+    fn networks_of_sumo_lose_only_what_they_say(scene in generated::scene()) {
+        let scene = scene.checked().unwrap();
+        let (again, codes) = through("sumo-net", &scene);
+        prop_assert!(codes.contains("no-road-users") && again.agents.is_empty());
+        networked([&scene, &again], &codes, "sumo-net")?;
+    }
+
+    #[test]
+    fn folders_of_sumo_lose_only_what_they_say(scene in generated::scene()) {
+        let scene = scene.checked().unwrap();
+        let (again, codes) = through("sumo", &scene);
+        prop_assert!(!codes.contains("no-road-users"));
+        recorded([&scene, &again], &codes)?;
+        networked([&scene, &again], &codes, "sumo")?;
+    }
+}
+
+/// Motion as SUMO records it: everybody that is seen, in the directions of headings.
+fn recorded(scenes: [&Scene; 2], codes: &BTreeSet<&str>) -> Result<(), TestCaseError> {
+    let [before, after] = scenes;
+    // Millionths of metres and of degrees in the file.
+    let off = 2e-6;
+    let seen = |agent: &&Agent| agent.track.valid_steps().next().is_some();
+    let seen: Vec<&Agent> = before.agents.iter().filter(seen).collect();
+    prop_assert_eq!(seen.len(), after.agents.len());
+    prop_assert_eq!(codes.contains("no-unseen"), seen.len() < before.agents.len());
+    prop_assert_eq!(before.time.steps, after.time.steps);
+    prop_assert!(before.time.now_step == after.time.now_step || codes.contains("no-timing"));
+    for a in seen {
+        let b = after.agent(&a.id).unwrap();
+        prop_assert_eq!(a.agent_type, b.agent_type);
+        prop_assert!(a.subtype == b.subtype || codes.contains("no-subtype"));
+        prop_assert!(
+            close(a.size.length_m, b.size.length_m, off) && close(a.size.width_m, b.size.width_m, off)
+        );
+        prop_assert_eq!(a.size.height_m.is_some(), b.size.height_m.is_some());
+        prop_assert_eq!(a.track.valid_steps().collect::<Vec<_>>(), b.track.valid_steps().collect::<Vec<_>>());
+        for step in a.track.valid_steps() {
+            let (p, q) = (a.track.at(step).unwrap(), b.track.at(step).unwrap());
+            prop_assert!((placed(before, p.position()) - placed(after, q.position())).norm() <= off);
+            prop_assert!(scene::wrap_angle(p.heading_rad - q.heading_rad).abs() <= off);
+            prop_assert!(close(p.speed_mps(), q.speed_mps(), off));
+            let same = (p.velocity() - q.velocity()).norm() <= 0.02;
+            prop_assert!(same || codes.contains("no-velocity"));
+        }
+    }
+    Ok(())
+}
+
+/// Lanes are where the writer said, lead to each other as they did, and have their lights.
+fn networked(scenes: [&Scene; 2], codes: &BTreeSet<&str>, format: &str) -> Result<(), TestCaseError> {
+    let [before, after] = scenes;
+    let options = ExportOptions { motion: ExportedMotion::Log, ..ExportOptions::default() };
+    let losses = registry::by_id(format).unwrap().export(&[before], &options).unwrap().losses;
+    let said = losses.iter().find(|loss| loss.code == "geometry-approximated").unwrap();
+    let off: f64 = said.detail.split(' ').find_map(|word| word.parse().ok()).unwrap();
+    let off = off + 1e-3;
+    let line = |scene: &Scene, lane: &Lane| -> Vec<Vec2> {
+        lane.points.xy.iter().map(|p| placed(scene, *p)).collect()
+    };
+    let is_back = |lane: &Lane, back: &Lane| {
+        let (own, its) = (line(before, lane), line(after, back));
+        let end = |at: usize| (own[(own.len() - 1) * at] - its[(its.len() - 1) * at]).norm() < 1e-4;
+        end(0) && end(1) && own.iter().all(|p| formats::polyline::distance_to(&its, *p) <= off)
+    };
+    prop_assert!(after.map.lanes.len() >= before.map.lanes.len());
+    let mut back = std::collections::BTreeMap::new();
+    for lane in &before.map.lanes {
+        let found = after.map.lanes.iter().find(|back| is_back(lane, back));
+        prop_assert!(found.is_some(), "lane {} is not within {} m", lane.id, off);
+        back.insert(lane.id.clone(), found.unwrap());
+    }
+    for lane in &before.map.lanes {
+        let again = back[&lane.id];
+        prop_assert!(close(lane.width_or_assumed_m(), again.width_m.unwrap(), 1e-5));
+        let limit = again.speed_limit_mps.unwrap();
+        prop_assert!(
+            lane.speed_limit_mps.map_or(codes.contains("no-speed-limits"), |own| close(own, limit, 1e-5))
+        );
+        prop_assert!(lane.lane_type == again.lane_type || codes.contains("no-lane-type"));
+        prop_assert!(lane.interpolating == again.interpolating || codes.contains("no-lane-graph"));
+        let leads = |other: &Lane| {
+            other.id != lane.id
+                && (lane.successors.contains(&other.id) || other.predecessors.contains(&lane.id))
+        };
+        let own: BTreeSet<&str> = before
+            .map
+            .lanes
+            .iter()
+            .filter(|other| leads(other))
+            .map(|other| back[&other.id].id.as_str())
+            .collect();
+        let its: BTreeSet<&str> = again.successors.iter().map(String::as_str).collect();
+        prop_assert_eq!(own, its, "lane {}", lane.id);
+    }
+    let mut lights = 0;
+    for signal in &before.signals {
+        let Some(lane) = back.get(&signal.lane) else { continue };
+        let Some(again) = after.signals.iter().find(|again| again.lane == lane.id) else { continue };
+        lights += 1;
+        for step in 0..before.time.steps {
+            let (own, its) = (signal.at(step), again.at(step));
+            prop_assert!(own == its || (codes.contains("no-signal-states") && plain(own) == plain(its)));
+        }
+    }
+    prop_assert_eq!(lights < before.signals.len(), codes.contains("no-signals"));
+    prop_assert_eq!(lights, after.signals.len());
+    Ok(())
+}
+
 /// Every state that there was is there again.
 fn same_motion(before: &Scene, after: &Scene, (a, b): (&Agent, &Agent), off: f64) {
     for step in a.track.valid_steps() {

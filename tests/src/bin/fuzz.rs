@@ -10,7 +10,7 @@
 
 use anyhow::{Context, bail, ensure};
 use dragtraffic_tests::mutation::Corpus;
-use dragtraffic_tests::program::{program, root};
+use dragtraffic_tests::program::{peak_memory_mb, program, root};
 use dragtraffic_tests::requests::{self, Caller};
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -278,11 +278,4 @@ fn drive(
 fn worked() -> Duration {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     Duration::from_nanos(text.split(' ').next().and_then(|ns| ns.parse().ok()).unwrap_or(0))
-}
-
-/// Highest resident memory of a process so far, where the system tells.
-fn peak_memory_mb(process: &str) -> Option<u64> {
-    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.trim().strip_suffix(" kB")?.parse::<u64>().ok()? / 1024)
 }

@@ -3,6 +3,7 @@
 //! `cargo xtask soak NAME`: trials that go on for as long as one likes.
 //! `cargo xtask dependencies`: shows which crates came and went since the list of them was committed.
 //! `cargo xtask fuzz`: readers and requests, with inputs that nobody thought of.
+//! `cargo xtask imports`: how long readers take, and how much memory.
 //! `cargo xtask schemathesis`: the API against its document, with many examples.
 //!
 //! `cargo xtask test NAME…` runs some. What is missing on this machine (a browser) is skipped with a
@@ -77,7 +78,9 @@ fn main() -> ExitCode {
         Some((command, [flag])) if command == "dependencies" && flag == "--accept" => {
             alone(dependencies::accept())
         }
-        Some((command, rest)) if command == "fuzz" => alone(fuzzing::command(rest)),
+        Some((command, rest)) if command == "fuzz" || command == "imports" => {
+            alone(fuzzing::command(command, rest))
+        }
         Some((command, rest)) if command == "schemathesis" => alone(schemathesis::command(rest)),
         _ => {
             let names: Vec<&str> = CHECKS.iter().map(|check| check.0).collect();
@@ -86,6 +89,7 @@ fn main() -> ExitCode {
                 "usage: cargo xtask test [NAME…] [--strict]\n       cargo xtask golden [--accept]\n       \
                  cargo xtask soak clients|kills|faults|schedule [--minutes N | --count N] [--seed S]\n       \
                  cargo xtask dependencies [--accept]\n       cargo xtask fuzz [TARGET…] [--seconds N] [--seed S]\n       \
+                 cargo xtask imports [FORMAT…] [--megabytes N]\n       \
                  cargo xtask schemathesis [--examples N] [--seed S]\nchecks: {names}"
             );
             ExitCode::from(2)

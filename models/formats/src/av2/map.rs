@@ -5,8 +5,8 @@ use crate::source::Source;
 use crate::surface;
 use crate::unpack::{self, Bounds};
 use crate::{bounds, polyline};
-use scene::Vec2;
 use scene::map::{Area, Boundary, Lane, LaneMap, LaneType, Neighbor, ROAD_LINE_TYPES, TypedLine};
+use scene::{MAX_COORDINATE_M, Vec2};
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::Read;
@@ -154,26 +154,32 @@ impl Place {
                 map.crosswalks.push(Area { id, polygon: ring.into(), holes: Vec::new() });
             }
         }
-        let whole = self.ground(origin, &mut map);
+        let (whole, far) = self.ground(origin, &mut map);
         bounds::by_edges(&mut map);
         let mut warnings = Vec::new();
         let detail = format!("{broken} lane segments without two sides");
         warnings.extend((broken > 0).then(|| Warning::new("lanes-dropped", detail)));
         let detail = "drivable areas lie over each other too often to find the edges of the road";
         warnings.extend((!whole).then(|| Warning::new("edges-dropped", detail)));
+        let detail = format!("{far} drivable areas reach farther than {MAX_COORDINATE_M} m from the middle");
+        warnings.extend((far > 0).then(|| Warning::new("areas-dropped", detail)));
         (map, warnings)
     }
 
-    /// The ground and its edges.
-    fn ground(&self, origin: Vec2, map: &mut LaneMap) -> bool {
-        let areas: Vec<Vec<Vec2>> =
+    /// The ground and its edges: whether these were found, and how many areas no scene can hold.
+    fn ground(&self, origin: Vec2, map: &mut LaneMap) -> (bool, usize) {
+        let near = |line: &Vec<Vec2>| line.iter().all(|p| p.amax() <= MAX_COORDINATE_M);
+        let mut areas: Vec<Vec<Vec2>> =
             self.drivable_areas.values().map(|area| about(&area.area_boundary, origin)).collect();
-        let ways: Vec<Vec<Vec2>> = map.lanes.iter().map(|lane| beyond(&lane.points.xy)).collect();
+        areas.retain(near);
+        let ways = map.lanes.iter().map(|lane| beyond(&lane.points.xy));
+        let ways: Vec<Vec<Vec2>> = ways.filter(near).collect();
         let mut next = 0;
-        surface::draw_areas(map, &areas, &ways, || {
+        let whole = surface::draw_areas(map, &areas, &ways, || {
             next += 1;
             format!("e{next}")
-        })
+        });
+        (whole, self.drivable_areas.len() - areas.len())
     }
 }
 

@@ -3,6 +3,7 @@
 use super::document::{GoalState, Problem, Range};
 use super::map::Lanes;
 use super::motion::Clock;
+use crate::limits::MAX_GOAL_DISTANCE_M;
 use crate::polyline;
 use scene::map::LaneMap;
 use scene::{Agent, AgentType, Conditions, Goal, MAX_COORDINATE_M, State, Subtype, Track, Vec2, wrap_angle};
@@ -45,9 +46,9 @@ fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), cl
     let speed_mps = goal.speed_mps.map(middle).map(|v| v.clamp(0.0, MAX_SPEED_MPS));
     let there = start.position() + start.velocity() * time_s.unwrap_or(9.0);
     let place = goal.places.first().map(|place| place.centre);
-    let in_reach = |p: &Vec2| p.amax() <= MAX_COORDINATE_M;
-    let place = place.filter(in_reach);
-    let position = place.or_else(|| on_lanelets(&goal.lanelets, there, (map, lanes)));
+    let near = |p: &Vec2| (p - start.position()).norm() <= MAX_GOAL_DISTANCE_M;
+    let place = place.filter(|p| p.amax() <= MAX_COORDINATE_M);
+    let position = place.or_else(|| on_lanelets(&goal.lanelets, there, (map, lanes))).filter(near);
     let is_region = is_wide(goal.time)
         || is_wide(goal.heading_rad)
         || is_wide(goal.speed_mps)

@@ -3,6 +3,7 @@
 use super::document::{self, Document};
 use super::motion::{Changed, Clock};
 use super::{goals, map, motion, signals};
+use crate::describe;
 use crate::format::{EGO, ImportOptions, MAP_TIMING};
 use crate::limits::MAX_STEPS;
 use crate::map_file;
@@ -65,14 +66,14 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let scene = Scene {
         id: None,
         name,
-        meta: Meta {
+        meta: describe::fitted(Meta {
             source,
             source_id: Some(document.name).filter(|name| !name.is_empty()),
             licence: options.licence.clone().or(licence),
             origin,
             tags: document.tags,
             ..Meta::default()
-        },
+        })?,
         time: Timing { steps: clock.steps, now_step },
         map: map.into(),
         signals,

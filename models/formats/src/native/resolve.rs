@@ -6,8 +6,7 @@ use scene::geometry::rotate;
 use scene::{AgentType, Conditions, Goal, MAX_CROSSED_EDGES, STEP_S, Start, State, Vec2, wrap_angle};
 use serde::Serialize;
 
-/// Farthest a goal may lie from the start, metres.
-pub const MAX_GOAL_DISTANCE_M: f64 = 1_500.0;
+pub use crate::limits::MAX_GOAL_DISTANCE_M;
 /// Farthest a coordinate may lie from the scene's origin, metres.
 pub const MAX_COORDINATE_M: f64 = 10_000.0;
 /// Below this speed a velocity gives no heading, m/s.

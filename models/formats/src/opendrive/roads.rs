@@ -3,18 +3,17 @@
 //! A lane that leads through a junction between two others is a connecting road. Where lanes part or meet without one,
 //! the first metre of the lane that is entered becomes a connecting road for each lane that enters it.
 
+use crate::joints::{Groups, Joints, end_of, join_crossing, start_of};
 use crate::polyline::{length, part, simplify};
 use scene::Vec2;
 use scene::map::{Lane, LaneMap};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Length of a connecting road that is cut off a lane, and the most of the lane that it may take, metres and a share.
 const CUT_M: f64 = 1.0;
 const CUT_SHARE: f64 = 0.25;
 /// Reference lines are within this of centre lines, in pieces no longer than, metres.
 const KEPT_M: (f64, f64) = (0.02, 1_000.0);
-/// Most connecting roads that are looked at for crossing each other.
-const MOST_CROSSING: usize = 1_500;
 
 /// What an end of a road leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,64 +47,18 @@ pub(super) struct Roads<'a> {
     pub cut: usize,
 }
 
-/// Ends of lanes that belong to one junction.
-struct Groups(Vec<usize>);
-
-impl Groups {
-    fn root(&mut self, mut i: usize) -> usize {
-        while self.0[i] != i {
-            self.0[i] = self.0[self.0[i]];
-            i = self.0[i];
-        }
-        i
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
-    }
-}
-
-/// Number of the end, or the beginning, of a lane among [`Groups`].
-fn end_of(lane: usize) -> usize {
-    2 * lane
-}
-
-fn start_of(lane: usize) -> usize {
-    2 * lane + 1
-}
-
-/// Which lane leads into which, each pair once.
-fn links(map: &LaneMap) -> BTreeSet<(usize, usize)> {
-    let places: HashMap<&str, usize> =
-        map.lanes.iter().enumerate().map(|(i, l)| (l.id.as_str(), i)).collect();
-    let mut links = BTreeSet::new();
-    for (i, lane) in map.lanes.iter().enumerate() {
-        links.extend(lane.successors.iter().filter_map(|id| Some((i, *places.get(id.as_str())?))));
-        links.extend(lane.predecessors.iter().filter_map(|id| Some((*places.get(id.as_str())?, i))));
-    }
-    links.retain(|(a, b)| a != b);
-    links
-}
-
 /// What becomes of the links between lanes.
-struct Joints {
+struct Parts {
     links: BTreeSet<(usize, usize)>,
-    /// Lanes that are connecting roads, with what they connect.
+    /// Lanes that are connecting roads, with what they connect: one lane before, one after, neither of them such.
     connectors: BTreeMap<usize, (usize, usize)>,
     /// Lanes whose beginnings are cut off.
     cut: BTreeSet<usize>,
 }
 
-impl Joints {
+impl Parts {
     fn of(map: &LaneMap) -> Self {
-        let links = links(map);
-        let count = map.lanes.len();
-        let (mut ins, mut outs) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-        for (a, b) in &links {
-            outs[*a].push(*b);
-            ins[*b].push(*a);
-        }
+        let Joints { links, ins, outs } = Joints::of(map);
         let mut connectors: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
         for (i, lane) in map.lanes.iter().enumerate() {
             if let (true, [from], [to]) = (lane.interpolating, &ins[i][..], &outs[i][..])
@@ -133,8 +86,8 @@ impl Joints {
 
 /// The roads of a map.
 pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
-    let Joints { links, connectors, cut } = Joints::of(map);
-    let mut groups = Groups((0..2 * map.lanes.len()).collect());
+    let Parts { links, connectors, cut } = Parts::of(map);
+    let mut groups = Groups::of(map.lanes.len());
     let road = |lane| Road {
         lane,
         points: Vec::new(),
@@ -176,7 +129,9 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
     for (_, from, to) in &connecting {
         groups.join(end_of(*from), start_of(*to));
     }
-    join_crossing(&all, &connecting, &mut groups);
+    let ways: Vec<(&[Vec2], usize)> =
+        connecting.iter().map(|(road, from, _)| (&all[*road].points[..], end_of(*from))).collect();
+    join_crossing(&ways, &mut groups);
     let mut junctions: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (i, from, to) in &connecting {
         let junction = groups.root(end_of(*from));
@@ -195,39 +150,4 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
 
 fn cut_m(points: &[Vec2]) -> f64 {
     CUT_M.min(CUT_SHARE * length(points))
-}
-
-/// Ways that cross each other lead through the same junction.
-fn join_crossing(roads: &[Road<'_>], connecting: &[(usize, usize, usize)], groups: &mut Groups) {
-    if connecting.len() > MOST_CROSSING {
-        return;
-    }
-    let boxes: Vec<(Vec2, Vec2)> = connecting
-        .iter()
-        .map(|(road, ..)| {
-            let points = &roads[*road].points;
-            let first = points.first().copied().unwrap_or_default();
-            points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)))
-        })
-        .collect();
-    for (i, (a, a_from, _)) in connecting.iter().enumerate() {
-        for (j, (b, b_from, _)) in connecting.iter().enumerate().skip(i + 1) {
-            let apart = |k: usize| boxes[i].0[k] > boxes[j].1[k] || boxes[j].0[k] > boxes[i].1[k];
-            let same = groups.root(end_of(*a_from)) == groups.root(end_of(*b_from));
-            if !same && !apart(0) && !apart(1) && cross(&roads[*a].points, &roads[*b].points) {
-                groups.join(end_of(*a_from), end_of(*b_from));
-            }
-        }
-    }
-}
-
-/// Two lines cross or touch.
-fn cross(a: &[Vec2], b: &[Vec2]) -> bool {
-    let side = |p: Vec2, q: Vec2, r: Vec2| scene::geometry::cross(q - p, r - p);
-    a.windows(2).any(|a| {
-        b.windows(2).any(|b| {
-            side(a[0], a[1], b[0]) * side(a[0], a[1], b[1]) <= 0.0
-                && side(b[0], b[1], a[0]) * side(b[0], b[1], a[1]) <= 0.0
-        })
-    })
 }

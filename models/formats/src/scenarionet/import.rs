@@ -4,6 +4,7 @@ use super::import_map;
 use super::machine;
 use super::value::{Pickle, Value};
 use super::words::{agent_type, signal_state};
+use crate::describe;
 use crate::format::{EGO, ImportOptions};
 use crate::limits::{MAX_SIGNALS, MAX_STEPS};
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
@@ -89,7 +90,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
     let scene = Scene {
         id: None,
         name: text(own, "name").unwrap_or_else(|| id.clone()),
-        meta: Meta {
+        meta: describe::fitted(Meta {
             source,
             source_id: Some(id).filter(|id| !id.is_empty()),
             licence,
@@ -100,7 +101,7 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
             tracks_to_predict: predictions(&pickle, metadata, &ids),
             timestamps_s,
             ..Meta::default()
-        },
+        })?,
         time: Timing { steps, now_step: now.min(steps.saturating_sub(1)) },
         map: scene::LaneMap::default().into(),
         signals,

@@ -2,10 +2,11 @@
 //! network it belongs to.
 
 use super::import_fcd::{Common, Windows};
-use super::import_net;
+use super::import_net::{self, NetScene};
+use super::out::{net, recording};
 use super::rows::Rows;
 use crate::format::{
-    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one, only_read,
+    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, NET_POINTER, Scenes, one, one_scene,
 };
 use crate::limits::MAX_DECODED_BYTES;
 use crate::map_file::{MapFile, MapRead};
@@ -15,6 +16,9 @@ use crate::{unpack, xml};
 use scene::{Origin, Scene};
 use std::io;
 
+/// Where scenes say that they come from.
+pub(super) const SOURCE: &str = "sumo";
+
 /// A network (`net.xml`), plain or gzip: a scene with a map and signals, without road users. The frame
 /// is the network's, moved by whole metres so that the network's middle is the origin.
 pub(crate) static SUMO_NET: MapFile = MapFile {
@@ -22,9 +26,9 @@ pub(crate) static SUMO_NET: MapFile = MapFile {
     name: "SUMO network",
     extensions: &["net.xml", "net.xml.gz"],
     root: "net",
-    source: "sumo",
+    source: SOURCE,
     read: read_net,
-    write: None,
+    write: Some(net::write),
 };
 
 /// A recording (`--fcd-output`), XML or CSV, plain or gzip: scenes of 9.1 s. Angles are degrees clockwise
@@ -33,14 +37,18 @@ pub struct SumoFcd;
 
 /// A network as a map: see [`SUMO_NET`].
 pub(crate) fn read_net(file: &dyn Source) -> Result<MapRead, ReadError> {
-    let net = import_net::read(file)?;
-    Ok(MapRead {
+    import_net::read(file).map(of_net)
+}
+
+/// What a network is without a recording.
+pub(super) fn of_net(net: NetScene) -> MapRead {
+    MapRead {
         name: String::new(),
         signals: net.signals(0.0, MAP_TIMING.steps),
         map: net.map,
         origin: Origin { x_m: net.origin.x, y_m: net.origin.y, ..Origin::default() },
         warnings: net.warnings,
-    })
+    }
 }
 
 impl Format for SumoFcd {
@@ -51,7 +59,7 @@ impl Format for SumoFcd {
             media_type: "application/xml",
             extensions: &["fcd.xml", "fcd.xml.gz", "fcd.csv", "fcd.csv.gz"],
             import: true,
-            export: false,
+            export: true,
             many: true,
             takes_net: true,
         }
@@ -81,7 +89,7 @@ impl Format for SumoFcd {
         }
     }
 
-    fn export(&self, _: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
-        Err(only_read(&self.info()))
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        one_scene(scenes).and_then(|scene| recording::write(scene, options))
     }
 }

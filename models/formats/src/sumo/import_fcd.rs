@@ -1,10 +1,12 @@
 //! From FCD to scenes: windows of 9.1 s, one after the other. Only the window that is being read is in
 //! memory.
 
+use super::formats::SOURCE;
 use super::import_net::NetScene;
 use super::kinds::{self, Kind};
 use super::rows::{Item, Row, Rows};
 use super::window::{Between, MAX_FILLED_S, SAME_S, Sample, between, track};
+use crate::format::{NOW_STEP, RECORDED_STEPS as STEPS};
 use crate::limits::MAX_AGENTS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
 use crate::recording::{Ids, middle};
@@ -14,10 +16,6 @@ use scene::{
 };
 use std::collections::BTreeMap;
 
-/// Steps of a scene: 9.1 s, as recordings of other sources have.
-const STEPS: usize = 91;
-/// The step that is the present of a scene, as in recordings of other sources.
-const NOW_STEP: usize = 10;
 /// Most positions that one window may hold.
 const MAX_SAMPLES: usize = 1_000_000;
 /// Most road users of one window of which 256 are chosen.
@@ -128,7 +126,9 @@ impl<'a> Windows<'a> {
             let (length_m, width_m) = row.size_m;
             kind.size.length_m = length_m.unwrap_or(kind.size.length_m).min(60.0);
             kind.size.width_m = width_m.unwrap_or(kind.size.width_m).min(60.0);
-            User { kind, measured: length_m.is_some() && width_m.is_some(), samples: Vec::new() }
+            let measured = length_m.is_some() && width_m.is_some();
+            let measured = measured || kinds::size_of(&row.type_name).is_some();
+            User { kind, measured, samples: Vec::new() }
         });
         // SUMO's point is the middle of the front bumper; that of a person is the centre.
         let on_foot = user.kind.agent_type == AgentType::Pedestrian;
@@ -215,7 +215,7 @@ impl<'a> Windows<'a> {
             id: None,
             name: format!("FCD {start_s:.1} s"),
             meta: Meta {
-                source: "sumo".into(),
+                source: SOURCE.into(),
                 licence: self.common.licence.clone(),
                 origin: Origin { x_m: origin.x, y_m: origin.y, ..Origin::default() },
                 timestamps_s: (start_s != 0.0)

@@ -9,8 +9,8 @@ use crate::polyline::length;
 use crate::problem::{FieldProblem, ReadError, Warning, code};
 use crate::source::Source;
 use crate::unpack::{self, Bounds};
-use scene::map::LaneMap;
-use scene::{STEP_S, Shared, Signal, Vec2};
+use scene::map::{LaneMap, Points};
+use scene::{MAX_COORDINATE_M, STEP_S, Shared, Signal, Vec2};
 use std::collections::{BTreeSet, HashMap};
 
 /// Most bytes of a network once decompressed. One that a scene can hold has a third of it.
@@ -53,7 +53,12 @@ pub(super) fn read(file: &dyn Source) -> Result<NetScene, ReadError> {
     for junction in &mut net.junctions {
         junction.position -= origin;
     }
-    let drawn = lane_map(&net, MapOptions { sidewalks: true, parking: false });
+    let mut drawn = lane_map(&net, MapOptions { sidewalks: true, parking: false });
+    // Round junctions whose lanes point anywhere, borders meet anywhere.
+    let near = |points: &Points| points.xy.iter().all(|p| p.amax() <= MAX_COORDINATE_M);
+    drawn.map.drivable.retain(|area| near(&area.polygon));
+    drawn.map.road_edges.retain(|line| near(&line.points));
+    drawn.map.road_lines.retain(|line| near(&line.points));
     let mut warnings = warnings_of(&net);
     let mut places = drawn.signals;
     if places.len() > MAX_SIGNALS {

@@ -21,6 +21,7 @@ const ROWS: &[Row] = &[
         Subtype::Adult,
         (0.85, 0.85, 1.75),
     ),
+    (&["child"], AgentType::Pedestrian, Subtype::Child, (0.5, 0.5, 1.2)),
     (&["wheelchair"], AgentType::Pedestrian, Subtype::Wheelchair, (1.1, 0.7, 1.3)),
     (&["motorcycle", "motorbike", "moped"], AgentType::Vehicle, Subtype::Motorcycle, (2.2, 0.9, 1.5)),
     (&["bicycle", "bike", "cycl"], AgentType::Cyclist, Subtype::Bicycle, (1.6, 0.65, 1.7)),
@@ -41,6 +42,22 @@ const ROWS: &[Row] = &[
     (&["ship", "aircraft", "drone", "container"], AgentType::Other, Subtype::Unknown, (6.0, 2.5, 3.0)),
 ];
 
+/// What stands behind the sizes in a name that tells them, such as `car_4.5x1.8x1.5m`: length, width and height.
+pub(super) const METRES: &str = "m";
+
+/// The box that a type's name tells; heights may be missing.
+pub(super) fn size_of(type_name: &str) -> Option<Size> {
+    let (_, sides) = type_name.strip_suffix(METRES)?.rsplit_once('_')?;
+    let side = |text: &str| text.parse::<f64>().ok().filter(|side| (0.05..=60.0).contains(side));
+    let mut sides = sides.split('x');
+    let (length, width, height) = (sides.next()?, sides.next()?, sides.next());
+    let height_m = match height {
+        Some(height) => Some(side(height)?),
+        None => None,
+    };
+    Some(Size { length_m: side(length)?, width_m: side(width)?, height_m })
+}
+
 /// The kind that a type's name tells; a passenger car where it tells nothing. `person` is what FCD lists
 /// as one, whatever the name.
 pub(super) fn of(type_name: &str, person: bool) -> Kind {
@@ -53,12 +70,23 @@ pub(super) fn of(type_name: &str, person: bool) -> Kind {
     };
     let car = (AgentType::Vehicle, Subtype::Car, (5.0, 1.8, 1.5));
     let (agent_type, subtype, (length_m, width_m, height_m)) = found.map_or(car, |row| (row.1, row.2, row.3));
-    Kind { agent_type, subtype, size: Size { length_m, width_m, height_m: Some(height_m) } }
+    let usual = Size { length_m, width_m, height_m: Some(height_m) };
+    Kind { agent_type, subtype, size: size_of(type_name).unwrap_or(usual) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_tell_sizes() {
+        let size = size_of("my_bus_12.5x2.5x3m").unwrap();
+        assert_eq!((size.length_m, size.width_m, size.height_m), (12.5, 2.5, Some(3.0)));
+        assert_eq!(size_of("car_4x2m").unwrap().height_m, None);
+        for name in ["car", "car_4x2", "car_4m", "4x2m", "car_4x0m", "car_4xNaNm", "car_4x2xm"] {
+            assert_eq!(size_of(name), None, "{name}");
+        }
+    }
 
     #[test]
     fn names_tell_kinds() {

@@ -10,9 +10,9 @@ use std::cell::Cell;
 use std::collections::HashMap;
 
 /// Spacing of lane points, metres: on roads and within junctions.
-const SPACING_M: (f64, f64) = (2.0, 1.0);
+pub(super) const SPACING_M: (f64, f64) = (2.0, 1.0);
 /// Most pieces of a lane; those of longer lanes are longer.
-const MAX_PIECES: f64 = 4_000.0;
+pub(super) const MAX_PIECES: f64 = 4_000.0;
 /// Most comparisons of left borders with each other: ten times what a large town needs. A network where
 /// everything overlaps would need their square.
 const MOST_LEFT_CHECKS: u64 = 100_000_000;
@@ -263,6 +263,14 @@ impl Builder<'_> {
             }
             let (Some(a), Some(b)) = (sidewalk(corner.from.0), sidewalk(corner.to.0)) else { continue };
             let (from, to) = (&net.lanes[a], &net.lanes[b]);
+            // Some networks have the way round the corner themselves.
+            let is_way = |lane: &usize| {
+                net.lanes[*lane].kind == LaneKind::Sidewalk
+                    && net.edge_of(*lane).function == EdgeFunction::Internal
+            };
+            if from.successors.iter().any(is_way) {
+                continue;
+            }
             let (n, width_m) = (from.shape.len(), from.width_m.min(to.width_m));
             if n < 2 || to.shape.len() < 2 {
                 continue;

@@ -1,10 +1,11 @@
 //! Files of the traffic simulator SUMO: road networks (`net.xml`), floating-car data (FCD) and recorded
 //! signal states. The program itself is never linked.
 //!
-//! [`formats`] has the two formats that users import; they take any bytes. The other modules serve
+//! [`formats`] has the two formats that users know, `folder` both of them in one zip; they take any bytes. The other modules serve
 //! `synthesize` too, which trusts what SUMO has just written.
 
 pub mod fcd;
+pub(crate) mod folder;
 pub mod formats;
 mod import_fcd;
 pub(crate) mod import_net;
@@ -13,6 +14,7 @@ mod kinds;
 pub mod map;
 pub mod medians;
 pub mod net;
+mod out;
 mod paint;
 pub mod programs;
 mod rows;

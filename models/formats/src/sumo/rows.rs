@@ -60,9 +60,16 @@ impl<'a> Rows<'a> {
     pub fn open(file: &'a dyn Source, most: u64) -> Result<Self, ReadError> {
         let open = || file.open().map_err(|error| unpack::fault(&error, 0));
         let head = unpack::head(open()?);
-        let first = head.iter().find(|b| !b.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(b));
         let input = unpack::open(open()?, Bounds::of(most)).map_err(|error| unpack::fault(&error, 0))?;
-        let input: Box<dyn BufRead + 'a> = Box::new(input);
+        Self::of(&head, Box::new(input))
+    }
+
+    /// Reads what is unpacked already and begins so.
+    ///
+    /// # Errors
+    /// `cannot-represent` for what is no FCD.
+    pub fn of(head: &[u8], input: Box<dyn BufRead + 'a>) -> Result<Self, ReadError> {
+        let first = head.iter().find(|b| !b.is_ascii_whitespace() && !b"\xef\xbb\xbf".contains(b));
         if matches!(first, None | Some(b'<')) {
             let scanner = Scanner::new(input, MAX_ROW);
             return Ok(Self::Xml(XmlRows { scanner, root: false, time_s: None, pending: None }));

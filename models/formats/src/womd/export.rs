@@ -28,28 +28,37 @@ pub fn write(
     motion: ExportedMotion,
 ) -> io::Result<Vec<Loss>> {
     let mut losses = BTreeSet::new();
+    packed(out, gzip, |out| write_records(scenes, out, motion, &mut losses))?;
+    Ok(losses.into_iter().collect())
+}
+
+/// Writes into a file, or into gzip that goes there.
+pub(super) fn packed(
+    out: impl Write,
+    gzip: bool,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = out;
     if gzip {
         let mut encoder = GzEncoder::new(out, Compression::default());
-        write_records(scenes, &mut encoder, motion, &mut losses)?;
-        encoder.finish()?.flush()?;
+        write(&mut encoder)?;
+        encoder.finish()?.flush()
     } else {
-        let mut out = out;
-        write_records(scenes, &mut out, motion, &mut losses)?;
-        out.flush()?;
+        write(&mut out)?;
+        out.flush()
     }
-    Ok(losses.into_iter().collect())
 }
 
 fn write_records(
     scenes: &[&Scene],
-    out: &mut impl Write,
+    mut out: &mut dyn Write,
     motion: ExportedMotion,
     losses: &mut BTreeSet<Loss>,
 ) -> io::Result<()> {
     for scene in scenes {
         let (message, lost) = scenario(scene, motion);
         losses.extend(lost);
-        write_record(out, &message.encode_to_vec())?;
+        write_record(&mut out, &message.encode_to_vec())?;
     }
     Ok(())
 }
@@ -81,7 +90,7 @@ pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) 
         Some(RequiredPrediction { track_index, difficulty: i32::try_from(*difficulty).ok() })
     };
     let ego = scene.agents.iter().position(|a| a.role.as_deref() == Some(EGO));
-    let id = scene.meta.source_id.as_ref().or(scene.id.as_ref()).unwrap_or(&scene.name);
+    let id = record_id(scene);
     let message = Scenario {
         timestamps_seconds: timestamps(scene.meta.timestamps_s.as_deref(), steps),
         tracks,
@@ -97,6 +106,11 @@ pub fn scenario(scene: &Scene, motion: ExportedMotion) -> (Scenario, Vec<Loss>) 
     (message, losses)
 }
 
+/// What a scene is called in its source, else here.
+pub(super) fn record_id(scene: &Scene) -> &String {
+    scene.meta.source_id.as_ref().or(scene.id.as_ref()).unwrap_or(&scene.name)
+}
+
 fn type_number(agent_type: AgentType) -> i32 {
     match agent_type {
         AgentType::Vehicle => 1,
@@ -107,7 +121,7 @@ fn type_number(agent_type: AgentType) -> i32 {
 }
 
 /// Track ids: the road user's own where it is a number, else the next free ones.
-fn agent_ids(agents: &[Agent], losses: &mut Vec<Loss>) -> Vec<i32> {
+pub(super) fn agent_ids(agents: &[Agent], losses: &mut Vec<Loss>) -> Vec<i32> {
     let own = |agent: &Agent| agent.id.parse::<i32>().ok().filter(|n| n.to_string() == agent.id);
     let taken: HashSet<i32> = agents.iter().filter_map(own).collect();
     let mut free = (1_000_000..i32::MAX).filter(|n| !taken.contains(n));

@@ -4,6 +4,7 @@
 //! into strings, and keeps heights. Export adds the origin back; reading what was written gives the
 //! same scene, minus the [`crate::Loss`]es that the writer lists.
 
+pub(crate) mod example;
 mod export;
 mod export_map;
 pub(crate) mod format;
@@ -12,6 +13,7 @@ mod import;
 mod import_map;
 pub mod proto;
 mod record;
+pub(crate) mod rollouts;
 mod wire;
 
 pub use export::{scenario, write};

@@ -6,6 +6,7 @@
 
 use prost::Message;
 use scene::Vec2;
+use std::collections::BTreeMap;
 
 #[derive(Clone, PartialEq, Message)]
 pub struct Scenario {
@@ -204,4 +205,94 @@ pub struct StopSign {
 pub struct Polygon {
     #[prost(message, repeated, tag = "1")]
     pub polygon: Vec<MapPoint>,
+}
+
+/// `tf.train.Example`: values by name.
+#[derive(Clone, PartialEq, Message)]
+pub struct Example {
+    #[prost(message, optional, tag = "1")]
+    pub features: Option<Features>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct Features {
+    /// In the order of names, so that the same scene is the same bytes.
+    #[prost(btree_map = "string, message", tag = "1")]
+    pub feature: BTreeMap<String, Feature>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct Feature {
+    #[prost(oneof = "FeatureKind", tags = "1, 2, 3")]
+    pub kind: Option<FeatureKind>,
+}
+
+#[derive(Clone, PartialEq, prost::Oneof)]
+pub enum FeatureKind {
+    #[prost(message, tag = "1")]
+    Bytes(BytesList),
+    #[prost(message, tag = "2")]
+    Float(FloatList),
+    #[prost(message, tag = "3")]
+    Int64(Int64List),
+}
+
+#[derive(Clone, PartialEq, Eq, Message)]
+pub struct BytesList {
+    #[prost(bytes = "vec", repeated, tag = "1")]
+    pub value: Vec<Vec<u8>>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct FloatList {
+    #[prost(float, repeated, packed = "true", tag = "1")]
+    pub value: Vec<f32>,
+}
+
+#[derive(Clone, PartialEq, Eq, Message)]
+pub struct Int64List {
+    #[prost(int64, repeated, packed = "true", tag = "1")]
+    pub value: Vec<i64>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct SimAgentsChallengeSubmission {
+    #[prost(message, repeated, tag = "1")]
+    pub scenario_rollouts: Vec<ScenarioRollouts>,
+    #[prost(int32, optional, tag = "2")]
+    pub submission_type: Option<i32>,
+    #[prost(string, optional, tag = "4")]
+    pub unique_method_name: Option<String>,
+    #[prost(bool, optional, tag = "9")]
+    pub uses_lidar_data: Option<bool>,
+    #[prost(bool, optional, tag = "10")]
+    pub uses_camera_data: Option<bool>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct ScenarioRollouts {
+    #[prost(string, optional, tag = "1")]
+    pub scenario_id: Option<String>,
+    #[prost(message, repeated, tag = "2")]
+    pub joint_scenes: Vec<JointScene>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct JointScene {
+    #[prost(message, repeated, tag = "1")]
+    pub simulated_trajectories: Vec<SimulatedTrajectory>,
+}
+
+#[derive(Clone, PartialEq, Message)]
+pub struct SimulatedTrajectory {
+    #[prost(float, repeated, packed = "true", tag = "2")]
+    pub center_x: Vec<f32>,
+    #[prost(float, repeated, packed = "true", tag = "3")]
+    pub center_y: Vec<f32>,
+    #[prost(float, repeated, packed = "true", tag = "4")]
+    pub center_z: Vec<f32>,
+    #[prost(float, repeated, packed = "true", tag = "5")]
+    pub heading: Vec<f32>,
+    #[prost(int32, optional, tag = "6")]
+    pub object_id: Option<i32>,
 }

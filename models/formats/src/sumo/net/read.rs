@@ -134,6 +134,8 @@ impl Reader {
         let Self { mut net, connections, .. } = self;
         let by_id: HashMap<String, usize> =
             net.lanes.iter().enumerate().map(|(i, l)| (l.id.clone(), i)).collect();
+        // Links that rule the ways into lanes that are entered without a lane between: one, or several.
+        let mut entered: HashMap<usize, Vec<Option<(String, usize)>>> = HashMap::new();
         for connection in connections {
             let (from, to) = (by_id.get(&connection.from), by_id.get(&connection.to));
             let (Some(&from), Some(&to)) = (from, to) else { continue };
@@ -143,8 +145,17 @@ impl Reader {
                 net.lanes[via].stops = true;
             }
             let crossing = || (net.lanes[to].kind == LaneKind::Crossing).then_some(to);
-            if let (Some(lane), Some(signal)) = (via.or_else(crossing), connection.signal) {
-                net.lanes[lane].signal = Some(signal);
+            match (via.or_else(crossing), connection.signal) {
+                (Some(lane), Some(signal)) => net.lanes[lane].signal = Some(signal),
+                (None, signal) => entered.entry(to).or_default().push(signal),
+                (Some(_), None) => {}
+            }
+        }
+        // Of a network without ways through junctions, what a light rules begins behind them.
+        for (lane, signals) in entered {
+            if let Some(first) = signals.first().filter(|first| signals.iter().all(|signal| signal == *first))
+            {
+                net.lanes[lane].signal = net.lanes[lane].signal.take().or_else(|| first.clone());
             }
         }
         net

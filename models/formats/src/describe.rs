@@ -1,0 +1,36 @@
+//! What is said of a scene, as far as a scene can hold it: files of others say more.
+
+use crate::problem::{FieldProblem, ReadError};
+use scene::Meta;
+
+/// Most bytes of a text about where a scene comes from, and most entries of a list of road users.
+const MAX_TEXT: usize = 256;
+const MAX_ENTRIES: usize = 256;
+/// Farthest that the origin of a scene may lie from that of its source, metres.
+const MAX_ORIGIN_M: f64 = 1e9;
+
+fn cut(text: &mut String) {
+    let end = (0..=MAX_TEXT.min(text.len())).rev().find(|end| text.is_char_boundary(*end));
+    text.truncate(end.unwrap_or_default());
+}
+
+/// The same with texts and lists cut to what a scene holds.
+///
+/// # Errors
+/// `out-of-range` for an origin beyond all coordinates.
+pub(crate) fn fitted(mut meta: Meta) -> Result<Meta, ReadError> {
+    cut(&mut meta.source);
+    [&mut meta.source_id, &mut meta.licence].into_iter().flatten().for_each(cut);
+    meta.objects_of_interest.truncate(MAX_ENTRIES);
+    meta.tracks_to_predict.truncate(MAX_ENTRIES);
+    let origin = &meta.origin;
+    let far = [origin.x_m, origin.y_m, origin.z_m].into_iter().find(|value| !(value.abs() <= MAX_ORIGIN_M));
+    match far {
+        Some(value) => {
+            let mut problem = FieldProblem::range("", -MAX_ORIGIN_M, MAX_ORIGIN_M, value);
+            problem.detail = format!("origin in metres: {}", problem.detail);
+            Err(problem.into())
+        }
+        None => Ok(meta),
+    }
+}

@@ -1,0 +1,33 @@
+//! Several files of one scene, as one zip.
+
+use scene::Scene;
+use std::io::{self, Cursor, Write};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+/// Name of the files, where a scene has none that a file can have.
+const NAME: &str = "scene";
+/// Longest name of the files.
+const NAME_CHARS: usize = 60;
+
+/// What files of a scene are called: letters, digits and dashes of its name.
+pub(crate) fn file_name(scene: &Scene) -> String {
+    let word = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    let plain: String = scene.name.chars().map(word).collect();
+    let words: Vec<&str> = plain.split('-').filter(|word| !word.is_empty()).collect();
+    let name: String = words.join("-").chars().take(NAME_CHARS).collect();
+    if name.is_empty() { NAME.into() } else { name }
+}
+
+/// Packs files by name. The same files are the same bytes, whenever they are packed.
+pub(crate) fn zip(files: &[(String, Vec<u8>)]) -> io::Result<Vec<u8>> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let how = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(DateTime::default());
+    for (name, bytes) in files {
+        zip.start_file(name.as_str(), how)?;
+        zip.write_all(bytes)?;
+    }
+    Ok(zip.finish()?.into_inner())
+}

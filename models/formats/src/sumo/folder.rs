@@ -1,0 +1,126 @@
+//! A network and a recording on it in one zip, as SUMO's users keep them side by side.
+
+use super::formats::{SOURCE, of_net};
+use super::import_fcd::{Common, Windows};
+use super::import_net;
+use super::out::folder::{self, CONFIGURATION, NET, RECORDING, TRIPS};
+use super::rows::Rows;
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
+use crate::limits::{MAX_DECODED_BYTES, memory_for};
+use crate::problem::{FieldProblem, ReadError, code};
+use crate::source::Source;
+use crate::unpack::{self, Bounds};
+use scene::Scene;
+use std::io::{self, Cursor, Read};
+use zip::ZipArchive;
+
+/// What a byte of the zip takes until it is a scene.
+const FOLDER_MEMORY: u64 = 4;
+/// Most files of a zip that are looked at.
+const MAX_FILES: usize = 1_000;
+/// Where the name of the first file of a zip stands, and how long it is.
+const NAME_LENGTH: std::ops::Range<usize> = 26..28;
+const NAME_FROM: usize = 30;
+
+/// A network, a recording on it, the trips of its road users and a configuration of SUMO, all in one zip. Only the
+/// first two are read.
+pub(crate) struct SumoFolder;
+
+/// What is read of a zip.
+#[derive(Default)]
+struct Folder {
+    net: Option<Vec<u8>>,
+    recording: Option<Vec<u8>>,
+}
+
+impl Folder {
+    fn read(file: &dyn Source) -> Result<Self, ReadError> {
+        let most = MAX_DECODED_BYTES.min(memory_for(file.encoded_len()) / FOLDER_MEMORY);
+        let mut packed = Vec::new();
+        let input = file.open().map_err(|error| unpack::fault(&error, 0))?;
+        input.take(most).read_to_end(&mut packed).map_err(|error| unpack::fault(&error, 0))?;
+        let broken = |error: zip::result::ZipError| ReadError::malformed(0, error.to_string());
+        let mut zip = ZipArchive::new(Cursor::new(packed)).map_err(broken)?;
+        let mut folder = Self::default();
+        for i in 0..zip.len().min(MAX_FILES) {
+            let file = zip.by_index(i).map_err(broken)?;
+            let name = String::from_utf8_lossy(file.name_raw()).to_ascii_lowercase();
+            let part = match () {
+                () if name.ends_with(NET) => &mut folder.net,
+                () if name.ends_with(RECORDING) => &mut folder.recording,
+                () => continue,
+            };
+            if part.is_some() {
+                continue;
+            }
+            let mut bytes = Vec::new();
+            let unpacked = unpack::open(file, Bounds::of(most));
+            unpacked
+                .and_then(|mut file| file.read_to_end(&mut bytes))
+                .map_err(|error| unpack::fault(&error, 0))?;
+            *part = Some(bytes);
+        }
+        Ok(folder)
+    }
+}
+
+impl Format for SumoFolder {
+    fn info(&self) -> Info {
+        Info {
+            id: "sumo",
+            name: "SUMO network, trips and floating-car data (zip)",
+            media_type: "application/zip",
+            extensions: &["sumo.zip"],
+            import: true,
+            export: true,
+            many: true,
+            takes_net: false,
+        }
+    }
+
+    fn sniff(&self, head: &[u8], name: &str) -> u8 {
+        if head.starts_with(b"PK\x03\x04") {
+            let length =
+                head.get(NAME_LENGTH).and_then(|bytes| bytes.try_into().ok()).map(u16::from_le_bytes);
+            let first = head.get(NAME_FROM..NAME_FROM + usize::from(length.unwrap_or_default()));
+            let first = String::from_utf8_lossy(first.unwrap_or_default()).to_ascii_lowercase();
+            let ours = [CONFIGURATION, NET, TRIPS, RECORDING].iter().any(|end| first.ends_with(end));
+            return if ours { 2 } else { 0 };
+        }
+        u8::from(name.to_ascii_lowercase().ends_with(".sumo.zip"))
+    }
+
+    fn scenes<'a>(&'a self, file: &'a dyn Source, options: &'a ImportOptions) -> Scenes<'a> {
+        let Folder { net, recording } = match Folder::read(file) {
+            Ok(folder) => folder,
+            Err(error) => return one(Err(error)),
+        };
+        let net = match net.map(|net| import_net::read(&net)).transpose() {
+            Ok(net) => net,
+            Err(error) => return one(Err(error)),
+        };
+        let licence = options.licence.clone();
+        match (net, recording) {
+            (net, Some(recording)) => {
+                let head = unpack::head(&recording[..]);
+                match Rows::of(&head, Box::new(Cursor::new(recording))) {
+                    Ok(rows) => {
+                        let windows = Windows::new(rows, Common { net, licence });
+                        Box::new(windows.skip(options.skip).take(options.max_scenes))
+                    }
+                    Err(error) => one(Err(error)),
+                }
+            }
+            (Some(_), None) if options.skip > 0 || options.max_scenes == 0 => Box::new(std::iter::empty()),
+            (Some(net), None) => one(of_net(net).scene(SOURCE, licence)),
+            (None, None) => {
+                let detail = format!("a zip without a file whose name ends in {NET} or {RECORDING}");
+                one(Err(FieldProblem::new("", code::CANNOT_REPRESENT, detail).into()))
+            }
+        }
+    }
+
+    fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
+        one_scene(scenes).and_then(|scene| folder::write(scene, options))
+    }
+}

@@ -1,0 +1,77 @@
+//! All that SUMO needs of a scene, as one zip.
+
+use super::network::Network;
+use super::{net, recording, trips};
+use crate::format::{ExportOptions, Exported};
+use crate::loss::{Loss, code};
+use crate::markup::{Markup, decimal};
+use crate::pack;
+use scene::{STEP_S, Scene};
+use std::collections::BTreeSet;
+use std::io;
+
+/// Ends of the names of the files.
+pub(in crate::sumo) const NET: &str = ".net.xml";
+pub(in crate::sumo) const TRIPS: &str = ".rou.xml";
+pub(in crate::sumo) const RECORDING: &str = ".fcd.xml";
+pub(in crate::sumo) const CONFIGURATION: &str = ".sumocfg";
+
+/// Writes a scene: its network with trips and a configuration where it has lanes, and its motion where it has road
+/// users.
+///
+/// # Errors
+/// `InvalidInput` for a scene with neither.
+pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
+    let name = pack::file_name(scene);
+    let written = recording::road_users(scene, options);
+    let network = Network::of(scene);
+    let mut losses: BTreeSet<Loss> = recording::losses(scene, options, &written).into_iter().collect();
+    let mut files = Vec::new();
+    match net::document(scene, &network) {
+        Some(map) => {
+            let (trips, without) = trips::write(scene, &network, &written);
+            let steps = recording::steps(scene, &written);
+            let configuration = configuration(&name, steps);
+            files.push((format!("{name}{CONFIGURATION}"), configuration));
+            files.push((format!("{name}{NET}"), map));
+            files.push((format!("{name}{TRIPS}"), trips));
+            losses.extend(net::losses(scene, &network));
+            let detail = format!("{without} road users on no lane of theirs are in the recording alone");
+            losses.extend((without > 0).then(|| Loss::new(code::NO_TRIPS, detail)));
+        }
+        None if !scene.signals.is_empty() => {
+            losses.insert(Loss::new(code::NO_SIGNALS, "lights of a scene without lanes"));
+        }
+        None => {}
+    }
+    if !written.is_empty() {
+        files.push((format!("{name}{RECORDING}"), recording::document(scene, &written)));
+    }
+    if files.is_empty() {
+        let detail = "a folder of SUMO has a lane or a road user; this scene has none";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+    }
+    Ok(Exported { bytes: pack::zip(&files)?, losses: losses.into_iter().collect() })
+}
+
+/// What `sumo -c` runs: as long as the scene, in its steps.
+fn configuration(name: &str, steps: usize) -> Vec<u8> {
+    let mut out = Markup::new();
+    out.open("configuration", &[]);
+    out.open("input", &[]);
+    out.empty("net-file", &[("value", &format!("{name}{NET}"))]);
+    out.empty("route-files", &[("value", &format!("{name}{TRIPS}"))]);
+    out.close();
+    out.open("time", &[]);
+    out.empty("begin", &[("value", "0")]);
+    out.empty("end", &[("value", &decimal(steps as f64 * STEP_S))]);
+    out.empty("step-length", &[("value", &decimal(STEP_S))]);
+    out.close();
+    out.open("processing", &[]);
+    // Road users begin where they are, however near each other.
+    out.empty("collision.action", &[("value", "warn")]);
+    out.empty("time-to-teleport", &[("value", "-1")]);
+    out.close();
+    out.close();
+    out.finish()
+}

@@ -1,0 +1,337 @@
+//! A network as SUMO loads it (`net.xml`): lanes where they are, with links, rules and lights.
+
+use super::network::{Edge, Junction, Link, Network, Role, is_motorway};
+use super::yields::{Ruled, letters};
+use crate::format::{ExportOptions, Exported};
+use crate::loss::{Loss, code};
+use crate::markup::{Markup, decimal};
+use crate::polyline::{distance_to, length, resample};
+use crate::sumo::map::{MAX_PIECES, SPACING_M};
+use scene::map::{Lane, LaneMap, LaneType};
+use scene::routes::assumed_speed_limit_mps;
+use scene::{STEP_S, Scene, SignalState, Vec2};
+use std::io;
+
+/// Links that turn by more than this are turns, and by more than that go back, radians.
+const TURNS_RAD: (f64, f64) = (0.6, 2.6);
+/// Word in the types of edges that are motorways.
+const MOTORWAY: &str = "highway.motorway";
+
+/// Writes the map of a scene, in the frame of its source.
+///
+/// # Errors
+/// `InvalidInput` for a scene without a lane.
+pub(in crate::sumo) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exported> {
+    let network = Network::of(scene);
+    let Some(bytes) = document(scene, &network) else {
+        let detail = "a network of SUMO has one lane or more; this scene has none";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
+    };
+    let mut losses = losses(scene, &network);
+    if !scene.agents.is_empty() {
+        losses.push(Loss::new(code::NO_ROAD_USERS, "road users and their motion"));
+    }
+    Ok(Exported { bytes, losses })
+}
+
+/// The file; nothing for a map without lanes.
+pub(super) fn document(scene: &Scene, network: &Network<'_>) -> Option<Vec<u8>> {
+    if network.edges.is_empty() {
+        return None;
+    }
+    let mut out = Markup::new();
+    out.open("net", &[("version", "1.20"), ("junctionCornerDetail", "5"), ("limitTurnSpeed", "-1")]);
+    location(scene, network, &mut out);
+    for junction in &network.junctions {
+        for (lane, id) in junction.links.iter().flat_map(|link| &link.via) {
+            out.open("edge", &[("id", id), ("function", "internal")]);
+            write_lane(network, *lane, &format!("{id}_0"), 0, &mut out);
+            out.close();
+        }
+    }
+    for edge in &network.edges {
+        write_edge(network, edge, &mut out);
+    }
+    for junction in network.junctions.iter().filter(|junction| !junction.lights.is_empty()) {
+        lights(scene, junction, &mut out);
+    }
+    for junction in &network.junctions {
+        write_junction(network, junction, &mut out);
+    }
+    for link in network.junctions.iter().flat_map(|junction| &junction.links) {
+        waiting(network, link, &mut out);
+    }
+    for junction in &network.junctions {
+        for (i, link) in junction.links.iter().enumerate() {
+            connection(network, junction, (link, junction.rules.get(i)), &mut out);
+        }
+    }
+    out.close();
+    Some(out.finish())
+}
+
+fn location(scene: &Scene, network: &Network<'_>, out: &mut Markup) {
+    let points = || network.lines.iter().flatten();
+    let first = points().next().copied().unwrap_or_default();
+    let (low, high) = points().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+    let corners: Vec<String> = [low.x, low.y, high.x, high.y].into_iter().map(decimal).collect();
+    let boundary = corners.join(",");
+    // Other names of projections are not SUMO's.
+    let crs = scene.meta.origin.crs.as_deref().filter(|crs| crs.starts_with("+proj"));
+    out.empty(
+        "location",
+        &[
+            ("netOffset", "0.00,0.00"),
+            ("convBoundary", &boundary),
+            ("origBoundary", &boundary),
+            ("projParameter", crs.unwrap_or("!")),
+        ],
+    );
+}
+
+fn shape(points: &[Vec2]) -> String {
+    let points: Vec<String> = points.iter().map(|p| format!("{},{}", decimal(p.x), decimal(p.y))).collect();
+    points.join(" ")
+}
+
+/// Who may use a lane.
+fn permission(lane_type: LaneType) -> Option<(&'static str, &'static str)> {
+    match lane_type {
+        LaneType::BikeLane => Some(("allow", "bicycle")),
+        LaneType::BusLane => Some(("allow", "bus")),
+        LaneType::Sidewalk => Some(("allow", "pedestrian")),
+        LaneType::Parking => Some(("disallow", "all")),
+        LaneType::Freeway => Some(("disallow", "pedestrian bicycle")),
+        LaneType::Undefined | LaneType::SurfaceStreet => None,
+    }
+}
+
+/// The limit of a lane, assumed where the map gives none, m/s.
+pub(super) fn limit_mps(lane: &Lane) -> f64 {
+    lane.speed_limit_mps.unwrap_or_else(|| assumed_speed_limit_mps(lane.lane_type))
+}
+
+fn write_lane(network: &Network<'_>, lane: usize, id: &str, index: usize, out: &mut Markup) {
+    let line = &network.lines[lane];
+    let lane = &network.map.lanes[lane];
+    let (number, speed) = (index.to_string(), decimal(limit_mps(lane)));
+    let (length, width) = (decimal(length(line)), decimal(lane.width_or_assumed_m()));
+    let shape = shape(line);
+    let mut attributes = vec![("id", id), ("index", &*number)];
+    attributes.extend(permission(lane.lane_type));
+    attributes.extend([("speed", &*speed), ("length", &*length), ("width", &*width), ("shape", &*shape)]);
+    out.empty("lane", &attributes);
+}
+
+fn write_edge(network: &Network<'_>, edge: &Edge, out: &mut Markup) {
+    let lanes = || edge.lanes.iter().map(|lane| &network.map.lanes[*lane]);
+    let [from, to] = [edge.from, edge.to].map(|junction| network.junctions[junction].id.as_str());
+    // Who drives faster has the right of way where SUMO works it out anew.
+    let priority = lanes().map(limit_mps).fold(1.0, f64::max).round().to_string();
+    let mut attributes = vec![("id", edge.id.as_str()), ("from", from), ("to", to), ("priority", &priority)];
+    if lanes().any(is_motorway) {
+        attributes.push(("type", MOTORWAY));
+    }
+    out.open("edge", &attributes);
+    for (index, lane) in edge.lanes.iter().enumerate() {
+        write_lane(network, *lane, &format!("{}_{index}", edge.id), index, out);
+    }
+    out.close();
+}
+
+/// SUMO's letter for what a light shows.
+fn letter(state: SignalState) -> char {
+    match state {
+        SignalState::Go | SignalState::ArrowGo => 'g',
+        SignalState::Caution | SignalState::ArrowCaution => 'y',
+        SignalState::Stop | SignalState::ArrowStop => 'r',
+        SignalState::FlashingStop => 's',
+        SignalState::FlashingCaution => 'o',
+        SignalState::Unknown => 'O',
+    }
+}
+
+/// What the lights of a junction show, as a program that begins with the scene.
+fn lights(scene: &Scene, junction: &Junction, out: &mut Markup) {
+    let steps = scene.time.steps.max(1);
+    let program = [("id", &*junction.id), ("type", "static"), ("programID", "0"), ("offset", "0")];
+    out.open("tlLogic", &program);
+    let signals = || junction.lights.iter().map(|light| &scene.signals[*light]);
+    let mut begins: Vec<usize> = signals().flat_map(|signal| signal.runs.iter().map(|run| run.0)).collect();
+    begins.push(0);
+    begins.retain(|step| *step < steps);
+    begins.sort_unstable();
+    begins.dedup();
+    for (i, begin) in begins.iter().enumerate() {
+        let end = begins.get(i + 1).copied().unwrap_or(steps);
+        let shown: String = signals().map(|signal| letter(signal.at(*begin))).collect();
+        let duration = decimal((end - begin) as f64 * STEP_S);
+        out.empty("phase", &[("duration", &duration), ("state", &shown)]);
+    }
+    out.close();
+}
+
+fn write_junction(network: &Network<'_>, junction: &Junction, out: &mut Markup) {
+    let kind = match junction {
+        Junction { lights, .. } if !lights.is_empty() => "traffic_light",
+        Junction { links, .. } if links.is_empty() => "dead_end",
+        Junction { rules, .. } if rules.is_empty() => "unregulated",
+        _ => "priority",
+    };
+    let lane_id = |lane: &usize| {
+        let (edge, index) = network.place(*lane)?;
+        Some(format!("{}_{index}", edge.id))
+    };
+    let incoming: Vec<String> = junction.incoming.iter().filter_map(lane_id).collect();
+    let ways = junction.links.iter().flat_map(|link| &link.via);
+    let ways: Vec<String> = ways.map(|(_, id)| format!("{id}_0")).collect();
+    out.open(
+        "junction",
+        &[
+            ("id", &junction.id),
+            ("type", kind),
+            ("x", &decimal(junction.middle.x)),
+            ("y", &decimal(junction.middle.y)),
+            ("incLanes", &incoming.join(" ")),
+            ("intLanes", &ways.join(" ")),
+            ("shape", &shape(&junction.outline)),
+        ],
+    );
+    for (i, rule) in junction.rules.iter().enumerate() {
+        let (index, first, foes) = (i.to_string(), letters(&rule.first), letters(&rule.foes));
+        out.empty("request", &[("index", &index), ("response", &first), ("foes", &foes), ("cont", "0")]);
+    }
+    out.close();
+}
+
+/// Where the parts of a way meet, which is where SUMO lets traffic wait within a junction.
+fn waiting(network: &Network<'_>, link: &Link, out: &mut Markup) {
+    for pair in link.via.windows(2) {
+        let [(_, before), (lane, id)] = pair else { continue };
+        let at = network.lines[*lane].first().copied().unwrap_or_default();
+        let (id, before) = (format!("{id}_0"), format!("{before}_0"));
+        out.empty(
+            "junction",
+            &[
+                ("id", &*id),
+                ("type", "internal"),
+                ("x", &decimal(at.x)),
+                ("y", &decimal(at.y)),
+                ("incLanes", &before),
+                ("intLanes", ""),
+            ],
+        );
+    }
+}
+
+fn connection(
+    network: &Network<'_>,
+    junction: &Junction,
+    (link, rule): (&Link, Option<&Ruled>),
+    out: &mut Markup,
+) {
+    let (Some((from, from_lane)), Some((to, to_lane))) = (network.place(link.from), network.place(link.to))
+    else {
+        return;
+    };
+    let (from_lane, to_lane) = (from_lane.to_string(), to_lane.to_string());
+    let direction = match link.turn_rad {
+        turn if turn.abs() > TURNS_RAD.1 => "t",
+        turn if turn > TURNS_RAD.0 => "l",
+        turn if turn < -TURNS_RAD.0 => "r",
+        _ => "s",
+    };
+    let gives_way = rule.is_some_and(Ruled::gives_way);
+    let state = match link {
+        Link { light: Some(_), .. } => "o",
+        Link { stops: true, .. } => "s",
+        _ if gives_way => "m",
+        _ => "M",
+    };
+    let way = link.via.first().map(|(_, id)| format!("{id}_0"));
+    let light = link.light.map(|light| light.to_string());
+    let mut attributes =
+        vec![("from", &*from.id), ("to", &*to.id), ("fromLane", &*from_lane), ("toLane", &*to_lane)];
+    attributes.extend(way.as_deref().map(|way| ("via", way)));
+    attributes
+        .extend(light.as_deref().iter().flat_map(|light| [("tl", &*junction.id), ("linkIndex", *light)]));
+    attributes.extend([("dir", direction), ("state", state)]);
+    out.empty("connection", &attributes);
+    for (part, (_, id)) in link.via.iter().enumerate() {
+        let way = link.via.get(part + 1).map(|(_, id)| format!("{id}_0"));
+        let mut onwards = vec![("from", &**id), ("to", &*to.id), ("fromLane", "0"), ("toLane", &*to_lane)];
+        onwards.extend(way.as_deref().map(|way| ("via", way)));
+        onwards.extend([("dir", direction), ("state", "M")]);
+        out.empty("connection", &onwards);
+    }
+}
+
+/// What the map loses; nothing of a map without lanes is written.
+pub(super) fn losses(scene: &Scene, network: &Network<'_>) -> Vec<Loss> {
+    let map = network.map;
+    let mut losses = Vec::new();
+    let mut lose = |lost: bool, code, detail: &str| losses.extend(lost.then(|| Loss::new(code, detail)));
+    let off_m = network.lines.iter().map(|line| cut_off_m(line)).fold(0.0, f64::max);
+    let detail = format!(
+        "lanes are within {off_m:.3} m of their lines when their points are set anew; stop lines and stop signs are \
+         where lanes begin and end"
+    );
+    lose(true, code::GEOMETRY_APPROXIMATED, &detail);
+    lose(true, code::NO_IDS, "lanes and lights are numbered when they are read");
+    let count = network.roles.iter().filter(|role| **role == Role::Lost).count();
+    lose(count > 0, code::NO_MAP, &format!("{count} lanes of no length"));
+    let lines = !map.road_lines.is_empty() || !map.road_edges.is_empty();
+    lose(lines, code::NO_LINES, "painted lines and road edges: they are drawn anew beside lanes");
+    lose(!map.drivable.is_empty(), code::NO_DRIVABLE, "drivable areas: they are drawn anew round lanes");
+    let areas = [&map.crosswalks, &map.speed_bumps, &map.driveways].into_iter().any(|list| !list.is_empty());
+    lose(areas, code::NO_AREAS, "crosswalks, speed bumps and driveways");
+    let any = |test: fn(&Lane) -> bool| map.lanes.iter().any(test);
+    let other = any(|lane| matches!(lane.lane_type, LaneType::Undefined | LaneType::Parking));
+    lose(
+        other
+            || network.junctions.iter().flat_map(|junction| &junction.links).any(|link| is_mixed(map, link)),
+        code::NO_LANE_TYPE,
+        "lanes of no known type are streets; parking is open to nobody and is not read again; ways through \
+         junctions are motorways where the lanes before them are",
+    );
+    lose(any(|lane| lane.width_m.is_none()), code::NO_LANE_WIDTH, "assumed widths are read as known ones");
+    lose(
+        any(|lane| lane.speed_limit_mps.is_none()),
+        code::NO_SPEED_LIMITS,
+        "assumed limits are read as known",
+    );
+    lose(
+        any(|lane| !lane.left_neighbors.is_empty() || !lane.right_neighbors.is_empty()),
+        code::NO_NEIGHBORS,
+        "lanes beside each other over a part of their length",
+    );
+    lose(
+        any(|lane| lane.interpolating) || !network.map.stop_signs.is_empty(),
+        code::NO_LANE_GRAPH,
+        "which lanes lead through junctions where lanes part or meet without one, and stop signs of other lanes",
+    );
+    lose(any(|lane| lane.points.z_m.is_some()), code::NO_Z, "heights");
+    lose(!network.unruled.is_empty(), code::NO_SIGNALS, "lights of what is not entered through a junction");
+    let states = || scene.signals.iter().flat_map(|signal| &signal.runs).map(|run| run.1);
+    let plain = |state| {
+        !matches!(letter(state), 'O' | 'o') && crate::sumo::signals::state_of(letter(state) as u8) != state
+    };
+    lose(states().any(plain), code::NO_SIGNAL_STATES, "arrows are plain lights, flashing red is red");
+    let elsewhere = scene.meta.origin.crs.as_deref().is_some_and(|crs| !crs.starts_with("+proj"));
+    lose(elsewhere, code::NO_NOTES, "the projection");
+    losses
+}
+
+/// A way through a junction is a motorway where the lane before it is none, or the other way round.
+fn is_mixed(map: &LaneMap, link: &Link) -> bool {
+    let lane = |lane: usize| map.lanes.get(lane).is_some_and(is_motorway);
+    link.via.iter().any(|(way, _)| lane(*way) != lane(link.from))
+}
+
+/// How far a line is off once its points are set at the distances in which lanes are read.
+fn cut_off_m(line: &[Vec2]) -> f64 {
+    let again =
+        [SPACING_M.0, SPACING_M.1].map(|step_m| resample(line, step_m.max(length(line) / MAX_PIECES)));
+    let off = |again: &Vec<Vec2>| line.iter().map(|p| distance_to(again, *p)).fold(0.0, f64::max);
+    again.iter().map(off).fold(0.0, f64::max)
+}

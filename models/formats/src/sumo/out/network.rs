@@ -1,0 +1,424 @@
+//! A lane map as SUMO thinks of one: edges of lanes side by side between junctions, and links through these.
+
+use super::yields::{Ruled, rules};
+use crate::frame::Frame;
+use crate::joints::{Groups, Joints, end_of, join_crossing, start_of};
+use crate::polyline::length;
+use scene::geometry::direction;
+use scene::map::{Lane, LaneMap, LaneType};
+use scene::{Scene, Vec2, wrap_angle};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
+/// Shortest lane that is written, metres.
+const SHORTEST_M: f64 = 0.01;
+/// Lanes of one edge begin and end beside each other, to within this along them, metres.
+const ALIGNED_M: f64 = 3.0;
+/// Lanes of one edge lie this far apart at most, beyond half their widths, metres.
+const APART_M: f64 = 1.5;
+/// Most links of a junction that SUMO has rules for.
+const MOST_RULED: usize = 256;
+
+/// What becomes of a lane of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// A lane of an edge, counted from the right.
+    On { edge: usize, index: usize },
+    /// The way of a link through a junction.
+    Way,
+    /// It has no length.
+    Lost,
+}
+
+/// Lanes side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Edge {
+    pub id: String,
+    /// Positions in the map, from the right.
+    pub lanes: Vec<usize>,
+    pub from: usize,
+    pub to: usize,
+}
+
+/// A way from one lane into another.
+#[derive(Clone, Debug)]
+pub(super) struct Link {
+    pub from: usize,
+    pub to: usize,
+    /// The lanes that lead through the junction, one after the other, with the ids of their edges.
+    pub via: Vec<(usize, String)>,
+    /// By how much it turns, radians, to the left above zero.
+    pub turn_rad: f64,
+    /// Past a stop sign.
+    pub stops: bool,
+    /// Number of the light among those of its junction.
+    pub light: Option<usize>,
+}
+
+/// Where lanes meet.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Junction {
+    pub id: String,
+    /// Lanes that lead here.
+    pub incoming: Vec<usize>,
+    /// In the order of the lanes that lead here.
+    pub links: Vec<Link>,
+    /// Who gives way to whom, one entry a link; none where there are too many.
+    pub rules: Vec<Ruled>,
+    /// Positions of its lights among the scene's.
+    pub lights: Vec<usize>,
+    /// Corners of the lanes that end and begin here.
+    pub outline: Vec<Vec2>,
+    pub middle: Vec2,
+}
+
+/// A map on its way out, in the frame of its source.
+pub(super) struct Network<'a> {
+    pub map: &'a LaneMap,
+    /// Centre lines, one a lane of the map.
+    pub lines: Vec<Vec<Vec2>>,
+    pub roles: Vec<Role>,
+    pub edges: Vec<Edge>,
+    pub junctions: Vec<Junction>,
+    /// Signals that rule nothing that is written.
+    pub unruled: Vec<usize>,
+}
+
+/// An id as SUMO takes it.
+pub(super) fn plain_id(id: &str) -> String {
+    id.chars().map(|c| if c.is_ascii_alphanumeric() || "_.-".contains(c) { c } else { '-' }).collect()
+}
+
+/// Ids as SUMO takes them, each once.
+#[derive(Default)]
+pub(super) struct Names(HashSet<String>);
+
+impl Names {
+    pub fn take(&mut self, id: &str) -> String {
+        let mut name = plain_id(id);
+        while !self.0.insert(name.clone()) {
+            name.push('-');
+        }
+        name
+    }
+}
+
+fn unit(line: &[Vec2], last: bool) -> Vec2 {
+    let pair = if last { line.last_chunk::<2>() } else { line.first_chunk::<2>() };
+    pair.and_then(|[a, b]| (b - a).try_normalize(1e-9)).unwrap_or_default()
+}
+
+fn heading(line: &[Vec2], last: bool) -> f64 {
+    let way = unit(line, last);
+    way.y.atan2(way.x)
+}
+
+/// A way from one lane into another, by its lanes.
+struct Way {
+    from: usize,
+    to: usize,
+    via: Vec<usize>,
+}
+
+impl Way {
+    /// The lane behind the first one.
+    fn entered(&self) -> usize {
+        self.via.first().copied().unwrap_or(self.to)
+    }
+}
+
+/// All ways between lanes that are no ways themselves. A lane is one that leads through a junction from one lane to
+/// one other.
+fn ways(map: &LaneMap, joints: &Joints, lost: impl Fn(usize) -> bool) -> Vec<Way> {
+    let single = |i: usize| match (&joints.ins[i][..], &joints.outs[i][..]) {
+        ([from], [to]) if map.lanes[i].interpolating && !lost(i) => Some((*from, *to)),
+        _ => None,
+    };
+    let mut taken = vec![false; map.lanes.len()];
+    let mut ways = Vec::new();
+    for start in 0..map.lanes.len() {
+        let Some((from, mut to)) = single(start).filter(|(from, _)| single(*from).is_none()) else {
+            continue;
+        };
+        let mut via = vec![start];
+        while let Some((_, next)) = single(to) {
+            via.push(to);
+            to = next;
+        }
+        if from != to && !lost(from) && !lost(to) {
+            via.iter().for_each(|lane| taken[*lane] = true);
+            ways.push(Way { from, to, via });
+        }
+    }
+    let stands = |lane: usize| !lost(lane) && !taken[lane];
+    let plain = joints.links.iter().filter(|(a, b)| stands(*a) && stands(*b));
+    ways.extend(plain.map(|(from, to)| Way { from: *from, to: *to, via: Vec::new() }));
+    ways
+}
+
+impl<'a> Network<'a> {
+    pub fn of(scene: &'a Scene) -> Self {
+        let map: &LaneMap = &scene.map;
+        let frame = Frame::of(&scene.meta.origin);
+        let placed = |lane: &Lane| {
+            let mut line: Vec<Vec2> = lane.points.xy.iter().map(|p| frame.place(*p)).collect();
+            line.dedup_by(|a, b| (*a - *b).norm() < 1e-5);
+            line
+        };
+        let lines: Vec<Vec<Vec2>> = map.lanes.iter().map(placed).collect();
+        let joints = Joints::of(map);
+        let lost = |i: usize| length(&lines[i]) < SHORTEST_M;
+        let ways = ways(map, &joints, lost);
+        let mut roles = vec![Role::Lost; map.lanes.len()];
+        for lane in ways.iter().flat_map(|way| &way.via) {
+            roles[*lane] = Role::Way;
+        }
+        let mut names = Names::default();
+        let mut edges = Vec::new();
+        let is_way: Vec<bool> = roles.iter().map(|role| *role == Role::Way).collect();
+        for lanes in abreast(map, &lines, &joints, |i| !lost(i) && !is_way[i]) {
+            let Some(first) = lanes.first().and_then(|lane| map.lanes.get(*lane)) else { continue };
+            for (index, lane) in lanes.iter().enumerate() {
+                roles[*lane] = Role::On { edge: edges.len(), index };
+            }
+            edges.push(Edge { id: names.take(&first.id), lanes, from: 0, to: 0 });
+        }
+        let mut network = Self { map, lines, roles, edges, junctions: Vec::new(), unruled: Vec::new() };
+        network.meet(ways);
+        network.lights(scene, &joints);
+        network.rules();
+        network.outlines();
+        network
+    }
+
+    /// The edge and the number of a lane that belongs to one.
+    pub fn place(&self, lane: usize) -> Option<(&Edge, usize)> {
+        match self.roles.get(lane) {
+            Some(Role::On { edge, index }) => Some((self.edges.get(*edge)?, *index)),
+            _ => None,
+        }
+    }
+
+    /// Ends of lanes become junctions, and what leads from lane to lane links through them.
+    fn meet(&mut self, ways: Vec<Way>) {
+        let mut groups = Groups::of(self.roles.len());
+        for pair in self.edges.iter().flat_map(|edge| edge.lanes.windows(2)) {
+            groups.join(end_of(pair[0]), end_of(pair[1]));
+            groups.join(start_of(pair[0]), start_of(pair[1]));
+        }
+        for way in &ways {
+            groups.join(end_of(way.from), start_of(way.to));
+        }
+        let lines =
+            ways.iter().flat_map(|way| way.via.iter().map(|lane| (&self.lines[*lane][..], end_of(way.from))));
+        let lines: Vec<(&[Vec2], usize)> = lines.collect();
+        join_crossing(&lines, &mut groups);
+        let mut numbers: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut junctions: Vec<Junction> = Vec::new();
+        let mut at = |end: usize| {
+            *numbers.entry(groups.root(end)).or_insert_with(|| {
+                junctions.push(Junction { id: format!("J{}", junctions.len()), ..Junction::default() });
+                junctions.len() - 1
+            })
+        };
+        for edge in &mut self.edges {
+            let Some(first) = edge.lanes.first() else { continue };
+            (edge.from, edge.to) = (at(start_of(*first)), at(end_of(*first)));
+        }
+        for edge in &self.edges {
+            junctions[edge.to].incoming.extend(&edge.lanes);
+        }
+        self.junctions = junctions;
+        self.link(ways);
+    }
+
+    fn link(&mut self, ways: Vec<Way>) {
+        let mut by_lane: HashMap<usize, Vec<Way>> = HashMap::new();
+        for way in ways {
+            by_lane.entry(way.from).or_default().push(way);
+        }
+        let signs: HashSet<&str> =
+            self.map.stop_signs.iter().flat_map(|sign| &sign.lanes).map(String::as_str).collect();
+        let stops = |lane: usize| self.map.lanes.get(lane).is_some_and(|lane| signs.contains(&*lane.id));
+        for junction in &mut self.junctions {
+            for from in &junction.incoming {
+                let turn = |way: &Way| {
+                    wrap_angle(heading(&self.lines[way.to], false) - heading(&self.lines[way.from], true))
+                };
+                let mut own = by_lane.remove(from).unwrap_or_default();
+                // From the right, as SUMO has them.
+                own.sort_by(|a, b| turn(a).total_cmp(&turn(b)).then(a.to.cmp(&b.to)).then(a.via.cmp(&b.via)));
+                for way in own {
+                    let (turn_rad, number) = (turn(&way), junction.links.len());
+                    let stops = stops(way.entered());
+                    let name = |(part, lane): (usize, usize)| match part {
+                        0 => (lane, format!(":{}_{number}", junction.id)),
+                        _ => (lane, format!(":{}_{number}.{part}", junction.id)),
+                    };
+                    let via = way.via.into_iter().enumerate().map(name).collect();
+                    junction.links.push(Link { from: *from, to: way.to, via, turn_rad, stops, light: None });
+                }
+            }
+        }
+    }
+
+    /// Lights rule ways through junctions, and lanes that are entered without one.
+    fn lights(&mut self, scene: &Scene, joints: &Joints) {
+        let mut ruling: HashMap<usize, usize> = HashMap::new();
+        for (i, signal) in scene.signals.iter().enumerate() {
+            // Lights of pavements are those of crosswalks.
+            let driven = |lane: &usize| {
+                let kind = self.map.lanes[*lane].lane_type;
+                kind.carries_vehicles() || kind.carries_cyclists()
+            };
+            let lane = scene.map.lane_index(&signal.lane).filter(driven);
+            let lane = lane.filter(|lane| match self.roles.get(*lane) {
+                // Behind the first part of a way nobody stops.
+                Some(Role::Way) => {
+                    let ins = joints.ins.get(*lane).map_or(&[][..], Vec::as_slice);
+                    ins.iter().all(|lane| matches!(self.roles[*lane], Role::On { .. }))
+                }
+                // What leads there through a junction is not ruled by a light behind it.
+                Some(Role::On { .. }) => {
+                    let ins = joints.ins.get(*lane).map_or(&[][..], Vec::as_slice);
+                    !ins.is_empty() && ins.iter().all(|lane| matches!(self.roles[*lane], Role::On { .. }))
+                }
+                _ => false,
+            });
+            match lane {
+                Some(lane) if !ruling.contains_key(&lane) => {
+                    ruling.insert(lane, i);
+                }
+                _ => self.unruled.push(i),
+            }
+        }
+        for junction in &mut self.junctions {
+            for link in &mut junction.links {
+                let lane = link.via.first().map_or(link.to, |(lane, _)| *lane);
+                let Some(signal) = ruling.get(&lane) else { continue };
+                if !junction.lights.contains(signal) {
+                    junction.lights.push(*signal);
+                }
+                link.light = junction.lights.iter().position(|light| light == signal);
+            }
+        }
+    }
+
+    fn rules(&mut self) {
+        for junction in &mut self.junctions {
+            if junction.links.len() > MOST_RULED {
+                self.unruled.append(&mut junction.lights);
+                junction.links.iter_mut().for_each(|link| link.light = None);
+            } else {
+                junction.rules = rules(&junction.links, &self.lines);
+            }
+        }
+    }
+
+    fn outlines(&mut self) {
+        let mut corners: Vec<Vec<Vec2>> = vec![Vec::new(); self.junctions.len()];
+        let mut middles: Vec<(Vec2, f64)> = vec![(Vec2::zeros(), 0.0); self.junctions.len()];
+        for edge in &self.edges {
+            for lane in &edge.lanes {
+                let line = &self.lines[*lane];
+                let half_m = self.map.lanes[*lane].width_or_assumed_m() / 2.0;
+                for (junction, last) in [(edge.from, false), (edge.to, true)] {
+                    let Some(end) = (if last { line.last() } else { line.first() }) else { continue };
+                    let across = direction(heading(line, last) + std::f64::consts::FRAC_PI_2) * half_m;
+                    corners[junction].extend([end + across, end - across]);
+                    middles[junction].0 += end;
+                    middles[junction].1 += 1.0;
+                }
+            }
+        }
+        for ((junction, points), (sum, count)) in self.junctions.iter_mut().zip(corners).zip(middles) {
+            junction.middle = sum / f64::max(count, 1.0);
+            junction.outline = hull(points);
+        }
+    }
+}
+
+/// The smallest ring round points that nowhere turns right (Andrew's chains).
+fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let chain = |points: &mut dyn Iterator<Item = &Vec2>| {
+        let mut chain: Vec<Vec2> = Vec::new();
+        for p in points {
+            while let [.., a, b] = chain[..]
+                && scene::geometry::cross(b - a, p - b) <= 0.0
+            {
+                chain.pop();
+            }
+            chain.push(*p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut ring = chain(&mut points.iter());
+    ring.extend(chain(&mut points.iter().rev()));
+    ring
+}
+
+/// Lanes that lie side by side from end to end, each list from the right.
+fn abreast(
+    map: &LaneMap,
+    lines: &[Vec<Vec2>],
+    joints: &Joints,
+    stands: impl Fn(usize) -> bool,
+) -> Vec<Vec<usize>> {
+    let places: HashMap<&str, usize> =
+        map.lanes.iter().enumerate().map(|(i, lane)| (lane.id.as_str(), i)).collect();
+    let mut left: HashMap<usize, usize> = HashMap::new();
+    let mut is_left: BTreeSet<usize> = BTreeSet::new();
+    for (i, lane) in map.lanes.iter().enumerate().filter(|(i, _)| stands(*i)) {
+        let whole = |(from, to): (usize, usize), lane: &Lane| from <= 1 && to + 2 >= lane.points.xy.len();
+        let found = lane.left_neighbors.iter().find_map(|beside| {
+            let other = *places.get(beside.lane.as_str()).filter(|other| **other != i)?;
+            let its = &map.lanes[other];
+            let fits = stands(other)
+                && !is_left.contains(&other)
+                && whole(beside.own_range, lane)
+                && whole(beside.other_range, its)
+                && is_motorway(lane) == is_motorway(its)
+                && !joints.links.contains(&(i, other))
+                && !joints.links.contains(&(other, i))
+                && are_beside([lane, its], [&lines[i], &lines[other]]);
+            fits.then_some(other)
+        });
+        if let Some(other) = found {
+            left.insert(i, other);
+            is_left.insert(other);
+        }
+    }
+    let mut taken = vec![false; map.lanes.len()];
+    let mut lists = Vec::new();
+    // Rings of lanes that are all left of each other begin anywhere.
+    let first = (0..map.lanes.len()).filter(|i| !is_left.contains(i));
+    for start in first.chain(0..map.lanes.len()).filter(|i| stands(*i)) {
+        let (mut list, mut next) = (Vec::new(), Some(start));
+        while let Some(lane) = next.filter(|lane| !taken[*lane]) {
+            taken[lane] = true;
+            list.push(lane);
+            next = left.get(&lane).copied();
+        }
+        if !list.is_empty() {
+            lists.push(list);
+        }
+    }
+    lists
+}
+
+pub(super) fn is_motorway(lane: &Lane) -> bool {
+    lane.lane_type == LaneType::Freeway
+}
+
+/// Both ends of the second lane lie to the left of those of the first.
+fn are_beside(lanes: [&Lane; 2], lines: [&[Vec2]; 2]) -> bool {
+    let [a, b] = lines;
+    let wide_m = (lanes[0].width_or_assumed_m() + lanes[1].width_or_assumed_m()) / 2.0;
+    [false, true].into_iter().all(|last| {
+        let ends = [a, b].map(|line| if last { line.last() } else { line.first() });
+        let [Some(own), Some(other)] = ends else { return false };
+        let offset = scene::geometry::rotate(other - own, -heading(a, last));
+        offset.x.abs() < ALIGNED_M && (offset.y - wide_m).abs() < APART_M
+    })
+}

@@ -1,0 +1,214 @@
+//! Where road users go in a network (`rou.xml`), for SUMO to drive them its own way: types, departures, edges.
+
+use super::net::limit_mps;
+use super::network::{Network, Role};
+use super::recording::Written;
+use crate::markup::{Markup, decimal};
+use scene::geometry::wrap_angle;
+use scene::routes::{LaneGraph, LaneHit};
+use scene::{AgentType, STEP_S, Scene, State};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// Lanes farther from a road user than this are not its own, metres.
+const NEAR_M: f64 = 4.0;
+/// Lanes that lead elsewhere are not its own, radians.
+const ALONG_RAD: f64 = 1.0;
+/// What a lane beside that of the step before counts as farther away, and one elsewhere, metres.
+const CHANGED_M: (f64, f64) = (0.7, 2.0);
+/// Most edges between two on which somebody is seen.
+const MOST_BETWEEN: usize = 6;
+/// Fastest that a type is said to be unless somebody is seen faster, m/s: motor vehicles, others.
+const FASTEST_MPS: (f64, f64) = (50.0, 14.0);
+
+/// Where somebody enters the network and goes.
+struct Trip<'a> {
+    user: &'a Written<'a>,
+    depart: usize,
+    /// Along the lane to the point that SUMO means, metres.
+    at_m: f64,
+    lane: usize,
+    state: State,
+    edges: Vec<usize>,
+}
+
+/// Writes the trips; gives how many road users have none.
+pub(super) fn write(scene: &Scene, network: &Network<'_>, written: &[Written<'_>]) -> (Vec<u8>, usize) {
+    let graph = LaneGraph::new(&scene.map);
+    let ways = Ways::of(network);
+    let mut trips: Vec<Trip<'_>> =
+        written.iter().filter_map(|user| trip(network, &graph, &ways, user)).collect();
+    // SUMO reads them by time.
+    trips.sort_by_key(|trip| trip.depart);
+    let mut out = Markup::new();
+    out.open("routes", &[]);
+    types(&trips, &mut out);
+    for trip in &trips {
+        write_trip(network, trip, &mut out);
+    }
+    out.close();
+    (out.finish(), written.len() - trips.len())
+}
+
+fn types(trips: &[Trip<'_>], out: &mut Markup) {
+    let mut fastest: BTreeMap<&str, (f64, &Trip<'_>)> = BTreeMap::new();
+    for trip in trips {
+        let usual =
+            if trip.user.shown.agent_type == AgentType::Vehicle { FASTEST_MPS.0 } else { FASTEST_MPS.1 };
+        let entry = fastest.entry(&trip.user.kind.id).or_insert((usual, trip));
+        entry.0 = entry.0.max(trip.state.speed_mps() + 1.0);
+    }
+    for (id, (speed_mps, trip)) in fastest {
+        let (kind, size) = (&trip.user.kind, trip.user.shown.size);
+        let (length, width, speed) = (decimal(size.length_m), decimal(size.width_m), decimal(speed_mps));
+        let height = size.height_m.map(decimal);
+        let mut attributes =
+            vec![("id", id), ("vClass", kind.class), ("length", &*length), ("width", &*width)];
+        attributes.extend(height.as_deref().map(|height| ("height", height)));
+        if !kind.person {
+            attributes.push(("maxSpeed", &*speed));
+        }
+        out.empty("vType", &attributes);
+    }
+}
+
+fn write_trip(network: &Network<'_>, trip: &Trip<'_>, out: &mut Markup) {
+    let Some((_, index)) = network.place(trip.lane) else { return };
+    let ids: Vec<&str> = trip.edges.iter().map(|edge| network.edges[*edge].id.as_str()).collect();
+    let edges = ids.join(" ");
+    let (depart, at) = (decimal(trip.depart as f64 * STEP_S), decimal(trip.at_m));
+    let (id, kind) = (&*trip.user.name, &*trip.user.kind.id);
+    if trip.user.kind.person {
+        out.open("person", &[("id", id), ("type", kind), ("depart", &depart), ("departPos", &at)]);
+        out.empty("walk", &[("edges", &edges)]);
+        out.close();
+        return;
+    }
+    let speed_mps = trip.state.speed_mps();
+    let (lane, speed) = (index.to_string(), decimal(speed_mps));
+    // Nobody is put in faster than its factor allows.
+    let factor = (speed_mps / limit_mps(&network.map.lanes[trip.lane]).max(0.1) * 1.01).max(1.0);
+    let factor = decimal(factor);
+    out.open(
+        "vehicle",
+        &[
+            ("id", id),
+            ("type", kind),
+            ("depart", &depart),
+            ("departLane", &lane),
+            ("departPos", &at),
+            ("departSpeed", &speed),
+            ("speedFactor", &factor),
+            // They begin as they are, be it before a red light or near each other.
+            ("insertionChecks", "none"),
+        ],
+    );
+    out.empty("route", &[("edges", &edges)]);
+    out.close();
+}
+
+/// The way of a road user; nothing for one that is on no edge.
+fn trip<'a>(
+    network: &Network<'_>,
+    graph: &LaneGraph,
+    ways: &Ways,
+    user: &'a Written<'a>,
+) -> Option<Trip<'a>> {
+    let track = &user.shown.track;
+    let mut first = None;
+    let mut edges: Vec<usize> = Vec::new();
+    let mut before = None;
+    for step in track.valid_steps() {
+        let Some(state) = track.at(step) else { continue };
+        let Some(hit) = lane_of(network, graph, user, state, before) else { continue };
+        before = Some(hit.lane);
+        let Some(Role::On { edge, .. }) = network.roles.get(hit.lane) else { continue };
+        first.get_or_insert((step, hit, *state));
+        if edges.last() == Some(edge) {
+            continue;
+        }
+        match edges.last() {
+            None => edges.push(*edge),
+            // People on foot have the first pavement alone: how they get to another is SUMO's.
+            Some(_) if user.kind.person => break,
+            Some(last) => match ways.between(*last, *edge) {
+                Some(more) => edges.extend(more),
+                None => break,
+            },
+        }
+    }
+    let (depart, hit, state) = first?;
+    let length_m = crate::polyline::length(&network.lines[hit.lane]);
+    let at_m = (hit.s_m + user.ahead_m()).clamp(0.0, length_m);
+    Some(Trip { user, depart, at_m, lane: hit.lane, state, edges })
+}
+
+fn lane_of(
+    network: &Network<'_>,
+    graph: &LaneGraph,
+    user: &Written<'_>,
+    state: &State,
+    before: Option<usize>,
+) -> Option<LaneHit> {
+    let on_foot = user.kind.person;
+    let along = |hit: &LaneHit| on_foot || wrap_angle(hit.heading_rad - state.heading_rad).abs() < ALONG_RAD;
+    let away_m = |hit: &LaneHit| {
+        let Some(before) = before.filter(|before| *before != hit.lane) else { return hit.distance_m };
+        let lane = &graph.lanes()[before];
+        let further_m = match () {
+            () if lane.successors.contains(&hit.lane) => 0.0,
+            () if lane.beside().any(|beside| beside.lane == hit.lane) => CHANGED_M.0,
+            () => CHANGED_M.1,
+        };
+        hit.distance_m + further_m
+    };
+    let hits = graph.nearest_for(state.position(), NEAR_M, user.shown.agent_type);
+    let written = |hit: &LaneHit| network.roles.get(hit.lane).is_some_and(|role| *role != Role::Lost);
+    hits.into_iter().filter(|hit| written(hit) && along(hit)).min_by(|a, b| away_m(a).total_cmp(&away_m(b)))
+}
+
+/// Which edges lead into which.
+struct Ways(BTreeMap<usize, BTreeSet<usize>>);
+
+impl Ways {
+    fn of(network: &Network<'_>) -> Self {
+        let mut ways: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        let edge = |lane: usize| match network.roles.get(lane) {
+            Some(Role::On { edge, .. }) => Some(*edge),
+            _ => None,
+        };
+        for link in network.junctions.iter().flat_map(|junction| &junction.links) {
+            if let (Some(from), Some(to)) = (edge(link.from), edge(link.to)) {
+                ways.entry(from).or_default().insert(to);
+            }
+        }
+        Self(ways)
+    }
+
+    /// The edges behind one up to another, the fewest that lead there.
+    fn between(&self, from: usize, to: usize) -> Option<Vec<usize>> {
+        let mut came: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut open = VecDeque::from([(from, 0)]);
+        while let Some((edge, steps)) = open.pop_front() {
+            for next in self.0.get(&edge).into_iter().flatten() {
+                if came.contains_key(next) {
+                    continue;
+                }
+                came.insert(*next, edge);
+                if *next == to {
+                    let mut way = vec![to];
+                    let mut at = edge;
+                    while at != from {
+                        way.push(at);
+                        at = *came.get(&at)?;
+                    }
+                    way.reverse();
+                    return Some(way);
+                }
+                if steps < MOST_BETWEEN {
+                    open.push_back((*next, steps + 1));
+                }
+            }
+        }
+        None
+    }
+}
