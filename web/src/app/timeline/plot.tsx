@@ -5,12 +5,12 @@ import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { fromUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
+import { Later } from '../later';
 import { useFrameTick } from '../parts/hooks';
 import { axesOf, X0, type Axes, type Size } from './axes';
 import { Curves } from './curves';
 import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
-import { PointFields } from './point-fields';
 import { SpeedPoints } from './speed-points';
 
 /** Everything that the curves, the grid and the badges show. */
@@ -48,6 +48,7 @@ export function Plot() {
     return () => watch.disconnect();
   }, [size]);
   const seek = useSeek(c, size);
+  const pointed = useComputed(() => editor.curve.point.value !== null).value;
   return (
     <div ref={box} class="plot">
       <div
@@ -69,7 +70,7 @@ export function Plot() {
       <svg class="pts" role="group" aria-label="Points of the speed curve">
         <Points tick={tick} size={size} />
       </svg>
-      <PointFields />
+      {pointed ? <Later part="points" /> : null}
     </div>
   );
 }
