@@ -10,6 +10,7 @@ import type {
   SceneList,
   ScoreReply,
   TemplateName,
+  FormatInfo,
 } from './types';
 import type { MapJson } from '../model/json';
 
@@ -191,6 +192,12 @@ export class Client {
       headers: { 'Content-Type': 'application/json' },
     });
     return (await reply.json()) as MapReply;
+  }
+
+  /** What files the server reads and writes; they are the same as long as it runs. */
+  async formats(): Promise<readonly FormatInfo[]> {
+    const reply = await this.request('/v1/info');
+    return ((await reply.json()) as { formats: FormatInfo[] }).formats;
   }
 
   async exportScene(body: SceneJson, format: string): Promise<{ blob: Blob; name: string; loss: string | null }> {
