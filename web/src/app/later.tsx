@@ -25,6 +25,7 @@ const PARTS = {
   layout: () => import('./layouts/panel').then((m) => m.default),
   'round cards': () => import('./rounds/strip').then((m) => m.default),
   rounds: () => import('./rounds/panel').then((m) => m.default),
+  import: () => import('./dialogs/import-files').then((m) => m.ImportFiles),
   'import report': () => import('./dialogs/import-report').then((m) => m.ImportReport),
   export: () => import('./outward/export').then((m) => m.default),
   share: () => import('./outward/share').then((m) => m.default),
