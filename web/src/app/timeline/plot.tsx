@@ -47,6 +47,8 @@ export function Plot() {
     watch.observe(el);
     return () => watch.disconnect();
   }, [size]);
+  /** Worked out once for all that is drawn by them. */
+  const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
   const seek = useSeek(c, size);
   const pointed = useComputed(() => editor.curve.point.value !== null).value;
   return (
@@ -63,12 +65,12 @@ export function Plot() {
         {...seek}
       >
         <svg role="img" aria-label="Speed over time">
-          <Drawing tick={tick} size={size} />
-          <Playhead tick={tick} size={size} />
+          <Drawing tick={tick} axes={axes} />
+          <Playhead axes={axes} />
         </svg>
       </div>
       <svg class="pts" role="group" aria-label="Points of the speed curve">
-        <Points tick={tick} size={size} />
+        <Points tick={tick} axes={axes} />
       </svg>
       {pointed ? <Later part="points" /> : null}
     </div>
@@ -77,12 +79,12 @@ export function Plot() {
 
 interface DrawingProps {
   tick: ReadonlySignal<number>;
-  size: ReadonlySignal<Size>;
+  axes: ReadonlySignal<Axes>;
 }
 
-function Drawing({ tick, size }: DrawingProps) {
+function Drawing({ tick, axes: all }: DrawingProps) {
   void tick.value;
-  const now = axesOf(useApp(), size.peek());
+  const now = all.value;
   // While a goal is dragged the curves change and the axes hardly ever do: the grid is left as it is.
   const axes = useMemo(() => now, [now.x1, now.height, now.top, now.unit, now.duration]);
   const grid = useMemo(() => <Grid axes={axes} />, [axes]);
@@ -100,14 +102,13 @@ function Drawing({ tick, size }: DrawingProps) {
   );
 }
 
-function Points({ tick, size }: DrawingProps) {
+function Points({ tick, axes }: DrawingProps) {
   void tick.value;
-  return <SpeedPoints axes={axesOf(useApp(), size.peek())} />;
+  return <SpeedPoints axes={axes.value} />;
 }
 
-function Playhead({ tick, size }: DrawingProps) {
+function Playhead({ axes }: { axes: ReadonlySignal<Axes> }) {
   const c = useApp();
-  const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
   const x = useComputed(() => axes.value.x(c.editor.time.value));
   return (
     <g class="head">
