@@ -1,18 +1,25 @@
 // Something that is done once nothing has happened for a while. Setting a timer anew costs much in a frame of a drag,
-// so it is left to run, and looks again when it ends.
+// so one runs on and counts how long it has been quiet.
+
+/** Into so many parts a while is counted: it lasts as much longer as one of them, at most. */
+const PARTS = 4;
 
 export class Rest {
+  readonly #part_ms: number;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  #due = 0;
+  #quiet = 0;
   #done: (() => void) | null = null;
 
-  constructor(private readonly after_ms: number) {}
+  constructor(after_ms: number) {
+    this.#part_ms = after_ms / PARTS;
+  }
 
   /** Something happened: `done` runs when nothing follows. */
   begin(done: () => void): void {
     this.#done = done;
-    this.#due = performance.now() + this.after_ms;
-    if (this.#timer === undefined) this.#wait(this.after_ms);
+    // The part that runs already does not count.
+    this.#quiet = this.#timer === undefined ? 0 : -1;
+    this.#timer ??= this.#wait();
   }
 
   /** Nothing is waited for any more. */
@@ -20,16 +27,18 @@ export class Rest {
     this.#done = null;
   }
 
-  #wait(ms: number): void {
-    this.#timer = setTimeout(() => {
+  #wait(): ReturnType<typeof setTimeout> {
+    return setTimeout(() => {
       this.#timer = undefined;
       const done = this.#done;
       if (!done) return;
-      const left = this.#due - performance.now();
-      // Timers count whole milliseconds.
-      if (left >= 1) return this.#wait(left);
+      this.#quiet++;
+      if (this.#quiet < PARTS) {
+        this.#timer = this.#wait();
+        return;
+      }
       this.#done = null;
       done();
-    }, ms);
+    }, this.#part_ms);
   }
 }
