@@ -31,11 +31,51 @@ function packed(): Plugin {
   };
 }
 
+/** The most that scripts may weigh, in KB (1000 bytes) as gzip: what comes first, and what comes after it at once. */
+const MOST_KB = { first: 90, desk: 105 };
+
+/** A build whose first scripts weigh more than they may fails. */
+function weighed(): Plugin {
+  return {
+    name: 'weighed',
+    apply: 'build',
+    generateBundle(_, bundle) {
+      const chunks = Object.values(bundle).filter((c) => c.type === 'chunk');
+      /** A script with all that it needs to start. */
+      const withImports = (name: string, all = new Set<string>()): Set<string> => {
+        const chunk = chunks.find((c) => c.fileName === name);
+        if (!chunk || all.has(name)) return all;
+        all.add(name);
+        for (const i of chunk.imports) withImports(i, all);
+        return all;
+      };
+      const from = (module: string): Set<string> => {
+        const chunk = chunks.find((c) => (c.facadeModuleId ?? '').endsWith(module));
+        if (!chunk) this.error(`no script is made of ${module}`);
+        return withImports(chunk!.fileName);
+      };
+      const kb = (names: Iterable<string>): number =>
+        [...names].reduce(
+          (sum, n) => sum + gzipSync(chunks.find((c) => c.fileName === n)!.code, { level: 9 }).length,
+          0,
+        ) / 1000;
+      const first = from('/index.html');
+      const weights = { first: kb(first), desk: kb([...from('/app/desk.ts')].filter((n) => !first.has(n))) };
+      for (const [name, kilobytes] of Object.entries(weights)) {
+        const most = MOST_KB[name as keyof typeof MOST_KB];
+        const words = `scripts, ${name}: ${kilobytes.toFixed(1)} KB gzip of ${most}`;
+        if (kilobytes > most) this.error(`${words}. Load what is not needed so early later (src/app/later.tsx).`);
+        this.info(words);
+      }
+    },
+  };
+}
+
 // The production build is embedded into the server binary, so every asset has a hashed name and
 // nothing is inlined into the page: the server's content security policy refuses inline code.
 export default defineConfig({
   base: '/',
-  plugins: [packed()],
+  plugins: [weighed(), packed()],
   build: { outDir: 'dist', assetsInlineLimit: 0, target: 'es2022', modulePreload: { polyfill: false } },
   server: { fs: { allow: ['..'] }, proxy: { '/v1': SERVER, '/healthz': SERVER } },
   test: { include: ['test/**/*.test.{ts,tsx}'], environment: 'node' },

@@ -74,6 +74,37 @@ journeys('sharing', (stage) => {
     for (const part of ['map', 'agents', 'signals', 'time']) assert.deepEqual(back[part], first[part], part);
   });
 
+  it('says what can be brought in, and asks what the columns of a table are', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    await e.key('Control+o');
+    await e.page.waitForSelector('.inkinds li');
+    assert.match(await e.text('.inkinds'), /Recorded traffic.*Tables of motion.*\.csv.*Maps alone.*\.xodr/s);
+    await e.picture('import-kinds');
+    const rows = Array.from({ length: 120 }, (_, i) => [i % 3, i - (i % 3), (i - (i % 3)) * 30, (i % 3) * 400, 'car']);
+    const table = ['who,frame,xCm,yCm,class', ...rows.map((r) => r.join(','))].join('\n');
+    await e.drop('tracks.csv', Buffer.from(table));
+    await e.page.waitForSelector('.columns');
+    assert.equal(await e.page.locator('.inkinds').count(), 0, 'the drop closes the list');
+    assert.equal(await e.page.locator('[data-column="agent_id"]').inputValue(), '', 'nothing is guessed of it');
+    assert.equal(await e.page.locator('.columns [type="submit"]').getAttribute('aria-disabled'), 'true');
+    await e.page.locator('[data-column="agent_id"]').selectOption('who');
+    for (const [field, column] of Object.entries({ x_m: 'xCm', y_m: 'yCm' })) {
+      await e.page.locator(`[data-column="${field}"]`).selectOption(column);
+      await e.page.locator(`[data-unit="${field}"]`).selectOption({ label: 'centimetres' });
+    }
+    await e.page.locator('[data-unit="time_s"]').selectOption({ label: 'pictures, 30 a second' });
+    await e.picture('import-columns');
+    await e.page.locator('.columns [type="submit"]').click();
+    await e.until(() => /imported\./.test(document.querySelector('.toast')?.textContent ?? ''));
+    const cars = await e.roadUsers();
+    assert.equal(cars.length, 3);
+    // 3 pictures and 90 cm a row: 9 m/s.
+    for (const c of cars) assert.ok(Math.abs(c.speed - 9) < 0.5, `${c.speed} m/s`);
+    await e.page.locator('.toast .btn').click();
+    assert.match(await e.text('.dlg.import .notes'), /Headings come from the way/);
+  });
+
   it('takes what it can of a broken file, and of one that is too large', { timeout: 60_000 }, async () => {
     const e = await stage.open();
     await e.begin();

@@ -284,7 +284,8 @@ export const STATES = [
     '32-export',
     async (e) => {
       await e.page.locator('.top [data-action="export"]').click();
-      await e.page.waitForSelector('.export');
+      await e.page.locator('[data-kind="openscenario"]').click();
+      await e.until(() => ![...document.querySelectorAll('.kind .tag')].some((t) => t.textContent === '…'));
       await e.settled();
     },
   ],

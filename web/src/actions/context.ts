@@ -23,30 +23,34 @@ import type { Client } from '../net/client';
 import type { Form } from './form';
 import type { Ui } from './ui';
 
-export interface Context {
+/** What it takes to open a scene and to show it; it comes first, everything else after it. */
+export interface Opening {
   readonly editor: Editor;
-  readonly generation: Generation;
   readonly scenes: SceneList;
   readonly library: Library;
-  readonly care: SceneCare;
-  readonly sharing: Sharing;
   readonly journal: Journal;
   readonly file: SceneFile;
   readonly saving: Saving;
-  readonly importing: Importing;
-  readonly playback: Playback;
-  readonly gestures: Gestures;
   readonly picture: Picture;
   readonly stage: Stage;
   readonly client: Client;
+  readonly ui: Ui;
+  readonly form: Form;
+}
+
+export interface Context extends Opening {
+  readonly generation: Generation;
+  readonly care: SceneCare;
+  readonly sharing: Sharing;
+  readonly importing: Importing;
+  readonly playback: Playback;
+  readonly gestures: Gestures;
   readonly copying: Copying;
   readonly filler: Filler;
   readonly maker: LayoutMaker;
   readonly variants: Variants;
   readonly rounds: Rounds;
   readonly trial: Trial;
-  readonly ui: Ui;
-  readonly form: Form;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */
   readonly clipboard: { copy(): void; cut(): void; paste(): void };
   chooseFiles(): void;

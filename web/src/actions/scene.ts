@@ -129,12 +129,12 @@ export const scene = inGroup('Scene', [
   },
   {
     id: 'choose-files',
-    label: 'Choose files',
+    label: 'Import files',
     keys: ['Ctrl+O'],
     icon: 'file',
-    help: 'Scenario records, lane maps and saved scenes',
+    help: 'Scenes, recordings, tables of motion and maps',
     context: 'always',
-    run: (c) => c.chooseFiles(),
+    run: (c) => c.ui.openDialog('import'),
   },
   {
     id: 'import-log',

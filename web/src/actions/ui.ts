@@ -3,7 +3,7 @@ import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { MenuOn } from '../edit/gestures/chart';
 import { keep, recall } from '../net/storage';
 
-export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export';
+export type Dialog = 'palette' | 'shortcuts' | 'save-as' | 'share' | 'export' | 'import';
 /** What stands at the left edge of the picture. */
 export type Drawer = 'scenes' | 'history' | 'users';
 /** A menu at a place of the picture, in pixels of it. */

@@ -1,7 +1,7 @@
 // Where the picture looks: the whole map, the part where things move on opening, after the one that is followed, and
 // where it looked when a step was done.
 import { effect } from '@preact/signals-core';
-import type { Context } from '../actions/context';
+import type { Context, Opening } from '../actions/context';
 import { busyBox, openingCentre } from '../model/busy';
 import { boxOf } from '../model/geometry';
 import type { Camera, HistoryStep } from '../model/history';
@@ -17,7 +17,7 @@ const EMPTY_ZOOM = 1.6;
 /** A picture that shows the same place within so many pixels looks where it did. */
 const SAME_PX = 4;
 
-export function fitScene({ editor, stage }: Context): void {
+export function fitScene({ editor, stage }: Opening): void {
   const scene = editor.layouts.made.peek()?.scene ?? editor.scene.peek();
   if (!scene) return;
   stage.resize();
@@ -26,7 +26,7 @@ export function fitScene({ editor, stage }: Context): void {
 }
 
 /** A map that is made is looked at anew with each template; while its parameters change the picture stays. */
-export function lookAtMade({ editor, stage }: Context): void {
+export function lookAtMade({ editor, stage }: Opening): void {
   let looked: string | null = null;
   effect(() => {
     const made = editor.layouts.made.value;
@@ -40,7 +40,7 @@ export function lookAtMade({ editor, stage }: Context): void {
 }
 
 /** The same stretch of road on every screen, where most things move: a junction with the beginnings of its arms. */
-export function lookAtOpened({ editor, stage }: Context): void {
+export function lookAtOpened({ editor, stage }: Opening): void {
   const scene = editor.scene.peek();
   if (!scene) return;
   stage.resize();
@@ -60,7 +60,7 @@ export function lookAtOpened({ editor, stage }: Context): void {
 }
 
 /** Keeps the selected road user in the middle while playback runs. */
-export function followSelected({ editor, stage }: Context): void {
+export function followSelected({ editor, stage }: Opening): void {
   if (!editor.playhead.follow.peek() || !editor.playing.peek()) return;
   const a = editor.agent.peek();
   const p = a && poseAt(editor.motionFor(a), editor.time.peek());
@@ -69,7 +69,7 @@ export function followSelected({ editor, stage }: Context): void {
   stage.viewChanged();
 }
 
-const cameraOf = ({ stage }: Context): Camera => {
+const cameraOf = ({ stage }: Opening): Camera => {
   const { cx, cy, z } = stage.view;
   return { cx, cy, z };
 };
@@ -81,7 +81,7 @@ const moved = (a: Camera, b: Camera): boolean =>
  * Undo and redo show what they change: where the picture moved with the step it moves back, and where what changes
  * is out of sight it looks where it did then.
  */
-export function lookWhereItWas(c: Context): void {
+export function lookWhereItWas(c: Opening): void {
   const { editor, stage } = c;
   editor.camera = () => cameraOf(c);
   editor.onTravel = (step: HistoryStep, way) => {
@@ -93,7 +93,7 @@ export function lookWhereItWas(c: Context): void {
 }
 
 /** Are the start and the goal of a road user in the picture? */
-function inView({ editor, stage }: Context, a: Agent): boolean {
+function inView({ editor, stage }: Opening, a: Agent): boolean {
   const box = stage.view.box(-20);
   const places = [startPose(a), editor.goalPose(a)].filter((p) => p !== null);
   return places.every((p) => p.x > box.x0 && p.x < box.x1 && p.y > box.y0 && p.y < box.y1);
@@ -105,7 +105,7 @@ const EDGE_PX = 24;
 const AROUND_M = 12;
 
 /** Brings road users into the picture, where they are not in it. */
-export function reveal({ editor, stage }: Context, ids: readonly string[]): void {
+export function reveal({ editor, stage }: Opening, ids: readonly string[]): void {
   const scene = editor.scene.peek();
   const ps = ids.flatMap((id) => {
     const a = scene?.agents.get(id);

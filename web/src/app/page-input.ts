@@ -64,7 +64,7 @@ function leaveButton(e: MouseEvent): void {
 }
 
 /** Files may be dropped anywhere; a veil says so while they are over the page. */
-function takeDrops({ importing, stage }: Context): void {
+function takeDrops({ importing, stage, ui }: Context): void {
   const veil = document.createElement('div');
   veil.className = 'dropping';
   veil.textContent = 'Drop to import';
@@ -87,6 +87,8 @@ function takeDrops({ importing, stage }: Context): void {
     e.preventDefault();
     gone();
     const files = [...(e.dataTransfer?.files ?? [])];
-    if (files.length) void importing.files(files);
+    if (!files.length) return;
+    if (ui.dialog.peek() === 'import') ui.closeDialog();
+    void importing.files(files);
   });
 }

@@ -1,11 +1,11 @@
 // What follows by itself from what happens: the hint of the first minute, the report of a crash, the wait for a
 // server that is not there yet.
 import { effect } from '@preact/signals-core';
-import type { Context } from '../actions/context';
+import type { Opening } from '../actions/context';
 import { hasGoal } from '../model/scene';
 
 /** The three-step hint moves on with what one does and closes for good after the first drop. */
-export function coach({ editor, ui }: Context): void {
+export function coach({ editor, ui }: Opening): void {
   let opened = ui.drawer.peek() === 'scenes';
   effect(() => {
     const a = editor.agent.value;
@@ -23,7 +23,7 @@ export function coach({ editor, ui }: Context): void {
 }
 
 /** An error nobody caught is said once; what was changed is saved already. */
-export function reportCrashes({ editor }: Context): void {
+export function reportCrashes({ editor }: Opening): void {
   addEventListener('error', (e) => {
     if (e.error) editor.notices.crashed(e.error);
   });
@@ -35,7 +35,7 @@ export function reportCrashes({ editor }: Context): void {
 const RETRY_S = [1, 2, 4, 6];
 
 /** Nothing to show without the server: it is asked again at growing intervals, then the page begins anew. */
-export function waitForServer(c: Context, tries = 0): void {
+export function waitForServer(c: Opening, tries = 0): void {
   const { answers } = c.editor;
   let left = RETRY_S[Math.min(tries, RETRY_S.length - 1)];
   answers.report({ kind: 'away' });

@@ -3,6 +3,7 @@
 import { sceneKey, type Scene } from '../model/scene';
 import type { Generator, Handlers, Question } from '../net/generator';
 import type { FinalEvent } from '../net/types';
+import { Rest } from './rest';
 
 /** Time between two questions. */
 const GAP_MS = 150;
@@ -45,7 +46,7 @@ export class Foresight {
   #free = false;
   #running: Running | null = null;
   #gap: ReturnType<typeof setTimeout> | undefined;
-  #rest: ReturnType<typeof setTimeout> | undefined;
+  readonly #rest = new Rest(REST_MS);
   #known: Known | null = null;
 
   constructor(
@@ -56,8 +57,7 @@ export class Foresight {
   /** The hand is at another pose. */
   moved(scene: Scene): void {
     this.#wanted = scene;
-    clearTimeout(this.#rest);
-    this.#rest = setTimeout(() => this.#drop(), REST_MS);
+    this.#rest.begin(() => this.#drop());
     this.#endWait ??= this.asking.begin();
   }
 
@@ -97,7 +97,7 @@ export class Foresight {
   }
 
   #forget(): void {
-    clearTimeout(this.#rest);
+    this.#rest.stop();
     this.#wanted = null;
     this.#endWait?.();
     this.#endWait = null;

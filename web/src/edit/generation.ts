@@ -77,6 +77,13 @@ export class Generation implements Previews {
 
   // -------------------------------------------------------------- what sets it off
 
+  /** A scene was opened that lacks the answers to what is changed in it. */
+  opened(everybody: boolean): void {
+    const scene = this.editor.scene.peek();
+    const step = { name: 'Scene opened', agent: null, undo: true, ...(everybody ? { everybody } : {}) };
+    if (scene) this.#committed(scene, step);
+  }
+
   #selected(id: string | null): void {
     if (id) {
       this.#look(id);

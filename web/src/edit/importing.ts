@@ -2,7 +2,7 @@
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../model/json';
 import { lineOf, linesAround, offsetOf } from '../model/json-place';
-import { Refused, type Client } from '../net/client';
+import { Refused, type Beside, type Client } from '../net/client';
 import type { ImportReply, Problem } from '../net/types';
 import type { Editor } from './editor';
 import { foreignKind, kindByName } from './file-kinds';
@@ -32,6 +32,10 @@ export interface FileVerdict {
   readonly excerpt?: { readonly line: number; readonly from: number; readonly lines: readonly string[] };
   /** The rest of it can be taken: without what. */
   readonly without?: readonly string[];
+  /** What the reader assumed, left out or changed. */
+  readonly notes?: readonly string[];
+  /** A table whose columns have names of their own: which of them says what? */
+  readonly columns?: readonly string[];
   /** Nobody answered: the same may go well later. */
   readonly again?: File;
 }
@@ -46,6 +50,8 @@ export class Importing {
   readonly #verdicts = signal<readonly FileVerdict[] | null>(null);
   /** What is left of broken files, by their place in the list. */
   #rests = new Map<FileVerdict, SceneJson>();
+  /** Tables that wait for what their columns say. */
+  #tables = new Map<FileVerdict, Blob>();
   /** The report that is to be shown; null when there is nothing to report. */
   readonly verdicts: ReadonlySignal<readonly FileVerdict[] | null> = this.#verdicts;
 
@@ -59,6 +65,7 @@ export class Importing {
   close(): void {
     this.#verdicts.value = null;
     this.#rests.clear();
+    this.#tables.clear();
   }
 
   async files(files: readonly File[]): Promise<void> {
@@ -70,8 +77,19 @@ export class Importing {
     notices.hide();
     const good = verdicts.flatMap((v) => v.scenes);
     if (good.length) await this.library.open(good[0].id);
-    if (good.length === 1 && verdicts.every((v) => v.ok)) notices.show({ text: `${good[0].name} imported.` });
+    if (good.length === 1 && verdicts.every((v) => v.ok)) this.#sayImported(verdicts[0], '', verdicts);
     else this.#verdicts.value = verdicts;
+  }
+
+  /** One scene is on screen: a word is enough, with the way to what was assumed. */
+  #sayImported(v: FileVerdict, without: string, all: readonly FileVerdict[]): void {
+    const text = `${v.scenes[0]?.name || v.file} imported${without}.`;
+    const n = v.notes?.length ?? 0;
+    const run = (): void => {
+      this.#verdicts.value = all;
+    };
+    const action = n ? { label: `${n} thing${n > 1 ? 's' : ''} assumed`, run } : undefined;
+    this.editor.notices.show({ text, action });
   }
 
   /** Takes the rest of a file, without what is broken in it. */
@@ -80,6 +98,12 @@ export class Importing {
     if (!rest) return;
     const name = v.file;
     await this.#replace(v, () => this.#send(name, new Blob([JSON.stringify(rest)]), v.without));
+  }
+
+  /** Reads a table by what its columns say. */
+  async readColumns(v: FileVerdict, columns: Record<string, unknown>): Promise<void> {
+    const table = this.#tables.get(v);
+    if (table) await this.#replace(v, () => this.#send(v.file, table, [], { columns }));
   }
 
   /** The same file once more, now that somebody may answer. */
@@ -95,19 +119,19 @@ export class Importing {
     if (now.ok && rest.every((o) => o.ok)) {
       this.close();
       const without = v.without ? ` without ${v.without.join(', ')}` : '';
-      this.editor.notices.show({ text: `${now.scenes[0]?.name ?? v.file} imported${without}.` });
+      this.#sayImported(now, without, rest);
     } else this.#verdicts.value = rest;
   }
 
   async #one(file: File, net?: File): Promise<FileVerdict> {
     const foreign = await foreignKind(file);
     if (foreign) return foreignVerdict(file.name, foreign);
-    return this.#send(file.name, file, [], net);
+    return this.#send(file.name, file, [], { net });
   }
 
-  async #send(name: string, file: Blob, without: readonly string[] = [], net?: File): Promise<FileVerdict> {
+  async #send(name: string, file: Blob, without: readonly string[] = [], beside: Beside = {}): Promise<FileVerdict> {
     try {
-      const v = verdictOf(name, await this.client.importFile(name, file, net));
+      const v = verdictOf(name, await this.client.importFile(name, file, beside));
       return without.length && v.ok ? { ...v, wrong: `Without ${without.join(', ')}.` } : v;
     } catch (e) {
       if (!(e instanceof Refused)) return awayVerdict(name, file);
@@ -118,6 +142,13 @@ export class Importing {
   /** What is wrong, with the place in the file; the rest of it is kept where it can be taken. */
   async #refused(name: string, file: Blob, p: Problem, without: readonly string[]): Promise<FileVerdict> {
     const plain = { file: name, kind: kindByName(name), ok: false, scenes: [], ...explain(name, p) };
+    const columns = columnsIn(p);
+    if (columns) {
+      const wrong = 'This table names its columns in its own way.';
+      const verdict: FileVerdict = { ...plain, columns, wrong, todo: 'Say what they are, and it is read.' };
+      this.#tables.set(verdict, file);
+      return verdict;
+    }
     const text = file.size <= MOST_TEXT_BYTES ? await file.text() : '';
     const line = p.line ?? (p.code === 'too-many-agents' ? null : lineAt(text, p.errors?.[0]?.pointer));
     const excerpt = line === null ? undefined : { line, ...linesAround(text, line) };
@@ -131,6 +162,14 @@ export class Importing {
     this.#rests.set(verdict, mended.scene);
     return verdict;
   }
+}
+
+/** Names of a table's columns, where that is what the server asks about; else null. */
+function columnsIn(problem: Problem): readonly string[] | null {
+  if (problem.code !== 'cannot-represent') return null;
+  const said = problem.errors?.[0]?.detail ?? problem.detail ?? '';
+  const names = /^no column .+?; there are (.+)\. A file of columns can name them/s.exec(said)?.[1];
+  return names ? names.split(', ').filter((n) => n !== '...') : null;
 }
 
 /** A recording and, in the same drop, the map that it was made on: each of these goes with the one beside it. */
@@ -200,8 +239,9 @@ function verdictOf(file: string, reply: ImportReply): FileVerdict {
     count: countAll(counts),
   }));
   const { skipped } = reply;
+  const notes = [...new Set(reply.scenes.flatMap((s) => s.warnings.map((w) => w.detail)))];
   if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
-  if (!skipped.length) return { file, kind, ok: true, scenes };
+  if (!skipped.length) return { file, kind, ok: true, scenes, notes };
   const { detail } = skipped[0].problem;
   const share = `${skipped.length} of ${scenes.length + skipped.length} scenes in this file could not be read`;
   return { file, kind, ok: true, scenes, wrong: `${share}: ${detail}` };

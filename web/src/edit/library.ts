@@ -23,6 +23,9 @@ interface Fetched {
   readonly etag: string | null;
 }
 
+/** Whose answers a scene that was opened lacks: of none it is judged alone. */
+export type Missing = 'none' | 'changed' | 'everybody';
+
 export class Library {
   readonly #openError = signal<string | null>(null);
   readonly #turns = new SceneTurns({
@@ -38,6 +41,9 @@ export class Library {
   readonly openError: ReadonlySignal<string | null> = this.#openError;
   /** Called when another scene is on screen; `again` when it is the same one, newer. */
   onOpen: ((scene: Scene, again: boolean) => void) | null = null;
+  /** Asks for what is missing of the scene that is on screen. */
+  #ask: ((missing: Missing) => void) | null = null;
+  #missing: Missing | null = null;
 
   constructor(
     private readonly editor: Editor,
@@ -158,9 +164,21 @@ export class Library {
     const unanswered = !answered && (scene.drawn > 0 || [...scene.agents.values()].some(touched));
     if (unanswered) editor.answers.outdate();
     this.onOpen?.(scene, again);
-    if (!unanswered) return;
-    const everybody = scene.drawn > 0 ? { everybody: true } : {};
-    editor.onCommit?.(scene, { name: 'Scene opened', agent: null, undo: true, ...everybody });
+    this.#missing = !unanswered ? 'none' : scene.drawn > 0 ? 'everybody' : 'changed';
+    this.#askNow();
+  }
+
+  /** Who asks may come after the first scene is on screen. */
+  askBy(ask: (missing: Missing) => void): void {
+    this.#ask = ask;
+    this.#askNow();
+  }
+
+  #askNow(): void {
+    const missing = this.#missing;
+    if (!this.#ask || !missing) return;
+    this.#missing = null;
+    this.#ask(missing);
   }
 
   #asSeen(who: string | null, when: number): void {

@@ -20,13 +20,11 @@ import { MapPicture } from '../draw/paint-map';
 import type { Stage } from '../draw/stage';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
-import { Overlay } from './overlay';
 import { laneWords } from './snap';
 
 const REACT_MS = 320;
 
 export class Picture {
-  readonly overlay: Overlay;
   private map: MapPicture | null = null;
   /** Where road users and their names were painted last, for the labels over them. */
   private boxes: Rect[] = [];
@@ -42,16 +40,12 @@ export class Picture {
   ) {
     stage.painter('map', (g, v) => this.paintMap(g, v));
     stage.painter('agents', (g, v) => this.paintAgents(g, v));
-    this.overlay = new Overlay(
-      editor,
-      (a) => this.poseNow(a),
-      () => [...this.boxes, ...this.names],
-    );
-    stage.painter('overlay', (g, v) => {
-      this.overlay.paint(g, v);
-      if (this.overlay.moving) stage.invalidate('overlay');
-    });
     this.watch();
+  }
+
+  /** Where road users and their names are, in pixels: words over the picture keep off them. */
+  get taken(): readonly Rect[] {
+    return [...this.boxes, ...this.names];
   }
 
   private watch(): void {

@@ -25,6 +25,7 @@ import type { Wanted } from './question';
 import { Steady } from './steady';
 import { readReach } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome, spokenVerdict } from './report';
+import { Rest } from './rest';
 
 /** What an answer may set off; the generation does it. */
 export interface Hooks {
@@ -47,7 +48,7 @@ export class Reception {
   readonly #names = new FrozenNames();
 
   readonly #steady: Steady;
-  #rest: ReturnType<typeof setTimeout> | undefined;
+  readonly #rest = new Rest(RESTS_MS);
   /** The document of the last answer foreseen, and what was bold before it took the place of the drag's own. */
   #foreseen: { readonly key: string; readonly bold: string | null } | null = null;
 
@@ -178,15 +179,15 @@ export class Reception {
   /** Draws futures. Where the hand of a drag rests at them they get the names that they have at rest. */
   #show(a: Agent, f: Futures, trails: readonly Futures[] = []): void {
     const { editor } = this;
-    clearTimeout(this.#rest);
+    this.#rest.stop();
     editor.answers.showDraft(a.id, f, trails);
     if (!editor.dragging.peek()) return;
-    this.#rest = setTimeout(() => {
+    this.#rest.begin(() => {
       const d = editor.draft.peek();
       if (!editor.dragging.peek() || d?.futures !== f) return;
       this.#names.rest();
       editor.answers.showDraft(a.id, withNames(f, naming(editor.scene.peek()!, a)), d.earlier);
-    }, RESTS_MS);
+    });
   }
 
   /** What is on screen keeps its names as far as they hold. */

@@ -10,6 +10,7 @@ import type {
   SceneList,
   ScoreReply,
   TemplateName,
+  FormatInfo,
 } from './types';
 import type { MapJson } from '../model/json';
 
@@ -43,6 +44,14 @@ const etagOf = (reply: Response): string | null => reply.headers.get('etag')?.re
 
 /** Gateway errors and "shutting down" mean the generator is away; "busy" is an answer, and passes. */
 const isAway = (status: number): boolean => status === 502 || status === 503 || status === 504;
+
+/** What comes with a file. */
+export interface Beside {
+  /** The network or map that it belongs to. */
+  readonly net?: Blob;
+  /** What the columns of a table say. */
+  readonly columns?: Record<string, unknown>;
+}
 
 export class Client {
   constructor(
@@ -138,16 +147,16 @@ export class Client {
     await this.request(`/v1/scenes/${encodeURIComponent(id)}`, { method: 'DELETE', headers: { 'If-Match': etag } });
   }
 
-  /** `net` is the network or map that the file belongs to. */
-  async importFile(name: string, body: Blob, net?: Blob): Promise<ImportReply> {
+  async importFile(name: string, body: Blob, { net, columns }: Beside = {}): Promise<ImportReply> {
     const isJson = /\.json$/i.test(name);
     const form = new FormData();
     form.append('file', body, name);
     if (net) form.append('net', net);
+    if (columns) form.append('columns', new Blob([JSON.stringify(columns)], { type: 'application/json' }));
     const type = isJson ? 'application/json' : 'application/octet-stream';
     const reply = await this.request(`/v1/import?name=${encodeURIComponent(name.slice(-120))}`, {
       method: 'POST',
-      ...(net ? { body: form } : { body, headers: { 'Content-Type': type } }),
+      ...(net || columns ? { body: form } : { body, headers: { 'Content-Type': type } }),
     });
     return (await reply.json()) as ImportReply;
   }
@@ -191,6 +200,12 @@ export class Client {
       headers: { 'Content-Type': 'application/json' },
     });
     return (await reply.json()) as MapReply;
+  }
+
+  /** What files the server reads and writes; they are the same as long as it runs. */
+  async formats(): Promise<readonly FormatInfo[]> {
+    const reply = await this.request('/v1/info');
+    return ((await reply.json()) as { formats: FormatInfo[] }).formats;
   }
 
   async exportScene(body: SceneJson, format: string): Promise<{ blob: Blob; name: string; loss: string | null }> {

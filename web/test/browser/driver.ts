@@ -44,7 +44,7 @@ export class Driver {
     browser: Browser,
     options: StandInOptions = {},
     path = '/',
-    setup?: (p: Page) => Promise<void>,
+    setup?: (p: Page) => Promise<unknown>,
   ): Promise<Driver> {
     const server = await startStandIn({ port: 0, delay: 4, ...options });
     const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: 'reduce' });

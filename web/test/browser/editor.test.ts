@@ -44,6 +44,59 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     expect(await d.text('.coach')).toContain('Click a car');
   });
 
+  it('shows the scene before its tools are there, and the picture stays as it was', async () => {
+    let scene = (): void => undefined;
+    let tools = (): void => undefined;
+    const allowed = (allow: (go: () => void) => void) => new Promise<void>((go) => allow(() => go()));
+    const [sceneMay, toolsMay] = [allowed((go) => (scene = go)), allowed((go) => (tools = go))];
+    d = await Driver.open(browser, {}, '/', async (page) => {
+      await page.route('**/v1/scenes/*', (r) => sceneMay.then(() => r.continue()));
+      await page.route('**/assets/desk-*.js', (r) => toolsMay.then(() => r.continue()));
+    });
+    await d.page.waitForSelector('main.stage canvas');
+    // Where no panel will be.
+    const box = (await d.page.locator('main.stage').boundingBox())!;
+    const clip = { x: box.x + 420, y: box.y + 120, width: 480, height: 320 };
+    const picture = () => d.page.screenshot({ clip });
+    const ground = await picture();
+    scene();
+    await expect.poll(async () => differing(d.page, ground, await picture())).toBeGreaterThan(0.1);
+    expect(await d.page.locator('header.top').count()).toBe(0);
+    const early = await picture();
+    tools();
+    await d.ready();
+    await d.page.getByRole('button', { name: 'Close the hint' }).click();
+    await d.settled();
+    expect(await differing(d.page, early, await picture())).toBeLessThan(0.01);
+    expect(await d.page.locator('main.stage').boundingBox()).toEqual(box);
+  });
+
+  it('says that a part did not load, and fetches it when asked again', async () => {
+    let reachable = false;
+    d = await Driver.open(browser, {}, '/', (page) =>
+      page.route('**/assets/agent-panel-*.js*', (r) => (reachable ? r.continue() : r.abort())),
+    );
+    await d.ready();
+    await d.page.locator('[data-agent="1"]').evaluate((e: HTMLElement) => e.click());
+    const said = d.page.locator('.insp [role="alert"]');
+    await said.waitFor();
+    expect(await said.innerText()).toContain('did not load. Nothing is lost.');
+    reachable = true;
+    await said.getByRole('button', { name: 'Try again' }).click();
+    await d.page.waitForSelector('.fu');
+    expect(await said.count()).toBe(0);
+  });
+
+  it('says that its tools did not load', async () => {
+    d = await Driver.open(browser, {}, '/', (page) => page.route('**/assets/desk-*.js', (r) => r.abort()));
+    const said = d.page.locator('main.stage [role="alert"]');
+    await said.waitFor();
+    expect(await said.innerText()).toContain('Your scenes are safe.');
+    await d.page.unroute('**/assets/desk-*.js');
+    await said.getByRole('button', { name: 'Load again' }).click();
+    await d.ready();
+  });
+
   it('drags a goal: six live futures, others asked on release, undo and redo', async () => {
     d = await (await Driver.open(browser)).ready();
     await d.select('1');

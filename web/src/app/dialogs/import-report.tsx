@@ -4,17 +4,19 @@ import type { FileVerdict } from '../../edit/importing';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
+import { Columns } from './columns';
 
 export function ImportReport() {
   const { importing } = useApp();
   const verdicts = importing.verdicts.value ?? [];
   const close = () => importing.close();
   const bad = verdicts.filter((v) => !v.ok);
+  const wrong = bad.some((v) => !v.columns);
   return (
     <Modal label="Import" class="import" close={close}>
       <div class="dhead">
-        <span class={bad.length ? 't-collision' : ''}>
-          <Icon name={bad.length ? 'warn' : 'check'} size={22} />
+        <span class={wrong ? 't-collision' : ''}>
+          <Icon name={wrong ? 'warn' : bad.length ? 'table' : 'check'} size={22} />
         </span>
         <h2>{titleOf(verdicts)}</h2>
       </div>
@@ -30,15 +32,25 @@ export function ImportReport() {
 
 /** `4 files: 2 in, 1 in part, 1 cannot be read` */
 function titleOf(verdicts: readonly FileVerdict[]): string {
-  const part = verdicts.filter((v) => !v.ok && v.without).length;
+  const part = verdicts.filter((v) => !v.ok && (v.without || v.columns)).length;
+  const asked = verdicts.filter((v) => v.columns).length;
   const bad = verdicts.filter((v) => !v.ok).length - part;
   const good = verdicts.length - bad - part;
   const all = verdicts.length;
   if (all === 1) {
-    if (good) return `${verdicts[0].scenes.length} scenes imported`;
+    if (good) {
+      const n = verdicts[0].scenes.length;
+      return n === 1 ? 'One scene imported' : `${n} scenes imported`;
+    }
+    if (asked) return 'One question about this table';
     return part ? 'A part of this file is broken' : 'This file could not be read';
   }
-  const counts = [good && `${good} in`, part && `${part} in part`, bad && `${bad} cannot be read`].filter(Boolean);
+  const counts = [
+    good && `${good} in`,
+    part - asked && `${part - asked} in part`,
+    asked && `${asked} to be told about`,
+    bad && `${bad} cannot be read`,
+  ].filter(Boolean);
   return `${all} files: ${counts.join(', ')}`;
 }
 
@@ -50,7 +62,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
     close();
     c.chooseFiles();
   };
-  const mendable = bad.some((v) => v.without ?? v.again);
+  const mendable = bad.some((v) => v.without ?? v.columns ?? v.again);
   return (
     <div class="dfoot">
       <span class="mut">Your files were not changed.</span>
@@ -95,6 +107,8 @@ function FileRow({ verdict: v }: { verdict: FileVerdict }) {
         <small class="mut">{v.kind}</small>
         {v.ok ? (
           <span class="tag ok">{done}</span>
+        ) : v.columns ? (
+          <span class="tag near">which column is what?</span>
         ) : v.without ? (
           <span class="tag near">in part</span>
         ) : (
@@ -102,6 +116,13 @@ function FileRow({ verdict: v }: { verdict: FileVerdict }) {
         )}
       </div>
       {v.wrong ? <Wrong verdict={v} /> : null}
+      {v.notes?.length ? (
+        <ul class="notes">
+          {v.notes.map((note) => (
+            <li key={note}>{note[0].toUpperCase() + note.slice(1)}.</li>
+          ))}
+        </ul>
+      ) : null}
       {n > 1 ? <ImportedScenes verdict={v} /> : null}
     </section>
   );
@@ -115,6 +136,7 @@ function Wrong({ verdict: v }: { verdict: FileVerdict }) {
       <p>
         {v.ok ? v.wrong : <b>{v.wrong}</b>} {v.todo} {v.ok ? null : <small class="mut">{v.where}</small>}
       </p>
+      {v.columns ? <Columns verdict={v} of={v.columns} /> : null}
       {v.without || v.excerpt || v.again ? (
         <div class="ways">
           {v.without ? (

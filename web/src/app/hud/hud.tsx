@@ -9,19 +9,15 @@ import type { Spread } from '../../edit/placing';
 import { MenuButton } from '../menu';
 import { useApp } from '../parts/app-context';
 import { ActionButton, KeyCaps } from '../parts/buttons';
-import { Later } from '../parts/later';
+import { Later } from '../later';
 import { Banner } from './banner';
-import { EmptyScene } from './empty-scene';
 import { Coach, Toast } from './messages';
 import { HoverCard } from './hover-card';
-import { PlacePanel } from './place-panel';
 import { Status } from './status';
 import { ScaleBar, ZoomBar } from './view';
 import { LoupeWords } from './loupe-words';
 import { Thumb } from './thumb';
 import { WayBack } from './way-back';
-
-const fillPanel = () => import('./fill-panel').then((m) => m.default);
 
 /** Those that are switched most; all are in the menu beside them. */
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
@@ -54,9 +50,9 @@ export function Hud() {
         <ScaleBar />
       </div>
       {editor.dragging.value ? <DragHelp /> : placing ? <PlaceHelp spread={placing} /> : <ZoomBar />}
-      <PlacePanel />
-      {filling ? <Later load={fillPanel} /> : null}
-      <EmptyScene />
+      {placing ? <Later part="place" /> : null}
+      {filling ? <Later part="fill" /> : null}
+      <Later part="empty scene" />
       <WayBack />
       <Coach />
       <Toast />

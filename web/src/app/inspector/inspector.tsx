@@ -1,15 +1,8 @@
 // The panel on the right: the events when they are asked for, else the selected road user, else the scene.
 import { useComputed } from '@preact/signals';
 import { useApp } from '../parts/app-context';
-import { Later } from '../parts/later';
-import { AgentPanel } from './agent-panel';
-import { EventsPanel } from './events-panel';
+import { Later } from '../later';
 import { ScenePanel } from './scene-panel';
-import { SeveralPanel } from './several-panel';
-
-const layoutPanel = () => import('../layouts/panel').then((m) => m.default);
-const roundsPanel = () => import('../rounds/panel').then((m) => m.default);
-const comparePanel = () => import('../variants/compare-panel').then((m) => m.default);
 
 export function Inspector() {
   const { editor, rounds, ui, variants } = useApp();
@@ -23,17 +16,17 @@ export function Inspector() {
   return (
     <aside class="insp" aria-label="Inspector" data-group="inspector">
       {making ? (
-        <Later key="layout" load={layoutPanel} />
+        <Later key="layout" part="layout" />
       ) : comparing ? (
-        <Later key="compare" load={comparePanel} />
+        <Later key="compare" part="compare" />
       ) : judging ? (
-        <Later key="rounds" load={roundsPanel} />
+        <Later key="rounds" part="rounds" />
       ) : events ? (
-        <EventsPanel />
+        <Later key="events" part="events" />
       ) : several ? (
-        <SeveralPanel />
+        <Later key="several" part="several" />
       ) : selected ? (
-        <AgentPanel key={`agent:${selected}`} id={selected} />
+        <Later key={`agent:${selected}`} part="agent" id={selected} />
       ) : (
         <ScenePanel key={`scene:${scene}`} />
       )}

@@ -1,138 +1,16 @@
 // Files out of the scene: each with what it loses, before it is chosen.
 import { useEffect, useRef } from 'preact/hooks';
 import { useSignal, type Signal } from '@preact/signals';
-import type { Context } from '../../actions/context';
-import { exported, exportedJson, saveAll, slug, whyNot, type ExportedFile } from '../../edit/download';
-import type { WholeCard } from '../../edit/variants/cards';
+import { saveAll, whyNot, type ExportedFile } from '../../edit/download';
+import { WISHES } from '../../edit/outward/formats';
+import { stays, type Loss } from '../../edit/outward/losses';
 import type { Scope } from '../../edit/variants/variants';
-import { film, filmEnding, filmKind } from '../../edit/outward/film';
-import { reportPage } from '../../edit/outward/report-page';
-import { SvgPen } from '../../draw/svg-pen';
+import type { FormatInfo } from '../../net/types';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
+import { ofScreen, ofServer, ofVariants, type Kind } from './kinds';
 import '../../styles/outward.css';
-
-interface Kind {
-  readonly id: string;
-  readonly label: string;
-  readonly ending: string;
-  readonly icon: string;
-  /** In place of a loss, for what is to be looked at. */
-  readonly tag?: string;
-  make(c: Context, progress: (share: number) => void, stop: AbortSignal): Promise<ExportedFile | null>;
-}
-
-const FINE = 2;
-const ofServer = (id: string, label: string, ending: string, icon: string): Kind => ({
-  id,
-  label,
-  ending,
-  icon,
-  make: (c) => exported(c, id),
-});
-
-const named = (c: Context, blob: Blob, ending: string): ExportedFile => ({
-  blob,
-  name: `${slug(c.editor.scene.peek()?.name)}.${ending}`,
-  losses: [],
-});
-
-function pictureOf({ stage }: Context): HTMLCanvasElement {
-  const canvas = document.createElement('canvas');
-  stage.paintOn(canvas, ['map', 'agents', 'overlay'], FINE);
-  return canvas;
-}
-
-const FORMATS: Kind[] = [
-  ofServer('dragtraffic', 'Saved scene', '.json', 'layers'),
-  ofServer('womd', 'Scenario record', '.tfrecord', 'file'),
-  ofServer('csv', 'Table of motion', '.csv', 'table'),
-  ofServer('parquet', 'Table of motion', '.parquet', 'table'),
-  ofServer('html', 'Page that plays', '.html', 'film'),
-  ofServer('geojson', 'GeoJSON', '.geojson', 'layers'),
-  ofServer('av2', 'Argoverse scenario', '.av2.parquet', 'file'),
-  ofServer('mcap', 'Foxglove log', '.mcap', 'file'),
-];
-
-function kindsFor(c: Context): Kind[] {
-  const { editor, stage } = c;
-  const time = editor.time.peek();
-  const scene = editor.scene.peek()!;
-  const view = `this view at ${time.toFixed(1)} s`;
-  const moving = filmKind();
-  return [
-    ...FORMATS,
-    {
-      id: 'report',
-      label: 'Report page',
-      ending: '.html',
-      icon: 'report',
-      tag: 'to read, not to edit',
-      make: async () => {
-        const picture = pictureOf(c).toDataURL('image/png');
-        const page = reportPage({
-          scene,
-          motion: editor.motion.peek(),
-          events: editor.events.peek(),
-          unit: editor.speedUnit.peek(),
-          picture,
-          time,
-          origin: originOf(c),
-        });
-        return named(c, new Blob([page], { type: 'text/html' }), 'html');
-      },
-    },
-    {
-      id: 'png',
-      label: 'Image',
-      ending: '.png',
-      icon: 'image',
-      tag: view,
-      make: async () => {
-        const canvas = pictureOf(c);
-        const blob = await new Promise<Blob | null>((done) => canvas.toBlob(done, 'image/png'));
-        return blob && named(c, blob, 'png');
-      },
-    },
-    {
-      id: 'svg',
-      label: 'Drawing',
-      ending: '.svg',
-      icon: 'image',
-      tag: view,
-      make: async () => {
-        const pen = new SvgPen();
-        stage.paintWith(pen, ['map', 'agents', 'overlay']);
-        const { w, h, z } = stage.view;
-        const about = `${z.toFixed(2)} px a metre; x east, y north`;
-        const drawing = pen.file(w, h, `${scene.name}, ${time.toFixed(1)} s`, about);
-        return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
-      },
-    },
-    ...(moving
-      ? [
-          {
-            id: 'film',
-            label: 'Film',
-            ending: `.${filmEnding(moving)}`,
-            icon: 'film',
-            tag: `${scene.duration.toFixed(1)} s, 30 a second`,
-            make: async (_: Context, progress: (share: number) => void, stop: AbortSignal) => {
-              const blob = await film(editor, stage, moving, progress, stop);
-              return blob && named(c, blob, filmEnding(moving));
-            },
-          },
-        ]
-      : []),
-  ];
-}
-
-function originOf({ file }: Context): string {
-  const o = file.raw?.meta?.origin as { x_m?: number; y_m?: number; crs?: string | null } | undefined;
-  if (!o?.x_m && !o?.y_m) return 'The origin is that of the scene.';
-  return `The origin lies at ${o.x_m ?? 0}, ${o.y_m ?? 0} m of ${o.crs ?? 'the recording'}.`;
-}
 
 const SCOPES: readonly (readonly [Scope, string])[] = [
   ['present', 'This scene'],
@@ -174,65 +52,79 @@ export default function Export() {
   );
 }
 
-/** Several variants in one format: a file each. A file of records has room for all of them. */
-function ofVariants(kind: Kind, cards: readonly WholeCard[]): Kind {
-  return {
-    ...kind,
-    make: async ({ client, editor, file }, progress, stop) => {
-      const files: ExportedFile[] = [];
-      const { name } = editor.scene.peek()!;
-      for (const card of cards) {
-        if (stop.aborted) return null;
-        const alone = { ...card.scene, name: `${name}, ${card.id} ${card.name}`, variants: [], variantStates: {} };
-        const json = file.completeOf(alone, card.set);
-        if (json) files.push(await exportedJson(client, json, kind.id));
-        progress(files.length / cards.length);
-      }
-      const losses = [...new Set(files.flatMap((f) => f.losses))];
-      if (kind.id !== 'womd') return { ...files[0], losses, others: files.slice(1) };
-      // Records follow each other in a file.
-      return { blob: new Blob(files.map((f) => f.blob)), name: `${slug(name)}-variants${kind.ending}`, losses };
-    },
-  };
-}
+/** More than so many are found sooner by a word. */
+const MANY = 8;
 
+/** What goes out, once it is known what the server writes. */
 function Kinds({ scope }: { scope: Scope }) {
   const c = useApp();
-  const kinds = useRef(
-    scope === 'present' ? kindsFor(c) : FORMATS.map((k) => ofVariants(k, c.variants.within(scope))),
-  ).current;
+  const kinds = useSignal<readonly Kind[] | null>(null);
+  useEffect(() => {
+    const offer = (formats: readonly FormatInfo[]) => {
+      const all = ofServer(formats);
+      const some = scope === 'present' ? [...all, ...ofScreen(c)] : ofVariants(all, c.variants.within(scope));
+      kinds.value = WISHES.flatMap(([wish]) => some.filter((k) => k.wish === wish));
+    };
+    // What is made here needs no server.
+    void c.client.formats().then(offer, () => offer([]));
+  }, []);
+  if (!kinds.value) return <div class="kinds waiting" aria-busy="true" />;
+  return kinds.value.length ? <Offer kinds={kinds.value} /> : <p class="pad mut">The server is not answering.</p>;
+}
+
+/** Makes each file, one after the other; the one that is looked at comes first. */
+function useFiles(kinds: readonly Kind[], chosen: Signal<string>, stop: AbortSignal) {
+  const c = useApp();
   const made = useSignal<ReadonlyMap<string, ExportedFile | string>>(new Map());
+  useEffect(() => {
+    const put = (id: string, is: ExportedFile | string) => {
+      made.value = new Map(made.peek()).set(id, is);
+    };
+    const todo = new Set(kinds.filter((of) => of.tag === undefined));
+    void (async () => {
+      while (todo.size && !stop.aborted) {
+        const next = [...todo].find((k) => k.id === chosen.peek()) ?? [...todo][0];
+        todo.delete(next);
+        const is = await next.make(c, () => undefined, stop).catch(whyNot);
+        if (is && !stop.aborted) put(next.id, is);
+      }
+    })();
+  }, []);
+  return made;
+}
+
+function Offer({ kinds }: { kinds: readonly Kind[] }) {
   const chosen = useSignal(kinds[0].id);
+  const sought = useSignal('');
   const progress = useSignal<number | null>(null);
   const stop = useRef(new AbortController());
-  useEffect(() => {
-    let open = true;
-    const put = (id: string, is: ExportedFile | string) => {
-      if (open) made.value = new Map(made.peek()).set(id, is);
-    };
-    void (async () => {
-      // One after the other: the generator has other things to do.
-      for (const k of kinds.filter((of) => of.tag === undefined))
-        await k
-          .make(c, () => undefined, stop.current.signal)
-          .then(
-            (f) => f && put(k.id, f),
-            (e: unknown) => put(k.id, whyNot(e)),
-          );
-    })();
-    return () => {
-      open = false;
-      stop.current.abort();
-    };
-  }, []);
+  useEffect(() => () => stop.current.abort(), []);
+  const made = useFiles(kinds, chosen, stop.current.signal);
+  const words = sought.value.toLowerCase().trim();
+  const shown = kinds.filter((k) => matches(k, words));
   const kind = kinds.find((k) => k.id === chosen.value)!;
   const ready = made.value.get(kind.id);
   const choose = (step: number) => {
-    const at = kinds.indexOf(kind);
-    chosen.value = kinds[(at + step + kinds.length) % kinds.length].id;
+    if (!shown.length) return;
+    const next = shown[(shown.indexOf(kind) + step + shown.length) % shown.length];
+    chosen.value = next.id;
+    document.querySelector(`.export [data-kind="${next.id}"]`)?.scrollIntoView({ block: 'nearest' });
   };
   return (
     <>
+      {kinds.length > MANY ? (
+        <label class="find">
+          <Icon name="search" size={16} />
+          <input
+            type="search"
+            placeholder="Find a format: Excel, CARLA, Waymo …"
+            aria-label="Find a format"
+            onInput={(e) => {
+              sought.value = e.currentTarget.value;
+            }}
+          />
+        </label>
+      ) : null}
       <div
         class="kinds"
         role="radiogroup"
@@ -243,21 +135,33 @@ function Kinds({ scope }: { scope: Scope }) {
           choose(e.key === 'ArrowDown' ? 1 : -1);
         }}
       >
-        {kinds.map((k) => (
-          <KindRow key={k.id} kind={k} made={made} chosen={chosen} />
-        ))}
+        {WISHES.map(([wish, label]) => {
+          const some = shown.filter((k) => k.wish === wish);
+          if (!some.length) return null;
+          return (
+            <section key={wish} class="wish" role="group" aria-label={label}>
+              <h3>{label}</h3>
+              {some.map((k) => (
+                <KindRow key={k.id} kind={k} made={made} chosen={chosen} />
+              ))}
+            </section>
+          );
+        })}
+        {shown.length ? null : <p class="mut nothing">No format of that name. Words such as “table” find others.</p>}
       </div>
       <div class="dfoot">
-        <span>
+        <span class="grow">
           <span class="about">Metres, x east, y north, 0 s = first step. Written into the file.</span>
           {typeof ready === 'object' ? fileWords(ready) : (ready ?? `${kind.label} ${kind.ending}`)}
         </span>
-        <span class="grow" />
         <SaveButton kind={kind} ready={ready} progress={progress} stop={stop.current.signal} />
       </div>
     </>
   );
 }
+
+const matches = ({ label, ending, says, name = '' }: Kind, words: string): boolean =>
+  words.split(/\s+/).every((w) => `${label} ${ending} ${says} ${name}`.toLowerCase().includes(w));
 
 function fileWords({ name, blob, others = [] }: ExportedFile): string {
   const size = [blob, ...others.map((f) => f.blob)].reduce((sum, b) => sum + b.size, 0);
@@ -277,7 +181,6 @@ function KindRow({ kind: k, made, chosen }: KindRowProps) {
   const on = chosen.value === k.id;
   const is = made.value.get(k.id);
   const losses = typeof is === 'object' ? is.losses : null;
-  const n = losses?.length ?? 0;
   return (
     <>
       <button
@@ -292,49 +195,65 @@ function KindRow({ kind: k, made, chosen }: KindRowProps) {
       >
         <i class="radio" />
         <Icon name={k.icon} size={16} />
-        <b>{k.label}</b>
-        <small>{k.ending}</small>
+        <span class="name">
+          <b>{k.label}</b> <small>{k.ending}</small>
+          <span class="says">{k.says}</span>
+        </span>
         {k.tag ? (
           <span class="tag">{k.tag}</span>
         ) : typeof is === 'string' ? (
           <span class="tag collision">not possible</span>
         ) : losses === null ? (
           <span class="tag">…</span>
-        ) : n ? (
-          <span class="tag near">{`${n} thing${n > 1 ? 's' : ''} lost`}</span>
+        ) : losses.length ? (
+          <span class="tag near">{lossTag(losses)}</span>
         ) : (
           <span class="tag ok">nothing lost</span>
         )}
       </button>
       {on && typeof is === 'string' ? <div class="why">{is}</div> : null}
-      {on && n ? (
-        <div class="why">
-          <b>What will not be in the file</b>
-          <Losses of={losses!} />
-        </div>
-      ) : null}
+      {on && losses?.length ? <Losses of={losses} /> : null}
     </>
   );
 }
 
-/** A list that is longer is opened by hand. */
-const MOST_LOSSES = 5;
+/** What is short to say is named, else counted. */
+const MOST_NAMED = 24;
 
-function Losses({ of }: { of: readonly string[] }) {
+function lossTag(losses: readonly Loss[]): string {
+  const named = losses.map(({ what }) => what.toLowerCase()).join(', ');
+  if (named.length <= MOST_NAMED) return `loses ${named}`;
+  return `${losses.length} thing${losses.length > 1 ? 's' : ''} lost`;
+}
+
+/** A list that is longer is opened by hand. */
+const MOST_LOSSES = 6;
+
+function Losses({ of }: { of: readonly Loss[] }) {
+  const { editor } = useApp();
   const all = useSignal(of.length <= MOST_LOSSES);
   return (
-    <ul>
-      {of.slice(0, all.value ? of.length : MOST_LOSSES - 1).map((l) => (
-        <li key={l}>{l}</li>
-      ))}
-      {all.value ? null : (
-        <li>
+    <>
+      <div class="why">
+        <b class="head">
+          <Icon name="warn" size={15} /> What will not be in the file
+        </b>
+        <dl>
+          {of.slice(0, all.value ? of.length : MOST_LOSSES - 1).map(({ what, how }) => (
+            <div key={what}>
+              <dt>{what}</dt>
+              <dd>{how}</dd>
+            </div>
+          ))}
+        </dl>
+        {all.value ? null : (
           <button type="button" class="more" onClick={() => (all.value = true)}>
             all {of.length}
           </button>
-        </li>
-      )}
-    </ul>
+        )}
+      </div>
+      <p class="stays">Stays: {stays(of, editor.scene.peek()!)}.</p>
+    </>
   );
 }
 

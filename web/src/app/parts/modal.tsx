@@ -13,7 +13,9 @@ export function Modal({ label, class: className, close, children }: ModalProps) 
   const scrim = useRef<HTMLDivElement>(null);
   const back = useRef<HTMLElement | null>(null);
   const inside = () =>
-    [...scrim.current!.querySelectorAll<HTMLElement>('button, input, [tabindex="0"]')].filter((e) => e.offsetParent);
+    [...scrim.current!.querySelectorAll<HTMLElement>('button, input, select, [tabindex="0"]')].filter(
+      (e) => e.offsetParent,
+    );
 
   useLayoutEffect(() => {
     back.current = document.activeElement as HTMLElement | null;

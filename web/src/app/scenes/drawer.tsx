@@ -1,6 +1,7 @@
 // List of scenes with search, dates and pictures; the place to drop files.
 import { useEffect, useRef } from 'preact/hooks';
 import { useComputed, useSignal } from '@preact/signals';
+import { perform } from '../../actions/registry';
 import type { SceneListItem } from '../../net/types';
 import { isRecorded } from '../../model/scene';
 import { countAll, isExample } from '../../edit/scene-list';
@@ -56,9 +57,15 @@ export function Drawer() {
 export function ChooseFiles() {
   const c = useApp();
   return (
-    <button type="button" data-action="choose-files" onClick={() => c.chooseFiles()}>
-      choose files
-    </button>
+    <>
+      <button type="button" onClick={() => c.chooseFiles()}>
+        choose files
+      </button>
+      {' · '}
+      <button type="button" data-action="choose-files" onClick={() => perform(c, 'choose-files')}>
+        what can be read?
+      </button>
+    </>
   );
 }
 

@@ -8,9 +8,7 @@ import { Thumbnail } from './thumbnail';
 const OFFERED = 3;
 
 export function Empty() {
-  const { editor, library, scenes } = useApp();
-  const empty = useComputed(() => editor.scene.value === null && scenes.listed.value).value;
-  if (!empty) return null;
+  const { library, scenes } = useApp();
   const cards = scenes.list.value.slice(0, OFFERED);
   return (
     <div class="empty">

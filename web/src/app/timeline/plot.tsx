@@ -5,12 +5,12 @@ import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { Context } from '../../actions/context';
 import { fromUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
+import { Later } from '../later';
 import { useFrameTick } from '../parts/hooks';
 import { axesOf, X0, type Axes, type Size } from './axes';
 import { Curves } from './curves';
 import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
-import { PointFields } from './point-fields';
 import { SpeedPoints } from './speed-points';
 
 /** Everything that the curves, the grid and the badges show. */
@@ -47,7 +47,10 @@ export function Plot() {
     watch.observe(el);
     return () => watch.disconnect();
   }, [size]);
+  /** Worked out once for all that is drawn by them. */
+  const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
   const seek = useSeek(c, size);
+  const pointed = useComputed(() => editor.curve.point.value !== null).value;
   return (
     <div ref={box} class="plot">
       <div
@@ -62,26 +65,26 @@ export function Plot() {
         {...seek}
       >
         <svg role="img" aria-label="Speed over time">
-          <Drawing tick={tick} size={size} />
-          <Playhead tick={tick} size={size} />
+          <Drawing tick={tick} axes={axes} />
+          <Playhead axes={axes} />
         </svg>
       </div>
       <svg class="pts" role="group" aria-label="Points of the speed curve">
-        <Points tick={tick} size={size} />
+        <Points tick={tick} axes={axes} />
       </svg>
-      <PointFields />
+      {pointed ? <Later part="points" /> : null}
     </div>
   );
 }
 
 interface DrawingProps {
   tick: ReadonlySignal<number>;
-  size: ReadonlySignal<Size>;
+  axes: ReadonlySignal<Axes>;
 }
 
-function Drawing({ tick, size }: DrawingProps) {
+function Drawing({ tick, axes: all }: DrawingProps) {
   void tick.value;
-  const now = axesOf(useApp(), size.peek());
+  const now = all.value;
   // While a goal is dragged the curves change and the axes hardly ever do: the grid is left as it is.
   const axes = useMemo(() => now, [now.x1, now.height, now.top, now.unit, now.duration]);
   const grid = useMemo(() => <Grid axes={axes} />, [axes]);
@@ -99,14 +102,13 @@ function Drawing({ tick, size }: DrawingProps) {
   );
 }
 
-function Points({ tick, size }: DrawingProps) {
+function Points({ tick, axes }: DrawingProps) {
   void tick.value;
-  return <SpeedPoints axes={axesOf(useApp(), size.peek())} />;
+  return <SpeedPoints axes={axes.value} />;
 }
 
-function Playhead({ tick, size }: DrawingProps) {
+function Playhead({ axes }: { axes: ReadonlySignal<Axes> }) {
   const c = useApp();
-  const axes = useComputed((): Axes => (void tick.value, axesOf(c, size.peek())));
   const x = useComputed(() => axes.value.x(c.editor.time.value));
   return (
     <g class="head">

@@ -3,6 +3,7 @@ import type { Point } from '../../model/geometry';
 import type { Stage } from '../../draw/stage';
 import type { Editor } from '../editor';
 import { agentsAt, hitTest, type HitContext } from '../hit';
+import type { Overlay } from '../overlay';
 import type { Picture } from '../picture';
 import { MAKE } from './arms';
 import { Chart, type MenuOn, type Modifiers, type Previews } from './chart';
@@ -40,6 +41,7 @@ export class Gestures {
     private readonly stage: Stage,
     private readonly editor: Editor,
     private readonly picture: Picture,
+    private readonly overlay: Overlay,
     previews: Previews,
   ) {
     const calm = matchMedia('(prefers-reduced-motion: reduce)');
@@ -128,7 +130,7 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag, roadSign } = picture.overlay;
+    const { chips, timeTag, roadSign } = this.overlay;
     return { editor, view: stage.view, chips, timeTag, roadSign, pennants: picture.pennants, touch };
   }
 

@@ -1,0 +1,81 @@
+// Which column of a table says what: as far as the names tell it is filled in already.
+import { useSignal } from '@preact/signals';
+import type { FileVerdict } from '../../edit/importing';
+import { ASKED, complete, guessed, toldColumns, type Answer, type Asked } from '../../edit/table-columns';
+import { useApp } from '../parts/app-context';
+
+export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly string[] }) {
+  const { importing } = useApp();
+  const answers = useSignal(guessed(of));
+  const off = !complete(answers.value);
+  const put = (field: string, patch: Partial<Answer>) => {
+    answers.value = { ...answers.value, [field]: { ...answers.value[field], ...patch } };
+  };
+  return (
+    <form
+      class="columns"
+      onSubmit={(e) => {
+        e.preventDefault();
+        if (!off) void importing.readColumns(verdict, toldColumns(answers.value));
+      }}
+    >
+      {ASKED.map((a) => (
+        <Row key={a.field} asked={a} of={of} answer={answers.value[a.field]} put={(patch) => put(a.field, patch)} />
+      ))}
+      <p class="mut">What is left out is assumed or worked out, and said so.</p>
+      <div class="ways">
+        <button type="submit" class={`btn pri ${off ? 'off' : ''}`} aria-disabled={off}>
+          Read the table
+        </button>
+      </div>
+    </form>
+  );
+}
+
+interface RowProps {
+  asked: Asked;
+  of: readonly string[];
+  answer: Answer;
+  put: (patch: Partial<Answer>) => void;
+}
+
+function Row({ asked: { field, label, says, needed, units }, of, answer, put }: RowProps) {
+  const missing = needed && !answer.column;
+  return (
+    <div class={`crow ${missing ? 'missing' : ''}`}>
+      <span>
+        <b>{label}</b> <small class="mut">{says}</small>
+      </span>
+      <select
+        class="pick"
+        aria-label={`Column for ${label}`}
+        data-column={field}
+        data-first={field === ASKED[0].field ? '' : undefined}
+        value={answer.column ?? ''}
+        onChange={(e) => put({ column: e.currentTarget.value || null })}
+      >
+        <option value="">{needed ? 'Choose a column' : 'not in the table'}</option>
+        {of.map((name) => (
+          <option key={name} value={name}>
+            {name}
+          </option>
+        ))}
+      </select>
+      {units.length && answer.column ? (
+        <select
+          class="pick"
+          aria-label={`Unit of ${label}`}
+          data-unit={field}
+          value={String(answer.unit)}
+          onChange={(e) => put({ unit: Number(e.currentTarget.value) })}
+        >
+          {units.map((u, i) => (
+            <option key={u.label} value={String(i)}>
+              {u.label}
+            </option>
+          ))}
+        </select>
+      ) : null}
+    </div>
+  );
+}

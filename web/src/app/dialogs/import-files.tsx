@@ -1,0 +1,75 @@
+// What can be brought in, by kind, and the way to do it.
+import { useEffect } from 'preact/hooks';
+import { useSignal } from '@preact/signals';
+import { inKinds } from '../../edit/outward/formats';
+import type { FormatInfo } from '../../net/types';
+import { useApp } from '../parts/app-context';
+import { Icon } from '../parts/icons';
+import { Modal } from '../parts/modal';
+
+export function ImportFiles() {
+  const c = useApp();
+  const formats = useSignal<readonly FormatInfo[] | null>(null);
+  const away = useSignal(false);
+  useEffect(() => {
+    void c.client.formats().then(
+      (f) => (formats.value = f),
+      () => (away.value = true),
+    );
+  }, []);
+  const close = () => c.ui.closeDialog();
+  const choose = () => {
+    close();
+    c.chooseFiles();
+  };
+  return (
+    <Modal label="Import files" class="import bring" close={close}>
+      <div class="dhead">
+        <h2>Bring a scene, a recording or a map</h2>
+        <span class="grow" />
+        <button type="button" class="btn i" aria-label="Close" onClick={close}>
+          <Icon name="x" size={16} />
+        </button>
+      </div>
+      <div class="body">
+        <div class="drop">
+          <b>Drop files here, or anywhere on the page</b>
+          Several at once: each gets its own verdict. What belongs together goes in one drop.
+          <div class="ways">
+            <button type="button" class="btn pri" data-first="" onClick={choose}>
+              Choose files
+            </button>
+          </div>
+        </div>
+        {away.value ? (
+          <p class="mut">The server is not answering. Files can be read when it does.</p>
+        ) : (
+          <ul class="inkinds" aria-label="What can be read" aria-busy={formats.value === null}>
+            {inKinds(formats.value ?? []).map((k) => (
+              <li key={k.label}>
+                <Icon name={k.icon} size={18} />
+                <div>
+                  <b>{k.label}</b>
+                  <p>{k.says}</p>
+                  <p class="ends">
+                    {k.files.map((f) => (
+                      <span key={f.id} title={f.name}>
+                        {short(f.name)} <small>.{f.extensions[0]}</small>
+                      </span>
+                    ))}
+                  </p>
+                </div>
+              </li>
+            ))}
+          </ul>
+        )}
+      </div>
+      <div class="dfoot">
+        <span class="mut">Packed with gzip is fine. Your files stay as they are.</span>
+      </div>
+    </Modal>
+  );
+}
+
+/** Without what stands in brackets: the endings say it. */
+const short = (name: string): string => name.replace(/ \(.*\)$/, '').replace(/^ASAM /, '');

@@ -1,0 +1,101 @@
+// The parts of the page that come later: what few need, or nobody in the first moment, does not make everybody wait.
+// All of them are fetched when the page has nothing else to do, so that none is waited for when it is wanted.
+import type { ComponentProps, ComponentType } from 'preact';
+import { useEffect } from 'preact/hooks';
+import { useSignal } from '@preact/signals';
+import { NOT_LOADED } from './incomplete';
+
+/** In the order in which they are likely to be wanted. */
+const PARTS = {
+  agent: () => import('./inspector/agent-panel').then((m) => m.AgentPanel),
+  palette: () => import('./dialogs/palette').then((m) => m.Palette),
+  'context menu': () => import('./context-menu').then((m) => m.ContextMenu),
+  events: () => import('./inspector/events-panel').then((m) => m.EventsPanel),
+  several: () => import('./inspector/several-panel').then((m) => m.SeveralPanel),
+  place: () => import('./hud/place-panel').then((m) => m.PlacePanel),
+  points: () => import('./timeline/point-fields').then((m) => m.PointFields),
+  fill: () => import('./hud/fill-panel').then((m) => m.default),
+  history: () => import('./history/panel').then((m) => m.HistoryPanel),
+  'empty scene': () => import('./hud/empty-scene').then((m) => m.EmptyScene),
+  empty: () => import('./scenes/empty').then((m) => m.Empty),
+  variants: () => import('./variants/strip').then((m) => m.default),
+  compare: () => import('./variants/compare-panel').then((m) => m.default),
+  'compare view': () => import('./variants/compare-view').then((m) => m.default),
+  templates: () => import('./layouts/templates').then((m) => m.default),
+  layout: () => import('./layouts/panel').then((m) => m.default),
+  'round cards': () => import('./rounds/strip').then((m) => m.default),
+  rounds: () => import('./rounds/panel').then((m) => m.default),
+  import: () => import('./dialogs/import-files').then((m) => m.ImportFiles),
+  'import report': () => import('./dialogs/import-report').then((m) => m.ImportReport),
+  export: () => import('./outward/export').then((m) => m.default),
+  share: () => import('./outward/share').then((m) => m.default),
+  'save-as': () => import('./dialogs/save-as').then((m) => m.SaveAs),
+  shortcuts: () => import('./dialogs/shortcuts').then((m) => m.Shortcuts),
+} as const;
+
+type Parts = typeof PARTS;
+type Name = keyof Parts;
+type PropsOf<N extends Name> = ComponentProps<Awaited<ReturnType<Parts[N]>>>;
+
+const here = new Map<Name, ComponentType>();
+
+async function fetchPart(name: Name): Promise<void> {
+  if (!here.has(name)) here.set(name, (await PARTS[name]()) as ComponentType);
+}
+
+/** So long after the page is there the rest of it comes, whatever else goes on. */
+const REST_MS = 4000;
+
+/** Fetches all parts, one after the other, once the page has nothing else to do. */
+export function fetchRest(): void {
+  const all = async (): Promise<void> => {
+    // One that does not come is asked for again when it is wanted, and missed then.
+    for (const name of Object.keys(PARTS) as Name[]) await fetchPart(name).catch(() => null);
+  };
+  if (typeof requestIdleCallback === 'undefined') setTimeout(all, REST_MS);
+  else requestIdleCallback(() => void all(), { timeout: REST_MS });
+}
+
+/** A part by its name; it is there at once where it was fetched before. */
+export function Later<N extends Name>({ part, ...props }: { part: N } & PropsOf<N>) {
+  const tries = useSignal(1);
+  const state = useSignal<'waiting' | 'there' | 'missing'>(here.has(part) ? 'there' : 'waiting');
+  const tried = tries.value;
+  useEffect(() => {
+    let wanted = true;
+    const say = (to: 'there' | 'missing') => () => {
+      if (wanted) state.value = to;
+    };
+    if (!here.has(part)) void fetchPart(part).then(say('there'), say('missing'));
+    return () => {
+      wanted = false;
+    };
+  }, [part, state, tried]);
+  if (state.value === 'missing')
+    return (
+      <NotLoaded
+        again={() => {
+          state.value = 'waiting';
+          tries.value++;
+        }}
+      />
+    );
+  const Part = here.get(part) as ComponentType<object> | undefined;
+  return Part ? <Part {...props} /> : null;
+}
+
+function NotLoaded({ again }: { again: () => void }) {
+  return (
+    <div class="notloaded card" role="alert">
+      <p>{NOT_LOADED}</p>
+      <div class="row">
+        <button type="button" class="btn line" onClick={again}>
+          Try again
+        </button>
+        <button type="button" class="btn" onClick={() => location.reload()}>
+          Load the page anew
+        </button>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,149 @@
+// What can go out: the server's formats, and what is made here of what is on screen.
+import type { Context } from '../../actions/context';
+import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
+import { film, filmEnding, filmKind } from '../../edit/outward/film';
+import { outFormats, type Wish } from '../../edit/outward/formats';
+import { reportPage } from '../../edit/outward/report-page';
+import type { WholeCard } from '../../edit/variants/cards';
+import { SvgPen } from '../../draw/svg-pen';
+import type { FormatInfo } from '../../net/types';
+
+export interface Kind {
+  readonly id: string;
+  readonly wish: Wish;
+  readonly label: string;
+  readonly ending: string;
+  readonly icon: string;
+  /** One plain sentence: what it is good for. */
+  readonly says: string;
+  /** The name under which others know it. */
+  readonly name?: string;
+  /** In place of a loss, for what is to be looked at. */
+  readonly tag?: string;
+  make(c: Context, progress: (share: number) => void, stop: AbortSignal): Promise<ExportedFile | null>;
+}
+
+const FINE = 2;
+/** The server's formats, for the scene on screen. */
+export const ofServer = (formats: readonly FormatInfo[]): Kind[] =>
+  outFormats(formats).map((f) => ({ ...f, make: (c) => exported(c, f.id) }));
+
+const named = (c: Context, blob: Blob, ending: string): ExportedFile => ({
+  blob,
+  name: `${slug(c.editor.scene.peek()?.name)}.${ending}`,
+  losses: [],
+});
+
+function pictureOf({ stage }: Context): HTMLCanvasElement {
+  const canvas = document.createElement('canvas');
+  stage.paintOn(canvas, ['map', 'agents', 'overlay'], FINE);
+  return canvas;
+}
+
+/** What is made here: pictures and a report of what is on screen. */
+export function ofScreen(c: Context): Kind[] {
+  const { editor, stage } = c;
+  const time = editor.time.peek();
+  const scene = editor.scene.peek()!;
+  const view = `this view at ${time.toFixed(1)} s`;
+  const moving = filmKind();
+  return [
+    {
+      id: 'report',
+      wish: 'show',
+      says: 'What happens in a few lines, with this picture and all events.',
+      label: 'Report page',
+      ending: '.html',
+      icon: 'report',
+      tag: 'to read, not to edit',
+      make: async () => {
+        const picture = pictureOf(c).toDataURL('image/png');
+        const page = reportPage({
+          scene,
+          motion: editor.motion.peek(),
+          events: editor.events.peek(),
+          unit: editor.speedUnit.peek(),
+          picture,
+          time,
+          origin: originOf(c),
+        });
+        return named(c, new Blob([page], { type: 'text/html' }), 'html');
+      },
+    },
+    {
+      id: 'png',
+      wish: 'show',
+      says: 'What you see, for slides.',
+      label: 'Image',
+      ending: '.png',
+      icon: 'image',
+      tag: view,
+      make: async () => {
+        const canvas = pictureOf(c);
+        const blob = await new Promise<Blob | null>((done) => canvas.toBlob(done, 'image/png'));
+        return blob && named(c, blob, 'png');
+      },
+    },
+    {
+      id: 'svg',
+      wish: 'show',
+      says: 'The same as lines: sharp at any size, for papers.',
+      label: 'Drawing',
+      ending: '.svg',
+      icon: 'image',
+      tag: view,
+      make: async () => {
+        const pen = new SvgPen();
+        stage.paintWith(pen, ['map', 'agents', 'overlay']);
+        const { w, h, z } = stage.view;
+        const about = `${z.toFixed(2)} px a metre; x east, y north`;
+        const drawing = pen.file(w, h, `${scene.name}, ${time.toFixed(1)} s`, about);
+        return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
+      },
+    },
+    ...(moving
+      ? [
+          {
+            id: 'film',
+            wish: 'show' as const,
+            says: 'What you see, played once.',
+            label: 'Film',
+            ending: `.${filmEnding(moving)}`,
+            icon: 'film',
+            tag: `${scene.duration.toFixed(1)} s, 30 a second`,
+            make: async (_: Context, progress: (share: number) => void, stop: AbortSignal) => {
+              const blob = await film(editor, stage, moving, progress, stop);
+              return blob && named(c, blob, filmEnding(moving));
+            },
+          },
+        ]
+      : []),
+  ];
+}
+
+function originOf({ file }: Context): string {
+  const o = file.raw?.meta?.origin as { x_m?: number; y_m?: number; crs?: string | null } | undefined;
+  if (!o?.x_m && !o?.y_m) return 'The origin is that of the scene.';
+  return `The origin lies at ${o.x_m ?? 0}, ${o.y_m ?? 0} m of ${o.crs ?? 'the recording'}.`;
+}
+
+/** Several variants in one format: a file each. A file of records has room for all of them. */
+export const ofVariants = (kinds: readonly Kind[], cards: readonly WholeCard[]): Kind[] =>
+  kinds.map((kind) => ({
+    ...kind,
+    make: async ({ client, editor, file }, progress, stop) => {
+      const files: ExportedFile[] = [];
+      const { name } = editor.scene.peek()!;
+      for (const card of cards) {
+        if (stop.aborted) return null;
+        const alone = { ...card.scene, name: `${name}, ${card.id} ${card.name}`, variants: [], variantStates: {} };
+        const json = file.completeOf(alone, card.set);
+        if (json) files.push(await exportedJson(client, json, alone, kind.id));
+        progress(files.length / cards.length);
+      }
+      const losses = [...new Map(files.flatMap((f) => f.losses).map((l) => [l.what, l])).values()];
+      if (kind.id !== 'womd') return { ...files[0], losses, others: files.slice(1) };
+      // Records follow each other in a file.
+      return { blob: new Blob(files.map((f) => f.blob)), name: `${slug(name)}-variants${kind.ending}`, losses };
+    },
+  }));

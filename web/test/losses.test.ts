@@ -1,0 +1,80 @@
+// What files cannot hold, and what they are good for, in plain words.
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { setGoal } from '../src/model/commands';
+import { inKinds, outFormats } from '../src/edit/outward/formats';
+import { lossesOf, stays } from '../src/edit/outward/losses';
+import type { FormatInfo } from '../src/net/types';
+import { crossing } from './helpers';
+
+const CODES = [...readFileSync('../models/formats/src/loss.rs', 'utf8').matchAll(/: &str = "([a-z-]+)"/g)].map(
+  (m) => m[1],
+);
+
+const format = (id: string, patch: Partial<FormatInfo> = {}): FormatInfo => ({
+  id,
+  name: `The ${id}`,
+  extensions: [id, `${id}.gz`],
+  media_type: '',
+  import: true,
+  export: true,
+  many: false,
+  takes_net: false,
+  ...patch,
+});
+
+describe('losses', () => {
+  it('has words for every code that the server may send', () => {
+    const scene = crossing();
+    expect(CODES.length).toBeGreaterThan(30);
+    for (const code of CODES) expect(lossesOf(code, scene)[0].how, code).not.toBe('not in the file');
+  });
+
+  it('speaks of the scene at hand, the worst first', () => {
+    const scene = crossing();
+    const a = [...scene.agents.values()].find((b) => b.kind === 'car')!;
+    const changed = setGoal(a, { pos: [0, 0], heading: null, speed: null, time: 9, mayCross: [] }).apply(scene);
+    const losses = lossesOf('no-notes, no-conditions,no-road-users', changed);
+    expect(losses.map((l) => l.what)).toEqual(['Road users', 'Goals', 'Names and notes']);
+    expect(losses[0].how).toContain(`all ${scene.agents.size}`);
+    expect(losses[1].how).toMatch(/^1 flag that you set/);
+    expect(lossesOf('no-conditions', scene)[0].how).not.toContain('flag that');
+  });
+
+  it('keeps a code that it does not know', () => {
+    expect(lossesOf('no-street-lamps,no-map', crossing()).map((l) => l.what)).toEqual(['Road', 'Street lamps']);
+    expect(lossesOf(null, crossing())).toEqual([]);
+  });
+
+  it('says what stays', () => {
+    const scene = crossing();
+    expect(stays(lossesOf('no-map', scene), scene)).toContain(`${scene.agents.size} road users`);
+    expect(stays(lossesOf('no-map', scene), scene)).not.toContain('the road,');
+    expect(stays(lossesOf('no-road-users', scene), scene)).toMatch(/^the road/);
+  });
+});
+
+describe('formats', () => {
+  it('offers what the server writes, by what it is for; one without words under its own name', () => {
+    const offered = outFormats([
+      format('newest'),
+      format('csv'),
+      format('dragtraffic'),
+      format('osm', { export: false }),
+    ]);
+    expect(offered.map((o) => [o.id, o.wish, o.label, o.ending])).toEqual([
+      ['dragtraffic', 'again', 'Saved scene', '.json'],
+      ['csv', 'table', 'Table', '.csv'],
+      ['newest', 'more', 'The newest', '.newest'],
+    ]);
+  });
+
+  it('says by kind what can be brought in', () => {
+    const kinds = inKinds([format('csv'), format('html', { import: false }), format('osm'), format('newest')]);
+    expect(kinds.map((k) => [k.label, k.files.map((f) => f.id)])).toEqual([
+      ['Tables of motion', ['csv']],
+      ['Maps alone', ['osm']],
+      ['More', ['newest']],
+    ]);
+  });
+});
