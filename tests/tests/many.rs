@@ -150,7 +150,12 @@ fn values_are_told_in_words_of_the_command_line() {
         assert!(told.contains(expected) && !told.contains("/horizon_s"), "{flags:?}: {told}");
     }
     let told = ends(folder.path(), &["convert", &scene, "--to", "netcdf"], 2).1;
-    assert!(told.contains("dragtraffic, womd, opendrive") && told.contains("can be written"), "{told}");
+    assert!(
+        told.contains(": dragtraffic, womd, ")
+            && told.contains("opendrive")
+            && told.contains("can be written"),
+        "{told}"
+    );
     let told = ends(folder.path(), &["convert", &scene, "--from", "geojson"], 2).1;
     assert!(told.contains("can be read"), "{told}");
     let told = ends(folder.path(), &["--port", "1", "score", &scene], 2).1;

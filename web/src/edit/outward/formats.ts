@@ -52,6 +52,27 @@ const OUT: readonly OutFormat[] = [
     says: 'A task for motion planners: one drives, the others are in its way.',
   },
   {
+    id: 'sumo',
+    wish: 'simulate',
+    label: 'SUMO scenario',
+    icon: 'car',
+    says: 'Road, trips and the recording in one zip that SUMO runs.',
+  },
+  {
+    id: 'sumo-net',
+    wish: 'simulate',
+    label: 'SUMO road alone',
+    icon: 'road',
+    says: 'The lanes, links and lights as a network of SUMO.',
+  },
+  {
+    id: 'sumo-fcd',
+    wish: 'simulate',
+    label: 'SUMO recording alone',
+    icon: 'table',
+    says: 'Where everybody is at each step, as SUMO itself writes it.',
+  },
+  {
     id: 'csv',
     wish: 'table',
     label: 'Table',
@@ -92,6 +113,20 @@ const OUT: readonly OutFormat[] = [
     label: 'Scenario record',
     icon: 'file',
     says: 'As in the Waymo Open Motion Dataset.',
+  },
+  {
+    id: 'womd-example',
+    wish: 'train',
+    label: 'Scenario as tf.Example',
+    icon: 'file',
+    says: 'The flat form of the same dataset, for TensorFlow and Waymax.',
+  },
+  {
+    id: 'sim-agents',
+    wish: 'train',
+    label: 'Sim Agents submission',
+    icon: 'file',
+    says: 'Futures of everybody as the Waymo challenge takes them.',
   },
   {
     id: 'scenarionet',

@@ -61,6 +61,8 @@ const WORDS: Record<string, Words> = {
   'no-timing': ['Time', 'which moment is now, and how long the scene is'],
   'no-validity-gaps': ['Gaps', 'moments at which nobody saw a road user'],
   'no-judgements': ['Verdicts', 'chances, faults, and who reacts to whom'],
+  'no-trips': ['Some trips', 'road users off the lanes drive in the recording alone'],
+  'no-rollouts': ['Some rollouts', 'the challenge asks for 32: draw as many variants first'],
   'no-lane-graph': ['Links of lanes', 'which follow each other, and lie side by side'],
   'no-lane-width': ['Widths of lanes', 'readers take usual ones'],
   'no-lane-type': ['Some kinds of lanes', 'they become the nearest that there is'],
