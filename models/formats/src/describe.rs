@@ -24,7 +24,8 @@ pub(crate) fn fitted(mut meta: Meta) -> Result<Meta, ReadError> {
     meta.objects_of_interest.truncate(MAX_ENTRIES);
     meta.tracks_to_predict.truncate(MAX_ENTRIES);
     let origin = &meta.origin;
-    let far = [origin.x_m, origin.y_m, origin.z_m].into_iter().find(|value| !(value.abs() <= MAX_ORIGIN_M));
+    let held = |value: &f64| (-MAX_ORIGIN_M..=MAX_ORIGIN_M).contains(value);
+    let far = [origin.x_m, origin.y_m, origin.z_m].into_iter().find(|value| !held(value));
     match far {
         Some(value) => {
             let mut problem = FieldProblem::range("", -MAX_ORIGIN_M, MAX_ORIGIN_M, value);

@@ -118,7 +118,7 @@ fn scene() -> impl Strategy<Value = Scene> {
 fn scored(scene: &Scene, time: &Timing, steps: &std::ops::Range<usize>, losses: &[&str]) -> Value {
     let mut scene = scene.clone();
     if losses.contains(&"no-timing") {
-        scene.time = time.clone();
+        scene.time = *time;
     }
     if losses.contains(&"no-conditions") {
         for agent in &mut scene.agents {

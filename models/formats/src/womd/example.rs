@@ -237,15 +237,15 @@ fn lights(scenario: &Scenario, now: usize, lists: &mut Lists, losses: &mut BTree
         lists.whole(name("id"), whole(|light| light.lane.unwrap_or(-1)));
         lists.whole(name("state"), whole(|light| light.state.unwrap_or(0).into()));
         lists.whole(name("valid"), shown.iter().map(|light| i64::from(light.is_some())).collect());
-        let along: [(&str, fn(&MapPoint) -> Option<f64>); 3] =
-            [("x", |p| p.x), ("y", |p| p.y), ("z", |p| p.z)];
-        for (axis, value) in along {
-            let value = |stop: MapPoint| value(&stop).unwrap_or_default() as f32;
-            let stop = |light: &Option<super::proto::TrafficSignalLaneState>| {
-                light.and_then(|light| light.stop_point)
-            };
-            lists.floats(name(axis), shown.iter().map(|light| stop(light).map_or(NOTHING, value)).collect());
-        }
+        let stops: Vec<Option<MapPoint>> =
+            shown.iter().map(|light| light.and_then(|light| light.stop_point)).collect();
+        let along = |value: fn(MapPoint) -> Option<f64>| {
+            let one = |stop: &Option<MapPoint>| stop.map_or(NOTHING, |p| value(p).unwrap_or_default() as f32);
+            stops.iter().map(one).collect()
+        };
+        lists.floats(name("x"), along(|p| p.x));
+        lists.floats(name("y"), along(|p| p.y));
+        lists.floats(name("z"), along(|p| p.z));
         let times = steps.iter().map(|step| match step.filter(|step| *step < rows.len()) {
             Some(step) => time(scenario, step),
             None => -1,
