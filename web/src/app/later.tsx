@@ -1,5 +1,6 @@
 // The parts of the page that come later: what few need, or nobody in the first moment, does not make everybody wait.
-// All of them are fetched when the page has nothing else to do, so that none is waited for when it is wanted.
+// All of them are fetched when somebody begins and the page has nothing else to do, so that none is waited for when it
+// is wanted.
 import type { ComponentProps, ComponentType } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
@@ -43,17 +44,26 @@ async function fetchPart(name: Name): Promise<void> {
   if (!here.has(name)) here.set(name, (await PARTS[name]()) as ComponentType);
 }
 
-/** So long after the page is there the rest of it comes, whatever else goes on. */
+/** The page is not busy for so long at most before the rest of it comes, whatever else goes on. */
 const REST_MS = 4000;
 
-/** Fetches all parts, one after the other, once the page has nothing else to do. */
+/**
+ * Fetches all parts, one after the other, once somebody has done something and the page has nothing else to do: who
+ * only looks waits for none of them and pays for none.
+ */
 export function fetchRest(): void {
   const all = async (): Promise<void> => {
     // One that does not come is asked for again when it is wanted, and missed then.
     for (const name of Object.keys(PARTS) as Name[]) await fetchPart(name).catch(() => null);
   };
-  if (typeof requestIdleCallback === 'undefined') setTimeout(all, REST_MS);
-  else requestIdleCallback(() => void all(), { timeout: REST_MS });
+  const begun = new AbortController();
+  const begin = (): void => {
+    begun.abort();
+    if (typeof requestIdleCallback === 'undefined') setTimeout(all, REST_MS);
+    else requestIdleCallback(() => void all(), { timeout: REST_MS });
+  };
+  for (const done of ['pointerup', 'keyup', 'drop'] as const)
+    addEventListener(done, begin, { capture: true, signal: begun.signal });
 }
 
 /** A part by its name; it is there at once where it was fetched before. */
