@@ -4,7 +4,7 @@
 //! the first metre of the lane that is entered becomes a connecting road for each lane that enters it.
 
 use crate::joints::{Groups, Joints, end_of, join_crossing, start_of};
-use crate::polyline::{length, part, simplify};
+use crate::polyline::{arc_lengths, length, part, simplify};
 use scene::Vec2;
 use scene::map::{Lane, LaneMap};
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Length of a connecting road that is cut off a lane, and the most of the lane that it may take, metres and a share.
 const CUT_M: f64 = 1.0;
 const CUT_SHARE: f64 = 0.25;
+/// Farthest that an end of a way through a junction is moved to where the lane goes on, metres.
+const BENT_M: f64 = 2.0;
 /// Reference lines are within this of centre lines, in pieces no longer than, metres.
 const KEPT_M: (f64, f64) = (0.02, 1_000.0);
 
@@ -102,6 +104,12 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
         road.points =
             if cut.contains(&i) { part(points, cut_m(points), length(points)) } else { points.clone() };
     }
+    for (i, (from, to)) in &connectors {
+        let ends = (map.lanes[*from].points.xy.last(), map.lanes[*to].points.xy.first());
+        if let (Some(begin), Some(end)) = ends {
+            bend(&mut all[*i].points, *begin, *end);
+        }
+    }
     // Connecting roads, with the lanes that they connect.
     let mut connecting: Vec<(usize, usize, usize)> =
         connectors.iter().map(|(road, (from, to))| (*road, *from, *to)).collect();
@@ -148,6 +156,39 @@ pub(super) fn roads(map: &LaneMap) -> Roads<'_> {
     Roads { roads: all, junctions, cut: cut.len() }
 }
 
+/// Moves a way so that it begins and ends at these places, if they are near: the closer to an end, the more.
+fn bend(points: &mut [Vec2], begin: Vec2, end: Vec2) {
+    let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else { return };
+    let (before, after) = (begin - first, end - last);
+    if before.norm().max(after.norm()) > BENT_M {
+        return;
+    }
+    let along = arc_lengths(points);
+    let total = along.last().copied().unwrap_or_default().max(f64::MIN_POSITIVE);
+    for (p, s) in points.iter_mut().zip(along) {
+        let share = s / total;
+        // Level at both ends, so that headings there stay.
+        let share = share * share * (3.0 - 2.0 * share);
+        *p += (1.0 - share) * before + share * after;
+    }
+}
+
 fn cut_m(points: &[Vec2]) -> f64 {
     CUT_M.min(CUT_SHARE * length(points))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_is_bent_to_where_lanes_go_on() {
+        let mut points: Vec<Vec2> = (0..=8).map(|i| Vec2::new(f64::from(i), 0.0)).collect();
+        let far = points.clone();
+        bend(&mut points, Vec2::new(0.0, 0.0), Vec2::new(8.0, 0.75));
+        assert_eq!((points[0], points[8], points[4].y), (Vec2::zeros(), Vec2::new(8.0, 0.75), 0.375));
+        let mut apart = far.clone();
+        bend(&mut apart, Vec2::zeros(), Vec2::new(8.0, 5.0));
+        assert_eq!(apart, far);
+    }
 }
