@@ -167,9 +167,15 @@ fn run(command: &mut Command) -> anyhow::Result<Outcome> {
 }
 
 fn cargo(arguments: &[&str]) -> anyhow::Result<Outcome> {
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    run(cargo_command().args(arguments))
+}
+
+/// Cargo at the root of the project.
+fn cargo_command() -> Command {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     // A subcommand that finds the name of this package would take itself for a program that cargo runs.
-    run(Command::new(program).args(arguments).env_remove("CARGO_PKG_NAME").current_dir(root()))
+    cargo.env_remove("CARGO_PKG_NAME").current_dir(root());
+    cargo
 }
 
 /// Runs a cargo tool that is installed apart; without it the check is skipped.
@@ -241,13 +247,10 @@ fn maps() -> anyhow::Result<Outcome> {
     if let Outcome::Failed(why) = written {
         return Ok(Outcome::Failed(why));
     }
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    run(Command::new(program)
+    run(cargo_command()
         .args(["test", "--workspace", "--locked", "--test", "equal_maps", "--test", "osm"])
         .env("DRAGTRAFFIC_EQUAL_MAPS", &folder)
-        .env("DRAGTRAFFIC_NETCONVERT", netconvert)
-        .env_remove("CARGO_PKG_NAME")
-        .current_dir(root()))
+        .env("DRAGTRAFFIC_NETCONVERT", netconvert))
 }
 
 fn npm(folder: &str, arguments: &[&str]) -> anyhow::Result<Outcome> {
@@ -282,8 +285,12 @@ fn package() -> anyhow::Result<Outcome> {
             }
         }
     }
-    let target = target.to_string_lossy();
-    cargo(&[&["package", "--allow-dirty", "--target-dir", &target][..], PACKAGES].concat())
+    // Nobody looks into what is built here: without debug information it is there sooner.
+    run(cargo_command()
+        .args(["package", "--allow-dirty", "--target-dir"])
+        .arg(target)
+        .args(PACKAGES)
+        .envs([("CARGO_PROFILE_DEV_DEBUG", "0"), ("CARGO_INCREMENTAL", "0")]))
 }
 
 /// Installs the packages of a folder unless those there match its lock file.
