@@ -81,9 +81,9 @@ const HOUSES: &[House] = &[
                 "pack",
             ],
             &["problem", "surface"],
-            &["unpack", "describe", "lights", "sides", "markup", "recording"],
+            &["unpack", "describe", "lights", "sides", "markup"],
             &["xml", "format", "identities", "columnar"],
-            &["osm_items", "map_file", "tree", "unwritten", "settle", "kinds"],
+            &["osm_items", "recording", "map_file", "tree", "unwritten", "settle", "kinds"],
             &[
                 "native",
                 "womd",

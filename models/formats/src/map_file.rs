@@ -1,7 +1,7 @@
 //! Formats whose file is one map: a scene with its signals, without road users.
 
 use crate::format::{
-    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one, only_read,
+    ExportOptions, Exported, Format, ImportOptions, Info, MAP_TIMING, Scenes, one, one_scene, only_read,
 };
 use crate::problem::{FieldProblem, Imported, ReadError, Warning};
 use crate::source::Source;
@@ -101,10 +101,9 @@ impl Format for MapFile {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        match (self.write, scenes) {
-            (None, _) => Err(only_read(&self.info())),
-            (Some(write), [scene]) => write(scene, options),
-            (Some(_), _) => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
+        match self.write {
+            None => Err(only_read(&self.info())),
+            Some(write) => one_scene(scenes).and_then(|scene| write(scene, options)),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! From a scene to the rows of a scenario.
 
-use super::{AV, CITY, EGO, FOCAL, FRAGMENT, NOTE, SCORED, UNSCORED};
+use super::{AV, CITY, FOCAL, FRAGMENT, NOTE, SCORED, UNSCORED};
 use crate::columnar::{self, Column, Values};
-use crate::format::{Exported, ExportedMotion};
+use crate::format::{EGO, Exported, ExportedMotion};
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
 use crate::unwritten;

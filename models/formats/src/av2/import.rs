@@ -1,8 +1,9 @@
 //! From the rows of a scenario to a scene.
 
 use super::map::Place;
-use super::{AV, CITY, EGO, FOCAL, LICENCE, NOTE, SCORED};
+use super::{AV, CITY, FOCAL, LICENCE, NOTE, SCORED};
 use crate::columnar::{Table, Value};
+use crate::format::EGO;
 use crate::limits::MAX_STEPS;
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
 use crate::recording::{MAX_SAMPLES, MAX_USERS, Recording, Said, Sample, User, kind_of};

@@ -13,8 +13,6 @@ pub use format::Argoverse;
 const LICENCE: &str = "cc-by-nc-sa-4.0";
 /// The id that the recording vehicle has.
 const AV: &str = "AV";
-/// Role of it in a scene.
-const EGO: &str = "ego";
 /// Categories of tracks: part of one, none that is scored, scored, the one in the middle.
 const FRAGMENT: i64 = 0;
 const UNSCORED: i64 = 1;

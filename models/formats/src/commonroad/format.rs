@@ -2,7 +2,7 @@
 
 use super::document::ROOT;
 use super::{export, import};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::source::Source;
 use crate::{unpack, xml};
 use scene::Scene;
@@ -37,9 +37,6 @@ impl Format for CommonRoad {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        match scenes {
-            [scene] => export::write(scene, options),
-            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
-        }
+        one_scene(scenes).and_then(|scene| export::write(scene, options))
     }
 }

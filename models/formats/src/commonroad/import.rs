@@ -133,7 +133,7 @@ fn clock(document: &Document, warnings: &mut Vec<Warning>) -> Clock {
         return Clock { step_s: document.step_s, first: 0, steps: MAP_TIMING.steps };
     };
     let since_zero = Clock { step_s: document.step_s, first: 0, steps: 0 };
-    let near = (0..MAX_STEPS).contains(&since_zero.step(last)) && *first >= 0;
+    let near = *first >= 0 && since_zero.step(last) < MAX_STEPS;
     let clock = if near { since_zero } else { Clock { first: *first, ..since_zero } };
     let all_s = clock.seconds(last as f64);
     let steps = clock.step(last) + 1;

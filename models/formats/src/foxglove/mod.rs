@@ -4,9 +4,10 @@
 mod mcap;
 mod scene_update;
 
-use crate::format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{
+    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, written_only,
+};
 use crate::loss::{Loss, code};
-use crate::problem::{FieldProblem, code as problem};
 use crate::source::Source;
 use mcap::Writer;
 use scene::{Agent, Conditions, STEP_S, Scene, Shown};
@@ -39,8 +40,7 @@ impl Format for Mcap {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        let detail = "mcap is written, never read: messages are pictures of the scene";
-        one(Err(FieldProblem::new("", problem::FORMAT_UNKNOWN, detail).into()))
+        written_only("mcap is written, never read: messages are pictures of the scene")
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

@@ -3,10 +3,11 @@
 //! Positions are metres of the scene's source, because most sources have no place on the globe: `frame` says so. Where
 //! the source names its coordinate reference system, that name stands there.
 
-use crate::format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{
+    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, written_only,
+};
 use crate::frame::Frame;
 use crate::loss::{Loss, code};
-use crate::problem::{FieldProblem, code as problem};
 use crate::source::Source;
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -39,8 +40,7 @@ impl Format for GeoJson {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        let detail = "geojson is written, never read: features say nothing of lanes that follow each other";
-        one(Err(FieldProblem::new("", problem::FORMAT_UNKNOWN, detail).into()))
+        written_only("geojson is written, never read: features say nothing of lanes that follow each other")
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

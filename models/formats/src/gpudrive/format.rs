@@ -1,7 +1,7 @@
 //! GPUDrive and Nocturne as formats among others.
 
 use super::{export, import};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::source::Source;
 use crate::unpack;
 use scene::Scene;
@@ -69,9 +69,6 @@ impl Format for Engine {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        match scenes {
-            [scene] => export::write(scene, options, self.flavour),
-            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
-        }
+        one_scene(scenes).and_then(|scene| export::write(scene, options, self.flavour))
     }
 }

@@ -1,8 +1,9 @@
 //! One page of HTML with the scene playing inside: for whoever has a browser and nothing else. No server, no network.
 
-use crate::format::{ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{
+    ExportOptions, Exported, ExportedMotion, Format, ImportOptions, Info, Scenes, written_only,
+};
 use crate::loss::{Loss, code};
-use crate::problem::{FieldProblem, code as problem};
 use crate::source::Source;
 use scene::map::{Area, LaneType, TypedLine};
 use scene::{Agent, Conditions, STEP_S, Scene, Shown, Signal, State, Vec2};
@@ -35,8 +36,7 @@ impl Format for Page {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        let detail = "html is written, never read: it has a picture of the scene";
-        one(Err(FieldProblem::new("", problem::FORMAT_UNKNOWN, detail).into()))
+        written_only("html is written, never read: it has a picture of the scene")
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {

@@ -1,6 +1,6 @@
 //! The native form as a format among others.
 
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::source::Source;
 use scene::Scene;
 use std::io;
@@ -42,9 +42,6 @@ impl Format for NativeJson {
     }
 
     fn export(&self, scenes: &[&Scene], _: &ExportOptions) -> io::Result<Exported> {
-        match scenes {
-            [scene] => Ok(Exported { bytes: super::write(scene), losses: Vec::new() }),
-            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
-        }
+        one_scene(scenes).map(|scene| Exported { bytes: super::write(scene), losses: Vec::new() })
     }
 }

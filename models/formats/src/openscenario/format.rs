@@ -1,11 +1,10 @@
 //! OpenSCENARIO as users export it.
 
 use super::scenario;
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one_scene, written_only};
 use crate::loss::{Loss, code};
 use crate::opendrive;
 use crate::pack;
-use crate::problem::{self, FieldProblem};
 use crate::source::Source;
 use scene::Scene;
 use std::collections::BTreeSet;
@@ -52,14 +51,10 @@ impl Format for OpenScenario {
     }
 
     fn scenes<'a>(&'a self, _: &'a dyn Source, _: &'a ImportOptions) -> Scenes<'a> {
-        let detail = "OpenSCENARIO is written, not read";
-        one(Err(FieldProblem::new("", problem::code::FORMAT_UNKNOWN, detail).into()))
+        written_only("OpenSCENARIO is written, not read")
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        match scenes {
-            [scene] => write(scene, options),
-            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
-        }
+        one_scene(scenes).and_then(|scene| write(scene, options))
     }
 }

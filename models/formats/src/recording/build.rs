@@ -2,6 +2,7 @@
 
 use super::motion::{Derived, complete, spacing_s, step_at, track};
 use super::{Ids, Sample, User, middle};
+use crate::format::{EGO, NOW_STEP, RECORDED_STEPS};
 use crate::frame::Frame;
 use crate::limits::{MAX_AGENTS, MAX_STEPS};
 use crate::problem::{FieldProblem, Imported, ReadError, Warning, code};
@@ -12,9 +13,6 @@ use scene::{
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Steps of the scenes of a long recording, and the step that is the present: as recordings of other sources have.
-const WINDOW_STEPS: usize = 91;
-const NOW_STEP: usize = 10;
 /// Most scenes of one recording: a day of it.
 const MAX_WINDOWS: usize = 10_000;
 /// A file whose coordinates stay this near to its zero keeps its frame, metres.
@@ -23,8 +21,6 @@ const NEAR_M: f64 = 1_000.0;
 const MAX_FUTURES: (usize, usize) = (256, 64);
 /// Greatest speed along an axis, as of a track, m/s.
 const MAX_SPEED_MPS: f64 = 150.0;
-/// The role of the road user that recorded a scene.
-const EGO: &str = "ego";
 
 /// What a file says of a scenario beside the motion in it.
 #[derive(Clone, Debug, Default)]
@@ -117,7 +113,7 @@ impl Made {
         let mut list: Vec<usize> = vec![0];
         if windowed {
             // Those in which anybody is seen: pauses may be as long as they like.
-            let window_s = WINDOW_STEPS as f64 * STEP_S;
+            let window_s = RECORDED_STEPS as f64 * STEP_S;
             let at = |s: &Sample| ((s.time_s - self.start_s) / window_s + 1e-6).floor().max(0.0) as usize;
             let samples = self.recording.users.iter().flat_map(|user| &user.samples);
             let windows: BTreeSet<usize> = samples.filter(|s| s.is_seen()).map(at).collect();
@@ -131,7 +127,7 @@ impl Made {
             list.clear();
         }
         let (mut given, count) = (false, list.len());
-        let window = if windowed { WINDOW_STEPS } else { steps.max(1) };
+        let window = if windowed { RECORDED_STEPS } else { steps.max(1) };
         let mut scenes = list.into_iter().enumerate().filter_map(move |(k, i)| {
             let steps = window.min(steps.saturating_sub(i.saturating_mul(window))).max(1);
             // A single step at the end is the beginning of a window that was not recorded.
@@ -317,7 +313,7 @@ impl Made {
         let detail = "velocities come from positions and times";
         warn(self.derived.velocities, "velocities-derived", detail.into());
         warn(ids_changed > 0, "ids-changed", format!("{ids_changed} ids have other letters or a suffix"));
-        let detail = format!("longer than a scene: a scene for each {:.1} s", WINDOW_STEPS as f64 * STEP_S);
+        let detail = format!("longer than a scene: a scene for each {:.1} s", RECORDED_STEPS as f64 * STEP_S);
         warn(windowed, "cut", detail);
     }
 

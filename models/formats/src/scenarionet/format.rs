@@ -1,7 +1,7 @@
 //! ScenarioNet as a format among others.
 
 use super::{export, import};
-use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one};
+use crate::format::{ExportOptions, Exported, Format, ImportOptions, Info, Scenes, one, one_scene};
 use crate::source::Source;
 use crate::unpack;
 use scene::Scene;
@@ -46,9 +46,6 @@ impl Format for ScenarioNet {
     }
 
     fn export(&self, scenes: &[&Scene], options: &ExportOptions) -> io::Result<Exported> {
-        match scenes {
-            [scene] => Ok(export::write(scene, options)),
-            _ => Err(io::Error::new(io::ErrorKind::InvalidInput, "one scene a file")),
-        }
+        one_scene(scenes).map(|scene| export::write(scene, options))
     }
 }
