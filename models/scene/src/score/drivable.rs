@@ -9,8 +9,8 @@ use std::sync::Arc;
 
 /// Distances off the road are not told apart beyond this, metres.
 pub const FAR_M: f64 = 50.0;
-/// Whoever left the map by a lane's end is known to have for so far, metres.
-const BEYOND_MAP_M: f64 = 150.0;
+/// Whoever left the map by a lane's end is known to have for so far, metres: a minute at the pace of a town.
+const BEYOND_MAP_M: f64 = 1000.0;
 /// A lane farther away than this says nothing about a place, metres.
 const LANE_REACH_M: f64 = 30.0;
 /// Ground this near to an edge that may be driven over counts as road, metres, and this near where nothing but such
@@ -136,14 +136,17 @@ impl Drivable {
         Some(if outside_m > 0.0 && self.is_at_allowed(point, AT_EDGE_M) { 0.0 } else { outside_m })
     }
 
-    /// The nearest lane begins or ends there with nothing beyond, and the point lies further out.
+    /// The nearest lane begins or ends there with nothing beyond, and the point lies further out: in the width of
+    /// the lane, or ahead of its end rather than beside it.
     fn is_beyond_map(&self, point: Vec2) -> bool {
         let Some((piece, foot, away_m)) = self.centers.nearest(point, BEYOND_MAP_M) else { return false };
         let Some(band) = self.bands.get(piece.owner as usize) else { return false };
-        let way = piece.to - piece.from;
+        let way = (piece.to - piece.from).normalize();
         [-way, way].into_iter().zip(band.open).any(|(out, end)| {
             let is_end = end.is_some_and(|end| (end - foot).norm() < 1e-6);
-            is_end && out.dot(&(point - foot)) > 0.5 * way.norm() * away_m
+            let ahead_m = out.dot(&(point - foot));
+            let beside_m = (away_m.powi(2) - ahead_m.powi(2)).max(0.0).sqrt();
+            is_end && ahead_m > 0.0 && (beside_m <= band.half_width_m || ahead_m > 0.5 * away_m)
         })
     }
 
@@ -369,6 +372,18 @@ mod tests {
         let over = OrientedBox::new(at(59.0, 30.0), 2.0, 1.0, 0.0);
         assert!((index.box_outside_m(&over).unwrap() - 1.0).abs() < 1e-9);
         assert!(!index.assumed_width());
+    }
+
+    #[test]
+    fn a_box_that_leaves_the_map_by_the_end_of_its_lane_is_not_off_the_road() {
+        let road = area(&[(0.0, -2.0), (100.0, -2.0), (100.0, 2.0), (0.0, 2.0)]);
+        let east = lane("east", &[(0.0, 0.0), (100.0, 0.0)]);
+        let index =
+            Drivable::new(&LaneMap { lanes: vec![east], drivable: vec![road], ..LaneMap::default() });
+        let outside_m = |x: f64, y: f64| index.box_outside_m(&OrientedBox::new(at(x, y), 2.3, 0.9, 0.0));
+        assert_eq!(outside_m(98.0, 0.7), Some(0.0), "its front corners are beside the end of the lane's middle");
+        assert_eq!((outside_m(103.0, 0.7), outside_m(900.0, 0.7)), (None, None));
+        assert!(outside_m(98.0, 2.0).unwrap() > 0.8, "over the kerb is over the kerb, at the end too");
     }
 
     #[test]
