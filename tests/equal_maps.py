@@ -45,6 +45,7 @@ if network.issues():
 network.export_opendrive(str(folder / "map.xodr"))
 network.export_lanelet2(str(folder / "map.osm"))
 network.export_womd(str(folder / "map.tfrecord"))
+network.export_gpudrive(str(folder / "map.json"))
 prefix = network.export_sumo(str(folder / "sumo"))
 netconvert = pathlib.Path(sumo.SUMO_HOME) / "bin" / "netconvert"
 command = [netconvert, "-c", f"{prefix}.netccfg", "-o", (folder / "map.net.xml").absolute()]

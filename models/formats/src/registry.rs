@@ -24,6 +24,8 @@ use crate::womd::example::WomdExample;
 use crate::womd::format::Womd;
 use crate::womd::rollouts::SimAgents;
 
+/// Ends of the names of compressed files.
+const COMPRESSED: [&str; 2] = ["gz", "zst"];
 /// A format that is this sure knows a file by its content.
 const BY_CONTENT: u8 = 2;
 
@@ -115,13 +117,30 @@ pub fn scenes<'a>(
     Ok(Box::new(found.scenes(file, options).map(move |scene| scene.map(&named))))
 }
 
+/// The name of a file without the ends of formats and of compression, which say nothing about the scene.
+pub fn stem(name: &str) -> &str {
+    let formats = FORMATS.iter().flat_map(|format| format.info().extensions);
+    let ends: Vec<&str> = formats.chain(&COMPRESSED).copied().collect();
+    let mut stem = name;
+    // The longest end first: of `net.xml` no `net` is left.
+    let shorter = |stem: &str| ends.iter().filter_map(|end| without(stem, end)).min();
+    while let Some(length) = shorter(stem) {
+        stem = stem.get(..length).unwrap_or_default();
+    }
+    stem
+}
+
+/// Length of a name without this end and the dot before it; nothing where there is no other name.
+fn without(name: &str, end: &str) -> Option<usize> {
+    let length = name.len().checked_sub(end.len() + 1).filter(|length| *length > 0)?;
+    let behind = name.get(length..)?.strip_prefix('.')?;
+    behind.eq_ignore_ascii_case(end).then_some(length)
+}
+
 /// What a scene is called that its file gives no name: as the file, else as what the format is of.
 fn called(file: &str, info: &Info) -> String {
     let file: String = file.chars().filter(|c| !c.is_control()).collect();
-    let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
-    let file = file.strip_suffix(".gz").unwrap_or(file);
-    let ends = info.extensions.iter().filter_map(|end| file.strip_suffix(end)?.strip_suffix('.'));
-    let stem = ends.min_by_key(|stem| stem.len()).unwrap_or(file).trim();
+    let stem = stem(file.rsplit(['/', '\\']).next().unwrap_or_default()).trim();
     let name = if stem.is_empty() { info.name } else { stem };
     name.chars().take(scene::MAX_NAME_CHARS).collect()
 }

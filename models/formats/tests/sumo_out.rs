@@ -3,7 +3,7 @@
 
 use formats::{ExportOptions, ImportOptions, registry};
 use scene::map::{Lane, LaneType};
-use scene::{Scene, Vec2};
+use scene::{STEP_S, Scene, SignalState, Vec2};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read};
 
@@ -116,5 +116,28 @@ fn files_of_a_folder_agree() {
         assert!(requests.iter().all(|rule| rule["response"].len() == rule["foes"].len()));
         assert!(requests.iter().any(|rule| rule["response"].contains('1')) || name == "motorway", "{name}");
         assert_eq!(elements(net, "tlLogic").is_empty(), scene.signals.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn lights_last_as_long_as_motion() {
+    let mut scene = demo("crossing");
+    let longest = scene.agents.iter().map(|agent| agent.track.first_step + agent.track.states.len()).max();
+    let last = longest.unwrap() - 1;
+    // Motion goes on when the scene is over, as that of futures may.
+    scene.time.steps = last / 2;
+    for signal in &mut scene.signals {
+        signal.runs = vec![(0, SignalState::Stop), (last, SignalState::Go)];
+    }
+    let net =
+        registry::by_id("sumo-net").unwrap().export(&[&scene], &ExportOptions::default()).unwrap().bytes;
+    for text in [&files(&folder(&scene))["net.xml"], &String::from_utf8(net).unwrap()] {
+        let phases = elements(text, "phase");
+        let lengths_s: Vec<f64> =
+            phases.iter().map(|phase| phase["duration"].parse::<f64>().unwrap()).collect();
+        let states: BTreeSet<&str> = phases.iter().map(|phase| &phase["state"][..1]).collect();
+        assert_eq!((phases.len(), states), (2, BTreeSet::from(["r", "g"])));
+        assert!((lengths_s[0] - last as f64 * STEP_S).abs() < 1e-9, "{lengths_s:?}");
+        assert!((lengths_s[1] - STEP_S).abs() < 1e-9, "{lengths_s:?}");
     }
 }

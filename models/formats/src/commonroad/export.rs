@@ -1,7 +1,7 @@
 //! From a scene to a scenario in a file.
 
 use super::export_map::Drawn;
-use super::export_motion::{self, Problem};
+use super::export_motion::{self, Problem, User};
 use super::import::LICENCE;
 use super::words::{TAGS, VERSION};
 use crate::format::{ExportOptions, Exported};
@@ -9,7 +9,7 @@ use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
 use crate::numbers::Numbers;
 use crate::unwritten;
-use scene::{STEP_S, Scene};
+use scene::{Agent, STEP_S, Scene};
 use std::collections::BTreeSet;
 use std::io;
 
@@ -27,8 +27,9 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     let own = map.lanes.iter().map(|lane| &lane.id).chain(map.crosswalks.iter().map(|area| &area.id));
     let own = own.chain(map.stop_signs.iter().map(|sign| &sign.id)).chain(scene.agents.iter().map(|a| &a.id));
     let mut ids = Numbers::of(own);
-    let drawn = Drawn::of(scene, options.motion.all(scene).1, &mut ids, &mut losses);
-    let problem = Problem::of(scene, options.motion);
+    let (shown, steps) = options.motion.all(scene);
+    let drawn = Drawn::of(scene, steps, &mut ids, &mut losses);
+    let problem = Problem::of(scene, &shown);
     let name = benchmark_id(scene);
     let mut out = Markup::new();
     let licence = scene.licence().map(|licence| format!("{LICENCE}{licence}")).unwrap_or_default();
@@ -56,7 +57,11 @@ pub(super) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Export
     out.close();
     drawn.write(&mut out);
     let numbers: Vec<i64> = scene.agents.iter().map(|agent| ids.take(&agent.id)).collect();
-    export_motion::write(scene, options.motion, problem.as_ref(), &numbers, &mut out, &mut losses);
+    let fixed = |agent: &Agent| unwritten::is_fixed(scene, agent, options.motion);
+    let users = scene.agents.iter().zip(&shown).zip(&numbers);
+    let users: Vec<User<'_>> =
+        users.map(|((agent, shown), id)| User { agent, shown, id: *id, is_fixed: fixed(agent) }).collect();
+    export_motion::write(scene, &users, problem.as_ref(), &mut out, &mut losses);
     if ids.renumbered {
         let detail = "ids that are no whole numbers above zero, or not unique among all that is in a scenario, got new ones";
         losses.insert(Loss::new(code::IDS_RENUMBERED, detail));

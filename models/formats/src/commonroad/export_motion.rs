@@ -2,11 +2,12 @@
 
 use super::export_map::position;
 use super::words::road_user_word;
-use crate::format::{EGO, ExportedMotion};
+use crate::format::EGO;
 use crate::loss::{Loss, code};
 use crate::markup::{Markup, decimal};
-use crate::unwritten;
-use scene::{Agent, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, State, Subtype, Track, Vec2, wrap_angle};
+use scene::{
+    Agent, Conditions, Goal, HORIZON_STEPS, STEP_S, Scene, Shown, State, Subtype, Track, Vec2, wrap_angle,
+};
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -14,6 +15,17 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const GOAL_M: f64 = 1.0;
 /// How far heading, speed and time of a goal may be off, radians, m/s and steps.
 const OFF: (f64, f64, usize) = (0.1, 0.5, 5);
+
+/// A road user on its way out.
+pub(super) struct User<'a> {
+    pub agent: &'a Agent,
+    /// As the file has it.
+    pub shown: &'a Shown<'a>,
+    /// Its number in the scenario.
+    pub id: i64,
+    /// Its user fixed more than boxes and states say.
+    pub is_fixed: bool,
+}
 
 /// The road user whose way is to be planned.
 pub(super) struct Problem {
@@ -25,12 +37,13 @@ pub(super) struct Problem {
 }
 
 impl Problem {
-    /// Of the ego, else of the first road user with a goal; nothing where nobody has a start.
-    pub fn of(scene: &Scene, motion: ExportedMotion) -> Option<Self> {
+    /// Of the ego, else of the first road user with a goal; nothing where nobody has a start. `shown` are the road
+    /// users of the scene as the file has them.
+    pub fn of(scene: &Scene, shown: &[Shown<'_>]) -> Option<Self> {
         let agents = &scene.agents;
         let ego = agents.iter().position(|agent| agent.role.as_deref() == Some(EGO));
         let agent = ego.or_else(|| agents.iter().position(|agent| !agent.conditions.goal.is_free()))?;
-        let shown = motion.of(scene, &agents[agent]);
+        let shown = shown.get(agent)?;
         let (first_step, start) = *known(&shown.track, &agents[agent]).first()?;
         let mut goal = agents[agent].conditions.goal;
         if goal.is_free() {
@@ -46,24 +59,23 @@ impl Problem {
     }
 }
 
-/// Writes all road users, under these numbers.
+/// Writes all road users.
 pub(super) fn write(
     scene: &Scene,
-    motion: ExportedMotion,
+    users: &[User<'_>],
     problem: Option<&Problem>,
-    ids: &[i64],
     out: &mut Markup,
     losses: &mut BTreeSet<Loss>,
 ) {
     let mut lost = Lost::default();
-    for (i, (agent, id)) in scene.agents.iter().zip(ids).enumerate() {
+    for (i, user) in users.iter().enumerate() {
         if problem.is_none_or(|problem| problem.agent != i) {
-            obstacle(scene, motion, agent, *id, out, &mut lost);
+            obstacle(user, out, &mut lost);
         }
     }
     if let Some(problem) = problem {
         lost.late |= problem.first_step > 0;
-        planning_problem(problem, ids.get(problem.agent).copied().unwrap_or(1), out);
+        planning_problem(problem, users.get(problem.agent).map_or(1, |user| user.id), out);
     }
     lost.tell(scene, problem, losses);
 }
@@ -126,16 +138,9 @@ impl Lost {
     }
 }
 
-fn obstacle(
-    scene: &Scene,
-    motion: ExportedMotion,
-    agent: &Agent,
-    id: i64,
-    out: &mut Markup,
-    lost: &mut Lost,
-) {
-    let shown = motion.of(scene, agent);
-    lost.conditions |= unwritten::is_fixed(scene, agent, motion);
+fn obstacle(user: &User<'_>, out: &mut Markup, lost: &mut Lost) {
+    let User { agent, shown, id, is_fixed } = user;
+    lost.conditions |= *is_fixed;
     let known = known(&shown.track, agent);
     let states = filled(&known);
     lost.gaps |= states.len() != known.len();

@@ -2,15 +2,12 @@
 
 use super::Source;
 use crate::cli::Failure;
-use formats::registry::FORMATS;
+use formats::registry::{self, FORMATS};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Most files of one call.
 const MOST_FILES: usize = 1_000_000;
-/// Ends of file names that say nothing about the scene.
-const ENDS: [&str; 10] =
-    [".json", ".tfrecord", ".gz", ".net.xml", ".xml", ".csv", ".parquet", ".scene", ".fcd", ".zst"];
 
 /// Names that were given.
 #[derive(Default)]
@@ -116,12 +113,7 @@ fn label(path: &Path) -> String {
     if path == Path::new("-") {
         return "stdin".into();
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let mut stem: &str = &name;
-    while let Some(shorter) = ENDS.iter().find_map(|end| stem.strip_suffix(end)).filter(|s| !s.is_empty()) {
-        stem = shorter;
-    }
-    stem.to_owned()
+    registry::stem(&path.file_name().unwrap_or_default().to_string_lossy()).to_owned()
 }
 
 /// Refuses ids that stand behind a flag which takes them behind `=` alone: they would be files that are not there.
@@ -164,7 +156,17 @@ mod tests {
         };
         assert_eq!(labels(&[folder.path().into()]), ["a", "b", "x.tfrecord-00001-of-01000"]);
         assert_eq!(labels(&[folder.path().join("**/*.json")]), [".hidden", "a", "b", "a-2"]);
-        assert_eq!(labels(&[folder.path().join("gone.tfrecord.gz")]), ["gone"]);
+        for (file, name) in [
+            ("gone.tfrecord.gz", "gone"),
+            ("e6mini.xodr", "e6mini"),
+            ("e6mini.xodr.scene.json", "e6mini"),
+            ("town.NET.XML", "town"),
+            ("drive.av2.parquet", "drive"),
+            ("run.v2.scene.json", "run.v2"),
+            (".json", ".json"),
+        ] {
+            assert_eq!(labels(&[folder.path().join(file)]), [name], "{file}");
+        }
         assert!(sources(&[folder.path().join("*.nothing")]).is_err());
         std::fs::create_dir(folder.path().join("empty")).unwrap();
         assert!(sources(&[folder.path().join("empty")]).is_err());

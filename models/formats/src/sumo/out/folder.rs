@@ -27,12 +27,11 @@ pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Resu
     let network = Network::of(scene);
     let mut losses: BTreeSet<Loss> = recording::losses(scene, options, &written).into_iter().collect();
     let mut files = Vec::new();
-    match net::document(scene, &network) {
+    let steps = recording::steps(scene, &written);
+    match net::document(scene, &network, steps) {
         Some(map) => {
             let (trips, without) = trips::write(scene, &network, &written);
-            let steps = recording::steps(scene, &written);
-            let configuration = configuration(&name, steps);
-            files.push((format!("{name}{CONFIGURATION}"), configuration));
+            files.push((format!("{name}{CONFIGURATION}"), configuration(&name, steps)));
             files.push((format!("{name}{NET}"), map));
             files.push((format!("{name}{TRIPS}"), trips));
             losses.extend(net::losses(scene, &network));

@@ -21,9 +21,10 @@ const MOTORWAY: &str = "highway.motorway";
 ///
 /// # Errors
 /// `InvalidInput` for a scene without a lane.
-pub(in crate::sumo) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exported> {
+pub(in crate::sumo) fn write(scene: &Scene, options: &ExportOptions) -> io::Result<Exported> {
     let network = Network::of(scene);
-    let Some(bytes) = document(scene, &network) else {
+    let (_, steps) = options.motion.all(scene);
+    let Some(bytes) = document(scene, &network, steps) else {
         let detail = "a network of SUMO has one lane or more; this scene has none";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, detail));
     };
@@ -34,8 +35,8 @@ pub(in crate::sumo) fn write(scene: &Scene, _: &ExportOptions) -> io::Result<Exp
     Ok(Exported { bytes, losses })
 }
 
-/// The file; nothing for a map without lanes.
-pub(super) fn document(scene: &Scene, network: &Network<'_>) -> Option<Vec<u8>> {
+/// The file, with lights that go on for so many steps; nothing for a map without lanes.
+pub(super) fn document(scene: &Scene, network: &Network<'_>, steps: usize) -> Option<Vec<u8>> {
     if network.edges.is_empty() {
         return None;
     }
@@ -53,7 +54,7 @@ pub(super) fn document(scene: &Scene, network: &Network<'_>) -> Option<Vec<u8>> 
         write_edge(network, edge, &mut out);
     }
     for junction in network.junctions.iter().filter(|junction| !junction.lights.is_empty()) {
-        lights(scene, junction, &mut out);
+        lights(scene, junction, steps, &mut out);
     }
     for junction in &network.junctions {
         write_junction(network, junction, &mut out);
@@ -151,9 +152,10 @@ fn letter(state: SignalState) -> char {
     }
 }
 
-/// What the lights of a junction show, as a program that begins with the scene.
-fn lights(scene: &Scene, junction: &Junction, out: &mut Markup) {
-    let steps = scene.time.steps.max(1);
+/// What the lights of a junction show, as a program that begins with the scene. It is as long as the motion, since it
+/// begins anew when it is over.
+fn lights(scene: &Scene, junction: &Junction, steps: usize, out: &mut Markup) {
+    let steps = steps.max(1);
     let program = [("id", &*junction.id), ("type", "static"), ("programID", "0"), ("offset", "0")];
     out.open("tlLogic", &program);
     let signals = || junction.lights.iter().map(|light| &scene.signals[*light]);
