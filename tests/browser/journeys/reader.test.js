@@ -171,5 +171,11 @@ journeys('by a screen reader', (stage) => {
         await e.page.waitForSelector('.dlg');
         await look('keys');
         await e.key('Escape');
+        await e.key('Alt+f');
+        await e.page.waitForSelector('.seek', { state: 'attached' });
+        await look('a case, before the search');
+        await e.page.locator('[data-action="case-search"]').evaluate((el) => el.click());
+        await e.page.waitForSelector('.seeking', { state: 'attached' });
+        await look('a case that is looked for');
       });
 });

@@ -64,6 +64,9 @@ journeys('sharing', (stage) => {
     assert.match(record.words, /^\d+ things? lost$/);
     assert.equal((await save('png')).bytes.subarray(1, 4).toString(), 'PNG');
     assert.match((await save('svg')).bytes.toString(), /^<svg xmlns.*<use href="#d\d+" transform.*<\/svg>\s*$/s);
+    const moving = (await save('gif')).bytes;
+    assert.equal(moving.subarray(0, 6).toString(), 'GIF89a');
+    assert.equal(moving.at(-1), 0x3b, 'it is whole');
     const report = (await save('report')).bytes.toString();
     assert.match(report, /<h1>Rosa &amp; 5th<\/h1>.*data:image\/png.*Metres and seconds; x east, y north/s);
     await e.drop(saved.name, saved.bytes);

@@ -330,6 +330,25 @@ export const STATES = [
     },
   ],
   [
+    '36-search-case',
+    async (e) => {
+      await e.key('b');
+      const [one, two] = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
+      await e.choose(one.id);
+      await e.page
+        .locator(`[data-agent="${two.id}"]`)
+        .evaluate((el) => el.dispatchEvent(new MouseEvent('click', { bubbles: true, shiftKey: true })));
+      await e.key('Alt+f');
+      await e.page.locator('[data-action="case-search"]').click();
+      await e.page.waitForSelector('[data-action="case-stop"]');
+      await e.page.waitForSelector('[data-action="case-stop"]', { state: 'detached', timeout: 60_000 });
+      await e.page.locator('.case .face').first().click();
+      await e.settled();
+    },
+    // It says at what time of the day it began.
+    { hide: ['.seeking .note'] },
+  ],
+  [
     'layers',
     async (e) => {
       const car = await selected(e);

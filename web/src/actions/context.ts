@@ -1,4 +1,5 @@
 // What an action may touch, and what a panel shows.
+import type { Searching } from '../edit/cases/searching';
 import type { Copying } from '../edit/copying';
 import type { Editor } from '../edit/editor';
 import type { Filler } from '../edit/filler';
@@ -49,6 +50,7 @@ export interface Context extends Opening {
   readonly filler: Filler;
   readonly maker: LayoutMaker;
   readonly variants: Variants;
+  readonly searching: Searching;
   readonly rounds: Rounds;
   readonly trial: Trial;
   /** The browser's clipboard: what is copied goes there as text, so that another tab can have it. */

@@ -1,10 +1,11 @@
 // Everything: undo, the palette, help, and the page itself.
 import { inGroup } from './action';
 import { nextSpeedUnit } from '../model/units';
+import type { Cases } from '../edit/cases/cases';
 import type { Context } from './context';
 
 /** Esc: what is nearest goes first, one thing a press. */
-function letGo({ editor, gestures, importing, rounds, ui, variants }: Context): void {
+function letGo({ editor, gestures, importing, rounds, searching, ui, variants }: Context): void {
   if (gestures.cancel()) return;
   if (ui.dialog.value || ui.menu.value || ui.contextMenu.value) {
     ui.closeContextMenu();
@@ -17,9 +18,17 @@ function letGo({ editor, gestures, importing, rounds, ui, variants }: Context): 
     editor.pickEvent(null);
   } else if (editor.layouts.isOpen.value) editor.layouts.close();
   else if (rounds.isOpen.value) rounds.close();
+  else if (searching.open.value) closeSearch(searching.open.value);
   else if (editor.tool.value !== 'select') editor.chooseTool('select');
   else if (variants.pair.value || variants.picked.value !== null) variants.endCompare();
   else editor.select(null);
+}
+
+/** Nothing that was found goes with one press: first the case that is shown, then the search, then the panel. */
+function closeSearch(cases: Cases): void {
+  if (cases.shown.value !== null) cases.show(null);
+  else if (cases.state.value === 'running' && cases.found.value.length) cases.stop();
+  else cases.close();
 }
 
 export const everything = inGroup('Everything', [

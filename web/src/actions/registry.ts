@@ -2,6 +2,7 @@
 // shortcut sheet and tooltips are made from it.
 import type { Action } from './action';
 import type { Context } from './context';
+import { cases } from './cases';
 import { edit } from './edit';
 import { everything } from './everything';
 import { goal } from './goal';
@@ -14,7 +15,7 @@ import { time } from './time';
 import { variants } from './variants';
 
 export const ACTIONS: readonly Action[] = Object.freeze(
-  [rounds, look, place, edit, movement, goal, time, variants, scene, everything].flat(),
+  [rounds, look, place, edit, movement, goal, time, variants, cases, scene, everything].flat(),
 );
 
 const byId = new Map(ACTIONS.map((a) => [a.id, a]));

@@ -32,6 +32,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     null,
     'select-kind',
     'select-lane',
+    'find-case',
     'zoom-selection',
   ],
   several: [
@@ -47,6 +48,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'select-kind',
     'select-lane',
     'select-conflicts',
+    'find-case',
     'zoom-selection',
   ],
   goal: ['clear-goal', 'toggle-goal-speed', null, 'zoom-selection', 'reset-agent'],

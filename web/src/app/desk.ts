@@ -2,6 +2,7 @@
 import { effect } from '@preact/signals-core';
 import type { Context, Opening } from '../actions/context';
 import { perform } from '../actions/registry';
+import { Searching } from '../edit/cases/searching';
 import { Copying } from '../edit/copying';
 import { Filler } from '../edit/filler';
 import { LayoutMaker } from '../edit/layout-maker';
@@ -45,12 +46,15 @@ function makeParts(o: Opening): Context {
   const maker = new Maker(editor, new Questions(editor, file), line, file);
   const variants = new Variants(editor, maker, () => line.cancel());
   file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
+  const searched = new HttpGenerator(client);
+  const tried = new Maker(editor, new Questions(editor, file), searched, file);
   const c: Context = {
     ...o,
     care,
     importing,
     generation,
     variants,
+    searching: new Searching(editor, tried, () => searched.cancel()),
     sharing: new Sharing(editor, file, library, care, client),
     gestures: new Gestures(stage, editor, picture, overlay, generation),
     playback: new Playback(editor, stage),

@@ -20,6 +20,7 @@ const PARTS = {
   'empty scene': () => import('./hud/empty-scene').then((m) => m.EmptyScene),
   empty: () => import('./scenes/empty').then((m) => m.Empty),
   variants: () => import('./variants/strip').then((m) => m.default),
+  cases: () => import('./cases/panel').then((m) => m.default),
   compare: () => import('./variants/compare-panel').then((m) => m.default),
   'compare view': () => import('./variants/compare-view').then((m) => m.default),
   templates: () => import('./layouts/templates').then((m) => m.default),

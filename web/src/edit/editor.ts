@@ -91,6 +91,13 @@ export interface Beside {
   readonly parted: readonly string[];
   /** A change that is tried: it stands before what is shown of the road user that it is about. */
   readonly tried?: true;
+  /** A moment in it that is pointed out: who is in it, where and when, and its words. */
+  readonly meeting?: {
+    readonly words: string;
+    readonly at: Vec;
+    readonly time: number;
+    readonly who: readonly string[];
+  };
 }
 
 const NOBODY: readonly string[] = Object.freeze([]);

@@ -3,9 +3,10 @@ import { motionOf } from '../model/changes';
 import { poseAt } from '../model/motion';
 import { sameSpec, startPose, type Agent, type Scene } from '../model/scene';
 import { seconds, speedLabel, type SpeedUnit } from '../model/units';
-import { paintFlag, paintGhost } from '../draw/handles';
+import { paintFlag, paintGhost, paintRing } from '../draw/handles';
 import { tag, type Labels } from '../draw/labels';
 import type { Pen } from '../draw/pen';
+import { colourKey, stamp } from '../draw/sprites';
 import { trail } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
@@ -14,6 +15,8 @@ import type { Beside } from './editor';
 const WAY_DASH = [6, 5];
 const BOX_DASH = [4, 3];
 const TRIED_DASH = [8, 6];
+/** Those in a moment are ringed for so long before and after it. */
+const NOW_S = 0.45;
 
 export function paintBeside(g: Pen, v: View, { scene, set, parted }: Beside, time: number): void {
   const c = colours();
@@ -24,6 +27,35 @@ export function paintBeside(g: Pen, v: View, { scene, set, parted }: Beside, tim
     const p = (time < 0.05 ? startPose(a) : null) ?? poseAt(motionOf(scene, set, a), time);
     if (p) paintGhost(g, v, a, p, c.ink, null, BOX_DASH, 1.6);
   }
+}
+
+/** The moment of it that is pointed out: rings around those in it, and its words at the place. */
+export function paintMeeting(g: Pen, v: View, labels: Labels, { scene, set, meeting }: Beside, time: number): void {
+  if (!meeting) return;
+  const c = colours();
+  // Who is in it stands there in full, with its whole way; everybody else of the case is dashed.
+  for (const id of meeting.who) {
+    const a = scene.agents.get(id);
+    const m = a && motionOf(scene, set, a);
+    const p = m && poseAt(m, time);
+    if (m) trail(g, v, m, { colour: c[colourKey(a)], width: 2.5, halo: true, dots: true });
+    if (p) stamp(g, v, a, p, true);
+    g.setTransform(v.dpr, 0, 0, v.dpr, 0, 0);
+    if (p) tag(g, labels, v.to(p.x, p.y), a.name, { radii: [26, 38, 52] });
+  }
+  for (const id of Math.abs(time - meeting.time) < NOW_S ? meeting.who : []) {
+    const a = scene.agents.get(id);
+    const p = a && poseAt(motionOf(scene, set, a), time);
+    if (a && p) paintRing(g, v, a, p, c['near-edge'], 2, 3);
+  }
+  tag(g, labels, v.to(meeting.at[0], meeting.at[1]), meeting.words, {
+    bg: c.near,
+    fg: c['on-near'],
+    leader: c['near-text'],
+    icon: 'triangle',
+    radii: [44, 60, 84],
+    height: 22,
+  });
 }
 
 /** What the document there says otherwise: start and goal of whoever is changed, dashed, with the new values. */

@@ -15,7 +15,7 @@ import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { outOfReach, verdictsHold } from './goal-verdict';
 import { ArmsOverlay } from './overlay-arms';
-import { paintBeside, paintTried } from './overlay-beside';
+import { paintBeside, paintMeeting, paintTried } from './overlay-beside';
 import { ChangesOverlay } from './overlay-changes';
 import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
@@ -110,7 +110,8 @@ export class Overlay {
     if (a) this.paintSelected(g, v, a);
     else this.hovered.stop();
     if (beside?.tried) paintTried(g, v, this.labels, beside, scene, (of) => e.unitOf(of));
-    this.several.paint(g, v);
+    if (beside) paintMeeting(g, v, this.labels, beside, e.time.value);
+    if (!beside?.meeting) this.several.paint(g, v);
     this.ghosts.paintLabels(g, v);
     this.events.paint(g, v);
     this.changes.paintChangeLabels(g, v);

@@ -2,13 +2,12 @@
 import type { SceneJson } from '../model/json';
 import type { Camera } from '../model/history';
 import { pack, PackError, unpack } from '../model/pack';
+import { MARK } from './share-mark';
 
 /** Longer links are cut by mail programs and chats. */
 export const MOST_LINK_BYTES = 60 * 1024;
 /** What a link may hold once it is unpacked: more than any that was made here. */
 const MOST_TEXT_BYTES = 16 << 20;
-/** Names the way the link is written; another way gets another name. */
-const MARK = '#s1=';
 const VERSION = 1;
 
 /** How a film begins: when, and where the picture looks. */
@@ -23,8 +22,6 @@ export interface Shared {
 }
 
 export class LinkError extends Error {}
-
-export const isShareLink = (hash: string): boolean => hash.startsWith(MARK);
 
 /** The link's part after the address, and how many bytes it holds. */
 export async function writeLink(shared: Shared): Promise<{ hash: string; bytes: number }> {

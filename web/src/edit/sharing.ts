@@ -7,7 +7,8 @@ import type { Editor } from './editor';
 import type { Library } from './library';
 import type { SceneCare } from './scene-care';
 import type { SceneFile } from './scene-file';
-import { isShareLink, LinkError, MOST_LINK_BYTES, readLink, writeLink, type ShownAt } from './share-link';
+import type { ShownAt } from './share-link';
+import { isShareLink } from './share-mark';
 
 /** What of a scene goes into the link. */
 export interface Parts {
@@ -47,6 +48,7 @@ export class Sharing {
   async link(parts: Parts, at: ShownAt): Promise<Link> {
     const whole = this.file.complete();
     if (!whole) return { url: null, bytes: 0 };
+    const { MOST_LINK_BYTES, writeLink } = await import('./share-link');
     const { hash, bytes } = await writeLink({ scene: reduced(whole, parts), at: parts.start ? at : null });
     const fits = bytes <= MOST_LINK_BYTES;
     return { url: fits ? location.origin + location.pathname + hash : null, bytes };
@@ -56,6 +58,7 @@ export class Sharing {
   async openFrom(hash: string): Promise<boolean> {
     if (!isShareLink(hash)) return false;
     this.#error.value = null;
+    const { LinkError, readLink } = await import('./share-link');
     try {
       const { scene, at } = await readLink(hash);
       // The server reads it as it reads a file, with the same limits.

@@ -16,7 +16,12 @@ export interface Closest {
 /** Beyond so many it is not looked for. */
 const MOST = 80;
 
-type Moving = readonly [Agent, Motion];
+export type Moving = readonly [Agent, Motion];
+
+function boxAt([agent, motion]: Moving, step: number): Footprint | null {
+  const pose = poseAtStep(motion, step);
+  return pose && { pose, length: agent.length, width: agent.width };
+}
 
 /**
  * The two that come closest, with the moment. Where the road users are of more than one type, those of unlike types
@@ -26,10 +31,6 @@ export function closestOf(all: readonly Moving[], duration: number): Closest | n
   if (all.length < 2 || all.length > MOST) return null;
   const mixed = new Set(all.map(([a]) => a.type)).size > 1;
   const steps = Math.round(duration / STEP_S);
-  const boxAt = ([agent, motion]: Moving, step: number): Footprint | null => {
-    const pose = poseAtStep(motion, step);
-    return pose && { pose, length: agent.length, width: agent.width };
-  };
   let best: Closest | null = null;
   for (let step = 0; step <= steps; step++) {
     const boxes = all.map((m) => boxAt(m, step));
@@ -43,6 +44,23 @@ export function closestOf(all: readonly Moving[], duration: number): Closest | n
         const gap = gapBetween(p, q);
         if (gap < known) best = { a: all[i][0], b: all[j][0], gap, time: step * STEP_S };
       }
+  }
+  return best;
+}
+
+/** Who of the others comes closest to one of them, and when; at equal gaps the earliest. Null where none is near. */
+export function closestTo(one: Moving, others: readonly Moving[], duration: number): Closest | null {
+  const steps = Math.round(duration / STEP_S);
+  let best: Closest | null = null;
+  for (let step = 0; step <= steps; step++) {
+    const p = boxAt(one, step);
+    for (const other of p ? others : []) {
+      const q = boxAt(other, step);
+      const known = best?.gap ?? Infinity;
+      if (!q || gapAtLeast(p!, q) >= known) continue;
+      const gap = gapBetween(p!, q);
+      if (gap < known) best = { a: one[0], b: other[0], gap, time: step * STEP_S };
+    }
   }
   return best;
 }

@@ -1,6 +1,8 @@
 // What the palette finds: actions, and for what is typed road users, scenes and times.
 import type { Group } from '../../actions/action';
 import type { Context } from '../../actions/context';
+import { KINDS, type What } from '../../model/cases';
+import { sentenceOf } from '../../model/case-words';
 import { ACTIONS, perform, possible } from '../../actions/registry';
 import { about } from '../scenes/drawer';
 import { dayAndTime } from '../scenes/dates';
@@ -26,7 +28,13 @@ const SCENES = 'Scenes';
 export function find(c: Context, typed: string): Entry[] {
   const words = typed.trim().toLowerCase().split(/\s+/).filter(Boolean);
   if (!words.length) return [...actions(c, []), ...recent(c)].slice(0, MOST);
-  const found = [...actions(c, words), ...roadUsers(c, words), ...scenes(c, words), ...times(c, typed.trim())];
+  const found = [
+    ...cases(c, typed),
+    ...actions(c, words),
+    ...roadUsers(c, words),
+    ...scenes(c, words),
+    ...times(c, typed.trim()),
+  ];
   return inGroups(found, words).slice(0, MOST);
 }
 
@@ -118,6 +126,46 @@ const recent = (c: Context): Entry[] =>
     .flatMap((id) => c.scenes.find(id) ?? [])
     .slice(0, MOST_RECENT)
     .map((s) => sceneEntry(c, s));
+
+/** `near miss between Car 7 and Cyclist 2`: a case to look for, where one or two road users are named. */
+function cases(c: Context, typed: string): Entry[] {
+  const text = typed.toLowerCase();
+  const all = [...(c.editor.scene.peek()?.agents.values() ?? [])];
+  const named = all
+    .map((a) => ({ a, at: text.search(new RegExp(`(^|\\W)${escaped(a.name.toLowerCase())}(\\W|$)`)) }))
+    .filter((x) => x.at >= 0)
+    .sort((p, q) => p.at - q.at)
+    .slice(0, 2)
+    .map((x) => x.a);
+  if (!named.length) return [];
+  return ASKED_FOR.filter(([kind, words]) => words.test(text) && (named.length === 2 || !KINDS[kind].two)).map(
+    ([kind]) => ({
+      ...possibleEntry,
+      label: `Find ${sentenceOf(kind, named[0].name, named[1]?.name ?? null)}`,
+      note: 'tries speeds, goal times and seeds',
+      group: 'Cases',
+      icon: 'search',
+      run() {
+        c.editor.selectAll(named.map((a) => a.id));
+        void c.searching.begin(
+          kind,
+          named.map((a) => a.id),
+          true,
+        );
+      },
+    }),
+  );
+}
+
+const ASKED_FOR: readonly (readonly [What, RegExp])[] = [
+  ['near', /near|miss|close/],
+  ['collision', /collision|crash|collide|hit/],
+  ['first', /first|before/],
+  ['braking', /brak/],
+  ['goal', /goal|reach/],
+];
+
+const escaped = (s: string): string => s.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
 
 /** `4.2` jumps to that time. */
 function times({ editor }: Context, query: string): Entry[] {

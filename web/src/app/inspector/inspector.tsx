@@ -5,9 +5,10 @@ import { Later } from '../later';
 import { ScenePanel } from './scene-panel';
 
 export function Inspector() {
-  const { editor, rounds, ui, variants } = useApp();
+  const { editor, rounds, searching, ui, variants } = useApp();
   const making = editor.layouts.isOpen.value;
   const judging = rounds.isOpen.value;
+  const cases = searching.open.value !== null;
   const comparing = useComputed(() => variants.compared.value !== null).value;
   const events = useComputed(() => ui.eventsPanel.value && editor.events.value.length > 0).value;
   const scene = useComputed(() => editor.scene.value?.id).value;
@@ -21,6 +22,8 @@ export function Inspector() {
         <Later key="compare" part="compare" />
       ) : judging ? (
         <Later key="rounds" part="rounds" />
+      ) : cases ? (
+        <Later key="cases" part="cases" />
       ) : events ? (
         <Later key="events" part="events" />
       ) : several ? (

@@ -285,7 +285,7 @@ function SaveButton({ kind, ready, progress, stop }: SaveButtonProps) {
   const words = n ? `Save, losing ${n} thing${n > 1 ? 's' : ''}` : 'Save';
   return (
     <button type="button" class={`btn pri ${off ? 'off' : ''}`} aria-disabled={off} onClick={() => void go()}>
-      {progress.value === null ? words : kind.id === 'film' ? `${Math.round(progress.value * 100)} %` : 'Saving …'}
+      {progress.value === null ? words : progress.value > 0 ? `${Math.round(progress.value * 100)} %` : 'Saving …'}
     </button>
   );
 }

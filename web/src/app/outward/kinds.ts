@@ -2,6 +2,7 @@
 import type { Context } from '../../actions/context';
 import { exported, exportedJson, slug, type ExportedFile } from '../../edit/download';
 import { film, filmEnding, filmKind } from '../../edit/outward/film';
+import { movingPicture } from '../../edit/outward/moving-picture';
 import { outFormats, type Wish } from '../../edit/outward/formats';
 import { reportPage } from '../../edit/outward/report-page';
 import type { WholeCard } from '../../edit/variants/cards';
@@ -99,6 +100,19 @@ export function ofScreen(c: Context): Kind[] {
         const about = `${z.toFixed(2)} px a metre; x east, y north`;
         const drawing = pen.file(w, h, `${scene.name}, ${time.toFixed(1)} s`, about);
         return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
+      },
+    },
+    {
+      id: 'gif',
+      wish: 'show',
+      says: 'What you see, again and again; for slides and mails that play no film.',
+      label: 'Moving image',
+      ending: '.gif',
+      icon: 'film',
+      tag: `${scene.duration.toFixed(1)} s, 10 a second`,
+      make: async (_, progress, stop) => {
+        const blob = await movingPicture(editor, stage, progress, stop);
+        return blob && named(c, blob, 'gif');
       },
     },
     ...(moving

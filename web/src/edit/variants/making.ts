@@ -65,6 +65,16 @@ export class Maker {
     return this.workOut(choose(seeded.agents.get(subject)!, which, '').apply(seeded), subject);
   }
 
+  /** The six futures of a road user in a document, while nobody answers them. */
+  futuresOf(scene: Scene, subject: string): Promise<MotionSet> {
+    return this.#base(scene, subject);
+  }
+
+  /** Nothing is asked of documents any more that were asked about before. */
+  forget(): void {
+    this.#bases.clear();
+  }
+
   /** A variant of last time: as the file keeps it, else worked out again. */
   async again(id: number, scene: Scene, subject: string | null): Promise<Take> {
     const kept = this.file.raw && readVariantSample(this.file.raw, id, scene);

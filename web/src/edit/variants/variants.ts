@@ -366,24 +366,24 @@ export class Variants {
     this.#join(takes, id);
   }
 
-  /** Scenes of a round join the variants, kept. */
-  keepTakes(takes: readonly Take[]): void {
+  /** Scenes of a round, or cases that were found of somebody, join the variants, kept. */
+  keepTakes(takes: readonly Take[], subject: string | null = null, what = 'card'): void {
     if (!takes.length || this.#refusedLock()) return;
     batch(() => {
       this.stop();
       this.endCompare();
       this.#open.value = true;
     });
-    this.#join(takes, null);
+    this.#join(takes, subject, what);
   }
 
-  #join(takes: readonly Take[], subject: string | null): void {
+  #join(takes: readonly Take[], subject: string | null, what = 'card'): void {
     const { editor } = this;
     const now = editor.scene.peek();
     if (!takes.length || now?.id !== takes[0].scene.id || now.roster !== takes[0].scene.roster) return;
     const n = takes.length;
     const states = takes.map((t) => stateOfVariant(t.scene, subject));
-    const command = keepStates(now, states, n === 1 ? 'A card kept as a variant' : `${n} cards kept as variants`);
+    const command = keepStates(now, states, n === 1 ? `A ${what} kept as a variant` : `${n} ${what}s kept as variants`);
     if (!command) return editor.notices.show({ text: 'There is no room for more variants. Remove some first.' });
     this.#keepSets(takes);
     editor.run(command);

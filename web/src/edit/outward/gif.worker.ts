@@ -1,0 +1,24 @@
+// Packs the pictures of a film, so that the page has nothing to do with it.
+import { GifWriter, paletteOf } from './gif';
+
+/** A picture; `null` ends the film. */
+export interface Picture {
+  readonly rgba: Uint8ClampedArray;
+  readonly width: number;
+  readonly height: number;
+  readonly hundredths: number;
+}
+
+let writer: GifWriter | null = null;
+
+onmessage = ({ data }: MessageEvent<Picture | null>) => {
+  if (!data) {
+    postMessage(writer?.end() ?? null);
+    return;
+  }
+  const { rgba, width, height, hundredths } = data;
+  writer ??= new GifWriter(width, height, paletteOf(rgba));
+  writer.add(rgba, hundredths);
+  // The next one may come.
+  postMessage(true);
+};

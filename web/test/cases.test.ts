@@ -1,0 +1,250 @@
+// Cases: what counts as one, what is tried, and what a search leaves behind.
+import { describe, expect, it } from 'vitest';
+import { attempt, withAttempt } from '../src/model/attempts';
+import { alike, KINDS, momentOf, type Moment, type Sought } from '../src/model/cases';
+import { emptyMotion, type MotionSet } from '../src/model/futures';
+import { motionFrom, type Motion } from '../src/model/motion';
+import { sceneKey, startPose, type Scene } from '../src/model/scene';
+import { Cases } from '../src/edit/cases/cases';
+import { Questions } from '../src/edit/question';
+import { SceneFile } from '../src/edit/scene-file';
+import { Maker } from '../src/edit/variants/making';
+import { car, crossing } from './helpers';
+import { finalOf, InMemoryGenerator, json, Session } from './edit/session';
+
+const [ME, OTHER] = ['1', '2'];
+const STEPS = 90;
+
+/** Straight on from a place, with the speed of each step. */
+function straight(x: number, y: number, heading: number, speed: (t: number) => number): Motion {
+  const xs: number[] = [],
+    ys: number[] = [],
+    vs: number[] = [];
+  let d = 0;
+  for (let i = 0; i <= STEPS; i++) {
+    const v = speed(i / 10);
+    xs.push(x + Math.cos(heading) * d);
+    ys.push(y + Math.sin(heading) * d);
+    vs.push(v);
+    d += v / 10;
+  }
+  return motionFrom({
+    x_m: xs,
+    y_m: ys,
+    heading_rad: xs.map(() => heading),
+    vx_mps: vs.map((v) => v * Math.cos(heading)),
+    vy_mps: vs.map((v) => v * Math.sin(heading)),
+  });
+}
+
+/** Far from everything else in the scene. */
+const FAR = 500;
+
+function twoWays(scene: Scene, mine: Motion, theirs: Motion): MotionSet {
+  const only = (motion: Motion) => ({
+    modes: [{ probability: 1, motion, name: 'A' }],
+    chosen: 0,
+    step: 5,
+    steps: 5,
+  });
+  return {
+    ...emptyMotion(sceneKey(scene)),
+    futures: new Map([
+      [ME, only(mine)],
+      [OTHER, only(theirs)],
+    ]),
+    driving: new Set([ME, OTHER]),
+  };
+}
+
+const sought = (what: Sought['what'], limit = KINDS[what].limit, other: string | null = OTHER): Sought => ({
+  what,
+  who: ME,
+  other,
+  limit,
+});
+
+/** East at 10 m/s; the other one north across its way, `later` seconds after it. */
+const crossingWays = (later: number): [Motion, Motion] => [
+  straight(FAR, FAR, 0, () => 10),
+  straight(FAR + 40, FAR - 40 - later * 10, Math.PI / 2, () => 10),
+];
+
+describe('a case', () => {
+  const scene = crossing();
+  const of = (s: Sought, ways: [Motion, Motion]): Moment => momentOf(scene, twoWays(scene, ...ways), s)!;
+
+  it('is a near miss within its bound, and a collision is none', () => {
+    const hit = of(sought('near', 5), crossingWays(0));
+    expect([hit.found, hit.value]).toEqual([false, 0]);
+    expect(of(sought('collision'), crossingWays(0)).found).toBe(true);
+    const near = of(sought('near', 5), crossingWays(0.8));
+    expect(near.found).toBe(true);
+    expect(near.value).toBeGreaterThan(0);
+    expect(near.other).toBe(OTHER);
+    expect(of(sought('near', near.value - 0.01), crossingWays(0.8)).found).toBe(false);
+    expect(of(sought('collision'), crossingWays(0.8)).found).toBe(false);
+    // Nearer misses come before those that are further off, and a collision after all of them.
+    const wide = of(sought('near', 5), crossingWays(1.2));
+    expect(near.miss).toBeLessThan(wide.miss);
+    expect(hit.miss).toBeGreaterThan(wide.miss);
+  });
+
+  it('is to come first by little, not second, and not by much', () => {
+    const first = of(sought('first'), crossingWays(1));
+    expect(first.found).toBe(true);
+    expect(first.value).toBeCloseTo(1, 1);
+    expect(of(sought('first'), crossingWays(-1)).found).toBe(false);
+    expect(of(sought('first'), crossingWays(3)).found).toBe(false);
+    const apart: [Motion, Motion] = [straight(FAR, FAR, 0, () => 5), straight(FAR, FAR + 50, 0, () => 5)];
+    expect(momentOf(scene, twoWays(scene, ...apart), sought('first'))).toBeNull();
+  });
+
+  it('is braking that is hard enough, and hits nobody', () => {
+    const brakes = (rate: number) => straight(FAR, FAR, 0, (t) => Math.max(0, 12 - rate * Math.max(0, t - 2)));
+    const away = straight(FAR, FAR + 100, 0, () => 5);
+    const hard = of(sought('braking', 4, null), [brakes(6), away]);
+    expect(hard.found).toBe(true);
+    expect(hard.value).toBeCloseTo(6, 1);
+    expect(of(sought('braking', 4, null), [brakes(3), away]).found).toBe(false);
+    const inTheWay = straight(FAR + 20, FAR, 0, () => 0);
+    expect(of(sought('braking', 4, null), [brakes(6), inTheWay]).found).toBe(false);
+  });
+
+  it('is a goal that is reached with little room, where there is a goal', () => {
+    const ways = crossingWays(0.8);
+    expect(momentOf(scene, twoWays(scene, ...ways), sought('goal'))).toBeNull();
+    const a = car(scene);
+    const at = (x: number): Scene => {
+      const agents = new Map(scene.agents).set(ME, { ...a, goal: { ...a.goal, pos: [x, FAR], time: 4 } });
+      return { ...scene, agents };
+    };
+    const reached = (x: number) => momentOf(at(x), twoWays(scene, ...ways), sought('goal', 5))!.found;
+    expect(reached(FAR + 39)).toBe(true);
+    expect(reached(FAR + 60)).toBe(false);
+  });
+
+  it('differs from another by time, size, side or company', () => {
+    const m = of(sought('near', 5), crossingWays(0.8));
+    expect(alike(m, { ...m, time: m.time + 0.1 })).toBe(true);
+    for (const other of [{ time: m.time + 0.4 }, { value: m.value + 1 }, { side: 'behind' as const }, { other: '9' }])
+      expect(alike({ ...m, side: 'in front' }, { ...m, side: 'in front', ...other })).toBe(false);
+  });
+});
+
+describe('attempts', () => {
+  const scene = crossing();
+  const may = { speed: true, time: true, seed: true };
+
+  it('begin with the scene as it is, and change only what may change, within limits', () => {
+    const a = { ...car(scene), goal: { ...car(scene).goal, pos: [30, 0] as const } };
+    expect(attempt(a, scene, may, 0, 20)).toEqual({ seed: scene.seed, speed: null, time: null });
+    for (let n = 1; n < 200; n++) {
+      const t = attempt(a, scene, may, n, 20);
+      expect(t.speed).toBeGreaterThanOrEqual(0);
+      expect(t.speed).toBeLessThanOrEqual(20);
+      expect(t.time).toBeGreaterThanOrEqual(1);
+      expect(t.time).toBeLessThanOrEqual(scene.duration);
+      expect(attempt(a, scene, { ...may, speed: false, seed: false }, n, 20)).toEqual({
+        seed: scene.seed,
+        speed: null,
+        time: t.time,
+      });
+    }
+  });
+
+  it('leave everybody else as they are', () => {
+    const tried = withAttempt(scene, ME, { seed: 9, speed: 3, time: null });
+    expect(tried.seed).toBe(9);
+    expect(startPose(tried.agents.get(ME)!)!.speed).toBe(3);
+    for (const [id, a] of scene.agents) if (id !== ME) expect(tried.agents.get(id)).toBe(a);
+  });
+});
+
+/** Answers at once with the same six futures; the score says nothing. */
+class Prompt extends InMemoryGenerator {
+  override ask(q: Parameters<InMemoryGenerator['ask']>[0]): void {
+    super.ask(q);
+    queueMicrotask(() => q.on.final(finalOf(ME), 1));
+  }
+}
+
+describe('a search', () => {
+  function begin() {
+    const s = new Session();
+    const file = new SceneFile(s.editor);
+    file.adopt(json, {} as never, true);
+    const line = new Prompt();
+    const maker = new Maker(s.editor, new Questions(s.editor, file), line, file);
+    const cases = new Cases(s.editor, maker, () => line.cancel());
+    cases.open('near', [ME, OTHER]);
+    return { editor: s.editor, cases, line };
+  }
+
+  it('ends by itself, changes nothing, and says what came nearest', async () => {
+    const { editor, cases, line } = begin();
+    const before = editor.scene.peek();
+    cases.seek({ ...cases.sought.peek()!, limit: 0.1 });
+    await cases.run();
+    expect(cases.state.peek()).toBe('done');
+    expect(cases.progress.peek().tried).toBe(cases.progress.peek().of);
+    expect(line.asked.length).toBeGreaterThan(40);
+    expect(editor.scene.peek()).toBe(before);
+    expect(editor.undoName.peek()).toBeNull();
+    expect(cases.found.peek().length + (cases.closest.peek() ? 1 : 0)).toBeGreaterThan(0);
+  });
+
+  it('finds, shows beside the scene, and takes a case in one step that undo takes back', async () => {
+    const { editor, cases } = begin();
+    const before = editor.scene.peek()!;
+    cases.seek({ ...cases.sought.peek()!, limit: 10 });
+    await cases.run();
+    const [first] = cases.found.peek();
+    cases.show(first.id);
+    expect(editor.beside.peek()?.meeting?.who).toEqual([ME, OTHER]);
+    expect(editor.time.peek()).toBeCloseTo(first.moment.time);
+    expect(editor.scene.peek()).toBe(before);
+    cases.take(first);
+    expect(sceneKey(editor.scene.peek()!)).toBe(sceneKey(first.take.scene));
+    expect(editor.beside.peek()).toBeNull();
+    editor.undo();
+    expect(sceneKey(editor.scene.peek()!)).toBe(sceneKey(before));
+    expect(editor.undoName.peek()).toBeNull();
+  });
+
+  it('asks nothing while a hand drags', async () => {
+    const { editor, cases, line } = begin();
+    editor.select(ME);
+    editor.beginDrag({ part: 'start', handle: 'body' });
+    const going = cases.run();
+    await new Promise((done) => setTimeout(done, 120));
+    expect(line.asked).toHaveLength(0);
+    editor.cancelDrag();
+    await going;
+    expect(cases.state.peek()).toBe('done');
+  });
+
+  it('stops at once, and goes on where it was', async () => {
+    const { cases, line } = begin();
+    cases.seek({ ...cases.sought.peek()!, limit: 0.1 });
+    const going = cases.run();
+    await Promise.resolve();
+    cases.stop();
+    await going;
+    const { tried } = cases.progress.peek();
+    expect(cases.state.peek()).toBe('paused');
+    expect(line.cancelled).toBe(1);
+    await cases.run();
+    expect(cases.progress.peek().tried).toBeGreaterThan(tried);
+    expect(cases.state.peek()).toBe('done');
+  });
+
+  it('says what is missing before it begins', () => {
+    const { cases } = begin();
+    expect(cases.obstacle.peek()).toBeNull();
+    cases.open('near', [ME]);
+    expect(cases.obstacle.peek()).toMatch(/second road user/);
+    cases.open('goal', [ME]);
+    expect(cases.obstacle.peek()).toMatch(/no goal/);
+  });
+});
