@@ -26,6 +26,7 @@ use crate::womd::rollouts::SimAgents;
 
 /// Ends of the names of compressed files.
 const COMPRESSED: [&str; 2] = ["gz", "zst"];
+
 /// A format that is this sure knows a file by its content.
 const BY_CONTENT: u8 = 2;
 

@@ -219,10 +219,7 @@ fn python() -> anyhow::Result<Outcome> {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
-    if let Outcome::Failed(why) = cargo(&["build", "--workspace", "--locked"])? {
-        return Ok(Outcome::Failed(why));
-    }
-    let program = root().join(format!("target/debug/dragtraffic{}", std::env::consts::EXE_SUFFIX));
+    let program = built("dragtraffic")?;
     for module in ["mypy", "pytest"] {
         let checked = run(Command::new(&own)
             .args(["-m", module])
@@ -312,11 +309,10 @@ fn drift(command: &str, file: &str) -> anyhow::Result<Outcome> {
     run(Command::new(program()?).args([command, "--check", file]).current_dir(root()))
 }
 
-/// A program of the tests, built as `cargo test --workspace` does.
+/// A program, built as `cargo test --workspace` does: with what tests alone ask of our crates, so that nothing is
+/// built twice.
 fn built(name: &str) -> anyhow::Result<PathBuf> {
-    if let Outcome::Failed(why) =
-        cargo(&["build", "--workspace", "--locked", "--bin", name, "--bin", "dragtraffic"])?
-    {
+    if let Outcome::Failed(why) = cargo(&["test", "--workspace", "--locked", "--no-run", "--quiet"])? {
         bail!(why);
     }
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);

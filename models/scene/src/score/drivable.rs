@@ -378,10 +378,13 @@ mod tests {
     fn a_box_that_leaves_the_map_by_the_end_of_its_lane_is_not_off_the_road() {
         let road = area(&[(0.0, -2.0), (100.0, -2.0), (100.0, 2.0), (0.0, 2.0)]);
         let east = lane("east", &[(0.0, 0.0), (100.0, 0.0)]);
-        let index =
-            Drivable::new(&LaneMap { lanes: vec![east], drivable: vec![road], ..LaneMap::default() });
+        let index = Drivable::new(&LaneMap { lanes: vec![east], drivable: vec![road], ..LaneMap::default() });
         let outside_m = |x: f64, y: f64| index.box_outside_m(&OrientedBox::new(at(x, y), 2.3, 0.9, 0.0));
-        assert_eq!(outside_m(98.0, 0.7), Some(0.0), "its front corners are beside the end of the lane's middle");
+        assert_eq!(
+            outside_m(98.0, 0.7),
+            Some(0.0),
+            "its front corners are beside the end of the lane's middle"
+        );
         assert_eq!((outside_m(103.0, 0.7), outside_m(900.0, 0.7)), (None, None));
         assert!(outside_m(98.0, 2.0).unwrap() > 0.8, "over the kerb is over the kerb, at the end too");
     }
