@@ -35,12 +35,16 @@ journeys('goals and values', (stage) => {
     assert.ok(ways.length >= 2, ways.join(' | '));
     await e.picture('unreachable');
     for (const [i, way] of ways.entries()) {
+      const mark = e.wire.asked.length;
       await e.page.locator('.opt').nth(i).click();
       await e.settled();
       const hints = (await e.page.locator('.hint').allInnerTexts()).join(' | ');
       assert.doesNotMatch(hints, /Too far|Out of reach/, `${way.replace(/\s+/g, ' ')} mends it`);
-      const answer = e.wire.last().event('final');
-      assert.notEqual(answer.resolved[car.id].reach.status, 'unreachable', way);
+      // The first whole answer is to the click: what lies under the pointer afterwards is tried, too. Somebody may
+      // stand in the way of who comes sooner; its own motion no longer does.
+      const answer = e.wire.since(mark).flatMap((a) => a.event('final') ?? [])[0];
+      const { status, limiting } = answer.resolved[car.id].reach;
+      assert.ok(status !== 'unreachable' || limiting === 'traffic', `${way}: ${limiting}`);
       await e.key('Control+z');
       await e.settled();
       assert.match(await e.text('.hint'), /Too far for 2\.0 s/);
