@@ -2,6 +2,7 @@
 //! (PEP 723, and under `[tool.dragtraffic]` those to be had without what they ask for), is called with the program
 //! and a folder to work in, and says `N passed, N failed` in its last line.
 
+use crate::environments::Environment;
 use crate::{Outcome, program, root};
 use anyhow::{Context, ensure};
 use std::path::{Path, PathBuf};
@@ -15,15 +16,10 @@ pub static STRICT: AtomicBool = AtomicBool::new(false);
 /// All scripts, each in an environment of its own.
 pub fn check() -> anyhow::Result<Outcome> {
     let program = program()?;
-    let entries = std::fs::read_dir(root().join(SCRIPTS)).context(SCRIPTS)?;
-    let mut scripts: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    scripts.retain(|path| path.extension().is_some_and(|end| end == "py"));
-    scripts.sort();
-    ensure!(!scripts.is_empty(), "no script in {SCRIPTS}");
     let (mut told, mut skipped, mut failed) = (Vec::new(), Vec::new(), Vec::new());
-    for script in scripts {
-        let name = script.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        match environment(&name, &script)? {
+    for script in scripts()? {
+        let name = name_of(&script);
+        match environment(&script)?.python()? {
             Ok(python) => match run(&python, &script, &program, &name)? {
                 Ok(line) => told.push(format!("{name}: {line}")),
                 Err(line) => failed.push(format!("{name}: {line}")),
@@ -53,34 +49,33 @@ fn list(text: &str, name: &str) -> Vec<String> {
     rest.split('"').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// Python with the packages of a script, or why not.
-fn environment(name: &str, script: &Path) -> anyhow::Result<Result<PathBuf, String>> {
+/// The scripts, by name.
+fn scripts() -> anyhow::Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(root().join(SCRIPTS)).context(SCRIPTS)?;
+    let mut scripts: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    scripts.retain(|path| path.extension().is_some_and(|end| end == "py"));
+    scripts.sort();
+    ensure!(!scripts.is_empty(), "no script in {SCRIPTS}");
+    Ok(scripts)
+}
+
+fn name_of(script: &Path) -> String {
+    script.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// With the packages that a script names.
+fn environment(script: &Path) -> anyhow::Result<Environment> {
     let text = std::fs::read_to_string(script)?;
     let (with, without) = (list(&text, "dependencies"), list(&text, "no-deps"));
-    let folder = root().join("target/python").join(name);
-    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let wanted = format!("{}\n\n{}\n", with.join("\n"), without.join("\n"));
-    let stamp = folder.join("installed.txt");
-    if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
-        return Ok(Ok(own));
-    }
-    let ready = |program: &Path, arguments: &[&str], packages: &[String]| {
-        let mut command = Command::new(program);
-        command.args(arguments).args(packages).current_dir(root());
-        command.status().is_ok_and(|status| status.success())
-    };
-    if !ready(Path::new("python3"), &["-m", "venv", &folder.to_string_lossy()], &[]) {
-        return Ok(Err("python3 with venv is not here".into()));
-    }
-    let pip = ["-m", "pip", "install", "-q", "--disable-pip-version-check"];
-    let bare = ["-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-deps"];
-    let had =
-        (with.is_empty() || ready(&own, &pip, &with)) && (without.is_empty() || ready(&own, &bare, &without));
-    if !had {
-        return Ok(Err("its packages cannot be had".into()));
-    }
-    std::fs::write(&stamp, wanted)?;
-    Ok(Ok(own))
+    Ok(Environment::of_script(&name_of(script), with, without))
+}
+
+/// Those of all scripts.
+///
+/// # Errors
+/// When the scripts cannot be read.
+pub fn environments() -> anyhow::Result<Vec<anyhow::Result<Environment>>> {
+    Ok(scripts()?.iter().map(|script| environment(script)).collect())
 }
 
 /// The last line of a script, as a success or a failure.

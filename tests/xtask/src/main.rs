@@ -15,12 +15,15 @@
 mod advisories;
 mod checkers;
 mod dependencies;
+mod environments;
 mod figures;
 mod fuzzing;
+mod packages;
 mod schemathesis;
 mod soak;
 
 use anyhow::{Context, bail};
+use environments::Environment;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Instant;
@@ -54,7 +57,7 @@ const CHECKS: &[Check] = &[
     ("deny", || tool("deny", &["deny", "check", "licenses", "bans", "sources"])),
     ("advisories", advisories::check),
     ("dependencies", dependencies::check),
-    ("package", package),
+    ("package", packages::check),
     ("python", python),
     ("maps", maps),
     ("checkers", checkers::check),
@@ -62,10 +65,6 @@ const CHECKS: &[Check] = &[
     ("figures", figures::drag),
     ("browser", browser),
 ];
-
-/// The crates for other projects: each is built from its package alone.
-const PACKAGES: &[&str] =
-    &["-p", "dragtraffic-scene", "-p", "dragtraffic-formats", "-p", "dragtraffic-experts"];
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -104,6 +103,11 @@ fn test(names: &[String]) -> ExitCode {
     if let Some(unknown) = names.iter().find(|name| !CHECKS.iter().any(|check| check.0 == name.as_str())) {
         eprintln!("no check is named {unknown}");
         return ExitCode::from(2);
+    }
+    if names.is_empty()
+        && let Err(error) = environments::begin()
+    {
+        eprintln!("{error:#}");
     }
     let mut lines = Vec::new();
     let mut failed = false;
@@ -191,31 +195,9 @@ fn missing_tool(name: &str) -> Option<String> {
     missing.then(|| format!("{program} is not here; cargo install --locked {program}"))
 }
 
-/// A virtual environment of its own under `target`, with the packages of a file of requirements; else why not.
-fn virtual_environment(name: &str, requirements: &str) -> anyhow::Result<Result<PathBuf, String>> {
-    let folder = root().join("target").join(name);
-    let own = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let wanted = std::fs::read(root().join(requirements))?;
-    let stamp = folder.join("installed.txt");
-    if !std::fs::read(&stamp).is_ok_and(|installed| installed == wanted) {
-        let ready = |program: &Path, arguments: &[&std::ffi::OsStr]| {
-            Command::new(program).args(arguments).current_dir(root()).status().is_ok_and(|s| s.success())
-        };
-        if !ready(Path::new("python3"), &["-m".as_ref(), "venv".as_ref(), folder.as_ref()]) {
-            return Ok(Err("python3 with venv is not here".into()));
-        }
-        let install = ["-m", "pip", "install", "-q", "-r", requirements];
-        if !ready(&own, &install.map(std::ffi::OsStr::new)) {
-            return Ok(Err(format!("the packages of {requirements} cannot be had")));
-        }
-        std::fs::write(&stamp, wanted)?;
-    }
-    Ok(Ok(own))
-}
-
 /// Types, tests and notebook of the Python module, over the program as it is built for tests.
 fn python() -> anyhow::Result<Outcome> {
-    let own = match virtual_environment("python", "python/requirements-test.txt")? {
+    let own = match Environment::of_file("python")?.python()? {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
@@ -234,11 +216,11 @@ fn python() -> anyhow::Result<Outcome> {
 
 /// One network that a foreign program writes in several formats, read by all of ours; and an extract of OpenStreetMap.
 fn maps() -> anyhow::Result<Outcome> {
-    let own = match virtual_environment("maps", "tests/equal-maps-requirements.txt")? {
+    let own = match Environment::of_file("maps")?.python()? {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
-    let folder = root().join("target/maps/network");
+    let folder = root().join("target/maps");
     let netconvert = own.with_file_name(format!("netconvert{}", std::env::consts::EXE_SUFFIX));
     let written = run(Command::new(own).arg("tests/equal_maps.py").arg(&folder).current_dir(root()))?;
     if let Outcome::Failed(why) = written {
@@ -269,29 +251,8 @@ fn wasm() -> anyhow::Result<Outcome> {
     cargo(&["check", "--locked", "--target", target, "-p", "scene", "-p", "formats", "-p", "experts"])
 }
 
-/// Builds the crates for other projects from their packages alone.
-fn package() -> anyhow::Result<Outcome> {
-    // Cargo takes what it built of a package for good while the version stays; of ours that would be an older state.
-    let target = root().join("target/packages");
-    let built = target.join("debug/.fingerprint");
-    if built.exists() {
-        for entry in std::fs::read_dir(built)? {
-            let entry = entry?;
-            if entry.file_name().to_string_lossy().starts_with("dragtraffic-") {
-                std::fs::remove_dir_all(entry.path())?;
-            }
-        }
-    }
-    // Nobody looks into what is built here: without debug information it is there sooner.
-    run(cargo_command()
-        .args(["package", "--allow-dirty", "--target-dir"])
-        .arg(target)
-        .args(PACKAGES)
-        .envs([("CARGO_PROFILE_DEV_DEBUG", "0"), ("CARGO_INCREMENTAL", "0")]))
-}
-
 /// Installs the packages of a folder unless those there match its lock file.
-fn packages(folder: &str) -> anyhow::Result<Outcome> {
+fn npm_packages(folder: &str) -> anyhow::Result<Outcome> {
     let changed = |path: &str| root().join(folder).join(path).metadata().and_then(|m| m.modified()).ok();
     let (locked, installed) = (changed("package-lock.json"), changed("node_modules/.package-lock.json"));
     if installed.is_some() && installed >= locked {
@@ -301,7 +262,7 @@ fn packages(folder: &str) -> anyhow::Result<Outcome> {
 }
 
 fn web_packages() -> anyhow::Result<Outcome> {
-    packages("web")
+    npm_packages("web")
 }
 
 /// Compares a committed document with what the program prints.
@@ -340,7 +301,7 @@ fn browser() -> anyhow::Result<Outcome> {
         let why = "no Chromium here; install it (Debian: apt-get install chromium) or set CHROMIUM";
         return Ok(Outcome::Skipped(why.into()));
     };
-    if let failed @ Outcome::Failed(_) = packages(folder)? {
+    if let failed @ Outcome::Failed(_) = npm_packages(folder)? {
         return Ok(failed);
     }
     let mut e2e = Command::new("npm");

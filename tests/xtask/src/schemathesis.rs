@@ -1,11 +1,11 @@
 //! The API held against its own document by Schemathesis: examples, borders, drawn bodies good and bad, and chains
 //! of calls. `tests/schemathesis.toml` says what is checked, and why something is not.
 
-use crate::{Outcome, built, root, run, virtual_environment};
+use crate::environments::Environment;
+use crate::{Outcome, built, root, run};
 use anyhow::{Context, bail};
 use std::process::Command;
 
-const REQUIREMENTS: &str = "tests/schemathesis-requirements.txt";
 const CONFIG: &str = "tests/schemathesis.toml";
 /// Examples of an operation in the check of every merge, and their seed.
 const EXAMPLES: u64 = 20;
@@ -32,7 +32,7 @@ pub fn command(arguments: &[String]) -> anyhow::Result<Outcome> {
 }
 
 fn examples(number: u64, seed: u64) -> anyhow::Result<Outcome> {
-    let own = match virtual_environment("schemathesis", REQUIREMENTS)? {
+    let own = match Environment::of_file("schemathesis")?.python()? {
         Ok(own) => own,
         Err(why) => return Ok(Outcome::Skipped(why)),
     };
