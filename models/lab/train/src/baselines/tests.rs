@@ -162,9 +162,9 @@ fn losses_fall_and_runs_repeat() {
             (metrics, std::fs::read(&options.out).unwrap())
         };
         let (before, _) = run(1, 1);
-        let (after, bytes) = run(80, 1);
+        let (after, _) = run(80, 1);
         assert!(mean(&after, "min") < 0.5 * mean(&before, "min"), "{kind:?}: {before} | {after}");
-        assert!(run(80, 2).1 == bytes, "{kind:?}: another run gives other weights");
+        assert!(run(12, 1).1 == run(12, 2).1, "{kind:?}: another run gives other weights");
     }
     let init = folder.path().join("Paper.safetensors");
     let joint = TrainOptions {
