@@ -103,7 +103,7 @@ impl<'g> Window<'g> {
         }
         if window.request.stages.background_in_the_way {
             let Self { world, request, actors, .. } = &window;
-            window.answerers = Answerers::of(world, request, actors, cast, tuning);
+            window.answerers = Answerers::of(world, window.workers(), request, actors, cast, tuning);
             window.background = Background::of(&window.answerers, &tuning.overlaps);
             // A call about everybody knows nobody's log after the start.
             let late = window.request.agents.is_some();

@@ -49,7 +49,7 @@ const PRESSED_SHARE: f64 = 0.85;
 const ROLLING_MPS: [f64; 6] = [0.0, 2.0, 4.0, 6.0, 9.0, 13.0];
 
 /// Steps of a window as bits, the start first.
-pub(super) type Steps = u128;
+pub(crate) type Steps = u128;
 
 /// The stop line of a signal.
 #[derive(Clone, Debug)]
@@ -98,13 +98,18 @@ impl StopLine {
         (self.at.position - ahead, self.at.position + ahead * reach_m)
     }
 
+    /// Its middle, with the heading of its lane.
+    pub(crate) fn at(&self) -> Pose {
+        self.at
+    }
+
     /// Steps of the window at which its lane has green.
     pub(super) fn go(&self) -> Steps {
         self.go
     }
 
     /// Steps of the window at which it is known to be red.
-    pub(super) fn red(&self) -> Steps {
+    pub(crate) fn red(&self) -> Steps {
         self.red
     }
 
@@ -124,7 +129,7 @@ impl StopLine {
         let side = if self.goes_on { 1.0 } else { -1.0 };
         let places = (0..=8).map(|i| s_m + side * TELLING_M * f64::from(i) / 8.0);
         let places: Vec<f64> = places.filter(|s| (0.0..=path.length_m()).contains(s)).collect();
-        let off = |s: &f64| lane.project(path.sample(*s).position).lateral_m.abs();
+        let off = |s: &f64| lane.project(path.position_at(*s)).lateral_m.abs();
         places.iter().map(off).sum::<f64>() / places.len().max(1) as f64
     }
 }

@@ -3,6 +3,7 @@
 use super::course::{Course, Moving};
 use scene::geometry::obb::{OrientedBox, overlaps};
 use scene::geometry::wrap_angle;
+use scene::routes::Pose;
 use scene::score::CLOSE_M;
 use scene::{HORIZON_STEPS, Size, Vec2};
 
@@ -114,9 +115,9 @@ impl Corridor {
         out
     }
 
-    /// Where the course passes a stop line: progress at which its front is there. `heading_rad` is the lane's.
-    pub(super) fn line(&self, at: Vec2, heading_rad: f64) -> Option<f64> {
-        let distance = |b: &OrientedBox| (b.center() - at).norm();
+    /// Where the course passes a stop line of a lane: progress at which its front is there.
+    pub(super) fn line(&self, at: Pose) -> Option<f64> {
+        let distance = |b: &OrientedBox| (b.center() - at.position).norm();
         let nearest = (0..self.outlines.len())
             .min_by(|a, b| distance(&self.outlines[*a]).total_cmp(&distance(&self.outlines[*b])))?;
         let outline = &self.outlines[nearest];
@@ -124,7 +125,7 @@ impl Corridor {
         if nearest + 1 == self.outlines.len() {
             return None;
         }
-        let turned = wrap_angle(outline.heading_rad() - heading_rad).abs();
+        let turned = wrap_angle(outline.heading_rad() - at.heading_rad).abs();
         let beside = distance(outline) < LINE_BESIDE_M && turned < LINE_TURNED_RAD;
         let front = nearest as f64 * SPACING_M - outline.half_length_m() - LINE_GAP_M;
         (beside && front > 0.0).then_some(front)
@@ -183,10 +184,10 @@ mod tests {
     #[test]
     fn a_line_is_closed_while_its_light_says_so() {
         let corridor = Corridor::of(&course(8.0), &CAR);
-        let line = corridor.line(Vec2::new(30.2, 0.5), 0.1).unwrap();
+        let line = corridor.line(Pose::xyh(30.2, 0.5, 0.1)).unwrap();
         assert!((27.0..=28.0).contains(&line), "{line}");
-        assert!(corridor.line(Vec2::new(30.2, 3.5), 0.1).is_none());
-        assert!(corridor.line(Vec2::new(30.2, 0.5), 3.0).is_none());
+        assert!(corridor.line(Pose::xyh(30.2, 3.5, 0.1)).is_none());
+        assert!(corridor.line(Pose::xyh(30.2, 0.5, 3.0)).is_none());
         let blocks = closed(line, |step| (20..50).contains(&step));
         assert_eq!((blocks.len(), blocks[0].from, blocks[0].taken.len()), (1, 20, 30));
     }

@@ -59,12 +59,12 @@ impl Answerers<'_> {
     /// The least costly thing that somebody could do other than what it keeps, those changed ones being where they
     /// are.
     pub(super) fn way(&self, who: usize, changed: &[Seen<'_>]) -> Option<Way> {
-        let own = &self.all[who];
-        let ahead: Vec<Vec<Block>> = changed.iter().map(|c| own.corridor.blocks(c.moving)).collect();
+        let (own, road) = (&self.all[who], self.road(who));
+        let ahead: Vec<Vec<Block>> = changed.iter().map(|c| road.corridor.blocks(c.moving)).collect();
         let around = own.around.get_or_init(|| self.around(who));
         let is_changed = |j: usize| changed.iter().any(|c| c.answerer == Some(j));
         let kept = around.iter().enumerate().filter(|(j, _)| !is_changed(*j)).flat_map(|(_, b)| b);
-        let kept: Vec<&Block> = kept.chain(&own.lights).collect();
+        let kept: Vec<&Block> = kept.chain(&road.lights).collect();
         let mut all = kept.clone();
         all.extend(ahead.iter().flatten());
         let mut best: Option<Way> = None;
@@ -146,9 +146,9 @@ impl Answerers<'_> {
 
     /// Where everybody else's kept motion is in the way.
     fn around(&self, who: usize) -> Vec<Vec<Block>> {
-        let own = &self.all[who];
+        let (own, road) = (&self.all[who], self.road(who));
         let blocks = |other: &Moving, keeps| {
-            if self.were_near(own, other, keeps) { Vec::new() } else { own.corridor.blocks(other) }
+            if self.were_near(own, other, keeps) { Vec::new() } else { road.corridor.blocks(other) }
         };
         let answering = self
             .all

@@ -21,11 +21,13 @@ use super::trajectory::{rest, to_trajectory};
 use super::window::Cast;
 use super::workers::Workers;
 use crate::planning::STAYS_WITHIN_M;
+use crate::planning::lights::StopLine;
 use crate::planning::world::{AgentAtStart, World};
 use crate::request::{React, Request};
 use crate::tuning::Tuning;
 use blocks::{Block, Corridor, closed};
 use course::Course;
+use scene::geometry::obb::OrientedBox;
 use scene::limits::Limits;
 use scene::score::{SweptBoxes, overlap};
 use scene::{AgentId, AgentType, HORIZON_STEPS, Size, Start, State, Vec2};
@@ -58,106 +60,84 @@ pub(super) struct Answerer {
     size: Size,
     limits: Limits,
     course: Course,
-    corridor: Corridor,
     kept: Moving,
     keeps: Keeps,
     /// It gave up its motion in an earlier window: this is how it goes on.
     resumed: bool,
-    /// Red lights on its way.
-    lights: Vec<Block>,
+    /// Worked out when somebody is in its way: few are met.
+    road: OnceLock<Road>,
     /// Where and when others are in its way by what they keep: first those that may answer, then the fixed ones.
     around: OnceLock<Vec<Vec<Block>>>,
+}
+
+/// What somebody follows its course through.
+struct Road {
+    corridor: Corridor,
+    /// Red lights on its way.
+    lights: Vec<Block>,
 }
 
 /// All who are there in a window, or come in, and do not act in it.
 pub(super) struct Answerers<'g> {
     all: Vec<Answerer>,
     pub(super) fixed: Vec<Fixed>,
+    stop_lines: Vec<StopLine>,
     tuning: &'g Tuning,
     /// Scene step at which the window starts.
     start_step: usize,
 }
 
+/// One who does not act.
+enum Role {
+    Answers(Box<Answerer>),
+    Stays(Fixed),
+}
+
 impl<'g> Answerers<'g> {
     /// Nobody.
     pub(super) fn none(tuning: &'g Tuning) -> Self {
-        Self { all: Vec::new(), fixed: Vec::new(), tuning, start_step: 0 }
+        Self { all: Vec::new(), fixed: Vec::new(), stop_lines: Vec::new(), tuning, start_step: 0 }
     }
 
     /// Everybody but the actors.
     pub(super) fn of(
         world: &World<'_>,
+        workers: &Workers,
         request: &Request,
         actors: &[Actor],
         cast: &Cast,
         tuning: &'g Tuning,
     ) -> Self {
         let acting: BTreeSet<usize> = actors.iter().map(|a| a.plan.present.index).collect();
-        let mut out = Self { start_step: world.step, ..Self::none(tuning) };
         let mut order: Vec<usize> = (0..world.scene.agents.len()).filter(|i| !acting.contains(i)).collect();
         // The order of road users in the scene must not show.
         order.sort_by(|a, b| world.scene.agents[*a].id.cmp(&world.scene.agents[*b].id));
-        for index in order {
-            let agent = &world.scene.agents[index];
-            let present = world.present.iter().find(|p| p.index == index);
-            let resumed = cast.resumed.get(&index);
-            let mut known: Vec<Option<State>> = match resumed {
-                Some(states) => (0..=HORIZON_STEPS).map(|step| states.get(step).copied()).collect(),
-                None => {
-                    let known = Known::of(&world.scene, agent, world.step);
-                    (0..=HORIZON_STEPS).map(|step| known.at(step)).collect()
-                }
-            };
-            if let Some(present) = present {
-                known[0] = Some(present.start);
+        let roles = workers.map(&order, |&index| role(world, request, cast, index));
+        let stop_lines = world.stop_lines.clone();
+        let mut out = Self { start_step: world.step, stop_lines, ..Self::none(tuning) };
+        for role in roles.into_iter().flatten() {
+            match role {
+                Role::Answers(own) => out.all.push(*own),
+                Role::Stays(own) => out.fixed.push(own),
             }
-            let conditions = &world.conditions[index];
-            let size = Size {
-                length_m: conditions.length_m.unwrap_or(agent.size.length_m),
-                width_m: conditions.width_m.unwrap_or(agent.size.width_m),
-                ..agent.size
-            };
-            if known.iter().all(Option::is_none) {
-                continue;
-            }
-            let boxes = known
-                .iter()
-                .map(|s| s.as_ref().map(|s| scene::geometry::obb::OrientedBox::of_state(s, &size)));
-            let moving = Moving::new(boxes.collect());
-            let generated = request.scene.generated.as_ref();
-            let chosen = generated.and_then(|g| g.chosen_future(&agent.id));
-            let pinned = request.pinned.contains_key(&agent.id);
-            let made = chosen.is_some() || pinned || resumed.is_some();
-            let keeps = if made { Keeps::Future } else { Keeps::Log };
-            let agent_type = conditions.kind_of(agent);
-            let may = (resumed.is_some() || cast.may_react.contains(&index))
-                && agent_type != AgentType::Other
-                && (conditions.start == Start::default() || keeps == Keeps::Future);
-            // Who stands all the time stays; who gave up something goes on, and be it standing.
-            let shortest_m = if resumed.is_some() { 0.0 } else { STAYS_WITHIN_M };
-            let course = may.then(|| Course::of(&known, shortest_m)).flatten();
-            let Some(course) = course else {
-                out.fixed.push(Fixed { id: agent.id.clone(), moving, keeps });
-                continue;
-            };
-            let corridor = Corridor::of(&course, &size);
-            let lights = lights(world, agent_type, &corridor);
-            out.all.push(Answerer {
-                id: agent.id.clone(),
-                index,
-                agent_type,
-                size,
-                limits: Limits::of(agent_type, agent.subtype, size.length_m),
-                course,
-                corridor,
-                kept: moving,
-                keeps,
-                resumed: resumed.is_some(),
-                lights,
-                around: OnceLock::new(),
-            });
         }
         out
+    }
+
+    /// What one of those who may answer follows its course through.
+    fn road(&self, who: usize) -> &Road {
+        let own = &self.all[who];
+        own.road.get_or_init(|| {
+            let corridor = Corridor::of(&own.course, &own.size);
+            let on_foot = own.agent_type == AgentType::Pedestrian;
+            let lines = self.stop_lines.iter().filter(|_| !on_foot);
+            let red = lines.filter_map(|line| {
+                let at_m = corridor.line(line.at())?;
+                Some(closed(at_m, |step| line.red() >> step & 1 == 1))
+            });
+            let lights = red.flatten().collect();
+            Road { corridor, lights }
+        })
     }
 
     /// Everybody's kept motion.
@@ -191,20 +171,57 @@ impl<'g> Answerers<'g> {
     }
 }
 
-/// When the lights of the lanes that a course follows are red, as something in its way.
-fn lights(world: &World<'_>, agent_type: AgentType, corridor: &Corridor) -> Vec<Block> {
-    if agent_type == AgentType::Pedestrian {
-        return Vec::new();
+/// What somebody who does not act does in a window; `None` for one that is nowhere in it.
+fn role(world: &World<'_>, request: &Request, cast: &Cast, index: usize) -> Option<Role> {
+    let agent = &world.scene.agents[index];
+    let present = world.present.iter().find(|p| p.index == index);
+    let resumed = cast.resumed.get(&index);
+    let mut known: Vec<Option<State>> = match resumed {
+        Some(states) => (0..=HORIZON_STEPS).map(|step| states.get(step).copied()).collect(),
+        None => {
+            let known = Known::of(&world.scene, agent, world.step);
+            (0..=HORIZON_STEPS).map(|step| known.at(step)).collect()
+        }
+    };
+    if let Some(present) = present {
+        known[0] = Some(present.start);
     }
-    let mut out = Vec::new();
-    for signal in &world.scene.signals {
-        let Some(lane) = world.graph.lane_index(&signal.lane) else { continue };
-        let first = world.graph.lanes()[lane].path.first();
-        let at = signal.stop.unwrap_or(first.position);
-        let Some(line) = corridor.line(at, first.heading_rad) else { continue };
-        out.extend(closed(line, |step| signal.at(world.step + step).is_stop()));
+    if known.iter().all(Option::is_none) {
+        return None;
     }
-    out
+    let conditions = &world.conditions[index];
+    let size = Size {
+        length_m: conditions.length_m.unwrap_or(agent.size.length_m),
+        width_m: conditions.width_m.unwrap_or(agent.size.width_m),
+        ..agent.size
+    };
+    let boxes = known.iter().map(|s| s.as_ref().map(|s| OrientedBox::of_state(s, &size)));
+    let moving = Moving::new(boxes.collect());
+    let chosen = request.scene.generated.as_ref().and_then(|g| g.chosen_future(&agent.id));
+    let made = chosen.is_some() || request.pinned.contains_key(&agent.id) || resumed.is_some();
+    let keeps = if made { Keeps::Future } else { Keeps::Log };
+    let agent_type = conditions.kind_of(agent);
+    let may = (resumed.is_some() || cast.may_react.contains(&index))
+        && agent_type != AgentType::Other
+        && (conditions.start == Start::default() || keeps == Keeps::Future);
+    // Who stands all the time stays; who gave up something goes on, and be it standing.
+    let shortest_m = if resumed.is_some() { 0.0 } else { STAYS_WITHIN_M };
+    let Some(course) = may.then(|| Course::of(&known, shortest_m)).flatten() else {
+        return Some(Role::Stays(Fixed { id: agent.id.clone(), moving, keeps }));
+    };
+    Some(Role::Answers(Box::new(Answerer {
+        id: agent.id.clone(),
+        index,
+        agent_type,
+        size,
+        limits: Limits::of(agent_type, agent.subtype, size.length_m),
+        course,
+        kept: moving,
+        keeps,
+        resumed: resumed.is_some(),
+        road: OnceLock::new(),
+        around: OnceLock::new(),
+    })))
 }
 
 /// Those of `may_react` that were asked to go somewhere, or put somewhere, before: they plan anew like the actors,
