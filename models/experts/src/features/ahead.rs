@@ -116,14 +116,15 @@ fn crossing(anchor: &Anchor, obstacles: &[speed::Obstacle]) -> Option<Crossing> 
     for other in obstacles.iter().filter(|o| o.speed_mps > 0.5) {
         let (from, ahead) = (other.outline.center(), other.outline.forward());
         for seconds in [1.0, 2.0, 3.0, 4.5, 6.0] {
+            if soonest.is_some_and(|s| s.time_s <= seconds) {
+                break;
+            }
             let there = from + ahead * (other.speed_mps * seconds);
             let Some(foot) = anchor.path.project_within(there, MEETS_M) else { continue };
             let across = direction(foot.heading_rad).dot(&ahead).abs() < 0.75;
             if foot.s_m > 3.0 && across {
-                if soonest.is_none_or(|s| seconds < s.time_s) {
-                    let speed_mps = other.speed_mps;
-                    soonest = Some(Crossing { distance_m: foot.s_m, time_s: seconds, speed_mps });
-                }
+                let speed_mps = other.speed_mps;
+                soonest = Some(Crossing { distance_m: foot.s_m, time_s: seconds, speed_mps });
                 break;
             }
         }

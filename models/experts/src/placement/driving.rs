@@ -52,7 +52,7 @@ pub(super) fn leader_ahead(
     if close.is_empty() {
         return None;
     }
-    let mut points: Vec<Vec2> = vec![graph.lanes()[lane].path.sample(s_m).position];
+    let mut points: Vec<Vec2> = vec![graph.lanes()[lane].path.position_at(s_m)];
     let (mut at, mut from_m, mut left_m) = (lane, s_m, LEADER_LOOK_M + 10.0);
     for _ in 0..12 {
         let path = &graph.lanes()[at].path;

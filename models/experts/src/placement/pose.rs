@@ -89,7 +89,7 @@ fn subtype(agent_type: AgentType, length_m: f64) -> Subtype {
 /// Outward axis of a driveway: from the nearest lane to its middle.
 fn driveway_axis(cells: &Cells<'_>, cell: &Cell) -> Option<Vec2> {
     let hit = cells.graph.nearest_for(cell.center, 40.0, AgentType::Vehicle).into_iter().next()?;
-    let foot = cells.graph.lanes()[hit.lane].path.sample(hit.s_m).position;
+    let foot = cells.graph.lanes()[hit.lane].path.position_at(hit.s_m);
     (cell.center - foot).try_normalize(1e-3)
 }
 

@@ -92,7 +92,7 @@ fn crosses(line: &StopLine, path: &Polyline, enters_m: f64, leaves_m: f64) -> bo
 /// Progress at which a path steps onto the first lane of vehicles, and at which it has left the last; `None` where
 /// it crosses none or begins on one.
 fn carriageway(world: &World<'_>, path: &Polyline, to_m: f64) -> Option<(f64, f64)> {
-    let on = |s: &f64| is_on_lane(world, path.sample(*s).position);
+    let on = |s: &f64| is_on_lane(world, path.position_at(*s));
     if on(&0.0) {
         return None;
     }
@@ -111,9 +111,8 @@ fn is_on_lane(world: &World<'_>, place: Vec2) -> bool {
 /// All of a path between these is on one crosswalk, or right beside it.
 fn is_on_crosswalk(world: &World<'_>, path: &Polyline, from_m: f64, to_m: f64) -> bool {
     let count = ((to_m - from_m) / 1.0).ceil().max(1.0) as usize;
-    let places: Vec<Vec2> = (0..=count)
-        .map(|i| path.sample(from_m + (to_m - from_m) * i as f64 / count as f64).position)
-        .collect();
+    let places: Vec<Vec2> =
+        (0..=count).map(|i| path.position_at(from_m + (to_m - from_m) * i as f64 / count as f64)).collect();
     // It is drawn up to the kerb or short of it, so its middle decides.
     let middle = &places[places.len() / 4..places.len() - places.len() / 4];
     world.scene.map.crosswalks.iter().any(|area| middle.iter().all(|p| is_near(area, *p)))

@@ -47,7 +47,7 @@ fn anchors_of(map: LaneMap, agent: Agent) -> Vec<Anchor> {
 
 /// Where a path is on the lanes, x of its places.
 fn on_lanes(anchor: &Anchor) -> Vec<f64> {
-    let places = (0..200).map(|i| anchor.path.sample(0.1 * f64::from(i)).position);
+    let places = (0..200).map(|i| anchor.path.position_at(0.1 * f64::from(i)));
     places.filter(|p| (0.5..7.5).contains(&p.y)).map(|p| p.x).collect()
 }
 

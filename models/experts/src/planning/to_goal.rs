@@ -10,7 +10,7 @@ use crate::tuning::AnchorTuning;
 use scene::geometry::direction;
 use scene::motion::{Kind, MotionModel, Projection, Target, Tension, project};
 use scene::routes::{
-    EndPose, GoalQuery, GoalRoute, Polyline, RouteKind, base_path, further_routes_to_goal, routes_ahead,
+    EndPose, GoalQuery, GoalRoute, Polyline, RouteKind, base_path, best_route_ahead, further_routes_to_goal,
     routes_to_goal,
 };
 use scene::score::Drivable;
@@ -248,7 +248,7 @@ impl Trip<'_, '_> {
         let speed_mps = target.speed_mps.unwrap_or((2.0 * mean_mps - model.start_speed_mps()).max(0.0));
         let left_s = HORIZON_STEPS as f64 * STEP_S - seconds;
         let length_m = speed_mps * left_s + AFTER_GOAL_M;
-        let Some(route) = routes_ahead(&world.graph, end, who.agent_type, length_m).into_iter().next() else {
+        let Some(route) = best_route_ahead(&world.graph, end, who.agent_type, length_m) else {
             return;
         };
         let limit_mps = route.limits_mps.first().copied().unwrap_or(f64::INFINITY);

@@ -113,7 +113,7 @@ fn stop(signal: &Signal, frame: &Frame, path: &Polyline, through: bool, lines: O
     let foot = points.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m)).map_or(0.0, |foot| foot.s_m);
     let near = lines.into_iter().flatten().filter(|s| (**s - foot).abs() < LINE_REACH_M);
     let line = near.min_by(|a, b| (**a - foot).abs().total_cmp(&(**b - foot).abs()));
-    path.sample(*line.unwrap_or(&foot)).position
+    path.position_at(*line.unwrap_or(&foot))
 }
 
 /// Places along lanes, by index, at which a line is painted across, metres.

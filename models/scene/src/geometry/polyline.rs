@@ -1,6 +1,7 @@
 //! Polylines by arc length: sampling, projection, slices, curvature.
 
 use super::{Vec2, cross, direction, wrap_angle};
+use std::sync::OnceLock;
 
 /// Points closer than this to the one before are the same point, metres.
 const SAME_POINT_M: f64 = 0.01;
@@ -58,13 +59,20 @@ pub struct Foot {
 ///
 /// Repeated points are dropped, so every piece has a length; a line of one point has length zero and
 /// heading zero. Never empty: no points at all become the origin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Polyline {
     points: Vec<Vec2>,
     /// Arc length of each point, metres.
     arc: Vec<f64>,
-    /// Heading at each point, unwrapped (neighbours differ by less than pi), radians.
-    headings: Vec<f64>,
+    /// See [`Polyline::headings_rad`]; worked out when first asked for, since most lines are steps towards others.
+    headings: OnceLock<Vec<f64>>,
+}
+
+/// All else follows from the points.
+impl PartialEq for Polyline {
+    fn eq(&self, other: &Self) -> bool {
+        self.points == other.points
+    }
 }
 
 impl Default for Polyline {
@@ -96,12 +104,20 @@ impl Polyline {
     }
 
     fn from_distinct(points: Vec<Vec2>) -> Self {
-        let n = points.len();
-        let mut arc = Vec::with_capacity(n);
-        let mut headings = Vec::with_capacity(n);
-        let (mut s, mut last_length, mut last_heading) = (0.0, 0.0, 0.0);
-        arc.push(0.0);
-        for (i, pair) in points.windows(2).enumerate() {
+        let mut arc = Vec::with_capacity(points.len());
+        let mut s = 0.0;
+        arc.push(s);
+        for pair in points.windows(2) {
+            s += (pair[1] - pair[0]).norm();
+            arc.push(s);
+        }
+        Self { points, arc, headings: OnceLock::new() }
+    }
+
+    fn work_out_headings(&self) -> Vec<f64> {
+        let mut headings = Vec::with_capacity(self.points.len());
+        let (mut last_length, mut last_heading) = (0.0, 0.0);
+        for (i, pair) in self.points.windows(2).enumerate() {
             let step = pair[1] - pair[0];
             let length = step.norm();
             let mut heading = step.y.atan2(step.x);
@@ -113,32 +129,29 @@ impl Polyline {
                 let weight = last_length / (last_length + length);
                 headings.push(last_heading + weight * (heading - last_heading));
             }
-            s += length;
-            arc.push(s);
             (last_length, last_heading) = (length, heading);
         }
         headings.push(last_heading);
-        let mut line = Self { points, arc, headings };
-        line.turn_ends();
-        line
+        self.turn_ends(&mut headings);
+        headings
     }
 
     /// Continues the bend of smooth, evenly spaced lines to their ends, where the first and last piece alone
     /// are off by half the turn of one piece.
-    fn turn_ends(&mut self) {
-        let n = self.points.len();
+    fn turn_ends(&self, headings: &mut [f64]) {
+        let n = headings.len();
         if n < 4 {
             return;
         }
         let even = |s: &[f64]| s[1] - s[0] < 1.5 * (s[2] - s[1]) && s[2] - s[1] < 3.0;
-        let start = self.headings[0] - self.headings[1];
+        let start = headings[0] - headings[1];
         if even(&self.arc[..3]) && start.abs() < MAX_SMOOTH_TURN_RAD {
-            self.headings[0] += start;
+            headings[0] += start;
         }
-        let end = self.headings[n - 1] - self.headings[n - 2];
+        let end = headings[n - 1] - headings[n - 2];
         let back = [0.0, self.arc[n - 1] - self.arc[n - 2], self.arc[n - 1] - self.arc[n - 3]];
         if even(&back) && end.abs() < MAX_SMOOTH_TURN_RAD {
-            self.headings[n - 1] += end;
+            headings[n - 1] += end;
         }
     }
 
@@ -152,9 +165,9 @@ impl Polyline {
         &self.arc
     }
 
-    /// Heading at each point, unwrapped, radians.
+    /// Heading at each point, unwrapped (neighbours differ by less than pi), radians.
     pub fn headings_rad(&self) -> &[f64] {
-        &self.headings
+        self.headings.get_or_init(|| self.work_out_headings())
     }
 
     /// Whole length, metres.
@@ -188,14 +201,25 @@ impl Polyline {
 
     /// Pose at arc length `s_m`, held at the ends.
     pub fn sample(&self, s_m: f64) -> Pose {
-        let (i, t) = self.locate(s_m);
+        let place = self.locate(s_m);
+        Pose::new(self.position_in(place), wrap_angle(self.heading_in(place)))
+    }
+
+    /// Position at arc length `s_m`, held at the ends; [`Polyline::sample`] without the heading.
+    pub fn position_at(&self, s_m: f64) -> Vec2 {
+        self.position_in(self.locate(s_m))
+    }
+
+    fn position_in(&self, (i, t): (usize, f64)) -> Vec2 {
         let j = (i + 1).min(self.points.len() - 1);
-        let heading = self.headings[i] + t * (self.headings[j] - self.headings[i]);
         // Vertices are met to the last bit.
-        let ahead = t >= 1.0;
-        let position =
-            if ahead { self.points[j] } else { self.points[i] + t * (self.points[j] - self.points[i]) };
-        Pose::new(position, wrap_angle(heading))
+        if t >= 1.0 { self.points[j] } else { self.points[i] + t * (self.points[j] - self.points[i]) }
+    }
+
+    fn heading_in(&self, (i, t): (usize, f64)) -> f64 {
+        let headings = self.headings_rad();
+        let j = (i + 1).min(headings.len() - 1);
+        headings[i] + t * (headings[j] - headings[i])
     }
 
     /// Pose at arc length `s_m`; before the start and beyond the end the line goes on straight.
@@ -207,9 +231,7 @@ impl Polyline {
 
     /// Unwrapped heading at arc length `s_m`, held at the ends, radians.
     pub fn heading_at(&self, s_m: f64) -> f64 {
-        let (i, t) = self.locate(s_m);
-        let j = (i + 1).min(self.points.len() - 1);
-        self.headings[i] + t * (self.headings[j] - self.headings[i])
+        self.heading_in(self.locate(s_m))
     }
 
     /// Curvature at arc length `s_m` as the change of heading over `window_m` around it, 1/m, positive
@@ -310,7 +332,7 @@ impl Polyline {
         let (from, to) = (from_m.clamp(0.0, self.length_m()), to_m.clamp(0.0, self.length_m()));
         let inner = self.arc.iter().zip(&self.points).filter(|(s, _)| **s > from && **s < to);
         let inner = inner.map(|(_, p)| *p);
-        let ends = (self.sample(from).position, self.sample(to.max(from)).position);
+        let ends = (self.position_at(from), self.position_at(to.max(from)));
         Self::new([ends.0].into_iter().chain(inner).chain([ends.1]))
     }
 
@@ -321,7 +343,7 @@ impl Polyline {
             return self.clone();
         }
         let pieces = (length / step_m.max(SAME_POINT_M) - 1e-9).ceil().clamp(1.0, 1e6) as usize;
-        Self::new((0..=pieces).map(|i| self.sample(length * (i as f64 / pieces as f64)).position))
+        Self::new((0..=pieces).map(|i| self.position_at(length * (i as f64 / pieces as f64))))
     }
 
     /// Mean over a window of `2 half_m` around each point, the window narrowing towards the ends so that
@@ -371,8 +393,8 @@ mod tests {
         let line = Polyline::new([v(0.0, 0.0), v(10.0, 0.0), v(10.0, 0.0), v(10.0, 10.0)]);
         assert_eq!(line.points().len(), 3);
         assert_eq!(line.length_m(), 20.0);
-        assert_eq!(line.sample(15.0).position, v(10.0, 5.0));
-        assert_eq!(line.sample(99.0).position, v(10.0, 10.0));
+        assert_eq!(line.position_at(15.0), v(10.0, 5.0));
+        assert_eq!(line.position_at(99.0), v(10.0, 10.0));
         assert!((line.extrapolate(23.0).position - v(10.0, 13.0)).norm() < 1e-9);
         let foot = line.project(v(4.0, -2.0));
         assert_eq!((foot.s_m, foot.lateral_m, foot.distance_m), (4.0, -2.0, 2.0));
@@ -398,7 +420,7 @@ mod tests {
         let line = circle(20.0);
         let part = line.slice(3.3, 17.7);
         assert!((part.length_m() - 14.4).abs() < 1e-6);
-        assert_eq!(part.first().position, line.sample(3.3).position);
+        assert_eq!(part.first().position, line.position_at(3.3));
         let even = line.resample(1.0);
         assert_eq!(even.last().position, line.last().position);
         let steps = even.points().windows(2).map(|p| (p[1] - p[0]).norm());
@@ -411,7 +433,7 @@ mod tests {
         for line in [Polyline::default(), Polyline::new([v(3.0, 4.0); 5]), Polyline::new([v(f64::NAN, 0.0)])]
         {
             assert_eq!((line.points().len(), line.length_m()), (1, 0.0));
-            assert_eq!(line.sample(5.0).position, line.points()[0]);
+            assert_eq!(line.position_at(5.0), line.points()[0]);
             assert!(line.project(v(1.0, 1.0)).distance_m.is_finite());
             assert_eq!(line.curvatures(2.0), [0.0]);
             assert_eq!(line.resample(1.0), line);
@@ -428,8 +450,8 @@ mod tests {
         ) {
             let line = Polyline::new(corners.into_iter().map(|(x, y)| v(x, y)));
             let foot = line.project(v(x, y));
-            prop_assert!((line.sample(foot.s_m).position - v(x, y)).norm() - foot.distance_m < 1e-6);
-            let other = line.sample(share * line.length_m()).position;
+            prop_assert!((line.position_at(foot.s_m) - v(x, y)).norm() - foot.distance_m < 1e-6);
+            let other = line.position_at(share * line.length_m());
             prop_assert!((other - v(x, y)).norm() >= foot.distance_m - 1e-6);
             prop_assert!(foot.lateral_m.abs() <= foot.distance_m + 1e-9);
         }

@@ -143,22 +143,23 @@ fn refine_positions(model: &MotionModel, samples: &[Sampled], mut knots: Knots) 
         let u = SVector::<f64, CONTROLS>::from_fn(|i, _| {
             if i < KNOTS { knots.first[i] } else { knots.second[i - KNOTS] }
         });
-        let (mut normal, mut right) = (penalty, -(penalty * u));
-        let mut cost = u.dot(&(penalty * u));
-        for (point, goal) in points.iter().zip(&goals) {
+        let rows = points.iter().zip(&goals).flat_map(|(point, goal)| {
             let difference = [goal.x - point.value[0], goal.y - point.value[1]];
-            for (row, r) in point.jacobian[..2].iter().zip(difference) {
-                cost += r * r;
-                let row = SVector::<f64, CONTROLS>::from_column_slice(row);
-                right += row * r;
-                normal.ger(1.0, &row, &row, 1.0);
-            }
-        }
+            point.jacobian[..2].iter().zip(difference)
+        });
+        let cost = rows.clone().fold(u.dot(&(penalty * u)), |cost, (_, r)| cost + r * r);
         if cost < best.0 {
             best = (cost, knots);
         }
         if iteration == GAUSS_NEWTON_STEPS {
             break;
+        }
+        let (mut normal, mut right) = (penalty, -(penalty * u));
+        for (row, r) in rows {
+            let row = SVector::<f64, CONTROLS>::from_column_slice(row);
+            right += row * r;
+            // Its lower half is all that the factors are made of.
+            normal.syger(1.0, &row, &row, 1.0);
         }
         let Some(change) = normal.cholesky().map(|c| c.solve(&right)) else { break };
         let next = u + change;

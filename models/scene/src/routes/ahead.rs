@@ -40,6 +40,25 @@ struct Chain {
 /// The first is the best continuation of the best start lane, each further one the farthest from those
 /// before it. Deterministic.
 pub fn routes_ahead(graph: &LaneGraph, pose: Pose, agent_type: AgentType, length_m: f64) -> Vec<Route> {
+    each_route_ahead(graph, pose, agent_type, length_m).collect()
+}
+
+/// The first of [`routes_ahead`]; the others are not worked out.
+pub fn best_route_ahead(
+    graph: &LaneGraph,
+    pose: Pose,
+    agent_type: AgentType,
+    length_m: f64,
+) -> Option<Route> {
+    each_route_ahead(graph, pose, agent_type, length_m).next()
+}
+
+fn each_route_ahead(
+    graph: &LaneGraph,
+    pose: Pose,
+    agent_type: AgentType,
+    length_m: f64,
+) -> impl Iterator<Item = Route> {
     let starts = with_lanes_beside(graph, start_lanes(graph, pose, agent_type), agent_type);
     let mut chains: Vec<Chain> = Vec::new();
     for start in &starts {
@@ -51,9 +70,7 @@ pub fn routes_ahead(graph: &LaneGraph, pose: Pose, agent_type: AgentType, length
     }
     chains.sort_by(|a, b| a.rank.total_cmp(&b.rank));
     let kept = farthest_first(&chains);
-    kept.into_iter()
-        .filter_map(|i| assemble::route(graph, &chains[i].hops, pose, chains[i].terminal))
-        .collect()
+    kept.into_iter().filter_map(move |i| assemble::route(graph, &chains[i].hops, pose, chains[i].terminal))
 }
 
 fn ends_with(longer: &[Hop], hops: &[Hop]) -> bool {

@@ -48,7 +48,7 @@ fn chain(graph: &LaneGraph, hops: &[Hop]) -> (Vec<Vec2>, Vec<f64>) {
             for k in 0..=pieces {
                 let share = k as f64 / pieces as f64;
                 let from = beside.extrapolate(before.to_m + share * change_m).position;
-                let to = path.sample(hop.from_m + share * change_m).position;
+                let to = path.position_at(hop.from_m + share * change_m);
                 add(from + smooth(share) * (to - from));
             }
         }
@@ -99,7 +99,7 @@ pub(super) fn trace(graph: &LaneGraph, hops: &[Hop], step_m: f64) -> Vec<Vec2> {
     for hop in hops {
         let path = &graph.lanes()[hop.lane].path;
         while next <= length + hop.length_m() {
-            points.push(path.sample(hop.from_m + next - length).position);
+            points.push(path.position_at(hop.from_m + next - length));
             next += step_m;
         }
         length += hop.length_m();

@@ -18,7 +18,7 @@ pub mod to_goal;
 mod walks;
 
 pub use crate::geometry::polyline::{Foot, Polyline, Pose};
-pub use ahead::{MAX_ROUTES, route_length_m, routes_ahead};
+pub use ahead::{MAX_ROUTES, best_route_ahead, route_length_m, routes_ahead};
 pub use blend::{EndPose, base_path};
 pub use graph::{Beside, GraphLane, LaneGraph, LaneHit, LaneSource, assumed_speed_limit_mps};
 pub use speed::{LaneSignal, Leader, Obstacle, SignalAhead, SpeedRules};

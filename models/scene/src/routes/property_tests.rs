@@ -120,6 +120,8 @@ proptest! {
         let pose = near_lane(&graph, pick, share, off);
         let routes = routes_ahead(&graph, pose, AgentType::Vehicle, length);
         prop_assert_eq!(&routes, &routes_ahead(&LaneGraph::new(&map), pose, AgentType::Vehicle, length));
+        let best = best_route_ahead(&graph, pose, AgentType::Vehicle, length);
+        prop_assert_eq!(routes.first(), best.as_ref());
         for route in &routes {
             assert_route(route)?;
             prop_assert!(route.path.length_m() <= length + 5.0);

@@ -100,7 +100,7 @@ fn must_stop_m(stage: &Stage<'_>, driver: &Driver<'_>) -> Option<f64> {
     let signs = (0..stage.graph.lanes().len()).filter_map(|lane| {
         let path = &stage.graph.lanes()[lane].path;
         let at_s = stage.graph.lanes()[lane].stop_sign_m?;
-        line_ahead_m(stage, driver, lane, path.sample(at_s).position)
+        line_ahead_m(stage, driver, lane, path.position_at(at_s))
     });
     signals.chain(signs).min_by(f64::total_cmp)
 }

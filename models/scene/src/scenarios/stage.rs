@@ -1,6 +1,6 @@
 //! A scene as the templates see it: who drives, and where each of them goes on.
 
-use crate::routes::{LaneGraph, Polyline, Pose, routes_ahead};
+use crate::routes::{LaneGraph, Polyline, Pose, best_route_ahead};
 use crate::{Agent, AgentType, Scene, Shown, State, Vec2, wrap_angle};
 
 /// A way reaches so far behind its road user, metres: who is beside or behind has a place on it too.
@@ -125,7 +125,7 @@ fn way(shown: &Shown<'_>, state: &State, graph: &LaneGraph, start_step: usize) -
         points.truncate(2);
         end = Pose::new(state.position(), state.heading_rad);
     }
-    let route = routes_ahead(graph, end, AgentType::Vehicle, BEYOND_M).into_iter().next();
+    let route = best_route_ahead(graph, end, AgentType::Vehicle, BEYOND_M);
     if let Some(route) = route {
         // The lane's middle may be beside where it is: the offset is given up over the first metres.
         points.extend(route.path.points().iter().copied().filter(|p| (p - end.position).norm() > 6.0));

@@ -61,7 +61,7 @@ impl Cells<'_> {
             let count = (length_m / cell_m).ceil().max(1.0) as usize;
             let size = length_m / count as f64;
             let centers: Vec<Vec2> =
-                (0..count).map(|i| lane.path.sample((i as f64 + 0.5) * size).position).collect();
+                (0..count).map(|i| lane.path.position_at((i as f64 + 0.5) * size)).collect();
             let held = |p: &Vec2| region.may_hold(*p, size);
             let (Some(first), Some(last)) = (centers.iter().position(held), centers.iter().rposition(held))
             else {
@@ -209,7 +209,7 @@ impl Cells<'_> {
                     if lane.lane_type == LaneType::Freeway {
                         return None;
                     }
-                    let foot = lane.path.sample(hit.s_m).position;
+                    let foot = lane.path.position_at(hit.s_m);
                     let outwards = -1f64.copysign(cross(direction(heading_rad), foot - center));
                     Some((outwards, pavement_features(graph, center, Some(&hit), 0.0, median)))
                 });
@@ -228,7 +228,7 @@ impl Cells<'_> {
         features: impl Fn(&LaneGraph, Vec2) -> Option<(f64, [u8; FEATURES])>,
     ) {
         let path = if on_lane { &self.graph.lanes()[line].path } else { &self.edges[line] };
-        let center = path.sample(0.5 * (from_m + to_m)).position;
+        let center = path.position_at(0.5 * (from_m + to_m));
         if !region.may_hold(center, to_m - from_m + 6.0) {
             return;
         }

@@ -4,7 +4,7 @@
 use super::state;
 use experts::planning::profile::Caps;
 use experts::planning::world::{AgentAtStart, World};
-use scene::routes::{Polyline, Route, SpeedRules, base_path, route_length_m, routes_ahead, speed};
+use scene::routes::{Polyline, Route, SpeedRules, base_path, best_route_ahead, route_length_m, speed};
 use scene::{HORIZON_STEPS, STEP_S, State};
 
 /// Greatest acceleration, m/s2.
@@ -34,7 +34,7 @@ pub fn intelligent_driver(world: &World<'_>, agent: usize) -> Option<Vec<State>>
     let graph = &world.graph;
     // Someone who speeds up to the limit gets farther than the present speed says.
     let length = route_length_m(v0.max(15.0));
-    let route = routes_ahead(graph, who.pose(), who.agent_type, length).into_iter().next()?;
+    let route = best_route_ahead(graph, who.pose(), who.agent_type, length)?;
     let path = base_path(&route.path, who.pose(), v0, who.agent_type, None);
     let caps = speed::speed_caps(&path, &limits(&path, &route), SpeedRules::default());
     let caps = Caps::new(path.arc_m(), &caps);
