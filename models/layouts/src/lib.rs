@@ -37,6 +37,7 @@ pub use parameters::{
 };
 pub use ranges::{Fault, all as ranges};
 
+use scene::objects::Objects;
 use scene::{HORIZON_STEPS, LaneMap, Meta, Scene, Signal};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -164,7 +165,7 @@ fn lay_over(whole: &mut Value, given: &Value) {
 }
 
 fn read<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
-    serde_path_to_error::deserialize(value).map_err(|error| Fault::unreadable(&error))
+    serde_path_to_error::deserialize(Objects(value)).map_err(|error| Fault::unreadable(&error))
 }
 
 impl Layout {

@@ -310,8 +310,17 @@ fn parameters_are_laid_over_those_of_the_template() {
     let Layout::ThreeArms(junction) = layout else { panic!("{layout:?}") };
     assert_eq!((junction.arms.len(), junction.kerb_radius_m, junction.program.green_s), (3, 4.0, 20.0));
     assert_eq!(junction.program.yellow_s, Program::default().yellow_s);
-    let fault = Template::Merge.with(&json!({"lanes": "two"})).unwrap_err();
-    assert_eq!(fault.pointer, "/lanes");
+    let refused = |given| Template::ThreeArms.with(&given).unwrap_err();
+    assert_eq!(refused(json!({"kerb_radius_m": "wide"})).pointer, "/kerb_radius_m");
+    // A list is no object, however deep it lies.
+    for (given, pointer) in [
+        (json!([]), ""),
+        (json!({"program": [20]}), "/program"),
+        (json!({"arms": [{"angle_deg": 0}, [90]]}), "/arms/1"),
+    ] {
+        let fault = refused(given);
+        assert_eq!((fault.pointer.as_str(), fault.reason.contains("object")), (pointer, true), "{fault:?}");
+    }
 }
 
 #[test]

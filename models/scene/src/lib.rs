@@ -34,6 +34,7 @@ pub mod licence;
 pub mod limits;
 pub mod map;
 pub mod motion;
+pub mod objects;
 pub mod preference;
 pub mod random;
 pub mod routes;

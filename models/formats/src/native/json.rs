@@ -1,10 +1,10 @@
 //! From bytes to a typed document with the place of the fault.
 
-use super::objects::Objects;
 use crate::limits::{MAX_DOCUMENT_VALUES, memory_for};
 use crate::problem::{FieldProblem, ReadError, code, pointer_token};
 use crate::source::Source;
 use crate::unpack;
+use scene::objects::Objects;
 use serde::de::DeserializeOwned;
 use serde_json::Deserializer;
 use serde_json::error::Category;
@@ -176,6 +176,37 @@ fn pointer_of(path: &Path) -> String {
 mod tests {
     use super::super::SceneDoc;
     use super::{Long, from_json};
+    use serde::Deserialize;
+    use std::collections::BTreeMap;
+
+    #[derive(Debug, PartialEq, Deserialize)]
+    struct Goal {
+        x_m: f64,
+        #[serde(default)]
+        inner: Option<Box<Goal>>,
+        #[serde(default)]
+        list: Vec<Goal>,
+        #[serde(default)]
+        by_name: BTreeMap<String, Goal>,
+        #[serde(default)]
+        pair: Option<(f64, f64)>,
+    }
+
+    #[test]
+    fn a_list_is_no_object_at_any_depth_and_its_place_is_told() {
+        let place = |text: &str| {
+            let refused = from_json::<Goal>(text.as_bytes()).unwrap_err();
+            refused.problems.first().map(|fault| (fault.pointer.clone(), fault.detail.clone())).unwrap()
+        };
+        let (pointer, detail) = place("[1.0]");
+        assert_eq!((pointer.as_str(), detail.contains("an object")), ("", true), "{detail}");
+        assert_eq!(place(r#"{"x_m":1,"inner":[2]}"#).0, "/inner");
+        assert_eq!(place(r#"{"x_m":1,"list":[{"x_m":1},[2]]}"#).0, "/list/1");
+        assert_eq!(place(r#"{"x_m":1,"by_name":{"a":{"x_m":1,"inner":[2]}}}"#).0, "/by_name/a/inner");
+        // Lists stay lists.
+        let read: Goal = from_json(br#"{"x_m":1,"pair":[2,3],"list":[]}"#).unwrap();
+        assert_eq!(read.pair, Some((2.0, 3.0)));
+    }
 
     #[test]
     fn a_long_text_has_the_same_faults_in_the_same_places() {

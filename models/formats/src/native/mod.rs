@@ -13,7 +13,6 @@ mod generated;
 mod json;
 mod map;
 mod map_domain;
-mod objects;
 mod resolve;
 mod value;
 

@@ -7,7 +7,8 @@ use serde::de::{
 use std::fmt;
 
 /// A deserializer, or a part of one, that reads structs from objects alone, however deep they lie.
-pub(crate) struct Objects<T>(pub(crate) T);
+#[derive(Clone, Copy, Debug)]
+pub struct Objects<T>(pub T);
 
 macro_rules! forward {
     ($($method:ident($($name:ident: $type:ty),*);)*) => {$(
@@ -163,41 +164,5 @@ impl<'de, A: VariantAccess<'de>> VariantAccess<'de> for Objects<A> {
         visitor: V,
     ) -> Result<V::Value, A::Error> {
         self.0.struct_variant(fields, Objects(visitor))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::native::from_json;
-    use serde::Deserialize;
-    use std::collections::BTreeMap;
-
-    #[derive(Debug, PartialEq, Deserialize)]
-    struct Goal {
-        x_m: f64,
-        #[serde(default)]
-        inner: Option<Box<Goal>>,
-        #[serde(default)]
-        list: Vec<Goal>,
-        #[serde(default)]
-        by_name: BTreeMap<String, Goal>,
-        #[serde(default)]
-        pair: Option<(f64, f64)>,
-    }
-
-    #[test]
-    fn a_list_is_no_object_at_any_depth_and_its_place_is_told() {
-        let place = |text: &str| {
-            let refused = from_json::<Goal>(text.as_bytes()).unwrap_err();
-            refused.problems.first().map(|fault| (fault.pointer.clone(), fault.detail.clone())).unwrap()
-        };
-        let (pointer, detail) = place("[1.0]");
-        assert_eq!((pointer.as_str(), detail.contains("an object")), ("", true), "{detail}");
-        assert_eq!(place(r#"{"x_m":1,"inner":[2]}"#).0, "/inner");
-        assert_eq!(place(r#"{"x_m":1,"list":[{"x_m":1},[2]]}"#).0, "/list/1");
-        assert_eq!(place(r#"{"x_m":1,"by_name":{"a":{"x_m":1,"inner":[2]}}}"#).0, "/by_name/a/inner");
-        // Lists stay lists.
-        let read: Goal = from_json(br#"{"x_m":1,"pair":[2,3],"list":[]}"#).unwrap();
-        assert_eq!(read.pair, Some((2.0, 3.0)));
     }
 }
