@@ -130,8 +130,8 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag, roadSign } = this.overlay;
-    return { editor, view: stage.view, chips, timeTag, roadSign, pennants: picture.pennants, touch };
+    const { chips, timeTag, roadSign, stops } = this.overlay;
+    return { editor, view: stage.view, chips, timeTag, roadSign, stops, pennants: picture.pennants, touch };
   }
 
   #down(e: PointerEvent): void {
