@@ -51,6 +51,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'find-case',
     'zoom-selection',
   ],
+  future: ['future-choose', 'future-play', 'future-compare', null, 'future-best', 'set-goal'],
   goal: ['clear-goal', 'toggle-goal-speed', null, 'zoom-selection', 'reset-agent'],
   ground: [
     'paste',
@@ -68,6 +69,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
 const ABOUT: Record<MenuOn, string> = {
   'road user': 'Actions for this road user',
   several: 'Actions for these road users',
+  future: 'Actions for this future',
   goal: 'Actions for this goal',
   ground: 'Actions for this place',
 };

@@ -104,7 +104,7 @@ function connect(c: Context): void {
     stage.element.setAttribute('aria-busy', String(busy));
   });
   gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');
-  gestures.onMenu = (at, on) => ui.openContextMenu({ ...at, on });
+  gestures.onMenu = (at, on, future) => ui.openContextMenu({ ...at, on, future });
   sharing.onOpened = (at) => {
     if (!at) return;
     Object.assign(stage.view, at.camera);
