@@ -39,6 +39,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     ...COPIES,
     null,
     'lock',
+    'mirror',
     KINDS,
     null,
     ...DOES,

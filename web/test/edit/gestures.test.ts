@@ -211,7 +211,7 @@ describe('two fingers on the selected road user', () => {
 
   it('turn it, live, and the release is one step', () => {
     press();
-    expect(p.state).toBe('turning');
+    expect(p.state).toBe('turning by fingers');
     const [before, z] = [heading(), p.view.z];
     for (let k = 1; k <= 10; k++) {
       const [a, b] = pair(0.06 * k);

@@ -40,8 +40,8 @@ export function twoFingers(chart: Chart, p: Point, q: Point): State {
   return what ? new Turning(chart, what, p, q) : new Pinching(chart);
 }
 
-export class Turning implements State {
-  readonly name = 'turning';
+class Turning implements State {
+  readonly name = 'turning by fingers';
   #command: Command | null = null;
   #turned = 0;
   #begun = false;
