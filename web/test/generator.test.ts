@@ -4,6 +4,7 @@ import type { SceneJson } from '../src/model/json';
 import { Client } from '../src/net/client';
 import type { Handlers, Question } from '../src/net/generator';
 import { HttpGenerator, type Patience } from '../src/net/http-generator';
+import { lineHere } from '../src/net/line';
 import { crossingJson } from './helpers';
 import { readEvents } from '../src/net/stream';
 import { startStandIn, type StandIn } from './standin/server.mjs';
@@ -14,7 +15,8 @@ afterEach(async () => {
   server = null;
 });
 
-const generator = (url: string, patience?: Partial<Patience>) => new HttpGenerator(new Client(url), patience);
+const generator = (url: string, patience?: Partial<Patience>) =>
+  new HttpGenerator(new Client(url), lineHere(new Client(url)), patience);
 
 interface Seen {
   drafts: number[];

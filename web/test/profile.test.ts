@@ -1,6 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import { limitsOf } from '../src/model/domain';
-import { addedPoint, hardestBraking, motionOf, movedPoint, pathOf, readProfile, stopsOf } from '../src/model/profile';
+import {
+  addedPoint,
+  hardestBraking,
+  motionOf,
+  movedPoint,
+  pathOf,
+  readProfile,
+  stopsOf,
+  timeOfStop,
+} from '../src/model/profile';
 
 const line = (metres: number) => ({
   x: Array.from({ length: metres + 1 }, (_, i) => i),
@@ -44,6 +53,17 @@ describe('a speed drawn by hand', () => {
     expect(m.x.at(-1)).toBeCloseTo(45);
     expect(pathOf({ ...m, speed: m.speed.map((v) => -v) })).toBeNull();
     expect(pathOf(m)!.x.at(-1)).toBeCloseTo(45);
+  });
+
+  it('stops with its front at a place where its stop is dragged to', () => {
+    const profile = { path: line(100), points: stop };
+    for (const place of [12, 20, 26]) {
+      const t = timeOfStop(profile, 1, [place, 1], 2.4, CAR, 9);
+      const points = movedPoint(stop, 1, { t }, 9);
+      const [{ pose }] = stopsOf(motionOf({ ...profile, points }, CAR, 9));
+      // A tenth of a second is as fine as times are.
+      expect(Math.abs(pose.x + 2.4 - place)).toBeLessThan(0.5);
+    }
   });
 
   it('has points that pass no other, and no two at a time', () => {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { it } from 'node:test';
 import { carOnTheMove, pedestrianOnTheMove } from '../support/casting.js';
-import { distance, Editor } from '../support/editor.js';
+import { distance, Editor, turn } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 
 const names = async (e) => (await e.roadUsers()).map((u) => u.name);
@@ -61,6 +61,41 @@ journeys('several at once', (stage) => {
     assert.deepEqual(
       await names(e),
       all.map((u) => u.name),
+    );
+  });
+
+  it('mirrors two of them: left is right, and twice is not at all', { timeout: 60_000 }, async () => {
+    const e = await stage.open();
+    await e.begin();
+    await e.key('b');
+    const [one, two] = (await e.roadUsers()).filter((u) => u.kind === 'Car' && u.speed > 2.5);
+    const start = async (id) => {
+      await e.choose(id);
+      return e.pose('Start');
+    };
+    const before = [await start(one.id), await start(two.id)];
+    const both = async () => {
+      await e.choose(one.id);
+      await e.page
+        .locator(`[data-agent="${two.id}"]`)
+        .evaluate((el) => el.dispatchEvent(new MouseEvent('click', { bubbles: true, shiftKey: true })));
+      await e.settled();
+    };
+    await both();
+    await e.key('Alt+m');
+    await e.settled();
+    assert.match(await e.text('.toast'), /^2 cars mirrored/);
+    await e.picture('mirrored');
+    const now = [await start(one.id), await start(two.id)];
+    assert.ok(Math.abs(distance(...now) - distance(...before)) < 0.2, 'as far apart');
+    assert.ok(turn(now[0].heading, before[0].heading) < 0.02, 'the first looks where it looked');
+    assert.ok(Math.abs(turn(now[1].heading, now[0].heading) - turn(before[1].heading, before[0].heading)) < 0.04);
+    await both();
+    await e.key('Alt+m');
+    await e.settled();
+    const again = [await start(one.id), await start(two.id)];
+    assert.ok(
+      again.every((pose, i) => distance(pose, before[i]) < 0.2 && turn(pose.heading, before[i].heading) < 0.02),
     );
   });
 

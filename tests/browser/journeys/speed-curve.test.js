@@ -115,6 +115,66 @@ journeys('the speed curve', (stage) => {
     assert.deepEqual(await points(e), before);
   });
 
+  it(
+    'a curve that cannot be driven says what limits it, and its buttons show and do what they say',
+    { timeout: 60_000 },
+    async () => {
+      const { e } = await stopping(stage);
+      assert.ok(await e.page.locator('.misfit').isHidden(), 'this one can be driven');
+      await e.type('point-time', '0.4');
+      const time = (said) => Number(/at ([\d.]+) s$/.exec(said)[1]);
+      assert.equal(time((await points(e))[1]), 0.4);
+      assert.match(await e.text('.misfit p'), /^Cannot stop by 0\.4 s: still \d+ km\/h then\.$/);
+      const later = e.page.locator('.misfit [data-way="later"]');
+      const more = Number(/^Give it ([\d.]+) s more$/.exec(await later.innerText())[1]);
+      const mark = e.wire.asked.length;
+      await later.hover();
+      await e.until(
+        () => !document.querySelectorAll('.plot .point')[1].getAttribute('aria-valuetext').endsWith('at 0.4 s'),
+      );
+      assert.equal(time((await points(e))[1]).toFixed(1), (0.4 + more).toFixed(1), 'shown under the pointer');
+      await e.picture('speed-curve-remedy-shown');
+      await e.page.mouse.move(5, 5);
+      await e.frames(2);
+      assert.equal(time((await points(e))[1]), 0.4, 'and gone beside it');
+      assert.equal(e.wire.since(mark).length, 0, 'pointing changes nothing');
+      await later.click();
+      await e.settled();
+      assert.equal(time((await points(e))[1]).toFixed(1), (0.4 + more).toFixed(1));
+      assert.ok(await e.page.locator('.misfit').isHidden(), 'it can be driven now');
+      assert.ok(e.wire.since(mark).length > 0, 'others answer it');
+      // Where its button is again it would be shown again.
+      await e.page.mouse.move(5, 5);
+      await e.key('Control+z');
+      await e.settled();
+      assert.equal(time((await points(e))[1]), 0.4, 'one step');
+    },
+  );
+
+  it('a stop is moved as a whole on the time line, and its bar on the road', { timeout: 60_000 }, async () => {
+    const { e, car } = await stopping(stage);
+    const [, hold, at] = /for ([\d.]+) s at ([\d.]+) s$/.exec((await points(e))[1]);
+    const line = await e.page.locator('.plot .holdline').boundingBox();
+    const plot = await e.page.locator('.plot').boundingBox();
+    const middle = [line.x + line.width / 2, line.y + line.height / 2];
+    await e.drag(middle, [middle[0] + plot.width / 18, middle[1]]);
+    assert.match(await e.text('.plot'), /dashed: before/, 'what it was is dashed meanwhile');
+    await e.release();
+    const [, held, later] = /for ([\d.]+) s at ([\d.]+) s$/.exec((await points(e))[1]);
+    assert.equal(held, hold, 'as long as before');
+    assert.ok(Number(later) > Number(at) + 0.3, `${later} s after ${at} s`);
+    // The bar lies before the box where it stands: its place is read from what the generator was asked to keep.
+    const { mode } = judged(e, car.id);
+    const i = mode.x_m.findIndex((x, k) => k && x === mode.x_m[k - 1] && mode.y_m[k] === mode.y_m[k - 1]);
+    const ahead = (k) => [Math.cos(mode.heading_rad[i]) * k, Math.sin(mode.heading_rad[i]) * k];
+    const place = (k) => e.at(mode.x_m[i] + ahead(k)[0], mode.y_m[i] + ahead(k)[1]);
+    await e.drag(await place(2.8), await place(-1));
+    await e.picture('speed-curve-bar-in-hand');
+    await e.release();
+    const [, , sooner] = /for ([\d.]+) s at ([\d.]+) s$/.exec((await points(e))[1]);
+    assert.ok(Number(sooner) < Number(later), `${sooner} s before ${later} s`);
+  });
+
   it('the curve is there again when the page is', { timeout: 60_000 }, async () => {
     const { e, car } = await stopping(stage);
     const before = await points(e);

@@ -4,7 +4,7 @@ import { it } from 'node:test';
 import { carInSight } from '../support/casting.js';
 import { devices } from '../support/devices.js';
 import { Fingers } from '../support/fingers.js';
-import { distance } from '../support/editor.js';
+import { distance, turn } from '../support/editor.js';
 import { journeys } from '../support/journey.js';
 
 const LEAST_PX = 44;
@@ -126,6 +126,53 @@ journeys('fingers', (stage) => {
     await e.page.locator('.menu.ctx [data-action="set-goal"]').tap();
     await e.settled();
     assert.match(await e.text('.toast'), /Goal/);
+  });
+
+  it('two fingers on the selected road user turn it', { timeout: 40_000 }, async () => {
+    const { e, f } = await open(stage);
+    const car = await select({ e, f });
+    const { zoom } = await e.view();
+    const [x, y] = await e.at(car.start.x, car.start.y);
+    const pair = (angle) => {
+      const [dx, dy] = [Math.cos(angle) * 44, -Math.sin(angle) * 44];
+      return [
+        [x - dx, y - dy],
+        [x + dx, y + dy],
+      ];
+    };
+    await f.down(...pair(0));
+    for (let k = 1; k <= 12; k++) await f.move(...pair(0.05 * k));
+    await e.picture('touch-turning');
+    await f.up();
+    await e.settled();
+    const now = await e.pose('Start');
+    const turned = turn(now.heading, car.start.heading);
+    assert.ok(Math.abs(turned - 0.6) < 0.1, `turned by ${turned.toFixed(2)} rad`);
+    assert.ok(distance(now, car.start) < 0.1, 'it stays where it was');
+    assert.equal((await e.view()).zoom, zoom);
+    assert.match(await e.text('.toast'), new RegExp(`^Heading of ${car.name}`));
+  });
+
+  it('a finger that rests on a future asks what to do with it', { timeout: 60_000 }, async () => {
+    const { e, f } = await open(stage);
+    const car = await select({ e, f });
+    const { chosen, modes } = e.wire.last().event('final').samples[0].agents[car.id];
+    const { x_m, y_m } = modes[chosen];
+    const far = (i) =>
+      Math.min(distance({ x: x_m[i], y: y_m[i] }, car.start), distance({ x: x_m[i], y: y_m[i] }, car.end));
+    const i = x_m.reduce((best, _, k) => (far(k) > far(best) ? k : best), 0);
+    await f.down(await e.at(x_m[i], y_m[i]));
+    const menu = e.page.getByRole('menu', { name: 'Actions for this future' });
+    await menu.waitFor();
+    await f.up();
+    await fits(e, 'menu of a future');
+    await e.picture('touch-future-menu');
+    await menu.locator('[data-action="future-play"]').tap();
+    await e.until(() => parseFloat(document.querySelector('.tm').textContent) > 0.3);
+    assert.equal(await e.page.locator('.fu[aria-checked="true"]').count(), 1);
+    await e.key('Home');
+    await e.settled();
+    assert.match(await e.text('.toast'), new RegExp(`${car.name}`));
   });
 
   it('the sheet has three heights: dragged, flicked and tapped', { timeout: 40_000 }, async () => {

@@ -65,42 +65,93 @@ class Asked {
   }
 }
 
+/** A worker of the page; its messages travel inside those of the page. */
+class Worker {
+  #count = 0;
+  #asked = new Map();
+  #heard = new Map();
+
+  constructor(cdp, sessionId) {
+    this.cdp = cdp;
+    this.sessionId = sessionId;
+  }
+
+  on(method, handler) {
+    this.#heard.set(method, handler);
+  }
+
+  async send(method, params = {}) {
+    const id = ++this.#count;
+    const message = JSON.stringify({ id, method, params });
+    const answered = new Promise((done, fail) => this.#asked.set(id, { done, fail }));
+    answered.catch(() => undefined);
+    await this.cdp.send('Target.sendMessageToTarget', { sessionId: this.sessionId, message });
+    return answered;
+  }
+
+  hear(message) {
+    const { id, method, params, result, error } = JSON.parse(message);
+    if (method) return this.#heard.get(method)?.(params);
+    const asked = this.#asked.get(id);
+    this.#asked.delete(id);
+    if (error) asked?.fail(new Error(error.message));
+    else asked?.done(result);
+  }
+}
+
 export class Wire {
   asked = [];
   /** What has come over the wire so far, bytes, as it travelled. */
   bytes = 0;
 
+  /** Listens to a page and to its workers, which ask the generator. */
   static async on(cdp) {
     const w = new Wire();
-    const of = (e) => w.asked.find((a) => a.id === e.requestId);
-    cdp.on('Network.requestWillBeSent', (e) => {
-      if (e.request.method === 'POST' && new URL(e.request.url).pathname === '/v1/generate')
-        w.asked.push(new Asked(e.requestId, e.timestamp, JSON.parse(e.request.postData ?? '{}')));
+    const workers = new Map();
+    cdp.on('Target.attachedToTarget', ({ sessionId }) => {
+      const worker = new Worker(cdp, sessionId);
+      workers.set(sessionId, worker);
+      void w.#follow(worker).finally(() => worker.send('Runtime.runIfWaitingForDebugger'));
     });
-    cdp.on('Network.responseReceived', (e) => {
+    cdp.on('Target.detachedFromTarget', ({ sessionId }) => workers.delete(sessionId));
+    cdp.on('Target.receivedMessageFromTarget', ({ sessionId, message }) => workers.get(sessionId)?.hear(message));
+    // A worker waits until it is listened to.
+    await cdp.send('Target.setAutoAttach', { autoAttach: true, waitForDebuggerOnStart: true, flatten: false });
+    await w.#follow(cdp);
+    return w;
+  }
+
+  /** Keeps what one thread asks and is answered. */
+  #follow(thread) {
+    const of = (e) => this.asked.find((a) => a.id === e.requestId);
+    thread.on('Network.requestWillBeSent', (e) => {
+      if (e.request.method === 'POST' && new URL(e.request.url).pathname === '/v1/generate')
+        this.asked.push(new Asked(e.requestId, e.timestamp, JSON.parse(e.request.postData ?? '{}')));
+    });
+    thread.on('Network.responseReceived', (e) => {
       const a = of(e);
       if (!a) return;
       a.status = e.response.status;
-      void cdp.send('Network.streamResourceContent', { requestId: e.requestId }).then(
+      void thread.send('Network.streamResourceContent', { requestId: e.requestId }).then(
         (r) => {
           a.head = Buffer.from(r.bufferedData, 'base64');
         },
         () => undefined,
       );
     });
-    cdp.on('Network.dataReceived', (e) => {
+    thread.on('Network.dataReceived', (e) => {
       const a = of(e);
       if (!a) return;
       a.chunks.push({ at: e.timestamp, bytes: e.dataLength });
       if (e.data) a.tail.push(Buffer.from(e.data, 'base64'));
     });
-    cdp.on('Network.loadingFinished', (e) => {
-      w.bytes += e.encodedDataLength;
+    thread.on('Network.loadingFinished', (e) => {
+      this.bytes += e.encodedDataLength;
       const a = of(e);
       if (!a) return;
       a.ended = e.timestamp;
       // A quick answer may be over before its stream could be followed.
-      void cdp
+      void thread
         .send('Network.getResponseBody', { requestId: e.requestId })
         .then(
           (r) => {
@@ -112,15 +163,14 @@ export class Wire {
           a.read = true;
         });
     });
-    cdp.on('Network.loadingFailed', (e) => {
+    thread.on('Network.loadingFailed', (e) => {
       const a = of(e);
       if (a) {
         a.ended = e.timestamp;
         a.read = true;
       }
     });
-    await cdp.send('Network.enable', { maxPostDataSize: 1 << 24 });
-    return w;
+    return thread.send('Network.enable', { maxPostDataSize: 1 << 24 });
   }
 
   /** Those asked since a mark taken with `asked.length`. */

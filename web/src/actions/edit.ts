@@ -38,6 +38,8 @@ const does = (id: Others, key: string, label: string, help: string): Plain => ({
   },
 });
 
+const mirroring = onSome((_, all) => several.mirrorAll(all));
+
 function lock({ editor }: Context): void {
   const all = editor.chosenOnes;
   const on = !all.every((a) => a.locked);
@@ -87,6 +89,20 @@ export const edit = inGroup('Edit', [
     help: 'The same again, at the nearest free place',
     when: hasSome,
     run: (c) => c.copying.duplicate(),
+  },
+  {
+    id: 'mirror',
+    label: 'Mirror',
+    keys: ['Alt+M'],
+    icon: 'swap',
+    help: 'Left and right change sides, as the first of them sees it; goals come along',
+    ...mirroring,
+    when: (c) => {
+      const [one, ...more] = c.editor.chosenOnes;
+      return one && !more.length && !one.goal.pos
+        ? 'One alone is mirrored by its goal. Set one first.'
+        : mirroring.when!(c);
+    },
   },
   {
     id: 'delete',

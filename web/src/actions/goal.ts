@@ -48,6 +48,23 @@ const futures = [...LETTERS].map((letter, i) => ({
   }),
 }));
 
+/** The future that a menu is about, or that is pointed at. */
+const pointed = ({ editor, ui }: Context): number | null => ui.contextMenu.value?.future ?? editor.hoverFuture.value;
+
+const onPointed = (run: (c: Context, a: Agent, i: number) => void): Pick<Action, 'when' | 'run'> => ({
+  when: (c) => (pointed(c) === null ? 'Point at a future first.' : hasFree(c)),
+  run(c) {
+    const a = c.editor.agent.peek();
+    const i = pointed(c);
+    if (a && i !== null) run(c, a, i);
+  },
+});
+
+function take({ editor }: Context, a: Agent, i: number): void {
+  const command = a.chosen === i ? null : moves.pickFuture(editor, a, i);
+  if (command) editor.run(command);
+}
+
 const clearing: Pick<Action, 'when' | 'run'> = {
   ...onSome((_, all) => (all.length > 1 ? clearGoals(all) : clearGoal(all[0]))),
   when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : 'No goal is set.'),
@@ -116,6 +133,34 @@ export const goal = inGroup('Goal and futures', [
   goalTime('goal-earlier-far', 'Goal 1 s earlier', 'Shift+;', -1),
   goalTime('goal-later-far', 'Goal 1 s later', "Shift+'", 1),
   ...futures,
+  {
+    id: 'future-choose',
+    label: 'Choose this future',
+    icon: 'check',
+    help: 'Playback follows it and the others answer; it stays chosen',
+    ...onPointed(take),
+  },
+  {
+    id: 'future-play',
+    label: 'Choose and play it',
+    icon: 'play',
+    help: 'From the beginning, with what the others do',
+    ...onPointed((c, a, i) => {
+      take(c, a, i);
+      c.editor.setTime(0);
+      c.editor.playhead.play();
+    }),
+  },
+  {
+    id: 'future-compare',
+    label: 'Compare all side by side',
+    icon: 'compare',
+    help: 'Each future as a variant, with what the others do about it',
+    ...onPointed((c) => {
+      c.variants.show(true);
+      void c.variants.make();
+    }),
+  },
   {
     id: 'future-best',
     label: 'Back to the most likely future',

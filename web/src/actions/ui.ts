@@ -11,6 +11,8 @@ export interface ContextMenu {
   readonly x: number;
   readonly y: number;
   readonly on: MenuOn;
+  /** Which future it is about. */
+  readonly future?: number | null;
 }
 
 export type Theme = 'light' | 'dark';

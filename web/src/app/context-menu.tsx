@@ -39,6 +39,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     ...COPIES,
     null,
     'lock',
+    'mirror',
     KINDS,
     null,
     ...DOES,
@@ -51,6 +52,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
     'find-case',
     'zoom-selection',
   ],
+  future: ['future-choose', 'future-play', 'future-compare', null, 'future-best', 'set-goal'],
   goal: ['clear-goal', 'toggle-goal-speed', null, 'zoom-selection', 'reset-agent'],
   ground: [
     'paste',
@@ -68,6 +70,7 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
 const ABOUT: Record<MenuOn, string> = {
   'road user': 'Actions for this road user',
   several: 'Actions for these road users',
+  future: 'Actions for this future',
   goal: 'Actions for this goal',
   ground: 'Actions for this place',
 };

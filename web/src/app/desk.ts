@@ -18,6 +18,7 @@ import { Rounds } from '../edit/rounds/rounds';
 import { Trial } from '../edit/trial';
 import { Maker } from '../edit/variants/making';
 import { Variants } from '../edit/variants/variants';
+import { FarLine } from '../net/far-line';
 import { HttpGenerator } from '../net/http-generator';
 import { clipboardOf, listenToClipboard } from './clipboard';
 import { fileChooser } from './file-chooser';
@@ -30,9 +31,11 @@ import { coach } from './watching';
 
 function makeParts(o: Opening): Context {
   const { client, editor, file, journal, library, picture, saving, scenes, stage } = o;
+  const line = new FarLine(client);
+  const generator = (): HttpGenerator => new HttpGenerator(client, line.ask);
   const care = new SceneCare(editor, file, library, scenes, client, journal);
   const importing = new Importing(editor, library, scenes, client);
-  const generation = new Generation(editor, file, saving, new HttpGenerator(client), new HttpGenerator(client));
+  const generation = new Generation(editor, file, saving, generator(), generator());
   const overlay = new Overlay(
     editor,
     (a) => picture.poseNow(a),
@@ -42,11 +45,11 @@ function makeParts(o: Opening): Context {
     overlay.paint(g, v);
     if (overlay.moving) stage.invalidate('overlay');
   });
-  const line = new HttpGenerator(client);
-  const maker = new Maker(editor, new Questions(editor, file), line, file);
-  const variants = new Variants(editor, maker, () => line.cancel());
+  const varied = generator();
+  const maker = new Maker(editor, new Questions(editor, file), varied, file);
+  const variants = new Variants(editor, maker, () => varied.cancel());
   file.variantTakes = () => [...new Set([...variants.within('kept'), ...variants.within('starred')])];
-  const searched = new HttpGenerator(client);
+  const searched = generator();
   const tried = new Maker(editor, new Questions(editor, file), searched, file);
   const c: Context = {
     ...o,
@@ -59,8 +62,8 @@ function makeParts(o: Opening): Context {
     gestures: new Gestures(stage, editor, picture, overlay, generation),
     playback: new Playback(editor, stage),
     maker: new LayoutMaker(editor, file, care, client),
-    rounds: new Rounds(editor, new Questions(editor, file), new HttpGenerator(client)),
-    trial: new Trial(editor, new Questions(editor, file), new HttpGenerator(client)),
+    rounds: new Rounds(editor, new Questions(editor, file), generator()),
+    trial: new Trial(editor, new Questions(editor, file), generator()),
     copying: new Copying(editor),
     filler: new Filler(editor, file, client),
     clipboard: clipboardOf(() => c),
@@ -101,7 +104,7 @@ function connect(c: Context): void {
     stage.element.setAttribute('aria-busy', String(busy));
   });
   gestures.onTap = (fingers) => perform(c, fingers === 2 ? 'undo' : 'redo');
-  gestures.onMenu = (at, on) => ui.openContextMenu({ ...at, on });
+  gestures.onMenu = (at, on, future) => ui.openContextMenu({ ...at, on, future });
   sharing.onOpened = (at) => {
     if (!at) return;
     Object.assign(stage.view, at.camera);

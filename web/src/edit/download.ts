@@ -3,7 +3,7 @@ import { Refused, type Client } from '../net/client';
 import type { SceneJson } from '../net/types';
 import type { Scene } from '../model/scene';
 import type { Editor } from './editor';
-import { lossesOf, type Loss } from './outward/losses';
+import type { Loss } from './outward/losses';
 import type { SceneFile } from './scene-file';
 
 interface Source {
@@ -38,6 +38,7 @@ export async function exportedJson(
 ): Promise<ExportedFile> {
   const { blob, name, loss } = await client.exportScene(json, format);
   const ending = name.includes('.') ? name.slice(name.indexOf('.') + 1) : (ENDING[format] ?? format);
+  const { lossesOf } = await import('./outward/losses');
   return { blob, name: `${slug(json.name)}.${ending}`, losses: lossesOf(loss, scene) };
 }
 

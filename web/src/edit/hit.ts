@@ -7,6 +7,7 @@ import { sizeOnScreen } from '../draw/sprites';
 import type { Chip } from '../draw/strokes';
 import type { View } from '../draw/view';
 import type { Editor, Grip, HandleName, Part } from './editor';
+import type { StopBar } from './overlay-stops';
 import type { RoadSign } from './overlay-verdicts';
 import { frameAround, poseShown } from './frame';
 import { onPennant, type Pennant } from '../draw/marks';
@@ -15,6 +16,8 @@ export type Hit =
   | { kind: 'grip'; grip: Grip }
   | { kind: 'future'; index: number }
   | { kind: 'by road' }
+  /** The bar of a stop, by its point of the speed curve. */
+  | { kind: 'stop'; point: number }
   /** `beside`: a finger came down near it, and not on it. */
   | { kind: 'agent'; id: string; pile: string[]; beside?: true }
   | { kind: 'frame'; handle: FrameHandle }
@@ -51,6 +54,7 @@ export interface HitContext {
   chips: readonly Chip[];
   timeTag: Rect | null;
   roadSign: RoadSign | null;
+  stops: readonly StopBar[];
   pennants: readonly Pennant[];
   touch: boolean;
 }
@@ -60,6 +64,9 @@ export function hitTest(c: HitContext, x: number, y: number): Hit {
   if (a && canChange(a)) {
     if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by road' };
     const grip = a.locked ? null : gripAt(c, a, x, y);
+    // A bar is small, and a flag or a box behind it can be taken elsewhere.
+    const stop = c.stops.find(({ ends }) => awayFrom(ends, x, y) <= (c.touch ? FINGER_PX : 7));
+    if (stop && !a.locked && (!grip || grip.handle === 'body')) return { kind: 'stop', point: stop.point };
     if (grip) return { kind: 'grip', grip };
     if (c.roadSign?.flag && onFlag(c.view, c.roadSign.flag, x, y)) return { kind: 'by road' };
     for (const chip of c.chips)
@@ -200,18 +207,19 @@ function futureAt(c: HitContext, index: number, x: number, y: number): boolean {
   const m = c.editor.futures.value?.modes[index]?.motion;
   if (!m) return false;
   const reach = c.touch ? 14 : 5;
-  let px = c.view.x(m.x[0]),
-    py = c.view.y(m.y[0]);
+  let p = c.view.to(m.x[0], m.y[0]);
   for (let i = 1; i < m.x.length; i++) {
-    const qx = c.view.x(m.x[i]),
-      qy = c.view.y(m.y[i]);
-    const dx = qx - px,
-      dy = qy - py,
-      len2 = dx * dx + dy * dy;
-    const k = len2 > 0 ? Math.max(0, Math.min(1, ((x - px) * dx + (y - py) * dy) / len2)) : 0;
-    if (Math.hypot(x - px - dx * k, y - py - dy * k) <= reach) return true;
-    px = qx;
-    py = qy;
+    const q = c.view.to(m.x[i], m.y[i]);
+    if (awayFrom([p, q], x, y) <= reach) return true;
+    p = q;
   }
   return false;
+}
+
+/** How far a place is from a line, in pixels. */
+function awayFrom([[px, py], [qx, qy]]: readonly [Vec, Vec], x: number, y: number): number {
+  const [dx, dy] = [qx - px, qy - py];
+  const len2 = dx * dx + dy * dy;
+  const k = len2 > 0 ? Math.max(0, Math.min(1, ((x - px) * dx + (y - py) * dy) / len2)) : 0;
+  return Math.hypot(x - px - dx * k, y - py - dy * k);
 }

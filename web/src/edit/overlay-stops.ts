@@ -5,7 +5,8 @@ import type { Pen } from '../draw/pen';
 import { polyline } from '../draw/strokes';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
-import { stopsOf } from '../model/profile';
+import type { Vec } from '../model/geometry';
+import { stopsOf, type SpeedPoint } from '../model/profile';
 import type { Agent } from '../model/scene';
 import { seconds } from '../model/units';
 import type { Editor } from './editor';
@@ -14,12 +15,19 @@ import type { Editor } from './editor';
 const WIDER = 1.7;
 const AHEAD_M = 0.6;
 
-export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: Agent): void {
+/** A bar to take hold of, in pixels, and the point of the curve that stops there. */
+export interface StopBar {
+  readonly ends: readonly [Vec, Vec];
+  readonly point: number;
+}
+
+export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: Agent): StopBar[] {
   const f = editor.curve.profile.value && editor.futures.value;
   const motion = f?.modes[editor.chosen.value]?.motion;
-  if (!motion) return;
+  if (!motion) return [];
   const c = colours();
-  for (const { pose, lasts } of stopsOf(motion)) {
+  const bars: StopBar[] = [];
+  for (const { pose, from, lasts } of stopsOf(motion)) {
     const [cos, sin] = [Math.cos(pose.heading), Math.sin(pose.heading)];
     const ahead = a.length / 2 + AHEAD_M;
     const half = (a.width * WIDER) / 2;
@@ -32,5 +40,15 @@ export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: A
     polyline(g, v, bar, c.halo, 8, 1, [], 'round');
     polyline(g, v, bar, c.collision, 5, 1, [], 'round');
     tag(g, labels, v.to(x, y), `stops here for ${seconds(lasts)}`, { radii: [36, 52, 70], leader: c.collision });
+    const point = pointOf(editor.curve.points.value, from);
+    if (point > 0) bars.push({ ends: [v.to(...bar[0]), v.to(...bar[1])], point });
   }
+  return bars;
+}
+
+/** The point at zero that is next to the time of a stop; -1 where it stands for another reason. */
+function pointOf(points: readonly SpeedPoint[], from: number): number {
+  const away = points.map((p) => (p.v === 0 ? Math.abs(p.t - from) : Infinity));
+  const least = Math.min(...away);
+  return Number.isFinite(least) ? away.indexOf(least) : -1;
 }

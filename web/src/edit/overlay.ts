@@ -21,7 +21,7 @@ import { EventsOverlay } from './overlay-events';
 import { GhostOverlay } from './overlay-ghosts';
 import { GoalOverlay } from './overlay-goal';
 import { HoveredOverlay } from './overlay-hovered';
-import { paintStops } from './overlay-stops';
+import { paintStops, type StopBar } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
 import { saidOf } from './rounds/said';
@@ -62,6 +62,9 @@ export class Overlay {
   }
 
   /** Where the time tag was painted, for the pointer. */
+  /** Bars where somebody with a speed drawn by hand stands. */
+  stops: readonly StopBar[] = [];
+
   get timeTag(): GoalOverlay['timeTag'] {
     return this.goal.timeTag;
   }
@@ -81,6 +84,7 @@ export class Overlay {
     const scene = e.scene.value;
     this.chips = [];
     this.goal.timeTag = null;
+    this.stops = [];
     this.verdicts.roadSign = null;
     const making = e.layouts.isOpen.value;
     if (!scene && !making) return;
@@ -208,7 +212,7 @@ export class Overlay {
       tag(g, this.labels, [v.x(now.x), v.y(now.y)], speedLabel(now.speed, e.unitOf(a)), { radii: [30, 42, 56] });
     const bad = goal ? outOfReach(e, a) : null;
     if (bad?.nearest && !bad.outranked) this.goal.labelNearest(g, v, a, bad.nearest);
-    paintStops(g, this.labels, v, e, a);
+    this.stops = paintStops(g, this.labels, v, e, a);
     this.paintWords(g, v, a);
     this.paintLetters(g, v, a);
     this.goal.dragLabels(g, v, a, goal);

@@ -110,6 +110,32 @@ export function turnAll(
   );
 }
 
+/**
+ * Left and right change sides, as seen by the first of them, about the middle of all; goals come along. One alone stays
+ * where it is, and its goal changes sides.
+ */
+export function mirrorAll(all: readonly Agent[]): Command | null {
+  const axis = all[0] && startPose(all[0])?.heading;
+  if (axis === undefined) return null;
+  const about = middleOf(all);
+  const c = Math.cos(2 * axis),
+    s = Math.sin(2 * axis);
+  const over = ([x, y]: Vec): Vec => {
+    const [dx, dy] = [x - about[0], y - about[1]];
+    return at(about[0] + dx * c + dy * s, about[1] + dx * s - dy * c);
+  };
+  const across = (heading: number): number => wrapAngle(2 * axis - heading);
+  return changeAll(all, `${whoWords(all)} mirrored`, (a) => {
+    const p = startPose(a);
+    if (!p) return null;
+    const g = a.goal;
+    const heading = g.heading === null ? null : across(g.heading);
+    const aim = g.pos ? aimed(a, { pos: over(g.pos), heading }) : null;
+    const start = all.length > 1 ? started(a, { pos: over([p.x, p.y]), heading: across(p.heading) }) : null;
+    return start || aim ? { ...start, ...aim } : null;
+  });
+}
+
 /** Nearer to a point or further from it. */
 export function spreadAll(all: readonly Agent[], kx: number, ky: number, about: Vec): Command | null {
   return changeAll(all, `${whoWords(all)} spread`, (a) => {

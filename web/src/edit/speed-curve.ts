@@ -4,14 +4,29 @@ import { batch, computed, signal, type ReadonlySignal } from '@preact/signals-co
 import { setCurve } from '../model/commands';
 import { limitsOf, topSpeed } from '../model/domain';
 import type { Futures, Score } from '../model/futures';
-import { addedPoint, endsOf, motionOf, movedPoint, pathOf, type Profile, type SpeedPoint } from '../model/profile';
+import {
+  addedPoint,
+  endsOf,
+  motionOf,
+  movedPoint,
+  pathOf,
+  timeOfStop,
+  type Profile,
+  type SpeedPoint,
+} from '../model/profile';
+import type { Way } from '../model/curve-fit';
+import type { Motion } from '../model/motion';
 import { judgedBy } from '../model/rejudge';
-import { canMove, profileOf, type Agent, type Scene } from '../model/scene';
+import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../model/scene';
 import type { Editor } from './editor';
 
 export class SpeedCurve {
   readonly #inHand = signal<Profile | null>(null);
   readonly #point = signal<number | null>(null);
+  /** What a way out that is pointed at would make of it. */
+  readonly #tried = signal<{ readonly id: string; readonly profile: Profile } | null>(null);
+  /** The motion that the last change took the place of, and the document that has the change; null in the hand. */
+  readonly #before = signal<{ readonly id: string; readonly motion: Motion; readonly key: string | null } | null>(null);
 
   /** Index of the point that fields and keys are about. */
   readonly point: ReadonlySignal<number | null> = this.#point;
@@ -20,10 +35,24 @@ export class SpeedCurve {
 
   constructor(private readonly editor: Editor) {}
 
-  /** The curve as it is shown: in hand, or in the document; null where nobody has drawn one. */
-  readonly profile: ReadonlySignal<Profile | null> = computed(() => {
+  /** The curve that is asked for: in hand, or in the document; null where nobody has drawn one. */
+  readonly asked: ReadonlySignal<Profile | null> = computed(() => {
     const a = this.editor.agent.value;
     return this.#inHand.value ?? (a && profileOf(a));
+  });
+
+  /** The curve as it is shown. */
+  readonly profile: ReadonlySignal<Profile | null> = computed(() => {
+    const tried = this.#tried.value;
+    return tried && tried.id === this.editor.selection.value ? tried.profile : this.asked.value;
+  });
+
+  /** How it went before the curve was changed, until something else is done. */
+  readonly before: ReadonlySignal<Motion | null> = computed(() => {
+    const b = this.#before.value;
+    if (b?.id !== this.editor.selection.value) return null;
+    const here = this.#inHand.value !== null || sceneKey(this.editor.scene.value!) === b.key;
+    return here ? b.motion : null;
   });
 
   /** Points to take hold of: of the curve, or the start and the end of the future that is shown. */
@@ -65,6 +94,15 @@ export class SpeedCurve {
     const v = to.v === undefined ? {} : { v: Math.min(topSpeed(a), to.v) };
     this.#show(a, { ...base, points: movedPoint(base.points, i, { ...to, ...v }, scene.duration) });
     this.#point.value = i;
+  }
+
+  /** Moves a stop along the path, so that the front of the road user comes to a place. */
+  stopAt(i: number, x: number, y: number): void {
+    const a = this.editor.agent.peek();
+    const base = this.profile.peek();
+    if (!a || !base || i >= base.points.length) return;
+    const { duration } = this.editor.scene.peek()!;
+    this.drag(i, { t: timeOfStop(base, i, [x, y], a.length / 2, limitsOf(a), duration) });
   }
 
   /** What is in hand becomes a step. */
@@ -114,6 +152,31 @@ export class SpeedCurve {
     this.#run(a, { ...profile, points: profile.points.filter((_, k) => k !== i) });
   }
 
+  /** Shows what a way out would make of the curve; null shows the curve again. */
+  try(way: Way | null): void {
+    const a = this.editor.agent.peek();
+    const base = this.asked.peek();
+    const f = a && this.editor.motion.peek().futures.get(a.id);
+    batch(() => {
+      if (way && a && base && f) {
+        const profile = { ...base, points: way.points };
+        this.#tried.value = { id: a.id, profile };
+        this.#draw(a, f, profile);
+      } else if (this.#tried.peek()) {
+        this.#tried.value = null;
+        this.editor.answers.dropDraft();
+      }
+    });
+  }
+
+  /** Takes a way out. */
+  accept(way: Way): void {
+    const a = this.editor.agent.peek();
+    const base = this.asked.peek();
+    this.#tried.value = null;
+    if (a && base) this.#run(a, { ...base, points: way.points }, way.goalTime);
+  }
+
   /** The future as the generator had it. */
   clear(): void {
     const a = this.editor.agent.peek();
@@ -122,20 +185,30 @@ export class SpeedCurve {
     this.editor.run(setCurve(a, null, null));
   }
 
-  #run(a: Agent, profile: Profile): void {
+  #run(a: Agent, profile: Profile, goalTime?: number): void {
+    const { editor } = this;
     this.#show(a, profile);
     this.#inHand.value = null;
-    this.editor.run(setCurve(a, this.editor.chosen.peek(), profile));
+    editor.run(setCurve(a, editor.chosen.peek(), profile, goalTime));
+    const before = this.#before.peek();
+    this.#before.value = before && { ...before, key: sceneKey(editor.scene.peek()!) };
   }
 
   #show(a: Agent, profile: Profile): void {
     const { editor } = this;
     const f = editor.motion.peek().futures.get(a.id);
     if (!f) return;
+    const motion = f.modes[editor.chosen.peek()]?.motion;
     batch(() => {
+      if (!this.#inHand.peek() && motion) this.#before.value = { id: a.id, motion, key: null };
       this.#inHand.value = profile;
-      editor.answers.showDraft(a.id, withCurve(f, editor.chosen.peek(), profile, a, editor.scene.peek()!.duration));
+      this.#draw(a, f, profile);
     });
+  }
+
+  #draw(a: Agent, f: Futures, profile: Profile): void {
+    const { answers, chosen, scene } = this.editor;
+    answers.showDraft(a.id, withCurve(f, chosen.peek(), profile, a, scene.peek()!.duration));
   }
 }
 

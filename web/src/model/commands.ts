@@ -109,12 +109,14 @@ export const choose = (a: Agent, index: number | null, letter: string): Command 
 export const takeDealt = (a: Agent, index: number, dealt: string, letter: string): Command =>
   one(`Future ${letter} of a round taken for ${a.name}`, a.id, { chosen: index, dealt, profile: null });
 /** A speed curve for a future, and with it the speed at the start; null takes it away, and the pick with it. */
-export function setCurve(a: Agent, index: number | null, profile: Profile | null): Command {
+export function setCurve(a: Agent, index: number | null, profile: Profile | null, goalTime?: number): Command {
   if (!profile) return one(`Speed curve of ${a.name} cleared`, a.id, { chosen: null, profile: null });
   const v = profile.points[0].v;
   const start =
     Math.abs(v - (startPose(a)?.speed ?? v)) > 0.01 ? { start: Object.freeze({ ...a.start, speed: v }) } : {};
-  return one(`Speed curve of ${a.name} changed`, a.id, { ...start, chosen: index, profile: Object.freeze(profile) });
+  const goal = goalTime === undefined ? {} : { goal: Object.freeze({ ...a.goal, time: goalTime }) };
+  const patch = { ...start, ...goal, chosen: index, profile: Object.freeze(profile) };
+  return one(`Speed curve of ${a.name} changed`, a.id, patch);
 }
 export const clearGoal = (a: Agent): Command =>
   one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });

@@ -1,7 +1,7 @@
 // How fast a road user goes, drawn by hand: points of speed over time on a path that is kept as it was. The motion
 // that follows from both is worked out here, within what the road user can do.
 import type { Limits } from './domain';
-import { clamp, lerp, lerpAngle, type OnLine, type Pose } from './geometry';
+import { clamp, lerp, lerpAngle, type OnLine, type Pose, type Vec } from './geometry';
 import { lastStep, poseAt, STEP_S, type Motion } from './motion';
 
 /** A speed at a time, m/s and s; from then on it is held for so many seconds. */
@@ -93,7 +93,8 @@ export function motionOf({ path, points }: Profile, limits: Limits, duration: nu
   return { first: 0, ...m, valid: [[0, n]] };
 }
 
-function alongOf({ x, y }: Path): number[] {
+/** Metres from the beginning of a path to each of its places. */
+export function alongOf({ x, y }: Path): number[] {
   let s = 0;
   return x.map((_, i) => (i ? (s += Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1])) : 0));
 }
@@ -161,6 +162,32 @@ export function movedPoint(
   const hold = clamp(to.hold ?? was.hold, 0, Math.max(0, (i + 1 < points.length ? after : end) - t));
   const p = { t: round(t, 100), v: Math.max(0, to.v ?? was.v), hold: round(hold, 100) };
   return points.map((q, k) => (k === i ? p : q));
+}
+
+/** When a stop has to be asked for, so that it is next to a place with so many metres of the road user ahead of it. */
+export function timeOfStop(
+  profile: Profile,
+  i: number,
+  [x, y]: Vec,
+  ahead: number,
+  limits: Limits,
+  duration: number,
+): number {
+  const { path, points } = profile;
+  const off = path.x.map((px, k) => Math.hypot(px - x, path.y[k] - y));
+  const wanted = alongOf(path)[off.indexOf(Math.min(...off))] - ahead;
+  // The later it stops the further it has come.
+  let [from, to] = [0, duration];
+  for (let n = 0; n < 9; n++) {
+    const t = (from + to) / 2;
+    const moved = movedPoint(points, i, { t }, duration);
+    const { speed } = motionOf({ path, points: moved }, limits, duration);
+    const stands = speed.findIndex((v, k) => v === 0 && k * STEP_S >= moved[i].t - 1e-6);
+    const gone = speed.subarray(0, stands < 0 ? undefined : stands).reduce((s, v) => s + v * STEP_S, 0);
+    if (gone < wanted) from = t;
+    else to = t;
+  }
+  return Math.round(from * 10) / 10;
 }
 
 /** One more point; null where there is no room for it. */

@@ -7,40 +7,56 @@ type Schemas = components['schemas'];
 type Sent = Schemas['FuturesDoc'];
 type CompactFuture = Schemas['CompactFuture'];
 
-/** An event with its futures in columns; the same numbers to the last digit. */
+/** An event with its futures in columns; the same numbers to the last digit, all in one block of memory. */
 export function expanded(e: Schemas['Event']): GenerateEvent {
-  if (e.event === 'initial' || e.event === 'step') return { ...e, agents: all(e.agents) } as DraftEvent;
+  const all = (agents: Record<string, Sent>, to: Block): Record<string, AgentFuturesJson> =>
+    Object.fromEntries(Object.entries(agents).map(([id, sent]) => [id, futures(sent, to)]));
+  if (e.event === 'initial' || e.event === 'step')
+    return { ...e, agents: all(e.agents, new Block([e.agents])) } as DraftEvent;
   if (e.event !== 'final') return e as GenerateEvent;
-  return { ...e, samples: e.samples.map((s) => ({ ...s, agents: all(s.agents) })) } as FinalEvent;
+  const to = new Block(e.samples.map((s) => s.agents));
+  return { ...e, samples: e.samples.map((s) => ({ ...s, agents: all(s.agents, to) })) } as FinalEvent;
 }
 
-const all = (agents: Record<string, Sent>): Record<string, AgentFuturesJson> =>
-  Object.fromEntries(Object.entries(agents).map(([id, sent]) => [id, futures(sent)]));
+/** Room for all columns of an event: one block goes from thread to thread faster than a hundred small ones. */
+class Block {
+  readonly #numbers: Float64Array;
+  #used = 0;
 
-function futures(sent: Sent): AgentFuturesJson {
+  constructor(samples: readonly Record<string, Sent>[]) {
+    let count = 0;
+    for (const sent of samples.flatMap((agents) => Object.values(agents)))
+      if ('compact' in sent)
+        for (const c of sent.compact)
+          count += c.x_mm.length + c.y_mm.length + c.heading_e4rad.length + c.vx_mmps.length + c.vy_mmps.length;
+    this.#numbers = new Float64Array(count);
+  }
+
+  /** The first number is a value, the second a change, each further one a change of the change. */
+  summed(numbers: ArrayLike<number>, perUnit: number): Float64Array {
+    const out = this.#numbers.subarray(this.#used, (this.#used += numbers.length));
+    for (let i = 0, value = 0, change = 0; i < numbers.length; i++) {
+      if (i) value += change += numbers[i];
+      else value = numbers[0];
+      out[i] = value / perUnit;
+    }
+    return out;
+  }
+}
+
+function futures(sent: Sent, to: Block): AgentFuturesJson {
   if (!('compact' in sent)) return sent as AgentFuturesJson;
   const { compact, ...rest } = sent;
-  return { ...rest, modes: compact.map(columns) } as AgentFuturesJson;
+  return { ...rest, modes: compact.map((c) => columns(c, to)) } as unknown as AgentFuturesJson;
 }
 
-function columns({ x_mm, y_mm, heading_e4rad, vx_mmps, vy_mmps, ...rest }: CompactFuture) {
+function columns({ x_mm, y_mm, heading_e4rad, vx_mmps, vy_mmps, ...rest }: CompactFuture, to: Block) {
   return {
     ...rest,
-    x_m: summed(x_mm, 1e3),
-    y_m: summed(y_mm, 1e3),
-    heading_rad: summed(heading_e4rad, 1e4),
-    vx_mps: summed(vx_mmps, 1e3),
-    vy_mps: summed(vy_mmps, 1e3),
+    x_m: to.summed(x_mm, 1e3),
+    y_m: to.summed(y_mm, 1e3),
+    heading_rad: to.summed(heading_e4rad, 1e4),
+    vx_mps: to.summed(vx_mmps, 1e3),
+    vy_mps: to.summed(vy_mmps, 1e3),
   };
-}
-
-/** The first number is a value, the second a change, each further one a change of the change. */
-function summed(numbers: ArrayLike<number>, perUnit: number): number[] {
-  const out = new Array<number>(numbers.length);
-  for (let i = 0, value = 0, change = 0; i < numbers.length; i++) {
-    if (i) value += change += numbers[i];
-    else value = numbers[0];
-    out[i] = value / perUnit;
-  }
-  return out;
 }

@@ -1,8 +1,8 @@
 // The generator behind the HTTP API: one request on the way, one waiting, the newest wins.
 import type { SceneJson } from '../model/json';
-import { problemOf, type Client } from './client';
+import type { Client } from './client';
 import type { Generator, Question, SceneRef, Trajectories } from './generator';
-import { readEvents } from './stream';
+import type { Answer, Line } from './line';
 import type { ScoreReply } from './types';
 
 interface Running {
@@ -44,6 +44,7 @@ export class HttpGenerator implements Generator {
 
   constructor(
     private readonly client: Client,
+    private readonly line: Line,
     patience: Partial<Patience> = {},
     private readonly now = () => performance.now(),
   ) {
@@ -106,27 +107,27 @@ export class HttpGenerator implements Generator {
     const mine = () => this.running === me;
     const began = this.now();
     try {
-      let reply = await this.post(ask.scene(), me);
-      if (reply.status === 422 || reply.status === 412 || reply.status === 404) {
-        const p = await problemOf(reply);
-        const badMap = RETRY_IN_PLACE.has(p.code) || p.errors?.some((e) => e.code === 'unknown-map');
+      let answer = await this.post(ask.scene(), me);
+      const { status, problem } = answer;
+      if (problem && (status === 422 || status === 412 || status === 404)) {
+        const badMap = RETRY_IN_PLACE.has(problem.code) || problem.errors?.some((e) => e.code === 'unknown-map');
         if (!badMap) {
-          if (mine()) ask.on.refused(p);
+          if (mine()) ask.on.refused(problem);
           return;
         }
         me.revision = ++this.revision;
-        reply = await this.post({ scene: ask.whole() }, me);
+        answer = await this.post({ scene: ask.whole() }, me);
       }
-      if (!reply.ok) {
-        const p = await problemOf(reply);
+      if (answer.problem) {
+        const { problem: p, status: code } = answer;
         if (!mine()) return;
-        if (p.code === 'busy') return await this.later(ask, me, Number(reply.headers.get('retry-after')) || 1);
-        if (reply.status === 409) ask.on.dropped?.();
-        else if (reply.status >= 502 && reply.status <= 504) ask.on.away();
+        if (p.code === 'busy') return await this.later(ask, me, answer.retryAfter_s ?? 1);
+        if (code === 409) ask.on.dropped?.();
+        else if (code >= 502 && code <= 504) ask.on.away();
         else ask.on.refused(p);
         return;
       }
-      await this.read(reply, me, began);
+      await this.read(answer, me, began);
     } catch (e) {
       if (!mine()) return;
       if ((e as Error).name === 'AbortError') ask.on.dropped?.();
@@ -187,7 +188,7 @@ export class HttpGenerator implements Generator {
     if (this.running === me) await this.run(ask);
   }
 
-  private post(scene: SceneRef, me: Running): Promise<Response> {
+  private post(scene: SceneRef, me: Running): Promise<Answer> {
     const rest = JSON.stringify({
       client: this.name,
       revision: me.revision,
@@ -195,12 +196,7 @@ export class HttpGenerator implements Generator {
       ...me.question.options,
     });
     const part = 'id' in scene ? `"scene_id":${JSON.stringify(scene.id)}` : `"scene":${this.textOf(scene.scene)}`;
-    return this.client.send('/v1/generate', {
-      method: 'POST',
-      body: `{${part},${rest.slice(1)}`,
-      signal: me.abort.signal,
-      headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
-    });
+    return this.line(`{${part},${rest.slice(1)}`, me.abort.signal);
   }
 
   /** A drag asks sixty times a second about the same surroundings; they are written once. */
@@ -212,12 +208,12 @@ export class HttpGenerator implements Generator {
     return text;
   }
 
-  private async read(reply: Response, me: Running, began: number): Promise<void> {
+  private async read(answer: Answer, me: Running, began: number): Promise<void> {
     const { on } = me.question;
     let shown = -1,
       window = 0;
     let ended = false;
-    for await (const e of readEvents(reply.body!)) {
+    for await (const e of answer.events) {
       if (this.running !== me) return;
       this.silent = 0;
       if (e.event === 'heartbeat') continue;

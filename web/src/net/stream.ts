@@ -1,10 +1,6 @@
 // Reads a fetch body as newline-delimited JSON. EventSource cannot POST, so the stream is read by hand.
 import type { GenerateEvent } from './types';
 import { expanded } from './compact';
-import { parseLater } from './decoder';
-
-/** Lines longer than this are parsed off the main thread: they cost more than 2 ms here. */
-const LONG_LINE = 120_000;
 
 export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenerator<GenerateEvent> {
   const reader = body.getReader();
@@ -18,11 +14,11 @@ export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenera
       while ((end = rest.indexOf('\n')) >= 0) {
         const line = rest.slice(0, end).trim();
         rest = rest.slice(end + 1);
-        if (line) yield await parse(line);
+        if (line) yield parse(line);
       }
       if (done) break;
     }
-    if (rest.trim()) yield await parse(rest.trim());
+    if (rest.trim()) yield parse(rest.trim());
   } finally {
     // Leaving the loop early must also stop the server's work.
     void reader.cancel().catch(() => undefined);
@@ -31,5 +27,4 @@ export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenera
 
 type Sent = Parameters<typeof expanded>[0];
 
-const parse = async (line: string): Promise<GenerateEvent> =>
-  expanded((line.length > LONG_LINE ? await parseLater(line) : JSON.parse(line)) as Sent);
+const parse = (line: string): GenerateEvent => expanded(JSON.parse(line) as Sent);

@@ -1,6 +1,8 @@
 // From state to state: what a press, a movement and a release become, without a page.
 import { beforeEach, describe, expect, it } from 'vitest';
+import { wrapAngle, type Point } from '../../src/model/geometry';
 import { startPose } from '../../src/model/scene';
+import { lockAll } from '../../src/edit/several';
 import { TOOLS } from '../../src/edit/gestures/tools';
 import { Pointer } from './pointer';
 
@@ -185,6 +187,68 @@ describe('pinching', () => {
     expect(p.view.cx).toBeCloseTo(cx - 40 / p.view.z);
     p.up(B, { id: 2 });
     expect([p.state, p.taps]).toEqual(['idle', []]);
+  });
+});
+
+describe('two fingers on the selected road user', () => {
+  /** Both beside the box, so many pixels to its left and right, turned about its middle. */
+  const pair = (angle: number, apart = 40): [Point, Point] => {
+    const { x, y } = startPose(p.editor.agent.peek()!)!;
+    const c = p.at(x, y);
+    const [dx, dy] = [Math.cos(angle) * apart, -Math.sin(angle) * apart];
+    return [
+      { x: c.x - dx, y: c.y - dy },
+      { x: c.x + dx, y: c.y + dy },
+    ];
+  };
+  const press = (): void => {
+    p.editor.select('1');
+    const [a, b] = pair(0);
+    p.down(a, { touch: true });
+    p.down(b, { id: 2, touch: true });
+  };
+  const heading = (): number => startPose(p.editor.scene.peek()!.agents.get('1')!)!.heading;
+
+  it('turn it, live, and the release is one step', () => {
+    press();
+    expect(p.state).toBe('turning by fingers');
+    const [before, z] = [heading(), p.view.z];
+    for (let k = 1; k <= 10; k++) {
+      const [a, b] = pair(0.06 * k);
+      p.move(a);
+      p.move(b, { id: 2 });
+    }
+    expect(wrapAngle(heading() - before)).toBeCloseTo(0.6, 1);
+    expect([p.view.z, p.previewed.at(-1)]).toEqual([z, '1']);
+    p.up(pair(0.6)[0]);
+    p.up(pair(0.6)[1], { id: 2 });
+    expect([p.state, p.editor.dragging.peek()]).toEqual(['idle', false]);
+    expect(p.editor.undoName.peek()).toMatch(/^Heading of .* changed$/);
+    p.editor.undo();
+    expect(heading()).toBeCloseTo(before);
+  });
+
+  it('zoom the picture where they are drawn apart', () => {
+    press();
+    const [before, z] = [heading(), p.view.z];
+    for (let k = 1; k <= 10; k++) {
+      const [a, b] = pair(0, 40 + 6 * k);
+      p.move(a);
+      p.move(b, { id: 2 });
+    }
+    expect(p.state).toBe('pinching');
+    expect(p.view.z).toBeGreaterThan(1.5 * z);
+    expect(heading()).toBe(before);
+  });
+
+  it('zoom the picture elsewhere, and where it is locked', () => {
+    press();
+    p.chart.cancel();
+    p.editor.run(lockAll([p.editor.agent.peek()!], true)!);
+    p.up(pair(0)[0]);
+    p.up(pair(0)[1], { id: 2 });
+    press();
+    expect(p.state).toBe('pinching');
   });
 });
 

@@ -51,7 +51,7 @@ export class Pointer {
       agentsAt: () => (this.hit.kind === 'agent' ? this.hit.pile : []),
       calm: () => this.calm,
       ticks: () => this.ticked++,
-      menu: (_, on) => this.menus.push(on),
+      menu: (_, on, future) => this.menus.push(future === null ? on : `${on} ${future}`),
       tapped: (fingers) => this.taps.push(fingers),
       tool: toolOf,
     });

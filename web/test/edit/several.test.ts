@@ -1,5 +1,7 @@
 // Many at once, and new ones: what the pointer makes of them, without a page.
 import { beforeEach, describe, expect, it } from 'vitest';
+import { setGoal } from '../../src/model/commands';
+import type { Vec } from '../../src/model/geometry';
 import { PRESETS } from '../../src/model/kinds';
 import { readTyped } from '../../src/model/units';
 import { startPose, type Agent } from '../../src/model/scene';
@@ -7,7 +9,7 @@ import { Copying, removeSelected } from '../../src/edit/copying';
 import { placeGhost } from '../../src/edit/gestures/placing';
 import { touching } from '../../src/model/boxes';
 import { inTheWay, standing } from '../../src/edit/room';
-import { copiesOf, lockAll, setDoes, withRoom } from '../../src/edit/several';
+import { copiesOf, lockAll, middleOf, mirrorAll, setDoes, withRoom } from '../../src/edit/several';
 import { askedAfter } from '../../src/edit/after-change';
 import { Pointer } from './pointer';
 import { Session } from './session';
@@ -133,6 +135,43 @@ describe('several in hand', () => {
     removeSelected(p.editor);
     expect(all().map((a) => a.id)).toContain('1');
     expect(all().map((a) => a.id)).not.toContain('2');
+  });
+
+  it('change sides about their common middle, as the first sees it, and twice is not at all', () => {
+    const ids = ['1', '2', '3'];
+    const before = ids.map(place);
+    const [mx, my] = middleOf(ids.map(agent));
+    const axis = before[0].heading;
+    /** Metres ahead and to the left of the middle. */
+    const seen = ({ x, y }: { x: number; y: number }): [number, number] => {
+      const [dx, dy] = [x - mx, y - my];
+      return [dx * Math.cos(axis) + dy * Math.sin(axis), dy * Math.cos(axis) - dx * Math.sin(axis)];
+    };
+    p.editor.run(mirrorAll(ids.map(agent))!);
+    ids.map(place).forEach((now, i) => {
+      expect(seen(now)[0]).toBeCloseTo(seen(before[i])[0], 3);
+      expect(seen(now)[1]).toBeCloseTo(-seen(before[i])[1], 3);
+      expect(Math.sin(now.heading - axis)).toBeCloseTo(-Math.sin(before[i].heading - axis), 4);
+    });
+    expect(p.editor.undoName.peek()).toMatch(/mirrored$/);
+    p.editor.undo();
+    ids.map(place).forEach((now, i) => expect(now).toEqual(before[i]));
+  });
+
+  it('one alone stays, and its goal changes sides', () => {
+    const a = agent('1');
+    expect(mirrorAll([a])).toBeNull();
+    const { x, y, heading } = place('1');
+    const beside = (left: number): Vec => [
+      x + 20 * Math.cos(heading) - left * Math.sin(heading),
+      y + 20 * Math.sin(heading) + left * Math.cos(heading),
+    ];
+    p.editor.run(setGoal(a, { ...a.goal, pos: beside(3), heading: heading + 0.3 }));
+    p.editor.run(mirrorAll([agent('1')])!);
+    const { pos, heading: to } = agent('1').goal;
+    beside(-3).forEach((v, i) => expect(pos![i]).toBeCloseTo(v, 3));
+    expect(to).toBeCloseTo(heading - 0.3, 4);
+    expect(place('1')).toMatchObject({ x, y, heading });
   });
 
   it('turn about their common middle, or each about itself with Alt', () => {

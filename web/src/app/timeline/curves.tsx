@@ -14,9 +14,9 @@ export function Curves({ axes: a }: { axes: Axes }) {
   const { editor } = c;
   const agent = editor.agent.peek();
   const several = severalShown(c);
-  const log = editor.layers.peek().log;
+  const dashed = editor.curve.before.peek() ? 'before' : editor.layers.peek().log ? 'log' : null;
   const name = agent
-    ? ` · ${agent.name}${log ? ', dashed: log' : ''}`
+    ? ` · ${agent.name}${dashed ? `, dashed: ${dashed}` : ''}`
     : several.length
       ? ` · ${several.length} selected, one line each`
       : '';
@@ -77,9 +77,12 @@ function Hint({ axes: a }: { axes: Axes }) {
 function AgentCurves({ axes, agent }: { axes: Axes; agent: Agent }) {
   const { editor } = useApp();
   const f = editor.futures.peek();
-  const showLog = editor.layers.peek().log || !f;
+  const before = f && editor.curve.before.peek();
+  // Of two dashed lines one would be taken for the other.
+  const showLog = !before && (editor.layers.peek().log || !f);
   return (
     <>
+      {before ? <Curve axes={axes} motion={before} colour="var(--ink-2)" width={1.5} opacity={0.9} dash="4 3" /> : null}
       {showLog ? (
         <Curve
           axes={axes}

@@ -28,6 +28,7 @@ const shown = ({ editor }: Context): unknown => [
   editor.selectedEvent.value,
   editor.hoverFuture.value,
   editor.curve.points.value,
+  editor.curve.before.value,
 ];
 
 export function Plot() {

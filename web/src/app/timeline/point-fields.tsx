@@ -3,6 +3,7 @@ import { fromUnit, num, toUnit } from '../../model/units';
 import { hardestBraking } from '../../model/profile';
 import { topSpeed } from '../../model/domain';
 import { useApp } from '../parts/app-context';
+import { CurveMisfit } from './curve-misfit';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 
@@ -29,56 +30,59 @@ export function PointFields() {
       aria-label="Point of the speed curve"
       onPointerDown={(e) => e.stopPropagation()}
     >
-      <NumberField
-        label="Speed at this point"
-        field="point-speed"
-        unit={() => unit}
-        quantity={() => unit}
-        step={unit === 'm/s' ? 0.1 : 1}
-        range={() => [0, toUnit(topSpeed(agent), unit)]}
-        value={() => toUnit(now().v, unit)}
-        text={() => num(toUnit(now().v, unit), unit === 'm/s' ? 1 : 0)}
-        set={(v) => curve.set(i, { v: fromUnit(v, unit) })}
-      />
-      <span>for</span>
-      <NumberField
-        label="Seconds that it is held"
-        field="point-hold"
-        unit={() => 's'}
-        quantity={() => 'time'}
-        step={0.1}
-        range={() => [0, editor.scene.value?.duration ?? 9]}
-        value={() => now().hold}
-        text={() => num(now().hold, 1)}
-        set={(hold) => curve.set(i, { hold })}
-      />
-      {i ? (
-        <>
-          <span>at</span>
-          <NumberField
-            label="Time of this point"
-            field="point-time"
-            unit={() => 's'}
-            quantity={() => 'time'}
-            step={0.1}
-            range={() => [0, editor.scene.value?.duration ?? 9]}
-            value={() => now().t}
-            text={() => num(now().t, 1)}
-            set={(t) => curve.set(i, { t })}
-          />
-        </>
-      ) : null}
-      {i && i < curve.points.value.length - 1 ? (
-        <button type="button" class="btn i" aria-label="Remove this point" onClick={() => curve.remove(i)}>
-          <Icon name="x" size={16} />
+      <CurveMisfit />
+      <div class="row">
+        <NumberField
+          label="Speed at this point"
+          field="point-speed"
+          unit={() => unit}
+          quantity={() => unit}
+          step={unit === 'm/s' ? 0.1 : 1}
+          range={() => [0, toUnit(topSpeed(agent), unit)]}
+          value={() => toUnit(now().v, unit)}
+          text={() => num(toUnit(now().v, unit), unit === 'm/s' ? 1 : 0)}
+          set={(v) => curve.set(i, { v: fromUnit(v, unit) })}
+        />
+        <span>for</span>
+        <NumberField
+          label="Seconds that it is held"
+          field="point-hold"
+          unit={() => 's'}
+          quantity={() => 'time'}
+          step={0.1}
+          range={() => [0, editor.scene.value?.duration ?? 9]}
+          value={() => now().hold}
+          text={() => num(now().hold, 1)}
+          set={(hold) => curve.set(i, { hold })}
+        />
+        {i ? (
+          <>
+            <span>at</span>
+            <NumberField
+              label="Time of this point"
+              field="point-time"
+              unit={() => 's'}
+              quantity={() => 'time'}
+              step={0.1}
+              range={() => [0, editor.scene.value?.duration ?? 9]}
+              value={() => now().t}
+              text={() => num(now().t, 1)}
+              set={(t) => curve.set(i, { t })}
+            />
+          </>
+        ) : null}
+        {i && i < curve.points.value.length - 1 ? (
+          <button type="button" class="btn i" aria-label="Remove this point" onClick={() => curve.remove(i)}>
+            <Icon name="x" size={16} />
+          </button>
+        ) : null}
+        <button type="button" class="btn" onClick={() => curve.clear()}>
+          Clear the curve
         </button>
-      ) : null}
-      <button type="button" class="btn" onClick={() => curve.clear()}>
-        Clear the curve
-      </button>
-      <span class={`brakes ${braking > TOO_HARD_MPS2 ? 'toohard' : braking > HARD_MPS2 ? 'hard' : ''}`}>
-        {`brakes ${num(braking, 1)} m/s² at most`}
-      </span>
+        <span class={`brakes ${braking > TOO_HARD_MPS2 ? 'toohard' : braking > HARD_MPS2 ? 'hard' : ''}`}>
+          {`brakes ${num(braking, 1)} m/s² at most`}
+        </span>
+      </div>
     </div>
   );
 }

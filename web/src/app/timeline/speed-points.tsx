@@ -17,7 +17,10 @@ const REACH_FINGER_PX = 22;
 
 interface Grip {
   readonly i: number;
-  readonly end: boolean;
+  /** The point, the end of its hold, or the hold as a whole. */
+  readonly what: 'point' | 'end' | 'hold';
+  /** How long after the point it was taken hold of, seconds. */
+  readonly after: number;
   readonly moved: boolean;
 }
 
@@ -34,11 +37,12 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
     return y > a.y1 - STICK_PX ? 0 : Math.max(0, fromUnit(v, a.unit));
   };
   const timeAt = (x: number): number => ((x - axes.x(0)) / (axes.x1 - axes.x(0))) * axes.duration;
-  const down = (i: number, end: boolean) => (e: PointerEvent & { currentTarget: SVGElement }) => {
+  const down = (i: number, what: Grip['what']) => (e: PointerEvent & { currentTarget: SVGElement }) => {
     if (e.button !== 0) return;
     e.stopPropagation();
     e.currentTarget.setPointerCapture(e.pointerId);
-    grip.current = { i, end, moved: false };
+    const r = e.currentTarget.ownerSVGElement!.getBoundingClientRect();
+    grip.current = { i, what, after: timeAt(e.clientX - r.left) - points[i].t, moved: false };
     curve.take(i);
   };
   const move = (e: PointerEvent & { currentTarget: SVGElement }) => {
@@ -49,7 +53,11 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
     const [x, y] = [e.clientX - r.left, e.clientY - r.top];
     const p = points[g.i];
     grip.current = { ...g, moved: true };
-    if (g.end) {
+    if (g.what === 'hold') {
+      curve.drag(g.i, { t: Math.round((timeAt(x) - g.after) * 10) / 10 });
+      return;
+    }
+    if (g.what === 'end') {
       const step = e.shiftKey ? 1 : 0.1;
       curve.drag(g.i, { hold: Math.round((timeAt(x) - p.t) / step) * step });
       return;
@@ -104,8 +112,14 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
         return (
           <g key={i}>
             {p.hold > 0 ? (
-              <g class="holdend" onPointerDown={down(i, true)} {...hear}>
+              <g class="hold" onPointerDown={down(i, 'hold')} {...hear}>
                 <rect class="held" x={x} y={axes.y0} width={Math.max(0, xe - x)} height={axes.y1 - axes.y0} />
+                <rect x={x} y={y - reach} width={Math.max(0, xe - x)} height={2 * reach} fill="transparent" />
+                <line class="holdline" x1={x} y1={y} x2={xe} y2={y} />
+              </g>
+            ) : null}
+            {p.hold > 0 ? (
+              <g class="holdend" onPointerDown={down(i, 'end')} {...hear}>
                 <rect x={xe - reach} y={axes.y1 - 26} width={2 * reach} height={30} fill="transparent" />
                 <rect class="holdbar" x={xe - 3} y={y - 9} width={6} height={18} rx={3} />
                 <text class="back" x={(x + xe) / 2} y={y - 12} text-anchor="middle">
@@ -122,7 +136,7 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
               aria-valuemax={Math.round(toUnit(60, axes.unit))}
               aria-valuenow={Math.round(toUnit(p.v, axes.unit))}
               aria-valuetext={wordsOf(p, axes)}
-              onPointerDown={down(i, false)}
+              onPointerDown={down(i, 'point')}
               onKeyDown={key(i)}
               onFocus={() => curve.take(i)}
               {...hear}

@@ -12,7 +12,8 @@ export function ask(chart: Chart, { x, y, hit }: Press): void {
   const on = hit.kind === 'pennant' || (hit.kind === 'grip' && hit.grip.part === 'goal') ? 'goal' : null;
   const some = id !== null || hit.kind === 'grip' || hit.kind === 'frame';
   const who = !some ? 'ground' : editor.selected.peek().length > 1 ? 'several' : 'road user';
-  chart.parts.menu({ x, y }, on ?? who);
+  const future = hit.kind === 'future' ? hit.index : null;
+  chart.parts.menu({ x, y }, on ?? (future === null ? who : 'future'), future);
 }
 
 export const ASK: Tool = { ...PAN, picks: true, click: (chart, press) => ask(chart, press) };

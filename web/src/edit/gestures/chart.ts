@@ -8,7 +8,7 @@ import type { Hit } from '../hit';
 import { FingerTap } from './finger-tap';
 import { Idle } from './idle';
 import { Pile } from './pile';
-import { Pinching } from './pinching';
+import { twoFingers } from './turning';
 import type { Tool, ToolName } from './tools';
 
 export interface Modifiers {
@@ -29,7 +29,7 @@ export interface PointerDown extends Point {
 }
 
 /** What a menu is asked for. */
-export type MenuOn = 'road user' | 'several' | 'goal' | 'ground';
+export type MenuOn = 'road user' | 'several' | 'goal' | 'future' | 'ground';
 
 /** What a state is told and may do. Every method is optional: what is left out is not answered. */
 export interface State {
@@ -81,7 +81,7 @@ export interface ChartParts {
   /** Is motion to be kept small? */
   calm(): boolean;
   /** A menu is asked for at a place of the picture. */
-  menu(at: Point, on: MenuOn): void;
+  menu(at: Point, on: MenuOn, future: number | null): void;
   /** So many fingers were tapped at once: two, or three. */
   tapped(fingers: number): void;
   /** Two short ticks under the finger. */
@@ -159,7 +159,9 @@ export class Chart {
       return;
     }
     this.cancel();
-    if (this.#fingers.size === 2) this.go(new Pinching(this));
+    if (this.#fingers.size !== 2) return;
+    const [p1, p2] = this.#fingers.values();
+    this.go(twoFingers(this, p1, p2));
   }
 
   move(id: number, p: Point, modifiers: Modifiers, overPicture: boolean): void {

@@ -52,6 +52,8 @@ export class Idle implements State {
     switch (hit.kind) {
       case 'grip':
         return { body: 'grab', heading: 'crosshair', speed: 'resize', time: 'resize' }[hit.grip.handle];
+      case 'stop':
+        return 'grab';
       case 'agent':
         return editor.time.peek() < 0.05 ? 'grab' : 'pointer';
       case 'future':

@@ -27,7 +27,7 @@ const modifiersOf = (e: MouseEvent | KeyboardEvent): Modifiers => ({
 export class Gestures {
   readonly chart: Chart;
   /** A menu is asked for. */
-  onMenu: ((at: Point, on: MenuOn) => void) | null = null;
+  onMenu: ((at: Point, on: MenuOn, future: number | null) => void) | null = null;
   /** Several fingers were tapped at once. */
   onTap: ((fingers: number) => void) | null = null;
   /** Did the finger that is down ask for a menu? */
@@ -56,9 +56,9 @@ export class Gestures {
         // Not every browser has it.
         navigator.vibrate?.(TICKS_MS);
       },
-      menu: (at, on) => {
+      menu: (at, on, future) => {
         this.#asked = true;
-        this.onMenu?.(at, on);
+        this.onMenu?.(at, on, future);
       },
       tapped: (fingers) => this.onTap?.(fingers),
       tool: (name) => (editor.layouts.isOpen.peek() && name !== 'pan' ? MAKE : toolOf(name)),
@@ -130,8 +130,8 @@ export class Gestures {
 
   #context(touch: boolean): HitContext {
     const { editor, stage, picture } = this;
-    const { chips, timeTag, roadSign } = this.overlay;
-    return { editor, view: stage.view, chips, timeTag, roadSign, pennants: picture.pennants, touch };
+    const { chips, timeTag, roadSign, stops } = this.overlay;
+    return { editor, view: stage.view, chips, timeTag, roadSign, stops, pennants: picture.pennants, touch };
   }
 
   #down(e: PointerEvent): void {

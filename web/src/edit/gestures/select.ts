@@ -9,6 +9,7 @@ import type { Chart, State } from './chart';
 import { DraggingCopies } from './dragging-copies';
 import { DraggingHandle } from './dragging-handle';
 import { DraggingSeveral } from './dragging-several';
+import { DraggingStop } from './dragging-stop';
 import { HandleMove } from './handle-move';
 import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
@@ -48,6 +49,7 @@ function drag(chart: Chart, press: Press): State {
   const scene = editor.scene.peek();
   if (!scene) return new Panning(chart, press);
   if (hit.kind === 'frame') return several(chart, press, hit.handle);
+  if (hit.kind === 'stop') return new DraggingStop(chart, hit.point);
   const body = bodyUnder(chart, press);
   if (body !== null) {
     const among = editor.selected.peek().includes(body);
@@ -126,6 +128,9 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
     case 'pennant':
       if (adds) editor.toggleSelected(hit.id);
       else editor.select(hit.id);
+      break;
+    case 'stop':
+      editor.curve.take(hit.point);
       break;
     case 'frame':
       break;

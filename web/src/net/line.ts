@@ -1,0 +1,37 @@
+// One question to the generator and what comes back: a refusal, or events one after the other.
+import { problemOf, type Client } from './client';
+import { readEvents } from './stream';
+import type { GenerateEvent, Problem } from './types';
+
+export interface Head {
+  readonly status: number;
+  /** When a server that is busy wants to be asked again, seconds; null where it says nothing. */
+  readonly retryAfter_s: number | null;
+  /** Why there are no events; null where there are. */
+  readonly problem: Problem | null;
+}
+
+export interface Answer extends Head {
+  /** To be read once. Who leaves early ends the work of the server, too. */
+  readonly events: AsyncIterable<GenerateEvent>;
+}
+
+/** Puts a question, given as the body of its request. A signal that aborts fails what is on its way. */
+export type Line = (body: string, signal: AbortSignal) => Promise<Answer>;
+
+async function* none(): AsyncGenerator<GenerateEvent> {}
+
+/** The line of the thread that it is made in. */
+export function lineHere(client: Client): Line {
+  return async (body, signal) => {
+    const reply = await client.send('/v1/generate', {
+      method: 'POST',
+      body,
+      signal,
+      headers: { 'Content-Type': 'application/json', Accept: 'application/x-ndjson' },
+    });
+    const head = { status: reply.status, retryAfter_s: Number(reply.headers.get('retry-after')) || null };
+    if (!reply.ok) return { ...head, problem: await problemOf(reply), events: none() };
+    return { ...head, problem: null, events: readEvents(reply.body!) };
+  };
+}
