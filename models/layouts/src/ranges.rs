@@ -38,8 +38,12 @@ impl Fault {
                 Unknown => {}
             }
         }
-        let reason: String = error.inner().to_string().chars().take(300).collect();
-        Self::new(pointer, reason)
+        let text = error.inner().to_string();
+        let text = text.split_once(", expected struct ").map_or(text.clone(), |(found, _)| {
+            // The type's name says nothing to who wrote the document.
+            format!("{found}, expected an object")
+        });
+        Self::new(pointer, text.chars().take(300).collect::<String>())
     }
 }
 
