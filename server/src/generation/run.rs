@@ -46,6 +46,9 @@ pub fn generate(feed: &Feed, generator: &Generator, task: Task, others: impl Fn(
                 if task.streams && !soon {
                     last_draft = Some(Instant::now());
                     feed.send(DraftBody::new(&draft, task.all_modes, task.form), None);
+                    // Who writes it to the socket needs a core now, and all may be at work here: without this it
+                    // waits out a time slice.
+                    std::thread::yield_now();
                 }
             }
             Ok(Event::Final(answer)) => {
