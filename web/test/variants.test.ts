@@ -7,7 +7,17 @@ import { partingOf } from '../src/model/parting';
 import { motionFrom, type Motion } from '../src/model/motion';
 import { readScene } from '../src/model/read';
 import { sceneKey, startPose, type Agent, type Scene } from '../src/model/scene';
-import { nameVariants } from '../src/model/variant-names';
+import {
+  countOf,
+  limitsOfSweep,
+  usualSweep,
+  valueOf,
+  valuesOf,
+  withValue,
+  type Over,
+  type Sweep,
+} from '../src/model/sweep';
+import { nameVariants, type Nameless } from '../src/model/variant-names';
 import {
   keepAsVariant,
   keyOfVariant,
@@ -132,16 +142,40 @@ describe('what tells variants apart', () => {
   const card = (id: number, m: Motion) => ({ id, state: states(s, id)[0], scene: s, set: setOf(s, { [a.id]: m }) });
   const on = drive(a, [8]);
   const stops = drive(a, [8, 6, 3, 0]);
+  const named = (all: readonly Nameless[]) => nameVariants(all, () => 'km/h');
 
   it('is its name', () => {
-    const names = nameVariants([card(1, on), card(2, on), card(3, stops), card(4, drive(a, [8], 1.4))]);
+    const names = named([card(1, on), card(2, on), card(3, stops), card(4, drive(a, [8], 1.4))]);
     expect(names[2]).toBe(`${a.name} stops`);
     expect(names[3]).toBe(`${a.name} turns left`);
     expect(new Set(names).size).toBe(4);
-    expect(nameVariants([card(1, on)])).toEqual(['Variant 1']);
+    expect(named([card(1, on)])).toEqual(['Variant 1']);
     const meets = { kind: 'collision', what: 'collision', a, b: walker(s), inLog: false } as TrafficEvent;
-    const eventful = nameVariants([card(1, on), { ...card(2, on), events: [meets] }, card(3, stops)]);
+    const eventful = named([card(1, on), { ...card(2, on), events: [meets] }, card(3, stops)]);
     expect(eventful[1]).toBe(`${a.name} meets ${walker(s).name}`);
+  });
+
+  it('is the number that was asked, where each has another', () => {
+    const asks = (id: number, over: Over, value: number) => {
+      const scene = withValue(s, a.id, over, value);
+      return { id, scene, state: stateOfVariant(scene, a.id), set: null };
+    };
+    expect(named([asks(1, 'start', 30 / 3.6), asks(2, 'start', 35 / 3.6)])).toEqual([
+      'Starts at 30 km/h',
+      'Starts at 35 km/h',
+    ]);
+    const there = setGoal(a, { ...a.goal, pos: [1, 2] }).apply(s);
+    const timed = [4, 4.5].map((t, i) => {
+      const scene = withValue(there, a.id, 'time', t);
+      return { id: i + 1, scene, state: stateOfVariant(scene, a.id), set: null };
+    });
+    expect(named(timed)).toEqual(['There after 4 s', 'There after 4.5 s']);
+    // Of two with the same number the number tells nothing.
+    expect(named([asks(1, 'goal', 5), asks(2, 'goal', 5), asks(3, 'goal', 7)])).toEqual([
+      'Variant 1',
+      'Variant 2',
+      'Arrives at 25 km/h',
+    ]);
   });
 
   it('is said with the moment at which they part', () => {
@@ -157,5 +191,45 @@ describe('what tells variants apart', () => {
     expect(partingOf(side('1', on), side('2', on)).moments).toEqual([]);
     const wide = partingOf(side('1', on), side('2', drive(a, [8], 0.6)));
     expect(wide.moments[0].words).toBe(`${a.name} keeps further left in 2`);
+  });
+});
+
+describe('a range of a number', () => {
+  const sweep = (from: number, to: number, step: number): Sweep => ({ over: 'start', from, to, step });
+
+  it('goes up and down, with both ends, and stops before what a step would pass', () => {
+    expect(valuesOf(sweep(30, 60, 5))).toEqual([30, 35, 40, 45, 50, 55, 60]);
+    expect(valuesOf(sweep(6, 3, 1))).toEqual([6, 5, 4, 3]);
+    expect(valuesOf(sweep(0, 1, 0.3))).toEqual([0, 0.3, 0.6, 0.9]);
+    expect(valuesOf(sweep(2, 2, 1))).toEqual([2]);
+    // Steps of 5 km/h are no round numbers of m/s.
+    expect(valuesOf(sweep(30 / 3.6, 60 / 3.6, 5 / 3.6))).toHaveLength(7);
+  });
+
+  it('begins around what is asked now, within what can be asked', () => {
+    const s = crossing();
+    const a = car(s);
+    for (const over of ['start', 'goal', 'time'] as const) {
+      const usual = usualSweep(a, s, over, 'km/h');
+      const [least, most] = limitsOfSweep(a, s, over);
+      expect(Math.min(...valuesOf(usual))).toBeGreaterThanOrEqual(least);
+      expect(Math.max(...valuesOf(usual))).toBeLessThanOrEqual(most);
+      expect(countOf(usual)).toBeGreaterThan(1);
+    }
+  });
+
+  it('asks for each value, and lets no old pick stand', () => {
+    const s = asked(crossing());
+    expect(car(s).chosen).toBe(1);
+    for (const [over, of] of [
+      ['start', (a: Agent) => a.start.speed],
+      ['goal', (a: Agent) => a.goal.speed],
+      ['time', (a: Agent) => a.goal.time],
+    ] as const) {
+      const a = car(withValue(s, '1', over, 4));
+      expect(of(a)).toBe(4);
+      expect(valueOf(a, over)).toBe(4);
+      expect(a.chosen).toBeNull();
+    }
   });
 });

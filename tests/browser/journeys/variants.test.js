@@ -223,6 +223,66 @@ journeys('variants', (stage) => {
     );
   });
 
+  it(
+    'goes through a range of a number, waits when it is told to, and says what it cannot ask',
+    { timeout: 120_000 },
+    async () => {
+      const e = await begin(stage);
+      const { id, name } = await carOnTheMove(e);
+      await e.choose(id);
+      const by = e.page.getByLabel('What new variants differ by');
+      await by.selectOption('by speed at the start');
+      const range = e.page.getByRole('group', { name: 'Range of the new variants' });
+      assert.match(await range.innerText(), new RegExp(`^${name} starts at`));
+      const fill = async (which, text) => {
+        const field = range.locator(`[data-field="range-${which}"]`);
+        await field.fill(text);
+        await field.press('Enter');
+      };
+      await fill('from', '20');
+      await fill('to', '50');
+      await fill('step', '10');
+      await e.picture('variants-range');
+      assert.equal(await range.getByRole('button').innerText(), 'Make 4 variants');
+      await range.getByRole('button').click();
+      await e.page.waitForSelector('.vcard.waiting', { state: 'detached', timeout: 60_000 });
+      await e.settled();
+      assert.deepEqual(
+        (await cards(e)).map((c) => c.name),
+        [20, 30, 40, 50].map((v) => `Starts at ${v} km/h`),
+      );
+      await e.picture('variants-of-range');
+      // The one on the picture has its number in the inspector, and drives so.
+      await take(e, 3);
+      assert.equal(await e.page.locator('[data-field="start-speed"]').inputValue(), '40');
+      // Steps that are too many are told, and nothing can be made of them.
+      await fill('step', '1');
+      assert.match(await range.innerText(), /Make 31 variants/);
+      await fill('step', '0.4');
+      assert.match(await range.innerText(), /values; there is room for/);
+      assert.equal(await range.getByRole('button').count(), 0);
+      // Of a goal that is not there no time can be asked.
+      await by.selectOption('by time at the goal');
+      assert.match(await range.innerText(), /has no goal yet/);
+      // Made again by chance; it waits, and goes on.
+      await by.selectOption('by chance');
+      await leave(e);
+      await e.key('Control+Enter');
+      await e.page.getByRole('button', { name: 'Pause', exact: true }).click();
+      await e.page.getByText('waiting').waitFor();
+      const then = await e.page.locator('.vcard.waiting').count();
+      await e.frames(40);
+      assert.ok((await e.page.locator('.vcard.waiting').count()) >= then - 1, 'nothing is made while it waits');
+      await e.page.getByRole('button', { name: 'Go on' }).click();
+      await e.page.waitForSelector('.vcard.waiting', { state: 'detached', timeout: 60_000 });
+      await e.settled();
+      // All of it is a step.
+      await e.key('Control+z');
+      await e.settled();
+      assert.equal((await cards(e)).filter((c) => /^Starts at/.test(c.name)).length, 4);
+    },
+  );
+
   it('is there again after a reload, and goes out as files', { timeout: 120_000 }, async () => {
     const e = await begin(stage);
     await e.key('Control+s');

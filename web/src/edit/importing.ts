@@ -1,13 +1,12 @@
 // Files from outside: sent to the server one by one, with a verdict for each.
 import { signal, type ReadonlySignal } from '@preact/signals-core';
 import type { SceneJson } from '../model/json';
-import { lineOf, linesAround, offsetOf } from '../model/json-place';
 import { Refused, type Beside, type Client } from '../net/client';
 import type { ImportReply, Problem } from '../net/types';
+import type { Broken } from './broken-file';
 import type { Editor } from './editor';
 import { foreignKind, kindByName } from './file-kinds';
 import type { Library } from './library';
-import { partAt, withoutBroken } from './mending';
 import { countAll, type SceneList } from './scene-list';
 
 export interface ImportedScene {
@@ -29,7 +28,7 @@ export interface FileVerdict {
   readonly todo?: string;
   readonly details?: string;
   /** The lines of the file where it is broken, and the number of the first. */
-  readonly excerpt?: { readonly line: number; readonly from: number; readonly lines: readonly string[] };
+  readonly excerpt?: Broken['excerpt'];
   /** The rest of it can be taken: without what. */
   readonly without?: readonly string[];
   /** What the reader assumed, left out or changed. */
@@ -150,13 +149,10 @@ export class Importing {
       return verdict;
     }
     const text = file.size <= MOST_TEXT_BYTES ? await file.text() : '';
-    const line = p.line ?? (p.code === 'too-many-agents' ? null : lineAt(text, p.errors?.[0]?.pointer));
-    const excerpt = line === null ? undefined : { line, ...linesAround(text, line) };
-    const found = { ...plain, excerpt, ...(line === null ? {} : { where: `${name}, line ${line}` }) };
-    const scene = sceneIn(text);
-    const part = scene && p.errors?.[0] ? partAt(scene, p.errors[0].pointer) : null;
+    const { lookInto } = await import('./broken-file');
+    const { excerpt, part, mended } = lookInto(text, p);
+    const found = { ...plain, excerpt, ...(excerpt ? { where: `${name}, line ${excerpt.line}` } : {}) };
     const said = part ? { ...found, wrong: `${capital(part.name)}: ${plain.wrong}.` } : found;
-    const mended = scene && withoutBroken(scene, p);
     if (!mended || without.length > MOST_ROUNDS) return said;
     const verdict: FileVerdict = { ...said, without: [...without, ...mended.without], todo: undefined };
     this.#rests.set(verdict, mended.scene);
@@ -191,20 +187,6 @@ export function inPairs(files: readonly File[]): { readonly file: File; readonly
 }
 
 const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
-
-function sceneIn(text: string): SceneJson | null {
-  try {
-    const read = JSON.parse(text) as SceneJson;
-    return Array.isArray(read?.agents) ? read : null;
-  } catch {
-    return null;
-  }
-}
-
-function lineAt(text: string, pointer: string | undefined): number | null {
-  const at = pointer && text.startsWith('{') ? offsetOf(text, pointer) : null;
-  return at === null ? null : lineOf(text, at);
-}
 
 const READABLE = 'Scenario records, lane maps, tables of motion and saved scenes can be read.';
 

@@ -6,6 +6,8 @@ import type { MotionSet } from './futures';
 import { wrapAngle } from './geometry';
 import { poseAt, type Motion } from './motion';
 import type { Agent, Scene } from './scene';
+import { valueOf, valueWords, type Over } from './sweep';
+import type { SpeedUnit } from './units';
 import type { VariantState } from './variants';
 
 export interface Nameless {
@@ -41,10 +43,10 @@ interface Said {
   readonly weight: number;
 }
 
-/** A name for each, no two alike. */
-export function nameVariants(all: readonly Nameless[]): string[] {
+/** A name for each, no two alike. `unitOf`: what speeds that were asked of a road user are said in. */
+export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit = () => 'km/h'): string[] {
   const said = all.map(() => [] as Said[]);
-  all.forEach((v, i) => said[i].push(...ofSubject(v), ...ofEvents(v)));
+  all.forEach((v, i) => said[i].push(...ofNumbers(v, all, unitOf), ...ofSubject(v), ...ofEvents(v)));
   const known = all.flatMap((v, i) => (v.scene && v.set ? [{ i, scene: v.scene, set: v.set }] : []));
   const ids = new Set(known.flatMap((k) => [...k.set.driving]));
   for (const id of known.length > 1 ? ids : []) {
@@ -64,10 +66,29 @@ export function nameVariants(all: readonly Nameless[]): string[] {
   });
 }
 
+const NUMBERS: readonly Over[] = ['start', 'goal', 'time'];
+
+/** Numbers asked of the road user that no other of its variants has. */
+function ofNumbers(v: Nameless, all: readonly Nameless[], unitOf: (a: Agent) => SpeedUnit): Said[] {
+  const a = subjectOf(v);
+  if (!a) return [];
+  const alike = all.flatMap((o) => (o !== v && o.state.subject === v.state.subject ? (subjectOf(o) ?? []) : []));
+  const words = NUMBERS.flatMap((over) => {
+    const value = valueOf(a, over);
+    if (value === null || !alike.length || alike.some((o) => valueOf(o, over) === value)) return [];
+    return valueWords(over, value, unitOf(a));
+  });
+  const said = words.join(', ');
+  return said ? [{ words: said[0].toUpperCase() + said.slice(1), weight: Infinity }] : [];
+}
+
+const subjectOf = ({ state, scene }: Nameless): Agent | undefined =>
+  state.subject === null ? undefined : scene?.agents.get(state.subject);
+
 /** The future that the road user was given which the variants are about. */
-function ofSubject({ state, set, scene }: Nameless): Said[] {
-  const a = state.subject === null ? undefined : scene?.agents.get(state.subject);
-  const f = a && set?.futures.get(a.id);
+function ofSubject(v: Nameless): Said[] {
+  const a = subjectOf(v);
+  const f = a && v.set?.futures.get(a.id);
   const name = f && f.modes[Math.min(f.modes.length - 1, a.chosen ?? f.chosen)]?.name;
   return name ? [{ words: name, weight: Infinity }] : [];
 }

@@ -462,9 +462,10 @@ describe.skipIf(!chromiumPath)('editor', { timeout: 40_000 }, () => {
     await d.page.waitForSelector('.badge');
     expect(await d.page.locator('.badge').count()).toBe(2);
     await d.key('e');
-    expect(await d.text('.insp')).toContain('Motorcycle 11, Cyclist 14');
+    const told = d.page.locator('.insp');
+    await told.getByText('Motorcycle 11, Cyclist 14').waitFor();
     await d.key('e');
-    expect(await d.text('.insp')).toContain('Collision at 5.4 s');
+    await told.getByText('Collision at 5.4 s').waitFor();
     expect(await d.text('.tm')).toContain('5.4 s');
   });
 

@@ -9,6 +9,7 @@ import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { useAlbum } from './album';
 import { CardView } from './card';
+import { Range, RangePick } from './range';
 import '../../styles/variants.css';
 
 const FILTERS: readonly (readonly [Filter, string])[] = [
@@ -64,6 +65,7 @@ export default function Strip() {
           <Icon name="x" size={16} />
         </button>
       </header>
+      <Range />
       <div class="cards" ref={list} onKeyDown={walk}>
         {cards.map((card) => (
           <CardView key={card.id} card={card} album={album} />
@@ -82,7 +84,7 @@ export default function Strip() {
         {any ? 'None of them is like that.' : 'No variants yet.'}{' '}
         {any ? null : (
           <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
-            Make {variants.count.value}
+            Make {variants.wanted.value}
           </button>
         )}
       </p>
@@ -97,6 +99,7 @@ const countOf = (all: readonly Card[], filter: Filter): number =>
 function About() {
   const { editor, variants } = useApp();
   const making = variants.making.value;
+  const paused = variants.paused.value;
   const words = useComputed(() => {
     if (editor.playing.value) return 'all run on one clock';
     const last = variants.cards.value.reduce<Card | null>((a, b) => (a && a.id > b.id ? a : b), null);
@@ -114,7 +117,12 @@ function About() {
       <>
         <small role="status">
           {making.done} of {making.of}
+          {paused ? ', waiting' : ''}
         </small>
+        <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
+          <Icon name={paused ? 'play' : 'pause'} size={14} />
+          {paused ? 'Go on' : 'Pause'}
+        </button>
         <button type="button" class="btn line" onClick={() => variants.stop()}>
           Stop{making.done ? `, keep ${making.done}` : ''}
         </button>
@@ -123,17 +131,20 @@ function About() {
   return (
     <>
       <small>{words}</small>
-      <label class="field count">
-        <input
-          type="number"
-          min={1}
-          max={MOST_NEW}
-          aria-label="How many variants are made"
-          value={variants.count.value}
-          onChange={(e) => variants.setCount(Number(e.currentTarget.value) || 1)}
-        />
-        <span>new</span>
-      </label>
+      {variants.sweep.value ? null : (
+        <label class="field count">
+          <input
+            type="number"
+            min={1}
+            max={MOST_NEW}
+            aria-label="How many variants are made"
+            value={variants.count.value}
+            onChange={(e) => variants.setCount(Number(e.currentTarget.value) || 1)}
+          />
+          <span>new</span>
+        </label>
+      )}
+      <RangePick />
     </>
   );
 }

@@ -2,8 +2,9 @@
 import { counted, readEvents, worstOf, type TrafficEvent } from '../../model/events';
 import type { MotionSet } from '../../model/futures';
 import { partingOf, type Parting, type Side } from '../../model/parting';
-import { sceneKey, type Scene } from '../../model/scene';
+import { sceneKey, type Agent, type Scene } from '../../model/scene';
 import { nameVariants } from '../../model/variant-names';
+import type { SpeedUnit } from '../../model/units';
 import { sameCast, sceneOfVariant, type Variant, type VariantState } from '../../model/variants';
 
 /** A variant with what is known of it. */
@@ -37,6 +38,7 @@ export function cardsOf(
   list: readonly Variant[],
   states: Scene['variantStates'],
   sets: ReadonlyMap<string, MotionSet>,
+  unitOf: (a: Agent) => SpeedUnit,
 ): Card[] {
   const cards = list.map((variant) => {
     const state = states[variant.id];
@@ -44,7 +46,7 @@ export function cardsOf(
     const set = (own && sets.get(sceneKey(own))) ?? null;
     return { id: variant.id, variant, state, scene: own, set, events: own && set ? readEvents(own, set) : [] };
   });
-  const names = nameVariants(cards);
+  const names = nameVariants(cards, unitOf);
   const all = cards.map((c, i): Card => ({ ...c, name: c.variant.called ?? names[i] }));
   // Starred ones come first.
   return [...all.filter((c) => c.variant.starred), ...all.filter((c) => !c.variant.starred)];

@@ -53,6 +53,12 @@ export class Maker {
     }
   }
 
+  /** What everybody does in each of these documents, one after the other. */
+  async *each(scenes: readonly Scene[], subject: string, dealt?: Futures): AsyncGenerator<Take> {
+    this.#bases.clear();
+    for (const scene of scenes) yield await this.workOut(scene, subject, dealt);
+  }
+
   async #nth(scene: Scene, subject: string | null, first: number, k: number): Promise<Take | null> {
     if (subject === null) {
       const anew = withSeed(scene.drawn ? scene : drawAnew(scene).apply(scene), first + k);
@@ -149,8 +155,8 @@ const withSeed = (scene: Scene, seed: number): Scene => patchScene('', { seed })
 
 /** Of whom variants are made: who is selected, else who has a goal; null where it is everybody. */
 export function subjectOf(editor: Editor): string | null {
-  const scene = editor.scene.peek();
-  const selected = editor.agent.peek();
+  const scene = editor.scene.value;
+  const selected = editor.agent.value;
   if (selected && canMove(selected)) return selected.id;
   const asked = [...(scene?.agents.values() ?? [])].filter((a) => canMove(a) && hasGoal(a.goal));
   return asked.length === 1 ? asked[0].id : null;

@@ -3,11 +3,22 @@
 import { batch, computed, effect, signal, type ReadonlySignal } from '@preact/signals-core';
 import { inOneStep } from '../../model/commands';
 import type { Futures, MotionSet } from '../../model/futures';
-import { sceneKey, type Scene } from '../../model/scene';
+import { sceneKey, type Agent, type Scene } from '../../model/scene';
+import {
+  countOf,
+  limitsOfSweep,
+  usualSweep,
+  valueOf,
+  valuesOf,
+  withValue,
+  type Over,
+  type Sweep,
+} from '../../model/sweep';
 import {
   keepAsVariant,
   keepStates,
   MOST_NEW,
+  MOST_VARIANTS,
   patchVariant,
   removeVariant,
   replaceVariants,
@@ -53,6 +64,8 @@ export class Variants {
   readonly #scope = signal<Scope>('present');
   readonly #making = signal<{ readonly done: number; readonly of: number } | null>(null);
   readonly #sets = signal<ReadonlyMap<string, MotionSet>>(new Map());
+  readonly #sweep = signal<Sweep | null>(null);
+  readonly #paused = signal(false);
   /** Rises with every order to stop. */
   #turn = 0;
   readonly #fetching = signal(false);
@@ -69,6 +82,16 @@ export class Variants {
   readonly picked: ReadonlySignal<number | null> = this.#picked;
   readonly scope: ReadonlySignal<Scope> = this.#scope;
   readonly making: ReadonlySignal<{ readonly done: number; readonly of: number } | null> = this.#making;
+  /** The range of a number that is gone through; null where new ones differ by chance. */
+  readonly sweep: ReadonlySignal<Sweep | null> = this.#sweep;
+  /** Does the making wait for somebody to go on with it? */
+  readonly paused: ReadonlySignal<boolean> = this.#paused;
+  /** Of whom new ones are made; null where it is everybody. */
+  readonly subject: ReadonlySignal<Agent | null>;
+  /** How many new ones are asked for. */
+  readonly wanted = computed(() => (this.#sweep.value ? countOf(this.#sweep.value) : this.#count.value));
+  /** Why the range cannot be gone through; null where it can. */
+  readonly obstacle: ReadonlySignal<string | null>;
   /** Is anything being worked out? */
   readonly busy = computed(() => this.#making.value !== null || this.#fetching.value);
   readonly cards: ReadonlySignal<readonly Card[]>;
@@ -93,8 +116,13 @@ export class Variants {
       void roster.value;
       const scene = editor.scene.peek();
       const [all, of] = [list.value, states.value];
-      return scene && all?.length && of ? cardsOf(scene, all, of, this.#sets.value) : NONE;
+      return scene && all?.length && of ? cardsOf(scene, all, of, this.#sets.value, (a) => editor.unitOf(a)) : NONE;
     });
+    this.subject = computed(() => {
+      const id = subjectOf(editor);
+      return id === null ? null : (editor.scene.value?.agents.get(id) ?? null);
+    });
+    this.obstacle = computed(() => this.#obstacleOf(this.#sweep.value));
     this.filtered = computed(() => filtered(this.cards.value, this.#filter.value));
     const key = computed(() => {
       const scene = editor.dragging.value ? null : editor.scene.value;
@@ -150,6 +178,32 @@ export class Variants {
     this.#count.value = Math.min(MOST_NEW, Math.max(1, Math.round(n)));
   }
 
+  /** New ones go through a range of a number; null: they differ by chance. */
+  sweepOver(over: Over | null): void {
+    const scene = this.editor.scene.peek();
+    const a = this.subject.peek();
+    this.#sweep.value = over && scene && a ? usualSweep(a, scene, over, this.editor.unitOf(a)) : null;
+  }
+
+  setSweep(patch: Partial<Omit<Sweep, 'over'>>): void {
+    const now = this.#sweep.peek();
+    if (now) this.#sweep.value = Object.freeze({ ...now, ...patch });
+  }
+
+  #obstacleOf(sweep: Sweep | null): string | null {
+    const a = this.subject.value;
+    const scene = this.editor.scene.value;
+    if (!sweep || !scene) return null;
+    if (!a) return 'Select whose number it is.';
+    if (sweep.over === 'time' && valueOf(a, 'time') === null) return `${a.name} has no goal yet. Press G to set one.`;
+    const [least, most] = limitsOfSweep(a, scene, sweep.over);
+    const beyond = (v: number): boolean => v < least - 1e-6 || v > most + 1e-6;
+    if (beyond(sweep.from) || beyond(sweep.to)) return `${a.name} cannot be asked for all of that.`;
+    const room = MOST_VARIANTS - scene.variants.filter((v) => v.kept || v.starred).length;
+    const n = countOf(sweep);
+    return n > room ? `${n} values; there is room for ${room}.` : null;
+  }
+
   setFilter(filter: Filter): void {
     this.#filter.value = filter;
   }
@@ -169,27 +223,62 @@ export class Variants {
     this.stop();
     const turn = this.#turn;
     const subject = subjectOf(editor);
-    const first = nextSeed(scene, subject);
-    const wanted = this.#count.peek();
+    const sweep = this.#sweep.peek();
+    const obstacle = this.obstacle.peek();
+    if (sweep && obstacle) return editor.notices.show({ text: obstacle });
+    const open = withoutPick(scene, subject);
+    const values =
+      sweep && subject !== null ? valuesOf(sweep).map((v) => withValue(open, subject, sweep.over, v)) : null;
+    const wanted = this.wanted.peek();
+    const source = values
+      ? this.maker.each(values, subject!)
+      : this.maker.make(open, subject, nextSeed(scene, subject), wanted);
+    const { takes, why } = await this.#takesOf(source, wanted, turn);
+    const stopped = turn !== this.#turn;
+    if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped });
+  }
+
+  /** Takes one after the other until somebody stops it, and waits while it is paused. */
+  async #takesOf(
+    source: AsyncGenerator<Take>,
+    of: number,
+    turn: number,
+  ): Promise<{ takes: Take[]; why: string | null }> {
     const takes: Take[] = [];
+    let why: string | null = null;
     batch(() => {
       this.endCompare();
       this.#open.value = true;
-      this.#making.value = { done: 0, of: wanted };
+      this.#making.value = { done: 0, of };
     });
-    let why: string | null = null;
     try {
-      for await (const take of this.maker.make(withoutPick(scene, subject), subject, first, wanted)) {
+      for await (const take of source) {
         if (turn !== this.#turn) break;
         takes.push(take);
-        this.#making.value = { done: takes.length, of: wanted };
+        this.#making.value = { done: takes.length, of };
+        await this.#resumed();
+        if (turn !== this.#turn) break;
       }
     } catch (e) {
       why = reasonOf(e);
     }
-    const stopped = turn !== this.#turn;
-    if (!stopped) this.#making.value = null;
-    if (editor.scene.peek()?.id === scene.id) this.#put(takes, { subject, why, wanted, stopped });
+    if (turn === this.#turn) this.#making.value = null;
+    return { takes, why };
+  }
+
+  pause(paused: boolean): void {
+    this.#paused.value = paused && this.#making.peek() !== null;
+  }
+
+  #resumed(): Promise<void> {
+    if (!this.#paused.peek()) return Promise.resolve();
+    return new Promise((go) => {
+      const end = this.#paused.subscribe((paused) => {
+        if (paused) return;
+        queueMicrotask(() => end());
+        go();
+      });
+    });
   }
 
   #put(takes: readonly Take[], { subject, why, wanted, stopped }: Made): void {
@@ -216,6 +305,7 @@ export class Variants {
   stop(): void {
     this.#turn++;
     this.#making.value = null;
+    this.#paused.value = false;
     this.cancel();
   }
 
@@ -255,6 +345,7 @@ export class Variants {
       this.#pair.value = null;
       this.#picked.value = this.#current.value = this.#renaming.value = null;
       this.#filter.value = 'all';
+      this.#sweep.value = null;
     });
   }
 
@@ -345,23 +436,7 @@ export class Variants {
     if (!scenes.length || this.#refusedLock()) return;
     this.stop();
     const turn = this.#turn;
-    const takes: Take[] = [];
-    batch(() => {
-      this.endCompare();
-      this.#open.value = true;
-      this.#making.value = { done: 0, of: scenes.length };
-    });
-    let why: string | null = null;
-    try {
-      for (const scene of scenes) {
-        takes.push(await this.maker.workOut(scene, id, futures));
-        if (turn !== this.#turn) break;
-        this.#making.value = { done: takes.length, of: scenes.length };
-      }
-    } catch (e) {
-      why = reasonOf(e);
-    }
-    if (turn === this.#turn) this.#making.value = null;
+    const { takes, why } = await this.#takesOf(this.maker.each(scenes, id, futures), scenes.length, turn);
     if (why) editor.notices.show({ text: why });
     this.#join(takes, id);
   }

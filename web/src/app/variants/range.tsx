@@ -1,0 +1,100 @@
+// New variants by a number: which one is gone through, from where to where, in what steps.
+import { limitsOfSweep, LEAST_STEP, type Over } from '../../model/sweep';
+import { fromUnit, num, toUnit, type Quantity } from '../../model/units';
+import { perform } from '../../actions/registry';
+import { useApp } from '../parts/app-context';
+import { NumberField } from '../parts/number-field';
+
+const BY: readonly (readonly [Over, string])[] = [
+  ['start', 'by speed at the start'],
+  ['goal', 'by speed at the goal'],
+  ['time', 'by time at the goal'],
+];
+
+const SAID: Record<Over, string> = { start: 'starts at', goal: 'arrives at', time: 'is there after' };
+
+/** What new ones differ by: chance, or a number of the one road user that they are about. */
+export function RangePick() {
+  const { variants } = useApp();
+  const sweep = variants.sweep.value;
+  if (!variants.subject.value && !sweep) return null;
+  return (
+    <select
+      class="field pick"
+      aria-label="What new variants differ by"
+      value={sweep?.over ?? ''}
+      onChange={(e) => variants.sweepOver((e.currentTarget.value || null) as Over | null)}
+    >
+      <option value="">by chance</option>
+      {BY.map(([over, words]) => (
+        <option key={over} value={over}>
+          {words}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+/** The range as a sentence with its numbers to fill in. */
+export function Range() {
+  const c = useApp();
+  const { editor, variants } = c;
+  const sweep = variants.sweep.value;
+  const subject = variants.subject.value;
+  if (!sweep || variants.making.value) return null;
+  const obstacle = variants.obstacle.value;
+  const unit = sweep.over === 'time' || !subject ? 's' : editor.unitOf(subject);
+  const quantity: Quantity = unit === 's' ? 'time' : unit;
+  const decimals = unit === 's' || unit === 'm/s' ? 1 : 0;
+  const shown = (v: number) => (unit === 's' ? v : toUnit(v, unit));
+  const meant = (v: number) => (unit === 's' ? v : fromUnit(v, unit));
+  const limits = (): readonly [number, number] => {
+    const scene = editor.scene.peek();
+    if (!scene || !subject) return [0, 0];
+    const [least, most] = limitsOfSweep(subject, scene, sweep.over);
+    return [shown(least), shown(most)];
+  };
+  const field = (which: 'from' | 'to' | 'step', label: string) => {
+    const value = () => shown((variants.sweep.value ?? sweep)[which]);
+    return (
+      <NumberField
+        key={`${which} ${unit}`}
+        label={label}
+        field={`range-${which}`}
+        unit={() => (which === 'from' ? '' : unit)}
+        quantity={() => quantity}
+        step={decimals ? 0.5 : 5}
+        value={value}
+        text={() => num(value(), decimals)}
+        range={which === 'step' ? () => [shown(LEAST_STEP), limits()[1]] : limits}
+        set={(v) => variants.setSweep({ [which]: meant(v) })}
+      />
+    );
+  };
+  const n = variants.wanted.value;
+  return (
+    <div class="range" role="group" aria-label="Range of the new variants">
+      {subject ? (
+        <>
+          <span>
+            <b>{subject.name}</b> {SAID[sweep.over]}
+          </span>
+          {field('from', 'First value')}
+          <span>to</span>
+          {field('to', 'Last value')}
+          <span>in steps of</span>
+          {field('step', 'Step')}
+        </>
+      ) : null}
+      {obstacle ? (
+        <span class="why" role="status">
+          {obstacle}
+        </span>
+      ) : (
+        <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
+          {n === 1 ? 'Make 1 variant' : `Make ${n} variants`}
+        </button>
+      )}
+    </div>
+  );
+}
