@@ -28,6 +28,19 @@ pub(super) fn agent(problem: &Problem, (map, lanes): (&LaneMap, &Lanes), clock: 
     (agent, is_region)
 }
 
+/// What is to be reached by a road user that begins elsewhere than the problem says: without a place that is too far
+/// from there.
+pub(super) fn from_start(mut conditions: Conditions, driven: &Agent) -> Conditions {
+    let start = driven.track.states.iter().flatten().next().map(State::position);
+    let near = |p: &Vec2| start.is_none_or(|start| is_near(*p, start));
+    conditions.goal.position = conditions.goal.position.filter(near);
+    conditions
+}
+
+fn is_near(place: Vec2, start: Vec2) -> bool {
+    (place - start).norm() <= MAX_GOAL_DISTANCE_M
+}
+
 /// The middle of what is to be reached; whether there was more than a point of it.
 fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), clock: Clock) -> (Goal, bool) {
     let middle = |(from, to): Range| (from + to) / 2.0;
@@ -46,7 +59,7 @@ fn reached(goal: &GoalState, start: &State, (map, lanes): (&LaneMap, &Lanes), cl
     let speed_mps = goal.speed_mps.map(middle).map(|v| v.clamp(0.0, MAX_SPEED_MPS));
     let there = start.position() + start.velocity() * time_s.unwrap_or(9.0);
     let place = goal.places.first().map(|place| place.centre);
-    let near = |p: &Vec2| (p - start.position()).norm() <= MAX_GOAL_DISTANCE_M;
+    let near = |p: &Vec2| is_near(*p, start.position());
     let place = place.filter(|p| p.amax() <= MAX_COORDINATE_M);
     let position = place.or_else(|| on_lanelets(&goal.lanelets, there, (map, lanes))).filter(near);
     let is_region = is_wide(goal.time)
@@ -62,4 +75,21 @@ fn on_lanelets(ids: &[i64], there: Vec2, (map, lanes): (&LaneMap, &Lanes)) -> Op
     let all = ids.iter().filter_map(|id| lanes.get(id)?.first()).map(|lane| &map.lanes[*lane].points.xy);
     let feet = all.map(|line| polyline::nearest(line, there));
     feet.min_by(|a, b| (a - there).norm().total_cmp(&(b - there).norm()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goals_are_near_where_one_really_starts() {
+        let mut driven = Agent::bare("7", AgentType::Vehicle, Subtype::Car, Vec::new());
+        let state = State { x_m: 1.0, y_m: 0.0, heading_rad: 0.0, vx_mps: 5.0, vy_mps: 0.0 };
+        driven.track = Track { first_step: 0, states: vec![None, Some(state)], z_m: None }.into();
+        let goal =
+            |x: f64| Goal { position: Some(Vec2::new(x, 0.0)), speed_mps: Some(3.0), ..Goal::default() };
+        let asked = |x: f64| from_start(Conditions { goal: goal(x), ..Conditions::default() }, &driven).goal;
+        assert_eq!(asked(1_501.0), goal(1_501.0));
+        assert_eq!(asked(1_501.1), Goal { position: None, ..goal(0.0) });
+    }
 }

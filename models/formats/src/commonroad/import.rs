@@ -36,7 +36,9 @@ pub(super) fn read(file: &dyn Source, options: &ImportOptions) -> Result<Importe
         // Some files say of the same road user how it went.
         let driven = document.obstacles.iter().find(|obstacle| obstacle.id == problem.id);
         match driven.and_then(|obstacle| motion::agent(obstacle, clock, &mut changed)) {
-            Some(driven) => agent = Agent { conditions: agent.conditions, ..driven },
+            Some(driven) => {
+                agent = Agent { conditions: goals::from_start(agent.conditions, &driven), ..driven }
+            }
             None => sizes += 1,
         }
         planned.insert(problem.id);

@@ -12,6 +12,7 @@ use crate::xml::{Element, Event, Scanner};
 use scene::Vec2;
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
+use std::ops::Range;
 
 /// Most bytes of a file once decompressed.
 const MAX_BYTES: u64 = 256 << 20;
@@ -33,6 +34,12 @@ const MAX_LANES_M: f64 = 500_000.0;
 const MAX_STEPS: f64 = 4e8;
 /// Farthest a coordinate may lie from the origin of the file, metres.
 const MAX_SOURCE_M: f64 = 1e8;
+/// A road ends so far beyond its reference line at most, metres.
+const BEYOND_LINE_M: f64 = 1.0;
+/// A sort of marks that is no paint.
+const UNPAINTED: &str = "grass";
+/// Begins the length in a tag.
+const LENGTH: &str = " length=\"";
 /// A lane raised by so much is not driven onto from the one beside it, metres.
 const RAISED_M: f64 = 0.05;
 
@@ -92,6 +99,8 @@ pub(super) struct Filtered {
     pub raised: HashSet<(String, usize, i32)>,
     /// Traffic keeps to the left, by road id.
     pub left_hand: HashSet<String>,
+    /// What was wrong and was put right.
+    pub faults: Vec<String>,
 }
 
 /// Reads a file, plain or gzip.
@@ -118,7 +127,11 @@ pub(super) fn read(file: &dyn Source) -> Result<Filtered, ReadError> {
 #[derive(Default)]
 struct Road {
     id: String,
+    /// As it is said; as the reference line has it, which ends there.
     length_m: f64,
+    line_m: f64,
+    /// Where the length stands in the text.
+    length_at: Range<usize>,
     /// Elements that are looked for along it.
     records: usize,
     sections: Vec<Section>,
@@ -181,10 +194,8 @@ impl Filter {
                 let moved = self.geometry(element)?;
                 self.keep(element, &moved)
             }
-            "road" => {
-                let moved = self.road(element);
-                self.keep(element, &moved)
-            }
+            "road" => self.road(element),
+            "roadMark" => self.keep(&unpainted(element), &[]),
             "laneSection" => {
                 let s_m = number(element, "s").unwrap_or(0.0).max(0.0);
                 self.road.sections.push(Section { s_m, lanes: 0, raised: Vec::new() });
@@ -289,14 +300,35 @@ impl Filter {
         Ok(())
     }
 
-    fn road(&mut self, element: &Element) -> Vec<(&'static str, f64)> {
+    fn road(&mut self, element: &Element) -> Result<(), ReadError> {
         let id = element.get("id").unwrap_or_default().to_owned();
         let length_m = number(element, "length").unwrap_or(0.0).clamp(0.0, xodr::MAX_LENGTH);
         if element.get("rule") == Some("LHT") {
             self.out.left_hand.insert(id.clone());
         }
         self.road = Road { id, length_m, ..Road::default() };
-        vec![("length", length_m)]
+        let from = self.out.text.len();
+        self.keep(element, &[("length", length_m)])?;
+        let tag = &self.out.text[from..];
+        if let Some(at) = tag.find(LENGTH) {
+            let at = at + LENGTH.len();
+            let end = tag[at..].find('"').map_or(tag.len(), |end| at + end);
+            self.road.length_at = from + at..from + end;
+        }
+        Ok(())
+    }
+
+    /// A road is no longer than its reference line: what lies beyond has no place.
+    fn cut(&mut self, road: &mut Road) {
+        if road.line_m <= 0.0 || road.length_m <= road.line_m + BEYOND_LINE_M {
+            return;
+        }
+        let id: String = road.id.chars().take(40).collect();
+        let (said, line_m) = (road.length_m, road.line_m);
+        let fault = format!("road {id:?}: length {said:.3} m, but its <planView> ends at {line_m:.3} m");
+        self.out.faults.push(fault);
+        self.out.text.replace_range(road.length_at.clone(), &line_m.to_string());
+        road.length_m = line_m;
     }
 
     /// A piece of the reference line, about the file's own middle.
@@ -315,6 +347,7 @@ impl Filter {
         let origin = *self.origin.get_or_insert(Vec2::new(x.round(), y.round()));
         self.out.origin = origin;
         let s_m = number(element, "s").unwrap_or(0.0).clamp(0.0, xodr::MAX_LENGTH);
+        self.road.line_m = self.road.line_m.max(s_m + length_m).min(xodr::MAX_LENGTH);
         Ok(vec![("s", s_m), ("x", x - origin.x), ("y", y - origin.y), ("length", length_m)])
     }
 
@@ -341,6 +374,7 @@ impl Filter {
 
     fn end_of_road(&mut self) -> Result<(), ReadError> {
         let mut road = std::mem::take(&mut self.road);
+        self.cut(&mut road);
         // As they are numbered: in the order along the road.
         road.sections.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
         let widest = road.sections.iter().map(|section| section.lanes).max().unwrap_or(0);
@@ -364,6 +398,16 @@ impl Filter {
 
 fn is_crosswalk(element: &Element) -> bool {
     element.get("type").is_some_and(|kind| kind.eq_ignore_ascii_case("crosswalk"))
+}
+
+/// The mark as one of a sort that the crate paints nothing for, with its own sort as its material: it would cut
+/// broken lines into all of their dashes, which no scene shows, and on a long road that takes it seconds.
+fn unpainted(mark: &Element) -> Element {
+    let mut mark = mark.clone();
+    let sort = mark.get("type").unwrap_or_default().to_owned();
+    mark.attributes.retain(|(name, _)| name != "type" && name != "material");
+    mark.attributes.extend([("type".to_owned(), UNPAINTED.to_owned()), ("material".to_owned(), sort)]);
+    mark
 }
 
 /// Paint at which traffic stops. There is no type for it: the name or the subtype says so.
@@ -424,6 +468,29 @@ mod tests {
         assert_eq!(file.left_out.into_iter().collect::<Vec<_>>(), [("OpenCRG surface", 1), ("object", 1)]);
         assert!(file.raised.contains(&("a&\"".to_owned(), 0, -1)));
         assert!(file.left_hand.contains("a&\""));
+    }
+
+    #[test]
+    fn roads_end_with_their_lines_and_marks_paint_no_dashes() {
+        let road = |length: &str| {
+            let text = format!(
+                "<OpenDRIVE><road id='7' length='{length}'><planView><geometry s='0' x='0' y='0' length='20.5'/>\
+                 <geometry s='20.5' x='20.5' y='0' length='9.5'/></planView><lanes><laneSection s='0'><center>\
+                 <lane id='0'><roadMark type='broken' material='standard' color='yellow'/></lane></center>\
+                 </laneSection></lanes></road></OpenDRIVE>"
+            );
+            filtered(&text).unwrap()
+        };
+        let cut = road("1000001");
+        assert!(cut.text.contains("<road id=\"7\" length=\"30\">"), "{}", cut.text);
+        assert_eq!(cut.faults, ["road \"7\": length 100000.000 m, but its <planView> ends at 30.000 m"]);
+        let whole = road("30.2");
+        assert!(whole.text.contains("length=\"30.2\">") && whole.faults.is_empty());
+        assert!(
+            whole.text.contains("<roadMark color=\"yellow\" type=\"grass\" material=\"broken\">"),
+            "{}",
+            whole.text
+        );
     }
 
     #[test]

@@ -153,10 +153,11 @@ fn warnings(file: &Filtered, faults: &[xodr::Warning], approximated: usize, whol
             warnings.push(Warning::new(code, detail));
         }
     };
-    let faults: Vec<&xodr::Warning> = faults.iter().filter(|fault| !fault.is_ignored()).collect();
+    let others = faults.iter().filter(|fault| !fault.is_ignored()).map(ToString::to_string);
+    let faults: Vec<String> = file.faults.iter().cloned().chain(others).collect();
     if let Some(first) = faults.first() {
         let more = if faults.len() > 1 { format!(" (and {} more)", faults.len() - 1) } else { String::new() };
-        let first: String = first.to_string().chars().take(300).collect();
+        let first: String = first.chars().take(300).collect();
         warn(true, "map-faults", format!("{first}{more}"));
     }
     let listed: Vec<String> = file.left_out.iter().map(|(what, count)| format!("{count} x {what}")).collect();

@@ -6,7 +6,7 @@ use crate::polyline::simplify;
 use scene::Vec2;
 use scene::map::{Boundary, LaneMap, ROAD_LINE_TYPES, TypedLine};
 use std::collections::HashMap;
-use xodr::{LanePosition, Provenance, RoadMark, RoadMarkProvenance, RoadMarkType as Kind, RoadNetwork};
+use xodr::{LanePosition, Provenance, RoadMarkProvenance, RoadNetwork};
 
 /// Paint is kept to this, with pieces no longer than, metres.
 const KEPT_M: (f64, f64) = (0.03, 20.0);
@@ -38,7 +38,7 @@ pub(super) fn draw(
     for place in &provenance.road_marks {
         let Some(mark) = network.road_mark(place.road_mark) else { continue };
         let Some(at) = by_place.get(&(place.road_id.as_str(), place.section)).copied() else { continue };
-        let Some((line_type, exact)) = line_type(mark) else { continue };
+        let Some((line_type, exact)) = line_type(place.material.trim(), &mark.color) else { continue };
         let section = &sections[at];
         let Some((border, from, to)) = stretch(network, section, place) else { continue };
         let points = cut(&section.borders[border], from, to);
@@ -56,23 +56,23 @@ pub(super) fn draw(
     approximated
 }
 
-/// The word for a mark, and whether it says all; nothing for what is no paint.
-fn line_type(mark: &RoadMark) -> Option<(&'static str, bool)> {
-    let yellow = matches!(mark.color.as_str(), "yellow" | "orange");
-    let plain = yellow || matches!(mark.color.as_str(), "" | "standard" | "white");
-    let (word, exact) = match (mark.kind, yellow) {
-        (Kind::Solid, false) => ("solid_single_white", true),
-        (Kind::Solid, true) => ("solid_single_yellow", true),
-        (Kind::Broken, false) => ("broken_single_white", true),
-        (Kind::Broken, true) => ("broken_single_yellow", true),
-        (Kind::SolidSolid, false) => ("solid_double_white", true),
-        (Kind::SolidSolid, true) => ("solid_double_yellow", true),
-        (Kind::BrokenBroken, false) => ("broken_single_white", false),
-        (Kind::BrokenBroken, true) => ("broken_double_yellow", true),
-        (Kind::SolidBroken | Kind::BrokenSolid, false) => ("solid_double_white", false),
-        (Kind::SolidBroken | Kind::BrokenSolid, true) => ("passing_double_yellow", true),
-        (Kind::BottsDots, false) => ("broken_single_white", false),
-        (Kind::BottsDots, true) => ("broken_single_yellow", false),
+/// The word for a mark, and whether it says all; nothing for what is no paint. `sort`: its `type` (e_roadMarkType).
+fn line_type(sort: &str, colour: &str) -> Option<(&'static str, bool)> {
+    let yellow = matches!(colour, "yellow" | "orange");
+    let plain = yellow || matches!(colour, "" | "standard" | "white");
+    let (word, exact) = match (sort, yellow) {
+        ("solid", false) => ("solid_single_white", true),
+        ("solid", true) => ("solid_single_yellow", true),
+        ("broken", false) => ("broken_single_white", true),
+        ("broken", true) => ("broken_single_yellow", true),
+        ("solid solid", false) => ("solid_double_white", true),
+        ("solid solid", true) => ("solid_double_yellow", true),
+        ("broken broken", false) => ("broken_single_white", false),
+        ("broken broken", true) => ("broken_double_yellow", true),
+        ("solid broken" | "broken solid", false) => ("solid_double_white", false),
+        ("solid broken" | "broken solid", true) => ("passing_double_yellow", true),
+        ("botts dots", false) => ("broken_single_white", false),
+        ("botts dots", true) => ("broken_single_yellow", false),
         _ => return None,
     };
     Some((word, exact && plain))

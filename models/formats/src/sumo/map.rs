@@ -13,9 +13,9 @@ use std::collections::HashMap;
 pub(super) const SPACING_M: (f64, f64) = (2.0, 1.0);
 /// Most pieces of a lane; those of longer lanes are longer.
 pub(super) const MAX_PIECES: f64 = 4_000.0;
-/// Most comparisons of left borders with each other: ten times what a large town needs. A network where
+/// Most comparisons of left borders with each other: five times what a large town needs. A network where
 /// everything overlaps would need their square.
-const MOST_LEFT_CHECKS: u64 = 100_000_000;
+const MOST_LEFT_CHECKS: u64 = 50_000_000;
 
 /// What a lane map of a network carries besides traffic lanes.
 #[derive(Clone, Copy, Debug)]

@@ -209,7 +209,15 @@ impl LaneGraph {
         for segment in self.index.near(point, radius_m) {
             let (lane, piece) = (segment.owner as usize, segment.piece as usize);
             let (s, d2) = self.lanes[lane].path.foot_on(piece, point);
-            if d2 <= radius_m * radius_m && keep(lane, &self.lanes[lane]) {
+            if d2 > radius_m * radius_m {
+                continue;
+            }
+            // Pieces of a lane come one after the other: most are told here already.
+            if let Some(last) = feet.last_mut().filter(|last| last.0 == lane) {
+                if d2.total_cmp(&last.1).then(piece.cmp(&last.2)).is_lt() {
+                    *last = (lane, d2, piece, s);
+                }
+            } else if keep(lane, &self.lanes[lane]) {
                 feet.push((lane, d2, piece, s));
             }
         }

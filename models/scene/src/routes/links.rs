@@ -7,12 +7,19 @@ use std::collections::HashMap;
 
 /// Greatest gap over which a missing link is rebuilt, metres.
 const LINK_GAP_M: f64 = 0.6;
+/// Most ends that are joined at one place: a junction has up to a dozen.
+const MOST_TOGETHER: usize = 64;
 /// Greatest change of heading over a rebuilt link.
 const LINK_TURN_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
 /// Greatest difference of heading between lanes side by side.
 const SIDE_TURN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// Distance between the places at which sides are looked for, metres.
 const SIDE_STEP_M: f64 = 10.0;
+/// Most lanes found there, in all: for each of the places, where streets have 2 to 6, beyond what a small map may
+/// have in its junctions, and in any case.
+const FOUND_A_PLACE: usize = 16;
+const FOUND_ANYWAY: usize = 200_000;
+const MOST_FOUND: usize = 800_000;
 
 /// Adds the link from lane `from` to lane `to` once.
 pub(super) fn connect(lanes: &mut [GraphLane], from: usize, to: usize) {
@@ -81,11 +88,13 @@ impl ByX {
         Self(sorted)
     }
 
-    /// Those within `radius_m` of `point`, by rising x.
+    /// Those within `radius_m` of `point`, by rising x; none where they are so many that they say nothing.
     pub(super) fn near(&self, point: Vec2, radius_m: f64) -> Vec<usize> {
         let first = self.0.partition_point(|p| p.0 < point.x - radius_m);
         let close = self.0[first..].iter().take_while(|p| p.0 <= point.x + radius_m);
-        close.filter(|p| (p.0 - point.x).hypot(p.1 - point.y) <= radius_m).map(|p| p.2).collect()
+        let within = close.filter(|p| (p.0 - point.x).hypot(p.1 - point.y) <= radius_m).map(|p| p.2);
+        let found: Vec<usize> = within.take(MOST_TOGETHER + 1).collect();
+        if found.len() > MOST_TOGETHER { Vec::new() } else { found }
     }
 }
 
@@ -133,27 +142,37 @@ fn recorded(graph: &LaneGraph, arcs: &[Vec<f64>], own: usize, neighbor: &Neighbo
     Some(Beside { lane: other, own_m, other_m, same_direction })
 }
 
-/// Lanes a lane's width apart with the same heading lie side by side.
+/// Lanes a lane's width apart with the same heading lie side by side. Where lanes lie over each other too often for
+/// that to mean anything, none has sides.
 fn rebuild_sides(graph: &mut LaneGraph) {
-    for i in 0..graph.lanes().len() {
-        if graph.lanes()[i].lane_type == LaneType::Sidewalk {
-            continue;
-        }
-        let (left, right) = sides_of(graph, i);
+    let own = |(i, lane): (usize, &GraphLane)| (lane.lane_type != LaneType::Sidewalk).then_some(i);
+    let own: Vec<usize> = graph.lanes().iter().enumerate().filter_map(own).collect();
+    let places: usize = own.iter().map(|i| 1 + side_pieces(&graph.lanes()[*i])).sum();
+    let mut left_to_find = (FOUND_ANYWAY + FOUND_A_PLACE * places).min(MOST_FOUND);
+    let found: Option<Vec<_>> = own.iter().map(|i| sides_of(graph, *i, &mut left_to_find)).collect();
+    for (i, (left, right)) in own.into_iter().zip(found.unwrap_or_default()) {
         let lane = &mut graph.lanes_mut()[i];
         (lane.left, lane.right) = (left, right);
     }
 }
 
-fn sides_of(graph: &LaneGraph, own: usize) -> (Vec<Beside>, Vec<Beside>) {
+/// Stretches between the places at which a lane's sides are looked for.
+fn side_pieces(lane: &GraphLane) -> usize {
+    (lane.path.length_m() / SIDE_STEP_M).ceil().clamp(1.0, 1e4) as usize
+}
+
+/// What lies left and right; nothing once more lanes have been found than there were left to find.
+fn sides_of(graph: &LaneGraph, own: usize, left_to_find: &mut usize) -> Option<(Vec<Beside>, Vec<Beside>)> {
     let lane = &graph.lanes()[own];
     let (mut left, mut right): (Vec<Beside>, Vec<Beside>) = (Vec::new(), Vec::new());
-    let pieces = (lane.path.length_m() / SIDE_STEP_M).ceil().clamp(1.0, 1e4) as usize;
+    let pieces = side_pieces(lane);
     for k in 0..=pieces {
         let s = lane.path.length_m() * k as f64 / pieces as f64;
         let here = lane.path.sample(s);
         let radius = 0.7 * (lane.width_m + 3.5);
-        for hit in graph.nearest_lanes(here.position, radius, |i, l| i != own && same_users(lane, l)) {
+        let hits = graph.nearest_lanes(here.position, radius, |i, l| i != own && same_users(lane, l));
+        *left_to_find = left_to_find.checked_sub(hits.len())?;
+        for hit in hits {
             let apart = hit.lateral_m.abs() / (0.5 * (lane.width_m + graph.lanes()[hit.lane].width_m));
             let turn = wrap_angle(hit.heading_rad - here.heading_rad).abs();
             let abreast = (hit.distance_m - hit.lateral_m.abs()).abs() < 0.5;
@@ -176,5 +195,5 @@ fn sides_of(graph: &LaneGraph, own: usize) -> (Vec<Beside>, Vec<Beside>) {
     for side in [&mut left, &mut right] {
         side.retain(|b| b.own_m.1 > b.own_m.0);
     }
-    (left, right)
+    Some((left, right))
 }

@@ -48,6 +48,22 @@ fn sides_come_from_the_geometry_when_none_are_recorded() {
     assert_eq!(graph.lanes()[1].right[0].lane, 0);
 }
 
+/// Hundreds of long lanes in one place are no streets. To look for who goes beside whom would take minutes.
+#[test]
+fn lanes_that_lie_over_each_other_have_no_sides_and_no_links() {
+    let heap =
+        |n: usize| map((0..n).map(|i| lane(i.to_string(), line(v(0.0, 0.0), v(2_000.0, 0.0)))).collect());
+    let graph = LaneGraph::new(&heap(500));
+    assert!(graph.lanes().iter().all(|lane| lane.left.is_empty() && lane.right.is_empty()));
+    let knot = |n: usize| {
+        let into = (0..n).map(|i| lane(format!("in {i}"), line(v(0.0, 0.0), v(20.0, 0.0))));
+        let out = (0..n).map(|i| lane(format!("out {i}"), line(v(20.0, 0.0), v(40.0, 0.0))));
+        LaneGraph::new(&map(into.chain(out).collect()))
+    };
+    assert!(knot(60).lanes()[..60].iter().all(|lane| lane.successors.len() == 60));
+    assert!(knot(70).lanes().iter().all(|lane| lane.successors.is_empty()));
+}
+
 #[test]
 fn nearest_lanes_are_exact() {
     let graph = LaneGraph::new(&crossing());

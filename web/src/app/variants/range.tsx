@@ -41,7 +41,7 @@ export function Range() {
   const { editor, variants } = c;
   const sweep = variants.sweep.value;
   const subject = variants.subject.value;
-  if (!sweep || variants.making.value) return null;
+  if (!sweep) return null;
   const obstacle = variants.obstacle.value;
   const unit = sweep.over === 'time' || !subject ? 's' : editor.unitOf(subject);
   const quantity: Quantity = unit === 's' ? 'time' : unit;
@@ -91,7 +91,12 @@ export function Range() {
           {obstacle}
         </span>
       ) : (
-        <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
+        <button
+          type="button"
+          class="btn pri"
+          disabled={variants.making.value !== null}
+          onClick={() => perform(c, 'make-variants')}
+        >
           {n === 1 ? 'Make 1 variant' : `Make ${n} variants`}
         </button>
       )}

@@ -82,9 +82,9 @@ export default function Strip() {
     return (
       <p class="none">
         {any ? 'None of them is like that.' : 'No variants yet.'}{' '}
-        {any ? null : (
+        {any || variants.sweep.value ? null : (
           <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
-            Make {variants.wanted.value}
+            Make {variants.count.value}
           </button>
         )}
       </p>
