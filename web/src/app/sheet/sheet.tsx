@@ -19,7 +19,7 @@ const FLICK = 0.45;
 
 export function Sheet() {
   const c = useApp();
-  const { editor, form } = c;
+  const { editor, form, variants } = c;
   /** Pixels while the grip is in hand. */
   const inHand = useSignal<number | null>(null);
   const px = useComputed(() => {
@@ -27,11 +27,16 @@ export function Sheet() {
     return editor.dragging.value ? Math.min(wanted, form.whileDragging) : wanted;
   });
   const opened = useRef<string | null>(null);
-  // Who is selected has fields to show.
+  // Who is selected has fields to show, unless the strip of variants has their room.
   useLiveEffect(() => {
     const id = editor.selection.value;
-    if (id !== null && id !== opened.current && form.height.peek() === 'peek') form.open('half');
+    const room = !variants.open.peek();
+    if (room && id !== null && id !== opened.current && form.height.peek() === 'peek') form.open('half');
     opened.current = id;
+  });
+  // Strip and open sheet together would leave nothing of the picture.
+  useLiveEffect(() => {
+    if (variants.open.value) form.open('peek');
   });
   // What floats over the picture stands above the sheet; a sheet that covers everything leaves it where it was.
   useLiveEffect(() => {
