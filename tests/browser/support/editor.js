@@ -1,6 +1,6 @@
 // The editor as a person meets it: eyes, a mouse, a keyboard, and the list that screen readers read.
-import { chromium as engine } from 'playwright-core';
-import { chromium as executablePath, out } from './where.js';
+import { chromium as chromiumEngine, firefox as firefoxEngine } from 'playwright-core';
+import { chromium, firefox, out } from './where.js';
 import { Wire } from './wire.js';
 
 const FLAGS = [
@@ -15,8 +15,13 @@ const FLAGS = [
 ];
 const PATIENCE_MS = 15_000;
 
-export const launch = () => engine.launch({ executablePath, args: FLAGS });
+/** A browser by its name: Chromium, or the Firefox that people have, which speaks WebDriver BiDi. */
+export const launch = (name = 'chromium') =>
+  name === 'firefox'
+    ? firefoxEngine.launch({ executablePath: firefox, channel: 'moz-firefox', headless: true })
+    : chromiumEngine.launch({ executablePath: chromium, args: FLAGS });
 
+const engineOf = (context) => context.browser().browserType().name();
 const number = (text) => Number(text.replace('≈', '').replace('−', '-').trim());
 
 export class Editor {
@@ -50,12 +55,15 @@ export class Editor {
     e.errors = errors;
     e.page = await context.newPage();
     e.page.setDefaultTimeout(PATIENCE_MS);
-    e.page.on('console', (m) => {
-      if (m.type() === 'error' && !/ERR_|Failed to load resource/.test(m.text())) e.errors.push(m.text());
-    });
-    e.page.on('pageerror', (error) => e.errors.push(String(error.stack ?? error)));
-    e.cdp = await context.newCDPSession(e.page);
-    e.wire = await Wire.on(e.cdp);
+    // That the page itself adds no style, Chromium shows; in Firefox a screenshot does, and is refused.
+    const expected = engineOf(context) === 'firefox' ? /blocked an inline style/ : /ERR_|Failed to load resource/;
+    const complain = (words) => expected.test(words) || e.errors.push(words);
+    e.page.on('console', (m) => m.type() === 'error' && complain(m.text()));
+    e.page.on('pageerror', (error) => complain(String(error.stack ?? error)));
+    // Only Chromium lets the wire be listened to; elsewhere a journey goes by what the page shows.
+    const listened = engineOf(context) === 'chromium';
+    e.cdp = listened ? await context.newCDPSession(e.page) : null;
+    e.wire = listened ? await Wire.on(e.cdp) : new Wire();
     await e.page.goto(url);
     await e.ready();
     return e;

@@ -7,10 +7,11 @@ import { missing } from './where.js';
 
 /**
  * `tell(stage)` declares the journeys. `stage.open(options)` opens the editor, `stage.visit(url)` another address;
- * what is open is closed after each journey, which fails when a page complained about anything.
+ * what is open is closed after each journey, which fails when a page complained about anything. `browser` is another
+ * one than Chromium.
  */
-export function journeys(name, tell) {
-  describe(name, { skip: missing() }, () => {
+export function journeys(name, tell, { browser = 'chromium' } = {}) {
+  describe(name, { skip: missing(browser) }, () => {
     const stage = {
       program: null,
       editors: [],
@@ -27,7 +28,7 @@ export function journeys(name, tell) {
     before(
       async () => {
         stage.program = await Program.start();
-        stage.browser = await launch();
+        stage.browser = await launch(browser);
       },
       { timeout: 40_000 },
     );

@@ -5,6 +5,7 @@ import { fileURLToPath } from 'node:url';
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 
 const chromium = process.env.CHROMIUM || '/usr/bin/chromium';
+const firefox = process.env.FIREFOX || ['/usr/bin/firefox', '/usr/bin/firefox-esr'].find(runs) || '/usr/bin/firefox';
 const program = process.env.DRAGTRAFFIC_BIN || here('../../../target/debug/dragtraffic');
 
 function runs(path) {
@@ -16,10 +17,14 @@ function runs(path) {
   }
 }
 
-/** Why nothing can be run here, or false. */
-export function missing() {
-  const why = !runs(chromium)
-    ? 'no Chromium; set CHROMIUM to its path'
+/** Why nothing can be run here in this browser, or false. */
+export function missing(browser = 'chromium') {
+  const without = {
+    chromium: !runs(chromium) && 'no Chromium; set CHROMIUM to its path',
+    firefox: !runs(firefox) && 'no Firefox; set FIREFOX to its path',
+  };
+  const why = without[browser]
+    ? without[browser]
     : !runs(program)
       ? 'no dragtraffic program; run `cargo build -p dragtraffic` or set DRAGTRAFFIC_BIN'
       : false;
@@ -48,4 +53,4 @@ mkdirSync(out, { recursive: true });
 /** Address of a page that is served already, for instance by `vite preview`; then no program is started. */
 const running = process.env.DRAGTRAFFIC_PAGE || null;
 
-export { chromium, program, running };
+export { chromium, firefox, program, running };

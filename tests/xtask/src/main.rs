@@ -21,6 +21,7 @@ mod fuzzing;
 mod packages;
 mod schemathesis;
 mod soak;
+mod suites;
 
 use anyhow::{Context, bail};
 use environments::Environment;
@@ -48,7 +49,7 @@ const CHECKS: &[Check] = &[
     ("web-test", || npm("web", &["test"])),
     ("clippy", || cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"])),
     ("wasm", wasm),
-    ("test", || cargo(&["test", "--workspace", "--locked"])),
+    ("test", suites::check),
     ("schedules", soak::schedules),
     ("openapi", || drift("openapi", "assets/openapi.json")),
     ("schema", || drift("schema", "assets/schema/scene.v1.schema.json")),
@@ -297,7 +298,7 @@ fn browser() -> anyhow::Result<Outcome> {
     if !root().join(folder).join("package.json").exists() {
         return Ok(Outcome::Skipped(format!("{folder} is not in this checkout")));
     }
-    let Some(chromium) = chromium()? else {
+    let Some(chromium) = CHROMIUM.find()? else {
         let why = "no Chromium here; install it (Debian: apt-get install chromium) or set CHROMIUM";
         return Ok(Outcome::Skipped(why.into()));
     };
@@ -306,35 +307,58 @@ fn browser() -> anyhow::Result<Outcome> {
     }
     let mut e2e = Command::new("npm");
     e2e.args(["run", "e2e"]).current_dir(root().join(folder));
+    // Without a Firefox its journey says so and is passed over.
+    if let Ok(Some(firefox)) = FIREFOX.find() {
+        e2e.env("FIREFOX", firefox);
+    }
     run(e2e.env("CHROMIUM", chromium).env("DRAGTRAFFIC_BIN", program()?))
 }
 
-/// A Chromium: `CHROMIUM`, one on the path, or installed now where that is allowed.
-fn chromium() -> anyhow::Result<Option<String>> {
-    if let Ok(given) = std::env::var("CHROMIUM") {
-        return Ok(Some(given));
-    }
-    if let Some(found) = on_path() {
-        return Ok(Some(found));
-    }
-    let is_root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout == b"0\n");
-    let has_apt = Path::new("/usr/bin/apt-get").exists();
-    if !is_root || !has_apt {
-        return Ok(None);
-    }
-    let apt = |arguments: &[&str]| {
-        run(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
-    };
-    apt(&["update", "-q"])?;
-    match apt(&["install", "-y", "-q", "--no-install-recommends", "chromium"])? {
-        Outcome::Passed | Outcome::Told(_) => Ok(on_path()),
-        Outcome::Failed(why) | Outcome::Skipped(why) => bail!("chromium could not be installed: {why}"),
-    }
+/// A browser of the journeys: where people say it is, and what it is called on the path and by Debian.
+struct Browser {
+    variable: &'static str,
+    names: &'static [&'static str],
+    package: &'static str,
 }
 
-fn on_path() -> Option<String> {
-    let names = ["chromium", "chromium-browser", "google-chrome", "chrome"];
-    let folders: Vec<_> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
-    let places = names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    places.filter(|place| place.is_file()).map(|place| place.display().to_string()).next()
+const CHROMIUM: Browser = Browser {
+    variable: "CHROMIUM",
+    names: &["chromium", "chromium-browser", "google-chrome", "chrome"],
+    package: "chromium",
+};
+/// For the first minute alone.
+const FIREFOX: Browser =
+    Browser { variable: "FIREFOX", names: &["firefox", "firefox-esr"], package: "firefox-esr" };
+
+impl Browser {
+    /// The one that its variable names, one on the path, or one installed now where that is allowed.
+    fn find(&self) -> anyhow::Result<Option<String>> {
+        if let Ok(given) = std::env::var(self.variable) {
+            return Ok(Some(given));
+        }
+        if let Some(found) = self.on_path() {
+            return Ok(Some(found));
+        }
+        let is_root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout == b"0\n");
+        let has_apt = Path::new("/usr/bin/apt-get").exists();
+        if !is_root || !has_apt {
+            return Ok(None);
+        }
+        let apt = |arguments: &[&str]| {
+            run(Command::new("apt-get").args(arguments).env("DEBIAN_FRONTEND", "noninteractive"))
+        };
+        apt(&["update", "-q"])?;
+        match apt(&["install", "-y", "-q", "--no-install-recommends", self.package])? {
+            Outcome::Passed | Outcome::Told(_) => Ok(self.on_path()),
+            Outcome::Failed(why) | Outcome::Skipped(why) => {
+                bail!("{} could not be installed: {why}", self.package)
+            }
+        }
+    }
+
+    fn on_path(&self) -> Option<String> {
+        let folders: Vec<_> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
+        let places = self.names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+        places.filter(|place| place.is_file()).map(|place| place.display().to_string()).next()
+    }
 }
