@@ -3,6 +3,7 @@ import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import type { Plugin, ProxyOptions } from 'vite';
 import { defineConfig } from 'vitest/config';
+import { shortKeys } from './tools/short-keys.ts';
 
 // The server refuses requests whose Origin is not its own address; behind this proxy there is none.
 const SERVER: ProxyOptions = {
@@ -71,12 +72,50 @@ function weighed(): Plugin {
   };
 }
 
+/** What loads as one script each: there are few of them to wait for, and they pack better than many small ones. */
+const WHOLE = { first: '/app/main.ts', desk: '/app/desk.ts' };
+
+/** Which script a module that is needed at once goes into, by what is imported from where. */
+const scriptOf = new Map<string, string>();
+function wholes(): Plugin {
+  return {
+    name: 'wholes',
+    apply: 'build',
+    buildEnd() {
+      scriptOf.clear();
+      const take = (id: string, script: string): void => {
+        if (scriptOf.has(id)) return;
+        scriptOf.set(id, script);
+        for (const next of this.getModuleInfo(id)?.importedIds ?? []) take(next, script);
+      };
+      for (const [script, module] of Object.entries(WHOLE))
+        for (const id of this.getModuleIds()) if (id.endsWith(module)) take(id, script);
+    },
+  };
+}
+
 // The production build is embedded into the server binary, so every asset has a hashed name and
 // nothing is inlined into the page: the server's content security policy refuses inline code.
 export default defineConfig({
   base: '/',
-  plugins: [weighed(), packed()],
-  build: { outDir: 'dist', assetsInlineLimit: 0, target: 'es2022', modulePreload: { polyfill: false } },
+  plugins: [shortKeys(), wholes(), weighed(), packed()],
+  build: {
+    outDir: 'dist',
+    assetsInlineLimit: 0,
+    target: 'es2022',
+    modulePreload: { polyfill: false },
+    rolldownOptions: {
+      output: {
+        codeSplitting: {
+          groups: Object.keys(WHOLE).map((name, i) => ({
+            name,
+            priority: 2 - i,
+            test: (id) => scriptOf.get(id) === name,
+          })),
+        },
+      },
+    },
+  },
   server: { fs: { allow: ['..'] }, proxy: { '/v1': SERVER, '/healthz': SERVER } },
   test: { include: ['test/**/*.test.{ts,tsx}'], environment: 'node' },
 });

@@ -128,7 +128,7 @@ describe('a case', () => {
     const m = of(sought('near', 5), crossingWays(0.8));
     expect(alike(m, { ...m, time: m.time + 0.1 })).toBe(true);
     for (const other of [{ time: m.time + 0.4 }, { value: m.value + 1 }, { side: 'behind' as const }, { other: '9' }])
-      expect(alike({ ...m, side: 'in front' }, { ...m, side: 'in front', ...other })).toBe(false);
+      expect(alike({ ...m, side: 'in-front' }, { ...m, side: 'in-front', ...other })).toBe(false);
   });
 });
 

@@ -2,6 +2,7 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { ACTIONS, actionForKey } from '../src/actions/registry';
+import { HELPS } from '../src/texts/helps';
 import type { Action } from '../src/actions/action';
 import { caps, keyOf } from '../src/actions/keys';
 
@@ -17,7 +18,7 @@ describe('action registry', () => {
     expect(new Set(ACTIONS.map((a) => a.id)).size).toBe(ACTIONS.length);
     for (const a of ACTIONS) {
       expect(a.label.trim(), a.id).not.toBe('');
-      expect(a.help.trim(), a.id).not.toBe('');
+      expect(HELPS[a.help].trim(), a.id).not.toBe('');
       expect(a.label, a.id).not.toMatch(/!|\b(agent|sample|rollout|ground truth|denoising)\b/i);
     }
   });

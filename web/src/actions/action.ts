@@ -4,20 +4,22 @@ import { canChange, canMove } from '../model/scene';
 import { freeOnes } from '../edit/copying';
 import type { Command } from '../model/commands';
 import type { Part } from '../edit/editor';
+import type { Help } from '../texts/helps';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 /** In the order of the shortcut sheet. */
 export const GROUPS = [
-  'Select and look',
-  'Place',
-  'Edit',
-  'Move',
-  'Goal and futures',
-  'Rounds',
-  'Time',
-  'Variants',
-  'Scene',
-  'Everything',
+  'look',
+  'place',
+  'edit',
+  'move',
+  'goal',
+  'rounds',
+  'time',
+  'variants',
+  'scene',
+  'everything',
 ] as const;
 export type Group = (typeof GROUPS)[number];
 
@@ -25,7 +27,8 @@ export interface Action {
   readonly id: string;
   readonly label: string;
   readonly group: Group;
-  readonly help: string;
+  /** What it does, in a table that comes later than the buttons. */
+  readonly help: Help;
   readonly keys?: readonly string[];
   readonly icon?: string;
   /** The browser hears its keys itself, and tells the page by an event of its own. */
@@ -46,11 +49,11 @@ export interface Action {
 export const inGroup = (group: Group, actions: readonly Omit<Action, 'group'>[]): readonly Action[] =>
   actions.map((a) => ({ ...a, group }));
 
-export const hasScene = (c: Context): true | string => (c.editor.isOpen.value ? true : 'No scene is open.');
+export const hasScene = (c: Context): true | string => (c.editor.isOpen.value ? true : TEXTS.noSceneIsOpen);
 
 export const hasAgent = (c: Context): true | string => {
   const a = c.editor.agent.value;
-  return !a ? 'Select a road user first.' : canChange(a) ? true : 'This one can be looked at, not changed.';
+  return !a ? TEXTS.selectARoadUser : canChange(a) ? true : TEXTS.thisOneCanBe;
 };
 
 /** One road user is selected, and not locked. */
@@ -59,18 +62,17 @@ export const hasFree = (c: Context): true | string => {
   return can !== true ? can : c.editor.agent.value!.locked ? LOCKED : true;
 };
 
-const LOCKED = 'It is locked. Ctrl L unlocks.';
+const LOCKED = TEXTS.itIsLockedCtrl;
 
 /** At least one is selected. */
-export const hasSome = (c: Context): true | string =>
-  c.editor.selected.value.length ? true : 'Select road users first.';
+export const hasSome = (c: Context): true | string => (c.editor.selected.value.length ? true : TEXTS.selectRoadUsers);
 
 /** At least one of the selected may be moved and changed. */
 export const hasSomeFree = (c: Context): true | string => {
   const all = c.editor.chosenOnes;
-  if (!all.length) return 'Select road users first.';
+  if (!all.length) return TEXTS.selectRoadUsers;
   if (all.some(canMove)) return true;
-  return all.some((a) => a.locked) ? LOCKED : 'This one can be looked at, not changed.';
+  return all.some((a) => a.locked) ? LOCKED : TEXTS.thisOneCanBe;
 };
 
 /** Does a command on all that are selected and may be changed. */

@@ -1,19 +1,20 @@
 // The search for a case: somebody is tried with other numbers until what is looked for happens.
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 const isOpen = (c: Context): boolean => c.searching.open.value !== null;
 
-export const cases = inGroup('Variants', [
+export const cases = inGroup('variants', [
   {
     id: 'find-case',
-    label: 'Find a case',
+    label: TEXTS.findACase,
     keys: ['Alt+F'],
     icon: 'search',
-    help: 'Tries speeds, goal times and seeds of a road user until a near miss, hard braking or the like happens',
+    help: 'triesSpeeds',
     when: (c) => {
       const can = hasScene(c);
-      return can !== true || isOpen(c) || c.editor.selected.value.length ? can : 'Select one or two road users first.';
+      return can !== true || isOpen(c) || c.editor.selected.value.length ? can : TEXTS.selectOneOrTwo;
     },
     checked: isOpen,
     run: (c) => {
@@ -27,29 +28,29 @@ export const cases = inGroup('Variants', [
   },
   {
     id: 'case-search',
-    label: 'Search',
+    label: TEXTS.search,
     icon: 'search',
-    help: 'Goes on until it is found or stopped; you can keep editing',
+    help: 'goesOnUntil',
     when: (c) => {
       const open = c.searching.open.value;
-      return open ? (open.obstacle.value ?? true) : 'Say first what is looked for.';
+      return open ? (open.obstacle.value ?? true) : TEXTS.sayFirstWhat;
     },
     run: (c) => void c.searching.open.value?.run(),
   },
   {
     id: 'case-stop',
-    label: 'Stop the search',
+    label: TEXTS.stopTheSearch,
     icon: 'pause',
-    help: 'What was found stays; it can go on later',
-    when: (c) => (c.searching.open.value?.state.value === 'running' ? true : 'Nothing is looked for.'),
+    help: 'whatWasFound',
+    when: (c) => (c.searching.open.value?.state.value === 'running' ? true : TEXTS.nothingIsLooked),
     run: (c) => c.searching.open.value?.stop(),
   },
   {
     id: 'cases-keep',
-    label: 'Keep all as variants',
+    label: TEXTS.keepAllAsVariants,
     icon: 'variants',
-    help: 'Ends the search; each case that was found becomes a variant',
-    when: (c) => (c.searching.open.value?.found.value.length ? true : 'No case was found yet.'),
+    help: 'endsTheSearch',
+    when: (c) => (c.searching.open.value?.found.value.length ? true : TEXTS.noCaseWasFound),
     run: (c) => {
       const open = c.searching.open.value;
       const kept = open?.takes();

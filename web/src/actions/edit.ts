@@ -1,19 +1,21 @@
 // Edit: copies, removal, locks, kinds, names; what single road users do while others change.
-import { kindsWords, KIND_NAMES, PLACED_KINDS } from '../model/kinds';
+import type { Help } from '../texts/helps';
+import { kindsWords, KIND_WORDS, PLACED_KINDS } from '../model/kinds';
 import type { Others } from '../model/scene';
 import { doing } from '../model/scene';
 import { lockedWords, removeSelected } from '../edit/copying';
 import * as several from '../edit/several';
 import { hasAgent, hasScene, hasSome, inGroup, onSome, type Action } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 type Plain = Omit<Action, 'group'>;
 
 const kinds = PLACED_KINDS.map((kind): Plain => ({
   id: `kind-${kind}`,
-  label: `Make it a ${KIND_NAMES[kind].toLowerCase()}`,
+  label: TEXTS.makeItA(KIND_WORDS[kind]),
   icon: kind,
-  help: 'In the usual size; it drives, rides or walks as its kind does',
+  help: 'inTheUsual' as const,
   checked: (c) => {
     const all = c.editor.chosenOnes;
     return all.length > 0 && all.every((a) => a.kind === kind);
@@ -21,7 +23,7 @@ const kinds = PLACED_KINDS.map((kind): Plain => ({
   ...onSome((_, all) => several.setKind(all, kind)),
 }));
 
-const does = (id: Others, key: string, label: string, help: string): Plain => ({
+const does = (id: Others, key: string, label: string, help: Help): Plain => ({
   id: `does-${id}`,
   label,
   keys: [key],
@@ -50,78 +52,76 @@ function lock({ editor }: Context): void {
   editor.notices.say(`${command.name}.`);
 }
 
-export const edit = inGroup('Edit', [
+export const edit = inGroup('edit', [
   {
     id: 'copy',
-    label: 'Copy',
+    label: TEXTS.copy,
     keys: ['Ctrl+C'],
     icon: 'copy',
-    help: 'The selected road users, also for another tab',
+    help: 'theSelected',
     native: true,
     when: hasSome,
     run: (c) => c.clipboard.copy(),
   },
   {
     id: 'cut',
-    label: 'Cut',
+    label: TEXTS.cut,
     keys: ['Ctrl+X'],
     icon: 'cut',
-    help: 'Copies them, and takes them out of the scene',
+    help: 'copiesThem',
     native: true,
     when: hasSome,
     run: (c) => c.clipboard.cut(),
   },
   {
     id: 'paste',
-    label: 'Paste here',
+    label: TEXTS.pasteHere,
     keys: ['Ctrl+V'],
     icon: 'paste',
-    help: 'What was copied, under the pointer',
+    help: 'whatWasCopied',
     native: true,
     when: hasScene,
     run: (c) => c.clipboard.paste(),
   },
   {
     id: 'duplicate',
-    label: 'Duplicate',
+    label: TEXTS.duplicate,
     keys: ['Ctrl+D', 'Ctrl+J'],
     icon: 'plus',
-    help: 'The same again, at the nearest free place',
+    help: 'theSameAgain',
     when: hasSome,
     run: (c) => c.copying.duplicate(),
   },
   {
     id: 'mirror',
-    label: 'Mirror',
+    label: TEXTS.mirror,
     keys: ['Alt+M'],
     icon: 'swap',
-    help: 'Left and right change sides, as the first of them sees it; goals come along',
+    help: 'leftAndRight',
     ...mirroring,
     when: (c) => {
       const [one, ...more] = c.editor.chosenOnes;
-      return one && !more.length && !one.goal.pos
-        ? 'One alone is mirrored by its goal. Set one first.'
-        : mirroring.when!(c);
+      return one && !more.length && !one.goal.pos ? TEXTS.oneAloneIsMirrored : mirroring.when!(c);
     },
   },
   {
     id: 'delete',
-    label: 'Delete',
+    label: TEXTS.delete,
     keys: ['Del', 'Backspace'],
     icon: 'trash',
-    help: 'Takes the selected road users out of the scene',
+    help: 'takesTheSelected',
     when: (c) => {
       const all = c.editor.chosenOnes;
-      return !all.length ? 'Select road users first.' : all.every((a) => a.locked) ? lockedWords(all.length) : true;
+      return !all.length ? TEXTS.selectRoadUsers : all.every((a) => a.locked) ? lockedWords(all.length) : true;
     },
     run: (c) => removeSelected(c.editor),
   },
   {
     id: 'lock',
-    label: 'Lock',
+    label: TEXTS.lock,
     keys: ['Ctrl+L'],
     icon: 'lock',
-    help: 'Locked road users cannot be moved, changed or removed',
+    help: 'lockedRoad',
     when: hasSome,
     checked: (c) => {
       const all = c.editor.chosenOnes;
@@ -131,31 +131,31 @@ export const edit = inGroup('Edit', [
   },
   {
     id: 'name',
-    label: 'Name',
+    label: TEXTS.name,
     keys: ['F2'],
     icon: 'pencil',
-    help: 'Give the selected road user a name',
+    help: 'giveTheSelected',
     when: hasAgent,
     run: (c) => c.focusText('name'),
   },
   {
     id: 'note',
-    label: 'Note',
+    label: TEXTS.note,
     icon: 'note',
-    help: 'Write down what matters about the selected road user',
+    help: 'writeDownWhat',
     when: hasAgent,
     run: (c) => c.focusText('note'),
   },
   ...kinds,
-  does('react', 'Shift+1', 'React', 'The selected ones adapt to what others do'),
-  does('log', 'Shift+2', 'Replay log', 'The selected ones do what was recorded'),
-  does('still', 'Shift+3', 'Hold still', 'The selected ones stay where they start'),
+  does('react', 'Shift+1', TEXTS.react, 'theSelectedOnes'),
+  does('log', 'Shift+2', TEXTS.replayLog, 'theSelectedOnesDo'),
+  does('still', 'Shift+3', TEXTS.holdStill, 'theSelectedOnesStay'),
   {
     id: 'menu',
-    label: 'Menu of what is selected',
+    label: TEXTS.menuOfWhatIs,
     keys: ['Menu', 'Shift+F10'],
     icon: 'menu',
-    help: 'The same as the right button, or a finger that rests',
+    help: 'theSameAsThe',
     when: hasScene,
     run: (c) => c.openMenu(),
   },

@@ -3,6 +3,7 @@ import { inGroup } from './action';
 import { nextSpeedUnit } from '../model/units';
 import type { Cases } from '../edit/cases/cases';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 /** Esc: what is nearest goes first, one thing a press. */
 function letGo({ editor, gestures, importing, rounds, searching, ui, variants }: Context): void {
@@ -31,87 +32,87 @@ function closeSearch(cases: Cases): void {
   else cases.close();
 }
 
-export const everything = inGroup('Everything', [
+export const everything = inGroup('everything', [
   {
     id: 'deselect',
-    label: 'Let go, close, put back',
+    label: TEXTS.letGoClosePut,
     keys: ['Esc'],
-    help: 'Cancels a drag, then closes what is open, then selects nothing',
+    help: 'cancelsADrag',
     context: 'always',
     run: letGo,
   },
   {
     id: 'palette',
-    label: 'Actions',
+    label: TEXTS.actions,
     keys: ['Ctrl+K'],
     icon: 'search',
-    help: 'Find and do anything',
+    help: 'findAndDoAnything',
     context: 'always',
     run: ({ ui }) => (ui.dialog.value === 'palette' ? ui.closeDialog() : ui.openDialog('palette')),
   },
   {
     id: 'undo',
-    label: 'Undo',
+    label: TEXTS.undo,
     keys: ['Ctrl+Z'],
     icon: 'undo',
-    help: 'One step back',
-    when: (c) => (c.editor.undoName.value ? true : 'Nothing to undo.'),
+    help: 'oneStepBack',
+    when: (c) => (c.editor.undoName.value ? true : TEXTS.nothingToUndo),
     run: (c) => c.editor.undo(),
   },
   {
     id: 'redo',
-    label: 'Redo',
+    label: TEXTS.redo,
     keys: ['Ctrl+Shift+Z', 'Ctrl+Y'],
     icon: 'redo',
-    help: 'One step on again',
-    when: (c) => (c.editor.redoName.value ? true : 'Nothing to redo.'),
+    help: 'oneStepOnAgain',
+    when: (c) => (c.editor.redoName.value ? true : TEXTS.nothingToRedo),
     run: (c) => c.editor.redo(),
   },
   {
     id: 'shortcuts',
-    label: 'Shortcuts',
+    label: TEXTS.shortcuts,
     keys: ['?'],
     icon: 'help',
-    help: 'This list',
+    help: 'thisList',
     run: (c) => c.ui.openDialog('shortcuts'),
   },
   {
     id: 'theme',
-    label: 'Light or dark',
+    label: TEXTS.lightOrDark,
     keys: ['Shift+D'],
     icon: 'moon',
-    help: 'Colours of the page',
+    help: 'coloursOfThe',
     run: (c) => c.ui.setTheme(c.ui.theme.value === 'dark' ? 'light' : 'dark'),
   },
   {
     id: 'next-group',
-    label: 'Next part of the page',
+    label: TEXTS.nextPartOfThe,
     keys: ['F6'],
-    help: 'Top bar, scenes, road users, inspector, timeline',
+    help: 'topBarScenes',
     context: 'always',
     run: (c) => c.focusGroup(1),
   },
   {
     id: 'previous-group',
-    label: 'Previous part of the page',
+    label: TEXTS.previousPart,
     keys: ['Shift+F6'],
-    help: 'The way back',
+    help: 'theWayBack',
     context: 'always',
     run: (c) => c.focusGroup(-1),
   },
   {
     id: 'coach',
-    label: 'Show the first steps',
+    label: TEXTS.showTheFirst,
     icon: 'help',
-    help: 'The three-step hint',
+    help: 'theThreeStep',
     run: (c) => c.ui.coachTo(1),
   },
   {
     id: 'unit',
-    label: 'km/h, mph or m/s',
+    label: TEXTS.kmHMphOrMS,
     keys: ['U'],
     icon: 'ruler',
-    help: 'The unit in which speeds of vehicles are shown and typed',
+    help: 'theUnitInWhich',
     run: (c) => c.editor.setUnit(nextSpeedUnit(c.editor.speedUnit.value)),
   },
 ]);

@@ -8,6 +8,7 @@ import { leaveToCross, roadWay } from '../edit/ways-out';
 import { clearGoals } from '../edit/several';
 import { activePart, hasFree, hasScene, hasSomeFree, inGroup, onAgent, onSome, type Action } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 const LARGEST_NEW_SEED = 9999;
 
@@ -15,7 +16,7 @@ const goalTime = (id: string, label: string, key: string, seconds: number): Omit
   id,
   label,
   keys: [key],
-  help: 'Time at the goal',
+  help: 'timeAtTheGoal' as const,
   ...onAgent((c, a) => moves.later(c.editor, a, seconds)),
 });
 
@@ -38,9 +39,9 @@ const wayOut = (find: (e: Editor, a: Agent) => { command: Command } | null, none
 
 const futures = [...LETTERS].map((letter, i) => ({
   id: `future-${letter.toLowerCase()}`,
-  label: `Choose future ${letter}`,
+  label: TEXTS.chooseFuture(letter),
   keys: [`Alt+${i + 1}`],
-  help: 'Playback follows it and the others answer',
+  help: 'playbackFollows' as const,
   ...onAgent((c, a) => {
     if (!c.rounds.isOpen.peek()) return moves.pickFuture(c.editor, a, i);
     c.rounds.take(i);
@@ -52,7 +53,7 @@ const futures = [...LETTERS].map((letter, i) => ({
 const pointed = ({ editor, ui }: Context): number | null => ui.contextMenu.value?.future ?? editor.hoverFuture.value;
 
 const onPointed = (run: (c: Context, a: Agent, i: number) => void): Pick<Action, 'when' | 'run'> => ({
-  when: (c) => (pointed(c) === null ? 'Point at a future first.' : hasFree(c)),
+  when: (c) => (pointed(c) === null ? TEXTS.pointAtAFuture : hasFree(c)),
   run(c) {
     const a = c.editor.agent.peek();
     const i = pointed(c);
@@ -67,7 +68,7 @@ function take({ editor }: Context, a: Agent, i: number): void {
 
 const clearing: Pick<Action, 'when' | 'run'> = {
   ...onSome((_, all) => (all.length > 1 ? clearGoals(all) : clearGoal(all[0]))),
-  when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : 'No goal is set.'),
+  when: (c) => (c.editor.chosenOnes.some((a) => hasGoal(a.goal)) ? hasSomeFree(c) : TEXTS.noGoalIsSet),
 };
 
 const resetting: Pick<Action, 'when' | 'run'> = {
@@ -75,17 +76,17 @@ const resetting: Pick<Action, 'when' | 'run'> = {
   when: (c) => {
     const a = c.editor.agent.value;
     if (!a || a.locked) return hasFree(c);
-    return a.placed ? 'Nothing of it was recorded.' : changedByHand(a) ? true : 'It is as it was recorded.';
+    return a.placed ? TEXTS.nothingOfItWas : changedByHand(a) ? true : TEXTS.itIsAsItWasRecorded;
   },
 };
 
-export const goal = inGroup('Goal and futures', [
+export const goal = inGroup('goal', [
   {
     id: 'set-goal',
-    label: 'Set a goal',
+    label: TEXTS.setAGoal,
     keys: ['G'],
     icon: 'flag',
-    help: 'Where the chosen future ends; then move it',
+    help: 'whereTheChosen',
     ...onAgent((c, a) => {
       c.editor.activate('goal');
       return a.goal.pos ? null : moves.goalHere(c.editor, a);
@@ -93,18 +94,18 @@ export const goal = inGroup('Goal and futures', [
   },
   {
     id: 'clear-goal',
-    label: 'Clear the goal',
+    label: TEXTS.clearTheGoal,
     keys: ['Shift+G'],
     icon: 'x',
-    help: 'The generator decides again',
+    help: 'theGenerator',
     ...clearing,
   },
   {
     id: 'toggle-field',
-    label: 'Fixed or free',
+    label: TEXTS.fixedOrFree,
     keys: ['F'],
     icon: 'lock',
-    help: 'The field touched last',
+    help: 'theFieldTouched',
     ...onAgent(({ editor }, a) => {
       const { part, field } = editor.lastField.value;
       return moves.toggleField(editor, a, part, field);
@@ -112,39 +113,39 @@ export const goal = inGroup('Goal and futures', [
   },
   {
     id: 'toggle-goal-speed',
-    label: 'Fix or free the goal speed',
+    label: TEXTS.fixOrFreeThe,
     keys: ['Shift+F'],
     icon: 'lock',
-    help: 'Free lets the generator choose it',
+    help: 'freeLetsThe',
     ...onAgent((c, a) => moves.toggleField(c.editor, a, 'goal', 'speed')),
   },
   {
     id: 'free-speed',
-    label: 'Speed free',
+    label: TEXTS.speedFree,
     keys: ['Shift+Backspace'],
-    help: 'Speed of the active part',
+    help: 'speedOfThe',
     ...onAgent((c, a) => {
       const part = activePart(c);
       return a[part].speed === null ? null : moves.toggleField(c.editor, a, part, 'speed');
     }),
   },
-  goalTime('goal-earlier', 'Goal 0.1 s earlier', ';', -0.1),
-  goalTime('goal-later', 'Goal 0.1 s later', "'", 0.1),
-  goalTime('goal-earlier-far', 'Goal 1 s earlier', 'Shift+;', -1),
-  goalTime('goal-later-far', 'Goal 1 s later', "Shift+'", 1),
+  goalTime('goal-earlier', TEXTS.goal01SEarlier, ';', -0.1),
+  goalTime('goal-later', TEXTS.goal01SLater, "'", 0.1),
+  goalTime('goal-earlier-far', TEXTS.goal1SEarlier, 'Shift+;', -1),
+  goalTime('goal-later-far', TEXTS.goal1SLater, "Shift+'", 1),
   ...futures,
   {
     id: 'future-choose',
-    label: 'Choose this future',
+    label: TEXTS.chooseThisFuture,
     icon: 'check',
-    help: 'Playback follows it and the others answer; it stays chosen',
+    help: 'playbackFollowsIt',
     ...onPointed(take),
   },
   {
     id: 'future-play',
-    label: 'Choose and play it',
+    label: TEXTS.chooseAndPlay,
     icon: 'play',
-    help: 'From the beginning, with what the others do',
+    help: 'fromTheBeginning',
     ...onPointed((c, a, i) => {
       take(c, a, i);
       c.editor.setTime(0);
@@ -153,9 +154,9 @@ export const goal = inGroup('Goal and futures', [
   },
   {
     id: 'future-compare',
-    label: 'Compare all side by side',
+    label: TEXTS.compareAllSide,
     icon: 'compare',
-    help: 'Each future as a variant, with what the others do about it',
+    help: 'eachFuture',
     ...onPointed((c) => {
       c.variants.show(true);
       void c.variants.make();
@@ -163,33 +164,33 @@ export const goal = inGroup('Goal and futures', [
   },
   {
     id: 'future-best',
-    label: 'Back to the most likely future',
+    label: TEXTS.backToTheMost,
     keys: ['Alt+0'],
-    help: 'The generator chooses again',
+    help: 'theGeneratorChooses',
     ...onAgent((c, a) => (a.chosen === null ? null : moves.pickFuture(c.editor, a, null))),
   },
   {
     id: 'by-road',
-    label: 'Take the way by the road',
+    label: TEXTS.takeTheWayBy,
     keys: ['Enter'],
     icon: 'road',
-    help: 'The nearest place that the road leads to in the same time, else the future that gets there by it',
-    ...wayOut(roadWay, 'No way by the road is needed here.'),
+    help: 'theNearest',
+    ...wayOut(roadWay, TEXTS.noWayByTheRoad),
   },
   {
     id: 'may-cross',
-    label: 'It may go over what is in the way',
+    label: TEXTS.itMayGoOverWhat,
     keys: ['Alt+Enter'],
     icon: 'check',
-    help: 'Over the median or kerb that the shown future crosses, for this goal alone',
-    ...wayOut(leaveToCross, 'Nothing that could be crossed is in the way.'),
+    help: 'overTheMedian',
+    ...wayOut(leaveToCross, TEXTS.nothingThatCould),
   },
   {
     id: 'generate',
-    label: 'Generate',
+    label: TEXTS.generate,
     keys: ['Ctrl+Enter'],
     icon: 'play',
-    help: 'Everybody worked out anew with this seed; new variants while their strip is open',
+    help: 'everybodyWorked',
     context: 'always',
     when: hasScene,
     run: (c) => {
@@ -199,19 +200,19 @@ export const goal = inGroup('Goal and futures', [
   },
   {
     id: 'new-seed',
-    label: 'New seed',
+    label: TEXTS.newSeed,
     keys: ['R'],
     icon: 'dice',
-    help: 'Other futures for the same scene',
+    help: 'otherFutures',
     when: hasScene,
     run: (c) => c.editor.run(setSeed(1 + Math.floor(Math.random() * LARGEST_NEW_SEED))),
   },
   {
     id: 'reset-agent',
-    label: 'Reset to log',
+    label: TEXTS.resetToLog,
     keys: ['Shift+R'],
     icon: 'undo',
-    help: 'This road user as it was recorded',
+    help: 'thisRoadUser',
     ...resetting,
   },
 ]);

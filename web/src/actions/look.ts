@@ -1,4 +1,5 @@
 // Select and look: tools, who is selected, the view, the layers.
+import type { Help } from '../texts/helps';
 import { boxOf } from '../model/geometry';
 import { nearestLanes } from '../model/lanemap';
 import { canChange, startPose, type Agent } from '../model/scene';
@@ -9,6 +10,7 @@ import { lanesFor } from '../edit/snap';
 import { hasAgent, hasScene, hasSome, inGroup, type Action } from './action';
 import { selectedWords } from './edit';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 /** Metres of road shown around the selected road user and its goal, and the closest that "zoom to" goes. */
 const AROUND_M = 18;
@@ -79,7 +81,7 @@ function selectWhere(c: Context, which: (a: Agent) => boolean, none: string): vo
     return;
   }
   c.editor.selectAll(ids);
-  c.editor.notices.show({ text: `${selectedWords(c)} selected.` });
+  c.editor.notices.show({ text: TEXTS.selected(selectedWords(c)) });
 }
 
 /** Lanes that the selected ones stand on. */
@@ -93,7 +95,7 @@ function lanesOf(c: Context, a: Agent): string[] {
 function selectLane(c: Context): void {
   const lanes = new Set(c.editor.chosenOnes.flatMap((a) => lanesOf(c, a)));
   if (!lanes.size) {
-    c.editor.notices.show({ text: 'Nobody who is selected stands on a lane.' });
+    c.editor.notices.show({ text: TEXTS.nobodyWhoIsSelected });
     return;
   }
   selectWhere(c, (a) => lanesOf(c, a).some((id) => lanes.has(id)), '');
@@ -130,7 +132,7 @@ const layer = (
   name: LayerName,
   label: string,
   key: string,
-  help: string,
+  help: Help,
   when: Action['when'] = hasScene,
 ): Omit<Action, 'group'> => ({
   id: `layer-${name}`,
@@ -142,23 +144,23 @@ const layer = (
   run: (c) => c.editor.toggleLayer(name),
 });
 
-export const look = inGroup('Select and look', [
+export const look = inGroup('look', [
   ...tools,
   {
     id: 'select-all',
-    label: 'Select everybody',
+    label: TEXTS.selectEverybody,
     keys: ['Ctrl+A'],
     icon: 'select-all',
-    help: 'All road users in the scene',
+    help: 'allRoadUsers',
     when: hasScene,
-    run: (c) => selectWhere(c, () => true, 'Nobody is here yet.'),
+    run: (c) => selectWhere(c, () => true, TEXTS.nobodyIsHere),
   },
   {
     id: 'select-kind',
-    label: 'Select all of this kind',
+    label: TEXTS.selectAllOfThis,
     keys: ['Shift+A'],
     icon: 'select-all',
-    help: 'All that are of the kind of the selected ones',
+    help: 'allThatAre',
     when: hasSome,
     run(c) {
       const kinds = new Set(c.editor.chosenOnes.map((a) => a.kind));
@@ -167,120 +169,120 @@ export const look = inGroup('Select and look', [
   },
   {
     id: 'select-lane',
-    label: 'Select all on this lane',
+    label: TEXTS.selectAllOnThis,
     keys: ['Alt+A'],
     icon: 'layers',
-    help: 'All that start on the lanes of the selected ones',
+    help: 'allThatStart',
     when: hasSome,
     run: selectLane,
   },
   {
     id: 'select-conflicts',
-    label: 'Select who meets them',
+    label: TEXTS.selectWhoMeets,
     keys: ['Alt+Shift+A'],
     icon: 'warn',
-    help: 'All that collide or nearly collide with the selected ones',
+    help: 'allThatCollide',
     when: hasSome,
     run: selectConflicts,
   },
   {
     id: 'select-others',
-    label: 'Select the others instead',
+    label: TEXTS.selectTheOthers,
     keys: ['Ctrl+Shift+A'],
     icon: 'invert',
-    help: 'Everybody who is not selected now',
+    help: 'everybodyWho',
     when: hasScene,
     run(c) {
       const now = new Set(c.editor.selected.value);
-      selectWhere(c, (a) => !now.has(a.id), 'Everybody is selected already.');
+      selectWhere(c, (a) => !now.has(a.id), TEXTS.everybodyIsSelected);
     },
   },
   {
     id: 'next-agent',
-    label: 'Next road user',
+    label: TEXTS.nextRoadUser,
     keys: ['Tab'],
-    help: 'Nearest to the middle of the picture first',
+    help: 'nearestToThe',
     when: hasScene,
     run: (c) => walkTo(c, 1),
   },
   {
     id: 'previous-agent',
-    label: 'Previous road user',
+    label: TEXTS.previousRoad,
     keys: ['Shift+Tab'],
-    help: 'The way back',
+    help: 'theWayBack',
     when: hasScene,
     run: (c) => walkTo(c, -1),
   },
   {
     id: 'fit',
-    label: 'Fit the scene',
+    label: TEXTS.fitTheScene,
     keys: ['0'],
     icon: 'fit',
-    help: 'The whole map in view',
+    help: 'theWholeMap',
     when: hasScene,
     run: (c) => c.fit(),
   },
   {
     id: 'back-to-scene',
-    label: 'Back to the scene',
+    label: TEXTS.backToTheScene,
     icon: 'fit',
-    help: 'Where things move',
+    help: 'whereThings',
     when: hasScene,
     run: (c) => c.lookAtScene(),
   },
   {
     id: 'zoom-selection',
-    label: 'Zoom to selection',
+    label: TEXTS.zoomToSelection,
     keys: ['Z'],
     icon: 'search',
-    help: 'The selected road users and their goals',
+    help: 'theSelectedRoad',
     when: hasSome,
     run: zoomToSelection,
   },
   {
     id: 'zoom-in',
-    label: 'Zoom in',
+    label: TEXTS.zoomIn,
     keys: ['PageUp'],
     icon: 'plus',
-    help: 'A third closer',
+    help: 'aThirdCloser',
     run: (c) => zoom(c, 1.33),
   },
   {
     id: 'zoom-out',
-    label: 'Zoom out',
+    label: TEXTS.zoomOut,
     keys: ['PageDown'],
     icon: 'minus',
-    help: 'A third further',
+    help: 'aThirdFurther',
     run: (c) => zoom(c, 1 / 1.33),
   },
   {
     id: 'follow',
-    label: 'Keep in view',
+    label: TEXTS.keepInView,
     keys: ['K'],
     icon: 'eye',
-    help: 'The picture follows the selected road user in playback',
+    help: 'thePicture',
     when: hasAgent,
     checked: (c) => c.editor.playhead.follow.value,
     run: (c) => c.editor.playhead.toggleFollow(),
   },
   {
     id: 'others-answers',
-    label: 'The others’ answers',
+    label: TEXTS.theOthersAnswers,
     keys: ['H'],
-    help: 'Where the others would wait, shown or hidden while a handle is dragged',
+    help: 'whereTheOthers',
     whileDragging: true,
     checked: (c) => c.editor.showForeseen.value,
     run: (c) => c.editor.toggleForeseen(),
   },
-  layer('futures', 'Futures', 'Shift+O', 'Where everybody may go'),
-  layer('log', 'Log', 'O', 'What was recorded, dashed'),
-  layer('lanes', 'Lanes', 'Shift+W', 'Centre lines of the lanes'),
-  layer('labels', 'Labels', 'Shift+L', 'Names of the road users'),
-  layer('signals', 'Signals', 'Shift+S', 'Lights at the stop lines, as they are at the playhead'),
-  layer('limits', 'Speed limits', 'Shift+M', 'What the map allows on its lanes', (c) => {
+  layer('futures', TEXTS.futures, 'Shift+O', 'whereEverybody'),
+  layer('log', TEXTS.log, 'O', 'whatWasRecorded'),
+  layer('lanes', TEXTS.lanes, 'Shift+W', 'centreLines'),
+  layer('labels', TEXTS.labels, 'Shift+L', 'namesOfThe'),
+  layer('signals', TEXTS.signals, 'Shift+S', 'lightsAtThe'),
+  layer('limits', TEXTS.speedLimits, 'Shift+M', 'whatTheMap', (c) => {
     const scene = c.editor.scene.value;
-    return !scene || knowsLimits(scene.map) ? hasScene(c) : 'This map knows no speed limits.';
+    return !scene || knowsLimits(scene.map) ? hasScene(c) : TEXTS.thisMapKnows;
   }),
-  layer('reach', 'Reach', 'Shift+H', 'Where the selected road user can be at the goal time, along the lanes'),
-  layer('conflicts', 'Conflict zones', 'Shift+C', 'Where ways cross within 3 s of each other; the darker, the closer'),
+  layer('reach', TEXTS.reach, 'Shift+H', 'whereTheSelected'),
+  layer('conflicts', TEXTS.conflictZones, 'Shift+C', 'whereWaysCross'),
 ]);

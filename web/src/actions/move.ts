@@ -1,4 +1,5 @@
 // Move: the start or the goal of the selected road user, by keys.
+import type { Help } from '../texts/helps';
 import type { Agent } from '../model/scene';
 import type { Command } from '../model/commands';
 import type { Editor, Part } from '../edit/editor';
@@ -8,6 +9,7 @@ import * as several from '../edit/several';
 import { rad } from '../model/geometry';
 import { placedBy } from './place';
 import { activePart, hasAgent, hasFree, hasSomeFree, inGroup, type Action } from './action';
+import { TEXTS } from '../texts/actions';
 
 type Move = (e: Editor, a: Agent, part: Part) => Command | null;
 /** The same for several; a way of moving that has none is for one alone. */
@@ -25,7 +27,7 @@ const move = (
   id: string,
   label: string,
   key: string,
-  help: string,
+  help: Help,
   make: Move,
   { icon, all, ghost }: Also = {},
 ): Omit<Action, 'group'> => ({
@@ -58,37 +60,33 @@ const ghostBy =
     e.placement.again(e.scene.peek()!, dx, dy);
 
 const DIRECTIONS = [
-  ['Left', -1, 0],
-  ['Right', 1, 0],
-  ['Up', 0, 1],
-  ['Down', 0, -1],
+  ['Left', TEXTS.at01MLeft, TEXTS.at1MLeft, -1, 0],
+  ['Right', TEXTS.at01MRight, TEXTS.at1MRight, 1, 0],
+  ['Up', TEXTS.at01MUp, TEXTS.at1MUp, 0, 1],
+  ['Down', TEXTS.at01MDown, TEXTS.at1MDown, 0, -1],
 ] as const;
 
-const nudges = DIRECTIONS.flatMap(([key, dx, dy]) => {
+const nudges = DIRECTIONS.flatMap(([key, near, far, dx, dy]) => {
   const word = key.toLowerCase();
-  const help = 'Moves the start, or the goal when that is active';
+  const help = 'movesTheStart';
   return [
-    move(`nudge-${word}`, `0.1 m ${word}`, key, help, (e, a, p) => moves.nudge(e, a, p, dx * 0.1, dy * 0.1), {
+    move(`nudge-${word}`, near, key, help, (e, a, p) => moves.nudge(e, a, p, dx * 0.1, dy * 0.1), {
       all: (all) => several.moveAll(all, dx * 0.1, dy * 0.1, false, 'nudge'),
       ghost: ghostBy(dx * 0.5, dy * 0.5),
     }),
-    move(
-      `nudge-far-${word}`,
-      `1 m ${word}`,
-      `Shift+${key}`,
-      'Ten times as far',
-      (e, a, p) => moves.nudge(e, a, p, dx, dy),
-      { all: (all) => several.moveAll(all, dx, dy, false, 'nudge'), ghost: ghostBy(dx * 5, dy * 5) },
-    ),
+    move(`nudge-far-${word}`, far, `Shift+${key}`, 'tenTimesAs', (e, a, p) => moves.nudge(e, a, p, dx, dy), {
+      all: (all) => several.moveAll(all, dx, dy, false, 'nudge'),
+      ghost: ghostBy(dx * 5, dy * 5),
+    }),
   ];
 });
 
 const alongLane = (id: string, label: string, key: string, metres: number) =>
-  move(id, label, key, 'Follows the lane', (e, a, p) => moves.nudgeAlong(e, a, p, metres));
+  move(id, label, key, 'followsThe', (e, a, p) => moves.nudgeAlong(e, a, p, metres));
 const nextLane = (id: string, label: string, key: string, side: 1 | -1) =>
-  move(id, label, key, 'Keeps the distance along the road', (e, a, p) => moves.toNextLane(e, a, p, side));
+  move(id, label, key, 'keepsTheDistance', (e, a, p) => moves.toNextLane(e, a, p, side));
 const turn = (id: string, label: string, key: string, degrees: number) =>
-  move(id, label, key, 'Heading of the active part; several turn together', (e, a, p) => moves.turn(e, a, p, degrees), {
+  move(id, label, key, 'headingOfThe', (e, a, p) => moves.turn(e, a, p, degrees), {
     all: (all) => several.turnAll(all, rad(degrees), several.middleOf(all), false, 'turn'),
     ghost: (e) => e.placement.turnBy(e.scene.peek()!, rad(degrees)),
   });
@@ -97,43 +95,43 @@ const faster = (id: string, label: string, key: string, steps: number) =>
     id,
     label,
     key,
-    Math.abs(steps) === 1 ? '1 km/h, or 0.1 m/s on foot' : '10 km/h, or 1 m/s on foot',
+    Math.abs(steps) === 1 ? 'by1KmHOr01MS' : 'by10KmHOr1MS',
     (e, a, p) => moves.faster(e, a, p, steps),
     { all: (all) => several.fasterAll(all, steps) },
   );
 
-export const movement = inGroup('Move', [
+export const movement = inGroup('move', [
   ...nudges,
-  alongLane('along-forward', '1 m on along the lane', 'Ctrl+Up', 1),
-  alongLane('along-back', '1 m back along the lane', 'Ctrl+Down', -1),
-  nextLane('lane-left', 'To the lane on the left', 'Ctrl+Left', 1),
-  nextLane('lane-right', 'To the lane on the right', 'Ctrl+Right', -1),
-  turn('turn-left', 'Turn left 1°', '[', 1),
-  turn('turn-right', 'Turn right 1°', ']', -1),
-  turn('turn-left-far', 'Turn left 15°', 'Shift+[', 15),
-  turn('turn-right-far', 'Turn right 15°', 'Shift+]', -15),
-  faster('faster', 'Faster', '+', 1),
-  faster('slower', 'Slower', '-', -1),
-  faster('faster-far', 'Much faster', 'Shift++', 10),
-  faster('slower-far', 'Much slower', 'Shift+-', -10),
-  move('snap', 'To the nearest lane', 'N', 'Position and heading', moves.snapToNearest, { icon: 'fit' }),
+  alongLane('along-forward', TEXTS.at1MOnAlongThe, 'Ctrl+Up', 1),
+  alongLane('along-back', TEXTS.at1MBackAlongThe, 'Ctrl+Down', -1),
+  nextLane('lane-left', TEXTS.toTheLaneOnThe, 'Ctrl+Left', 1),
+  nextLane('lane-right', TEXTS.toTheLaneOnTheRight, 'Ctrl+Right', -1),
+  turn('turn-left', TEXTS.turnLeft1, '[', 1),
+  turn('turn-right', TEXTS.turnRight1, ']', -1),
+  turn('turn-left-far', TEXTS.turnLeft15, 'Shift+[', 15),
+  turn('turn-right-far', TEXTS.turnRight15, 'Shift+]', -15),
+  faster('faster', TEXTS.faster, '+', 1),
+  faster('slower', TEXTS.slower, '-', -1),
+  faster('faster-far', TEXTS.muchFaster, 'Shift++', 10),
+  faster('slower-far', TEXTS.muchSlower, 'Shift+-', -10),
+  move('snap', TEXTS.toTheNearest, 'N', 'positionAnd', moves.snapToNearest, { icon: 'fit' }),
   {
     id: 'switch-part',
-    label: 'Start or goal',
+    label: TEXTS.startOrGoal,
     keys: ['X'],
-    help: 'Which of the two the keys move',
+    help: 'whichOfThe',
     when: hasAgent,
     run(c) {
       const part = activePart(c) === 'start' ? 'goal' : 'start';
       c.editor.activate(part);
-      c.editor.notices.say(part === 'goal' ? 'Keys move the goal.' : 'Keys move the start.');
+      c.editor.notices.say(part === 'goal' ? TEXTS.keysMoveTheGoal : TEXTS.keysMoveTheStart);
     },
   },
   {
     id: 'inspect',
-    label: 'To the inspector',
+    label: TEXTS.toTheInspector,
     keys: ['Enter'],
-    help: 'Type exact values',
+    help: 'typeExactValues',
     when: hasAgent,
     run: (c) => c.focusField(activePart(c), 'speed'),
   },

@@ -4,6 +4,7 @@ import { TOOLS } from '../edit/gestures/tools';
 import { placeGhost } from '../edit/gestures/placing';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 const tools = TOOLS.flatMap((t) => ('places' in t ? [t] : [])).map(({ name, label, key, icon, help }) => ({
   id: `tool-${name}`,
@@ -42,56 +43,56 @@ const isFilling = (c: Context): boolean => c.editor.filling.wish.value !== null;
 function addOrClose({ editor, filler }: Context): void {
   const { filling, notices } = editor;
   if (!filling.drawn.peek()) filler.add();
-  else if (!filling.closeOutline()) notices.show({ text: 'An area needs three corners.' });
+  else if (!filling.closeOutline()) notices.show({ text: TEXTS.anAreaNeedsThree });
 }
 
 const isEmpty = (c: Context): boolean => c.editor.scene.value?.agents.size === 0;
 
-export const place = inGroup('Place', [
+export const place = inGroup('place', [
   ...tools,
   {
     id: 'place-here',
-    label: 'Place here',
+    label: TEXTS.placeHere,
     keys: ['Enter'],
     icon: 'check',
-    help: 'Puts the road user where its ghost is; the arrow keys move the ghost',
+    help: 'putsTheRoad',
     onOffer: (c) => placedBy(c) !== null && c.editor.placement.ghosts.value !== null,
-    when: (c) => (c.editor.placement.ghosts.value ? true : 'Choose what to place first.'),
+    when: (c) => (c.editor.placement.ghosts.value ? true : TEXTS.chooseWhatTo),
     run: (c) => placeGhost(c.editor),
   },
   {
     id: 'place-first',
-    label: 'Place a car',
+    label: TEXTS.placeACar,
     keys: ['C'],
     icon: 'car',
-    help: 'Click a lane, drag to turn it. Then drag its flag.',
+    help: 'clickALane',
     onOffer: isEmpty,
     when: hasScene,
     run: (c) => startPlacing(c, 'place-car'),
   },
   {
     id: 'fill-add',
-    label: 'Add what is previewed',
+    label: TEXTS.addWhatIsPreviewed,
     keys: ['Enter'],
     icon: 'check',
-    help: 'The road users of the preview come into the scene; an outline that is being drawn is closed first',
+    help: 'theRoadUsers',
     onOffer: isFilling,
     when: (c) =>
       !isFilling(c)
-        ? 'Fill an area first.'
+        ? TEXTS.fillAnAreaFirst
         : c.editor.filling.drawn.value || c.editor.filling.all.value.length
           ? true
-          : 'Nobody is in the preview.',
+          : TEXTS.nobodyIsInThe,
     run: (c) => addOrClose(c),
   },
   {
     id: 'fill-shuffle',
-    label: 'Shuffle the preview',
+    label: TEXTS.shuffleThePreview,
     keys: ['R'],
     icon: 'dice',
-    help: 'Another seed; whoever is pinned stays. Click somebody in the preview to pin it.',
+    help: 'anotherSeed',
     onOffer: isFilling,
-    when: (c) => (isFilling(c) ? true : 'Fill an area first.'),
+    when: (c) => (isFilling(c) ? true : TEXTS.fillAnAreaFirst),
     run: (c) => c.editor.filling.shuffle(),
   },
 ]);

@@ -4,15 +4,16 @@ import { canChange } from '../model/scene';
 import { saveFeedback } from '../edit/rounds/save';
 import { hasFree, inGroup, type Action } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 const isOpen = (c: Context): boolean => c.rounds.isOpen.value;
 const hasCards = (c: Context): true | string =>
-  !isOpen(c) ? 'Open rounds first.' : c.editor.deck.hand.value ? true : 'No cards yet.';
+  !isOpen(c) ? TEXTS.openRoundsFirst : c.editor.deck.hand.value ? true : TEXTS.noCardsYet;
 
 /** At least two can do something: else the scene is that one road user. */
 const hasSeveral = (c: Context): true | string => {
   const n = [...(c.editor.scene.value?.agents.values() ?? [])].filter(canChange).length;
-  return n > 1 ? true : 'There are no two road users here that could do something else.';
+  return n > 1 ? true : TEXTS.thereAreNoTwo;
 };
 
 /** One is selected, or there are several to do it all. */
@@ -36,19 +37,19 @@ const onCard = (run: (c: Context, index: number) => void): Pick<Action, 'onOffer
 
 const cards = [...LETTERS].map((letter, i) => ({
   id: `round-card-${letter.toLowerCase()}`,
-  label: `Card ${letter}`,
+  label: TEXTS.card(letter),
   keys: [`${i + 1}`],
-  help: 'Keys are about it, and playback shows it',
+  help: 'keysAreAbout' as const,
   ...onCard((c) => c.editor.deck.point(i)),
 }));
 
-export const rounds = inGroup('Rounds', [
+export const rounds = inGroup('rounds', [
   {
     id: 'rounds',
-    label: 'Rounds',
+    label: TEXTS.rounds,
     keys: ['Shift+K'],
     icon: 'star',
-    help: 'Keep and reject futures of one road user, or of the whole scene; the next ones follow what you like',
+    help: 'keepAndReject',
     when: hasSubject,
     checked: isOpen,
     run: (c) => {
@@ -58,89 +59,89 @@ export const rounds = inGroup('Rounds', [
   },
   {
     id: 'rounds-one',
-    label: 'Rounds of this road user',
-    help: 'Its own futures; nobody answers them',
+    label: TEXTS.roundsOfThis,
+    help: 'itsOwnFutures',
     when: hasFree,
     checked: (c) => typeof c.editor.deck.of.value?.id === 'string',
     run: (c) => open(c, true),
   },
   {
     id: 'rounds-scene',
-    label: 'Rounds of the whole scene',
+    label: TEXTS.roundsOfTheWhole,
     keys: ['Alt+K'],
     icon: 'layers',
-    help: 'Each card is what everybody does together',
+    help: 'eachCardIs',
     when: hasSeveral,
     checked: (c) => c.editor.deck.of.value?.id === null,
     run: (c) => open(c, false),
   },
   {
     id: 'round-keep',
-    label: 'Keep card',
+    label: TEXTS.keepCard,
     keys: ['K'],
     icon: 'check',
-    help: 'The next round goes on from it; again: open',
+    help: 'theNextRound',
     ...onCard((c, i) => c.rounds.say(i, 'keep')),
   },
   {
     id: 'round-reject',
-    label: 'Reject card',
+    label: TEXTS.rejectCard,
     keys: ['J'],
     icon: 'x',
-    help: 'Nothing like it comes again; again: open',
+    help: 'nothingLike',
     ...onCard((c, i) => c.rounds.say(i, 'reject')),
   },
   ...cards,
   {
     id: 'round-back',
-    label: 'Card before',
+    label: TEXTS.cardBefore,
     keys: ['Left'],
-    help: 'Keys are about it, and playback shows it',
+    help: 'keysAreAbout',
     ...onCard((c, i) => c.editor.deck.point(i - 1)),
   },
   {
     id: 'round-on',
-    label: 'Card after',
+    label: TEXTS.cardAfter,
     keys: ['Right'],
-    help: 'Keys are about it, and playback shows it',
+    help: 'keysAreAbout',
     ...onCard((c, i) => c.editor.deck.point(i + 1)),
   },
   {
     id: 'round-next',
-    label: 'Next round',
+    label: TEXTS.nextRound,
     keys: ['Enter'],
     icon: 'next',
-    help: 'More, by what was said',
+    help: 'moreByWhat',
     onOffer: isOpen,
     when: (c) => {
       const can = hasCards(c);
-      return can !== true || c.rounds.mayGoOn.value ? can : 'Keep or reject one first, or add a wish.';
+      return can !== true || c.rounds.mayGoOn.value ? can : TEXTS.keepOrReject;
     },
     run: (c) => c.rounds.next(),
   },
   {
     id: 'round-take',
-    label: 'Take this card',
+    label: TEXTS.takeThisCard,
     icon: 'flag',
-    help: 'It is what happens from now on; others answer a card of one road user',
+    help: 'itIsWhatHappens',
     when: hasCards,
     run: (c) => c.rounds.take(c.editor.deck.current.value),
   },
   {
     id: 'round-stop',
-    label: 'Stop here',
-    help: 'Closes the rounds; what was said stays',
-    when: (c) => (isOpen(c) ? true : 'Open rounds first.'),
+    label: TEXTS.stopHere,
+    help: 'closesTheRounds',
+    when: (c) => (isOpen(c) ? true : TEXTS.openRoundsFirst),
     run: (c) => c.rounds.close(),
   },
   {
     id: 'round-variants',
-    label: 'Keep as variants',
+    label: TEXTS.keepAsVariants,
     icon: 'variants',
-    help: 'Closes the rounds; each kept card becomes a variant that the others answer',
+    help: 'closesTheRoundsEach',
     when: (c) => {
       const can = hasCards(c);
-      return can !== true || c.rounds.said.value.some((s) => s?.verdict === 'keep') ? can : 'Keep a card first.';
+      return can !== true || c.rounds.said.value.some((s) => s?.verdict === 'keep') ? can : TEXTS.keepACardFirst;
     },
     run: (c) => {
       const kept = c.rounds.kept();
@@ -151,12 +152,12 @@ export const rounds = inGroup('Rounds', [
   },
   {
     id: 'round-table',
-    label: 'Save as table',
+    label: TEXTS.saveAsTable,
     icon: 'table',
-    help: 'What was said of each card and what it is like, as CSV',
+    help: 'whatWasSaid',
     when: (c) => {
       const of = c.rounds.subject.value ?? c.editor.agent.value;
-      return of?.feedback?.answers.length ? true : 'Nothing was kept or rejected yet.';
+      return of?.feedback?.answers.length ? true : TEXTS.nothingWasKept;
     },
     run: (c) => saveFeedback(c.editor),
   },

@@ -1,10 +1,12 @@
 // Scene: the list, new ones and copies, files in and out, what was done.
+import type { Help } from '../texts/helps';
 import type { Others } from '../model/scene';
 import { resetAll, setOthers } from '../model/commands';
 import { hasScene, inGroup, type Action } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
-const others = (mode: Others, label: string, help: string): Omit<Action, 'group'> => ({
+const others = (mode: Others, label: string, help: Help): Omit<Action, 'group'> => ({
   id: `others-${mode}`,
   label,
   help,
@@ -19,166 +21,165 @@ const meant = ({ editor, ui }: Context): string | null => ui.aimed.value ?? edit
 /** Own scenes alone can be changed on the server. */
 const own = (c: Context): true | string => {
   const id = meant(c);
-  return !id ? 'No scene is open.' : c.scenes.isOwn(id) ? true : 'Examples stay as they are. Copy one to change it.';
+  return !id ? TEXTS.noSceneIsOpen : c.scenes.isOwn(id) ? true : TEXTS.examplesStay;
 };
 
 const making = (c: Context): boolean => c.editor.layouts.isOpen.value;
 
-const isMaking = (c: Context): true | string => (making(c) ? true : 'No map is being made.');
+const isMaking = (c: Context): true | string => (making(c) ? true : TEXTS.noMapIsBeing);
 
-export const scene = inGroup('Scene', [
+export const scene = inGroup('scene', [
   {
     id: 'scenes',
-    label: 'Scenes',
+    label: TEXTS.scenes,
     keys: ['B'],
     icon: 'list',
-    help: 'List of scenes',
+    help: 'listOfScenes',
     checked: (c) => c.ui.drawer.value === 'scenes',
     run: (c) => c.ui.toggleDrawer('scenes'),
   },
   {
     id: 'users',
-    label: 'Road users',
+    label: TEXTS.roadUsers,
     keys: ['W'],
     icon: 'people',
-    help: 'Who is in the scene, by kind, with a goal, in an event',
+    help: 'whoIsInThe',
     when: hasScene,
     checked: (c) => c.ui.drawer.value === 'users',
     run: (c) => c.ui.toggleDrawer('users'),
   },
   {
     id: 'history',
-    label: 'History',
+    label: TEXTS.history,
     keys: ['Ctrl+H'],
     icon: 'clock',
-    help: 'What was done, step by step; a click goes there',
+    help: 'whatWasDone',
     when: hasScene,
     checked: (c) => c.ui.drawer.value === 'history',
     run: (c) => c.ui.toggleDrawer('history'),
   },
   {
     id: 'new-map',
-    label: 'New map',
+    label: TEXTS.newMap,
     keys: ['Ctrl+N'],
     icon: 'plus',
-    help: 'Crossings, roundabouts, merges, roads and car parks from templates',
+    help: 'crossingsRoundabouts',
     run: (c) => c.maker.begin(),
   },
   {
     id: 'change-map',
-    label: 'Change the map',
+    label: TEXTS.changeTheMap,
     icon: 'pencil',
-    help: 'Other parameters for a map from a template; the scene gets a copy with it',
-    when: (c) =>
-      !c.editor.isOpen.value ? 'No scene is open.' : c.maker.madeFrom ? true : 'This map is from no template.',
+    help: 'otherParameters',
+    when: (c) => (!c.editor.isOpen.value ? TEXTS.noSceneIsOpen : c.maker.madeFrom ? true : TEXTS.thisMapIsFrom),
     run: (c) => c.maker.change(),
   },
   {
     id: 'use-map',
-    label: 'Use this map',
+    label: TEXTS.useThisMap,
     keys: ['Enter'],
-    help: 'A scene with the map that is being made',
+    help: 'aSceneWith',
     onOffer: making,
     when: isMaking,
     run: (c) => void c.maker.use(),
   },
   {
     id: 'arm-previous',
-    label: 'Previous arm',
+    label: TEXTS.previousArm,
     keys: ['['],
     icon: 'prev',
-    help: 'The arm before, of a map that is being made',
+    help: 'theArmBefore',
     onOffer: making,
     when: isMaking,
     run: (c) => c.editor.layouts.step(-1),
   },
   {
     id: 'arm-next',
-    label: 'Next arm',
+    label: TEXTS.nextArm,
     keys: [']'],
     icon: 'next',
-    help: 'The arm after it, of a map that is being made',
+    help: 'theArmAfter',
     onOffer: making,
     when: isMaking,
     run: (c) => c.editor.layouts.step(1),
   },
   {
     id: 'arm-remove',
-    label: 'Remove the arm',
+    label: TEXTS.removeTheArm,
     keys: ['Del'],
-    help: 'Three stay at least',
+    help: 'threeStayAt',
     onOffer: making,
     when: isMaking,
     run: (c) => c.editor.layouts.removeArm(c.editor.layouts.arm.peek()),
   },
   {
     id: 'new-scene',
-    label: 'New scene on this road',
+    label: TEXTS.newSceneOnThis,
     keys: ['Shift+N'],
     icon: 'plus',
-    help: 'The road of this scene with nobody on it',
+    help: 'theRoadOfThis',
     when: hasScene,
     run: (c) => void c.care.newOnThisRoad(),
   },
   {
     id: 'new-plain-scene',
-    label: 'New scene on plain ground',
+    label: TEXTS.newSceneOnPlain,
     icon: 'plus',
-    help: 'Nothing there: no road, nobody',
+    help: 'nothingThere',
     run: (c) => void c.care.newOnPlainGround(),
   },
   {
     id: 'choose-files',
-    label: 'Import files',
+    label: TEXTS.importFiles,
     keys: ['Ctrl+O'],
     icon: 'file',
-    help: 'Scenes, recordings, tables of motion and maps',
+    help: 'scenesRecordings',
     context: 'always',
     run: (c) => c.ui.openDialog('import'),
   },
   {
     id: 'import-log',
-    label: 'Import a log',
+    label: TEXTS.importALog,
     keys: ['O'],
     icon: 'file',
-    help: 'Scenario record or saved scene. Or drop the file here.',
+    help: 'scenarioRecord',
     onOffer: (c) => c.editor.scene.value?.agents.size === 0,
     run: (c) => c.chooseFiles(),
   },
   {
     id: 'save-copy',
-    label: 'Save a copy',
+    label: TEXTS.saveACopy,
     keys: ['Ctrl+S'],
     icon: 'copy',
-    help: 'An own scene that saves itself',
+    help: 'anOwnScene',
     context: 'always',
     when: hasScene,
     run: (c) => void c.care.saveCopy(),
   },
   {
     id: 'save-as',
-    label: 'Save as …',
+    label: TEXTS.saveAs,
     keys: ['Ctrl+Shift+S'],
     icon: 'copy',
-    help: 'A copy under a name of your own',
+    help: 'aCopyUnder',
     context: 'always',
     when: hasScene,
     run: (c) => c.ui.openDialog('save-as'),
   },
   {
     id: 'duplicate-scene',
-    label: 'Duplicate scene',
+    label: TEXTS.duplicateScene,
     icon: 'copy',
-    help: 'A copy beside it',
-    when: (c) => (meant(c) ? true : 'No scene is open.'),
+    help: 'aCopyBeside',
+    when: (c) => (meant(c) ? true : TEXTS.noSceneIsOpen),
     run: (c) => void c.care.duplicate(meant(c)!),
   },
   {
     id: 'rename-scene',
-    label: 'Rename scene',
+    label: TEXTS.renameScene,
     keys: ['Shift+F2'],
     icon: 'pencil',
-    help: 'Another name for it',
+    help: 'anotherName',
     when: own,
     run(c) {
       const id = meant(c)!;
@@ -188,41 +189,41 @@ export const scene = inGroup('Scene', [
   },
   {
     id: 'delete-scene',
-    label: 'Delete scene',
+    label: TEXTS.deleteScene,
     icon: 'trash',
-    help: 'Can be undone for a while; examples stay',
+    help: 'canBeUndone',
     when: own,
     run: (c) => void c.care.remove(meant(c)!),
   },
   {
     id: 'share',
-    label: 'Share',
+    label: TEXTS.share,
     keys: ['Ctrl+Shift+C'],
     icon: 'share',
-    help: 'A link with the whole scene inside',
+    help: 'aLinkWithThe',
     when: hasScene,
     run: (c) => c.ui.openDialog('share'),
   },
   {
     id: 'export',
-    label: 'Export',
+    label: TEXTS.export,
     keys: ['Ctrl+E'],
     icon: 'export',
-    help: 'Files for other programs, pictures, a film, a report',
+    help: 'filesForOther',
     when: hasScene,
     run: (c) => {
       c.variants.setScope('present');
       c.ui.openDialog('export');
     },
   },
-  others('react', 'Others react', 'Everybody you gave no goal adapts when you let go'),
-  others('log', 'Others replay the log', 'They do what was recorded'),
-  others('still', 'Others hold still', 'They stay where they start, and nobody else comes in'),
+  others('react', TEXTS.othersReact, 'everybodyYou'),
+  others('log', TEXTS.othersReplay, 'theyDoWhat'),
+  others('still', TEXTS.othersHoldStill, 'theyStayWhere'),
   {
     id: 'reset-all',
-    label: 'Everybody back to the log',
+    label: TEXTS.everybodyBack,
     icon: 'undo',
-    help: 'Drops every change; can be undone',
+    help: 'dropsEvery',
     when: hasScene,
     run: (c) => c.editor.run(resetAll(c.editor.scene.value!)),
   },

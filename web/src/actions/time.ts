@@ -5,6 +5,7 @@ import { setLength, setReplan } from '../model/commands';
 import { STEP_S } from '../model/motion';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 function stepBy(c: Context, frames: number): void {
   c.editor.playhead.pause();
@@ -32,9 +33,8 @@ function nextEvent({ editor, ui }: Context): void {
 
 const lengths = LENGTHS.map((s) => ({
   id: `length-${s}`,
-  label: `Length ${s} s`,
-  help:
-    s > 9 ? `Work out ${s} s: past 9 s everybody plans anew from where they are by then` : 'Work out 9 s, in one go',
+  label: TEXTS.lengthS(s),
+  help: s > 9 ? ('pastNineSeconds' as const) : ('workOutInOneGo' as const),
   when: hasScene,
   checked: (c: Context) => c.editor.scene.value?.length === s,
   run(c: Context) {
@@ -45,8 +45,8 @@ const lengths = LENGTHS.map((s) => ({
 
 const replans = REPLANS.map((s) => ({
   id: `replan-${s}`,
-  label: `Plan anew each ${s} s`,
-  help: `Everybody looks again every ${s} s and plans on from there`,
+  label: TEXTS.planAnewEach(s),
+  help: 'looksAgain' as const,
   when: hasScene,
   checked: (c: Context) => c.editor.scene.value?.replan === s,
   run(c: Context) {
@@ -54,90 +54,90 @@ const replans = REPLANS.map((s) => ({
   },
 }));
 
-export const time = inGroup('Time', [
+export const time = inGroup('time', [
   {
     id: 'play',
-    label: 'Play or pause',
+    label: TEXTS.playOrPause,
     keys: ['Space'],
     icon: 'play',
-    help: 'Runs from the playhead',
+    help: 'runsFromThe',
     when: hasScene,
     checked: (c) => c.editor.playing.value,
     run: (c) => c.playback.toggle(),
   },
   {
     id: 'step-back',
-    label: '0.1 s back',
+    label: TEXTS.at01SBack,
     keys: [','],
-    help: 'One frame',
+    help: 'oneFrame',
     when: hasScene,
     run: (c) => stepBy(c, -1),
   },
   {
     id: 'step-on',
-    label: '0.1 s on',
+    label: TEXTS.at01SOn,
     keys: ['.'],
-    help: 'One frame',
+    help: 'oneFrame',
     when: hasScene,
     run: (c) => stepBy(c, 1),
   },
   {
     id: 'to-start',
-    label: 'To the start',
+    label: TEXTS.toTheStart,
     keys: ['Home'],
     icon: 'prev',
-    help: 'Playhead to 0.0 s',
+    help: 'playheadTo',
     when: hasScene,
     run: (c) => goTo(c, 0),
   },
   {
     id: 'to-end',
-    label: 'To the end',
+    label: TEXTS.toTheEnd,
     keys: ['End'],
     icon: 'next',
-    help: 'Playhead to the last frame',
+    help: 'playheadToThe',
     when: hasScene,
     run: (c) => goTo(c, Infinity),
   },
   {
     id: 'slower-playback',
-    label: 'Slower playback',
+    label: TEXTS.slowerPlayback,
     keys: ['Shift+,'],
-    help: 'Down to 0.1×',
+    help: 'downTo01',
     run: (c) => c.editor.playhead.changeRate(-1),
   },
   {
     id: 'faster-playback',
-    label: 'Faster playback',
+    label: TEXTS.fasterPlayback,
     keys: ['Shift+.'],
-    help: 'Up to 8×',
+    help: 'upTo8',
     run: (c) => c.editor.playhead.changeRate(1),
   },
   {
     id: 'loop',
-    label: 'Loop',
+    label: TEXTS.loop,
     keys: ['P'],
     icon: 'loop',
-    help: 'Start again at the end',
+    help: 'startAgain',
     checked: (c) => c.editor.playhead.loop.value,
     run: (c) => c.editor.playhead.toggleLoop(),
   },
   {
     id: 'tall-timeline',
-    label: 'High timeline',
+    label: TEXTS.highTimeline,
     keys: ['T'],
     icon: 'pencil',
-    help: 'Room for the speed curve: drag its points, double click for one more, Del takes it away',
+    help: 'roomForThe',
     checked: (c) => c.ui.tall.value,
     run: (c) => c.ui.toggleTall(),
   },
   {
     id: 'next-event',
-    label: 'Next event',
+    label: TEXTS.nextEvent,
     keys: ['E'],
     icon: 'warn',
-    help: 'Collision, near miss or broken rule after the playhead',
-    when: (c) => (c.editor.events.value.length ? true : 'There are no events.'),
+    help: 'collisionNear',
+    when: (c) => (c.editor.events.value.length ? true : TEXTS.thereAreNoEvents),
     run: nextEvent,
   },
   ...lengths,

@@ -2,11 +2,12 @@
 import type { Moment } from '../model/parting';
 import { hasScene, inGroup } from './action';
 import type { Context } from './context';
+import { TEXTS } from '../texts/actions';
 
 const isOpen = (c: Context): boolean => c.variants.open.value;
 /** Text about a road user is meant while one is selected and no card has the focus. */
 const onCard = (c: Context): boolean => isOpen(c) && c.variants.current.value !== null;
-const hasCard = (c: Context): true | string => (onCard(c) ? true : 'Choose a variant first.');
+const hasCard = (c: Context): true | string => (onCard(c) ? true : TEXTS.chooseAVariant);
 const isComparing = (c: Context): boolean => c.variants.pair.value !== null;
 
 /** A moment nearer to the edge of the picture than this is brought to the middle, pixels. */
@@ -30,31 +31,31 @@ function nextMoment(c: Context): void {
   if (next) goToMoment(c, next);
 }
 
-export const variants = inGroup('Variants', [
+export const variants = inGroup('variants', [
   {
     id: 'variants',
-    label: 'Variants',
+    label: TEXTS.variants,
     keys: ['Shift+V'],
     icon: 'variants',
-    help: 'Ways the scene could go, side by side on one clock',
+    help: 'waysTheScene',
     when: hasScene,
     checked: isOpen,
     run: (c) => c.variants.show(!c.variants.open.value),
   },
   {
     id: 'make-variants',
-    label: 'Make variants',
+    label: TEXTS.makeVariants,
     icon: 'variants',
-    help: 'New ones from seed and diversity; those that are kept or starred stay',
+    help: 'newOnesFrom',
     when: hasScene,
     run: (c) => void c.variants.make(),
   },
   {
     id: 'keep-variant',
-    label: 'Keep variant',
+    label: TEXTS.keepVariant,
     keys: ['Ctrl+D'],
     icon: 'check',
-    help: 'It stays when new ones are made; with none chosen the scene as it is becomes one',
+    help: 'itStaysWhen',
     onOffer: isOpen,
     when: hasScene,
     run: (c) => {
@@ -65,38 +66,38 @@ export const variants = inGroup('Variants', [
   },
   {
     id: 'star-variant',
-    label: 'Star variant',
+    label: TEXTS.starVariant,
     keys: ['S'],
     icon: 'star',
-    help: 'Starred ones come first and stay',
+    help: 'starredOnes',
     onOffer: onCard,
     when: hasCard,
     run: (c) => c.variants.toggleStar(c.variants.current.value!),
   },
   {
     id: 'name-variant',
-    label: 'Name variant',
+    label: TEXTS.nameVariant,
     keys: ['F2'],
     icon: 'pencil',
-    help: 'A name of your own; empty for what differs',
+    help: 'aNameOfYour',
     onOffer: onCard,
     when: hasCard,
     run: (c) => c.variants.startRenaming(c.variants.current.value),
   },
   {
     id: 'remove-variant',
-    label: 'Remove variant',
+    label: TEXTS.removeVariant,
     icon: 'trash',
-    help: 'Takes it out of the strip; can be undone',
+    help: 'takesItOut',
     when: hasCard,
     run: (c) => c.variants.remove(c.variants.current.value!),
   },
   {
     id: 'compare-variants',
-    label: 'Compare variants',
+    label: TEXTS.compareVariants,
     keys: ['C'],
     icon: 'compare',
-    help: 'Press it on two cards: both on one picture, and where they part',
+    help: 'pressItOnTwo',
     onOffer: onCard,
     when: hasCard,
     checked: isComparing,
@@ -107,10 +108,10 @@ export const variants = inGroup('Variants', [
   },
   {
     id: 'export-variants',
-    label: 'Export all variants',
+    label: TEXTS.exportAllVariants,
     icon: 'export',
-    help: 'A file each; those that are kept, or all of them',
-    when: (c) => (c.variants.cards.value.length ? true : 'There are no variants.'),
+    help: 'aFileEachThose',
+    when: (c) => (c.variants.cards.value.length ? true : TEXTS.thereAreNoVariants),
     run: (c) => {
       c.variants.aimExport();
       c.ui.openDialog('export');
@@ -118,22 +119,22 @@ export const variants = inGroup('Variants', [
   },
   {
     id: 'swap-variants',
-    label: 'Swap the two variants',
+    label: TEXTS.swapTheTwoVariants,
     keys: ['X'],
     icon: 'swap',
-    help: 'The other one comes to the left',
+    help: 'theOtherOne',
     onOffer: isComparing,
-    when: (c) => (isComparing(c) ? true : 'Compare two variants first.'),
+    when: (c) => (isComparing(c) ? true : TEXTS.compareTwoVariants),
     run: (c) => c.variants.swapSides(),
   },
   {
     id: 'next-parting',
-    label: 'Next moment at which they part',
+    label: TEXTS.nextMomentAt,
     keys: ['E'],
     icon: 'next',
-    help: 'From one of the listed moments to the next',
+    help: 'fromOneOfThe',
     onOffer: isComparing,
-    when: (c) => (isComparing(c) ? true : 'Compare two variants first.'),
+    when: (c) => (isComparing(c) ? true : TEXTS.compareTwoVariants),
     run: nextMoment,
   },
 ]);

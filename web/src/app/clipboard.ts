@@ -1,6 +1,7 @@
 // The browser's clipboard. Keys reach it by its own events, which need no permission; menus go by what is allowed.
 import type { Vec } from '../model/geometry';
 import type { Context } from '../actions/context';
+import { TEXTS } from '../texts/page';
 
 const isText = (el: EventTarget | null): boolean =>
   el instanceof HTMLInputElement || el instanceof HTMLTextAreaElement || !getSelection()?.isCollapsed;
@@ -13,7 +14,7 @@ function place({ gestures, stage, ui }: Context): Vec | null {
 
 function put(c: Context, text: string, at: Vec | null): void {
   if (c.copying.paste(text, at, c.stage.view.z)) c.reveal(c.editor.selected.peek());
-  else c.editor.notices.show({ text: 'There are no road users on the clipboard.' });
+  else c.editor.notices.show({ text: TEXTS.thereAreNoRoad });
 }
 
 /** Menus: the page may be forbidden to use the clipboard; then what was copied here last is what there is. */

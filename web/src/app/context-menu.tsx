@@ -7,6 +7,7 @@ import type { ContextMenu as Open } from '../actions/ui';
 import { useApp } from './parts/app-context';
 import { ActionButton } from './parts/buttons';
 import { Icon } from './parts/icons';
+import { TEXTS } from '../texts/context-menu';
 
 /** Ids of actions; null draws a line, a list with a name is a menu of its own. */
 type Entry = string | null | { readonly name: string; readonly icon: string; readonly items: readonly string[] };
@@ -16,7 +17,7 @@ const DOES = ['does-react', 'does-log', 'does-still'];
 const COPIES = ['copy', 'cut', 'duplicate', 'delete'];
 
 const MENUS: Record<MenuOn, readonly Entry[]> = {
-  'road user': [
+  'road-user': [
     ...COPIES,
     null,
     'lock',
@@ -68,11 +69,11 @@ const MENUS: Record<MenuOn, readonly Entry[]> = {
 };
 
 const ABOUT: Record<MenuOn, string> = {
-  'road user': 'Actions for this road user',
-  several: 'Actions for these road users',
-  future: 'Actions for this future',
-  goal: 'Actions for this goal',
-  ground: 'Actions for this place',
+  'road-user': TEXTS.actionsForThis,
+  several: TEXTS.actionsForThese,
+  future: TEXTS.actionsForThisFuture,
+  goal: TEXTS.actionsForThisGoal,
+  ground: TEXTS.actionsForThisPlace,
 };
 
 const EDGE_PX = 6;

@@ -1,8 +1,10 @@
 // What is said where a part of the page did not come.
 
 /** The words for a part, and for all of them. */
-export const NOT_LOADED = 'This part of the editor did not load. Nothing is lost.';
-const NOT_COMPLETE = 'The editor did not load completely. Your scenes are safe.';
+import { TEXTS } from '../texts/page';
+
+export const NOT_LOADED = TEXTS.thisPartOfThe;
+const NOT_COMPLETE = TEXTS.theEditorDid;
 
 /** Without its tools the page can only be loaded again; nothing that waits for them goes on. */
 export function sayIncomplete(over: HTMLElement): Promise<never> {
@@ -12,7 +14,7 @@ export function sayIncomplete(over: HTMLElement): Promise<never> {
   const again = document.createElement('button');
   again.type = 'button';
   again.className = 'btn';
-  again.textContent = 'Load again';
+  again.textContent = TEXTS.loadAgain;
   again.addEventListener('click', () => location.reload());
   toast.append(NOT_COMPLETE, again);
   over.append(toast);

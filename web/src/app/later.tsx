@@ -5,6 +5,7 @@ import type { ComponentProps, ComponentType } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { useSignal } from '@preact/signals';
 import { NOT_LOADED } from './incomplete';
+import { TEXTS } from '../texts/page';
 
 /** In the order in which they are likely to be wanted. */
 const PARTS = {
@@ -101,10 +102,10 @@ function NotLoaded({ again }: { again: () => void }) {
       <p>{NOT_LOADED}</p>
       <div class="row">
         <button type="button" class="btn line" onClick={again}>
-          Try again
+          {TEXTS.tryAgain}
         </button>
         <button type="button" class="btn" onClick={() => location.reload()}>
-          Load the page anew
+          {TEXTS.loadThePageAnew}
         </button>
       </div>
     </div>

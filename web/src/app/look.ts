@@ -133,5 +133,5 @@ export function openMenu(c: Context): void {
   const p = first && poseShown(editor, first);
   const v = stage.view;
   const at = p ? { x: v.x(p.x) + EDGE_PX, y: v.y(p.y) } : { x: v.w / 2, y: v.h / 3 };
-  ui.openContextMenu({ ...at, on: !first ? 'ground' : more.length ? 'several' : 'road user' });
+  ui.openContextMenu({ ...at, on: !first ? 'ground' : more.length ? 'several' : 'road-user' });
 }

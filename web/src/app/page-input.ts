@@ -4,6 +4,7 @@ import { keyOf } from '../actions/keys';
 import { walkEnds } from '../actions/look';
 import { actionForKey, perform } from '../actions/registry';
 import type { Action } from '../actions/action';
+import { TEXTS } from '../texts/page';
 
 export function listenToPage(c: Context): void {
   let space: { panned: number } | null = null;
@@ -67,7 +68,7 @@ function leaveButton(e: MouseEvent): void {
 function takeDrops({ importing, stage, ui }: Context): void {
   const veil = document.createElement('div');
   veil.className = 'dropping';
-  veil.textContent = 'Drop to import';
+  veil.textContent = TEXTS.dropToImport;
   /** How many elements the files are over: entering a child comes before leaving its parent. */
   let depth = 0;
   const gone = () => {

@@ -8,15 +8,16 @@ import { MenuButton, OpenMenu } from './menu';
 import { useApp } from './parts/app-context';
 import { Controls } from './parts/asking';
 import { ActionButton, IconButton } from './parts/buttons';
+import { TEXTS } from '../texts/page';
 
 const SAVED: Record<SaveState, string> = {
-  example: 'Example',
-  saved: 'Saved',
-  saving: 'Saving …',
-  local: 'Saved on this computer',
-  conflict: 'Changed elsewhere',
-  full: 'No room to save',
-  off: 'Not saved',
+  example: TEXTS.example,
+  saved: TEXTS.saved,
+  saving: TEXTS.saving,
+  local: TEXTS.savedOnThisComputer,
+  conflict: TEXTS.changedElsewhere,
+  full: TEXTS.noRoomToSave,
+  off: TEXTS.notSaved,
 };
 
 export function TopBar() {
@@ -26,7 +27,7 @@ export function TopBar() {
   return (
     <header class="top" data-group="top">
       <Logo />
-      <MenuButton name="file" icon="menu" label="File and settings" />
+      <MenuButton name="file" icon="menu" label={TEXTS.fileAndSettings} />
       <IconButton id="scenes" />
       <IconButton id="users" />
       <Title />
@@ -43,7 +44,7 @@ export function TopBar() {
       {open ? (
         <>
           <ActionButton id="palette" withKey size={16}>
-            <span class="mut">Actions</span>
+            <span class="mut">{TEXTS.actions}</span>
           </ActionButton>
           <ActionButton id="share" size={16} />
           <ActionButton id="export" class="line" size={16} />
@@ -60,7 +61,7 @@ export function TopBar() {
 function SmallBar({ open }: { open: boolean }) {
   return (
     <header class="top" data-group="top">
-      <MenuButton name="file" icon="menu" label="File and settings" />
+      <MenuButton name="file" icon="menu" label={TEXTS.fileAndSettings} />
       <Title />
       <div class="grow" />
       {open ? (
@@ -69,7 +70,7 @@ function SmallBar({ open }: { open: boolean }) {
           <IconButton id="share" />
         </>
       ) : null}
-      <MenuButton name="more" icon="more" label="More" />
+      <MenuButton name="more" icon="more" label={TEXTS.more} />
       <OpenMenu />
     </header>
   );
@@ -89,13 +90,13 @@ function Logo() {
 function Title() {
   const { editor, saving } = useApp();
   const id = useComputed(() => editor.scene.value?.id).value;
-  const name = useComputed(() => (editor.scene.value ? `${editor.scene.value.name}, DragTraffic` : 'DragTraffic'));
+  const name = useComputed(() => (editor.scene.value ? TEXTS.dragtraffic(editor.scene.value.name) : 'DragTraffic'));
   const state = useComputed(() => {
     const scene = editor.scene.value;
-    if (editor.dragging.value) return 'Dragging';
+    if (editor.dragging.value) return TEXTS.dragging;
     if (!scene) return '';
     const saved = saving.state.value;
-    return saved === 'example' && isRecorded(scene.source) ? 'Recorded scene' : SAVED[saved];
+    return saved === 'example' && isRecorded(scene.source) ? TEXTS.recordedScene : SAVED[saved];
   });
   return (
     <div class="title">
@@ -116,7 +117,7 @@ function NameField() {
     <input
       ref={input}
       type="text"
-      aria-label="Name of the scene"
+      aria-label={TEXTS.nameOfTheScene}
       maxlength={80}
       spellcheck={false}
       value={name}

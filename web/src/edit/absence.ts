@@ -1,5 +1,6 @@
 // The generator is away: it is tried again at growing intervals, and the changes that wait for it are counted.
 import type { Editor } from './editor';
+import { TEXTS } from '../texts/generation';
 
 const RETRY_S = [1, 2, 4, 6];
 
@@ -26,7 +27,7 @@ export class Absence {
     if (change) this.#waiting++;
     if (!this.now) {
       this.#tries = 0;
-      editor.notices.say('Generator away. Nothing is lost.', true);
+      editor.notices.say(TEXTS.generatorAway, true);
     }
     editor.answers.report({ kind: 'away' });
     this.#countDown();

@@ -5,6 +5,7 @@ import { wrapAngle } from '../model/geometry';
 import type { Editor } from './editor';
 import { addThem, copiesOf, movable, removeThem, tooMany, whoWords, withRoom } from './several';
 import { snapNewcomer } from './placing';
+import { TEXTS } from '../texts/moves';
 
 export class Copying {
   /** What was copied here last, for pages that may not read the clipboard. */
@@ -23,8 +24,8 @@ export class Copying {
     if (!all.length) return null;
     this.#last = copiesText(all);
     const who = whoWords(editor.chosenOnes);
-    editor.notices.show({ text: `${who} copied.` });
-    editor.notices.say(`${who} copied.`);
+    editor.notices.show({ text: TEXTS.copied(who) });
+    editor.notices.say(TEXTS.copied(who));
     return this.#last;
   }
 
@@ -83,7 +84,7 @@ export function removeSelected(editor: Editor): void {
     const command = removeThem(scene, free);
     editor.run(command);
     editor.notices.show({
-      text: `${command.name}.${stay ? ` ${stay} locked stay${stay > 1 ? '' : 's'}.` : ''}`,
+      text: `${command.name}.${stay ? TEXTS.lockedStay(stay) : ''}`,
       undo: true,
     });
     editor.notices.say(`${command.name}.`);
@@ -91,8 +92,7 @@ export function removeSelected(editor: Editor): void {
 }
 
 /** What is said where only locked ones were meant. */
-export const lockedWords = (n: number): string =>
-  n === 1 ? 'Locked. Ctrl L unlocks.' : `All ${n} are locked. Ctrl L unlocks.`;
+export const lockedWords = (n: number): string => TEXTS.allAreLocked(n);
 
 /** Says how many of the selected are locked, where some are. */
 export function sayLocked(editor: Editor): void {
@@ -100,7 +100,7 @@ export function sayLocked(editor: Editor): void {
   const locked = all.filter((a) => a.locked).length;
   if (!locked) return;
   const some = locked < all.length;
-  editor.notices.show({ text: some ? `${locked} locked stay${locked > 1 ? '' : 's'}.` : lockedWords(locked) });
+  editor.notices.show({ text: some ? TEXTS.lockedStay2(locked) : lockedWords(locked) });
 }
 
 /** Those of the selected that may be moved; says so where some of them are locked. */

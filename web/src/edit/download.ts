@@ -5,6 +5,7 @@ import type { Scene } from '../model/scene';
 import type { Editor } from './editor';
 import type { Loss } from './outward/losses';
 import type { SceneFile } from './scene-file';
+import { TEXTS } from '../texts/keeping';
 
 interface Source {
   readonly editor: Editor;
@@ -48,11 +49,11 @@ export async function download(c: Source, format: string): Promise<void> {
     const made = await exported(c, format);
     if (made) save(c.editor, made);
   } catch (e) {
-    c.editor.notices.show({ text: `Not exported: ${whyNot(e)}` });
+    c.editor.notices.show({ text: TEXTS.notExported(whyNot(e)) });
   }
 }
 
-export const whyNot = (e: unknown): string => (e instanceof Refused ? e.message : 'the server is not answering.');
+export const whyNot = (e: unknown): string => (e instanceof Refused ? e.message : TEXTS.theServerIsNotAnswering2);
 
 export function save(editor: Editor, file: ExportedFile): void {
   saveAll(editor, [file]);
@@ -61,8 +62,8 @@ export function save(editor: Editor, file: ExportedFile): void {
 export function saveAll(editor: Editor, files: readonly ExportedFile[]): void {
   for (const { blob, name } of files) offer(blob, name);
   const n = new Set(files.flatMap((f) => f.losses.map((l) => l.what))).size;
-  const what = files.length === 1 ? files[0].name : `${files.length} files`;
-  editor.notices.show({ text: n ? `${what} saved, without ${n} thing${n > 1 ? 's' : ''}.` : `${what} saved.` });
+  const what = files.length === 1 ? files[0].name : TEXTS.files(files.length);
+  editor.notices.show({ text: n ? TEXTS.savedWithout(n, what) : TEXTS.saved(what) });
 }
 
 export const slug = (s: string | undefined): string =>

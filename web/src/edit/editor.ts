@@ -22,6 +22,7 @@ import { Placement } from './placement';
 import { SpeedCurve } from './speed-curve';
 import { Playhead } from './playhead';
 import { Deck } from './rounds/deck';
+import { TEXTS } from '../texts/generation';
 
 export type Part = 'start' | 'goal';
 export type Field = 'pos' | 'heading' | 'speed';
@@ -283,11 +284,11 @@ export class Editor {
   }
 
   undo(): void {
-    this.#travel((h) => h.undo(), 'Undone');
+    this.#travel((h) => h.undo(), TEXTS.undone);
   }
 
   redo(): void {
-    this.#travel((h) => h.redo(), 'Done again');
+    this.#travel((h) => h.redo(), TEXTS.doneAgain);
   }
 
   /** To any step of the history; null for how the scene was before the first. */
@@ -295,9 +296,9 @@ export class Editor {
     const h = this.#history;
     if (!h || id === h.head || this.#refused()) return;
     const before = h.scene;
-    const name = h.step(id)?.name ?? 'Back to the beginning';
+    const name = h.step(id)?.name ?? TEXTS.backToTheBeginning;
     this.#committed(h.goTo(id), before, name, true);
-    this.notices.say(`Now at: ${name}.`);
+    this.notices.say(TEXTS.nowAt(name));
   }
 
   /** Another version of the same scene takes the place of this one; undo brings this one back. */
@@ -426,7 +427,7 @@ export class Editor {
       if (this.#history) this.#scene.value = this.#history.cancel();
       this.answers.dragPutBack();
     });
-    this.notices.say('Put back.');
+    this.notices.say(TEXTS.putBack);
   }
 
   /** May a lane set this heading? It may where a lane set it before. */
@@ -458,8 +459,8 @@ export class Editor {
       this.answers.forgetLook();
     });
     const a = this.agent.peek();
-    if (a) this.notices.say(`${a.name} selected.`);
-    else if (ids.length) this.notices.say(`${ids.length} road users selected.`);
+    if (a) this.notices.say(TEXTS.selected(a.name));
+    else if (ids.length) this.notices.say(TEXTS.roadUsersSelected(ids.length));
     this.onSelect?.(this.selection.peek());
   }
 

@@ -7,6 +7,7 @@ import { canMove, startPose, type Agent } from '../model/scene';
 import { speedLabel } from '../model/units';
 import type { Editor } from './editor';
 import { withField, type Remedy } from './moves';
+import { TEXTS } from '../texts/moves';
 
 /** Who starts slower comes so much later to the place, seconds. */
 const LATER_S = 2;
@@ -35,7 +36,7 @@ function otherFuture(e: Editor, a: Agent): Remedy | null {
   const letter = LETTERS[best.i];
   return {
     label: `${a.name}: ${best.m.name}`,
-    note: `future ${letter}`,
+    note: TEXTS.future(letter),
     icon: 'check',
     primary: true,
     command: choose(a, best.i, letter),
@@ -48,7 +49,7 @@ function slowerStart(e: Editor, a: Agent, ev: TrafficEvent): Remedy | null {
   if (v < LEAST_MPS || ev.time < SOON_S) return null;
   const speed = (v * ev.time) / (ev.time + LATER_S);
   return {
-    label: `Let ${a.name} start slower`,
+    label: TEXTS.letStartSlower(a.name),
     note: speedLabel(speed, e.unitOf(a)),
     icon: 'clock',
     primary: false,

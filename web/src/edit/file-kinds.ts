@@ -1,5 +1,7 @@
 // What a file is, by what is in it: its name may say something else.
 
+import { TEXTS } from '../texts/importing';
+
 interface Mark {
   readonly bytes: readonly number[];
   readonly kind: string;
@@ -8,13 +10,13 @@ interface Mark {
 const text = (s: string): number[] => [...s].map((c) => c.charCodeAt(0));
 
 const MARKS: readonly Mark[] = [
-  { bytes: text('%PDF'), kind: 'a PDF' },
-  { bytes: [0x50, 0x4b, 3, 4], kind: 'a ZIP archive' },
-  { bytes: text('AC10'), kind: 'a CAD drawing (DWG)' },
-  { bytes: [0x89, ...text('PNG')], kind: 'a picture' },
-  { bytes: [0xff, 0xd8, 0xff], kind: 'a picture' },
-  { bytes: text('GIF8'), kind: 'a picture' },
-  { bytes: [0xd0, 0xcf, 0x11, 0xe0], kind: 'an Office document' },
+  { bytes: text('%PDF'), kind: TEXTS.aPdf },
+  { bytes: [0x50, 0x4b, 3, 4], kind: TEXTS.aZipArchive },
+  { bytes: text('AC10'), kind: TEXTS.aCadDrawingDwg },
+  { bytes: [0x89, ...text('PNG')], kind: TEXTS.aPicture },
+  { bytes: [0xff, 0xd8, 0xff], kind: TEXTS.aPicture },
+  { bytes: text('GIF8'), kind: TEXTS.aPicture },
+  { bytes: [0xd0, 0xcf, 0x11, 0xe0], kind: TEXTS.anOfficeDocument },
 ];
 
 /** How many bytes tell. */
@@ -27,15 +29,15 @@ export async function foreignKind(file: Blob): Promise<string | null> {
 }
 
 const CALLED: Record<string, string> = {
-  json: 'saved scene',
-  tfrecord: 'scenario record',
-  xml: 'network',
-  csv: 'table',
-  parquet: 'table',
+  json: TEXTS.savedScene,
+  tfrecord: TEXTS.scenarioRecord,
+  xml: TEXTS.network,
+  csv: TEXTS.table,
+  parquet: TEXTS.table,
 };
 
 /** What its name says that it is. */
 export function kindByName(name: string): string {
   const ending = name.toLowerCase().replace(/\.gz$/, '').split('.').pop() ?? '';
-  return CALLED[ending] ?? 'file';
+  return CALLED[ending] ?? TEXTS.file;
 }

@@ -16,6 +16,7 @@ import type { FillAnswer, FillWish } from './filling';
 import { inTheWay, standing } from './room';
 import type { SceneFile } from './scene-file';
 import { MOST_AT_ONCE, addThem, tooMany } from './several';
+import { TEXTS } from '../texts/keeping';
 
 /** A slider that moves asks when it rests so long. */
 const REST_MS = 80;
@@ -62,7 +63,7 @@ export class Filler {
       if (!abort.signal.aborted) filling.settle(answer);
     } catch (e) {
       if (abort.signal.aborted) return;
-      const reason = e instanceof Refused ? e.message : 'The generator is not answering.';
+      const reason = e instanceof Refused ? e.message : TEXTS.theGenerator;
       if (!(e instanceof Refused) && !(e instanceof Away)) throw e;
       filling.settle({ all: [], reason, replaced: [] });
     }
@@ -89,7 +90,7 @@ export class Filler {
     const all = recast(withoutThoseOf(wish.pinned, drawn), wish.mix, taken);
     const most = MOST_AT_ONCE - wish.pinned.length;
     if (all.length <= most) return { all, reason, replaced };
-    const why = `The generator works out ${MOST_AT_ONCE} at once. For more, fill one area after the other.`;
+    const why = TEXTS.theGeneratorWorks(MOST_AT_ONCE);
     return { all: thinned(all, most), reason: why, replaced };
   }
 
@@ -104,7 +105,7 @@ export class Filler {
     const gone = answer.replaced.filter((id) => scene.agents.has(id));
     const full = tooMany(scene, all.length - gone.length);
     if (full || !all.length) {
-      notices.show({ text: full ?? answer.reason ?? 'There is no room here.' });
+      notices.show({ text: full ?? answer.reason ?? TEXTS.thereIsNoRoom });
       return;
     }
     editor.playhead.pause();
@@ -112,7 +113,7 @@ export class Filler {
     const come = addThem(scene, all, 'placed');
     editor.chooseTool('select');
     editor.run(gone.length ? inOneStep(removeAgents(scene, gone, ''), come, come.name) : come);
-    if (answer.reason) notices.show({ text: `${all.length} road users placed. ${answer.reason}`, undo: true });
+    if (answer.reason) notices.show({ text: TEXTS.roadUsersPlaced(all.length, answer.reason), undo: true });
   }
 }
 

@@ -21,6 +21,7 @@ import type { Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import { sketchFutures } from './sketch';
 import { judgedCurves, withCurves } from './speed-curve';
+import { TEXTS } from '../texts/generation';
 
 /** A key held down asks once, when it rests. */
 const REST_MS = 80;
@@ -80,7 +81,7 @@ export class Generation implements Previews {
   /** A scene was opened that lacks the answers to what is changed in it. */
   opened(everybody: boolean): void {
     const scene = this.editor.scene.peek();
-    const step = { name: 'Scene opened', agent: null, undo: true, ...(everybody ? { everybody } : {}) };
+    const step = { name: TEXTS.sceneOpened, agent: null, undo: true, ...(everybody ? { everybody } : {}) };
     if (scene) this.#committed(scene, step);
   }
 
@@ -324,10 +325,10 @@ export class Generation implements Previews {
   #back(waiting: number): void {
     const { editor } = this;
     this.saving.retry();
-    const done = waiting ? ` ${waiting} change${waiting > 1 ? 's' : ''} worked out.` : '';
-    editor.notices.show({ text: `The generator is back.${done}` });
+    const done = waiting ? TEXTS.changesWorked(waiting) : '';
+    editor.notices.show({ text: TEXTS.theGenerator(done) });
     const agent = editor.selection.peek();
-    if (editor.motion.peek().stale) this.#workOut({ name: 'Waiting changes', agent, undo: true });
+    if (editor.motion.peek().stale) this.#workOut({ name: TEXTS.waitingChanges, agent, undo: true });
     else this.#selected(agent);
   }
 

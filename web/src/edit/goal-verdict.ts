@@ -5,6 +5,7 @@ import { isBlocked, reachWords, type Reach } from '../model/futures';
 import { nameIn, type Agent } from '../model/scene';
 import { metres } from '../model/units';
 import type { Editor } from './editor';
+import { TEXTS } from '../texts/picture';
 
 /** Why a goal cannot be reached, and the nearest place that can. */
 export interface OutOfReach {
@@ -73,6 +74,6 @@ export function roadGoal(e: Editor, a: Agent): RoadGoal | null {
   // That near it is the goal itself.
   if (distance < LEAST_M) return null;
   const ahead = dx * Math.cos(to.heading) + dy * Math.sin(to.heading);
-  const where = ahead > distance / 2 ? 'further on' : ahead < -distance / 2 ? 'before it' : 'beside it';
-  return { x: to.x, y: to.y, heading: to.heading, words: `By the road: ${metres(distance, 0)} ${where}` };
+  const where = ahead > distance / 2 ? TEXTS.furtherOn : ahead < -distance / 2 ? TEXTS.beforeIt : TEXTS.besideIt;
+  return { x: to.x, y: to.y, heading: to.heading, words: TEXTS.byTheRoad(metres(distance, 0), where) };
 }

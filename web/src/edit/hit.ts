@@ -15,7 +15,7 @@ import { onPennant, type Pennant } from '../draw/marks';
 export type Hit =
   | { kind: 'grip'; grip: Grip }
   | { kind: 'future'; index: number }
-  | { kind: 'by road' }
+  | { kind: 'by-road' }
   /** The bar of a stop, by its point of the speed curve. */
   | { kind: 'stop'; point: number }
   /** `beside`: a finger came down near it, and not on it. */
@@ -62,13 +62,13 @@ export interface HitContext {
 export function hitTest(c: HitContext, x: number, y: number): Hit {
   const a = c.editor.agent.value;
   if (a && canChange(a)) {
-    if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by road' };
+    if (c.roadSign?.label && inRect(c.roadSign.label, x, y)) return { kind: 'by-road' };
     const grip = a.locked ? null : gripAt(c, a, x, y);
     // A bar is small, and a flag or a box behind it can be taken elsewhere.
     const stop = c.stops.find(({ ends }) => awayFrom(ends, x, y) <= (c.touch ? FINGER_PX : 7));
     if (stop && !a.locked && (!grip || grip.handle === 'body')) return { kind: 'stop', point: stop.point };
     if (grip) return { kind: 'grip', grip };
-    if (c.roadSign?.flag && onFlag(c.view, c.roadSign.flag, x, y)) return { kind: 'by road' };
+    if (c.roadSign?.flag && onFlag(c.view, c.roadSign.flag, x, y)) return { kind: 'by-road' };
     for (const chip of c.chips)
       if (near([chip.x, chip.y], x, y, c.touch ? FINGER_PX : 11)) return { kind: 'future', index: chip.index };
     if (c.editor.layers.value.futures && futureAt(c, c.editor.chosen.value, x, y))

@@ -8,6 +8,7 @@ import type { Editor } from './editor';
 import { foreignKind, kindByName } from './file-kinds';
 import type { Library } from './library';
 import { countAll, type SceneList } from './scene-list';
+import { TEXTS } from '../texts/importing';
 
 export interface ImportedScene {
   readonly id: string;
@@ -70,7 +71,7 @@ export class Importing {
   async files(files: readonly File[]): Promise<void> {
     const { notices } = this.editor;
     const verdicts: FileVerdict[] = [];
-    notices.show({ text: `Reading ${files.length === 1 ? files[0].name : `${files.length} files`} …` }, READING_MS);
+    notices.show({ text: TEXTS.reading(files.length === 1 ? files[0].name : TEXTS.files2(files.length)) }, READING_MS);
     for (const { file, net } of inPairs(files)) verdicts.push(await this.#one(file, net));
     await this.list.refresh().catch(() => undefined);
     notices.hide();
@@ -82,12 +83,12 @@ export class Importing {
 
   /** One scene is on screen: a word is enough, with the way to what was assumed. */
   #sayImported(v: FileVerdict, without: string, all: readonly FileVerdict[]): void {
-    const text = `${v.scenes[0]?.name || v.file} imported${without}.`;
+    const text = TEXTS.imported(v.scenes[0]?.name || v.file, without);
     const n = v.notes?.length ?? 0;
     const run = (): void => {
       this.#verdicts.value = all;
     };
-    const action = n ? { label: `${n} thing${n > 1 ? 's' : ''} assumed`, run } : undefined;
+    const action = n ? { label: TEXTS.thingsAssumed(n), run } : undefined;
     this.editor.notices.show({ text, action });
   }
 
@@ -117,7 +118,7 @@ export class Importing {
     if (now.scenes.length) await this.library.open(now.scenes[0].id);
     if (now.ok && rest.every((o) => o.ok)) {
       this.close();
-      const without = v.without ? ` without ${v.without.join(', ')}` : '';
+      const without = v.without ? TEXTS.without(v.without.join(', ')) : '';
       this.#sayImported(now, without, rest);
     } else this.#verdicts.value = rest;
   }
@@ -131,7 +132,7 @@ export class Importing {
   async #send(name: string, file: Blob, without: readonly string[] = [], beside: Beside = {}): Promise<FileVerdict> {
     try {
       const v = verdictOf(name, await this.client.importFile(name, file, beside));
-      return without.length && v.ok ? { ...v, wrong: `Without ${without.join(', ')}.` } : v;
+      return without.length && v.ok ? { ...v, wrong: TEXTS.without2(without.join(', ')) } : v;
     } catch (e) {
       if (!(e instanceof Refused)) return awayVerdict(name, file);
       return this.#refused(name, file, e.problem, without);
@@ -143,15 +144,15 @@ export class Importing {
     const plain = { file: name, kind: kindByName(name), ok: false, scenes: [], ...explain(name, p) };
     const columns = columnsIn(p);
     if (columns) {
-      const wrong = 'This table names its columns in its own way.';
-      const verdict: FileVerdict = { ...plain, columns, wrong, todo: 'Say what they are, and it is read.' };
+      const wrong = TEXTS.thisTableNames;
+      const verdict: FileVerdict = { ...plain, columns, wrong, todo: TEXTS.sayWhatTheyAre };
       this.#tables.set(verdict, file);
       return verdict;
     }
     const text = file.size <= MOST_TEXT_BYTES ? await file.text() : '';
     const { lookInto } = await import('./broken-file');
     const { excerpt, part, mended } = lookInto(text, p);
-    const found = { ...plain, excerpt, ...(excerpt ? { where: `${name}, line ${excerpt.line}` } : {}) };
+    const found = { ...plain, excerpt, ...(excerpt ? { where: TEXTS.line(name, excerpt.line) } : {}) };
     const said = part ? { ...found, wrong: `${capital(part.name)}: ${plain.wrong}.` } : found;
     if (!mended || without.length > MOST_ROUNDS) return said;
     const verdict: FileVerdict = { ...said, without: [...without, ...mended.without], todo: undefined };
@@ -188,18 +189,18 @@ export function inPairs(files: readonly File[]): { readonly file: File; readonly
 
 const capital = (s: string): string => s[0].toUpperCase() + s.slice(1);
 
-const READABLE = 'Scenario records, lane maps, tables of motion and saved scenes can be read.';
+const READABLE = TEXTS.scenarioRecords;
 
 function foreignVerdict(file: string, kind: string): FileVerdict {
   const ending = /\.(json|tfrecord|xml|csv|parquet)(\.gz)?$/i.exec(file)?.[0];
-  const wrong = ending ? `Named ${ending}, but it is ${kind}.` : `“${file}” is not a scene: it is ${kind}.`;
+  const wrong = ending ? TEXTS.namedButItIs(ending, kind) : TEXTS.isNotASceneIt(file, kind);
   return {
     file,
     kind: kind.replace(/^an? /, ''),
     ok: false,
     scenes: [],
     wrong,
-    todo: `${READABLE} Choose another file.`,
+    todo: TEXTS.chooseAnotherFile(READABLE),
   };
 }
 
@@ -208,8 +209,8 @@ const awayVerdict = (file: string, again: Blob): FileVerdict => ({
   kind: kindByName(file),
   ok: false,
   scenes: [],
-  wrong: 'The server is not answering.',
-  todo: 'Try again when the generator is back. The file was not changed.',
+  wrong: TEXTS.theServerIsNotAnswering,
+  todo: TEXTS.tryAgainWhen,
   again: again instanceof File ? again : undefined,
 });
 
@@ -225,16 +226,16 @@ function verdictOf(file: string, reply: ImportReply): FileVerdict {
   if (!scenes.length) return { file, kind, ok: false, scenes, ...explain(file, skipped[0]?.problem) };
   if (!skipped.length) return { file, kind, ok: true, scenes, notes };
   const { detail } = skipped[0].problem;
-  const share = `${skipped.length} of ${scenes.length + skipped.length} scenes in this file could not be read`;
+  const share = TEXTS.ofScenesInThis(skipped.length, scenes.length + skipped.length);
   return { file, kind, ok: true, scenes, wrong: `${share}: ${detail}` };
 }
 
 type Explanation = Pick<FileVerdict, 'wrong' | 'where' | 'todo' | 'details'>;
 
 function explain(file: string, p: Problem | undefined): Explanation {
-  if (!p) return { wrong: 'There is no scene in this file.', todo: READABLE };
+  if (!p) return { wrong: TEXTS.thereIsNoScene, todo: READABLE };
   const first = p.errors?.[0];
-  const where = [file, first?.pointer, p.offset !== undefined ? `byte ${p.offset}` : ''].filter(Boolean).join(', ');
+  const where = [file, first?.pointer, p.offset !== undefined ? TEXTS.byte(p.offset) : ''].filter(Boolean).join(', ');
   return { wrong: inWords(file, p), where, todo: whatToDo(p.code), details: JSON.stringify(p, null, 2) };
 }
 
@@ -242,21 +243,19 @@ function explain(file: string, p: Problem | undefined): Explanation {
 function inWords(file: string, p: Problem): string {
   const said = p.errors?.[0]?.detail ?? p.reason ?? p.detail ?? p.title;
   // A file of a kind that is known is called what it is.
-  if (p.code === 'format-unknown' && said.startsWith('not a file of a known format'))
-    return `“${file}” is not a scene.`;
+  if (p.code === 'format-unknown' && said.startsWith('not a file of a known format')) return TEXTS.isNotAScene(file);
   const points = /^(\d+) points; (\d+) to \d+ expected$/.exec(said);
-  if (points)
-    return `it has ${points[1] === '1' ? 'only one point' : `${points[1]} points`}, and needs ${points[2]} at least`;
+  if (points) return points[1] === '1' ? TEXTS.itHasOnlyOne(points[2]) : TEXTS.itHasPointsAnd(points[1], points[2]);
   const many = /^\d+ agents; at most (\d+)$/.exec(said);
-  if (many) return `This scene has more road users than the ${many[1]} that a scene may have.`;
+  if (many) return TEXTS.thisSceneHas(many[1]);
   if (p.code === 'malformed-json')
-    return `The text breaks off or is no JSON: ${said.replace(/^line \d+, column \d+: /, '').replaceAll('`', '”')}.`;
+    return TEXTS.theTextBreaks(said.replace(/^line \d+, column \d+: /, '').replaceAll('`', '”'));
   return said;
 }
 
 function whatToDo(code: Problem['code']): string {
-  if (code === 'format-unknown') return `${READABLE} Choose another file.`;
-  if (code.includes('too-large')) return 'The file is larger than the server takes. Split it, or use the command line.';
-  if (code === 'unsupported-version') return 'Update this program, or save the scene again with the version you have.';
-  return 'Mend the file and drop it again, or choose another one.';
+  if (code === 'format-unknown') return TEXTS.chooseAnotherFile(READABLE);
+  if (code.includes('too-large')) return TEXTS.theFileIsLarger;
+  if (code === 'unsupported-version') return TEXTS.updateThisProgram;
+  return TEXTS.mendTheFileAnd;
 }

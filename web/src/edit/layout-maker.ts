@@ -11,6 +11,7 @@ import type { Editor } from './editor';
 import type { MapWish } from './layouts';
 import type { SceneCare } from './scene-care';
 import type { SceneFile } from './scene-file';
+import { TEXTS } from '../texts/keeping';
 
 const FIRST_TEMPLATE: TemplateName = 'four-arms';
 /** Who stands farther from every lane than this does not stand on one, metres. */
@@ -84,7 +85,7 @@ export class LayoutMaker {
         if (layouts.wish.peek()?.template === wish.template) layouts.settle(reply, performance.now() - began);
       } catch (e) {
         if (!(e instanceof Refused) && !(e instanceof Away)) throw e;
-        layouts.refuse(e instanceof Refused ? e.message : 'The server is not answering.');
+        layouts.refuse(e instanceof Refused ? e.message : TEXTS.theServerIsNot);
       }
     }
     this.#running = false;
@@ -108,13 +109,13 @@ export class LayoutMaker {
     const base = layouts.base;
     if (!made || layouts.asking.peek()) return;
     layouts.close();
-    if (!base) return this.care.newOnMap(made.json, made.json.name ?? 'New map');
+    if (!base) return this.care.newOnMap(made.json, made.json.name ?? TEXTS.newMap);
     const agents: AgentJson[] = base.agents;
     const body: SceneJson = { ...base, map: made.json.map, signals: made.json.signals, agents, generated: null };
     Object.assign(body, { x_layout: made.layout });
     const lost = offTheLanes(body);
-    const said = lost.length ? `${lost.length} no longer stand on a lane: ${lost.slice(0, 5).join(', ')}.` : '';
-    return this.care.newOnMap(body, `${base.name}, other map`, said);
+    const said = lost.length ? TEXTS.noLongerStand(lost.length, lost.slice(0, 5).join(', ')) : '';
+    return this.care.newOnMap(body, TEXTS.otherMap(base.name), said);
   }
 }
 

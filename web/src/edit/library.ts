@@ -11,6 +11,7 @@ import { resume, type Journal } from './journal';
 import type { Saving } from './saving';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
+import { TEXTS } from '../texts/keeping';
 
 const WELCOME_BACK_MS = 9000;
 /** Less than a tab that waits for its turn has patience. */
@@ -109,7 +110,7 @@ export class Library {
 
   #failed(e: unknown): void {
     const known = e instanceof SceneError || e instanceof Refused;
-    this.#openError.value = known ? e.message : 'The scene could not be loaded. The server is not answering.';
+    this.#openError.value = known ? e.message : TEXTS.theSceneCould;
     if (!known && !(e instanceof Away)) throw e;
   }
 
@@ -142,7 +143,7 @@ export class Library {
     const seen = { who: selection.peek(), when: time.peek() };
     batch(() => {
       editor.open(scene, saved, history);
-      if (mine && standing === 'behind') editor.history!.adopt('Changed elsewhere', plain);
+      if (mine && standing === 'behind') editor.history!.adopt(TEXTS.changedElsewhere, plain);
       if (!mine) this.#elsewhere();
     });
     this.saving.opened(scene, etag, standing === 'ahead' || standing === 'conflict' ? standing : 'same');
@@ -188,8 +189,8 @@ export class Library {
   }
 
   #welcomeBack(): void {
-    const action = { label: 'Start fresh', run: () => this.editor.goTo(null) };
-    this.editor.notices.show({ text: 'Your changes from last time are back.', action }, WELCOME_BACK_MS);
+    const action = { label: TEXTS.startFresh, run: () => this.editor.goTo(null) };
+    this.editor.notices.show({ text: TEXTS.yourChangesFrom, action }, WELCOME_BACK_MS);
   }
 
   // -------------------------------------------------------------- tabs
@@ -201,8 +202,8 @@ export class Library {
 
   #lock(): void {
     const lock: Lock = {
-      words: 'This scene is open in another tab. Here it is read-only.',
-      label: 'Edit here',
+      words: TEXTS.thisSceneIsOpen,
+      label: TEXTS.editHere,
       run: () => this.editHere(),
     };
     this.editor.lockWith(lock);
@@ -229,7 +230,7 @@ export class Library {
     if (!id) return;
     try {
       const { json, map, etag } = await this.#fetch(id);
-      this.editor.adopt('The other version taken', readScene(json, map));
+      this.editor.adopt(TEXTS.theOtherVersion, readScene(json, map));
       this.saving.tookTheirs(etag);
       if (etag) this.journal.synced(etag, this.editor.history?.head ?? null);
     } catch (e) {

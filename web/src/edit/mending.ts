@@ -1,6 +1,7 @@
 // What can be taken of a scene whose file is broken in places: everything but the parts that are named as broken.
 import { isMapRef, type MapJson, type SceneJson } from '../model/json';
 import type { Problem } from '../net/types';
+import { TEXTS } from '../texts/imports';
 
 export interface Mended {
   readonly scene: SceneJson;
@@ -10,16 +11,16 @@ export interface Mended {
 
 /** Parts that a scene can do without, by where their lists stand. */
 const PARTS: readonly { readonly list: string; readonly name: string }[] = [
-  { list: '/map/lanes', name: 'lane' },
-  { list: '/map/road_lines', name: 'road line' },
-  { list: '/map/road_edges', name: 'kerb' },
-  { list: '/map/crosswalks', name: 'crosswalk' },
-  { list: '/map/speed_bumps', name: 'speed bump' },
-  { list: '/map/driveways', name: 'driveway' },
-  { list: '/map/stop_signs', name: 'stop sign' },
-  { list: '/map/drivable', name: 'paved area' },
-  { list: '/signals', name: 'signal' },
-  { list: '/agents', name: 'road user' },
+  { list: '/map/lanes', name: TEXTS.lane },
+  { list: '/map/road_lines', name: TEXTS.roadLine },
+  { list: '/map/road_edges', name: TEXTS.kerb },
+  { list: '/map/crosswalks', name: TEXTS.crosswalk },
+  { list: '/map/speed_bumps', name: TEXTS.speedBump },
+  { list: '/map/driveways', name: TEXTS.driveway },
+  { list: '/map/stop_signs', name: TEXTS.stopSign },
+  { list: '/map/drivable', name: TEXTS.pavedArea },
+  { list: '/signals', name: TEXTS.signal },
+  { list: '/agents', name: TEXTS.roadUser },
 ];
 
 export interface BrokenPart {
@@ -73,7 +74,7 @@ function fewer(scene: SceneJson, problem: Problem): Mended | null {
   const most = Number(/at most (\d+)/.exec(problem.detail ?? '')?.[1]);
   if (!Number.isInteger(most) || scene.agents.length <= most) return null;
   const rest = scene.agents.length - most;
-  return { scene: { ...scene, agents: scene.agents.slice(0, most) }, without: [`the last ${rest} road users`] };
+  return { scene: { ...scene, agents: scene.agents.slice(0, most) }, without: [TEXTS.theLastRoadUsers(rest)] };
 }
 
 /** Nothing leads to a lane that is not there. */

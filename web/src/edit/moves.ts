@@ -10,11 +10,12 @@ import { metres, toUnit } from '../model/units';
 import type { Editor, Field, Part } from './editor';
 import { knownReach } from './goal-verdict';
 import { lanesFor } from './snap';
+import { TEXTS } from '../texts/moves';
 
 /** Seconds at which a goal may be due: up to the end of what is worked out. */
 export const timeRange = (s: Scene | null): readonly [number, number] => [1, s?.length ?? GOAL_TIME];
 export const goalTime = (s: Scene | null, t: number): number => Math.min(timeRange(s)[1], Math.max(timeRange(s)[0], t));
-const FIELD_WORDS = { pos: 'position', heading: 'heading', speed: 'speed' } as const;
+const FIELD_WORDS = { pos: TEXTS.position, heading: TEXTS.heading2, speed: TEXTS.speed2 } as const;
 
 const freeze = (p: Vec): Vec => Object.freeze([p[0], p[1]] as const);
 
@@ -26,20 +27,20 @@ export function withField(a: Agent, part: Part, patch: Partial<GoalSpec>, fold =
   const words =
     'pos' in patch
       ? part === 'goal'
-        ? 'Goal'
-        : 'Start'
+        ? TEXTS.goal
+        : TEXTS.start
       : 'heading' in patch
-        ? `${part === 'goal' ? 'Goal heading' : 'Heading'}`
+        ? `${part === 'goal' ? TEXTS.goalHeading : TEXTS.heading}`
         : 'speed' in patch
-          ? `${part === 'goal' ? 'Goal speed' : 'Speed'}`
-          : 'Goal time';
-  const done = 'pos' in patch ? 'moved' : 'changed';
+          ? `${part === 'goal' ? TEXTS.goalSpeed : TEXTS.speed}`
+          : TEXTS.goalTime;
+  const done = 'pos' in patch ? TEXTS.moved2 : TEXTS.changed;
   const c =
     part === 'goal'
       ? setGoal(a, { ...a.goal, ...patch })
       : setStart(a, { pos: a.start.pos, heading: a.start.heading, speed: a.start.speed, ...patch } as StartSpec);
   const field = Object.keys(patch)[0];
-  return { ...c, name: `${words} of ${a.name} ${done}`, fold: fold ? `${part}:${field}:${a.id}` : undefined };
+  return { ...c, name: TEXTS.of(words, a.name, done), fold: fold ? `${part}:${field}:${a.id}` : undefined };
 }
 
 /** Switches one field between Fixed, at the value shown, and Free. */
@@ -55,14 +56,21 @@ export function toggleField(e: Editor, a: Agent, part: Part, field: Field): Comm
   const c = withField(a, part, { [field]: value } as Partial<GoalSpec>);
   return {
     ...c,
-    name: `${part === 'goal' ? 'Goal' : 'Start'} ${FIELD_WORDS[field]} of ${a.name} ${free ? 'free' : 'fixed'}`,
+    name:
+      part === 'goal'
+        ? free
+          ? TEXTS.goalOfFree(FIELD_WORDS[field], a.name)
+          : TEXTS.goalOfFixed(FIELD_WORDS[field], a.name)
+        : free
+          ? TEXTS.startOfFree(FIELD_WORDS[field], a.name)
+          : TEXTS.startOfFixed(FIELD_WORDS[field], a.name),
   };
 }
 
 /** A goal where the chosen future ends: the keyboard's way to take the flag. */
 export function goalHere(e: Editor, a: Agent): Command | null {
   const p = e.goalPose(a);
-  return p ? { ...setGoal(a, { ...a.goal, pos: freeze([p.x, p.y]) }), name: `Goal of ${a.name} set` } : null;
+  return p ? { ...setGoal(a, { ...a.goal, pos: freeze([p.x, p.y]) }), name: TEXTS.goalOfSet(a.name) } : null;
 }
 
 export function nudge(e: Editor, a: Agent, part: Part, dx: number, dy: number): Command | null {
@@ -163,29 +171,29 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
     const heading = a.goal.heading === null ? null : nearest.heading;
     const speed = a.goal.speed === null ? null : nearest.speed;
     out.push({
-      label: 'Use nearest reachable',
+      label: TEXTS.useNearestReachable,
       note: metres(gets, 0),
       icon: 'flag',
       primary: true,
       command: goalStep(
         a,
         { ...a.goal, pos: freeze([nearest.x, nearest.y]), heading, speed },
-        `Goal of ${a.name} moved to the nearest reachable point`,
+        TEXTS.goalOfMovedTo(a.name),
       ),
     });
   }
   const bend = verdict?.limiting === 'lateral' || verdict?.limiting === 'curvature' || local?.kind === 'sharp';
   if (bend && a.goal.heading !== null)
     out.push({
-      label: 'Leave the heading free',
-      note: 'wider goal',
+      label: TEXTS.leaveTheHeading,
+      note: TEXTS.widerGoal,
       icon: 'lock',
       primary: false,
       command: withField(a, 'goal', { heading: null }),
     });
   if (local?.time && local.time > a.goal.time)
     out.push({
-      label: 'Give it more time',
+      label: TEXTS.giveItMoreTime,
       note: `${local.time.toFixed(1)} s`,
       icon: 'clock',
       primary: false,
@@ -196,7 +204,7 @@ export function remedies(e: Editor, a: Agent): Remedy[] {
     const v = Math.min(limitsOf(a).speed_mps, local.speed);
     const note = unit === 'm/s' ? `${v.toFixed(1)} m/s` : `${Math.ceil(toUnit(v, unit))} ${unit}`;
     out.push({
-      label: faster ? 'Start faster' : 'Start slower',
+      label: faster ? TEXTS.startFaster : TEXTS.startSlower,
       note,
       icon: 'play',
       primary: false,

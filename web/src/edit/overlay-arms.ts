@@ -9,6 +9,7 @@ import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { knobs, type Knob } from './gestures/arms';
 import type { Made } from './layouts';
+import { TEXTS } from '../texts/picture';
 
 const KNOB_PX = 9;
 const BUTTON_PX = 8;
@@ -122,7 +123,7 @@ export class ArmsOverlay {
           ],
         });
       } else if (k.kind === 'kerb' && k.corner === 0)
-        pill(g, this.labels, x, y, `Kerb ${num(made.corners[0].radius_m, 1)} m`, { must: false });
+        pill(g, this.labels, x, y, TEXTS.kerbM(num(made.corners[0].radius_m, 1)), { must: false });
     }
     const fault = layouts.fault.value;
     const [x, y] = v.to(...(all.find((k) => k.kind === 'arm' && k.arm === layouts.arm.value)?.at ?? [0, 0]));

@@ -9,6 +9,7 @@ import { paintRing } from '../draw/handles';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
+import { TEXTS } from '../texts/picture';
 
 /** An event is shown this long before and after it. */
 const NEAR_S = 0.45;
@@ -90,11 +91,11 @@ function paintMarks(
 function paintLabel(g: Pen, v: View, labels: Labels, ev: TrafficEvent): void {
   const text =
     ev.kind === 'collision'
-      ? `Collision · ${ev.title}`
+      ? TEXTS.collision(ev.title)
       : ev.b
         ? `${seconds(ev.time)} · ${ev.short}`
         : `${seconds(ev.time)} · ${ev.title}, ${ev.short}`;
-  tag(g, labels, [v.x(ev.at[0]), v.y(ev.at[1])], ev.inLog ? `${text} · in the log` : text, {
+  tag(g, labels, [v.x(ev.at[0]), v.y(ev.at[1])], ev.inLog ? TEXTS.inTheLog(text) : text, {
     ...styleOf(ev),
     radii: [44, 60, 84],
     height: 22,

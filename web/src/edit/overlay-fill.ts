@@ -9,6 +9,7 @@ import { sizeOnScreen, stamp, type Sized } from '../draw/sprites';
 import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
+import { TEXTS } from '../texts/picture';
 
 const CORNER_PX = 8;
 const DASH = [6, 4];
@@ -32,7 +33,7 @@ export class FillOverlay {
     for (const n of filling.all.value) this.#paintOne(g, v, n, wish.pinned.includes(n));
     if (drawn) return;
     const n = filling.all.value.length;
-    if (wish.region) this.#paintCount(g, v, wish.region, filling.asking.value && !n ? '…' : `${n} to add`);
+    if (wish.region) this.#paintCount(g, v, wish.region, filling.asking.value && !n ? '…' : TEXTS.toAdd(n));
   }
 
   #paintOutline(g: Pen, v: View, outline: readonly Vec[], closed: boolean): void {

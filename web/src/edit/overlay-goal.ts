@@ -12,6 +12,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor, Lag } from './editor';
 import { outOfReach, type OutOfReach } from './goal-verdict';
+import { TEXTS } from '../texts/picture';
 
 export class GoalOverlay {
   /** Where the time tag was painted, for the pointer. */
@@ -103,7 +104,7 @@ export class GoalOverlay {
     paintFlag(g, this.labels, [x, y], colour, !goal.set, v.grip);
     if (bad) this.paintNearest(g, v, a, bad.nearest);
     const said = bad && !bad.outranked;
-    const text = said ? bad.title : goal.set ? `Goal · ${seconds(a.goal.time)}` : 'Goal · free';
+    const text = said ? bad.title : goal.set ? TEXTS.goal(seconds(a.goal.time)) : TEXTS.goalFree;
     if (drag?.part === 'goal' && drag.handle === 'body') return;
     const r = pill(
       g,
@@ -149,7 +150,7 @@ export class GoalOverlay {
       y = v.y(nearest.y);
     const start = startPose(a);
     const far = start && a.goal.pos ? shortfall(start, a.goal.pos, nearest, this.editor.localReach.value) : null;
-    tag(g, this.labels, [x, y], far ? `Nearest reachable · ${metres(far.gets, 0)}` : 'Nearest reachable', {
+    tag(g, this.labels, [x, y], far ? TEXTS.nearestReachable(metres(far.gets, 0)) : TEXTS.nearestReachable2, {
       tries: [
         [34, -26],
         [-170, -26],
@@ -164,7 +165,7 @@ export class GoalOverlay {
         g,
         this.labels,
         [(x + v.x(a.goal.pos[0])) / 2, (y + v.y(a.goal.pos[1])) / 2],
-        `${metres(far.beyond, 0)} beyond reach`,
+        TEXTS.beyondReach(metres(far.beyond, 0)),
         { weight: 500, must: false },
       );
   }
@@ -178,7 +179,7 @@ export class GoalOverlay {
       [20, 12],
       [-100, -10],
     ] as const;
-    tag(g, this.labels, hand, touch ? 'Hold to pass' : 'Alt passes', { tries });
+    tag(g, this.labels, hand, touch ? TEXTS.holdToPass : TEXTS.altPasses, { tries });
   }
 
   dragLabels(g: Pen, v: View, a: Agent, goal: Pose | null): void {
@@ -191,23 +192,17 @@ export class GoalOverlay {
     const [x, y] = v.to(p.x, p.y);
     const r = this.editor.localReach.value;
     if (d.laneName)
-      tag(
-        g,
-        this.labels,
-        [x, y],
-        `on ${d.laneName}`.replace('on on foot', 'on foot').replace('on off', 'off').replace('on inside', 'inside'),
-        {
-          tries: [
-            [34, -46],
-            [-150, -46],
-            [34, 12],
-          ],
-          bg: d.grip.part === 'goal' ? c.goal : c.select,
-          fg: d.grip.part === 'goal' ? c.surface : c.halo,
-        },
-      );
+      tag(g, this.labels, [x, y], TEXTS.on(d.laneName), {
+        tries: [
+          [34, -46],
+          [-150, -46],
+          [34, 12],
+        ],
+        bg: d.grip.part === 'goal' ? c.goal : c.select,
+        fg: d.grip.part === 'goal' ? c.surface : c.halo,
+      });
     if (d.grip.part === 'goal' && r)
-      tag(g, this.labels, [x, y], `at ${seconds(a.goal.time)} · ${metres(r.along, 0)} along the way`, {
+      tag(g, this.labels, [x, y], TEXTS.atAlongTheWay(seconds(a.goal.time), metres(r.along, 0)), {
         weight: 500,
         tries: [
           [34, -22],

@@ -16,6 +16,7 @@ import type { Editor } from './editor';
 import { frameAround, type Frame } from './frame';
 import { FillOverlay } from './overlay-fill';
 import type { Ghosts } from './placing';
+import { TEXTS } from '../texts/picture';
 
 const CORNER_PX = 8;
 /** Beyond so many each one's own way would hide the others'. */
@@ -178,7 +179,7 @@ export class SeveralOverlay {
     const half = sizeOnScreen(boxOfNewcomer(last), v.z)[0] / 2;
     const [x, y] = v.to(last.pose.x, last.pose.y);
     const blocked = all.some((n) => !n.fits);
-    tag(g, this.labels, [x, y], one && blocked ? 'Somebody stands here' : words, {
+    tag(g, this.labels, [x, y], one && blocked ? TEXTS.somebodyStands : words, {
       tries: [
         [-60, 26],
         [-60, -half - 40],

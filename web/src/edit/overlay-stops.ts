@@ -10,6 +10,7 @@ import { stopsOf, type SpeedPoint } from '../model/profile';
 import type { Agent } from '../model/scene';
 import { seconds } from '../model/units';
 import type { Editor } from './editor';
+import { TEXTS } from '../texts/picture';
 
 /** The bar is longer than the box is wide, and lies before its front. */
 const WIDER = 1.7;
@@ -39,7 +40,7 @@ export function paintStops(g: Pen, labels: Labels, v: View, editor: Editor, a: A
     ] as const;
     polyline(g, v, bar, c.halo, 8, 1, [], 'round');
     polyline(g, v, bar, c.collision, 5, 1, [], 'round');
-    tag(g, labels, v.to(x, y), `stops here for ${seconds(lasts)}`, { radii: [36, 52, 70], leader: c.collision });
+    tag(g, labels, v.to(x, y), TEXTS.stopsHereFor(seconds(lasts)), { radii: [36, 52, 70], leader: c.collision });
     const point = pointOf(editor.curve.points.value, from);
     if (point > 0) bars.push({ ends: [v.to(...bar[0]), v.to(...bar[1])], point });
   }

@@ -15,6 +15,7 @@ import { colours } from '../draw/theme';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { roadWay } from './ways-out';
+import { TEXTS } from '../texts/picture';
 
 /** More places than these are counted, not named. */
 const NAMED = 3;
@@ -72,7 +73,7 @@ export class VerdictOverlay {
     if (rest > 0) {
       const [x, y] = v.to(places[NAMED].fault.at[0], places[NAMED].fault.at[1]);
       const { bg: leader } = pillStyle(places[NAMED]);
-      pill(g, this.labels, x, y, `and ${rest} more`, { leader, border: leader, radii: RADII });
+      pill(g, this.labels, x, y, TEXTS.andMore(rest), { leader, border: leader, radii: RADII });
     }
   }
 

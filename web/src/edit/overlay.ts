@@ -25,6 +25,7 @@ import { paintStops, type StopBar } from './overlay-stops';
 import { SeveralOverlay } from './overlay-several';
 import { VerdictOverlay } from './overlay-verdicts';
 import { saidOf } from './rounds/said';
+import { TEXTS } from '../texts/picture';
 
 /** Alpha of the refinement steps left behind, newest first. */
 const TRAIL_ALPHA = [0.34, 0.22, 0.16];
@@ -349,7 +350,7 @@ export class Overlay {
     );
     paintGhost(g, v, a, ghost, c.log, 'rgba(255,255,255,.5)', [4, 3], 2);
     const d = Math.hypot(now.x - ghost.x, now.y - ghost.y);
-    tag(g, this.labels, [v.x(ghost.x), v.y(ghost.y)], 'Log', {
+    tag(g, this.labels, [v.x(ghost.x), v.y(ghost.y)], TEXTS.log, {
       fg: c.log,
       border: c.log,
       tries: [
@@ -362,7 +363,7 @@ export class Overlay {
         g,
         this.labels,
         [v.x((now.x + ghost.x) / 2), v.y((now.y + ghost.y) / 2)],
-        `${num(d, 1)} m apart at ${seconds(t)}`,
+        TEXTS.mApartAt(num(d, 1), seconds(t)),
         {
           leader: c.log,
           radii: [52, 72, 96],

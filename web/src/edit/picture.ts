@@ -21,6 +21,7 @@ import type { Stage } from '../draw/stage';
 import type { View } from '../draw/view';
 import type { Editor } from './editor';
 import { laneWords } from './snap';
+import { TEXTS } from '../texts/picture';
 
 const REACT_MS = 320;
 
@@ -255,16 +256,16 @@ export class Picture {
     const a = id && !e.selected.value.includes(id) ? e.scene.value?.agents.get(id) : null;
     const p = a && this.poseNow(a);
     if (!a || !p || e.drag.value) return null;
-    const where = a.parked ? 'parked' : laneWords(e.scene.value!.map, a, p.x, p.y, p.heading);
+    const where = a.parked ? TEXTS.parked : laneWords(e.scene.value!.map, a, p.x, p.y, p.heading);
     const next = e.events.value.find((v) => (v.a.id === a.id || v.b?.id === a.id) && v.time >= e.time.value);
     const todo =
       a.type === 'other'
-        ? 'Shown only'
+        ? TEXTS.shownOnly
         : a.logStart
           ? e.time.value < 0.05
-            ? 'Click to edit · drag to move'
-            : 'Click to edit'
-          : 'Appears later: not editable';
+            ? TEXTS.clickToEditDrag
+            : TEXTS.clickToEdit
+          : TEXTS.appearsLater;
     return {
       title: `${a.name} · ${speedLabel(p.speed, e.unitOf(a))} · ${where}`,
       line: next ? `${next.label} · ${todo}` : todo,

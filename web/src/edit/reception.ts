@@ -26,6 +26,7 @@ import { Steady } from './steady';
 import { readReach } from './read-answer';
 import { outcome, spokenCollision, spokenOutcome, spokenVerdict } from './report';
 import { Rest } from './rest';
+import { TEXTS } from '../texts/generation';
 
 /** What an answer may set off; the generation does it. */
 export interface Hooks {
@@ -93,7 +94,7 @@ export class Reception {
       },
       slow: (ms) => {
         editor.answers.report({ kind: 'slow', ms });
-        if (!slow) editor.notices.say('This takes longer than usual.');
+        if (!slow) editor.notices.say(TEXTS.thisTakesLonger);
         slow = true;
       },
       away: () => {
@@ -282,7 +283,7 @@ export class Reception {
     if (!best || dragging) return;
     this.#names.rest();
     const likely = percents(f.modes)[f.chosen];
-    editor.notices.say(`Six futures. Most likely: ${best.name}, ${likely} percent.`);
+    editor.notices.say(TEXTS.sixFuturesMost(best.name, likely));
   }
 
   #finalOfChange(scene: Scene, e: FinalEvent, w: Wanted, step: Step, ms: number, keep: Keep): void {
@@ -315,7 +316,7 @@ export class Reception {
 
   #refused(p: Problem): void {
     const first = p.errors?.[0];
-    const range = first?.min !== undefined ? `A value is outside ${first.min} to ${first.max}.` : null;
+    const range = first?.min !== undefined ? TEXTS.aValueIsOutside(first.min, first.max) : null;
     const words = first?.detail ?? range ?? p.detail ?? p.title;
     this.editor.answers.foresee(null);
     this.editor.answers.report({ kind: 'refused', words });
@@ -325,4 +326,4 @@ export class Reception {
 
 /** Which seconds a later window is about. */
 const secondsOf = (s: Scene, window: number): string =>
-  `${window * s.replan} to ${Math.min(s.length, (window + 1) * s.replan)} s`;
+  TEXTS.toS(window * s.replan, Math.min(s.length, (window + 1) * s.replan));

@@ -5,6 +5,7 @@ import { nameIn, type Scene } from '../model/scene';
 import { seconds } from '../model/units';
 import { headline } from '../model/verdict-words';
 import type { Editor, Step } from './editor';
+import { TEXTS } from '../texts/generation';
 
 /** `Goal of Car 4 moved. 2 others changed.` That nobody had to change is not said beside a collision. */
 export function outcome(
@@ -17,11 +18,11 @@ export function outcome(
   const hits = counted(events).filter((e) => e.kind === 'collision');
   const own = hits.find((e) => e.a.id === step.agent || e.b?.id === step.agent);
   const other = own?.a.id === step.agent ? own?.b : own?.a;
-  const hit = own && other ? ` It hits ${other.name} at ${seconds(own.time)}.` : '';
-  if (step.several && n > 0) return `${step.name}. ${n} other${n === 1 ? '' : 's'} changed.`;
+  const hit = own && other ? TEXTS.itHitsAt(other.name, seconds(own.time)) : '';
+  if (step.several && n > 0) return TEXTS.othersChanged(n, step.name);
   if (!step.agent || scene.others !== 'react') return `${step.name}.${hit}`;
-  if (n === 0) return `${step.name}.${hit || (hits.length ? '' : ' Nobody else had to change.')}`;
-  return `${step.name}. ${n} other${n === 1 ? '' : 's'} changed.${hit}`;
+  if (n === 0) return `${step.name}.${hit || (hits.length ? '' : TEXTS.nobodyElseHad)}`;
+  return TEXTS.othersChanged2(n, step.name, hit);
 }
 
 /** The same with who changed first and how. */
@@ -47,5 +48,5 @@ export function spokenVerdict(editor: Editor, step: Step): string {
 
 export function spokenCollision(events: readonly TrafficEvent[]): string | null {
   const hit = counted(events).find((e) => e.kind === 'collision');
-  return hit?.b ? `Collision, ${hit.a.name} and ${hit.b.name}, ${hit.time.toFixed(1)} seconds.` : null;
+  return hit?.b ? TEXTS.collisionAnd(hit.a.name, hit.b.name, hit.time.toFixed(1)) : null;
 }

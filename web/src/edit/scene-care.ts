@@ -8,6 +8,7 @@ import type { Journal } from './journal';
 import type { Library } from './library';
 import type { SceneFile } from './scene-file';
 import type { SceneList } from './scene-list';
+import { TEXTS } from '../texts/keeping';
 
 /** So long a deleted scene can be brought back from the toast. */
 const UNDELETE_MS = 20_000;
@@ -31,7 +32,7 @@ export class SceneCare {
   /** A map that was made here, or a scene with another map. */
   newOnMap(body: SceneJson, name: string, more = ''): Promise<void> {
     const free = this.#freeName(name);
-    return this.#create(body, free, more || `“${free}”: the map is in. It saves itself.`);
+    return this.#create(body, free, more || TEXTS.theMapIsInIt(free));
   }
 
   newOnPlainGround(): Promise<void> {
@@ -39,8 +40,8 @@ export class SceneCare {
   }
 
   #begin(body: SceneJson): Promise<void> {
-    const name = this.#freeName('New scene');
-    return this.#create(body, name, `“${name}”: nobody is on it yet. It saves itself.`);
+    const name = this.#freeName(TEXTS.newScene);
+    return this.#create(body, name, TEXTS.nobodyIsOnIt(name));
   }
 
   /** An own copy of what is on screen; from then on it saves itself. */
@@ -49,14 +50,14 @@ export class SceneCare {
     const body = this.file.complete();
     if (!scene || !body) return Promise.resolve();
     const own = this.list.isOwn(scene.id) && this.file.stored;
-    return this.saveAs(this.#freeName(own ? `${scene.name}, copy` : `${scene.name}, edited`));
+    return this.saveAs(this.#freeName(own ? TEXTS.copy(scene.name) : TEXTS.edited(scene.name)));
   }
 
   saveAs(name: string): Promise<void> {
     const body = this.file.complete();
     if (!body) return Promise.resolve();
     const parent = this.file.stored ? (this.file.raw?.id ?? null) : null;
-    const said = `Saved as “${name}”. It saves itself from now on.`;
+    const said = TEXTS.savedAsItSaves(name);
     return this.#create({ ...body, meta: { ...body.meta, parent_id: parent } }, name, said);
   }
 
@@ -68,21 +69,21 @@ export class SceneCare {
       await this.library.open(id);
       editor.notices.show({ text: said });
     } catch (e) {
-      this.#failed('Not saved', e);
+      this.#failed(TEXTS.notSaved, e);
     }
   }
 
   /** A copy of any scene; the open one is copied as it is on screen. */
   async duplicate(id: string): Promise<void> {
     if (id === this.editor.scene.peek()?.id) return this.saveCopy();
-    const name = this.#freeName(`${this.list.find(id)?.name ?? 'Scene'}, copy`);
+    const name = this.#freeName(TEXTS.copy2(this.list.find(id)?.name ?? TEXTS.scene));
     try {
       const { id: copy } = await this.client.duplicate(id, name);
       await this.list.refresh().catch(() => undefined);
-      const action = { label: 'Open', run: () => void this.library.open(copy) };
-      this.editor.notices.show({ text: `Copied as “${name}”.`, action });
+      const action = { label: TEXTS.open, run: () => void this.library.open(copy) };
+      this.editor.notices.show({ text: TEXTS.copiedAs(name), action });
     } catch (e) {
-      this.#failed('Not copied', e);
+      this.#failed(TEXTS.notCopied, e);
     }
   }
 
@@ -99,7 +100,7 @@ export class SceneCare {
       await this.journal.noteVersion(id, etag, now);
       await list.refresh();
     } catch (e) {
-      this.#failed('Not renamed', e);
+      this.#failed(TEXTS.notRenamed, e);
     }
   }
 
@@ -116,10 +117,10 @@ export class SceneCare {
       await list.refresh().catch(() => undefined);
       const next = list.list.peek().find((s) => s.id !== id);
       if (open && next) await library.open(next.id);
-      const action = { label: 'Undo', run: () => void this.#bringBack(id, { ...json, map }, open) };
-      editor.notices.show({ text: `“${name}” deleted.`, action }, UNDELETE_MS);
+      const action = { label: TEXTS.undo, run: () => void this.#bringBack(id, { ...json, map }, open) };
+      editor.notices.show({ text: TEXTS.deleted(name), action }, UNDELETE_MS);
     } catch (e) {
-      this.#failed('Not deleted', e);
+      this.#failed(TEXTS.notDeleted, e);
     }
   }
 
@@ -129,9 +130,9 @@ export class SceneCare {
       if (etag) await this.journal.noteVersion(id, null, etag);
       await this.list.refresh().catch(() => undefined);
       if (open) await this.library.open(id);
-      this.editor.notices.show({ text: `“${body.name}” is back.` });
+      this.editor.notices.show({ text: TEXTS.isBack(body.name) });
     } catch (e) {
-      this.#failed('Not brought back', e);
+      this.#failed(TEXTS.notBroughtBack, e);
     }
   }
 
@@ -145,8 +146,7 @@ export class SceneCare {
   }
 
   #failed(what: string, e: unknown): void {
-    const why =
-      e instanceof Refused ? e.message : 'the server is not answering. What is here is kept on this computer.';
+    const why = e instanceof Refused ? e.message : TEXTS.theServerIsNotAnswering;
     this.editor.notices.show({ text: `${what}: ${why}` });
   }
 }

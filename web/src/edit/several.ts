@@ -18,6 +18,8 @@ import {
 } from '../model/scene';
 import { freeShift, standing } from './room';
 import { shifted } from '../model/newcomer';
+import { TEXTS } from '../texts/moves';
+import { inSentence } from '../texts/language';
 
 /** The server takes no more in one scene. */
 const MOST_IN_SCENE = 256;
@@ -28,7 +30,7 @@ export const MOST_AT_ONCE = 128;
 export function whoWords(all: readonly Pick<Agent, 'name' | 'kind'>[]): string {
   if (all.length === 1) return all[0].name;
   const { kind } = all[0] ?? {};
-  return kind && all.every((a) => a.kind === kind) ? countWords(kind, all.length) : `${all.length} road users`;
+  return kind && all.every((a) => a.kind === kind) ? countWords(kind, all.length) : TEXTS.roadUsers(all.length);
 }
 
 /** Those of them that may be moved and changed. */
@@ -61,7 +63,7 @@ const aimed = (a: Agent, patch: Partial<GoalSpec>): AgentPatch => ({
 export function moveAll(all: readonly Agent[], dx: number, dy: number, goals = false, fold?: string): Command | null {
   return changeAll(
     all,
-    `${whoWords(all)} moved`,
+    TEXTS.moved(whoWords(all)),
     (a) => {
       const p = startPose(a);
       if (!p) return null;
@@ -96,7 +98,7 @@ export function turnAll(
       : at(x, y);
   return changeAll(
     all,
-    `${whoWords(all)} turned`,
+    TEXTS.turned(whoWords(all)),
     (a) => {
       const p = startPose(a);
       if (!p) return null;
@@ -125,7 +127,7 @@ export function mirrorAll(all: readonly Agent[]): Command | null {
     return at(about[0] + dx * c + dy * s, about[1] + dx * s - dy * c);
   };
   const across = (heading: number): number => wrapAngle(2 * axis - heading);
-  return changeAll(all, `${whoWords(all)} mirrored`, (a) => {
+  return changeAll(all, TEXTS.mirrored(whoWords(all)), (a) => {
     const p = startPose(a);
     if (!p) return null;
     const g = a.goal;
@@ -138,7 +140,7 @@ export function mirrorAll(all: readonly Agent[]): Command | null {
 
 /** Nearer to a point or further from it. */
 export function spreadAll(all: readonly Agent[], kx: number, ky: number, about: Vec): Command | null {
-  return changeAll(all, `${whoWords(all)} spread`, (a) => {
+  return changeAll(all, TEXTS.spread(whoWords(all)), (a) => {
     const p = startPose(a);
     return p && started(a, { pos: at(about[0] + (p.x - about[0]) * kx, about[1] + (p.y - about[1]) * ky) });
   });
@@ -161,7 +163,7 @@ export function setAll(
 ): Command | null {
   return changeAll(
     all,
-    `${what} of ${whoWords(all)} changed`,
+    TEXTS.ofChanged(what, whoWords(all)),
     (a) => {
       const v = value(a);
       if (field === 'length' || field === 'width') return v === null ? null : { [field]: v, chosen: null };
@@ -180,8 +182,8 @@ export function fixAll(
   shown: (a: Agent) => number | null,
 ): Command | null {
   const free = all.every((a) => a[part][field] !== null);
-  const word = `${part === 'goal' ? 'Goal' : 'Start'} ${field}`;
-  return changeAll(all, `${word} of ${whoWords(all)} ${free ? 'free' : 'fixed'}`, (a) => {
+  const word = `${part === 'goal' ? TEXTS.goal : TEXTS.start} ${field}`;
+  return changeAll(all, free ? TEXTS.ofFree(word, whoWords(all)) : TEXTS.ofFixed(word, whoWords(all)), (a) => {
     const v = free ? null : (a[part][field] ?? shown(a));
     if (v === a[part][field]) return null;
     return part === 'start' ? started(a, { [field]: v }) : aimed(a, { [field]: v });
@@ -192,7 +194,7 @@ export function fixAll(
 export function fasterAll(all: readonly Agent[], steps: number): Command | null {
   return changeAll(
     all,
-    `Speed of ${whoWords(all)} changed`,
+    TEXTS.speedOfChanged(whoWords(all)),
     (a) => {
       const p = startPose(a);
       const step = a.type === 'pedestrian' ? 0.1 : 1 / 3.6;
@@ -205,17 +207,17 @@ export function fasterAll(all: readonly Agent[], steps: number): Command | null 
 }
 
 export const clearGoals = (all: readonly Agent[]): Command | null =>
-  changeAll(all, `${all.length > 1 ? 'Goals' : 'Goal'} of ${whoWords(all)} cleared`, (a) =>
+  changeAll(all, TEXTS.goalsOfCleared(all.length, whoWords(all)), (a) =>
     hasGoal(a.goal) ? { goal: freeGoal(), chosen: null } : null,
   );
 
 export const lockAll = (all: readonly Agent[], locked: boolean): Command | null =>
-  changeAll(all, `${whoWords(all)} ${locked ? 'locked' : 'unlocked'}`, (a) =>
+  changeAll(all, `${whoWords(all)} ${locked ? TEXTS.locked : TEXTS.unlocked}`, (a) =>
     a.locked === locked ? null : { locked },
   );
 
-const DOES: Record<Others, string> = { react: 'reacts', log: 'replays the log', still: 'holds still' };
-const DO: Record<Others, string> = { react: 'react', log: 'replay the log', still: 'hold still' };
+const DOES: Record<Others, string> = { react: TEXTS.reacts, log: TEXTS.replaysTheLog, still: TEXTS.holdsStill };
+const DO: Record<Others, string> = { react: TEXTS.react, log: TEXTS.replayTheLog, still: TEXTS.holdStill };
 
 /** What they do while others change. The scene's own way needs no word of theirs. */
 export const setDoes = (scene: Scene, all: readonly Agent[], does: Others): Command | null =>
@@ -226,19 +228,19 @@ export const setDoes = (scene: Scene, all: readonly Agent[], does: Others): Comm
 
 export function callIt(a: Agent, called: string | null): Command {
   const name = called ?? nameAs({ ...a, called: null, name: a.name }, a.kind);
-  return patchAgents(`${a.name} named ${name}`, new Map([[a.id, { called, name: called ?? plainName(a) }]]));
+  return patchAgents(TEXTS.named(a.name, name), new Map([[a.id, { called, name: called ?? plainName(a) }]]));
 }
 
 const plainName = (a: Agent): string => nameAs({ called: null, name: /\d+$/.exec(a.id)?.[0] ?? a.id }, a.kind);
 
 export const noteOn = (a: Agent, note: string): Command =>
-  patchAgents(`Note on ${a.name}`, new Map([[a.id, { note }]]));
+  patchAgents(TEXTS.noteOn(a.name), new Map([[a.id, { note }]]));
 
 /** Of another kind, in its usual size; the generator takes the expert of that kind. */
 export function setKind(all: readonly Agent[], kind: PlacedKind, size: Preset = PRESETS[kind][0]): Command | null {
   const type = typeOfKind(kind);
   const { label, subtype, length, width } = size;
-  return changeAll(all, `${whoWords(all)} made ${all.length === 1 ? 'a' : 'each a'} ${label.toLowerCase()}`, (a) => {
+  return changeAll(all, TEXTS.madeEachA(all.length, whoWords(all), inSentence(label)), (a) => {
     if (a.kind === kind && a.length === length && a.width === width && a.subtype === subtype) return null;
     const top = topSpeed({ type, subtype });
     const start = a.start.speed !== null && a.start.speed > top ? started(a, { speed: top }) : { chosen: null };
@@ -253,7 +255,7 @@ export function removeThem(scene: Scene, all: readonly Agent[]): Command {
   return removeAgents(
     scene,
     all.map((a) => a.id),
-    `${whoWords(all)} removed`,
+    TEXTS.removed(whoWords(all)),
   );
 }
 
@@ -261,9 +263,7 @@ export function removeThem(scene: Scene, all: readonly Agent[]): Command {
 export function tooMany(scene: Scene, n: number): string | null {
   const room = MOST_IN_SCENE - scene.agents.size;
   if (n <= room) return null;
-  return room > 0
-    ? `A scene holds ${MOST_IN_SCENE} road users. There is room for ${room} more.`
-    : `A scene holds ${MOST_IN_SCENE} road users, and this one is full.`;
+  return room > 0 ? TEXTS.aSceneHoldsRoad(MOST_IN_SCENE, room) : TEXTS.aSceneHoldsRoadUsers(MOST_IN_SCENE);
 }
 
 /** They come into the scene; `done`: what happened to them, such as `placed`. */

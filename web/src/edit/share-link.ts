@@ -3,6 +3,7 @@ import type { SceneJson } from '../model/json';
 import type { Camera } from '../model/history';
 import { pack, PackError, unpack } from '../model/pack';
 import { MARK } from './share-mark';
+import { TEXTS } from '../texts/share';
 
 /** Longer links are cut by mail programs and chats. */
 export const MOST_LINK_BYTES = 60 * 1024;
@@ -32,18 +33,18 @@ export async function writeLink(shared: Shared): Promise<{ hash: string; bytes: 
 
 export async function readLink(hash: string): Promise<Shared> {
   const coded = hash.slice(MARK.length);
-  if (coded.length > 2 * MOST_LINK_BYTES) throw new LinkError('The link is longer than any that is made here.');
+  if (coded.length > 2 * MOST_LINK_BYTES) throw new LinkError(TEXTS.theLinkIsLonger);
   try {
     const bytes = fromBase64(coded);
     const text = await through(new Blob([bytes]).stream(), new DecompressionStream('deflate-raw'), MOST_TEXT_BYTES);
     const read = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as Record<string, unknown>;
-    if (read?.v !== VERSION) throw new LinkError('The link was made by another version of this program.');
+    if (read?.v !== VERSION) throw new LinkError(TEXTS.theLinkWasMade);
     const scene = unpack(read.scene);
-    if (typeof scene !== 'object' || scene === null) throw new PackError('no scene');
+    if (typeof scene !== 'object' || scene === null) throw new PackError(TEXTS.noScene);
     return { scene: scene as SceneJson, at: readShownAt(read.at) };
   } catch (e) {
     if (e instanceof LinkError) throw e;
-    throw new LinkError('The link is not whole. It may have been cut on its way.');
+    throw new LinkError(TEXTS.theLinkIsNot);
   }
 }
 
@@ -66,7 +67,7 @@ async function through(
     length += r.value.length;
     if (length > most) {
       void reader.cancel();
-      throw new LinkError('The link holds more than a scene may.');
+      throw new LinkError(TEXTS.theLinkHoldsMore);
     }
     parts.push(r.value);
   }

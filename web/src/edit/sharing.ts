@@ -9,6 +9,7 @@ import type { SceneCare } from './scene-care';
 import type { SceneFile } from './scene-file';
 import type { ShownAt } from './share-link';
 import { isShareLink } from './share-mark';
+import { TEXTS } from '../texts/keeping';
 
 /** What of a scene goes into the link. */
 export interface Parts {
@@ -64,11 +65,11 @@ export class Sharing {
       // The server reads it as it reads a file, with the same limits.
       const reply = await this.client.tryImport(scene);
       const read = reply.scenes[0]?.scene as SceneJson | undefined;
-      if (!read || isMapRef(read.map)) throw new LinkError('There is no whole scene in this link.');
-      const copy = (): void => void this.#copy(read.name ?? 'Shared scene');
+      if (!read || isMapRef(read.map)) throw new LinkError(TEXTS.thereIsNoWhole);
+      const copy = (): void => void this.#copy(read.name ?? TEXTS.sharedScene);
       await this.library.show(read, {
-        words: 'This scene came with a link. Here it is read-only.',
-        label: 'Make a copy',
+        words: TEXTS.thisSceneCame,
+        label: TEXTS.makeACopy,
         run: copy,
       });
       this.onOpened?.(at);
@@ -111,7 +112,7 @@ export function reduced(scene: SceneJson, parts: Parts): SceneJson {
   return {
     ...scene,
     id: undefined,
-    ...(parts.words ? {} : { name: 'Shared scene', meta: { ...scene.meta, tags: [], notes: '' } }),
+    ...(parts.words ? {} : { name: TEXTS.sharedScene, meta: { ...scene.meta, tags: [], notes: '' } }),
     agents: parts.futures ? scene.agents : scene.agents.map((a) => ({ ...a, conditions: {} })),
     x_editor: {
       ...scene.x_editor,

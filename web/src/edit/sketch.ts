@@ -6,6 +6,7 @@ import { pathTo } from '../model/reach';
 import type { Futures } from '../model/futures';
 import type { Motion } from '../model/motion';
 import { GOAL_TIME, startPose, type Agent, type Scene } from '../model/scene';
+import { TEXTS } from '../texts/hud';
 
 export function sketchFutures(scene: Scene, a: Agent): Futures | null {
   const start = startPose(a);
@@ -23,7 +24,7 @@ export function sketchFutures(scene: Scene, a: Agent): Futures | null {
       };
   const { line } = pathTo(scene.map, a, start, goal);
   return {
-    modes: [{ probability: 1, motion: along(a, line, start, a.goal.time), name: 'Sketch, not worked out yet' }],
+    modes: [{ probability: 1, motion: along(a, line, start, a.goal.time), name: TEXTS.sketchNotWorked }],
     chosen: 0,
     step: 0,
     steps: 0,

@@ -2,6 +2,7 @@
 import { deg, insidePolygon, pointAt, project, rad, wrapAngle } from '../model/geometry';
 import { nearestLanes, turnOf, type Lane, type LaneHit, type LaneMap } from '../model/lanemap';
 import { startPose, type Agent, type Scene } from '../model/scene';
+import { TEXTS } from '../texts/picture';
 
 export interface Snapped {
   x: number;
@@ -127,35 +128,44 @@ export function laneWords(map: LaneMap, a: Pick<Agent, 'type'>, x: number, y: nu
   const hits = nearestLanes(map, x, y, heading, 2.6, () => true);
   const fits = lanesFor(a);
   const hit = (fits && hits.find((h) => fits(h.lane))) ?? hits[0];
-  if (!hit) return 'off the lanes';
+  if (!hit) return TEXTS.offTheLanes;
   const way = compass(hit.heading);
   const junction = hit.lane.inside && Math.abs(turnOf(hit.lane.line)) > 0.35;
   const what =
     hit.lane.kind === 'bike'
-      ? 'bike lane'
+      ? TEXTS.bikeLane
       : hit.lane.kind === 'walk'
-        ? 'pavement'
+        ? TEXTS.pavement
         : junction
-          ? 'inside the crossing'
+          ? TEXTS.insideTheCrossing
           : hit.lane.type === 'freeway'
-            ? 'motorway lane'
+            ? TEXTS.motorwayLane
             : hit.lane.type === 'bus_lane'
-              ? 'bus lane'
-              : 'lane';
-  return junction ? `${what}, ${way}bound` : `${way}bound ${what}`;
+              ? TEXTS.busLane
+              : TEXTS.lane;
+  return junction ? TEXTS.bound(what, way) : TEXTS.bound2(way, what);
 }
 
 function onFoot(map: LaneMap, x: number, y: number): string {
-  if (map.crosswalks.some((p) => insidePolygon(x, y, p))) return 'on a crosswalk';
+  if (map.crosswalks.some((p) => insidePolygon(x, y, p))) return TEXTS.onACrosswalk;
   const lane = nearestLanes(map, x, y, null, 1.9, () => true)[0];
   return !lane || lane.lane.kind === 'walk'
-    ? 'beside the road'
+    ? TEXTS.besideTheRoad
     : lane.lane.kind === 'bike'
-      ? 'on a bike lane'
-      : 'on the road';
+      ? TEXTS.onABikeLane
+      : TEXTS.onTheRoad;
 }
 
 function compass(heading: number): string {
-  const names = ['east', 'north-east', 'north', 'north-west', 'west', 'south-west', 'south', 'south-east'];
+  const names = [
+    TEXTS.east,
+    TEXTS.northEast,
+    TEXTS.north,
+    TEXTS.northWest,
+    TEXTS.west,
+    TEXTS.southWest,
+    TEXTS.south,
+    TEXTS.southEast,
+  ];
   return names[((Math.round(deg(heading) / 45) % 8) + 8) % 8];
 }

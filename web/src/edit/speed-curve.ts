@@ -19,6 +19,7 @@ import type { Motion } from '../model/motion';
 import { judgedBy } from '../model/rejudge';
 import { canMove, profileOf, sceneKey, type Agent, type Scene } from '../model/scene';
 import type { Editor } from './editor';
+import { TEXTS } from '../texts/moves';
 
 export class SpeedCurve {
   readonly #inHand = signal<Profile | null>(null);
@@ -65,8 +66,8 @@ export class SpeedCurve {
   /** Why no curve can be drawn; null where one can. */
   get why(): string | null {
     const a = this.editor.agent.peek();
-    if (!a || !canMove(a)) return 'Select a road user that can be changed.';
-    return this.#begun() ? null : 'Wait for its futures.';
+    if (!a || !canMove(a)) return TEXTS.selectARoadUser;
+    return this.#begun() ? null : TEXTS.waitForItsFutures;
   }
 
   /** A curve with the points of the future in force. */
@@ -135,7 +136,7 @@ export class SpeedCurve {
     if (!base || !a) return;
     const added = addedPoint(base.points, { t: Math.round(t * 10) / 10, v: Math.min(topSpeed(a), v), hold: 0 });
     if (!added) {
-      this.editor.notices.show({ text: 'There is no room for a point here.' });
+      this.editor.notices.show({ text: TEXTS.thereIsNoRoom });
       return;
     }
     this.#point.value = added.at;
@@ -213,7 +214,7 @@ export class SpeedCurve {
 }
 
 /** What a future is called whose speed was drawn by hand. */
-const OWN_SPEED = 'At your speed';
+const OWN_SPEED = TEXTS.atYourSpeed;
 
 /** Futures of which one goes as it was drawn; what was said about it is not true any more. */
 export function withCurve(f: Futures, chosen: number, profile: Profile, a: Agent, duration: number): Futures {

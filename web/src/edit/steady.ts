@@ -1,6 +1,7 @@
 // What is said of the others while the hand moves: a new one is said at once, but a verb changes and a name goes only
 // after a while of agreement, so that nobody flickers between waiting and going.
 import type { Change } from '../model/changes';
+import { TEXTS } from '../texts/generation';
 
 /** For so long the newer answers agree before another verb is said. */
 export const AGREED_MS = 400;
@@ -12,7 +13,7 @@ interface Doubt {
 
 /** What is being done and for whom; the numbers in a sentence may change at any time. */
 const verbOf = (c: Change | undefined): string =>
-  c ? `${c.reaction?.kind} ${c.reaction?.ahead} ${c.reaction?.cause.id}` : 'as before';
+  c ? `${c.reaction?.kind} ${c.reaction?.ahead} ${c.reaction?.cause.id}` : TEXTS.asBefore;
 
 export class Steady {
   readonly #said = new Map<string, Change>();

@@ -1,5 +1,7 @@
 // Tables of others: which of their columns says what, and in which unit. The server asks where it cannot tell.
 /** A unit as people call it, and how it is told to the server. */
+import { TEXTS } from '../texts/imports';
+
 interface Unit {
   readonly label: string;
   /** The server's column, where it is not that of the question. */
@@ -20,94 +22,94 @@ export interface Asked {
 }
 
 const LENGTHS: readonly Unit[] = [
-  { label: 'metres' },
-  { label: 'centimetres', unit: 'cm' },
-  { label: 'kilometres', unit: 'km' },
-  { label: 'feet', unit: 'ft' },
+  { label: TEXTS.metres },
+  { label: TEXTS.centimetres, unit: 'cm' },
+  { label: TEXTS.kilometres, unit: 'km' },
+  { label: TEXTS.feet, unit: 'ft' },
 ];
 
 export const ASKED: readonly Asked[] = [
   {
     field: 'agent_id',
-    label: 'Who',
-    says: 'number or name of a road user',
+    label: TEXTS.who,
+    says: TEXTS.numberOrName,
     needed: true,
     names: /^(track|agent|object|obj|vehicle|veh|actor|user|person|ped)?[ _]?(id|name|number|no)$/i,
     units: [],
   },
   {
     field: 'time_s',
-    label: 'When',
-    says: 'the moment of a row',
+    label: TEXTS.when,
+    says: TEXTS.theMomentOfA,
     needed: true,
     names: /^(time|t|ts|timestamp|frame|frame[ _]?id|seconds?|global[ _]?time)([ _]?(s|ms|us|ns))?$/i,
     units: [
-      { label: 'seconds' },
-      { label: 'milliseconds', unit: 'ms' },
-      { label: 'microseconds', unit: 'us' },
-      { label: 'nanoseconds', unit: 'ns' },
-      { label: 'pictures, 10 a second', field: 'step' },
-      { label: 'pictures, 25 a second', factor: 1 / 25 },
-      { label: 'pictures, 30 a second', factor: 1 / 30 },
+      { label: TEXTS.seconds },
+      { label: TEXTS.milliseconds, unit: 'ms' },
+      { label: TEXTS.microseconds, unit: 'us' },
+      { label: TEXTS.nanoseconds, unit: 'ns' },
+      { label: TEXTS.pictures10ASecond, field: 'step' },
+      { label: TEXTS.pictures25ASecond, factor: 1 / 25 },
+      { label: TEXTS.pictures30ASecond, factor: 1 / 30 },
     ],
   },
   {
     field: 'x_m',
-    label: 'Where, x',
-    says: 'to the east',
+    label: TEXTS.whereX,
+    says: TEXTS.toTheEast,
     needed: true,
     names: /^(pos(ition)?[ _]?x|x|(local|center|centre|global|utm)[ _]?x|x[ _]?(center|centre|pos|m|utm)|easting)$/i,
     units: LENGTHS,
   },
   {
     field: 'y_m',
-    label: 'Where, y',
-    says: 'to the north',
+    label: TEXTS.whereY,
+    says: TEXTS.toTheNorth,
     needed: true,
     names: /^(pos(ition)?[ _]?y|y|(local|center|centre|global|utm)[ _]?y|y[ _]?(center|centre|pos|m|utm)|northing)$/i,
     units: LENGTHS,
   },
   {
     field: 'heading_rad',
-    label: 'Heading',
-    says: 'from the east, to the left',
+    label: TEXTS.heading,
+    says: TEXTS.fromTheEastTo,
     needed: false,
     names: /^(heading|yaw|psi|psi[ _]?rad|orientation|theta|angle)([ _]?(rad|deg))?$/i,
-    units: [{ label: 'degrees', unit: 'deg' }, { label: 'radians' }],
+    units: [{ label: TEXTS.degrees, unit: 'deg' }, { label: TEXTS.radians }],
   },
   {
     field: 'speed_mps',
-    label: 'Speed',
-    says: 'where there is one',
+    label: TEXTS.speed,
+    says: TEXTS.whereThereIs,
     needed: false,
     names: /^(speed|velocity|v|v[ _]?vel)([ _]?(m[ _]?s|mps|kmh))?$/i,
     units: [
       { label: 'm/s' },
       { label: 'km/h', unit: 'km/h' },
       { label: 'mph', unit: 'mph' },
-      { label: 'ft/s', unit: 'ft/s' },
+      { label: TEXTS.ftS, unit: 'ft/s' },
     ],
   },
   {
     field: 'type',
-    label: 'Kind',
-    says: 'car, truck, pedestrian …',
+    label: TEXTS.kind,
+    says: TEXTS.carTruckPedestrian,
     needed: false,
     names: /^(agent|object|vehicle|veh|v|track)?[ _]?(type|class|category|kind)$/i,
     units: [],
   },
   {
     field: 'length_m',
-    label: 'Length',
-    says: 'along its heading',
+    label: TEXTS.length,
+    says: TEXTS.alongItsHeading,
     needed: false,
     names: /^(v[ _]?)?length([ _]?m)?$/i,
     units: LENGTHS,
   },
   {
     field: 'width_m',
-    label: 'Width',
-    says: 'across its heading',
+    label: TEXTS.width,
+    says: TEXTS.acrossItsHeading,
     needed: false,
     names: /^(v[ _]?)?width([ _]?m)?$/i,
     units: LENGTHS,

@@ -10,6 +10,7 @@ import { goes, mayCrossWords } from '../model/verdict-words';
 import type { Editor } from './editor';
 import { roadGoal, verdictsHold } from './goal-verdict';
 import { pickFuture } from './moves';
+import { TEXTS } from '../texts/moves';
 
 /** The way by the road: to the nearest goal that it leads to, else the future that gets to the goal by it. */
 export interface RoadWay {
@@ -41,7 +42,7 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
   if (to) {
     const heading = a.goal.heading === null ? null : to.heading;
     const goal: GoalSpec = { ...a.goal, pos: Object.freeze([to.x, to.y] as const), heading };
-    const command = goalStep(a, goal, `Goal of ${a.name} moved to where the road leads`);
+    const command = goalStep(a, goal, TEXTS.goalOfMovedToWhere(a.name));
     return { words: to.words, note: '', to, path: pathBy(e, a, modes, to), command };
   }
   // A pick is one of the futures at rest; those of a drag are gone when it ends.
@@ -49,7 +50,7 @@ export function roadWay(e: Editor, a: Agent): RoadWay | null {
   const command = good >= 0 ? pickFuture(e, a, good) : null;
   if (!command) return null;
   const { motion, name } = modes[good];
-  return { words: `By the road: ${LETTERS[good]}`, note: name, to: null, path: pointsOf(motion.x, motion.y), command };
+  return { words: TEXTS.byTheRoad(LETTERS[good]), note: name, to: null, path: pointsOf(motion.x, motion.y), command };
 }
 
 /** Along the future that gets there without leaving the road, else along the lanes, else as far as a future leads. */
@@ -92,7 +93,7 @@ export function leaveToCross(e: Editor, a: Agent): Leave | null {
   if (!edges.length) return null;
   const words = mayCrossWords(goes(a.type), e.scene.value!.map, edges);
   const goal: GoalSpec = { ...a.goal, mayCross: Object.freeze([...a.goal.mayCross, ...edges]) };
-  return { words: `It ${words}`, command: goalStep(a, goal, `${a.name} ${words}`) };
+  return { words: TEXTS.it(words), command: goalStep(a, goal, `${a.name} ${words}`) };
 }
 
 /** What it may go over, and the command that takes this back; null where there is nothing. */

@@ -34,7 +34,7 @@ export const KINDS: Readonly<
 };
 
 /** Where the other one is as seen from the one who is tried. */
-export type Side = 'in front' | 'behind' | 'on the left' | 'on the right';
+export type Side = 'in-front' | 'behind' | 'on-the-left' | 'on-the-right';
 
 /** The moment in a motion that a case is about. */
 export interface Moment {
@@ -115,12 +115,12 @@ function momentAt(one: Moving, b: Agent | null, others: readonly Moving[], m: Fo
 
 const sideOf = (bearing: number): Side =>
   Math.abs(bearing) < Math.PI / 4
-    ? 'in front'
+    ? 'in-front'
     : Math.abs(bearing) > (3 * Math.PI) / 4
       ? 'behind'
       : bearing > 0
-        ? 'on the left'
-        : 'on the right';
+        ? 'on-the-left'
+        : 'on-the-right';
 
 /** Does it come before the other one to where their ways cross, and by how little? */
 function precedence(one: Moving, two: Moving, duration: number, s: Sought): Moment | null {

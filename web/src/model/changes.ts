@@ -8,6 +8,7 @@ import type { Agent, Scene } from './scene';
 import { doing, GOAL_TIME, startPose, staysAway } from './scene';
 import { heldStill, nowhere, straightOn } from './motion';
 import { num, type SpeedUnit } from './units';
+import { TEXTS } from '../texts/reactions';
 
 /** A road user that does something else, and where it waits or is slowest. */
 export interface Change {
@@ -110,7 +111,7 @@ function changeOf(scene: Scene, set: MotionSet, m: Moved, causes: readonly Answe
   const at = reaction?.time ?? furthest(before, after, scene.duration).t;
   const place = reaction?.place ?? poseAt(after, at);
   if (!place) return null;
-  const words = reaction ? reactionWords(a, reaction, unit) : 'worked out anew';
+  const words = reaction ? reactionWords(a, reaction, unit) : TEXTS.workedOutAnew;
   const { id, name } = a;
   return { id, name, reaction, words, size, lost: reaction?.delay ?? lost, before, after, at, place };
 }
@@ -170,14 +171,14 @@ export function comparedWithLog(a: Agent, m: Motion, duration: number): { d: num
   if (f.d < 0.3) return null;
   const end = poseAtStep(m, Math.round(duration / STEP_S)),
     log = poseAtStep(a.log, Math.round(duration / STEP_S));
-  let words = 'Moves differently from the log.';
+  let words = TEXTS.movesDifferently;
   if (end && log) {
     const s1 = distances(m).at(-1) ?? 0,
       s0 = distances(a.log).at(-1) ?? 0;
     const turn = Math.abs(Math.atan2(Math.sin(end.heading - log.heading), Math.cos(end.heading - log.heading)));
-    if (turn > 0.6) words = 'Ends facing another way than in the log.';
-    else if (s1 < s0 - 2) words = `Gets ${num(s0 - s1, 0)} m less far than in the log.`;
-    else if (s1 > s0 + 2) words = `Gets ${num(s1 - s0, 0)} m further than in the log.`;
+    if (turn > 0.6) words = TEXTS.endsFacingAnother;
+    else if (s1 < s0 - 2) words = TEXTS.getsMLessFar(num(s0 - s1, 0));
+    else if (s1 > s0 + 2) words = TEXTS.getsMFurther(num(s1 - s0, 0));
   }
   return { ...f, words };
 }

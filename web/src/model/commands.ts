@@ -20,6 +20,7 @@ import {
   type StartSpec,
   withRoster,
 } from './scene';
+import { TEXTS } from '../texts/steps';
 
 export interface Command {
   readonly name: string;
@@ -83,10 +84,10 @@ const one = (name: string, id: string, patch: AgentPatch, fold?: string): Comman
   patchAgents(name, new Map([[id, patch]]), fold && `${fold}:${id}`);
 
 /** New demands make an earlier pick among six futures meaningless, so it goes back to the generator. */
-export const setStart = (a: Agent, start: StartSpec, what = 'Start'): Command =>
-  one(`${what} of ${a.name} changed`, a.id, { start: Object.freeze(start), chosen: null }, 'start');
-export const setGoal = (a: Agent, goal: GoalSpec, what = 'Goal'): Command =>
-  one(`${what} of ${a.name} moved`, a.id, { goal: Object.freeze(goal), chosen: null }, 'goal');
+export const setStart = (a: Agent, start: StartSpec, what = TEXTS.start): Command =>
+  one(TEXTS.ofChanged(what, a.name), a.id, { start: Object.freeze(start), chosen: null }, 'start');
+export const setGoal = (a: Agent, goal: GoalSpec, what = TEXTS.goal): Command =>
+  one(TEXTS.ofMoved(what, a.name), a.id, { goal: Object.freeze(goal), chosen: null }, 'goal');
 /** A goal that was decided on: a step of its own, however soon after another change of the goal. */
 export const goalStep = (a: Agent, goal: GoalSpec, name: string): Command => ({
   ...setGoal(a, goal),
@@ -94,12 +95,12 @@ export const goalStep = (a: Agent, goal: GoalSpec, name: string): Command => ({
   fold: undefined,
 });
 export const setBoth = (a: Agent, start: StartSpec, goal: GoalSpec): Command =>
-  one(`${a.name} moved`, a.id, { start: Object.freeze(start), goal: Object.freeze(goal), chosen: null }, 'both');
+  one(TEXTS.moved(a.name), a.id, { start: Object.freeze(start), goal: Object.freeze(goal), chosen: null }, 'both');
 export const setSize = (a: Agent, length: number, width: number): Command =>
-  one(`Size of ${a.name} changed`, a.id, { length, width, chosen: null }, 'size');
+  one(TEXTS.sizeOfChanged(a.name), a.id, { length, width, chosen: null }, 'size');
 export const choose = (a: Agent, index: number | null, letter: string): Command =>
   one(
-    index === null ? `${a.name} back to the most likely future` : `Future ${letter} chosen for ${a.name}`,
+    index === null ? TEXTS.backToTheMost(a.name) : TEXTS.futureChosen(letter, a.name),
     a.id,
     // Picked again among the same six; what comes after a choice that was taken back is not of that round.
     { chosen: index, dealt: a.chosen === null ? null : a.dealt, profile: null },
@@ -107,19 +108,19 @@ export const choose = (a: Agent, index: number | null, letter: string): Command 
   );
 /** One of the cards of a round: `dealt` names the round. */
 export const takeDealt = (a: Agent, index: number, dealt: string, letter: string): Command =>
-  one(`Future ${letter} of a round taken for ${a.name}`, a.id, { chosen: index, dealt, profile: null });
+  one(TEXTS.futureOfARound(letter, a.name), a.id, { chosen: index, dealt, profile: null });
 /** A speed curve for a future, and with it the speed at the start; null takes it away, and the pick with it. */
 export function setCurve(a: Agent, index: number | null, profile: Profile | null, goalTime?: number): Command {
-  if (!profile) return one(`Speed curve of ${a.name} cleared`, a.id, { chosen: null, profile: null });
+  if (!profile) return one(TEXTS.speedCurveOf(a.name), a.id, { chosen: null, profile: null });
   const v = profile.points[0].v;
   const start =
     Math.abs(v - (startPose(a)?.speed ?? v)) > 0.01 ? { start: Object.freeze({ ...a.start, speed: v }) } : {};
   const goal = goalTime === undefined ? {} : { goal: Object.freeze({ ...a.goal, time: goalTime }) };
   const patch = { ...start, ...goal, chosen: index, profile: Object.freeze(profile) };
-  return one(`Speed curve of ${a.name} changed`, a.id, patch);
+  return one(TEXTS.speedCurveOfChanged(a.name), a.id, patch);
 }
 export const clearGoal = (a: Agent): Command =>
-  one(`Goal of ${a.name} cleared`, a.id, { goal: freeGoal(), chosen: null });
+  one(TEXTS.goalOfCleared(a.name), a.id, { goal: freeGoal(), chosen: null });
 
 /** As it was recorded. Who was put here has no log and loses what it was asked on its way alone. */
 export function recorded(a: Agent): AgentPatch {
@@ -139,13 +140,13 @@ function kindOfLog(a: Agent): Pick<Agent, 'kind' | 'name'> {
 export const nameAs = (a: Pick<Agent, 'name' | 'called'>, kind: Kind): string =>
   a.called ?? `${KIND_NAMES[kind]} ${/\d+$/.exec(a.name)?.[0] ?? ''}`.trim();
 
-export const resetAgent = (a: Agent): Command => one(`${a.name} back to the log`, a.id, recorded(a));
+export const resetAgent = (a: Agent): Command => one(TEXTS.backToTheLog(a.name), a.id, recorded(a));
 
 export function resetAll(scene: Scene): Command {
   const patches = new Map(
     [...scene.agents.values()].filter((a) => !a.placed && !a.locked).map((a) => [a.id, recorded(a)]),
   );
-  return patchAgents('Everybody back to the log', patches);
+  return patchAgents(TEXTS.everybodyBack, patches);
 }
 
 // -------------------------------------------------------------- who is in the scene
@@ -218,15 +219,15 @@ export function patchScene(name: string, patch: ScenePatch, fold?: string): Comm
   };
 }
 
-export const setSeed = (seed: number): Command => patchScene(`Seed ${seed}`, { seed });
+export const setSeed = (seed: number): Command => patchScene(TEXTS.seed(seed), { seed });
 export const setDiversity = (diversity: number): Command =>
-  patchScene(`Diversity ${Math.round(diversity * 100)}%`, { diversity }, 'diversity');
+  patchScene(TEXTS.diversity(Math.round(diversity * 100)), { diversity }, 'diversity');
 export const setOthers = (others: Others): Command =>
-  patchScene({ react: 'Others react', log: 'Others replay the log', still: 'Others hold still' }[others], { others });
-export const setReplan = (replan: Replan): Command => patchScene(`Planned anew each ${replan} s`, { replan });
+  patchScene({ react: TEXTS.othersReact, log: TEXTS.othersReplay, still: TEXTS.othersHoldStill }[others], { others });
+export const setReplan = (replan: Replan): Command => patchScene(TEXTS.plannedAnewEach(replan), { replan });
 
 /** Everybody worked out anew. */
-export const drawAnew = (scene: Scene): Command => patchScene('Everybody worked out anew', { drawn: scene.drawn + 1 });
+export const drawAnew = (scene: Scene): Command => patchScene(TEXTS.everybodyWorked, { drawn: scene.drawn + 1 });
 
 /** How much is worked out. Goals that would come after the end come at the end. */
 export function setLength(scene: Scene, length: Length): Command {
@@ -236,7 +237,7 @@ export function setLength(scene: Scene, length: Length): Command {
       .map((a) => [a.id, { goal: Object.freeze({ ...a.goal, time: length }) }]),
   );
   return inOneStep(
-    patchScene(`${length} s worked out`, { length, duration: durationOf(length, scene.steps) }),
+    patchScene(TEXTS.sWorkedOut(length), { length, duration: durationOf(length, scene.steps) }),
     patchAgents('', late),
   );
 }
@@ -250,4 +251,4 @@ export function inOneStep(first: Command, second: Command, name = first.name): C
   };
 }
 
-export const rename = (name: string): Command => patchScene(`Renamed to ${name}`, { name });
+export const rename = (name: string): Command => patchScene(TEXTS.renamedTo(name), { name });

@@ -8,6 +8,7 @@ import { nameIn, touched, type Agent, type Scene } from './scene';
 import { metres, num, seconds, speedLabel, type SpeedUnit } from './units';
 import { placeWord } from './verdict-words';
 import { wrapAngle, type Pose, type Vec } from './geometry';
+import { TEXTS } from '../texts/events';
 
 export interface TrafficEvent {
   readonly kind: Exclude<Mark, 'ok'>;
@@ -164,25 +165,25 @@ const sameStretch = (a: Raw, b: Raw): boolean =>
   a.a === b.a && sameKind(a.what, b.what) && a.time <= b.until + SAME_STRETCH_S && b.time <= a.until + SAME_STRETCH_S;
 
 const WORDS: Readonly<Record<FaultKind, string>> = {
-  collision: 'Collision',
-  red_light: 'Red light',
-  wrong_way: 'Wrong way',
-  over_median: 'Over the median',
-  off_road: 'Off the road',
-  harsh_braking: 'Hard braking',
-  harsh_steering: 'Hard steering',
-  near_miss: 'Near miss',
-  goal_missed: 'Goal missed',
+  collision: TEXTS.collision,
+  red_light: TEXTS.redLight,
+  wrong_way: TEXTS.wrongWay,
+  over_median: TEXTS.overTheMedian,
+  off_road: TEXTS.offTheRoad,
+  harsh_braking: TEXTS.hardBraking,
+  harsh_steering: TEXTS.hardSteering,
+  near_miss: TEXTS.nearMiss,
+  goal_missed: TEXTS.goalMissed,
 };
 
 /** How bad it is, in the unit of its kind. */
 function extentWords(r: Raw, unit: SpeedUnit): string | null {
-  if (r.extent === null) return r.ttc === null ? null : `${num(r.ttc, 1)} s to collision`;
+  if (r.extent === null) return r.ttc === null ? null : TEXTS.sToCollision(num(r.ttc, 1));
   switch (r.what) {
     case 'collision':
-      return `closing at ${speedLabel(r.extent, unit)}`;
+      return TEXTS.closingAt(speedLabel(r.extent, unit));
     case 'red_light':
-      return `at ${speedLabel(r.extent, unit)}`;
+      return TEXTS.at(speedLabel(r.extent, unit));
     case 'harsh_braking':
     case 'harsh_steering':
       return `${num(r.extent, 1)} m/s²`;
@@ -216,7 +217,7 @@ function event(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit): TrafficEv
     title: !b ? a.name : kind === 'collision' ? `${a.name} × ${b.name}` : `${a.name}, ${b.name}`,
     short: shortOf(scene, r),
     label: `${WORDS[r.what]} ${num(r.time, 1)} s`,
-    words: r.inLog ? `${words} · in the log` : words,
+    words: r.inLog ? TEXTS.inTheLog(words) : words,
     at,
     facts: factsOf(scene, set, r, unit, [a, pa], [b, pb]),
   };
@@ -230,7 +231,7 @@ function placeOf(r: Raw, pa: Pose | null, pb: Pose | null): Vec | null {
 function shortOf(scene: Scene, r: Raw): string {
   const other = (r.b !== null && nameIn(scene)(r.b)) || '';
   if (r.what === 'near_miss' && r.ttc !== null && (r.extent === null || r.extent > 1))
-    return `${num(r.ttc, 1)} s to collision with ${other}`;
+    return TEXTS.sToCollisionWith(num(r.ttc, 1), other);
   const fault = {
     kind: r.what,
     time: r.time,
@@ -252,24 +253,24 @@ function factsOf(scene: Scene, set: MotionSet, r: Raw, unit: SpeedUnit, ...who: 
   );
   const [[, pa], [, pb]] = who;
   const closing = r.extent ?? (pa && pb ? relativeSpeed(pa, pb) : null);
-  if (r.what === 'collision' && closing !== null) facts.push(['Closing speed', speedLabel(closing, unit)]);
-  if (r.what === 'near_miss' && r.extent !== null) facts.push(['Closest gap', `${num(r.extent, 1)} m`]);
-  if (r.ttc !== null) facts.push(['Time to collision', `${num(r.ttc, 1)} s`]);
+  if (r.what === 'collision' && closing !== null) facts.push([TEXTS.closingSpeed, speedLabel(closing, unit)]);
+  if (r.what === 'near_miss' && r.extent !== null) facts.push([TEXTS.closestGap, `${num(r.extent, 1)} m`]);
+  if (r.ttc !== null) facts.push([TEXTS.timeToCollision, `${num(r.ttc, 1)} s`]);
   const fact = FACTS[r.what];
   if (fact && r.extent !== null) facts.push([fact, extentWords(r, unit)!.replace(/^at /, '')]);
-  if (r.until > r.time + 0.15) facts.push(['From, to', `${num(r.time, 1)} to ${seconds(r.until)}`]);
-  if (r.inLog) facts.push(['Where from', 'in the log, not counted']);
+  if (r.until > r.time + 0.15) facts.push([TEXTS.fromTo, TEXTS.to(num(r.time, 1), seconds(r.until))]);
+  if (r.inLog) facts.push([TEXTS.whereFrom, TEXTS.inTheLogNotCounted]);
   return facts;
 }
 
 const FACTS: Partial<Record<FaultKind, string>> = {
-  red_light: 'Speed over the line',
-  wrong_way: 'Way so driven',
-  over_median: 'Past the edge',
-  off_road: 'Past the edge',
-  harsh_braking: 'Braking',
-  harsh_steering: 'Sideways',
-  goal_missed: 'Left to the goal',
+  red_light: TEXTS.speedOverThe,
+  wrong_way: TEXTS.waySoDriven,
+  over_median: TEXTS.pastTheEdge,
+  off_road: TEXTS.pastTheEdge,
+  harsh_braking: TEXTS.braking,
+  harsh_steering: TEXTS.sideways,
+  goal_missed: TEXTS.leftToTheGoal,
 };
 
 const relativeSpeed = (p: Pose, q: Pose): number =>
@@ -283,11 +284,11 @@ function doing(scene: Scene, set: MotionSet, a: Agent, t: number): string {
   const p = poseAt(m, Math.max(0, t - 1)) ?? poseAt(m, t),
     q = poseAt(m, Math.min(scene.duration, t + 1)) ?? poseAt(m, t);
   const now = poseAt(m, t);
-  if (!p || !q || !now || Math.abs(now.speed) < 0.3) return 'standing';
+  if (!p || !q || !now || Math.abs(now.speed) < 0.3) return TEXTS.standing;
   const turn = wrapAngle(q.heading - p.heading);
-  if (turn > 0.35) return 'turning left';
-  if (turn < -0.35) return 'turning right';
-  return q.speed < p.speed - 2 ? 'braking' : 'straight on';
+  if (turn > 0.35) return TEXTS.turningLeft;
+  if (turn < -0.35) return TEXTS.turningRight;
+  return q.speed < p.speed - 2 ? TEXTS.braking2 : TEXTS.straightOn;
 }
 
 /** Those that count: what is in the log does not. */
@@ -299,15 +300,17 @@ export function worstOf(events: readonly TrafficEvent[]): TrafficEvent['kind'] |
   return kinds.length ? kinds.reduce((a, b) => (compareMarks(b, a) < 0 ? b : a)) : null;
 }
 
-const many = (n: number, one: string, more: string): string => (n ? `${n} ${n > 1 ? more : one}` : '');
+const COUNTED = [
+  ['collision', TEXTS.collisions],
+  ['rule', TEXTS.rulesBroken],
+  ['near', TEXTS.nearMisses],
+  ['short', TEXTS.goalsMissed],
+] as const;
 
 export function summary(events: readonly TrafficEvent[]): string {
-  const of = (kind: TrafficEvent['kind']): number => counted(events).filter((e) => e.kind === kind).length;
-  const parts = [
-    many(of('collision'), 'collision', 'collisions'),
-    many(of('rule'), 'rule broken', 'rules broken'),
-    many(of('near'), 'near miss', 'near misses'),
-    many(of('short'), 'goal missed', 'goals missed'),
-  ].filter(Boolean);
-  return parts.length ? parts.join(' · ') : 'No collisions, no near misses';
+  const parts = COUNTED.flatMap(([kind, words]) => {
+    const n = counted(events).filter((e) => e.kind === kind).length;
+    return n ? words(n) : [];
+  });
+  return parts.length ? parts.join(' · ') : TEXTS.noCollisions;
 }

@@ -1,6 +1,7 @@
 // What was said of futures as a table: a line an answer, a column a feature.
 import type { Answer, Feedback } from './feedback';
 import { whyWords } from './feedback-words';
+import { TEXTS } from '../texts/feedback';
 
 type NameOf = (id: string) => string | null;
 
@@ -29,7 +30,7 @@ export function feedbackTable(id: string | null, f: Feedback, nameOf: NameOf): s
     ['standing_s', (a) => a.features.standing_s],
     ['from_log_m', (a) => a.features.from_log_m],
     ['manoeuvre', (a) => (id === null ? undefined : a.features.manoeuvres?.[id])],
-    ...met.map((other) => [`before ${nameOf(other) ?? other}`, (a: Answer) => rowOf(a)?.[other]] as const),
+    ...met.map((other) => [TEXTS.before(nameOf(other) ?? other), (a: Answer) => rowOf(a)?.[other]] as const),
   ];
   const lines = [columns.map(([title]) => cell(title)), ...f.answers.map((a) => columns.map(([, of]) => cell(of(a))))];
   return `${lines.map((l) => l.join(',')).join('\r\n')}\r\n`;

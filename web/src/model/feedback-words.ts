@@ -2,6 +2,8 @@
 import { traitKey, type Answer, type Features, type Trait, type Verdict, type Wish } from './feedback';
 import type { LearnedWishJson } from './json';
 import { num, seconds, speedText, type SpeedUnit } from './units';
+import { TEXTS } from '../texts/feedback';
+import { inSentence } from '../texts/language';
 
 type NameOf = (id: string) => string | null;
 export interface Speaking {
@@ -10,37 +12,36 @@ export interface Speaking {
 }
 
 const MANOEUVRES = {
-  straight: 'Straight on',
-  left: 'Turns left',
-  right: 'Turns right',
-  turn_round: 'Turns round',
-  lane_left: 'To the left lane',
-  lane_right: 'To the right lane',
-  stays: 'Stays',
-  reverse: 'Backs up',
+  straight: TEXTS.straightOn,
+  left: TEXTS.turnsLeft,
+  right: TEXTS.turnsRight,
+  turn_round: TEXTS.turnsRound,
+  lane_left: TEXTS.toTheLeftLane,
+  lane_right: TEXTS.toTheRightLane,
+  stays: TEXTS.stays,
+  reverse: TEXTS.backsUp,
 } as const;
 
 const PLAIN = {
-  pace: { more: 'Faster', less: 'Slower' },
-  gap: { more: 'Wider gap', less: 'Closer' },
-  harshness: { more: 'Sharper', less: 'Smoother' },
-  standing: { more: 'Waits longer', less: 'Waits less' },
-  from_log: { more: 'Off the recording', less: 'Nearer the recording' },
+  pace: { more: TEXTS.faster, less: TEXTS.slower },
+  gap: { more: TEXTS.widerGap, less: TEXTS.closer },
+  harshness: { more: TEXTS.sharper, less: TEXTS.smoother },
+  standing: { more: TEXTS.waitsLonger, less: TEXTS.waitsLess },
+  from_log: { more: TEXTS.offTheRecording, less: TEXTS.nearerTheRecording },
 } as const;
 
-const lower = (s: string): string => s.charAt(0).toLowerCase() + s.slice(1);
-const called = (nameOf: NameOf, id: string): string => nameOf(id) ?? `Road user ${id}`;
+const called = (nameOf: NameOf, id: string): string => nameOf(id) ?? TEXTS.roadUser(id);
 
 /** A shorter gap than this is nothing to be kept, seconds. */
 const LEAST_GAP_S = 1;
 
 /** `Smoother`, `Car 12 first`, `Keeps 2 s gap`. `kept`: the range of the kept ones. */
 export function wishWords(w: Wish, nameOf: NameOf, kept?: readonly [number, number] | null): string {
-  if (w.trait === 'first') return `${called(nameOf, w.wants === 'more' ? w.who : w.with)} first`;
+  if (w.trait === 'first') return TEXTS.first(called(nameOf, w.wants === 'more' ? w.who : w.with));
   if (w.trait === 'does')
-    return w.wants === 'more' ? MANOEUVRES[w.manoeuvre] : `Not: ${lower(MANOEUVRES[w.manoeuvre])}`;
+    return w.wants === 'more' ? MANOEUVRES[w.manoeuvre] : TEXTS.not(inSentence(MANOEUVRES[w.manoeuvre]));
   if (w.trait === 'gap' && w.wants === 'more' && kept && kept[0] >= LEAST_GAP_S)
-    return `Keeps ${num(Math.floor(kept[0] * 10) / 10, kept[0] % 1 < 0.1 ? 0 : 1)} s gap`;
+    return TEXTS.keepsSGap(num(Math.floor(kept[0] * 10) / 10, kept[0] % 1 < 0.1 ? 0 : 1));
   return PLAIN[w.trait][w.wants];
 }
 
@@ -49,7 +50,7 @@ type Range = readonly [number, number];
 /** `Kept ones stand 0 to 1.2 s, rejected ones 3 to 4 s.` */
 export function restsOn(w: LearnedWishJson, answers: readonly Answer[], { unit }: Speaking): string {
   const sentence = w.trait === 'first' || w.trait === 'does' ? shares(w, answers) : ranges(w, unit);
-  return [w.said ? 'You said so.' : '', sentence].filter(Boolean).join(' ');
+  return [w.said ? TEXTS.youSaidSo : '', sentence].filter(Boolean).join(' ');
 }
 
 function ranges(w: LearnedWishJson, unit: SpeedUnit): string {
@@ -57,12 +58,8 @@ function ranges(w: LearnedWishJson, unit: SpeedUnit): string {
   if (!say) return '';
   const { does, value, of } = say;
   const [kept, rejected] = [w.kept ?? null, w.rejected ?? null];
-  if (kept && rejected) return `Kept ones ${does} ${value(kept)}, rejected ones ${value(rejected)}${of}.`;
-  return kept
-    ? `Kept ones ${does} ${value(kept)}${of}.`
-    : rejected
-      ? `Rejected ones ${does} ${value(rejected)}${of}.`
-      : '';
+  if (kept && rejected) return TEXTS.keptOnesRejected(does, value(kept), value(rejected), of);
+  return kept ? TEXTS.keptOnes(does, value(kept), of) : rejected ? TEXTS.rejectedOnes(does, value(rejected), of) : '';
 }
 
 interface Saying {
@@ -73,25 +70,25 @@ interface Saying {
 }
 
 const between = (r: Range, text: (v: number) => string): string =>
-  text(r[0]) === text(r[1]) ? text(r[0]) : `${text(r[0])} to ${text(r[1])}`;
+  text(r[0]) === text(r[1]) ? text(r[0]) : TEXTS.to(text(r[0]), text(r[1]));
 
 function saying({ trait, wants }: LearnedWishJson, unit: SpeedUnit): Saying | null {
   const one = (v: number) => num(v, 1);
   switch (trait) {
     case 'pace':
-      return { does: 'drive', of: ` ${unit} on average`, value: (r) => between(r, (v) => speedText(v, unit)) };
+      return { does: TEXTS.drive, of: TEXTS.onAverage(unit), value: (r) => between(r, (v) => speedText(v, unit)) };
     case 'gap':
       return wants === 'more'
-        ? { does: 'leave at least', of: ' s', value: (r) => one(r[0]) }
-        : { does: 'leave', of: ' s', value: (r) => between(r, one) };
+        ? { does: TEXTS.leaveAtLeast, of: ' s', value: (r) => one(r[0]) }
+        : { does: TEXTS.leave, of: ' s', value: (r) => between(r, one) };
     case 'harshness':
       return wants === 'less'
-        ? { does: 'brake, speed up or swerve with at most', of: ' m/s²', value: (r) => one(r[1]) }
-        : { does: 'brake, speed up or swerve with', of: ' m/s²', value: (r) => between(r, one) };
+        ? { does: TEXTS.brakeSpeedUp, of: ' m/s²', value: (r) => one(r[1]) }
+        : { does: TEXTS.brakeSpeedUpOr, of: ' m/s²', value: (r) => between(r, one) };
     case 'standing':
-      return { does: 'stand', of: ' s', value: (r) => between(r, one) };
+      return { does: TEXTS.stand, of: ' s', value: (r) => between(r, one) };
     case 'from_log':
-      return { does: 'are', of: ' m from the recording', value: (r) => between(r, one) };
+      return { does: TEXTS.are, of: TEXTS.mFromTheRecording, value: (r) => between(r, one) };
     default:
       return null;
   }
@@ -112,16 +109,22 @@ function shares(w: Wish, answers: readonly Answer[]): string {
   const of = (verdict: Verdict) => {
     const known = answers.filter((a) => a.verdict === verdict).map((a) => shows(a.features, w));
     const all = known.filter((v) => v !== null);
-    return all.length ? `${all.filter(Boolean).length} of ${all.length}` : null;
+    return all.length ? TEXTS.of(all.filter(Boolean).length, all.length) : null;
   };
   const [kept, rejected] = [of('keep'), of('reject')];
-  if (kept && rejected) return `So it is in ${kept} kept ones and in ${rejected} rejected ones.`;
-  return kept ? `So it is in ${kept} kept ones.` : rejected ? `So it is in ${rejected} rejected ones.` : '';
+  if (kept && rejected) return TEXTS.soItIsInKept(kept, rejected);
+  return kept ? TEXTS.soItIsInKeptOnes(kept) : rejected ? TEXTS.soItIsInRejected(rejected) : '';
 }
 
 /** Which answers contradict a wish: `A of round 1, “After Car 12”, was kept.` */
 export const againstWords = (a: Answer): string =>
-  `${a.letter} of round ${a.round}${a.name ? `, “${a.name}”,` : ''} was ${a.verdict === 'keep' ? 'kept' : 'rejected'}.`;
+  a.name
+    ? a.verdict === 'keep'
+      ? TEXTS.ofRoundWasKept(a.letter, a.round, a.name)
+      : TEXTS.ofRoundWasRejected(a.letter, a.round, a.name)
+    : a.verdict === 'keep'
+      ? TEXTS.ofRoundWasKept2(a.letter, a.round)
+      : TEXTS.ofRoundWasRejected2(a.letter, a.round);
 
 // -------------------------------------------------------------- why
 
@@ -140,14 +143,14 @@ type Plain = Exclude<Trait['trait'], 'first' | 'does'>;
 type Row = readonly [Plain, 'more' | 'less', fault: string, liked: string];
 
 const REASONS: readonly Row[] = [
-  ['pace', 'more', 'too slow', 'brisk'],
-  ['pace', 'less', 'too fast', 'calm'],
-  ['gap', 'more', 'too close', 'keeps clear'],
-  ['gap', 'less', 'too careful', 'goes while it can'],
-  ['harshness', 'less', 'too harsh', 'smooth'],
-  ['standing', 'less', 'waits too long', 'hardly waits'],
-  ['standing', 'more', 'should wait', 'waits'],
-  ['from_log', 'less', 'too far from the recording', 'near the recording'],
+  ['pace', 'more', TEXTS.tooSlow, 'brisk'],
+  ['pace', 'less', TEXTS.tooFast, 'calm'],
+  ['gap', 'more', TEXTS.tooClose, TEXTS.keepsClear],
+  ['gap', 'less', TEXTS.tooCareful, TEXTS.goesWhileItCan],
+  ['harshness', 'less', TEXTS.tooHarsh, 'smooth'],
+  ['standing', 'less', TEXTS.waitsTooLong, TEXTS.hardlyWaits],
+  ['standing', 'more', TEXTS.shouldWait, 'waits'],
+  ['from_log', 'less', TEXTS.tooFarFromThe, TEXTS.nearTheRecording],
 ];
 
 /** More orders of two than this are no choice but a list, in a scene. */
@@ -173,8 +176,8 @@ export function reasons(id: string | null, f: Features, verdict: Verdict, nameOf
     const wish: Wish = { trait: 'first', who: me, with: other, wants: first === liked ? 'more' : 'less' };
     // Of a whole scene it must be said who.
     const it = id === null ? `${called(nameOf, me)} ` : '';
-    if (liked) return choice(wish, it + (first ? `goes before ${who}` : `lets ${who} go first`));
-    return choice(wish, it + (first ? `should go after ${who}` : `should go before ${who}`));
+    if (liked) return choice(wish, it + (first ? TEXTS.goesBefore(who) : TEXTS.letsGoFirst(who)));
+    return choice(wish, it + (first ? TEXTS.shouldGoAfter(who) : TEXTS.shouldGoBefore(who)));
   });
   return [...plain, ...order];
 }
@@ -196,7 +199,7 @@ export function wishes(id: string | null, cards: readonly Features[], nameOf: Na
 
 /** Whom it lets go first, where several could be meant. */
 const firstWords = (w: Wish, nameOf: NameOf): string | null =>
-  w.trait === 'first' && w.wants === 'more' ? `${called(nameOf, w.who)} before ${called(nameOf, w.with)}` : null;
+  w.trait === 'first' && w.wants === 'more' ? TEXTS.before2(called(nameOf, w.who), called(nameOf, w.with)) : null;
 
 export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string => {
   const key = a.why && wishKey(a.why);
@@ -206,6 +209,6 @@ export const whyWords = (id: string | null, a: Answer, nameOf: NameOf): string =
 /** What a card is like, in two facts. */
 export function factWords(f: Features): string {
   // The widest gap that is counted says only that nobody is near.
-  const gap = f.gap_s >= 5 ? 'clear' : `gap ${seconds(f.gap_s)}`;
-  return `${gap} · ${f.standing_s >= 0.5 ? `stands ${seconds(f.standing_s)}` : `${num(f.harshness_mps2, 1)} m/s²`}`;
+  const gap = f.gap_s >= 5 ? 'clear' : TEXTS.gap(seconds(f.gap_s));
+  return `${gap} · ${f.standing_s >= 0.5 ? TEXTS.stands(seconds(f.standing_s)) : `${num(f.harshness_mps2, 1)} m/s²`}`;
 }

@@ -4,6 +4,7 @@
 import { patchAgents, patchScene, type Command } from './commands';
 import type { FeaturesJson, FeedbackDocJson, RoundCardJson, TraitJson, WishJson } from './json';
 import { sceneKey, type Agent, type Scene } from './scene';
+import { TEXTS } from '../texts/feedback';
 
 export type Features = FeaturesJson;
 export type Trait = TraitJson;
@@ -215,7 +216,7 @@ export const oneSubject = (a: Agent): Subject => ({
 
 export const everybody = (scene: Scene): Subject => ({
   id: null,
-  name: 'the whole scene',
+  name: TEXTS.theWholeScene,
   feedback: scene.feedback,
   say: (name, feedback) => patchScene(name, { feedback }),
 });
@@ -239,10 +240,9 @@ export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | n
   };
   const at = was ? answers.indexOf(was) : answers.length;
   const next = answers.toSpliced(at, was ? 1 : 0, ...(said ? [Object.freeze(said)] : []));
-  const word = verdict === null ? 'open again' : verdict === 'keep' ? 'kept' : 'rejected';
-  const what = a.id === null ? 'card' : 'future';
-  const step =
-    was && was.verdict === verdict ? `Why ${what} ${letter} was ${word}` : `${upper(what)} ${letter} ${word}`;
+  const word = verdict === null ? TEXTS.openAgain : verdict === 'keep' ? TEXTS.kept : TEXTS.rejected;
+  const what = a.id === null ? TEXTS.card : TEXTS.future;
+  const step = was && was.verdict === verdict ? TEXTS.whyWas(what, letter, word) : `${upper(what)} ${letter} ${word}`;
   return put(`${step}, ${a.name}`, a, asked, { answers: Object.freeze(next.slice(-most)) });
 }
 
@@ -250,7 +250,7 @@ export function judge(a: Subject, asked: Asked, of: Judged, verdict: Verdict | n
 export function addWish(a: Subject, asked: Asked, wish: Wish, words: string): Command {
   const { wishes, forgotten } = a.feedback ?? NOTHING;
   const others = wishes.filter((w) => !sameTrait(w, wish)).slice(1 - MOST_WISHES);
-  return put(`${words} wished for ${a.name}`, a, asked, {
+  return put(TEXTS.wishedFor(words, a.name), a, asked, {
     wishes: Object.freeze([...others, wish]),
     forgotten: forgotten.filter((t) => !sameTrait(t, wish)),
   });
@@ -261,7 +261,7 @@ export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words
   const { wishes, forgotten } = a.feedback ?? NOTHING;
   const gone = (t: Trait): boolean => traits.some((g) => sameTrait(g, t));
   const all = [...forgotten.filter((t) => !gone(t)), ...traits.map(traitOf)];
-  return put(`${words} forgotten for ${a.name}`, a, asked, {
+  return put(TEXTS.forgottenFor(words, a.name), a, asked, {
     wishes: wishes.filter((w) => !gone(w)),
     forgotten: Object.freeze(all.slice(-MOST_WISHES)),
   });
@@ -270,7 +270,7 @@ export function forget(a: Subject, asked: Asked, traits: readonly Trait[], words
 /** Cards by what was said until now. */
 export function nextRound(a: Subject, asked: Asked): Command {
   const next = following(a.feedback, asked);
-  return put(`Round ${next.round} of ${a.name}`, a, next, {});
+  return put(TEXTS.roundOf(next.round, a.name), a, next, {});
 }
 
 // -------------------------------------------------------------- from a file

@@ -5,6 +5,7 @@ import type { Point, Pose, Vec } from './geometry';
 import { motionFrom, type Motion } from './motion';
 import { nameAll, type Naming } from './names';
 import { metres } from './units';
+import { TEXTS } from '../texts/reach';
 
 export { LETTERS } from './names';
 
@@ -212,17 +213,17 @@ export function reachWords(
   nameOf: (id: string) => string | null = () => null,
 ): { title: string; words: string } {
   if (isBlocked(r) && r.nearest && goal.pos) {
-    const who = (r.with != null && nameOf(r.with)) || 'Somebody';
+    const who = (r.with != null && nameOf(r.with)) || TEXTS.somebody;
     const short = Math.hypot(goal.pos[0] - r.nearest.x, goal.pos[1] - r.nearest.y);
-    return { title: `${who} is in the way`, words: `Halts ${metres(short, 0)} short.` };
+    return { title: TEXTS.isInTheWay(who), words: TEXTS.haltsShort(metres(short, 0)) };
   }
   const text = r.words?.trim() ?? '';
   const cut = /[.!?](?=\s|$)/.exec(text);
   const title = cut ? text.slice(0, cut.index) : text;
   const rest = cut ? text.slice(cut.index + 1).trim() : '';
   return {
-    title: title || `Out of reach in ${goal.time.toFixed(1)} s`,
-    words: rest || 'The nearest reachable point is shown.',
+    title: title || TEXTS.outOfReachIn(goal.time.toFixed(1)),
+    words: rest || TEXTS.theNearestReachable,
   };
 }
 

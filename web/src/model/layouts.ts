@@ -1,18 +1,19 @@
 // Templates of maps in the order in which they are offered, and the ranges of their parameters.
 import domain from '../../../assets/domain.json';
 import type { components } from './api';
+import { TEXTS } from '../texts/layouts';
 
 export type TemplateName = components['schemas']['Template'];
 
 export const TEMPLATE_TITLES: Readonly<Record<TemplateName, string>> = {
-  'three-arms': 'Three arms',
-  'four-arms': 'Four arms',
-  roundabout: 'Roundabout',
-  merge: 'Merge',
-  straight: 'Straight',
-  curve: 'Curve',
-  'school-street': 'School street',
-  'car-park': 'Car park',
+  'three-arms': TEXTS.threeArms,
+  'four-arms': TEXTS.fourArms,
+  roundabout: TEXTS.roundabout,
+  merge: TEXTS.merge,
+  straight: TEXTS.straight,
+  curve: TEXTS.curve,
+  'school-street': TEXTS.schoolStreet,
+  'car-park': TEXTS.carPark,
 };
 
 export const TEMPLATES = Object.keys(TEMPLATE_TITLES) as readonly TemplateName[];

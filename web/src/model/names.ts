@@ -3,6 +3,7 @@
 import { faultMark, leavesRoad, type About, type RelationKind } from './about';
 import { wrapAngle } from './geometry';
 import { distances, endPose, pathLength, STEP_S, type Motion } from './motion';
+import { TEXTS } from '../texts/names';
 
 /** What a name is made from. */
 export interface Nameable {
@@ -34,10 +35,10 @@ interface Candidate {
 }
 
 const RELATION_WORDS: Readonly<Record<RelationKind, string>> = {
-  before: 'Before',
-  after: 'After',
-  follows: 'Behind',
-  gives_way_to: 'Waits for',
+  before: TEXTS.before,
+  after: TEXTS.after,
+  follows: TEXTS.behind,
+  gives_way_to: TEXTS.waitsFor,
 };
 
 const nameless: Naming['nameOf'] = () => null;
@@ -139,9 +140,9 @@ class NameList {
       const ends = (j: number, end: string): boolean => this.#names[j]!.name.endsWith(end);
       const inOrder = (end: string): boolean =>
         named.every(
-          (j) => !ends(j, ` ${word}`) || (end === word && ends(j, ` a bit ${word}`) ? beyond(j) < 0 : beyond(j) > 0),
+          (j) => !ends(j, ` ${word}`) || (end === word && ends(j, TEXTS.aBit(word)) ? beyond(j) < 0 : beyond(j) > 0),
         );
-      if ([`a bit ${word}`, word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
+      if ([TEXTS.aBit2(word), word].some((end) => inOrder(end) && this.#give(i, c, end))) return true;
       if (t.short && this.#give(i, c, t.short[by > 0 ? 0 : 1])) return true;
     }
     return false;
@@ -164,7 +165,7 @@ class NameList {
 /** Parts of what can be seen that are named where nothing else tells. */
 const SMALL = [0.5, 0.2] as const;
 
-const LIKES = ['like', 'much like', 'just like', 'almost like', 'nearly like'] as const;
+const LIKES = ['like', TEXTS.muchLike, TEXTS.justLike, TEXTS.almostLike, TEXTS.nearlyLike] as const;
 
 // -------------------------------------------------------------- what can be said of each
 
@@ -185,14 +186,14 @@ function candidates(modes: readonly Nameable[], who: Naming): Candidate[][] {
   const stops = modes.map((m) => endsStanding(m, who.onFoot));
   const stopTells = modes.length === 1 || stops.some((s) => !s);
   return modes.map((m, i) => [
-    ...(alone && onRoad[i] ? [{ basis: 'By the road', forms: ['By the road'] }] : []),
+    ...(alone && onRoad[i] ? [{ basis: TEXTS.byTheRoad, forms: [TEXTS.byTheRoad] }] : []),
     ...relations[i].filter(tells).sort((a, b) => contrast(b) - contrast(a)),
     // One that stops is not called by how it goes on.
     stops[i] && stopTells ? { basis: STOPS, forms: [STOPS] } : manner(m, who.onFoot),
   ]);
 }
 
-const STOPS = 'Stops';
+const STOPS = TEXTS.stops;
 
 interface RelationCandidate extends Candidate {
   readonly other: string;
@@ -209,7 +210,7 @@ function relationsOf(m: Nameable, who: Naming): RelationCandidate[] {
     const word = RELATION_WORDS[r.kind];
     const short = shortName(name);
     const forms = [`${word} ${name}`, `${word} ${short}`];
-    if (r.kind === 'gives_way_to') forms.push(`Lets ${short} go`);
+    if (r.kind === 'gives_way_to') forms.push(TEXTS.letsGo(short));
     if (forms.some((f) => f.length <= LONGEST)) out.set(basis, { basis, forms, other: r.with });
   }
   return [...out.values()];
@@ -244,23 +245,23 @@ function mannerWords(m: Motion, manoeuvre: NonNullable<About['manoeuvre']>, onFo
   switch (manoeuvre) {
     case 'left':
     case 'right': {
-      const turn = `Turns ${manoeuvre}`;
-      return !onFoot && shiftsFirst(m) ? [`Other lane, then ${manoeuvre}`, `Lane, then ${manoeuvre}`, turn] : [turn];
+      const turn = manoeuvre === 'left' ? TEXTS.turnsLeft : TEXTS.turnsRight;
+      return !onFoot && shiftsFirst(m) ? [TEXTS.otherLaneThen[manoeuvre], TEXTS.laneThen[manoeuvre], turn] : [turn];
     }
     case 'lane_left':
     case 'lane_right': {
       const side = manoeuvre === 'lane_left' ? 'left' : 'right';
-      return onFoot ? [`Bears ${side}`] : [`To the ${side} lane`, side === 'left' ? 'Left lane' : 'Right lane'];
+      return onFoot ? [TEXTS.bears[side]] : [TEXTS.toTheLane[side], side === 'left' ? TEXTS.leftLane : TEXTS.rightLane];
     }
     case 'turn_round':
-      return ['Turns round'];
+      return [TEXTS.turnsRound];
     case 'stays':
-      if (pathLength(m) >= CREEPS_M) return [onFoot ? 'A step or two' : 'Creeps on'];
-      return [onFoot ? 'Stays' : 'Stands still'];
+      if (pathLength(m) >= CREEPS_M) return [onFoot ? TEXTS.aStepOrTwo : TEXTS.creepsOn];
+      return [onFoot ? TEXTS.stays : TEXTS.standsStill];
     case 'reverse':
-      return ['Backs up'];
+      return [TEXTS.backsUp];
     case 'straight':
-      return onFoot ? ['Straight'] : ['Straight on', 'Straight'];
+      return onFoot ? [TEXTS.straight] : [TEXTS.straightOn, TEXTS.straight];
   }
 }
 
@@ -335,8 +336,8 @@ function extremesOf({ values, least, more, less }: Trait, all: readonly number[]
 /** Words of a scale, from the first of a group outwards: one on each level that can be seen apart. */
 const SCALE: Readonly<Record<number, readonly string[]>> = {
   1: ['', ''],
-  2: ['', '', 'much '],
-  3: ['', 'a bit ', '', 'much '],
+  2: ['', '', TEXTS.much],
+  3: ['', TEXTS.aBit3, '', TEXTS.much],
 };
 
 /** More and less of a trait than the first has, level by level. */
@@ -378,7 +379,7 @@ function brakingTime(modes: readonly Nameable[], group: readonly number[]): Trai
     return when;
   };
   const values = new Map(group.map((i) => [i, at(modes[i].motion)]));
-  return { values, least: 1, more: 'brakes later', less: 'brakes sooner' };
+  return { values, least: 1, more: TEXTS.brakesLater, less: TEXTS.brakesSooner };
 }
 
 interface Traits {
@@ -403,8 +404,8 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const ends = group.map(at(1));
   const far = Math.max(1, 0.03 * Math.max(...ends));
   const together = Math.max(...ends) - Math.min(...ends) < far;
-  const halfway = trait(at(0.5), 0.8, 'earlier', 'later');
-  const [more, less] = basis === STOPS ? ['further on', 'sooner'] : ['faster', 'slower'];
+  const halfway = trait(at(0.5), 0.8, TEXTS.earlier, TEXTS.later);
+  const [more, less] = basis === STOPS ? [TEXTS.furtherOn, TEXTS.sooner] : [TEXTS.faster, TEXTS.slower];
   // With a goal all get as far in the end; then it is told on the way who is ahead.
   const pace = together ? halfway : trait(at(1), far, more, less);
   const [first] = group;
@@ -415,13 +416,13 @@ function traitsOf(modes: readonly Nameable[], group: readonly number[], basis: s
   const offset = (i: number): number => side.get(i)!;
   const traits: Trait[] = [
     pace,
-    trait(at(0.25), 0.8, 'faster start', 'slower start'),
-    trait((i) => Math.abs(motion(i).speed[n]), 1.5, 'faster end', 'slower end'),
+    trait(at(0.25), 0.8, TEXTS.fasterStart, TEXTS.slowerStart),
+    trait((i) => Math.abs(motion(i).speed[n]), 1.5, TEXTS.fasterEnd, TEXTS.slowerEnd),
     {
-      ...trait((i) => hardestBraking(motion(i)), 1, 'harder braking', 'softer braking'),
-      short: ['brakes more', 'brakes less'],
+      ...trait((i) => hardestBraking(motion(i)), 1, TEXTS.harderBraking, TEXTS.softerBraking),
+      short: [TEXTS.brakesMore, TEXTS.brakesLess],
     },
-    turns ? trait(offset, 0.5, 'wider', 'tighter') : trait(offset, 0.5, 'more left', 'more right'),
+    turns ? trait(offset, 0.5, 'wider', 'tighter') : trait(offset, 0.5, TEXTS.moreLeft, TEXTS.moreRight),
   ];
   return { traits, halfway };
 }

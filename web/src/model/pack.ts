@@ -2,6 +2,8 @@
 // what is unpacked equals what was packed, to the last bit.
 
 /** Marks of packed values; no member of a scene begins so. */
+import { TEXTS } from '../texts/reading';
+
 const COLUMN = '$c',
   POINTS = '$p';
 const MOST_DIGITS = 7;
@@ -57,10 +59,10 @@ function sums(v: readonly number[]): number[] {
 export class PackError extends Error {}
 
 function readColumn(c: Json): number[] {
-  if (!Array.isArray(c) || !isNumbers(c) || c.length < 2) throw new PackError('a column is broken');
+  if (!Array.isArray(c) || !isNumbers(c) || c.length < 2) throw new PackError(TEXTS.aColumnIsBroken);
   const [digits, order, ...d] = c as number[];
   if (!(digits >= 0 && digits <= MOST_DIGITS) || (order !== 1 && order !== 2))
-    throw new PackError('a column is broken');
+    throw new PackError(TEXTS.aColumnIsBroken);
   const whole = order === 2 ? sums(sums(d)) : sums(d);
   const k = 10 ** digits;
   return whole.map((n) => n / k);

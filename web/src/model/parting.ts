@@ -7,6 +7,7 @@ import { poseAt, STEP_S, type Motion } from './motion';
 import { deedOf, type Deed } from './variant-names';
 import type { Agent, Scene } from './scene';
 import { metres, num } from './units';
+import { TEXTS } from '../texts/parting';
 
 export interface Side {
   /** What it is called in a sentence: its number. */
@@ -97,13 +98,13 @@ const row = (what: string, left: string, right: string): Row => ({ what, left, r
 
 function rowsOf(left: Side, right: Side, parted: readonly Parted[]): Row[] {
   const gap = ({ set }: Side): string => (set.score?.pet == null ? '–' : `${num(set.score.pet, 1)} s`);
-  const events = (s: Side): string => (counted(s.events).length ? summary(s.events) : 'none');
+  const events = (s: Side): string => (counted(s.events).length ? summary(s.events) : TEXTS.none);
   const closing = ({ set }: Side): string => (set.score?.minTtc == null ? '–' : `${num(set.score.minTtc, 1)} s`);
   return [
-    row('Events', events(left), events(right)),
+    row(TEXTS.events, events(left), events(right)),
     ...parted.slice(0, MOST_ROWS).map((p) => deeds(left.scene, p)),
-    row('Smallest gap', gap(left), gap(right)),
-    row('Least time to collision', closing(left), closing(right)),
+    row(TEXTS.smallestGap, gap(left), gap(right)),
+    row(TEXTS.leastTimeToCollision, closing(left), closing(right)),
     ...goals(left, right),
   ];
 }
@@ -111,30 +112,30 @@ function rowsOf(left: Side, right: Side, parted: readonly Parted[]): Row[] {
 function deeds(scene: Scene, { agent, left, right }: Parted): Row {
   const [a, b] = [deedOf(scene, left), deedOf(scene, right)];
   const [p, q] = [deedWords(a), deedWords(b)];
-  return p === q ? row(agent.name, `goes ${metres(a.way, 0)}`, `goes ${metres(b.way, 0)}`) : row(agent.name, p, q);
+  return p === q ? row(agent.name, TEXTS.goes(metres(a.way, 0)), TEXTS.goes(metres(b.way, 0))) : row(agent.name, p, q);
 }
 
 function deedWords(d: Deed): string {
-  if (d.waits >= 1) return d.stands ? `stands ${num(d.waits, 1)} s` : `waits ${num(d.waits, 1)} s`;
-  return d.turn === 'straight' ? `goes ${metres(d.way, 0)}` : `turns ${d.turn}`;
+  if (d.waits >= 1) return d.stands ? TEXTS.standsS(num(d.waits, 1)) : TEXTS.waitsS(num(d.waits, 1));
+  return d.turn === 'straight' ? TEXTS.goes(metres(d.way, 0)) : TEXTS.turns(d.turn);
 }
 
 function goals(left: Side, right: Side): Row[] {
   const words = (s: Side, id: string): string => {
     const r = s.set.reach.get(id);
-    return r ? (r.status === 'reached' ? 'reached' : 'missed') : 'not known';
+    return r ? (r.status === 'reached' ? TEXTS.reached : TEXTS.missed) : TEXTS.notKnown;
   };
   return [...left.scene.agents.values()]
     .filter((a) => a.goal.pos)
     .slice(0, 2)
-    .map((a) => row(`Goal of ${a.name}`, words(left, a.id), words(right, a.id)));
+    .map((a) => row(TEXTS.goalOf(a.name), words(left, a.id), words(right, a.id)));
 }
 
 // -------------------------------------------------------------- the moments
 
 function momentsOf(left: Side, right: Side, parted: readonly Parted[]): Moment[] {
   const said = (e: TrafficEvent): string =>
-    e.what === 'collision' && e.b ? `${e.a.name} meets ${e.b.name}` : `${e.title}, ${e.short}`;
+    e.what === 'collision' && e.b ? TEXTS.meets(e.a.name, e.b.name) : `${e.title}, ${e.short}`;
   const events = [left, right].flatMap((s) =>
     counted(s.events).map((e): Moment => ({ time: e.time, words: `${s.label}: ${said(e)}`, at: e.at })),
   );
@@ -153,7 +154,8 @@ function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: 
   const at: Vec = [(p.x + q.x) / 2, (p.y + q.y) / 2];
   const [along, aside] = toLocal(p, q.x, q.y);
   const say = (words: string): Moment => ({ time: t, words: `${agent.name} ${words}`, at });
-  if (Math.abs(aside) > Math.abs(along)) return say(`keeps further ${aside > 0 ? 'left' : 'right'} in ${right.label}`);
+  if (Math.abs(aside) > Math.abs(along))
+    return say(aside > 0 ? TEXTS.keepsFurther(right.label) : TEXTS.keepsFurtherRight(right.label));
   // Whoever is behind there has slowed, or the other one goes on.
   const [slow, motion, other] = along < 0 ? [right, n, m] : [left, m, n];
   const least = (of: Motion): number => {
@@ -161,9 +163,9 @@ function wayOf(left: Side, right: Side, { agent, left: m, right: n, since: t }: 
     for (let s = t; s <= Math.min(left.scene.duration, t + SOON_S); s += STEP_S) v = Math.min(v, speedAt(of, s));
     return v;
   };
-  if (least(motion) < STANDS_MPS && least(other) >= STANDS_MPS) return say(`stops, only in ${slow.label}`);
-  if (speedAt(motion, 0) - speedAt(motion, t) > SLOWS_MPS) return say(`slows, only in ${slow.label}`);
-  return say(`goes faster in ${(slow === left ? right : left).label}`);
+  if (least(motion) < STANDS_MPS && least(other) >= STANDS_MPS) return say(TEXTS.stopsOnlyIn(slow.label));
+  if (speedAt(motion, 0) - speedAt(motion, t) > SLOWS_MPS) return say(TEXTS.slowsOnlyIn(slow.label));
+  return say(TEXTS.goesFasterIn((slow === left ? right : left).label));
 }
 
 const speedAt = (m: Motion, t: number): number => Math.abs(poseAt(m, t)?.speed ?? Infinity);

@@ -5,6 +5,7 @@ import { findRoute, nearestLanes, tightestRadius, type Lane, type LaneMap } from
 import { metres, seconds, speedLabel, type SpeedUnit } from './units';
 import { limitsOf, type Limits } from './domain';
 import { GOAL_TIME, type Agent, type GoalSpec } from './scene';
+import { TEXTS } from '../texts/reach';
 
 /** Furthest distance in `t` seconds from speed `v`: speeding up as hard as it goes, then on at top speed. */
 export function furthestReach(l: Limits, v: number, t: number): number {
@@ -91,13 +92,13 @@ export function localReach(
   const max = furthestReach(l, v, t),
     min = leastReach(l, v, t);
   const who = {
-    car: 'this car',
-    truck: 'this truck',
-    bus: 'this bus',
-    motorcycle: 'this motorcycle',
-    cyclist: 'this cyclist',
-    pedestrian: 'this person',
-    other: 'it',
+    car: TEXTS.thisCar,
+    truck: TEXTS.thisTruck,
+    bus: TEXTS.thisBus,
+    motorcycle: TEXTS.thisMotorcycle,
+    cyclist: TEXTS.thisCyclist,
+    pedestrian: TEXTS.thisPerson,
+    other: TEXTS.it,
   }[a.kind];
   const base = { path: line, onLanes, along, max, min, time: null, speed: null, nearest: null };
   const at = (s: number, speed: number): Pose => ({ ...pointAt(line, s), speed });
@@ -110,10 +111,10 @@ export function localReach(
       nearest: at(max, Math.min(l.speed_mps, v + l.accel_mps2 * t)),
       time: timeFor(l, v, along, latest),
       speed: speedFor(l, t, along),
-      title: `Too far for ${seconds(t)}`,
+      title: TEXTS.tooFarFor(seconds(t)),
       words:
-        `The goal is ${metres(along, 0)} away${onLanes ? ' along the lane' : ''}. ` +
-        `In ${seconds(t)} from ${speedLabel(v, unit)} ${who} gets ${metres(max, 0)} at most.`,
+        (onLanes ? TEXTS.theGoalIsAway(metres(along, 0)) : TEXTS.theGoalIsAway2(metres(along, 0))) +
+        TEXTS.inFromGetsAt(seconds(t), speedLabel(v, unit), who, metres(max, 0)),
     };
   }
   if (along < min - 1 && along > 0.5) {
@@ -127,8 +128,8 @@ export function localReach(
         speed: 0,
       },
       speed: Math.sqrt(Math.max(0, 2 * l.brake_mps2 * along)),
-      title: 'Cannot stop that soon',
-      words: `From ${speedLabel(v, unit)} it needs ${metres(min, 0)}, the goal is ${metres(along, 0)} away.`,
+      title: TEXTS.cannotStopThat,
+      words: TEXTS.fromItNeedsThe(speedLabel(v, unit), metres(min, 0), metres(along, 0)),
     };
   }
   const radius = a.type === 'pedestrian' ? Infinity : tightestRadius(line);
@@ -139,19 +140,19 @@ export function localReach(
       ...base,
       kind: 'sharp',
       speed: ok,
-      title: 'Too tight at this speed',
-      words: `${speedLabel(ok, unit)} would do.`,
+      title: TEXTS.tooTightAtThis,
+      words: TEXTS.wouldDo(speedLabel(ok, unit)),
     };
   }
   const mean = speedLabel(along / t, unit);
   return {
     ...base,
     kind: 'ok',
-    title: 'Reachable',
+    title: TEXTS.reachable,
     words:
       a.type === 'pedestrian'
-        ? `${metres(along, 1)} in ${seconds(t)}: ${mean}${walk(along / t)}`
-        : `${mean} on average is enough.`,
+        ? TEXTS.in(metres(along, 1), seconds(t), mean, walk(along / t))
+        : TEXTS.onAverageIsEnough(mean),
   };
 }
 
@@ -173,7 +174,7 @@ export function shortfall(
 }
 
 const walk = (v: number): string =>
-  v < 0.6 ? ', a stroll.' : v < 1.6 ? ', a normal walk.' : v < 2.2 ? ', a brisk walk.' : ', running.';
+  v < 0.6 ? TEXTS.aStroll : v < 1.6 ? TEXTS.aNormalWalk : v < 2.2 ? TEXTS.aBriskWalk : TEXTS.running;
 
 function timeFor(l: Limits, v: number, d: number, latest: number): number | null {
   for (let t = 0.5; t <= latest; t += 0.1) if (furthestReach(l, v, t) >= d) return Math.ceil(t * 10) / 10;

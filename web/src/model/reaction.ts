@@ -4,6 +4,7 @@ import type { ReactionKind } from './json';
 import { poseAt, STEP_S, type Motion } from './motion';
 import type { Agent } from './scene';
 import { num, speedText, type SpeedUnit } from './units';
+import { TEXTS } from '../texts/reactions';
 
 export interface Reaction {
   readonly kind: ReactionKind;
@@ -33,21 +34,21 @@ const TOLD_S = 0.5;
 
 /** `waits 2 s for Car 7`, `slows to 8 km/h behind Car 12`: the verb first, the other's name last. */
 export function reactionWords(a: Agent, r: Reaction, shown: SpeedUnit = 'km/h'): string {
-  const whom = `${r.ahead ? 'behind' : 'for'} ${r.cause.name}`;
+  const whom = `${r.ahead ? TEXTS.behind : TEXTS.for} ${r.cause.name}`;
   switch (r.kind) {
     case 'waits': {
       const long = r.delay !== null && r.delay >= TOLD_S ? ` ${roundSeconds(r.delay)} s` : '';
-      return `waits${long} ${whom}`;
+      return TEXTS.waits(long, whom);
     }
     case 'slows': {
       const unit = a.type === 'pedestrian' ? 'm/s' : shown;
       const speed = speedText(Math.abs(r.place.speed), unit);
-      return Number(speed) ? `slows to ${speed} ${unit} ${whom}` : `stops briefly ${whom}`;
+      return Number(speed) ? TEXTS.slowsTo(speed, unit, whom) : TEXTS.stopsBriefly(whom);
     }
     case 'speeds_up':
-      return `makes way for ${r.cause.name}`;
+      return TEXTS.makesWayFor(r.cause.name);
     case 'keeps_clear':
-      return `takes another line for ${r.cause.name}`;
+      return TEXTS.takesAnother(r.cause.name);
   }
 }
 

@@ -39,16 +39,15 @@ import {
 } from './scene';
 import type { Pose, Vec } from './geometry';
 import { askedOf, MOST_VARIANTS, type Asked, type Variant, type VariantState } from './variants';
+import { TEXTS } from '../texts/reading';
 
 export class SceneError extends Error {}
 
 export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
-  if (!json || typeof json !== 'object' || !Array.isArray(json.agents))
-    throw new SceneError('This is not a scene: it has no list of road users.');
-  if ((json.version ?? 1) > 1)
-    throw new SceneError(`This scene was saved by a newer version (${json.version}). This one reads up to 1.`);
+  if (!json || typeof json !== 'object' || !Array.isArray(json.agents)) throw new SceneError(TEXTS.thisIsNotAScene);
+  if ((json.version ?? 1) > 1) throw new SceneError(TEXTS.thisSceneWas(json.version));
   const source = mapJson ?? (isMapRef(json.map) ? undefined : json.map);
-  if (!source) throw new SceneError('The map of this scene is not here.');
+  if (!source) throw new SceneError(TEXTS.theMapOfThis);
   const map = buildMap(source);
   const steps =
     json.time?.steps ?? Math.max(1, ...json.agents.map((a) => (a.track?.first_step ?? 0) + (a.track?.x_m.length ?? 0)));
@@ -59,7 +58,7 @@ export function readScene(json: SceneJson, mapJson?: MapJson): Scene {
   const length = readLength(ed.length_s);
   return Object.freeze({
     id: json.id ?? '',
-    name: json.name ?? 'Untitled',
+    name: json.name ?? TEXTS.untitled,
     source: json.meta?.source ?? 'drawn',
     licence: json.meta?.licence ?? '',
     steps,

@@ -3,6 +3,7 @@ import { rangesOf, topSpeed } from './domain';
 import { setGoal, setStart } from './commands';
 import { startPose, type Agent, type Scene } from './scene';
 import { fromUnit, num, seconds, speedLabel, toUnit, type SpeedUnit } from './units';
+import { TEXTS } from '../texts/variants';
 
 /** What is gone through: the speed at the start, the speed at the goal, the time of the goal. */
 export type Over = 'start' | 'goal' | 'time';
@@ -67,6 +68,6 @@ export function withValue(scene: Scene, id: string, over: Over, value: number): 
 
 /** What tells a variant by its number. */
 export function valueWords(over: Over, value: number, unit: SpeedUnit): string {
-  if (over === 'time') return `there after ${Number.isInteger(value) ? `${num(value, 0)} s` : seconds(value)}`;
-  return `${over === 'start' ? 'starts at' : 'arrives at'} ${speedLabel(value, unit)}`;
+  if (over === 'time') return TEXTS.thereAfter(Number.isInteger(value) ? `${num(value, 0)} s` : seconds(value));
+  return `${over === 'start' ? TEXTS.startsAt : TEXTS.arrivesAt} ${speedLabel(value, unit)}`;
 }

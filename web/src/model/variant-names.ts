@@ -9,6 +9,7 @@ import type { Agent, Scene } from './scene';
 import { valueOf, valueWords, type Over } from './sweep';
 import type { SpeedUnit } from './units';
 import type { VariantState } from './variants';
+import { TEXTS } from '../texts/variants';
 
 export interface Nameless {
   readonly id: number;
@@ -60,7 +61,7 @@ export function nameVariants(all: readonly Nameless[], unitOf: (a: Agent) => Spe
   const taken = new Set<string>();
   return said.map((list, i) => {
     const first = list.sort((p, q) => q.weight - p.weight).find((s) => !taken.has(s.words));
-    const name = first?.words ?? `Variant ${all[i].id}`;
+    const name = first?.words ?? TEXTS.variant(all[i].id);
     taken.add(name);
     return name;
   });
@@ -99,7 +100,9 @@ const EVENT_SAYS = { collision: 60, rule: 12, near: 8, short: 6 } as const;
 function ofEvents({ events = [] }: Nameless): Said[] {
   return counted(events).map((e) => {
     const { a, b, short } = e;
-    const words = !b ? `${a.name}, ${short}` : `${a.name} ${e.what === 'collision' ? 'meets' : 'close to'} ${b.name}`;
+    const words = !b
+      ? `${a.name}, ${short}`
+      : `${a.name} ${e.what === 'collision' ? TEXTS.meets : TEXTS.closeTo} ${b.name}`;
     return { words, weight: EVENT_SAYS[e.kind] };
   });
 }
@@ -134,7 +137,11 @@ function usualOf(deeds: readonly Deed[]): Deed {
   return { way: middle((d) => d.way), waits: middle((d) => d.waits), stands, turn };
 }
 
-const TURNS: Record<Deed['turn'], string> = { left: 'turns left', right: 'turns right', straight: 'goes straight on' };
+const TURNS: Record<Deed['turn'], string> = {
+  left: TEXTS.turnsLeft,
+  right: TEXTS.turnsRight,
+  straight: TEXTS.goesStraight,
+};
 
 function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
   const out: Said[] = [];
@@ -142,11 +149,11 @@ function unlike(a: Agent, d: Deed, usual: Deed): Said[] {
   const longer = d.waits - usual.waits;
   // People on foot turn all the time.
   if (d.turn !== usual.turn && d.way > LEAST_M && a.type !== 'pedestrian') say(TURNS[d.turn], TURN_SAYS);
-  if (longer >= LEAST_S && d.stands && !usual.stands) say('stops', longer * SECOND_SAYS);
-  else if (longer >= LEAST_S) say(`waits ${longer.toFixed(0)} s longer`, longer * SECOND_SAYS);
-  else if (-longer >= LEAST_S) say(d.waits < EVERY_S ? 'does not wait' : 'waits less', -longer * SECOND_SAYS);
+  if (longer >= LEAST_S && d.stands && !usual.stands) say(TEXTS.stops, longer * SECOND_SAYS);
+  else if (longer >= LEAST_S) say(TEXTS.waitsSLonger(longer.toFixed(0)), longer * SECOND_SAYS);
+  else if (-longer >= LEAST_S) say(d.waits < EVERY_S ? TEXTS.doesNotWait : TEXTS.waitsLess, -longer * SECOND_SAYS);
   const further = d.way - usual.way;
   if (Math.abs(longer) < LEAST_S && Math.abs(further) >= LEAST_M)
-    say(further > 0 ? 'goes faster' : 'goes slower', Math.abs(further));
+    say(further > 0 ? TEXTS.goesFaster : TEXTS.goesSlower, Math.abs(further));
   return out;
 }

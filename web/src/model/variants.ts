@@ -2,6 +2,7 @@
 // drew with; its motion is worked out from that like any other and not part of the document.
 import { inOneStep, patchAgents, patchScene, recorded, type AgentPatch, type Command } from './commands';
 import { durationOf, sceneKey, touched, type Agent, type Length, type Others, type Replan, type Scene } from './scene';
+import { TEXTS } from '../texts/variants';
 
 /** How a variant is called and what is thought of it. */
 export interface Variant {
@@ -120,7 +121,7 @@ export function replaceVariants(scene: Scene, fresh: readonly VariantState[]): C
   for (const v of stay) states[v.id] = scene.variantStates[v.id];
   come.forEach((v, i) => (states[v.id] = fresh[i]));
   const n = come.length;
-  return put(n === 1 ? 'A variant made' : `${n} variants made`, [...stay, ...come], states);
+  return put(TEXTS.variantsMade2(n), [...stay, ...come], states);
 }
 
 /** The number of the next one: larger than any before it. */

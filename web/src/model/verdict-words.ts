@@ -14,28 +14,29 @@ import type { LaneMap } from './lanemap';
 import { endPose } from './motion';
 import type { AgentType } from './scene';
 import { metres, num, seconds } from './units';
+import { TEXTS } from '../texts/verdicts';
 
 export type NameOf = (id: string) => string | null;
 
-const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || 'somebody';
+const somebody = (f: Fault, nameOf: NameOf): string => (f.with !== null && nameOf(f.with)) || TEXTS.somebody;
 /** A gap below this is a near miss by itself, metres. */
 const GAP_M = 1;
 
-const hard = (f: Fault): string => (f.extent === null ? ' hard' : ` ${num(f.extent, 0)} m/s²`);
+const hard = (f: Fault): string => (f.extent === null ? TEXTS.hard : ` ${num(f.extent, 0)} m/s²`);
 
 /** The word on the picture where it happens. */
 export function placeWord(f: Fault, nameOf: NameOf): string {
   switch (f.kind) {
     case 'collision':
-      return `hits ${somebody(f, nameOf)}`;
+      return TEXTS.hits(somebody(f, nameOf));
     case 'red_light':
-      return 'red light';
+      return TEXTS.redLight;
     case 'wrong_way':
-      return 'wrong way';
+      return TEXTS.wrongWay;
     case 'over_median':
-      return 'over the median';
+      return TEXTS.overTheMedian;
     case 'off_road':
-      return 'off the road';
+      return TEXTS.offTheRoad;
     case 'harsh_braking':
       return `brakes${hard(f)}`;
     case 'harsh_steering':
@@ -43,16 +44,16 @@ export function placeWord(f: Fault, nameOf: NameOf): string {
     case 'near_miss':
       // Far apart, but so fast towards each other that the time is what was near.
       return f.extent === null || f.extent > GAP_M
-        ? `close call with ${somebody(f, nameOf)}`
-        : `${metres(f.extent, 1)} to ${somebody(f, nameOf)}`;
+        ? TEXTS.closeCallWith(somebody(f, nameOf))
+        : TEXTS.to(metres(f.extent, 1), somebody(f, nameOf));
     case 'goal_missed':
-      return f.extent === null ? 'short' : `${metres(f.extent)} short`;
+      return f.extent === null ? TEXTS.short2 : TEXTS.short(metres(f.extent));
   }
 }
 
 /** The same in a sentence: `hits Car 12 at 1.3 s`. */
 const headlineWord = (f: Fault, nameOf: NameOf): string =>
-  f.kind === 'red_light' ? 'through red' : f.kind === 'wrong_way' ? 'the wrong way' : placeWord(f, nameOf);
+  f.kind === 'red_light' ? TEXTS.throughRed : f.kind === 'wrong_way' ? TEXTS.theWrongWay : placeWord(f, nameOf);
 
 export interface Headline {
   readonly mark: Mark;
@@ -63,7 +64,7 @@ export interface Headline {
   readonly at: number | null;
 }
 
-const SIX = ['', 'one', 'two', 'three', 'four', 'five', 'six'];
+const SIX = ['', TEXTS.one, TEXTS.two, TEXTS.three, TEXTS.four, TEXTS.five, TEXTS.six];
 
 const upper = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
 
@@ -76,16 +77,16 @@ export function headline(f: Futures, chosen: number, hasGoal: boolean, who: Walk
   if (mark === 'ok') return hasGoal ? { mark, title: reachedBy(f), words, at: null } : null;
   const [worst] = about.faults;
   const word = headlineWord(worst, who.nameOf);
-  const at = ` at ${seconds(worst.time)}`;
+  const at = TEXTS.at(seconds(worst.time));
   const missed = about.faults.find((x) => x.kind === 'goal_missed');
   const toGoal = hasGoal && !missed;
-  if (worst.kind === 'goal_missed') return { mark, title: `${upper(word)} of the goal`, words, at: worst.time };
+  if (worst.kind === 'goal_missed') return { mark, title: TEXTS.ofTheGoal(upper(word)), words, at: worst.time };
   const all = f.modes.length > 1 && f.modes.every((m) => m.about?.faults[0]?.kind === worst.kind);
   const title =
     toGoal && all && leavesRoad(worst)
-      ? `Only ${word}${at}`
+      ? TEXTS.only(word, at)
       : toGoal
-        ? `Reached, ${word}${at}`
+        ? TEXTS.reached(word, at)
         : `${upper(word)}${at}${missed && hasGoal ? `, ${placeWord(missed, who.nameOf)}` : ''}`;
   return { mark, title, words, at: worst.time };
 }
@@ -99,14 +100,14 @@ export interface Walker {
 /** Those that reach the goal with nothing wrong. */
 function reachedBy(f: Futures): string {
   const good = f.modes.flatMap((m, i) => (m.about && markOf(m.about) === 'ok' ? [LETTERS[i]] : []));
-  if (good.length === f.modes.length && good.length > 1) return `Reached in all ${SIX[good.length]}`;
-  return `Reached in ${good.join(', ')}`;
+  if (good.length === f.modes.length && good.length > 1) return TEXTS.reachedInAll(SIX[good.length]);
+  return TEXTS.reachedIn(good.join(', '));
 }
 
 // -------------------------------------------------------------- who does what
 
 const and = (list: readonly string[]): string =>
-  list.length < 2 ? list.join('') : `${list.slice(0, -1).join(', ')} and ${list.at(-1)}`;
+  list.length < 2 ? list.join('') : TEXTS.and(list.slice(0, -1).join(', '), list.at(-1));
 
 interface Group {
   readonly key: string;
@@ -131,7 +132,7 @@ function whoDoesWhat(f: Futures, chosen: number, hasGoal: boolean, who: Walker):
   const list = [...groups.values()];
   if (list.length === 1 && list[0].letters.length === f.modes.length) {
     const [{ key, many, letters }] = list;
-    return key === 'ok' || letters.length < 2 ? '' : `All ${SIX[letters.length]} ${many}.`;
+    return key === 'ok' || letters.length < 2 ? '' : TEXTS.all(SIX[letters.length], many);
   }
   return list.map((g) => `${and(g.letters)} ${g.letters.length > 1 ? g.many : g.one}.`).join(' ');
 }
@@ -152,39 +153,39 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
   if (!worst) {
     // The headline lists those that get there, unless it names what is wrong.
     if (said.named === null) return null;
-    if (!said.hasGoal) return group('ok', 'do not', 'does not');
+    if (!said.hasGoal) return group('ok', TEXTS.doNot, TEXTS.doesNot);
     return said.offRoad
-      ? group('ok', 'get there by the road', 'gets there by the road')
-      : group('ok', 'get there', 'gets there');
+      ? group('ok', TEXTS.getThereByThe, TEXTS.getsThereByThe)
+      : group('ok', TEXTS.getThere, TEXTS.getsThere);
   }
   const it = said.named === worst.kind;
   const [drive, drives] = GOES[said.who.type];
   switch (worst.kind) {
     case 'collision': {
       const whom = somebody(worst, said.who.nameOf);
-      return group(`hit:${worst.with}`, `hit ${whom}`, `hits ${whom}`);
+      return group(`hit:${worst.with}`, TEXTS.hit(whom), TEXTS.hits2(whom));
     }
     case 'red_light':
-      return group(worst.kind, `${drive} through red`, `${drives} through red`);
+      return group(worst.kind, TEXTS.throughRed2(drive), TEXTS.throughRed3(drives));
     case 'wrong_way':
-      return group(worst.kind, `${drive} the wrong way`, `${drives} the wrong way`);
+      return group(worst.kind, TEXTS.theWrongWay2(drive), TEXTS.theWrongWay3(drives));
     case 'over_median': {
-      const over = it ? 'over it' : 'over the median';
+      const over = it ? TEXTS.overIt : TEXTS.overTheMedian;
       return group(worst.kind, `${drive} ${over}`, `${drives} ${over}`);
     }
     case 'off_road':
-      return group(worst.kind, 'leave the road', 'leaves the road');
+      return group(worst.kind, TEXTS.leaveTheRoad, TEXTS.leavesTheRoad);
     case 'harsh_braking':
-      return group(worst.kind, 'brake hard', 'brakes hard');
+      return group(worst.kind, TEXTS.brakeHard, TEXTS.brakesHard);
     case 'harsh_steering':
-      return group(worst.kind, 'steer hard', 'steers hard');
+      return group(worst.kind, TEXTS.steerHard, TEXTS.steersHard);
     case 'near_miss': {
       const whom = somebody(worst, said.who.nameOf);
-      return group(`near:${worst.with}`, `nearly hit ${whom}`, `nearly hits ${whom}`);
+      return group(`near:${worst.with}`, TEXTS.nearlyHit(whom), TEXTS.nearlyHits(whom));
     }
     case 'goal_missed': {
       if (Math.abs(endPose(f.modes[i].motion).speed) < STANDING) return group('stops', 'stop', 'stops');
-      return group('short', 'do not get there', 'does not get there');
+      return group('short', TEXTS.doNotGetThere, TEXTS.doesNotGetThere);
     }
   }
 }
@@ -193,10 +194,10 @@ function groupOf(f: Futures, i: number, about: About | null, said: Said): Group 
 const STANDING = 0.5;
 
 const GOES: Readonly<Record<AgentType, readonly [many: string, one: string]>> = {
-  vehicle: ['drive', 'drives'],
-  cyclist: ['ride', 'rides'],
-  pedestrian: ['walk', 'walks'],
-  other: ['go', 'goes'],
+  vehicle: [TEXTS.drive, TEXTS.drives],
+  cyclist: [TEXTS.ride, TEXTS.rides],
+  pedestrian: [TEXTS.walk, TEXTS.walks],
+  other: [TEXTS.go, TEXTS.goes],
 };
 
 /** `drive`, `ride`, `walk`: how one kind gets about. */
@@ -205,7 +206,7 @@ export const goes = (type: AgentType): string => GOES[type][0];
 /** `may drive over this median`. An island has several edges and is one median all the same. */
 export function mayCrossWords(go: string, map: LaneMap, edges: readonly string[]): string {
   const medians = new Set(map.edges.filter((e) => e.type === 'median').map((e) => e.id));
-  return `may ${go} over this ${edges.every((id) => medians.has(id)) ? 'median' : 'kerb'}`;
+  return edges.every((id) => medians.has(id)) ? TEXTS.mayOverThisMedian(go) : TEXTS.mayOverThisKerb(go);
 }
 
 // -------------------------------------------------------------- why another is shown
@@ -215,31 +216,31 @@ export function whyNot(f: Futures, was: number, shown: number, nameOf: NameOf): 
   const [old, now] = [f.modes[was]?.about, f.modes[shown]?.about];
   if (!old || !now || compareMarks(markOf(old), markOf(now)) >= 0) return null;
   const [worst] = old.faults;
-  return `${LETTERS[shown]} is shown: ${LETTERS[was]} ${WHY[faultMark(worst)](worst, nameOf)}`;
+  return TEXTS.isShown(LETTERS[shown], LETTERS[was], WHY[faultMark(worst)](worst, nameOf));
 }
 
 /** The same where the bold one before was another, and something is to be said of it whatever the reason. */
 export function whyAnother(f: Futures, was: number, shown: number, nameOf: NameOf): string | null {
   const [old, now] = [f.modes[was], f.modes[shown]];
   if (!now || was === shown) return null;
-  const is = `${LETTERS[shown]} is shown`;
-  if (!old) return `${is}: the one before is not among these`;
+  const is = TEXTS.isShown2(LETTERS[shown]);
+  if (!old) return TEXTS.theOneBefore(is);
   const likelier = now.probability > old.probability;
-  const plain = likelier ? `${is}: it is likelier than ${LETTERS[was]}` : `${is}; it was ${LETTERS[was]} in the drag`;
+  const plain = likelier ? TEXTS.itIsLikelier(is, LETTERS[was]) : TEXTS.itWasInTheDrag(is, LETTERS[was]);
   return whyNot(f, was, shown, nameOf) ?? plain;
 }
 
 const WHY: Readonly<Record<Mark, (f: Fault, nameOf: NameOf) => string>> = {
   collision: placeWord,
   rule: (f, nameOf) => RULE_VERBS[f.kind] ?? placeWord(f, nameOf),
-  near: (f, nameOf) => `nearly hits ${somebody(f, nameOf)}`,
-  short: (f, nameOf) => `ends ${placeWord(f, nameOf)}`,
+  near: (f, nameOf) => TEXTS.nearlyHits2(somebody(f, nameOf)),
+  short: (f, nameOf) => TEXTS.ends(placeWord(f, nameOf)),
   ok: () => '',
 };
 
 const RULE_VERBS: Partial<Record<FaultKind, string>> = {
-  red_light: 'runs a red light',
-  wrong_way: 'goes the wrong way',
-  over_median: 'goes over the median',
-  off_road: 'leaves the road',
+  red_light: TEXTS.runsARedLight,
+  wrong_way: TEXTS.goesTheWrong,
+  over_median: TEXTS.goesOverTheMedian,
+  off_road: TEXTS.leavesTheRoad,
 };

@@ -366,7 +366,7 @@ describe('menus', () => {
     expect(p.state).toBe('asked');
     p.up(at);
     expect(p.state).toBe('idle');
-    expect(p.menus).toEqual(['ground', 'road user', 'several', 'goal', 'road user']);
+    expect(p.menus).toEqual(['ground', 'road-user', 'several', 'goal', 'road-user']);
   });
 
   it('are none where the right button moves the picture', () => {

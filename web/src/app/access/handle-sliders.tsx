@@ -9,12 +9,13 @@ import * as moves from '../../edit/moves';
 import { laneWords } from '../../edit/snap';
 import { useAgent, type LiveAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
+import { TEXTS } from '../../texts/access';
 
 export function HandleSliders() {
   const { editor } = useApp();
   const id = useComputed(() => (editor.agent.value && canMove(editor.agent.value) ? editor.selection.value : null));
   return (
-    <div class="sr" role="group" aria-label="Handles" data-group="handles">
+    <div class="sr" role="group" aria-label={TEXTS.handles} data-group="handles">
       {id.value ? <Sliders key={id.value} id={id.value} /> : null}
     </div>
   );
@@ -72,24 +73,24 @@ function Slider({ label, part, now, text, move }: SliderProps) {
   );
 }
 
-const WORD = { start: 'Start', goal: 'Goal' } as const;
+const WORD = { start: TEXTS.start, goal: TEXTS.goal } as const;
 
 function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
   const { editor } = useApp();
   const pose = () => moves.shownPose(editor, agent.value, part);
-  const freedom = (f: Field) => (agent.value[part][f] === null ? ', free' : ', fixed');
+  const freedom = (f: Field) => (agent.value[part][f] === null ? TEXTS.free : TEXTS.fixed);
   const place = () => {
     const p = pose();
-    if (!p) return 'not known';
+    if (!p) return TEXTS.notKnown;
     const lane = laneWords(editor.scene.value!.map, agent.value, p.x, p.y, p.heading);
-    return `${num(p.x, 1)}, ${num(p.y, 1)} metres, ${lane}${freedom('pos')}`;
+    return TEXTS.metres(num(p.x, 1), num(p.y, 1), lane, freedom('pos'));
   };
   const heading = () => deg(pose()?.heading ?? 0);
   const speed = () => pose()?.speed ?? 0;
   return (
     <>
       <Slider
-        label={`${WORD[part]} position`}
+        label={TEXTS.position(WORD[part])}
         part={part}
         now={() => pose()?.x ?? 0}
         text={place}
@@ -99,14 +100,14 @@ function PartSliders({ agent, part }: { agent: LiveAgent; part: Part }) {
         }}
       />
       <Slider
-        label={`${WORD[part]} heading`}
+        label={TEXTS.heading(WORD[part])}
         part={part}
         now={heading}
-        text={() => `${Math.round(heading())} degrees${freedom('heading')}`}
+        text={() => TEXTS.degrees(Math.round(heading()), freedom('heading'))}
         move={([, , more], far) => moves.turn(editor, agent.peek(), part, more * (far ? 15 : 1))}
       />
       <Slider
-        label={`${WORD[part]} speed`}
+        label={TEXTS.speed(WORD[part])}
         part={part}
         now={speed}
         text={() => `${speedLabel(speed(), editor.unitOf(agent.value))}${freedom('speed')}`}
@@ -120,10 +121,10 @@ function TimeSlider({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   return (
     <Slider
-      label="Goal time"
+      label={TEXTS.goalTime}
       part="goal"
       now={() => agent.value.goal.time}
-      text={() => `${num(agent.value.goal.time, 1)} seconds`}
+      text={() => TEXTS.seconds(num(agent.value.goal.time, 1))}
       move={([, , more], far) => moves.later(editor, agent.peek(), more * (far ? 1 : 0.1))}
     />
   );

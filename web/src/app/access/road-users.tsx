@@ -9,12 +9,14 @@ import { useAgent } from '../inspector/use-agent';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { TEXTS } from '../../texts/access';
+import { inSentence } from '../../texts/language';
 
 const KINDS: readonly (readonly [AgentType | 'all', string])[] = [
-  ['all', 'All'],
-  ['vehicle', 'Vehicles'],
-  ['cyclist', 'Cyclists'],
-  ['pedestrian', 'On foot'],
+  ['all', TEXTS.all],
+  ['vehicle', TEXTS.vehicles],
+  ['cyclist', TEXTS.cyclists],
+  ['pedestrian', TEXTS.onFoot],
 ];
 
 /** Who is listed: of which kind, and of these only who has a goal, or is in an event. */
@@ -28,7 +30,7 @@ const EVERYBODY: Filter = { kind: 'all', goal: false, events: false };
 export function RoadUsers() {
   const { editor, ui } = useApp();
   const id = useComputed(() => editor.scene.value?.id).value;
-  const label = useComputed(() => `Road users, ${editor.scene.value?.agents.size ?? 0}`);
+  const label = useComputed(() => TEXTS.roadUsers(editor.scene.value?.agents.size ?? 0));
   const open = useComputed(() => ui.drawer.value === 'users').value;
   const filter = useSignal(EVERYBODY);
   // Nobody is left out of a list whose filters cannot be seen.
@@ -39,7 +41,7 @@ export function RoadUsers() {
     <nav
       class={open ? 'drawer card users' : 'sr'}
       aria-label={label}
-      aria-description={open ? 'Arrows walk the list.' : 'Tab goes to the next one, F6 to the next part of the page.'}
+      aria-description={open ? TEXTS.arrowsWalkThe : TEXTS.tabGoesToThe}
       data-group="users"
       onKeyDown={open ? walkList : undefined}
     >
@@ -76,12 +78,12 @@ function Head({ filter }: { filter: { value: Filter } }) {
   return (
     <>
       <h2>
-        Road users
+        {TEXTS.roadUsers2}
         <span class="grow" />
         <IconButton id="users" icon="x" size={16} />
       </h2>
-      <div class="filters" role="group" aria-label="Who is listed">
-        <div class="seg wide" role="radiogroup" aria-label="Kind">
+      <div class="filters" role="group" aria-label={TEXTS.whoIsListed}>
+        <div class="seg wide" role="radiogroup" aria-label={TEXTS.kind}>
           {KINDS.map(([id, words]) => (
             <button
               key={id}
@@ -130,7 +132,7 @@ function List({ filter }: { filter: ReadonlySignal<Filter> }) {
   const tabStop = useComputed(() => editor.selected.value[0] ?? editor.scene.value?.agents.keys().next().value);
   return (
     <>
-      {shown.length ? null : <p class="mut none">Nobody is like that.</p>}
+      {shown.length ? null : <p class="mut none">{TEXTS.nobodyIsLike}</p>}
       <ul>
         {shown.map((id) => (
           <li key={id}>
@@ -173,8 +175,8 @@ function RoadUser({ id, tabStop }: { id: string; tabStop: ReadonlySignal<string 
 /** `16 km/h, westbound lane, goal set, near miss 4.7 s` */
 function wordsFor({ editor }: Context, a: Agent, event: string): string {
   const p = startPose(a);
-  if (!p) return 'not there at the start';
-  const place = a.parked ? 'parked' : laneWords(editor.scene.peek()!.map, a, p.x, p.y, p.heading);
-  const goal = hasGoal(a.goal) ? 'goal set' : '';
-  return [speedLabel(p.speed, editor.unitOf(a)), place, goal, event.toLowerCase()].filter(Boolean).join(', ');
+  if (!p) return TEXTS.notThereAtThe;
+  const place = a.parked ? TEXTS.parked : laneWords(editor.scene.peek()!.map, a, p.x, p.y, p.heading);
+  const goal = hasGoal(a.goal) ? TEXTS.goalSet : '';
+  return [speedLabel(p.speed, editor.unitOf(a)), place, goal, inSentence(event)].filter(Boolean).join(', ');
 }

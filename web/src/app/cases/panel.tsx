@@ -13,6 +13,7 @@ import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import '../../styles/variants.css';
 import '../../styles/cases.css';
+import { TEXTS } from '../../texts/cases';
 
 /** Shown while the search is open alone. */
 const useCases = () => useApp().searching.open.value;
@@ -30,10 +31,10 @@ export default function CasesPanel() {
           <Icon name="search" size={20} />
         </div>
         <div class="grow">
-          <h2>Find a case</h2>
+          <h2>{TEXTS.findACase}</h2>
           <p>{about(sought, nameOf)}</p>
         </div>
-        <button type="button" class="btn i" aria-label="Close the search" onClick={() => cases.close()}>
+        <button type="button" class="btn i" aria-label={TEXTS.closeTheSearch} onClick={() => cases.close()}>
           <Icon name="x" size={16} />
         </button>
       </div>
@@ -54,22 +55,22 @@ type NameOf = (id: string | null) => string;
 function useName(): NameOf {
   const { editor } = useApp();
   const agents = editor.scene.peek()?.agents;
-  return (id) => (id === null ? 'anybody' : (agents?.get(id)?.name ?? 'somebody'));
+  return (id) => (id === null ? TEXTS.anybody : (agents?.get(id)?.name ?? TEXTS.somebody));
 }
 
 const about = ({ what, who, other }: Sought, nameOf: NameOf): string =>
-  KINDS[what].two && other !== null ? `between ${nameOf(who)} and ${nameOf(other)}` : `of ${nameOf(who)}`;
+  KINDS[what].two && other !== null ? TEXTS.betweenAnd(nameOf(who), nameOf(other)) : TEXTS.of(nameOf(who));
 
 function Sentence({ cases, sought }: Of) {
   const nameOf = useName();
   const { two, unit, step, range } = KINDS[sought.what];
   const may = cases.may.value;
   return (
-    <section class="sect seek" aria-label="What is looked for">
+    <section class="sect seek" aria-label={TEXTS.whatIsLooked}>
       <p>
         <select
           class="field pick"
-          aria-label="What is looked for"
+          aria-label={TEXTS.whatIsLooked}
           value={sought.what}
           onChange={(e) => cases.setKind(e.currentTarget.value as What)}
         >
@@ -81,11 +82,11 @@ function Sentence({ cases, sought }: Of) {
         </select>
       </p>
       <p>
-        <span>{sought.what === 'first' ? '' : two ? 'between' : 'of'}</span>
+        <span>{sought.what === 'first' ? '' : two ? TEXTS.between : TEXTS.of2}</span>
         <b class="who">{nameOf(sought.who)}</b>
         {two || sought.other !== null ? (
           <>
-            <span>{sought.what === 'first' ? 'before' : 'and'}</span>
+            <span>{sought.what === 'first' ? TEXTS.before : TEXTS.and}</span>
             <b class="who">{nameOf(sought.other)}</b>
           </>
         ) : null}
@@ -93,8 +94,8 @@ function Sentence({ cases, sought }: Of) {
           <button
             type="button"
             class="btn i"
-            aria-label={`Try ${nameOf(sought.other)} in place of ${nameOf(sought.who)}`}
-            title="The other one is tried"
+            aria-label={TEXTS.tryInPlaceOf(nameOf(sought.other), nameOf(sought.who))}
+            title={TEXTS.theOtherOneIs}
             onClick={() => cases.swap()}
           >
             <Icon name="swap" size={15} />
@@ -103,10 +104,10 @@ function Sentence({ cases, sought }: Of) {
       </p>
       {step ? (
         <p>
-          <span>{sought.what === 'braking' ? 'at least' : 'under'}</span>
+          <span>{sought.what === 'braking' ? TEXTS.atLeast : TEXTS.under}</span>
           <NumberField
             key={sought.what}
-            label="Limit"
+            label={TEXTS.limit}
             field="limit"
             unit={() => unit}
             quantity={() => (unit === 'm' ? 'length' : unit === 's' ? 'time' : 'count')}
@@ -118,12 +119,12 @@ function Sentence({ cases, sought }: Of) {
           />
         </p>
       ) : null}
-      <p role="group" aria-label={`What of ${nameOf(sought.who)} may change`}>
-        <span>may change</span>
+      <p role="group" aria-label={TEXTS.whatOfMayChange(nameOf(sought.who))}>
+        <span>{TEXTS.mayChange}</span>
         {(
           [
-            ['speed', 'start speed'],
-            ['time', 'goal time'],
+            ['speed', TEXTS.startSpeed],
+            ['time', TEXTS.goalTime],
             ['seed', 'seed'],
           ] as const
         ).map(([k, words]) => (
@@ -155,20 +156,18 @@ function Run({ cases, sought }: Of) {
       </section>
     );
   return (
-    <section class="sect seeking" aria-label="How far the search is">
+    <section class="sect seeking" aria-label={TEXTS.howFarTheSearch}>
       <h3>
-        <span role="status">
-          {p.tried} of {p.of} tried
-        </span>
-        <small>{state === 'running' ? leftWords(p) : state === 'paused' ? 'paused' : ''}</small>
+        <span role="status">{TEXTS.ofTried(p.tried, p.of)}</span>
+        <small>{state === 'running' ? leftWords(p) : state === 'paused' ? TEXTS.paused : ''}</small>
       </h3>
-      <div class="progress" role="progressbar" aria-label="Tried" aria-valuemax={p.of} aria-valuenow={p.tried}>
+      <div class="progress" role="progressbar" aria-label={TEXTS.tried} aria-valuemax={p.of} aria-valuenow={p.tried}>
         <i style={{ width: `${(100 * p.tried) / p.of}%` }} />
       </div>
       <p class="tally">
-        <em class="tag near">{p.found} found</em>
-        {p.collisions ? <em class="tag collision">{p.collisions} collided</em> : null}
-        <em class="tag ok">{Math.max(0, p.tried - p.found - p.collisions)} not like that</em>
+        <em class="tag near">{TEXTS.found(p.found)}</em>
+        {p.collisions ? <em class="tag collision">{TEXTS.collided(p.collisions)}</em> : null}
+        <em class="tag ok">{TEXTS.notLikeThat(Math.max(0, p.tried - p.found - p.collisions))}</em>
       </p>
       {problem ? (
         <p class="problem" role="alert">
@@ -181,7 +180,7 @@ function Run({ cases, sought }: Of) {
           <ActionButton key="stop" id="case-stop" class="line" size={15} />
         ) : (
           <ActionButton key="on" id="case-search" class="line" icon="">
-            {state === 'paused' ? 'Go on' : `Try ${MOST_TRIES} more`}
+            {state === 'paused' ? TEXTS.goOn : TEXTS.tryMore(MOST_TRIES)}
           </ActionButton>
         )}
       </div>
@@ -192,16 +191,14 @@ function Run({ cases, sought }: Of) {
 }
 
 const leftWords = ({ left }: Progress): string =>
-  left === null ? '' : left > 90 ? `about ${num(left / 60, 0)} min left` : `about ${num(Math.ceil(left), 0)} s left`;
+  left === null ? '' : left > 90 ? TEXTS.aboutMinLeft(num(left / 60, 0)) : TEXTS.aboutSLeft(num(Math.ceil(left), 0));
 
 const clock = (d: Date): string => d.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
 
 function AsItWas({ cases }: Pick<Of, 'cases'>) {
   const from = cases.from.value;
   if (!from) return null;
-  const words = cases.outdated.value
-    ? `You have changed the scene since. A case brings back the scene of ${clock(from.at)}.`
-    : `You can keep editing: the search uses the scene as it was at ${clock(from.at)}.`;
+  const words = cases.outdated.value ? TEXTS.youHaveChanged(clock(from.at)) : TEXTS.youCanKeepEditing(clock(from.at));
   return <p class="note">{words}</p>;
 }
 
@@ -214,17 +211,17 @@ function Nothing({ cases, sought, tried }: Of & { tried: number }) {
       <div class="stack">
         {may.time ? null : (
           <button type="button" class="opt" onClick={() => cases.toggleMay('time')}>
-            Let goal time change too
+            {TEXTS.letGoalTimeChange}
           </button>
         )}
         {may.speed ? null : (
           <button type="button" class="opt" onClick={() => cases.toggleMay('speed')}>
-            Let start speed change too
+            {TEXTS.letStartSpeed}
           </button>
         )}
         {nearest ? (
           <button type="button" class="opt" onClick={() => cases.take(nearest)}>
-            Take the nearest
+            {TEXTS.takeTheNearest}
           </button>
         ) : null}
       </div>
@@ -247,10 +244,10 @@ function Found({ cases, sought }: Of) {
     list.current?.querySelector<HTMLElement>(`[data-case="${cases.shown.peek()}"] .face`)?.focus();
   };
   return (
-    <section class="sect last" aria-label="Cases that were found">
+    <section class="sect last" aria-label={TEXTS.casesThatWere}>
       <h3>
-        Found
-        <small>{sought.what === 'braking' ? 'hardest first' : 'closest first'}</small>
+        {TEXTS.found2}
+        <small>{sought.what === 'braking' ? TEXTS.hardestFirst : TEXTS.closestFirst}</small>
       </h3>
       <div class="cases" ref={list} onKeyDown={walk}>
         {all.map((c, i) => (
@@ -268,11 +265,11 @@ function Found({ cases, sought }: Of) {
             <button
               type="button"
               class="btn line"
-              aria-label={`Take case ${c.id}`}
-              title="It is what happens from now on; one step, that can be undone"
+              aria-label={TEXTS.takeCase(c.id)}
+              title={TEXTS.itIsWhatHappens}
               onClick={() => cases.take(c)}
             >
-              Take
+              {TEXTS.take}
             </button>
           </article>
         ))}
@@ -286,12 +283,12 @@ function Words({ found: { id, take, moment, like }, sought }: { found: Case; sou
   const a = take.scene.agents.get(sought.who)!;
   return (
     <span class="words">
-      <span>Case {id}</span>
+      <span>{TEXTS.case(id)}</span>
       <b>{momentWords(sought, moment)}</b>
       {howWords(a, take.scene, moment, editor.unitOf(a)).map((words) => (
         <small key={words}>{words}</small>
       ))}
-      {like ? <small>and {like} like it</small> : null}
+      {like ? <small>{TEXTS.andLikeIt(like)}</small> : null}
     </span>
   );
 }

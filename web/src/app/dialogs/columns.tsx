@@ -3,6 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { FileVerdict } from '../../edit/importing';
 import { ASKED, complete, guessed, toldColumns, type Answer, type Asked } from '../../edit/table-columns';
 import { useApp } from '../parts/app-context';
+import { TEXTS } from '../../texts/imports';
 
 export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly string[] }) {
   const { importing } = useApp();
@@ -22,10 +23,10 @@ export function Columns({ verdict, of }: { verdict: FileVerdict; of: readonly st
       {ASKED.map((a) => (
         <Row key={a.field} asked={a} of={of} answer={answers.value[a.field]} put={(patch) => put(a.field, patch)} />
       ))}
-      <p class="mut">What is left out is assumed or worked out, and said so.</p>
+      <p class="mut">{TEXTS.whatIsLeftOut}</p>
       <div class="ways">
         <button type="submit" class={`btn pri ${off ? 'off' : ''}`} aria-disabled={off}>
-          Read the table
+          {TEXTS.readTheTable}
         </button>
       </div>
     </form>
@@ -48,13 +49,13 @@ function Row({ asked: { field, label, says, needed, units }, of, answer, put }: 
       </span>
       <select
         class="pick"
-        aria-label={`Column for ${label}`}
+        aria-label={TEXTS.columnFor(label)}
         data-column={field}
         data-first={field === ASKED[0].field ? '' : undefined}
         value={answer.column ?? ''}
         onChange={(e) => put({ column: e.currentTarget.value || null })}
       >
-        <option value="">{needed ? 'Choose a column' : 'not in the table'}</option>
+        <option value="">{needed ? TEXTS.chooseAColumn : TEXTS.notInTheTable}</option>
         {of.map((name) => (
           <option key={name} value={name}>
             {name}
@@ -64,7 +65,7 @@ function Row({ asked: { field, label, says, needed, units }, of, answer, put }: 
       {units.length && answer.column ? (
         <select
           class="pick"
-          aria-label={`Unit of ${label}`}
+          aria-label={TEXTS.unitOf(label)}
           data-unit={field}
           value={String(answer.unit)}
           onChange={(e) => put({ unit: Number(e.currentTarget.value) })}

@@ -2,10 +2,14 @@
 import type { Group } from '../../actions/action';
 import type { Context } from '../../actions/context';
 import { KINDS, type What } from '../../model/cases';
+import { KIND_WORDS } from '../../model/kinds';
 import { sentenceOf } from '../../model/case-words';
 import { ACTIONS, perform, possible } from '../../actions/registry';
+import { GROUP_TITLES } from '../../texts/groups';
+import { HELPS } from '../../texts/helps';
 import { about } from '../scenes/drawer';
 import { dayAndTime } from '../scenes/dates';
+import { TEXTS } from '../../texts/palette';
 
 export interface Entry {
   readonly label: string;
@@ -22,8 +26,8 @@ const MOST = 60;
 const MOST_OF_A_KIND = 8;
 const MOST_RECENT = 4;
 /** Groups that stand under the name of the selected road user. */
-const FOR_AGENT: readonly Group[] = ['Goal and futures', 'Rounds', 'Move', 'Edit'];
-const SCENES = 'Scenes';
+const FOR_AGENT: readonly Group[] = ['goal', 'rounds', 'move', 'edit'];
+const SCENES = TEXTS.scenes;
 
 export function find(c: Context, typed: string): Entry[] {
   const words = typed.trim().toLowerCase().split(/\s+/).filter(Boolean);
@@ -64,22 +68,22 @@ function actions(c: Context, words: readonly string[]): Entry[] {
   const agent = c.editor.agent.peek();
   const out: Entry[] = [];
   for (const a of ACTIONS) {
-    const moves = a.group === 'Move';
+    const moves = a.group === 'move';
     if (a.id === 'palette' || a.id === 'deselect' || (!words.length && moves)) continue;
-    const said = moves ? a.label : `${a.label} ${a.help}`;
+    const said = moves ? a.label : `${a.label} ${HELPS[a.help]}`;
     if (words.length && !fit(said, words)) continue;
     const can = possible(c, a);
     out.push({
       label: a.label,
-      note: can === true ? a.help : can,
-      group: agent && FOR_AGENT.includes(a.group) ? `For ${agent.name}` : a.group,
+      note: can === true ? HELPS[a.help] : can,
+      group: agent && FOR_AGENT.includes(a.group) ? TEXTS.for(agent.name) : GROUP_TITLES[a.group],
       icon: a.icon ?? 'key',
       keys: a.keys ?? [],
       off: can !== true,
       run: () => perform(c, a.id),
     });
   }
-  const forAgent = (e: Entry): boolean => e.group.startsWith('For');
+  const forAgent = (e: Entry): boolean => agent !== null && e.group === TEXTS.for(agent.name);
   return out.sort(
     (p, q) =>
       Number(p.off) - Number(q.off) || Number(forAgent(q)) - Number(forAgent(p)) || p.group.localeCompare(q.group),
@@ -95,8 +99,8 @@ function roadUsers({ editor, reveal }: Context, words: readonly string[]): Entry
     .map((a) => ({
       ...possibleEntry,
       label: a.name,
-      note: a.parked ? 'parked' : a.type,
-      group: 'Road users',
+      note: a.parked ? TEXTS.parked : KIND_WORDS[a.kind],
+      group: TEXTS.roadUsers,
       icon: a.kind,
       run() {
         editor.select(a.id);
@@ -141,9 +145,9 @@ function cases(c: Context, typed: string): Entry[] {
   return ASKED_FOR.filter(([kind, words]) => words.test(text) && (named.length === 2 || !KINDS[kind].two)).map(
     ([kind]) => ({
       ...possibleEntry,
-      label: `Find ${sentenceOf(kind, named[0].name, named[1]?.name ?? null)}`,
-      note: 'tries speeds, goal times and seeds',
-      group: 'Cases',
+      label: TEXTS.find(sentenceOf(kind, named[0].name, named[1]?.name ?? null)),
+      note: TEXTS.triesSpeedsGoal,
+      group: GROUP_TITLES.cases,
       icon: 'search',
       run() {
         c.editor.selectAll(named.map((a) => a.id));
@@ -174,5 +178,7 @@ function times({ editor }: Context, query: string): Entry[] {
     editor.playhead.pause();
     editor.setTime(Number(query));
   };
-  return [{ ...possibleEntry, label: `Go to ${query} s`, note: 'playhead', group: 'Time', icon: 'clock', run }];
+  return [
+    { ...possibleEntry, label: TEXTS.goToS(query), note: TEXTS.playhead, group: GROUP_TITLES.time, icon: 'clock', run },
+  ];
 }

@@ -6,6 +6,7 @@ import type { FormatInfo } from '../../net/types';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
+import { TEXTS } from '../../texts/imports';
 
 export function ImportFiles() {
   const c = useApp();
@@ -23,28 +24,28 @@ export function ImportFiles() {
     c.chooseFiles();
   };
   return (
-    <Modal label="Import files" class="import bring" close={close}>
+    <Modal label={TEXTS.importFiles} class="import bring" close={close}>
       <div class="dhead">
-        <h2>Bring a scene, a recording or a map</h2>
+        <h2>{TEXTS.bringASceneA}</h2>
         <span class="grow" />
-        <button type="button" class="btn i" aria-label="Close" onClick={close}>
+        <button type="button" class="btn i" aria-label={TEXTS.close} onClick={close}>
           <Icon name="x" size={16} />
         </button>
       </div>
       <div class="body">
         <div class="drop">
-          <b>Drop files here, or anywhere on the page</b>
-          Several at once: each gets its own verdict. What belongs together goes in one drop.
+          <b>{TEXTS.dropFilesHere}</b>
+          {TEXTS.severalAtOnce}
           <div class="ways">
             <button type="button" class="btn pri" data-first="" onClick={choose}>
-              Choose files
+              {TEXTS.chooseFiles}
             </button>
           </div>
         </div>
         {away.value ? (
-          <p class="mut">The server is not answering. Files can be read when it does.</p>
+          <p class="mut">{TEXTS.theServerIsNot}</p>
         ) : (
-          <ul class="inkinds" aria-label="What can be read" aria-busy={formats.value === null}>
+          <ul class="inkinds" aria-label={TEXTS.whatCanBeRead} aria-busy={formats.value === null}>
             {inKinds(formats.value ?? []).map((k) => (
               <li key={k.label}>
                 <Icon name={k.icon} size={18} />
@@ -65,7 +66,7 @@ export function ImportFiles() {
         )}
       </div>
       <div class="dfoot">
-        <span class="mut">Packed with gzip is fine. Your files stay as they are.</span>
+        <span class="mut">{TEXTS.packedWithGzip}</span>
       </div>
     </Modal>
   );

@@ -5,6 +5,7 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 import { Columns } from './columns';
+import { TEXTS } from '../../texts/imports';
 
 export function ImportReport() {
   const { importing } = useApp();
@@ -13,7 +14,7 @@ export function ImportReport() {
   const bad = verdicts.filter((v) => !v.ok);
   const wrong = bad.some((v) => !v.columns);
   return (
-    <Modal label="Import" class="import" close={close}>
+    <Modal label={TEXTS.import} class="import" close={close}>
       <div class="dhead">
         <span class={wrong ? 't-collision' : ''}>
           <Icon name={wrong ? 'warn' : bad.length ? 'table' : 'check'} size={22} />
@@ -40,18 +41,18 @@ function titleOf(verdicts: readonly FileVerdict[]): string {
   if (all === 1) {
     if (good) {
       const n = verdicts[0].scenes.length;
-      return n === 1 ? 'One scene imported' : `${n} scenes imported`;
+      return TEXTS.scenesImported(n);
     }
-    if (asked) return 'One question about this table';
-    return part ? 'A part of this file is broken' : 'This file could not be read';
+    if (asked) return TEXTS.oneQuestionAbout;
+    return part ? TEXTS.aPartOfThisFile : TEXTS.thisFileCould;
   }
   const counts = [
-    good && `${good} in`,
-    part - asked && `${part - asked} in part`,
-    asked && `${asked} to be told about`,
-    bad && `${bad} cannot be read`,
+    good && TEXTS.in(good),
+    part - asked && TEXTS.inPart(part - asked),
+    asked && TEXTS.toBeToldAbout(asked),
+    bad && TEXTS.cannotBeRead(bad),
   ].filter(Boolean);
-  return `${all} files: ${counts.join(', ')}`;
+  return TEXTS.files(all, counts.join(', '));
 }
 
 /** The likeliest next step is drawn as such and has the focus. */
@@ -65,11 +66,11 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
   const mendable = bad.some((v) => v.without ?? v.columns ?? v.again);
   return (
     <div class="dfoot">
-      <span class="mut">Your files were not changed.</span>
+      <span class="mut">{TEXTS.yourFilesWere}</span>
       <span class="grow" />
       {details.length ? (
         <button type="button" class="btn" onClick={() => void navigator.clipboard?.writeText(details.join('\n'))}>
-          Copy details
+          {TEXTS.copyDetails}
         </button>
       ) : null}
       {bad.length ? (
@@ -80,7 +81,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
           data-first={allBad && !mendable ? '' : undefined}
           onClick={chooseAnother}
         >
-          Choose another file
+          {TEXTS.chooseAnother}
         </button>
       ) : null}
       <button
@@ -89,7 +90,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
         data-first={allBad ? undefined : ''}
         onClick={close}
       >
-        Close
+        {TEXTS.close}
       </button>
     </div>
   );
@@ -98,7 +99,7 @@ function Foot({ bad, allBad, close }: { bad: readonly FileVerdict[]; allBad: boo
 function FileRow({ verdict: v }: { verdict: FileVerdict }) {
   const n = v.scenes.length;
   const count = v.scenes[0]?.count;
-  const done = n > 1 ? `${n} scenes` : count ? `${count} road users` : 'imported';
+  const done = n > 1 ? TEXTS.scenes(n) : count ? TEXTS.roadUsers(count) : TEXTS.imported;
   return (
     <section class="filepart">
       <div class="filerow">
@@ -108,11 +109,11 @@ function FileRow({ verdict: v }: { verdict: FileVerdict }) {
         {v.ok ? (
           <span class="tag ok">{done}</span>
         ) : v.columns ? (
-          <span class="tag near">which column is what?</span>
+          <span class="tag near">{TEXTS.whichColumnIs}</span>
         ) : v.without ? (
-          <span class="tag near">in part</span>
+          <span class="tag near">{TEXTS.inPart2}</span>
         ) : (
-          <span class="tag collision">not a scene</span>
+          <span class="tag collision">{TEXTS.notAScene}</span>
         )}
       </div>
       {v.wrong ? <Wrong verdict={v} /> : null}
@@ -141,12 +142,12 @@ function Wrong({ verdict: v }: { verdict: FileVerdict }) {
         <div class="ways">
           {v.without ? (
             <button type="button" class="btn pri" data-first="" onClick={() => void importing.takeRest(v)}>
-              Import without {v.without.join(', ')}
+              {TEXTS.importWithout(v.without.join(', '))}
             </button>
           ) : null}
           {v.again ? (
             <button type="button" class="btn pri" data-first="" onClick={() => void importing.tryAgain(v)}>
-              Try again
+              {TEXTS.tryAgain}
             </button>
           ) : null}
           {v.excerpt ? (
@@ -156,7 +157,7 @@ function Wrong({ verdict: v }: { verdict: FileVerdict }) {
               aria-expanded={shown.value}
               onClick={() => (shown.value = !shown.value)}
             >
-              Show line {v.excerpt.line}
+              {TEXTS.showLine(v.excerpt.line)}
             </button>
           ) : null}
         </div>
@@ -193,7 +194,7 @@ function ImportedScenes({ verdict }: { verdict: FileVerdict }) {
           <button type="button" class="btn" onClick={() => open(s.id)}>
             {s.name}
           </button>
-          {s.count ? <small class="mut">{s.count} road users</small> : null}
+          {s.count ? <small class="mut">{TEXTS.roadUsers(s.count)}</small> : null}
         </div>
       ))}
     </>

@@ -6,6 +6,7 @@ import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
 import { find, type Entry } from './find';
+import { TEXTS } from '../../texts/palette';
 
 export function Palette() {
   const c = useApp();
@@ -30,14 +31,14 @@ export function Palette() {
     e.preventDefault();
   };
   return (
-    <Modal label="Actions" class="pal" close={close}>
+    <Modal label={TEXTS.actions} class="pal" close={close}>
       <div class="in">
         <Icon name="search" />
         <input
           ref={input}
           type="text"
-          placeholder="Do anything"
-          aria-label="Find an action"
+          placeholder={TEXTS.doAnything}
+          aria-label={TEXTS.findAnAction}
           data-first=""
           spellcheck={false}
           role="combobox"
@@ -48,7 +49,7 @@ export function Palette() {
           }}
           onKeyDown={keyDown}
         />
-        <kbd>Esc</kbd>
+        <kbd>{TEXTS.esc}</kbd>
       </div>
       <div class="list">
         <Results entries={entries} query={query.value} at={at} point={(i) => (at.value = i)} go={go} />
@@ -68,8 +69,8 @@ interface ResultsProps {
 
 function Results({ entries, query, at, point, go }: ResultsProps) {
   return (
-    <div role="listbox" aria-label="Actions">
-      {entries.length ? null : <div class="g">Nothing of that name</div>}
+    <div role="listbox" aria-label={TEXTS.actions}>
+      {entries.length ? null : <div class="g">{TEXTS.nothingOfThat}</div>}
       {entries.flatMap((e, i) => [
         e.group === entries[i - 1]?.group ? null : (
           <div key={`${i}:${e.group}`} class="g">
@@ -126,12 +127,14 @@ function Foot() {
     <div class="ft">
       <span>
         <kbd>↑</kbd>
-        <kbd>↓</kbd>choose
+        <kbd>↓</kbd>
+        {TEXTS.choose}
       </span>
       <span>
-        <kbd>↵</kbd>do it
+        <kbd>↵</kbd>
+        {TEXTS.doIt}
       </span>
-      <span>Type a number to find a road user, a time like 4.2 to jump to it</span>
+      <span>{TEXTS.typeANumberTo}</span>
     </div>
   );
 }

@@ -2,6 +2,7 @@
 import { useRef } from 'preact/hooks';
 import { useApp } from '../parts/app-context';
 import { Modal } from '../parts/modal';
+import { TEXTS } from '../../texts/save-as';
 
 export function SaveAs() {
   const { care, editor, ui } = useApp();
@@ -14,16 +15,16 @@ export function SaveAs() {
     void care.saveAs(name);
   };
   return (
-    <Modal label="Save as" class="import narrow" close={close}>
+    <Modal label={TEXTS.saveAs} class="import narrow" close={close}>
       <div class="dhead">
-        <h2>Save as</h2>
+        <h2>{TEXTS.saveAs}</h2>
       </div>
       <div class="body">
         <label class="field">
           <input
             ref={input}
             type="text"
-            aria-label="Name"
+            aria-label={TEXTS.name}
             data-first=""
             maxlength={80}
             value={editor.scene.peek()?.name ?? ''}
@@ -33,15 +34,15 @@ export function SaveAs() {
             }}
           />
         </label>
-        <p class="mut">A scene of your own, which saves itself. This one stays as it is.</p>
+        <p class="mut">{TEXTS.aSceneOfYour}</p>
       </div>
       <div class="dfoot">
         <span class="grow" />
         <button type="button" class="btn line" onClick={close}>
-          Cancel
+          {TEXTS.cancel}
         </button>
         <button type="button" class="btn pri" onClick={save}>
-          Save
+          {TEXTS.save}
         </button>
       </div>
     </Modal>

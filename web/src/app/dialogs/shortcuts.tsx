@@ -7,6 +7,8 @@ import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Modal } from '../parts/modal';
+import { GROUP_TITLES } from '../../texts/groups';
+import { TEXTS } from '../../texts/shortcuts';
 
 interface Line {
   readonly label: string;
@@ -16,50 +18,50 @@ interface Line {
 }
 
 const POINTER_LINES: Partial<Record<Group, readonly Line[]>> = {
-  'Select and look': [
-    { label: 'Add one, or take it away', keys: ['Shift'], how: 'click' },
-    { label: 'All in a frame', keys: [], how: 'drag over the ground' },
-    { label: 'Add a frame, take it away', keys: ['Shift', 'Alt'], how: 'drag' },
-    { label: 'Pan', keys: ['Space'], how: 'drag' },
-    { label: 'Zoom', keys: [], how: 'wheel' },
+  look: [
+    { label: TEXTS.addOneOrTake, keys: ['Shift'], how: TEXTS.click },
+    { label: TEXTS.allInAFrame, keys: [], how: TEXTS.dragOverTheGround },
+    { label: TEXTS.addAFrameTake, keys: ['Shift', 'Alt'], how: TEXTS.drag },
+    { label: TEXTS.pan, keys: ['Space'], how: TEXTS.drag },
+    { label: TEXTS.zoom, keys: [], how: TEXTS.wheel },
   ],
-  Edit: [
-    { label: 'Copy away', keys: ['Alt'], how: 'drag from a road user' },
-    { label: 'Menu', keys: [], how: 'right button, or a finger that rests' },
+  edit: [
+    { label: TEXTS.copyAway, keys: ['Alt'], how: TEXTS.dragFromARoad },
+    { label: TEXTS.menu, keys: [], how: TEXTS.rightButtonOr },
   ],
-  Move: [
-    { label: 'No snapping', keys: ['Alt'], how: 'drag' },
-    { label: 'Along the lane only', keys: ['Shift'], how: 'drag' },
-    { label: 'Start and goal together', keys: ['Ctrl'], how: 'drag' },
+  move: [
+    { label: TEXTS.noSnapping, keys: ['Alt'], how: TEXTS.drag },
+    { label: TEXTS.alongTheLane, keys: ['Shift'], how: TEXTS.drag },
+    { label: TEXTS.startAndGoal, keys: ['Ctrl'], how: TEXTS.drag },
   ],
 };
 
 /** Families of keys on one line, as people think of them. */
 const FAMILIES: readonly (Line & { readonly ids: RegExp })[] = [
-  { ids: /^nudge-(left|right|up|down)$/, label: 'Nudge 0.1 m', keys: ['Left', 'Up', 'Down', 'Right'] },
-  { ids: /^nudge-far-/, label: 'Nudge 1 m', keys: ['Shift+Left', 'Up', 'Down', 'Right'] },
-  { ids: /^future-[a-f]$/, label: 'Choose future A to F', keys: ['Alt+1–6'] },
-  { ids: /^along-/, label: 'Along the lane 1 m', keys: ['Ctrl+Up', 'Down'] },
-  { ids: /^lane-(left|right)$/, label: 'To the next lane', keys: ['Ctrl+Left', 'Right'] },
-  { ids: /^turn-(left|right)$/, label: 'Turn 1°', keys: ['[', ']'] },
-  { ids: /^turn-(left|right)-far$/, label: 'Turn 15°', keys: ['Shift+[', ']'] },
-  { ids: /^(slower|faster)$/, label: 'Slower, faster', keys: ['-', '+'] },
-  { ids: /^(slower|faster)-far$/, label: 'Much slower, faster', keys: ['Shift+-', '+'] },
-  { ids: /^goal-(earlier|later)$/, label: 'Goal time 0.1 s', keys: [';', "'"] },
-  { ids: /^goal-(earlier|later)-far$/, label: 'Goal time 1 s', keys: ['Shift+;', "'"] },
-  { ids: /^step-(back|on)$/, label: '0.1 s back, on', keys: [',', '.'] },
-  { ids: /^to-(start|end)$/, label: 'To start, to end', keys: ['Home', 'End'] },
-  { ids: /^(slower|faster)-playback$/, label: 'Slower, faster playback', keys: ['Shift+,', '.'] },
+  { ids: /^nudge-(left|right|up|down)$/, label: TEXTS.nudge01M, keys: ['Left', 'Up', 'Down', 'Right'] },
+  { ids: /^nudge-far-/, label: TEXTS.nudge1M, keys: ['Shift+Left', 'Up', 'Down', 'Right'] },
+  { ids: /^future-[a-f]$/, label: TEXTS.chooseFuture, keys: ['Alt+1–6'] },
+  { ids: /^along-/, label: TEXTS.alongTheLane1, keys: ['Ctrl+Up', 'Down'] },
+  { ids: /^lane-(left|right)$/, label: TEXTS.toTheNextLane, keys: ['Ctrl+Left', 'Right'] },
+  { ids: /^turn-(left|right)$/, label: TEXTS.turn1, keys: ['[', ']'] },
+  { ids: /^turn-(left|right)-far$/, label: TEXTS.turn15, keys: ['Shift+[', ']'] },
+  { ids: /^(slower|faster)$/, label: TEXTS.slowerFaster, keys: ['-', '+'] },
+  { ids: /^(slower|faster)-far$/, label: TEXTS.muchSlowerFaster, keys: ['Shift+-', '+'] },
+  { ids: /^goal-(earlier|later)$/, label: TEXTS.goalTime01S, keys: [';', "'"] },
+  { ids: /^goal-(earlier|later)-far$/, label: TEXTS.goalTime1S, keys: ['Shift+;', "'"] },
+  { ids: /^step-(back|on)$/, label: TEXTS.at01SBackOn, keys: [',', '.'] },
+  { ids: /^to-(start|end)$/, label: TEXTS.toStartToEnd, keys: ['Home', 'End'] },
+  { ids: /^(slower|faster)-playback$/, label: TEXTS.slowerFasterPlayback, keys: ['Shift+,', '.'] },
   {
     ids: /^tool-place-/,
-    label: 'Place a car, truck, bus, motorcycle, cyclist, pedestrian',
+    label: TEXTS.placeACarTruck,
     keys: ['1', '2', '3', '4', '5', '6'],
   },
-  { ids: /^(next|previous)-agent$/, label: 'Next, previous road user', keys: ['Tab', 'Shift+Tab'] },
-  { ids: /^(next|previous)-group$/, label: 'Next part of the page', keys: ['F6'] },
-  { ids: /^round-card-/, label: 'Choose a card', keys: ['1', '6'] },
-  { ids: /^round-(back|on)$/, label: 'Card before, after', keys: ['Left', 'Right'] },
-  { ids: /^zoom-(in|out)$/, label: 'Zoom in, out', keys: ['PageUp', 'PageDown'] },
+  { ids: /^(next|previous)-agent$/, label: TEXTS.nextPrevious, keys: ['Tab', 'Shift+Tab'] },
+  { ids: /^(next|previous)-group$/, label: TEXTS.nextPartOfThe, keys: ['F6'] },
+  { ids: /^round-card-/, label: TEXTS.chooseACard, keys: ['1', '6'] },
+  { ids: /^round-(back|on)$/, label: TEXTS.cardBeforeAfter, keys: ['Left', 'Right'] },
+  { ids: /^zoom-(in|out)$/, label: TEXTS.zoomInOut, keys: ['PageUp', 'PageDown'] },
 ];
 
 export function Shortcuts() {
@@ -68,28 +70,28 @@ export function Shortcuts() {
   const input = useRef<HTMLInputElement>(null);
   const close = () => ui.closeDialog();
   return (
-    <Modal label="Shortcuts" class="keys" close={close}>
+    <Modal label={TEXTS.shortcuts} class="keys" close={close}>
       <div class="dhead">
-        <h2>Shortcuts</h2>
+        <h2>{TEXTS.shortcuts}</h2>
         <span class="grow" />
         <label class="field search">
           <Icon name="search" size={14} />
           <input
             ref={input}
             type="search"
-            placeholder="Find a shortcut"
-            aria-label="Find a shortcut"
+            placeholder={TEXTS.findAShortcut}
+            aria-label={TEXTS.findAShortcut}
             data-first=""
             onInput={() => {
               query.value = input.current!.value.trim().toLowerCase();
             }}
           />
         </label>
-        <button type="button" class="btn i" aria-label="Close" onClick={close}>
+        <button type="button" class="btn i" aria-label={TEXTS.close} onClick={close}>
           <Icon name="x" size={16} />
         </button>
       </div>
-      <div class="cols" tabIndex={0} role="group" aria-label="All keys">
+      <div class="cols" tabIndex={0} role="group" aria-label={TEXTS.allKeys}>
         {GROUPS.map((g) => (
           <Sheet key={g} group={g} query={query.value} />
         ))}
@@ -103,7 +105,7 @@ function Sheet({ group, query }: { group: Group; query: string }) {
   if (!lines.length) return null;
   return (
     <section>
-      <h3>{group}</h3>
+      <h3>{GROUP_TITLES[group]}</h3>
       {lines.map(({ label, keys, how }) => (
         <div key={label} class="kr">
           <span>{label}</span>
@@ -131,7 +133,7 @@ function lineOf(a: Action): Line {
     FAMILIES.find((f) => f.ids.test(a.id)) ?? {
       label: a.label,
       keys: [a.keys![0]],
-      ...(a.whileDragging ? { how: 'while dragging' } : a.onOffer ? { how: 'while it is offered' } : {}),
+      ...(a.whileDragging ? { how: TEXTS.whileDragging } : a.onOffer ? { how: TEXTS.whileItIsOffered } : {}),
     }
   );
 }

@@ -6,6 +6,7 @@ import { useApp } from '../parts/app-context';
 import { IconButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { clock, dayAndTime } from '../scenes/dates';
+import { TEXTS } from '../../texts/history';
 
 /** Rows that are drawn at first; older ones when they are asked for. */
 const SHOWN = 120;
@@ -50,10 +51,10 @@ export function HistoryPanel() {
   const line = editor.history?.line() ?? [];
   const at = line.findIndex((s) => s.id === head) + 1;
   return (
-    <section class="drawer card history" aria-label="History" data-group="history">
+    <section class="drawer card history" aria-label={TEXTS.history} data-group="history">
       <h2>
-        History
-        <small class="mut">{line.length ? `${at} of ${line.length} steps` : 'nothing done yet'}</small>
+        {TEXTS.history}
+        <small class="mut">{line.length ? TEXTS.ofSteps(at, line.length) : TEXTS.nothingDoneYet}</small>
         <span class="grow" />
         <IconButton id="history" icon="x" size={16} />
       </h2>
@@ -65,7 +66,7 @@ export function HistoryPanel() {
           {rows.length > most.value ? (
             <li>
               <button type="button" class="btn" onClick={() => (most.value += SHOWN)}>
-                {rows.length - most.value} older steps
+                {TEXTS.olderSteps(rows.length - most.value)}
               </button>
             </li>
           ) : (
@@ -75,10 +76,10 @@ export function HistoryPanel() {
       </div>
       <footer class="foot">
         <span class="mut">
-          <KeyCaps of="Ctrl+Z" /> one back
+          <KeyCaps of="Ctrl+Z" /> {TEXTS.oneBack}
         </span>
         <span class="grow" />
-        <span class="mut">Kept on this computer</span>
+        <span class="mut">{TEXTS.keptOnThisComputer}</span>
       </footer>
     </section>
   );
@@ -90,8 +91,8 @@ function First({ now }: { now: boolean }) {
     <li class={`step ${now ? 'now' : ''}`} aria-current={now ? 'step' : undefined}>
       <button type="button" class="go" data-step="first" onClick={() => editor.goTo(null)}>
         <i class="dot" />
-        <b>How it was</b>
-        <small>{now ? 'now' : 'before the first step'}</small>
+        <b>{TEXTS.howItWas}</b>
+        <small>{now ? TEXTS.now : TEXTS.beforeTheFirst}</small>
       </button>
     </li>
   );
@@ -102,7 +103,7 @@ function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
   const naming = useSignal(false);
   const who = step.agent === null ? null : editor.scene.peek()?.agents.get(step.agent)?.name;
   const place = who && !step.name.includes(who) ? who : null;
-  const words = [now ? 'now' : null, branch && tip ? 'go back to this one' : null, place].filter(Boolean).join(' · ');
+  const words = [now ? 'now' : null, branch && tip ? TEXTS.goBackToThis : null, place].filter(Boolean).join(' · ');
   if (naming.value) return <StepTitle step={step} done={() => (naming.value = false)} />;
   return (
     <li
@@ -114,16 +115,16 @@ function Step({ row: { step, branch, tip }, now }: { row: Row; now: boolean }) {
         <b>{step.title ?? step.name}</b>
         <time title={dayAndTime(step.at)}>{clock(step.at)}</time>
         <small>
-          {branch && tip ? <span class="tag">branch</span> : null}
-          {step.title ? <span class="tag near">named</span> : null}
+          {branch && tip ? <span class="tag">{TEXTS.branch}</span> : null}
+          {step.title ? <span class="tag near">{TEXTS.named}</span> : null}
           {step.title ? step.name : words}
         </small>
       </button>
       <button
         type="button"
         class="btn i"
-        title="Name this step"
-        aria-label={`Name the step ${step.name}`}
+        title={TEXTS.nameThisStep}
+        aria-label={TEXTS.nameTheStep(step.name)}
         onClick={() => (naming.value = true)}
       >
         <Icon name="pencil" size={14} />
@@ -148,7 +149,7 @@ function StepTitle({ step, done }: { step: HistoryStep; done: () => void }) {
             el?.focus();
           }}
           type="text"
-          aria-label="Name of the step"
+          aria-label={TEXTS.nameOfTheStep}
           maxlength={60}
           value={step.title ?? ''}
           placeholder={step.name}

@@ -4,6 +4,7 @@ import { useComputed } from '@preact/signals';
 import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
+import { TEXTS } from '../../texts/hud';
 
 export function Banner() {
   const { editor, journal, library, saving, sharing } = useApp();
@@ -48,9 +49,9 @@ function Button({ label, run }: { label: string; run: () => void }) {
 
 function Crash({ details }: { details: string }) {
   return (
-    <Box icon="warn" title="Something broke in the editor. The scene is safe." words="Reload the page to go on.">
-      <Button label="Reload" run={() => location.reload()} />
-      <Button label="Copy details" run={() => void navigator.clipboard?.writeText(details)} />
+    <Box icon="warn" title={TEXTS.somethingBroke} words={TEXTS.reloadThePage}>
+      <Button label={TEXTS.reload} run={() => location.reload()} />
+      <Button label={TEXTS.copyDetails} run={() => void navigator.clipboard?.writeText(details)} />
     </Box>
   );
 }
@@ -59,28 +60,26 @@ function Away() {
   const { editor, generation } = useApp();
   const waiting = useComputed(() => editor.away.value?.waiting ?? 0).value;
   const retryIn = useComputed(() => editor.away.value?.retryIn ?? 0);
-  const changes = waiting
-    ? `Keep editing: ${waiting} change${waiting > 1 ? 's are' : ' is'} waiting and saved on this computer.`
-    : 'Keep editing: changes will wait and are saved on this computer.';
+  const changes = waiting ? TEXTS.keepEditingChanges(waiting) : TEXTS.keepEditingChangesWill;
   const words = (
     <>
-      {changes} Trying again in {retryIn} s.
+      {TEXTS.tryingAgainIn(changes)} {retryIn} s.
     </>
   );
   return (
-    <Box icon="cloud" title="The generator is not answering. Nothing is lost." words={words}>
-      <Button label="Try now" run={() => void generation.tryNow()} />
+    <Box icon="cloud" title={TEXTS.theGenerator} words={words}>
+      <Button label={TEXTS.tryNow} run={() => void generation.tryNow()} />
     </Box>
   );
 }
 
 function Conflict() {
   const { library, saving } = useApp();
-  const words = 'Nothing is overwritten until you choose.';
+  const words = TEXTS.nothingIsOverwritten;
   return (
-    <Box icon="warn" title="This scene was changed elsewhere." words={words}>
-      <Button label="Keep this version" run={() => void saving.keepMine()} />
-      <Button label="Open the other one" run={() => void library.takeTheirs()} />
+    <Box icon="warn" title={TEXTS.thisSceneWas} words={words}>
+      <Button label={TEXTS.keepThisVersion} run={() => void saving.keepMine()} />
+      <Button label={TEXTS.openTheOther} run={() => void library.takeTheirs()} />
     </Box>
   );
 }
@@ -89,7 +88,7 @@ function Locked() {
   const { editor } = useApp();
   const lock = editor.lock.value!;
   return (
-    <Box icon="lock" title={lock.words} words="You can look, play and select.">
+    <Box icon="lock" title={lock.words} words={TEXTS.youCanLookPlay}>
       <Button label={lock.label} run={() => lock.run()} />
     </Box>
   );
@@ -97,19 +96,19 @@ function Locked() {
 
 function Full() {
   const c = useApp();
-  const words = 'Export the scene to be safe, or forget the steps of other scenes that are saved.';
+  const words = TEXTS.exportTheScene;
   const makeRoom = async () => {
     const n = await c.journal.makeRoom((id) => c.scenes.isOwn(id)).catch(() => 0);
     await c.journal.retry();
     const full = c.journal.keeping.peek() === 'full';
-    const done = n ? `Steps of ${n} other scene${n > 1 ? 's' : ''} forgotten. ` : '';
-    const now = full ? 'There is still no room: export this scene.' : 'This one is kept again.';
+    const done = n ? TEXTS.stepsOfOther(n) : '';
+    const now = full ? TEXTS.thereIsStill : TEXTS.thisOneIsKept;
     c.editor.notices.show({ text: done + now });
   };
   return (
-    <Box icon="warn" title="No room left on this computer for saving." words={words}>
-      <Button label="Export" run={() => perform(c, 'export')} />
-      <Button label="Make room" run={() => void makeRoom()} />
+    <Box icon="warn" title={TEXTS.noRoomLeftOn} words={words}>
+      <Button label={TEXTS.export} run={() => perform(c, 'export')} />
+      <Button label={TEXTS.makeRoom} run={() => void makeRoom()} />
     </Box>
   );
 }
@@ -117,8 +116,8 @@ function Full() {
 function BrokenLink({ why }: { why: string }) {
   const { sharing } = useApp();
   return (
-    <Box icon="warn" title="The link could not be opened." words={`${why} Ask for it once more, or for the file.`}>
-      <Button label="Close" run={() => sharing.dismiss()} />
+    <Box icon="warn" title={TEXTS.theLinkCould} words={TEXTS.askForItOnce(why)}>
+      <Button label={TEXTS.close} run={() => sharing.dismiss()} />
     </Box>
   );
 }
@@ -126,8 +125,8 @@ function BrokenLink({ why }: { why: string }) {
 function NotOpened({ why }: { why: string }) {
   const { library } = useApp();
   return (
-    <Box icon="warn" title="The scene could not be opened." words={why}>
-      <Button label="Close" run={() => library.dismissError()} />
+    <Box icon="warn" title={TEXTS.theSceneCould} words={why}>
+      <Button label={TEXTS.close} run={() => library.dismissError()} />
     </Box>
   );
 }

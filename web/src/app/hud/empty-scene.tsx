@@ -2,9 +2,11 @@
 import { useComputed } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { actionOf, perform } from '../../actions/registry';
+import { HELPS } from '../../texts/helps';
 import { useApp } from '../parts/app-context';
 import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { TEXTS } from '../../texts/empty';
 
 const WAYS = ['place-first', 'tool-fill', 'import-log'] as const;
 
@@ -26,12 +28,12 @@ export function EmptyScene() {
 function Card({ scene }: { scene: string }) {
   const c = useApp();
   return (
-    <section class={`card nobody ${c.ui.drawer.value ? 'shift' : ''}`} aria-label="Nobody is here yet">
-      <button type="button" class="btn i" aria-label="Close" onClick={() => c.ui.hideEmpty(scene)}>
+    <section class={`card nobody ${c.ui.drawer.value ? 'shift' : ''}`} aria-label={TEXTS.nobodyIsHere}>
+      <button type="button" class="btn i" aria-label={TEXTS.close} onClick={() => c.ui.hideEmpty(scene)}>
         <Icon name="x" size={16} />
       </button>
-      <h2>The map is in. Nobody is on it yet.</h2>
-      <p>Start with one car, or with a whole rush hour. Everything can be undone.</p>
+      <h2>{TEXTS.theMapIsInNobody}</h2>
+      <p>{TEXTS.startWithOne}</p>
       <div class="ways">
         {WAYS.map((id, i) => {
           const a = actionOf(id);
@@ -42,16 +44,16 @@ function Card({ scene }: { scene: string }) {
               </span>
               <KeyCaps of={a.keys![0]} />
               <b>{a.label}</b>
-              <small>{a.help}</small>
+              <small>{HELPS[a.help]}</small>
             </button>
           );
         })}
       </div>
       <p class="mut">
         <button type="button" data-action="new-map" onClick={() => perform(c, 'new-map')}>
-          New map
+          {TEXTS.newMap}
         </button>{' '}
-        <KeyCaps of="Ctrl+N" /> instead of this one · <KeyCaps of="Ctrl+K" /> for everything else
+        <KeyCaps of="Ctrl+N" /> {TEXTS.insteadOfThis} <KeyCaps of="Ctrl+K" /> {TEXTS.forEverything}
       </p>
     </section>
   );

@@ -10,13 +10,14 @@ import { SeedField } from '../parts/asking';
 import { ActionButton, KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import '../../styles/filling.css';
+import { TEXTS } from '../../texts/fill-panel';
 
 const NAMES: Record<FillKind, string> = {
-  car: 'Cars',
-  heavy: 'Trucks, buses',
-  motorcycle: 'Motorcycles',
-  cyclist: 'Cyclists',
-  pedestrian: 'Pedestrians',
+  car: TEXTS.cars,
+  heavy: TEXTS.trucksBuses,
+  motorcycle: TEXTS.motorcycles,
+  cyclist: TEXTS.cyclists,
+  pedestrian: TEXTS.pedestrians,
 };
 /** The most that one kind may weigh in the mix. */
 const MOST_WEIGHT = 100;
@@ -28,26 +29,26 @@ export default function FillPanel() {
   const wish = filling.wish.value;
   if (!wish) return null;
   return (
-    <section class="card placing filling" aria-label="Fill an area" aria-busy={filling.asking.value}>
+    <section class="card placing filling" aria-label={TEXTS.fillAnArea} aria-busy={filling.asking.value}>
       <h3>
-        Fill an area
-        <button type="button" class="btn i" aria-label="Close" onClick={() => editor.chooseTool('select')}>
+        {TEXTS.fillAnArea}
+        <button type="button" class="btn i" aria-label={TEXTS.close} onClick={() => editor.chooseTool('select')}>
           <Icon name="x" size={16} />
         </button>
       </h3>
       <div class="busy">
         <Slider
-          label="How busy"
+          label={TEXTS.howBusy}
           value={wish.density}
           range={[LEAST_DENSITY, MOST_DENSITY]}
           step={0.5}
-          text={`${num(wish.density, 1)} per 100 m of lane`}
+          text={TEXTS.per100MOfLane(num(wish.density, 1))}
           set={(v) => filling.setDensity(v)}
         />
         <div class="ends" aria-hidden="true">
-          <span>empty</span>
-          <span>free flow</span>
-          <span>queue</span>
+          <span>{TEXTS.empty}</span>
+          <span>{TEXTS.freeFlow}</span>
+          <span>{TEXTS.queue}</span>
         </div>
       </div>
       <hr />
@@ -62,28 +63,28 @@ export default function FillPanel() {
           set={(v) => filling.setShare(k, v)}
         />
       ))}
-      <Line label="Keep what is there">
+      <Line label={TEXTS.keepWhatIsThere}>
         <button
           type="button"
           class={`pillb ${wish.keep ? 'on' : ''}`}
           role="switch"
           aria-checked={wish.keep}
-          aria-label="Keep what is there"
-          title={wish.keep ? 'Everybody stays' : 'Those in the area who are not locked make room'}
+          aria-label={TEXTS.keepWhatIsThere}
+          title={wish.keep ? TEXTS.everybodyStays : TEXTS.thoseInTheArea}
           onClick={() => filling.setKeep(!wish.keep)}
         >
-          {wish.keep ? 'On' : 'Off'}
+          {wish.keep ? TEXTS.on : TEXTS.off}
         </button>
       </Line>
-      <Line label="Seed">
-        <SeedField label="Seed of the fill" seed={wish.seed} set={(v) => filling.setSeed(v)} />
+      <Line label={TEXTS.seed}>
+        <SeedField label={TEXTS.seedOfTheFill} seed={wish.seed} set={(v) => filling.setSeed(v)} />
       </Line>
       <div class="foot">
         <ActionButton id="fill-add" class="pri" icon="">
           Add {size}
         </ActionButton>
         <ActionButton id="fill-shuffle" class="line" size={16}>
-          Shuffle
+          {TEXTS.shuffle}
         </ActionButton>
         <span class="grow" />
         <KeyCaps of="Enter" />
@@ -99,7 +100,7 @@ function Preview() {
   const { filling } = useApp().editor;
   const all = filling.all.value;
   return (
-    <div class="sr" role="group" aria-label={`Preview, ${all.length}`}>
+    <div class="sr" role="group" aria-label={TEXTS.preview(all.length)}>
       {all.map((n) => (
         <button
           key={`${n.pose.x} ${n.pose.y}`}
@@ -109,7 +110,7 @@ function Preview() {
           aria-pressed={filling.isPinned(n)}
           onClick={() => filling.togglePin(n)}
         >
-          {KIND_NAMES[n.kind]} at {num(n.pose.x, 1)}, {num(n.pose.y, 1)}
+          {TEXTS.at(KIND_NAMES[n.kind], num(n.pose.x, 1), num(n.pose.y, 1))}
         </button>
       ))}
     </div>
@@ -124,16 +125,11 @@ function Note() {
   const reason = filling.answer.value?.reason;
   const pinned = wish.pinned.length;
   const words = filling.drawn.value
-    ? 'Click further corners. Enter or the first corner closes the area.'
-    : (reason ??
-      (pinned
-        ? `${pinned} pinned: Shuffle draws the others anew.`
-        : wish.region
-          ? 'Drag a corner to change the area. Click somebody to pin it.'
-          : 'The whole map. Draw round a piece of it for less.'));
+    ? TEXTS.clickFurther
+    : (reason ?? (pinned ? TEXTS.pinnedShuffle(pinned) : wish.region ? TEXTS.dragACornerTo : TEXTS.theWholeMapDraw));
   return (
     <p class="note" aria-live="polite">
-      {gone ? `${gone} make room. ` : ''}
+      {gone ? TEXTS.makeRoom(gone) : ''}
       {words}
     </p>
   );

@@ -18,6 +18,7 @@ import { ScaleBar, ZoomBar } from './view';
 import { LoupeWords } from './loupe-words';
 import { Thumb } from './thumb';
 import { WayBack } from './way-back';
+import { TEXTS } from '../../texts/hud';
 
 /** Those that are switched most; all are in the menu beside them. */
 const LAYERS = ['futures', 'log', 'lanes', 'labels'] as const;
@@ -36,11 +37,11 @@ export function Hud() {
       {form.small.value ? <Thumb /> : <Rail />}
       <LoupeWords />
       <div class="tr">
-        <div class="card chipbar" role="group" aria-label="Layers">
+        <div class="card chipbar" role="group" aria-label={TEXTS.layers}>
           {LAYERS.map((l) => (
             <ActionButton key={l} id={`layer-${l}`} icon="check" size={14} />
           ))}
-          <MenuButton name="layers" icon="layers" label="All layers" />
+          <MenuButton name="layers" icon="layers" label={TEXTS.allLayers} />
         </div>
       </div>
       <div class={`bl ${shift}`}>
@@ -64,7 +65,7 @@ export function Hud() {
 
 function Rail() {
   return (
-    <nav class="rail" aria-label="Tools">
+    <nav class="rail" aria-label={TEXTS.tools}>
       {TOOLS.map((tool, i) => (
         <Fragment key={tool.name}>
           {i && 'places' in tool !== 'places' in TOOLS[i - 1] ? <hr /> : null}
@@ -86,50 +87,50 @@ function Tool({ id, class: className }: { id: string; class?: string }) {
 /** What the modifier keys do to each handle. */
 const TIPS = {
   body: [
-    ['Alt', 'no snapping'],
-    ['Shift', 'along the lane'],
+    ['Alt', TEXTS.noSnapping],
+    ['Shift', TEXTS.alongTheLane],
   ],
   heading: [
-    ['Shift', '15° steps'],
+    ['Shift', TEXTS.at15Steps],
     ['Alt', 'fine'],
   ],
   speed: [
-    ['Shift', '10 km/h steps'],
+    ['Shift', TEXTS.at10KmHSteps],
     ['Alt', 'fine'],
   ],
-  time: [['Shift', 'whole seconds']],
+  time: [['Shift', TEXTS.wholeSeconds]],
 } as const;
 
 const AT_KERB = [
   ['Alt', 'passes'],
-  ['Shift', 'along the lane'],
+  ['Shift', TEXTS.alongTheLane],
 ] as const;
 
 const SEVERAL = {
   body: [
-    ['Shift', 'one direction'],
-    ['Ctrl', 'goals too'],
+    ['Shift', TEXTS.oneDirection],
+    ['Ctrl', TEXTS.goalsToo],
   ],
   heading: [
-    ['Shift', '15° steps'],
-    ['Alt', 'each about itself'],
+    ['Shift', TEXTS.at15Steps],
+    ['Alt', TEXTS.eachAboutItself],
   ],
 } as const;
 
 const PLACING: Record<Spread, readonly (readonly [string, string])[]> = {
   one: [
-    ['[', 'turn left'],
-    [']', 'turn right'],
-    ['Alt', 'no snapping'],
-    ['Esc', 'done'],
+    ['[', TEXTS.turnLeft],
+    [']', TEXTS.turnRight],
+    ['Alt', TEXTS.noSnapping],
+    ['Esc', TEXTS.done2],
   ],
-  line: [['Esc', 'done']],
-  area: [['Esc', 'done']],
+  line: [['Esc', TEXTS.done2]],
+  area: [['Esc', TEXTS.done2]],
 };
 const PLACING_WORDS: Record<Spread, string> = {
-  one: 'Click to place, drag to set the heading',
-  line: 'Drag a line to place them along it',
-  area: 'Drag over the ground to spread them',
+  one: TEXTS.clickToPlace,
+  line: TEXTS.dragALineToPlace,
+  area: TEXTS.dragOverTheGround,
 };
 
 function PlaceHelp({ spread }: { spread: Spread }) {
@@ -154,7 +155,7 @@ function DragHelp() {
   const shown = editor.showForeseen.value;
   const react = editor.scene.peek()?.others === 'react';
   const held = useComputed(() => !!editor.drag.value?.lag).value;
-  const answers = ['H', `${shown ? 'hide' : 'show'} the others’ answers`] as const;
+  const answers = ['H', shown ? TEXTS.hideTheOthers : TEXTS.showTheOthers] as const;
   const tips = several
     ? SEVERAL[handle === 'heading' ? 'heading' : 'body']
     : held
@@ -166,17 +167,17 @@ function DragHelp() {
     <div class="card helpbar">
       <span class="mut">
         {held
-          ? 'The flag lags behind while a kerb is in the way'
+          ? TEXTS.theFlagLagsBehind
           : several
-            ? 'Others react when you let go'
+            ? TEXTS.othersReactWhen
             : !react
-              ? 'Let go to work it out'
+              ? TEXTS.letGoToWorkIt
               : shown
-                ? 'Dashed boxes: where they would wait'
-                : 'Others react when you let go'}
+                ? TEXTS.dashedBoxesWhere
+                : TEXTS.othersReactWhen}
       </span>
       <div class="sep" />
-      {[...tips, ['Esc', 'put back']].map(([key, text]) => (
+      {[...tips, ['Esc', TEXTS.putBack]].map(([key, text]) => (
         <span key={key}>
           <KeyCaps of={key} />
           {text}

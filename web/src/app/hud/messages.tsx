@@ -3,8 +3,9 @@ import { useApp } from '../parts/app-context';
 import { useComputed } from '@preact/signals';
 import { KeyCaps } from '../parts/buttons';
 import { Icon } from '../parts/icons';
+import { TEXTS } from '../../texts/hud';
 
-const STEPS = ['Click a car', 'Drag its flag to where it should be in 9 s', 'Let go: the others react'];
+const STEPS = [TEXTS.clickACar, TEXTS.dragItsFlagTo, TEXTS.letGoTheOthers];
 
 export function Coach() {
   const { editor, form, ui } = useApp();
@@ -26,7 +27,7 @@ export function Coach() {
           {form.touch.value ? text.replace('Click', 'Tap') : text}
         </div>
       ))}
-      <button type="button" class="btn i" aria-label="Close the hint" onClick={() => ui.endCoach()}>
+      <button type="button" class="btn i" aria-label={TEXTS.closeTheHint} onClick={() => ui.endCoach()}>
         <Icon name="x" size={16} />
       </button>
     </div>
@@ -44,7 +45,7 @@ export function Toast() {
       <span>{text}</span>
       {undo ? (
         <button type="button" class="btn" data-action="undo" onClick={() => editor.undo()}>
-          Undo
+          {TEXTS.undo}
           <KeyCaps of="Ctrl+Z" />
         </button>
       ) : (

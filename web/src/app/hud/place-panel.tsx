@@ -1,18 +1,19 @@
 // What the placing tool puts down: a size, and one or many at once.
 import { useComputed } from '@preact/signals';
 import { rangesOf } from '../../model/domain';
-import { KIND_NAMES, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/kinds';
+import { KIND_NAMES, KIND_WORDS, PRESETS, typeOfKind, type PlacedKind, type Preset } from '../../model/kinds';
 import { sizeText } from '../../model/units';
 import { placedBy } from '../../actions/place';
 import { LEAST_COUNT, MOST_COUNT, type Spread } from '../../edit/placing';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
+import { TEXTS } from '../../texts/place-panel';
 
 const SPREADS: readonly (readonly [Spread, string, string])[] = [
-  ['one', 'One', 'Click where it should start, drag to turn it'],
-  ['line', 'Along a line', 'Drag a line: they stand along it'],
-  ['area', 'Over an area', 'Drag over the ground: they spread over it'],
+  ['one', TEXTS.one, TEXTS.clickWhereIt],
+  ['line', TEXTS.alongALine, TEXTS.dragALineThey],
+  ['area', TEXTS.overAnArea, TEXTS.dragOverTheGround],
 ];
 
 export function PlacePanel() {
@@ -32,14 +33,14 @@ function Panel({ kind }: { kind: PlacedKind }) {
   const own = (patch: Partial<Preset>) =>
     placement.choose(kind, { size: { ...size, label: KIND_NAMES[kind], ...patch } });
   return (
-    <section class="card placing" aria-label={`Place a ${KIND_NAMES[kind].toLowerCase()}`}>
+    <section class="card placing" aria-label={TEXTS.placeA(KIND_WORDS[kind])}>
       <h3>
-        Place a {KIND_NAMES[kind].toLowerCase()}
-        <button type="button" class="btn i" aria-label="Done placing" onClick={() => editor.chooseTool('select')}>
+        {TEXTS.placeA(KIND_WORDS[kind])}
+        <button type="button" class="btn i" aria-label={TEXTS.donePlacing} onClick={() => editor.chooseTool('select')}>
           <Icon name="x" size={16} />
         </button>
       </h3>
-      <div role="radiogroup" aria-label="Size">
+      <div role="radiogroup" aria-label={TEXTS.size}>
         {PRESETS[kind].map((p) => (
           <button
             key={p.label}
@@ -57,12 +58,12 @@ function Panel({ kind }: { kind: PlacedKind }) {
           </button>
         ))}
         <div class={`preset own ${preset ? '' : 'on'}`}>
-          Own size
+          {TEXTS.ownSize}
           <OwnSize kind={kind} name="length" set={(length) => own({ length })} />
           <OwnSize kind={kind} name="width" set={(width) => own({ width })} />
         </div>
       </div>
-      <div class="seg wide" role="radiogroup" aria-label="How many">
+      <div class="seg wide" role="radiogroup" aria-label={TEXTS.howMany}>
         {SPREADS.map(([id, text, help]) => (
           <button
             key={id}
@@ -79,9 +80,9 @@ function Panel({ kind }: { kind: PlacedKind }) {
       </div>
       {spread === 'one' ? null : (
         <div class="many">
-          <span>How many</span>
+          <span>{TEXTS.howMany}</span>
           <NumberField
-            label="How many road users"
+            label={TEXTS.howManyRoadUsers}
             field="place-count"
             unit={() => ''}
             quantity={() => 'count'}
@@ -102,7 +103,7 @@ function OwnSize({ kind, name, set }: { kind: PlacedKind; name: 'length' | 'widt
   const { placement } = useApp().editor;
   return (
     <NumberField
-      label={`Own ${name} in metres`}
+      label={TEXTS.ownInMetres(name)}
       letter={name === 'length' ? 'L' : 'W'}
       unit={() => ''}
       quantity={() => 'length'}

@@ -1,12 +1,13 @@
 // The status line: what the generator is doing, or what happens in the scene.
 import { summary, worstOf, type TrafficEvent } from '../../model/events';
-import { KIND_NAMES } from '../../model/kinds';
+import { KIND_WORDS } from '../../model/kinds';
 import { touched } from '../../model/scene';
 import { placedBy } from '../../actions/place';
 import type { Context } from '../../actions/context';
 import type { Status as GeneratorStatus } from '../../edit/answers';
 import { outOfReach } from '../../edit/goal-verdict';
 import { useApp } from '../parts/app-context';
+import { TEXTS } from '../../texts/hud';
 
 interface Line {
   /** Colour of the dot; empty for all well. */
@@ -22,23 +23,23 @@ export function Status() {
   if (editor.selectedEvent.value && (s.kind === 'settled' || s.kind === 'ready')) return <Row {...sceneLine(c)} />;
   if (editor.layouts.isOpen.value) return <Row {...mapLine(c)} />;
   const kind = placedBy(c);
-  if (editor.filling.wish.value) return <Row dot="" text="Preview: nothing added yet" />;
-  if (kind) return <Row dot="" text={`Placing: ${KIND_NAMES[kind].toLowerCase()}`} />;
+  if (editor.filling.wish.value) return <Row dot="" text={TEXTS.previewNothing} />;
+  if (kind) return <Row dot="" text={TEXTS.placing(KIND_WORDS[kind])} />;
   if (s.kind === 'refining') return <Refining {...s} />;
   const some = editor.selected.value.length;
   if (some > 1 && (s.kind === 'settled' || s.kind === 'ready'))
-    return <Row dot="busy" text={`${some} of ${editor.scene.value!.agents.size} selected`} />;
+    return <Row dot="busy" text={TEXTS.ofSelected(some, editor.scene.value!.agents.size)} />;
   return <Row {...lineFor(c, s)} />;
 }
 
 /** What the map that is being made holds. */
 function mapLine({ editor }: Context): Line {
   const made = editor.layouts.made.value;
-  if (!made) return { dot: 'busy', text: 'Drawing …' };
+  if (!made) return { dot: 'busy', text: TEXTS.drawing };
   const { lanes, crosswalks } = made.scene.map;
   const driven = [...lanes.values()].filter((l) => l.kind === 'road').length;
   const bad = made.checks.some((k) => !k.passed);
-  const words = `${driven} lanes · ${crosswalks.length} crosswalks · worked out in ${Math.round(made.ms)} ms`;
+  const words = TEXTS.lanesCrosswalks(driven, crosswalks.length, Math.round(made.ms));
   return { dot: bad ? 'near' : '', text: words };
 }
 
@@ -54,14 +55,14 @@ function Row({ dot, text }: Line) {
 type RefiningStatus = Extract<GeneratorStatus, { kind: 'refining' }>;
 
 function Refining({ step, steps, ms, part }: RefiningStatus) {
-  const after = `${ms.toFixed(0)} ms`;
+  const after = TEXTS.ms(ms.toFixed(0));
   const words = part
-    ? `Refining ${part} · ${after}`
+    ? TEXTS.refining(part, after)
     : step
-      ? `Refining, step ${step} of ${steps} · ${after}`
+      ? TEXTS.refiningStep(step, steps, after)
       : ms
-        ? `First guess · ${after}`
-        : 'Working out futures …';
+        ? TEXTS.firstGuess(after)
+        : TEXTS.workingOutFutures;
   return (
     <div class="row">
       <span class="steps">
@@ -78,16 +79,16 @@ function lineFor(c: Context, s: Exclude<GeneratorStatus, RefiningStatus>): Line 
   const { editor } = c;
   switch (s.kind) {
     case 'loading':
-      return { dot: 'busy', text: 'Loading the scene …' };
+      return { dot: 'busy', text: TEXTS.loadingTheScene };
     case 'slow': {
-      const keep = editor.dragging.value ? ' You can keep dragging.' : '';
-      return { dot: 'busy', text: `This takes longer than usual (${(s.ms / 1000).toFixed(1)} s).${keep}` };
+      const keep = editor.dragging.value ? TEXTS.youCanKeepDragging : '';
+      return { dot: 'busy', text: TEXTS.thisTakesLonger((s.ms / 1000).toFixed(1), keep) };
     }
     case 'refused':
       return { dot: 'collision', text: s.words };
     case 'away': {
       const n = editor.away.value?.waiting ?? 0;
-      return { dot: 'near', text: `Generator away${n ? ` · ${n} change${n > 1 ? 's' : ''} waiting` : ''}` };
+      return { dot: 'near', text: n ? TEXTS.generatorAway(n) : TEXTS.generatorAway2 };
     }
     case 'settled':
       return settledLine(c, s.ms, s.adapted);
@@ -100,13 +101,13 @@ function settledLine(c: Context, ms: number, adapted: number | null): Line {
   const { editor } = c;
   const a = editor.agent.value;
   const bad = a?.goal.pos ? outOfReach(editor, a) : null;
-  if (bad && !bad.outranked) return { dot: 'near', text: 'Showing futures to the nearest reachable point' };
+  if (bad && !bad.outranked) return { dot: 'near', text: TEXTS.showingFutures };
   if (!editor.selection.value) return sceneLine(c);
   const n = editor.futures.value?.modes.length ?? 6;
   const parts = [
-    `${n === 6 ? 'Six' : n} futures`,
-    ms ? `${ms.toFixed(0)} ms` : '',
-    adapted ? `${adapted} other${adapted > 1 ? 's' : ''} adapted` : '',
+    TEXTS.futures(n === 6 ? TEXTS.six : n),
+    ms ? TEXTS.ms(ms.toFixed(0)) : '',
+    adapted ? TEXTS.othersAdapted(adapted) : '',
   ];
   // Beside a collision nothing is green.
   return { dot: dotOf(editor.events.value), text: parts.filter(Boolean).join(' · ') };
@@ -122,10 +123,10 @@ function sceneLine({ editor }: Context): Line {
   const events = editor.events.value;
   if (worstOf(events)) return { dot: dotOf(events), text: summary(events) };
   const scene = editor.scene.value;
-  if (!scene) return { dot: '', text: 'Ready' };
+  if (!scene) return { dot: '', text: TEXTS.ready };
   const { size } = scene.agents;
-  if (!size) return { dot: '', text: `Map ready · ${scene.map.lanes.size} lanes` };
-  if (!editor.layers.value.log) return { dot: '', text: `Ready · ${size} road users` };
+  if (!size) return { dot: '', text: TEXTS.mapReadyLanes(scene.map.lanes.size) };
+  if (!editor.layers.value.log) return { dot: '', text: TEXTS.readyRoadUsers(size) };
   const edited = [...scene.agents.values()].filter(touched).length;
-  return { dot: '', text: `Log shown dashed · ${edited} of ${size} road users edited` };
+  return { dot: '', text: TEXTS.logShownDashed(edited, size) };
 }

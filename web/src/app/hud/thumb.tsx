@@ -5,6 +5,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { MenuList } from '../parts/menu-list';
+import { TEXTS } from '../../texts/hud';
 
 /** In the menu of the +: what is placed most, then the other tools; these two are the hand itself. */
 const FIRST = ['place-car', 'place-cyclist', 'place-pedestrian'];
@@ -21,7 +22,7 @@ export function Thumb() {
     return (
       <button type="button" class="thumb done" onClick={() => editor.chooseTool('select')}>
         <Icon name="check" size={20} />
-        Done
+        {TEXTS.done}
       </button>
     );
   return (

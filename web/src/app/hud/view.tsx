@@ -4,6 +4,7 @@ import { HOME_ZOOM } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { IconButton } from '../parts/buttons';
 import { viewTick } from './view-tick';
+import { TEXTS } from '../../texts/hud';
 
 /** The longest the scale gets, in pixels. */
 const LONGEST_PX = 90;
@@ -27,7 +28,7 @@ export function ZoomBar() {
   const percent = useComputed(() => (void viewTick.value, `${Math.round((stage.view.z / HOME_ZOOM) * 100)}%`));
   return (
     <div class="br">
-      <div class="card chipbar zoom" role="group" aria-label="Zoom">
+      <div class="card chipbar zoom" role="group" aria-label={TEXTS.zoom}>
         <IconButton id="zoom-out" size={16} />
         <span class="zoomnum">{percent}</span>
         <IconButton id="zoom-in" size={16} />

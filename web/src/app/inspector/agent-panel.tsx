@@ -15,6 +15,7 @@ import { Hint } from './hint';
 import { GoalSection, StartSection } from './part-sections';
 import { useAgent, type LiveAgent } from './use-agent';
 import { verdictOn } from './verdict';
+import { TEXTS } from '../../texts/agent';
 
 export function AgentPanel({ id }: { id: string }) {
   const agent = useAgent(id);
@@ -48,23 +49,20 @@ export function AgentPanel({ id }: { id: string }) {
 /** When a road user is first seen in the log. */
 const appearsAt = (a: Agent): string => seconds((a.log.valid[0]?.[0] ?? 0) / 10);
 
-const whyNot = (a: Agent): string =>
-  a.type === 'other'
-    ? 'Objects of this kind are shown but not changed.'
-    : `Only road users that are there at 0.0 s can be changed. This one appears at ${appearsAt(a)}.`;
+const whyNot = (a: Agent): string => (a.type === 'other' ? TEXTS.objectsOfThis : TEXTS.onlyRoadUsers(appearsAt(a)));
 
 const sentenceCase = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);
 
 function Head({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const kind = useComputed(() => agent.value.kind).value;
-  const colour = useComputed(() => (agent.value.parked ? 'parked' : agent.value.type)).value;
+  const colour = useComputed(() => (agent.value.parked ? TEXTS.parked2 : agent.value.type)).value;
   const where = useComputed(() => {
     const a = agent.value;
     const p = startPose(a);
-    if (!p) return `Appears at ${appearsAt(a)}`;
-    const place = a.parked ? 'Parked' : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
-    return `${place} ·\u00a0id\u00a0${a.id}`;
+    if (!p) return TEXTS.appearsAt(appearsAt(a));
+    const place = a.parked ? TEXTS.parked : sentenceCase(laneWords(editor.scene.value!.map, a, p.x, p.y, p.heading));
+    return TEXTS.id(place, a.id);
   });
   return (
     <div class="ih">
@@ -113,7 +111,7 @@ function NameField({ agent }: { agent: LiveAgent }) {
         type="text"
         class="name"
         data-text="name"
-        aria-label="Name of the road user"
+        aria-label={TEXTS.nameOfTheRoad}
         maxlength={60}
         spellcheck={false}
         value={name}
@@ -138,9 +136,9 @@ function Locked({ agent, children }: { agent: LiveAgent; children: ComponentChil
       {locked ? (
         <div class="sect lockline">
           <Icon name="lock" size={15} />
-          <span class="grow">Locked: it stays as it is.</span>
+          <span class="grow">{TEXTS.lockedItStays}</span>
           <ActionButton id="lock" class="line" icon="" size={15}>
-            Unlock
+            {TEXTS.unlock}
           </ActionButton>
         </div>
       ) : null}
@@ -162,15 +160,15 @@ function NoteSection({ agent }: { agent: LiveAgent }) {
       {asked ? null : (
         <>
           <h3>
-            While others change
-            <small>this one alone</small>
+            {TEXTS.whileOthersChange}
+            <small>{TEXTS.thisOneAlone}</small>
           </h3>
           <Segments
-            label="What it does while others change"
+            label={TEXTS.whatItDoesWhile}
             items={[
-              ['does-react', 'Reacts'],
-              ['does-log', 'Replays log'],
-              ['does-still', 'Holds still'],
+              ['does-react', TEXTS.reacts],
+              ['does-log', TEXTS.replaysLog],
+              ['does-still', TEXTS.holdsStill],
             ]}
           />
         </>
@@ -179,8 +177,8 @@ function NoteSection({ agent }: { agent: LiveAgent }) {
         ref={area}
         class="notes"
         data-text="note"
-        aria-label="Note"
-        placeholder="Note"
+        aria-label={TEXTS.note}
+        placeholder={TEXTS.note}
         rows={1}
         maxlength={2000}
         value={note}

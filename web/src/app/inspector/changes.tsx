@@ -2,11 +2,12 @@
 import { useComputed } from '@preact/signals';
 import type { Change } from '../../model/changes';
 import { useApp } from '../parts/app-context';
+import { TEXTS } from '../../texts/agent';
 
 /** More than these are counted, not listed. */
 const LISTED = 8;
 
-const others = (n: number): string => `${n} other${n > 1 ? 's' : ''}`;
+const others = (n: number): string => TEXTS.others(n);
 
 export function Changes() {
   const { editor } = useApp();
@@ -15,11 +16,11 @@ export function Changes() {
   const list = editor.changes.value;
   if (!list.length) return null;
   return (
-    <section class="sect" aria-label="Others that changed">
+    <section class="sect" aria-label={TEXTS.othersThatChanged}>
       <h3>
-        {`${others(list.length)} changed`}
+        {TEXTS.changed(others(list.length))}
         <button type="button" aria-pressed={editor.showBefore.value} onClick={() => editor.toggleBefore()}>
-          show before / after
+          {TEXTS.showBeforeAfter}
         </button>
       </h3>
       <Lines list={list} />
@@ -31,10 +32,10 @@ export function Changes() {
 function Foreseen({ list }: { list: readonly Change[] }) {
   if (!list.length) return null;
   return (
-    <section class="sect foreseen" aria-label="Others that would change">
+    <section class="sect foreseen" aria-label={TEXTS.othersThatWould}>
       <h3>
-        {`${others(list.length)} would change`}
-        <small>if you let go now</small>
+        {TEXTS.wouldChange(others(list.length))}
+        <small>{TEXTS.ifYouLetGoNow}</small>
       </h3>
       <Lines list={list} />
     </section>
@@ -61,7 +62,7 @@ function Lines({ list }: { list: readonly Change[] }) {
           <span>{change.words}</span>
         </button>
       ))}
-      {list.length > LISTED ? <p class="note">and {list.length - LISTED} more</p> : null}
+      {list.length > LISTED ? <p class="note">{TEXTS.andMore(list.length - LISTED)}</p> : null}
     </>
   );
 }

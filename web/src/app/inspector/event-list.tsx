@@ -5,6 +5,7 @@ import { counted, type TrafficEvent } from '../../model/events';
 import { seconds } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
+import { TEXTS } from '../../texts/inspector';
 
 /** An event nearer to the edge of the picture than this is brought to the middle, in pixels. */
 const EDGE_PX = 60;
@@ -66,12 +67,12 @@ function NoEvents() {
   const known = useComputed(() => editor.motion.value.score !== null).value;
   const away = useComputed(() => editor.away.value !== null).value;
   const nobody = useComputed(() => editor.scene.value?.agents.size === 0).value;
-  if (nobody) return <p class="sec">Nothing to judge yet.</p>;
-  const unknown = away ? 'Not known while the generator is away' : 'Not worked out yet';
+  if (nobody) return <p class="sec">{TEXTS.nothingToJudge}</p>;
+  const unknown = away ? TEXTS.notKnownWhile : TEXTS.notWorkedOut;
   return (
     <div class="kindrow">
       <span class={`dot ${known ? '' : 'busy'}`} />
-      <span class="sec">{known ? 'No collisions, no near misses' : unknown}</span>
+      <span class="sec">{known ? TEXTS.noCollisions : unknown}</span>
     </div>
   );
 }

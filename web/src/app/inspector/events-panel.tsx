@@ -11,6 +11,7 @@ import { IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { RemedyButton } from '../parts/remedy-button';
 import { EventList } from './event-list';
+import { TEXTS } from '../../texts/events-panel';
 
 export function EventsPanel() {
   const { editor } = useApp();
@@ -18,7 +19,7 @@ export function EventsPanel() {
   const picked = editor.selectedEvent.value;
   const worst = worstOf(events);
   const own = counted(events).length;
-  const length = `in these ${num(editor.scene.peek()?.duration ?? 9, 0)} s`;
+  const length = TEXTS.inTheseS(num(editor.scene.peek()?.duration ?? 9, 0));
   const inLog = events.length - own;
   return (
     <>
@@ -27,8 +28,8 @@ export function EventsPanel() {
           <Icon name="warn" size={20} />
         </div>
         <div class="grow">
-          <h2>Events</h2>
-          <p>{`${own} ${length}${inLog ? ` · ${inLog} in the log` : ''}`}</p>
+          <h2>{TEXTS.events}</h2>
+          <p>{`${own} ${length}${inLog ? TEXTS.inTheLog(inLog) : ''}`}</p>
         </div>
         <IconButton id="deselect" icon="x" size={16} />
       </div>
@@ -58,14 +59,14 @@ function Facts({ event: e }: { event: TrafficEvent }) {
       <section class="sect">
         <h3>{e.label.replace(/ (?=\d)/, ' at ')}</h3>
         <dl class="wh">
-          <dt>Where</dt>
+          <dt>{TEXTS.where}</dt>
           <dd>{whereWords(editor, e)}</dd>
           {e.facts.flatMap(([what, value]) => [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{value}</dd>])}
         </dl>
-        {e.kind === 'near' ? <p class="note">Counts as a near miss below 1.5 s or 1.0 m.</p> : null}
+        {e.kind === 'near' ? <p class="note">{TEXTS.countsAsANear}</p> : null}
       </section>
       <section class="sect last">
-        <h3>What you can do</h3>
+        <h3>{TEXTS.whatYouCanDo}</h3>
         <div class="stack">
           {eventRemedies(editor, e).map((r) => (
             <RemedyButton key={r.label} remedy={r} />
@@ -75,12 +76,12 @@ function Facts({ event: e }: { event: TrafficEvent }) {
             .map((a) => (
               <button key={a.id} type="button" class="opt" onClick={() => change(a.id)}>
                 <Icon name="select" size={15} />
-                Change {a.name}
+                {TEXTS.change(a.name)}
               </button>
             ))}
           <button type="button" class="opt" onClick={() => variants.keepPresent()}>
             <Icon name="star" size={15} />
-            Keep as a variant
+            {TEXTS.keepAsAVariant}
           </button>
         </div>
       </section>

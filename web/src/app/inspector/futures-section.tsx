@@ -11,6 +11,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
+import { TEXTS } from '../../texts/agent';
 
 export function FuturesSection({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
@@ -18,23 +19,23 @@ export function FuturesSection({ agent }: { agent: LiveAgent }) {
     const f = editor.futures.value;
     const a = agent.value;
     if (!f) return editor.status.value.kind === 'refining' ? 'working' : '';
-    if (f.sketch) return 'sketch, generator away';
-    if (!isSettled(f)) return f.step ? `step ${f.step} of ${f.steps}` : 'first guess';
-    if (editor.outdated.value) return 'from before the last change';
-    if (a.chosen !== null) return `chosen: ${LETTERS[a.chosen]}`;
-    const n = f.modes.length === 6 ? 'six' : f.modes.length;
-    return hasGoal(a.goal) ? `of ${n}` : `${n}, no goal set`;
+    if (f.sketch) return TEXTS.sketchGenerator;
+    if (!isSettled(f)) return f.step ? TEXTS.stepOf(f.step, f.steps) : TEXTS.firstGuess;
+    if (editor.outdated.value) return TEXTS.fromBeforeThe;
+    if (a.chosen !== null) return TEXTS.chosen(LETTERS[a.chosen]);
+    const n = f.modes.length === 6 ? TEXTS.six : f.modes.length;
+    return hasGoal(a.goal) ? TEXTS.of(n) : TEXTS.noGoalSet(n);
   });
   return (
-    <section class="sect last" aria-label="Futures">
+    <section class="sect last" aria-label={TEXTS.futures}>
       <h3>
-        Futures
+        {TEXTS.futures}
         <small>{note}</small>
       </h3>
       <FutureList agent={agent} />
       <Remark agent={agent} />
       <ActionButton id="rounds" class="line rounds" size={15} withKey>
-        Keep and reject in rounds
+        {TEXTS.keepAndReject}
       </ActionButton>
     </section>
   );
@@ -55,9 +56,9 @@ function FutureList({ agent }: { agent: LiveAgent }) {
   const count = useComputed(() => editor.futures.value?.modes.length ?? 0).value;
   const sketch = useComputed(() => editor.futures.value?.sketch ?? false).value;
   if (!count) return <Waiting />;
-  if (sketch) return <p class="mut">A plain curve is shown until the generator answers.</p>;
+  if (sketch) return <p class="mut">{TEXTS.aPlainCurveIs}</p>;
   return (
-    <div role="radiogroup" aria-label="Futures">
+    <div role="radiogroup" aria-label={TEXTS.futures}>
       {[...LETTERS].slice(0, count).map((letter, i) => (
         <FutureRow key={letter} agent={agent} index={i} />
       ))}
@@ -68,8 +69,8 @@ function FutureList({ agent }: { agent: LiveAgent }) {
 function Waiting() {
   const { editor } = useApp();
   const words = useComputed(() => {
-    if (editor.away.value) return 'Waiting for the generator.';
-    return editor.status.value.kind === 'refused' ? 'None: see below the picture.' : 'Working them out …';
+    if (editor.away.value) return TEXTS.waitingForThe;
+    return editor.status.value.kind === 'refused' ? TEXTS.noneSeeBelow : TEXTS.workingThemOut;
   });
   return <p class="mut">{words}</p>;
 }
@@ -113,11 +114,11 @@ function FutureRow({ agent, index }: { agent: LiveAgent; index: number }) {
 }
 
 const MARK_WORDS: Readonly<Record<Mark, string>> = {
-  collision: 'Collision',
-  rule: 'Breaks a rule',
-  near: 'Near miss',
-  short: 'Goal not reached',
-  ok: 'Reached',
+  collision: TEXTS.collision,
+  rule: TEXTS.breaksARule,
+  near: TEXTS.nearMiss,
+  short: TEXTS.goalNotReached,
+  ok: TEXTS.reached,
 };
 
 /** The worst of its verdicts. A tick belongs to a goal; where none is set, only what is wrong is marked. */
@@ -141,7 +142,7 @@ function MarkSign({ agent, index }: { agent: LiveAgent; index: number }) {
 function inWords(scene: Scene | null, m: Future | undefined): string {
   const [worst] = m?.about?.faults ?? [];
   if (!scene || !m || !worst) return m?.name ?? '';
-  return `${m.name}: ${placeWord(worst, nameIn(scene))} at ${seconds(worst.time)}`;
+  return TEXTS.at(m.name, placeWord(worst, nameIn(scene)), seconds(worst.time));
 }
 
 /** A bar as long as the future is likely, beside the likeliest. */

@@ -12,6 +12,7 @@ import { KeyCaps, titleOf } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import type { LiveAgent } from './use-agent';
 import { verdictOn, type Verdict } from './verdict';
+import { TEXTS } from '../../texts/agent';
 
 export function Hint({ agent }: { agent: LiveAgent }) {
   const c = useApp();
@@ -42,7 +43,7 @@ function Title({ verdict: { title, at } }: { verdict: Verdict }) {
     editor.setTime(at);
   };
   return (
-    <button type="button" class="to" title={`Playhead to ${seconds(at)}`} onClick={go}>
+    <button type="button" class="to" title={TEXTS.playheadTo(seconds(at))} onClick={go}>
       {title}
     </button>
   );
@@ -111,7 +112,7 @@ function SnapButton({ agent }: { agent: LiveAgent }) {
   const { editor } = useApp();
   const command = useComputed(() => snapToNearest(editor, agent.value, 'goal')).value;
   if (!command) return null;
-  const remedy = { label: 'Snap to nearest lane', note: '', icon: 'fit', primary: false, command };
+  const remedy = { label: TEXTS.snapToNearest, note: '', icon: 'fit', primary: false, command };
   return (
     <div class="stack">
       <RemedyButton remedy={remedy} />

@@ -3,6 +3,7 @@ import { useComputed } from '@preact/signals';
 import { useApp } from '../parts/app-context';
 import { Later } from '../later';
 import { ScenePanel } from './scene-panel';
+import { TEXTS } from '../../texts/inspector';
 
 export function Inspector() {
   const { editor, rounds, searching, ui, variants } = useApp();
@@ -15,7 +16,7 @@ export function Inspector() {
   const selected = editor.selection.value;
   const several = useComputed(() => editor.selected.value.length > 1).value;
   return (
-    <aside class="insp" aria-label="Inspector" data-group="inspector">
+    <aside class="insp" aria-label={TEXTS.inspector} data-group="inspector">
       {making ? (
         <Later key="layout" part="layout" />
       ) : comparing ? (

@@ -15,21 +15,22 @@ import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { NumberField, Scrub, type NumberFieldProps } from '../parts/number-field';
 import type { LiveAgent } from './use-agent';
+import { TEXTS } from '../../texts/agent';
 
 /** Places lie within this many metres of the middle of the scene. */
 const FAR_M = 10_000;
 
 export function StartSection({ agent }: { agent: LiveAgent }) {
   return (
-    <section class="sect" aria-label="Start">
+    <section class="sect" aria-label={TEXTS.start}>
       <h3>
         <span class="mkr" />
-        Start
-        <small>at 0.0 s</small>
+        {TEXTS.start}
+        <small>{TEXTS.at00S}</small>
       </h3>
       <PoseRows agent={agent} part="start" />
       <TypeRow agent={agent} />
-      <Row label="Size">
+      <Row label={TEXTS.size}>
         <SizeField agent={agent} name="length" letter="L" />
         <SizeField agent={agent} name="width" letter="W" />
       </Row>
@@ -44,7 +45,7 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
     const drag = editor.drag.value;
     if (drag?.grip.part === 'goal' && drag.laneName) return onLane(drag.laneName);
     if (a.goal.pos) return laneWords(editor.scene.value!.map, a, a.goal.pos[0], a.goal.pos[1], a.goal.heading);
-    return hasGoal(a.goal) ? 'partly free' : 'free: the generator decides';
+    return hasGoal(a.goal) ? TEXTS.partlyFree : TEXTS.freeTheGenerator;
   });
   const run = (time: number, live = false) => {
     const rounded = Math.round(goalTime(editor.scene.peek(), time) * 100) / 100;
@@ -52,19 +53,19 @@ export function GoalSection({ agent }: { agent: LiveAgent }) {
   };
   const time = { value: () => agent.value.goal.time, step: 0.1, set: run, range: () => timeRange(editor.scene.value) };
   return (
-    <section class="sect goalsec" aria-label="Goal">
+    <section class="sect goalsec" aria-label={TEXTS.goal}>
       <h3>
         <span class="mk">
           <Icon name="flag" size={15} />
         </span>
-        Goal
+        {TEXTS.goal}
         <small>{place}</small>
       </h3>
       <PoseRows agent={agent} part="goal" />
-      <Row label="Time" scrub={time}>
+      <Row label={TEXTS.time} scrub={time}>
         <NumberField
           {...time}
-          label="Time at the goal in seconds"
+          label={TEXTS.timeAtTheGoal}
           unit={() => 's'}
           quantity={() => 'time'}
           field="goal-time"
@@ -85,7 +86,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
   return (
     <p class="leave">
       {leave.words}
-      <button type="button" aria-label={`${leave.words}: take back`} onClick={() => editor.run(leave.command)}>
+      <button type="button" aria-label={TEXTS.takeBack(leave.words)} onClick={() => editor.run(leave.command)}>
         <Icon name="x" size={12} />
       </button>
     </p>
@@ -93,7 +94,7 @@ function LeaveLine({ agent }: { agent: LiveAgent }) {
 }
 
 /** The words for a lane begin with their own preposition where "on" does not fit. */
-const onLane = (name: string): string => (/^(off|on|inside)\b/.test(name) ? name : `on ${name}`);
+const onLane = (name: string): string => (/^(off|on|inside)\b/.test(name) ? name : TEXTS.on(name));
 
 interface RowProps {
   label: string;
@@ -118,7 +119,7 @@ interface PartProps {
   part: Part;
 }
 
-const WORD = { start: 'Start', goal: 'Goal' } as const;
+const WORD = { start: TEXTS.start, goal: TEXTS.goal } as const;
 
 /** What the fields of one part have in common. */
 function usePart({ agent, part }: PartProps) {
@@ -147,7 +148,7 @@ const about = (free: boolean, v: number | null | undefined, text: (v: number) =>
 function PoseRows(props: PartProps) {
   return (
     <>
-      <Row label="Position" end={<FixedPill {...props} field="pos" label="position" />}>
+      <Row label={TEXTS.position} end={<FixedPill {...props} field="pos" label={TEXTS.position2} />}>
         <Coordinate {...props} axis={0} />
         <Coordinate {...props} axis={1} />
       </Row>
@@ -170,16 +171,12 @@ function FixedPill({ agent, part, field, label }: PartProps & { field: Field; la
       class="fx"
       role="switch"
       aria-checked={fixed}
-      aria-label={`${WORD[part]} ${label} fixed`}
-      title={
-        fixed
-          ? 'Fixed: you decide. Click to let the generator decide'
-          : 'Free: the generator decides. Click to fix it here'
-      }
+      aria-label={TEXTS.fixed(WORD[part], label)}
+      title={fixed ? TEXTS.fixedYouDecide : TEXTS.freeTheGeneratorDecides}
       onClick={toggle}
     >
       <Icon name="lock" size={11} />
-      {fixed ? 'Fixed' : 'Free'}
+      {fixed ? TEXTS.fixed2 : TEXTS.free}
     </button>
   );
 }
@@ -194,7 +191,7 @@ function Coordinate({ axis, ...props }: PartProps & { axis: 0 | 1 }) {
   };
   return (
     <NumberField
-      label={`${word} ${name} in metres`}
+      label={TEXTS.inMetres(word, name)}
       letter={name}
       unit={() => ''}
       quantity={() => 'length'}
@@ -227,10 +224,10 @@ function HeadingRow(props: PartProps) {
     },
   };
   return (
-    <Row label="Heading" scrub={field} end={<FixedPill {...props} field="heading" label="heading" />}>
+    <Row label={TEXTS.heading} scrub={field} end={<FixedPill {...props} field="heading" label={TEXTS.heading2} />}>
       <NumberField
         {...field}
-        label={`${word} heading in degrees`}
+        label={TEXTS.headingInDegrees(word)}
         unit={() => '°'}
         quantity={() => 'angle'}
         field={`${props.part}-heading`}
@@ -259,10 +256,10 @@ function SpeedRow(props: PartProps) {
     range: () => [0, toUnit(topSpeed(agent.value), unit())] as const,
   };
   return (
-    <Row label="Speed" scrub={field} end={<FixedPill {...props} field="speed" label="speed" />}>
+    <Row label={TEXTS.speed} scrub={field} end={<FixedPill {...props} field="speed" label={TEXTS.speed2} />}>
       <NumberField
         {...field}
-        label={`${word} speed`}
+        label={TEXTS.speed3(word)}
         unit={unit}
         quantity={unit}
         field={`${props.part}-speed`}
@@ -297,17 +294,17 @@ function TypeRow({ agent }: { agent: LiveAgent }) {
   };
   const own = useComputed(() => (shown.value.endsWith(':own') ? agent.value.kind : null)).value;
   return (
-    <Row label="Type">
+    <Row label={TEXTS.type}>
       <select
         class="field pick"
-        aria-label="Type"
+        aria-label={TEXTS.type}
         data-field="type"
         value={shown.value}
         onChange={(e) => choose(e.currentTarget.value)}
       >
         {PLACED_KINDS.map((kind) => (
           <optgroup key={kind} label={KIND_NAMES[kind]}>
-            {own === kind ? <option value={`${kind}:own`}>{KIND_NAMES[kind]}, own size</option> : null}
+            {own === kind ? <option value={`${kind}:own`}>{TEXTS.ownSize(KIND_NAMES[kind])}</option> : null}
             {PRESETS[kind].map((p, i) => (
               <option key={p.label} value={`${kind}:${i}`}>
                 {p.label}
@@ -328,7 +325,7 @@ function SizeField({ agent, name, letter }: { agent: LiveAgent; name: 'length' |
   };
   return (
     <NumberField
-      label={`${name} in metres`}
+      label={TEXTS.inMetres2(name)}
       letter={letter}
       unit={() => 'm'}
       quantity={() => 'length'}

@@ -1,15 +1,15 @@
 // The inspector with nothing selected: who is here, what happens, what the map holds.
 import { useComputed } from '@preact/signals';
-import { actionOf } from '../../actions/registry';
 import type { Agent, Scene } from '../../model/scene';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { ActionButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { Controls } from '../parts/asking';
-import { OTHERS } from '../parts/others';
+import { OTHERS, OTHERS_DO } from '../parts/others';
 import { EventList } from './event-list';
 import { SceneScore } from './scene-score';
+import { TEXTS } from '../../texts/inspector';
 
 const FIRST_EVENTS = 6;
 
@@ -28,7 +28,7 @@ function Head({ note }: { note: string }) {
         <Icon name="layers" size={20} />
       </div>
       <div class="grow">
-        <h2>Scene</h2>
+        <h2>{TEXTS.scene}</h2>
         <p>{note}</p>
       </div>
     </div>
@@ -38,11 +38,9 @@ function Head({ note }: { note: string }) {
 function Nothing() {
   return (
     <>
-      <Head note="Opens with the first scene" />
+      <Head note={TEXTS.opensWithThe} />
       <div class="sect last">
-        <p class="sec">
-          Here you will see who is in the scene and, for a selected road user, its start, its goal and its six futures.
-        </p>
+        <p class="sec">{TEXTS.hereYouWillSee}</p>
       </div>
     </>
   );
@@ -50,14 +48,14 @@ function Nothing() {
 
 function About({ scene }: { scene: Scene }) {
   const { editor, form } = useApp();
-  const others = useComputed(() => `${actionOf(`others-${editor.scene.value?.others ?? 'react'}`).help}.`);
+  const others = useComputed(() => OTHERS_DO[editor.scene.value?.others ?? 'react']);
   return (
     <>
-      <Head note={scene.agents.size ? 'Nothing selected' : 'Nobody is here yet'} />
+      <Head note={scene.agents.size ? TEXTS.nothingSelected : TEXTS.nobodyIsHere} />
       <section class="sect">
         <h3>
-          In this scene
-          <small>{scene.agents.size} road users</small>
+          {TEXTS.inThisScene}
+          <small>{TEXTS.roadUsers(scene.agents.size)}</small>
         </h3>
         {scene.agents.size ? null : <Ways />}
         {kinds(scene).map(([icon, label, n, colour]) => (
@@ -73,27 +71,27 @@ function About({ scene }: { scene: Scene }) {
       </section>
       <section class="sect">
         <h3>
-          Events
-          <small>next {num(scene.duration, 0)} s</small>
+          {TEXTS.events}
+          <small>{TEXTS.nextS(num(scene.duration, 0))}</small>
         </h3>
         <EventList most={FIRST_EVENTS} />
       </section>
       <SceneScore />
       {form.sheet.value ? (
         <section class="sect">
-          <h3>Futures</h3>
+          <h3>{TEXTS.futures}</h3>
           <div class="row asking">
             <Controls />
           </div>
         </section>
       ) : null}
       <section class="sect">
-        <h3>Others</h3>
-        <Segments label="What the others do" items={OTHERS} />
+        <h3>{TEXTS.others2}</h3>
+        <Segments label={TEXTS.whatTheOthers} items={OTHERS} />
         <p class="note">{others}</p>
       </section>
       <section class="sect last lines">
-        <h3>Map</h3>
+        <h3>{TEXTS.map}</h3>
         {mapLines(scene).map((l) => (
           <p key={l}>{l}</p>
         ))}
@@ -119,13 +117,13 @@ function kinds(scene: Scene): KindRow[] {
   const agents = [...scene.agents.values()];
   const n = (f: (a: Agent) => boolean): number => agents.filter(f).length;
   const rows: KindRow[] = [
-    ['car', 'Cars, moving', n((a) => a.kind === 'car' && !a.parked), 'vehicle'],
-    ['car', 'Cars, parked', n((a) => a.parked), 'parked'],
-    ['truck', 'Trucks and buses', n((a) => (a.kind === 'truck' || a.kind === 'bus') && !a.parked), 'vehicle'],
-    ['motorcycle', 'Motorcycles', n((a) => a.kind === 'motorcycle' && !a.parked), 'vehicle'],
-    ['cyclist', 'Cyclists', n((a) => a.kind === 'cyclist'), 'cyclist'],
-    ['pedestrian', 'Pedestrians', n((a) => a.kind === 'pedestrian'), 'pedestrian'],
-    ['other', 'Other objects', n((a) => a.kind === 'other'), 'other'],
+    ['car', TEXTS.carsMoving, n((a) => a.kind === 'car' && !a.parked), 'vehicle'],
+    ['car', TEXTS.carsParked, n((a) => a.parked), 'parked'],
+    ['truck', TEXTS.trucksAndBuses, n((a) => (a.kind === 'truck' || a.kind === 'bus') && !a.parked), 'vehicle'],
+    ['motorcycle', TEXTS.motorcycles, n((a) => a.kind === 'motorcycle' && !a.parked), 'vehicle'],
+    ['cyclist', TEXTS.cyclists, n((a) => a.kind === 'cyclist'), 'cyclist'],
+    ['pedestrian', TEXTS.pedestrians, n((a) => a.kind === 'pedestrian'), 'pedestrian'],
+    ['other', TEXTS.otherObjects, n((a) => a.kind === 'other'), 'other'],
   ];
   return rows.filter(([, , count]) => count > 0);
 }
@@ -135,14 +133,14 @@ function mapLines({ map, signals, licence }: Scene): string[] {
   const n = (kind: string): number => lanes.filter((l) => l.kind === kind).length;
   const { x0, x1, y0, y1 } = map.box;
   const parts = [
-    `${n('road')} lanes`,
-    map.crosswalks.length ? `${map.crosswalks.length} crosswalks` : '',
-    n('bike') ? `${n('bike')} bike lanes` : '',
+    TEXTS.lanes(n('road')),
+    map.crosswalks.length ? TEXTS.crosswalks(map.crosswalks.length) : '',
+    n('bike') ? TEXTS.bikeLanes(n('bike')) : '',
   ];
-  const control = signals.length ? 'signals' : map.stopSigns.length ? 'stop signs' : 'no signals';
+  const control = signals.length ? TEXTS.signals : map.stopSigns.length ? TEXTS.stopSigns : TEXTS.noSignals;
   return [
     parts.filter(Boolean).join(' · '),
     `${num(x1 - x0, 0)} m × ${num(y1 - y0, 0)} m · ${control}`,
-    ...(licence ? [`Licence: ${licence}`] : []),
+    ...(licence ? [TEXTS.licence(licence)] : []),
   ];
 }

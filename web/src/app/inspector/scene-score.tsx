@@ -6,6 +6,7 @@ import { canChange } from '../../model/scene';
 import { metres, num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import type { Editor } from '../../edit/editor';
+import { TEXTS } from '../../texts/inspector';
 
 export function SceneScore() {
   const { editor } = useApp();
@@ -13,7 +14,7 @@ export function SceneScore() {
   if (!rows.length) return null;
   return (
     <section class="sect">
-      <h3>Score</h3>
+      <h3>{TEXTS.score}</h3>
       <dl class="wh">
         {rows.flatMap(([what, value]) => [<dt key={what}>{what}</dt>, <dd key={`${what}:`}>{value}</dd>])}
       </dl>
@@ -34,10 +35,10 @@ function figures(e: Editor): (readonly [string, string])[] {
   const furthest = far.reduce((most, c) => Math.max(most, c.d), 0);
   const { minTtc, pet } = set.score;
   return [
-    ['Collisions per road user', num(hits / Math.max(1, all.length), 2)],
-    ['Least time to collision, log too', minTtc === null ? 'none on the way' : `${num(minTtc, 1)} s`],
-    ...(pet == null ? [] : [['Least gap in time, log too', `${num(pet, 1)} s`] as const]),
-    ...(goals.length ? [['Goals reached', `${reached} of ${goals.length}`] as const] : []),
-    ...(furthest > 0 ? [['Furthest from the log', metres(furthest, 1)] as const] : []),
+    [TEXTS.collisionsPer, num(hits / Math.max(1, all.length), 2)],
+    [TEXTS.leastTimeToCollision, minTtc === null ? TEXTS.noneOnTheWay : `${num(minTtc, 1)} s`],
+    ...(pet == null ? [] : [[TEXTS.leastGapInTime, `${num(pet, 1)} s`] as const]),
+    ...(goals.length ? [[TEXTS.goalsReached, TEXTS.of2(reached, goals.length)] as const] : []),
+    ...(furthest > 0 ? [[TEXTS.furthestFrom, metres(furthest, 1)] as const] : []),
   ];
 }

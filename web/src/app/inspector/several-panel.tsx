@@ -1,23 +1,25 @@
 // The inspector of several: what they have in common, and one value for all of them.
 import { useComputed, useSignal, type ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
-import { KIND_NAMES, kindsWords, PLACED_KINDS } from '../../model/kinds';
+import { KIND_WORDS, kindsWords, PLACED_KINDS } from '../../model/kinds';
 import { doing, hasGoal, startPose, type Agent, type AgentType, type Others } from '../../model/scene';
 import { num, seconds, speedLabel } from '../../model/units';
-import { actionOf, perform } from '../../actions/registry';
+import { perform } from '../../actions/registry';
 import * as several from '../../edit/several';
 import { closestOf, gapNow } from '../../model/closest';
 import { poseShown } from '../../edit/frame';
 import { shownPose } from '../../edit/moves';
+import { OTHERS_DO } from '../parts/others';
 import { useApp } from '../parts/app-context';
 import { ActionButton, IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { SharedField, sharedFields, type Shared } from './shared-field';
+import { TEXTS } from '../../texts/several-panel';
 
 const GROUPS: readonly (readonly [AgentType, string])[] = [
-  ['pedestrian', 'On foot'],
-  ['cyclist', 'Cycling'],
-  ['vehicle', 'Driving'],
+  ['pedestrian', TEXTS.onFoot],
+  ['cyclist', TEXTS.cycling],
+  ['vehicle', TEXTS.driving],
 ];
 
 type Live = ReadonlySignal<readonly Agent[]>;
@@ -36,15 +38,11 @@ export function SeveralPanel() {
       <Head all={all} />
       <section class="sect">
         <h3>
-          All of them
-          <small>typing writes to all, +5 adds</small>
+          {TEXTS.allOfThem}
+          <small>{TEXTS.typingWrites}</small>
         </h3>
         <Filter all={all} only={only} />
-        {locked ? (
-          <p class="note">
-            {locked} locked {locked > 1 ? 'stay as they are' : 'stays as it is'}.
-          </p>
-        ) : null}
+        {locked ? <p class="note">{TEXTS.lockedStayAs(locked)}</p> : null}
       </section>
       <Values those={those} />
       <Rule all={all} />
@@ -59,7 +57,7 @@ export function SeveralPanel() {
 }
 
 function Head({ all }: { all: Live }) {
-  const count = useComputed(() => `${all.value.length} road users`);
+  const count = useComputed(() => TEXTS.roadUsers(all.value.length));
   const kinds = useComputed(() => kindsWords(all.value.map((a) => a.kind)));
   return (
     <div class="ih">
@@ -84,8 +82,8 @@ function Filter({ all, only }: { all: Live; only: { value: AgentType | null } })
   });
   if (rows.length < 2) return null;
   return (
-    <div class="seg wide" role="radiogroup" aria-label="Who is changed">
-      {[[null, 'All', all.value.length] as const, ...rows].map(([type, word, n]) => (
+    <div class="seg wide" role="radiogroup" aria-label={TEXTS.whoIsChanged}>
+      {[[null, TEXTS.all, all.value.length] as const, ...rows].map(([type, word, n]) => (
         <button
           key={word}
           type="button"
@@ -138,21 +136,19 @@ function FixedOf({ those, part, field }: { those: Live; part: 'start' | 'goal'; 
       class="fx"
       role="switch"
       aria-checked={fixed === all ? 'true' : fixed ? 'mixed' : 'false'}
-      aria-label={`${part === 'goal' ? 'Goal' : 'Start'} ${field} fixed for ${fixed} of ${all}`}
-      title={
-        fixed === all ? 'Fixed for all. Click to let the generator decide' : 'Click to fix it for all, each as it is'
-      }
+      aria-label={part === 'goal' ? TEXTS.goalFixedFor(field, fixed, all) : TEXTS.startFixedFor(field, fixed, all)}
+      title={fixed === all ? TEXTS.fixedForAllClick : TEXTS.clickToFixIt}
       onClick={toggle}
     >
       {fixed === all ? (
         <>
           <Icon name="lock" size={11} />
-          Fixed
+          {TEXTS.fixed}
         </>
       ) : fixed ? (
-        `${fixed} of ${all}`
+        TEXTS.of(fixed, all)
       ) : (
-        'Free'
+        TEXTS.free
       )}
     </button>
   );
@@ -164,27 +160,27 @@ function Values({ those }: { those: Live }) {
   const goals = useComputed(() => those.value.filter((a) => hasGoal(a.goal)).length).value;
   return (
     <>
-      <section class="sect" aria-label="Start">
+      <section class="sect" aria-label={TEXTS.start}>
         <h3>
           <span class="mkr" />
-          Start
-          <small>at 0.0 s</small>
+          {TEXTS.start}
+          <small>{TEXTS.at00S}</small>
         </h3>
         <Row shared={fields.heading} those={those} fixes={['start', 'heading']} />
         <Row shared={fields.speed} those={those} fixes={['start', 'speed']} />
         <Row shared={fields.length} those={those} />
         <Row shared={fields.width} those={those} />
-        <Labelled label="Type">
+        <Labelled label={TEXTS.type}>
           <Kinds those={those} />
         </Labelled>
       </section>
-      <section class="sect goalsec" aria-label="Goal">
+      <section class="sect goalsec" aria-label={TEXTS.goal}>
         <h3>
           <span class="mk">
             <Icon name="flag" size={15} />
           </span>
-          Goal
-          <small>{goals ? `${goals} of ${those.value.length} have one` : 'nobody has one'}</small>
+          {TEXTS.goal}
+          <small>{goals ? TEXTS.ofHaveOne(goals, those.value.length) : TEXTS.nobodyHasOne}</small>
         </h3>
         <Row shared={fields.goalSpeed} those={those} fixes={['goal', 'speed']} />
         <Row shared={fields.time} those={those} />
@@ -205,14 +201,14 @@ function Labelled({ label, children }: { label: string; children: ComponentChild
 function Kinds({ those }: { those: Live }) {
   const { editor } = useApp();
   return (
-    <div class="kinds" role="group" aria-label="Type">
+    <div class="kinds" role="group" aria-label={TEXTS.type}>
       {PLACED_KINDS.map((kind) => (
         <button
           key={kind}
           type="button"
           class={`btn i ${those.value.every((a) => a.kind === kind) ? 'on' : ''}`}
-          title={`Each a ${KIND_NAMES[kind].toLowerCase()}`}
-          aria-label={`Each a ${KIND_NAMES[kind].toLowerCase()}`}
+          title={TEXTS.eachA(KIND_WORDS[kind])}
+          aria-label={TEXTS.eachA(KIND_WORDS[kind])}
           aria-pressed={those.value.every((a) => a.kind === kind)}
           onClick={() => {
             const command = several.setKind(several.movable(those.peek()), kind);
@@ -227,14 +223,14 @@ function Kinds({ those }: { those: Live }) {
 }
 
 const DOES: readonly (readonly [string, string])[] = [
-  ['does-react', 'React'],
-  ['does-log', 'Replay log'],
-  ['does-still', 'Hold still'],
+  ['does-react', TEXTS.react],
+  ['does-log', TEXTS.replayLog],
+  ['does-still', TEXTS.holdStill],
 ];
 const DO: Record<Others, readonly [string, string]> = {
-  react: ['reacts', 'react'],
-  log: ['replays its log', 'replay their log'],
-  still: ['holds still', 'hold still'],
+  react: [TEXTS.reacts, TEXTS.react2],
+  log: [TEXTS.replaysItsLog, TEXTS.replayTheirLog],
+  still: [TEXTS.holdsStill, TEXTS.holdStill2],
 };
 
 function Rule({ all }: { all: Live }) {
@@ -246,16 +242,16 @@ function Rule({ all }: { all: Live }) {
       .filter(count)
       .map((d) => `${count(d)} ${DO[d][count(d) > 1 ? 1 : 0]}`);
     return parts.length > 1
-      ? `Mixed: ${parts.join(', ')}.`
-      : `${actionOf(`others-${parts.length ? firstOf(scene, all.value) : 'react'}`).help}.`;
+      ? TEXTS.mixed(parts.join(', '))
+      : OTHERS_DO[parts.length ? firstOf(scene, all.value) : 'react'];
   });
   return (
     <section class="sect">
       <h3>
-        Others’ rule
-        <small>for these {all.value.length}</small>
+        {TEXTS.othersRule}
+        <small>{TEXTS.forThese(all.value.length)}</small>
       </h3>
-      <Segments label="What they do while others change" items={DOES} />
+      <Segments label={TEXTS.whatTheyDoWhile} items={DOES} />
       <p class="note">{words}</p>
     </section>
   );
@@ -280,16 +276,16 @@ function ClosestLine({ those }: { those: Live }) {
     <button
       type="button"
       class="closest"
-      title="Go there"
+      title={TEXTS.goThere}
       onClick={() => {
         editor.playhead.pause();
         editor.setTime(time);
       }}
     >
       <span class="grow">
-        {a.name} and {b.name}: {gap > 0.005 ? `${num(gap, 1)} m` : 'they touch'}
+        {gap > 0.005 ? TEXTS.andM(a.name, b.name, num(gap, 1)) : TEXTS.andTheyTouch(a.name, b.name)}
       </span>
-      <span class="mut">at {seconds(time)}</span>
+      <span class="mut">{TEXTS.at(seconds(time))}</span>
     </button>
   );
 }
@@ -315,8 +311,8 @@ function Who({ those }: { those: Live }) {
   return (
     <section class="sect last">
       <h3>
-        Who
-        <small>{gap === null ? '' : `smallest gap ${num(gap, 1)} m now`}</small>
+        {TEXTS.who}
+        <small>{gap === null ? '' : TEXTS.smallestGapM(num(gap, 1))}</small>
       </h3>
       <ClosestLine those={those} />
       {shown.map((a) => {
@@ -326,7 +322,7 @@ function Who({ those }: { those: Live }) {
             key={a.id}
             type="button"
             class="whorow"
-            title="Select this one alone; with Shift take it away"
+            title={TEXTS.selectThisOne}
             onPointerEnter={() => editor.pointAt({ agent: a.id })}
             onPointerLeave={() => editor.pointAt({})}
             onClick={(e) => {
@@ -337,7 +333,7 @@ function Who({ those }: { those: Live }) {
               }
             }}
           >
-            <span class={`dot t-${a.parked ? 'parked' : a.type}`} />
+            <span class={`dot t-${a.parked ? TEXTS.parked : a.type}`} />
             <span class="grow">{a.name}</span>
             {a.locked ? <Icon name="lock" size={12} /> : null}
             <span class="mut">{p ? speedLabel(p.speed, editor.unitOf(a)) : ''}</span>
@@ -346,7 +342,7 @@ function Who({ those }: { those: Live }) {
       })}
       {more > 0 ? (
         <button type="button" class="whorow mut" onClick={() => perform(c, 'zoom-selection')}>
-          and {more} more
+          {TEXTS.andMore(more)}
         </button>
       ) : null}
     </section>

@@ -12,6 +12,7 @@ import * as several from '../../edit/several';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 import { arrowStep, noNumber, outside, Scrub, WHY_MS } from '../parts/number-field';
+import { TEXTS } from '../../texts/several-panel';
 
 /** What a shared field is about. Values are in the unit that is shown. */
 export interface Shared {
@@ -40,8 +41,8 @@ const inAll = (all: readonly Agent[], of: (a: Agent) => readonly [number, number
 function speedField(e: Editor, part: 'start' | 'goal'): Shared {
   const mps = (a: Agent): number | null => (part === 'start' ? (startPose(a)?.speed ?? null) : a.goal.speed);
   return {
-    word: 'Speed',
-    label: part === 'start' ? 'Speed of all' : 'Goal speed of all',
+    word: TEXTS.speed,
+    label: part === 'start' ? TEXTS.speedOfAll : TEXTS.goalSpeedOfAll,
     field: `all-${part}-speed`,
     step: 1,
     unit: (all) => speedUnit(e, all),
@@ -55,7 +56,7 @@ function speedField(e: Editor, part: 'start' | 'goal'): Shared {
     command: (all, to, fold) => {
       const unit = speedUnit(e, all);
       const of = (a: Agent): number => toUnit(mps(a) ?? startPose(a)?.speed ?? 0, unit);
-      const what = part === 'start' ? 'Speed' : 'Goal speed';
+      const what = part === 'start' ? TEXTS.speed : TEXTS.goalSpeed;
       // Each within what its own kind can do: a sum that fits one need not fit another.
       return several.setAll(all, part, 'speed', (a) => clamp(fromUnit(to(of(a)), unit), 0, topSpeed(a)), what, fold);
     },
@@ -63,10 +64,10 @@ function speedField(e: Editor, part: 'start' | 'goal'): Shared {
 }
 
 function sizeField(name: 'length' | 'width'): Shared {
-  const word = name === 'length' ? 'Length' : 'Width';
+  const word = name === 'length' ? TEXTS.length : TEXTS.width;
   return {
     word,
-    label: `${word} of all in metres`,
+    label: TEXTS.ofAllInMetres(word),
     field: `all-${name}`,
     step: 0.1,
     unit: () => 'm',
@@ -82,8 +83,8 @@ function sizeField(name: 'length' | 'width'): Shared {
 export const sharedFields = (e: Editor) =>
   ({
     heading: {
-      word: 'Heading',
-      label: 'Heading of all in degrees',
+      word: TEXTS.heading,
+      label: TEXTS.headingOfAll,
       field: 'all-start-heading',
       step: 1,
       unit: () => '°',
@@ -100,15 +101,15 @@ export const sharedFields = (e: Editor) =>
           'start',
           'heading',
           (a) => wrapAngle(rad(to(deg(startPose(a)?.heading ?? 0)))),
-          'Heading',
+          TEXTS.heading,
           fold,
         ),
     },
     speed: speedField(e, 'start'),
     goalSpeed: speedField(e, 'goal'),
     time: {
-      word: 'Time',
-      label: 'Time at the goal of all in seconds',
+      word: TEXTS.time,
+      label: TEXTS.timeAtTheGoal,
       field: 'all-goal-time',
       step: 0.1,
       unit: () => 's',
@@ -117,7 +118,7 @@ export const sharedFields = (e: Editor) =>
       text: (v) => num(v, 1),
       range: () => [1, e.scene.value?.length ?? 9],
       command: (all, to, fold) =>
-        several.setAll(all, 'goal', 'time', (a) => goalTime(e.scene.peek(), to(a.goal.time)), 'Goal time', fold),
+        several.setAll(all, 'goal', 'time', (a) => goalTime(e.scene.peek(), to(a.goal.time)), TEXTS.goalTime, fold),
     },
     length: sizeField('length'),
     width: sizeField('width'),
@@ -134,7 +135,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
     const texts = new Set(values.value.map((v) => shared.text(v, all)));
     return texts.size === 1 && values.value.length === all.length ? [...texts][0] : null;
   });
-  const text = useComputed(() => common.value ?? (values.value.length ? 'mixed' : 'free'));
+  const text = useComputed(() => common.value ?? (values.value.length ? TEXTS.mixed2 : TEXTS.free2));
   const unit = useComputed(() => shared.unit(those.value));
   /** From the least to the greatest, or how many have one at all. */
   const span = useComputed(() => {
@@ -142,7 +143,7 @@ export function SharedField({ shared, those }: { shared: Shared; those: Readonly
     if (common.value !== null || !v.length) return unit.value;
     const low = shared.text(Math.min(...v), those.value),
       high = shared.text(Math.max(...v), those.value);
-    return low === high ? `${v.length} at ${low} ${unit.value}` : `${low} to ${high} ${unit.value}`;
+    return low === high ? TEXTS.at2(v.length, low, unit.value) : TEXTS.to(low, high, unit.value);
   });
 
   const show = () => {

@@ -11,6 +11,7 @@ import { metres, seconds } from '../../model/units';
 import { headline } from '../../model/verdict-words';
 import type { Editor } from '../../edit/editor';
 import { outOfReach, verdictsHold } from '../../edit/goal-verdict';
+import { TEXTS } from '../../texts/agent';
 
 export interface Verdict {
   readonly kind: 'ok' | 'near' | 'collision' | 'plain';
@@ -49,15 +50,15 @@ export function verdictOn(c: Context, a: Agent): Verdict | null {
 const OUTDATED: Verdict = {
   kind: 'near',
   icon: 'warn',
-  title: 'Futures are out of date',
-  words: 'They will be worked out again when the generator answers.',
+  title: TEXTS.futuresAreOut,
+  words: TEXTS.theyWillBeWorked,
 };
 
 const NO_LANE: Verdict = {
   kind: 'plain',
   icon: 'warn',
-  title: 'There is no lane here.',
-  words: 'Cars may still be put here, but the futures will be rough.',
+  title: TEXTS.thereIsNoLane,
+  words: TEXTS.carsMayStill,
   snap: true,
 };
 
@@ -96,8 +97,8 @@ function offLanes({ editor }: Context, a: Agent): boolean {
 function againstLog({ editor: e }: Context, a: Agent): Verdict | null {
   const log = e.layers.value.log ? comparedWithLog(a, e.motionFor(a), e.scene.value!.duration) : null;
   if (!log) return null;
-  const words = `${log.words} Furthest apart: ${metres(log.d, 1)} at ${seconds(log.t)}.`;
-  return { kind: 'plain', icon: 'eye', title: 'Compared with the log', words };
+  const words = TEXTS.furthestApart(log.words, metres(log.d, 1), seconds(log.t));
+  return { kind: 'plain', icon: 'eye', title: TEXTS.comparedWith, words };
 }
 
 function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
@@ -108,10 +109,10 @@ function onFutures({ editor: e }: Context, a: Agent): Verdict | null {
 }
 
 const HAPPENS: Readonly<Record<TrafficEvent['kind'], string>> = {
-  collision: 'with a collision',
-  rule: 'against the rules',
-  near: 'with a near miss',
-  short: 'short of it',
+  collision: TEXTS.withACollision,
+  rule: TEXTS.againstTheRules,
+  near: TEXTS.withANearMiss,
+  short: TEXTS.shortOfIt,
 };
 
 /** The worst that happens to it on the way it is shown on; null where nothing does. */
@@ -120,7 +121,10 @@ function happening(e: Editor, a: Agent): Verdict | null {
   const kind = worstOf(own);
   const worst = own.find((ev) => ev.kind === kind);
   if (!worst || !kind) return null;
-  const title = `${kind === 'short' ? 'Ends' : 'Reached,'} ${HAPPENS[kind]} at ${seconds(worst.time)}`;
+  const title =
+    kind === 'short'
+      ? TEXTS.endsAt(HAPPENS[kind], seconds(worst.time))
+      : TEXTS.reachedAt(HAPPENS[kind], seconds(worst.time));
   return { kind: KINDS[kind], icon: `mark-${kind}`, title, words: `${worst.title}: ${worst.words}.`, at: worst.time };
 }
 
@@ -137,18 +141,16 @@ function goalReached(a: Agent, f: Futures, goal: readonly [number, number]): Ver
   const furthest = (of: typeof misses, atLeast = 0): string => metres(Math.max(atLeast, ...of.map((m) => m.d)), 1);
   if (!good.length) {
     const [closest] = bad.sort((p, q) => p.d - q.d);
-    const words = `The closest, ${closest.letter}, ends ${metres(closest.d, 1)} away.`;
-    return { kind: 'near', icon: 'warn', title: 'No future reaches the goal', words };
+    const words = TEXTS.theClosestEnds(closest.letter, metres(closest.d, 1));
+    return { kind: 'near', icon: 'warn', title: TEXTS.noFutureReaches, words };
   }
   const letters = (of: typeof misses): string => of.map((m) => m.letter).join(', ');
   const words = !bad.length
-    ? `${misses.length === 1 ? 'Within' : 'All within'} ${furthest(misses, 0.1)} at ${seconds(a.goal.time)}.`
-    : bad.length === 1
-      ? `${bad[0].letter} ends ${furthest(bad)} short.`
-      : `${letters(bad)} end up to ${furthest(bad)} away.`;
+    ? TEXTS.allWithinAt(misses.length, furthest(misses, 0.1), seconds(a.goal.time))
+    : TEXTS.endUpToAway(bad.length, bad[0].letter, furthest(bad), letters(bad));
   const all = !bad.length && misses.length > 1;
   const title = all
-    ? `Goal reached in all ${misses.length === 6 ? 'six' : misses.length}`
-    : `Goal reached in ${letters(good)}`;
+    ? TEXTS.goalReachedIn(misses.length === 6 ? TEXTS.six : misses.length)
+    : TEXTS.goalReachedIn2(letters(good));
   return { kind: 'ok', icon: 'check', title, words };
 }

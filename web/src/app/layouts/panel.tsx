@@ -9,6 +9,8 @@ import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
 import '../../styles/layouts.css';
+import { TEXTS } from '../../texts/layouts';
+import { inSentence } from '../../texts/language';
 
 /** What stands in the panel for each number, in its order; `whole` are counted. */
 interface Line {
@@ -18,37 +20,37 @@ interface Line {
   readonly quantity?: Quantity;
 }
 const LINES: Readonly<Record<string, Line>> = {
-  length_m: { label: 'Length', unit: 'm', step: 10 },
-  bend_deg: { label: 'Bend', unit: '°', step: 5, quantity: 'angle' },
-  radius_m: { label: 'Radius', unit: 'm', step: 5 },
-  lanes: { label: 'Lanes', unit: '', step: 1 },
-  lanes_forward: { label: 'Lanes forward', unit: '', step: 1 },
-  lanes_backward: { label: 'Lanes back', unit: '', step: 1 },
-  island_radius_m: { label: 'Island', unit: 'm', step: 1 },
-  ring_lanes: { label: 'Ring lanes', unit: '', step: 1 },
-  ring_lane_width_m: { label: 'Ring lane width', unit: 'm', step: 0.25 },
-  ring_speed_limit_kmh: { label: 'Ring speed limit', unit: 'km/h', step: 5 },
-  parallel_m: { label: 'Beside', unit: 'm', step: 10 },
-  ramp_angle_deg: { label: 'Ramp angle', unit: '°', step: 1, quantity: 'angle' },
-  ramp_speed_limit_kmh: { label: 'Ramp speed limit', unit: 'km/h', step: 10 },
-  aisles: { label: 'Aisles', unit: '', step: 1 },
-  bays: { label: 'Bays on a side', unit: '', step: 1 },
-  bay_width_m: { label: 'Bay width', unit: 'm', step: 0.1 },
-  bay_length_m: { label: 'Bay length', unit: 'm', step: 0.1 },
-  aisle_m: { label: 'Aisle width', unit: 'm', step: 0.25 },
-  speed_limit_kmh: { label: 'Speed limit', unit: 'km/h', step: 10 },
-  cycle_lane_m: { label: 'Cycle lane', unit: 'm', step: 0.1 },
-  parking_m: { label: 'Parking', unit: 'm', step: 0.1 },
-  median_m: { label: 'Median', unit: 'm', step: 0.5 },
-  crosswalk_m: { label: 'Crosswalk', unit: 'm', step: 0.5 },
-  kerb_radius_m: { label: 'Kerb radius', unit: 'm', step: 0.5 },
-  lane_width_m: { label: 'Lane width', unit: 'm', step: 0.25 },
-  sidewalk_m: { label: 'Pavement', unit: 'm', step: 0.5 },
+  length_m: { label: TEXTS.length, unit: 'm', step: 10 },
+  bend_deg: { label: TEXTS.bend, unit: '°', step: 5, quantity: 'angle' },
+  radius_m: { label: TEXTS.radius, unit: 'm', step: 5 },
+  lanes: { label: TEXTS.lanes, unit: '', step: 1 },
+  lanes_forward: { label: TEXTS.lanesForward, unit: '', step: 1 },
+  lanes_backward: { label: TEXTS.lanesBack, unit: '', step: 1 },
+  island_radius_m: { label: TEXTS.island, unit: 'm', step: 1 },
+  ring_lanes: { label: TEXTS.ringLanes, unit: '', step: 1 },
+  ring_lane_width_m: { label: TEXTS.ringLaneWidth, unit: 'm', step: 0.25 },
+  ring_speed_limit_kmh: { label: TEXTS.ringSpeedLimit, unit: 'km/h', step: 5 },
+  parallel_m: { label: TEXTS.beside, unit: 'm', step: 10 },
+  ramp_angle_deg: { label: TEXTS.rampAngle, unit: '°', step: 1, quantity: 'angle' },
+  ramp_speed_limit_kmh: { label: TEXTS.rampSpeedLimit, unit: 'km/h', step: 10 },
+  aisles: { label: TEXTS.aisles, unit: '', step: 1 },
+  bays: { label: TEXTS.baysOnASide, unit: '', step: 1 },
+  bay_width_m: { label: TEXTS.bayWidth, unit: 'm', step: 0.1 },
+  bay_length_m: { label: TEXTS.bayLength, unit: 'm', step: 0.1 },
+  aisle_m: { label: TEXTS.aisleWidth, unit: 'm', step: 0.25 },
+  speed_limit_kmh: { label: TEXTS.speedLimit, unit: 'km/h', step: 10 },
+  cycle_lane_m: { label: TEXTS.cycleLane, unit: 'm', step: 0.1 },
+  parking_m: { label: TEXTS.parking, unit: 'm', step: 0.1 },
+  median_m: { label: TEXTS.median, unit: 'm', step: 0.5 },
+  crosswalk_m: { label: TEXTS.crosswalk, unit: 'm', step: 0.5 },
+  kerb_radius_m: { label: TEXTS.kerbRadius, unit: 'm', step: 0.5 },
+  lane_width_m: { label: TEXTS.laneWidth, unit: 'm', step: 0.25 },
+  sidewalk_m: { label: TEXTS.pavement, unit: 'm', step: 0.5 },
 };
 const SWITCHES: Readonly<Record<string, string>> = {
-  on_ramp: 'Ramp joins',
-  off_ramp: 'Ramp leaves',
-  speed_bumps: 'Speed bumps',
+  on_ramp: TEXTS.rampJoins,
+  off_ramp: TEXTS.rampLeaves,
+  speed_bumps: TEXTS.speedBumps,
 };
 /** Widths that a switch turns on. */
 const USUAL: Readonly<Record<string, number>> = { cycle_lane_m: 1.8, crosswalk_m: 3, median_m: 2, parking_m: 2.3 };
@@ -59,7 +61,7 @@ export default function LayoutPanel() {
   const wish = layouts.wish.value;
   const parameters = layouts.parameters.value;
   if (!wish) return null;
-  const title = layouts.base ? 'Change the map' : 'New map';
+  const title = layouts.base ? TEXTS.changeTheMap : TEXTS.newMap;
   return (
     <>
       <div class="ih">
@@ -68,7 +70,7 @@ export default function LayoutPanel() {
         </div>
         <div class="grow">
           <h2>{title}</h2>
-          <p>{TEMPLATE_TITLES[wish.template].toLowerCase()}</p>
+          <p>{inSentence(TEMPLATE_TITLES[wish.template])}</p>
         </div>
       </div>
       <div class="layouts">
@@ -78,10 +80,10 @@ export default function LayoutPanel() {
       </div>
       <div class="layouts-foot">
         <ActionButton id="use-map" class="pri" icon="" withKey>
-          Use this map
+          {TEXTS.useThisMap}
         </ActionButton>
         <button type="button" class="btn line" onClick={() => layouts.close()}>
-          Cancel
+          {TEXTS.cancel}
         </button>
       </div>
     </>
@@ -137,7 +139,7 @@ function Switch({ label, on, set }: { label: string; on: boolean; set: (on: bool
       aria-label={label}
       onClick={() => set(!on)}
     >
-      {on ? 'On' : 'Off'}
+      {on ? TEXTS.on : TEXTS.off}
     </button>
   );
 }
@@ -148,7 +150,7 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
   const arm = arms[index];
   const set = (change: Partial<Arm>) => layouts.setArm(index, change);
   const now = (): Arm => layouts.arms.value[Math.min(layouts.arm.value, layouts.arms.value.length - 1)];
-  const name = layouts.made.value?.arms[index]?.name ?? 'Arm';
+  const name = layouts.made.value?.arms[index]?.name ?? TEXTS.arm;
   const turned = layouts.turned.value;
   const number = (key: 'length_m' | 'speed_limit_kmh' | 'cycle_lane_m' | 'crosswalk_m' | 'median_m') => (
     <NumberRow
@@ -161,19 +163,17 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
   );
   const priority = layouts.parameters.value?.control === 'priority';
   return (
-    <section class="sect" aria-label={`${name} arm`}>
+    <section class="sect" aria-label={TEXTS.arm2(name)}>
       <h3>
-        {name} arm
+        {TEXTS.arm2(name)}
         <span class="grow" />
         <ActionButton id="arm-previous" iconOnly icon="prev" size={14} />
-        <small>
-          {index + 1} of {arms.length}
-        </small>
+        <small>{TEXTS.of(index + 1, arms.length)}</small>
         <ActionButton id="arm-next" iconOnly icon="next" size={14} />
       </h3>
-      <Row label="Angle">
+      <Row label={TEXTS.angle}>
         <NumberField
-          label="Angle"
+          label={TEXTS.angle}
           field="layout-arms.angle_deg"
           unit={() => '°'}
           quantity={() => 'angle'}
@@ -183,12 +183,12 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
           set={(v) => set({ angle_deg: v })}
           range={() => [-360, 360]}
         />
-        {turned?.index === index ? <small>was {num(turned.before.angle_deg, 0)}°</small> : null}
+        {turned?.index === index ? <small>{TEXTS.was(num(turned.before.angle_deg, 0))}</small> : null}
       </Row>
-      <Row label="Lanes in">
-        <Count label="Lanes in" value={arm.lanes_in} set={(v) => set({ lanes_in: v })} />
-        <span class="mut">out</span>
-        <Count label="Lanes out" value={arm.lanes_out} set={(v) => set({ lanes_out: v })} />
+      <Row label={TEXTS.lanesIn}>
+        <Count label={TEXTS.lanesIn} value={arm.lanes_in} set={(v) => set({ lanes_in: v })} />
+        <span class="mut">{TEXTS.out}</span>
+        <Count label={TEXTS.lanesOut} value={arm.lanes_out} set={(v) => set({ lanes_out: v })} />
       </Row>
       {layouts.wish.value?.template === 'roundabout' ? null : <TurnLanes index={index} arm={arm} />}
       {number('length_m')}
@@ -206,8 +206,8 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
         ),
       )}
       {priority ? (
-        <Row label="Goes first">
-          <Switch label="Goes first" on={arm.main} set={(main) => set({ main })} />
+        <Row label={TEXTS.goesFirst}>
+          <Switch label={TEXTS.goesFirst} on={arm.main} set={(main) => set({ main })} />
         </Row>
       ) : null}
       <div class="row">
@@ -217,7 +217,7 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
           disabled={arms.length >= MOST_ARMS}
           onClick={() => layouts.addArm(layouts.widestGap())}
         >
-          Add an arm
+          {TEXTS.addAnArm}
         </button>
         <button
           type="button"
@@ -225,7 +225,7 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
           disabled={arms.length <= FEWEST_ARMS}
           onClick={() => layouts.removeArm(index)}
         >
-          Remove it
+          {TEXTS.removeIt}
         </button>
       </div>
     </section>
@@ -235,11 +235,11 @@ function ArmSection({ arms }: { arms: readonly Arm[] }) {
 function Count({ label, value, set }: { label: string; value: number; set: (v: number) => void }) {
   return (
     <span class="count" role="group" aria-label={label}>
-      <button type="button" aria-label={`${label}, one less`} disabled={value <= 0} onClick={() => set(value - 1)}>
+      <button type="button" aria-label={TEXTS.oneLess(label)} disabled={value <= 0} onClick={() => set(value - 1)}>
         −
       </button>
       <b>{value}</b>
-      <button type="button" aria-label={`${label}, one more`} disabled={value >= 5} onClick={() => set(value + 1)}>
+      <button type="button" aria-label={TEXTS.oneMore(label)} disabled={value >= 5} onClick={() => set(value + 1)}>
         +
       </button>
     </span>
@@ -265,16 +265,16 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
       ),
     });
   return (
-    <Row label="Turn lanes">
+    <Row label={TEXTS.turnLanes}>
       <span class="turns">
         {shown.map((turns, lane) => (
-          <span key={lane} role="group" aria-label={`Lane ${lane + 1}`}>
+          <span key={lane} role="group" aria-label={TEXTS.lane(lane + 1)}>
             {TURNS.map((turn) => (
               <button
                 key={turn}
                 type="button"
                 aria-pressed={turns.includes(turn)}
-                aria-label={`Lane ${lane + 1}, ${turn}`}
+                aria-label={TEXTS.lane2(lane + 1, turn)}
                 class={turns.includes(turn) ? 'on' : ''}
                 onClick={() => toggle(lane, turn)}
               >
@@ -289,13 +289,13 @@ function TurnLanes({ index, arm }: { index: number; arm: Arm }) {
 }
 
 const CONTROLS = [
-  ['signals', 'Signals'],
-  ['priority', 'Priority'],
-  ['equal', 'Equal'],
+  ['signals', TEXTS.signals],
+  ['priority', TEXTS.priority],
+  ['equal', TEXTS.equal],
 ] as const;
 const SIDES = [
-  ['right-hand', 'Right-hand'],
-  ['left-hand', 'Left-hand'],
+  ['right-hand', TEXTS.rightHand],
+  ['left-hand', TEXTS.leftHand],
 ] as const;
 
 function Choice<T extends string>({
@@ -336,10 +336,10 @@ function Whole({ parameters }: { parameters: Parameters }) {
   const switches = Object.keys(SWITCHES).filter((k) => k in parameters) as (keyof Parameters)[];
   return (
     <section class="sect">
-      <h3>{parameters.arms ? 'Junction' : 'Road'}</h3>
+      <h3>{parameters.arms ? TEXTS.junction : TEXTS.road}</h3>
       {parameters.control ? (
         <Choice
-          label="Who goes first"
+          label={TEXTS.whoGoesFirst}
           items={CONTROLS}
           value={parameters.control}
           set={(control) => layouts.set({ control })}
@@ -353,7 +353,12 @@ function Whole({ parameters }: { parameters: Parameters }) {
           <Switch label={SWITCHES[key]} on={!!parameters[key]} set={(on) => layouts.set({ [key]: on })} />
         </Row>
       ))}
-      <Choice label="Traffic" items={SIDES} value={parameters.traffic} set={(traffic) => layouts.set({ traffic })} />
+      <Choice
+        label={TEXTS.traffic}
+        items={SIDES}
+        value={parameters.traffic}
+        set={(traffic) => layouts.set({ traffic })}
+      />
     </section>
   );
 }
@@ -363,8 +368,8 @@ function Checks() {
   const made = editor.layouts.made.value;
   const fault = editor.layouts.fault.value;
   return (
-    <section class="sect last" aria-label="Checks">
-      <h3>Checks</h3>
+    <section class="sect last" aria-label={TEXTS.checks}>
+      <h3>{TEXTS.checks}</h3>
       <ul class="checks">
         {fault ? <li class="bad">{fault}</li> : null}
         {made?.checks.map((c) => (

@@ -11,6 +11,7 @@ import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 import { Icon } from '../parts/icons';
 import '../../styles/layouts.css';
+import { TEXTS } from '../../texts/layouts';
 
 const SIZE = { width: 112, height: 88 };
 const PX_PER_PX = 2;
@@ -65,10 +66,10 @@ export default function Templates() {
   const { layouts } = editor;
   const now = layouts.wish.value?.template;
   return (
-    <section class="card templates" aria-label="Start from">
+    <section class="card templates" aria-label={TEXTS.startFrom}>
       <h2>
-        Start from
-        <button type="button" class="btn i" aria-label="Close" onClick={() => layouts.close()}>
+        {TEXTS.startFrom}
+        <button type="button" class="btn i" aria-label={TEXTS.close} onClick={() => layouts.close()}>
           <Icon name="x" size={16} />
         </button>
       </h2>

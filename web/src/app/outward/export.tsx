@@ -11,13 +11,15 @@ import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
 import { ofScreen, ofServer, ofVariants, type Kind } from './kinds';
 import '../../styles/outward.css';
+import { TEXTS } from '../../texts/export';
+import { inSentence } from '../../texts/language';
 
 const SCOPES: readonly (readonly [Scope, string])[] = [
-  ['present', 'This scene'],
-  ['pair', 'Both'],
-  ['kept', 'Kept'],
-  ['starred', 'Starred'],
-  ['all', 'All variants'],
+  ['present', TEXTS.thisScene],
+  ['pair', TEXTS.both],
+  ['kept', TEXTS.kept],
+  ['starred', TEXTS.starred],
+  ['all', TEXTS.allVariants],
 ];
 
 export default function Export() {
@@ -26,11 +28,11 @@ export default function Export() {
   const offered = SCOPES.filter(([id]) => id === 'present' || variants.within(id).length);
   const now = offered.some(([id]) => id === scope) ? scope : 'present';
   return (
-    <Flyout label="Export" under="export" class="export">
+    <Flyout label={TEXTS.export} under="export" class="export">
       <div class="pad">
-        <h2>Export</h2>
+        <h2>{TEXTS.export}</h2>
         {offered.length > 1 ? (
-          <div class="seg" role="radiogroup" aria-label="What goes out">
+          <div class="seg" role="radiogroup" aria-label={TEXTS.whatGoesOut}>
             {offered.map(([id, text]) => (
               <button
                 key={id}
@@ -69,7 +71,7 @@ function Kinds({ scope }: { scope: Scope }) {
     void c.client.formats().then(offer, () => offer([]));
   }, []);
   if (!kinds.value) return <div class="kinds waiting" aria-busy="true" />;
-  return kinds.value.length ? <Offer kinds={kinds.value} /> : <p class="pad mut">The server is not answering.</p>;
+  return kinds.value.length ? <Offer kinds={kinds.value} /> : <p class="pad mut">{TEXTS.theServerIsNot}</p>;
 }
 
 /** Makes each file, one after the other; the one that is looked at comes first. */
@@ -117,8 +119,8 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
           <Icon name="search" size={16} />
           <input
             type="search"
-            placeholder="Find a format: Excel, CARLA, Waymo …"
-            aria-label="Find a format"
+            placeholder={TEXTS.findAFormatExcel}
+            aria-label={TEXTS.findAFormat}
             onInput={(e) => {
               sought.value = e.currentTarget.value;
             }}
@@ -128,7 +130,7 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
       <div
         class="kinds"
         role="radiogroup"
-        aria-label="Kind of file"
+        aria-label={TEXTS.kindOfFile}
         onKeyDown={(e) => {
           if (e.key !== 'ArrowDown' && e.key !== 'ArrowUp') return;
           e.preventDefault();
@@ -147,11 +149,11 @@ function Offer({ kinds }: { kinds: readonly Kind[] }) {
             </section>
           );
         })}
-        {shown.length ? null : <p class="mut nothing">No format of that name. Words such as “table” find others.</p>}
+        {shown.length ? null : <p class="mut nothing">{TEXTS.noFormatOfThat}</p>}
       </div>
       <div class="dfoot">
         <span class="grow">
-          <span class="about">Metres, x east, y north, 0 s = first step. Written into the file.</span>
+          <span class="about">{TEXTS.metresXEastY}</span>
           {typeof ready === 'object' ? fileWords(ready) : (ready ?? `${kind.label} ${kind.ending}`)}
         </span>
         <SaveButton kind={kind} ready={ready} progress={progress} stop={stop.current.signal} />
@@ -165,7 +167,7 @@ const matches = ({ label, ending, says, name = '' }: Kind, words: string): boole
 
 function fileWords({ name, blob, others = [] }: ExportedFile): string {
   const size = [blob, ...others.map((f) => f.blob)].reduce((sum, b) => sum + b.size, 0);
-  return `${others.length ? `${others.length + 1} files` : name} · ${sizeWords(size)}`;
+  return `${others.length ? TEXTS.files(others.length + 1) : name} · ${sizeWords(size)}`;
 }
 
 const sizeWords = (bytes: number): string =>
@@ -202,13 +204,13 @@ function KindRow({ kind: k, made, chosen }: KindRowProps) {
         {k.tag ? (
           <span class="tag">{k.tag}</span>
         ) : typeof is === 'string' ? (
-          <span class="tag collision">not possible</span>
+          <span class="tag collision">{TEXTS.notPossible}</span>
         ) : losses === null ? (
           <span class="tag">…</span>
         ) : losses.length ? (
           <span class="tag near">{lossTag(losses)}</span>
         ) : (
-          <span class="tag ok">nothing lost</span>
+          <span class="tag ok">{TEXTS.nothingLost}</span>
         )}
       </button>
       {on && typeof is === 'string' ? <div class="why">{is}</div> : null}
@@ -221,9 +223,9 @@ function KindRow({ kind: k, made, chosen }: KindRowProps) {
 const MOST_NAMED = 24;
 
 function lossTag(losses: readonly Loss[]): string {
-  const named = losses.map(({ what }) => what.toLowerCase()).join(', ');
-  if (named.length <= MOST_NAMED) return `loses ${named}`;
-  return `${losses.length} thing${losses.length > 1 ? 's' : ''} lost`;
+  const named = losses.map(({ what }) => inSentence(what)).join(', ');
+  if (named.length <= MOST_NAMED) return TEXTS.loses(named);
+  return TEXTS.thingsLost(losses.length);
 }
 
 /** A list that is longer is opened by hand. */
@@ -236,7 +238,7 @@ function Losses({ of }: { of: readonly Loss[] }) {
     <>
       <div class="why">
         <b class="head">
-          <Icon name="warn" size={15} /> What will not be in the file
+          <Icon name="warn" size={15} /> {TEXTS.whatWillNotBe}
         </b>
         <dl>
           {of.slice(0, all.value ? of.length : MOST_LOSSES - 1).map(({ what, how }) => (
@@ -248,11 +250,11 @@ function Losses({ of }: { of: readonly Loss[] }) {
         </dl>
         {all.value ? null : (
           <button type="button" class="more" onClick={() => (all.value = true)}>
-            all {of.length}
+            {TEXTS.all(of.length)}
           </button>
         )}
       </div>
-      <p class="stays">Stays: {stays(of, editor.scene.peek()!)}.</p>
+      <p class="stays">{TEXTS.stays(stays(of, editor.scene.peek()!))}</p>
     </>
   );
 }
@@ -277,15 +279,15 @@ function SaveButton({ kind, ready, progress, stop }: SaveButtonProps) {
       saveAll(c.editor, [file, ...(file.others ?? [])]);
       c.ui.closeDialog();
     } catch (e) {
-      c.editor.notices.show({ text: `Not exported: ${whyNot(e)}` });
+      c.editor.notices.show({ text: TEXTS.notExported(whyNot(e)) });
     } finally {
       progress.value = null;
     }
   };
-  const words = n ? `Save, losing ${n} thing${n > 1 ? 's' : ''}` : 'Save';
+  const words = n ? TEXTS.saveLosingThings(n) : TEXTS.save;
   return (
     <button type="button" class={`btn pri ${off ? 'off' : ''}`} aria-disabled={off} onClick={() => void go()}>
-      {progress.value === null ? words : progress.value > 0 ? `${Math.round(progress.value * 100)} %` : 'Saving …'}
+      {progress.value === null ? words : progress.value > 0 ? `${Math.round(progress.value * 100)} %` : TEXTS.saving}
     </button>
   );
 }

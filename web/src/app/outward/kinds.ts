@@ -8,6 +8,7 @@ import { reportPage } from '../../edit/outward/report-page';
 import type { WholeCard } from '../../edit/variants/cards';
 import { SvgPen } from '../../draw/svg-pen';
 import type { FormatInfo } from '../../net/types';
+import { TEXTS } from '../../texts/export';
 
 export interface Kind {
   readonly id: string;
@@ -46,17 +47,17 @@ export function ofScreen(c: Context): Kind[] {
   const { editor, stage } = c;
   const time = editor.time.peek();
   const scene = editor.scene.peek()!;
-  const view = `this view at ${time.toFixed(1)} s`;
+  const view = TEXTS.thisViewAtS(time.toFixed(1));
   const moving = filmKind();
   return [
     {
       id: 'report',
       wish: 'show',
-      says: 'What happens in a few lines, with this picture and all events.',
-      label: 'Report page',
+      says: TEXTS.whatHappensIn,
+      label: TEXTS.reportPage,
       ending: '.html',
       icon: 'report',
-      tag: 'to read, not to edit',
+      tag: TEXTS.toReadNotToEdit,
       make: async () => {
         const picture = pictureOf(c).toDataURL('image/png');
         const page = reportPage({
@@ -74,8 +75,8 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'png',
       wish: 'show',
-      says: 'What you see, for slides.',
-      label: 'Image',
+      says: TEXTS.whatYouSeeFor,
+      label: TEXTS.image,
       ending: '.png',
       icon: 'image',
       tag: view,
@@ -88,8 +89,8 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'svg',
       wish: 'show',
-      says: 'The same as lines: sharp at any size, for papers.',
-      label: 'Drawing',
+      says: TEXTS.theSameAsLines,
+      label: TEXTS.drawing,
       ending: '.svg',
       icon: 'image',
       tag: view,
@@ -97,7 +98,7 @@ export function ofScreen(c: Context): Kind[] {
         const pen = new SvgPen();
         stage.paintWith(pen, ['map', 'agents', 'overlay']);
         const { w, h, z } = stage.view;
-        const about = `${z.toFixed(2)} px a metre; x east, y north`;
+        const about = TEXTS.pxAMetreXEast(z.toFixed(2));
         const drawing = pen.file(w, h, `${scene.name}, ${time.toFixed(1)} s`, about);
         return named(c, new Blob([drawing], { type: 'image/svg+xml' }), 'svg');
       },
@@ -105,11 +106,11 @@ export function ofScreen(c: Context): Kind[] {
     {
       id: 'gif',
       wish: 'show',
-      says: 'What you see, again and again; for slides and mails that play no film.',
-      label: 'Moving image',
+      says: TEXTS.whatYouSeeAgain,
+      label: TEXTS.movingImage,
       ending: '.gif',
       icon: 'film',
-      tag: `${scene.duration.toFixed(1)} s, 10 a second`,
+      tag: TEXTS.s10ASecond(scene.duration.toFixed(1)),
       make: async (_, progress, stop) => {
         const blob = await movingPicture(editor, stage, progress, stop);
         return blob && named(c, blob, 'gif');
@@ -120,11 +121,11 @@ export function ofScreen(c: Context): Kind[] {
           {
             id: 'film',
             wish: 'show' as const,
-            says: 'What you see, played once.',
-            label: 'Film',
+            says: TEXTS.whatYouSeePlayed,
+            label: TEXTS.film,
             ending: `.${filmEnding(moving)}`,
             icon: 'film',
-            tag: `${scene.duration.toFixed(1)} s, 30 a second`,
+            tag: TEXTS.s30ASecond(scene.duration.toFixed(1)),
             make: async (_: Context, progress: (share: number) => void, stop: AbortSignal) => {
               const blob = await film(editor, stage, moving, progress, stop);
               return blob && named(c, blob, filmEnding(moving));
@@ -137,8 +138,8 @@ export function ofScreen(c: Context): Kind[] {
 
 function originOf({ file }: Context): string {
   const o = file.raw?.meta?.origin as { x_m?: number; y_m?: number; crs?: string | null } | undefined;
-  if (!o?.x_m && !o?.y_m) return 'The origin is that of the scene.';
-  return `The origin lies at ${o.x_m ?? 0}, ${o.y_m ?? 0} m of ${o.crs ?? 'the recording'}.`;
+  if (!o?.x_m && !o?.y_m) return TEXTS.theOriginIsThat;
+  return TEXTS.theOriginLies(o.x_m ?? 0, o.y_m ?? 0, o.crs ?? TEXTS.theRecording);
 }
 
 /** Several variants in one format: a file each. A file of records has room for all of them. */

@@ -8,6 +8,7 @@ import '../../styles/outward.css';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { Flyout } from './flyout';
+import { TEXTS } from '../../texts/share';
 
 const COPIED_MS = 1500;
 const ALL: Parts = { futures: true, words: true, start: true };
@@ -47,11 +48,11 @@ export default function Share() {
   const { url, bytes } = link.value ?? { url: null, bytes: 0 };
   const tooLong = link.value !== null && url === null;
   return (
-    <Flyout label="Share" under="share" class="share">
+    <Flyout label={TEXTS.share} under="share" class="share">
       <div class="pad">
-        <h2>Share a link</h2>
+        <h2>{TEXTS.shareALink}</h2>
         <p>
-          The link holds the whole scene and opens read-only. Whoever gets it can <b>Make a copy</b>.
+          {TEXTS.theLinkHolds} <b>{TEXTS.makeACopy}</b>.
         </p>
         <div class="row">
           <label class="field">
@@ -59,8 +60,8 @@ export default function Share() {
             <input
               type="text"
               readonly
-              aria-label="Link"
-              value={url ?? (tooLong ? 'Too large for a link' : 'Packing …')}
+              aria-label={TEXTS.link}
+              value={url ?? (tooLong ? TEXTS.tooLargeForA : TEXTS.packing)}
               onFocus={(e) => e.currentTarget.select()}
             />
           </label>
@@ -72,37 +73,35 @@ export default function Share() {
             onClick={() => void copy()}
           >
             <Icon name={copied.value ? 'check' : 'copy'} size={14} />
-            {copied.value ? 'Copied' : 'Copy'}
+            {copied.value ? TEXTS.copied : TEXTS.copy}
           </button>
         </div>
         <div class="size">
           <div class={`bar ${tooLong ? 'over' : ''}`} aria-hidden="true">
             <i style={{ width: `${Math.min(100, (100 * bytes) / MOST_LINK_BYTES)}%` }} />
           </div>
-          <span>
-            {Math.ceil(bytes / KB)} of {MOST_LINK_BYTES / KB} KB
-          </span>
+          <span>{TEXTS.ofKb(Math.ceil(bytes / KB), MOST_LINK_BYTES / KB)}</span>
         </div>
         {tooLong ? (
           <p class="why">
-            <b>This scene is too large for a link.</b> Leave a part out, or save it as a file and send that.
+            <b>{TEXTS.thisSceneIsToo}</b> {TEXTS.leaveAPartOut}
           </p>
         ) : null}
-        <Switch label="Chosen future and goals" on={parts.value.futures} set={set('futures')} />
-        <Switch label="Name and notes" on={parts.value.words} set={set('words')} />
+        <Switch label={TEXTS.chosenFuture} on={parts.value.futures} set={set('futures')} />
+        <Switch label={TEXTS.nameAndNotes} on={parts.value.words} set={set('words')} />
         <Switch
-          label={`Start the film at ${time.toFixed(1)} s`}
-          note="with what is in view now"
+          label={TEXTS.startTheFilm(time.toFixed(1))}
+          note={TEXTS.withWhatIsIn}
           on={parts.value.start}
           set={set('start')}
         />
-        <Switch label="History" note="stays here: too large for a link" on={false} />
+        <Switch label={TEXTS.history} note={TEXTS.staysHereToo} on={false} />
       </div>
       <div class="dfoot">
-        <span class="mut">No account, nothing is uploaded.</span>
+        <span class="mut">{TEXTS.noAccountNothing}</span>
         <span class="grow" />
         <button type="button" class="btn line" onClick={() => void download(c, 'dragtraffic')}>
-          Save as file
+          {TEXTS.saveAsFile}
         </button>
       </div>
     </Flyout>

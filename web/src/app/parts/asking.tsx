@@ -5,20 +5,21 @@ import { setDiversity, setSeed } from '../../model/commands';
 import { DEFAULTS } from '../../model/domain';
 import { useApp } from './app-context';
 import { ActionButton, IconButton } from './buttons';
+import { TEXTS } from '../../texts/parts';
 
 export function Controls() {
   const { editor } = useApp();
   const away = useComputed(() => editor.away.value !== null).value;
   return (
     <>
-      <span class="fieldlab">Seed</span>
+      <span class="fieldlab">{TEXTS.seed}</span>
       <SceneSeed />
       <IconButton id="new-seed" />
       <span class="gap" />
-      <span class="fieldlab">Diversity</span>
+      <span class="fieldlab">{TEXTS.diversity}</span>
       <DiversitySlider />
       <ActionButton id="generate" class="pri" icon="" withKey>
-        {away ? 'Waiting …' : 'Generate'}
+        {away ? TEXTS.waiting : TEXTS.generate}
       </ActionButton>
       <IconButton id="variants" />
     </>
@@ -28,7 +29,7 @@ export function Controls() {
 function SceneSeed() {
   const { editor } = useApp();
   const seed = useComputed(() => editor.scene.value?.seed ?? DEFAULTS.seed).value;
-  return <SeedField label="Seed" seed={seed} set={(v) => editor.run(setSeed(v))} />;
+  return <SeedField label={TEXTS.seed} seed={seed} set={(v) => editor.run(setSeed(v))} />;
 }
 
 interface SeedFieldProps {
@@ -75,8 +76,8 @@ function DiversitySlider() {
         min={0}
         max={MOST}
         step={10}
-        aria-label="Diversity"
-        title="How far the six may differ"
+        aria-label={TEXTS.diversity}
+        title={TEXTS.howFarTheSix}
         value={percent}
         style={{ '--fill': `${(percent / MOST) * 100}%` }}
         onInput={(e) => {

@@ -5,6 +5,7 @@ import { useComputed, useSignal } from '@preact/signals';
 import { useLiveEffect } from './hooks';
 import { useApp } from './app-context';
 import { num, parseTyped, readTyped, type Quantity } from '../../model/units';
+import { TEXTS } from '../../texts/number-field';
 
 export interface NumberFieldProps {
   label: string;
@@ -108,7 +109,7 @@ export function NumberField(p: NumberFieldProps) {
         type="button"
         class="stepper"
         tabindex={-1}
-        aria-label={`${p.label}, ${by < 0 ? 'less' : 'more'}`}
+        aria-label={`${p.label}, ${by < 0 ? TEXTS.less : TEXTS.more}`}
         onPointerDown={(e) => e.preventDefault()}
         onClick={(e) => {
           e.preventDefault();
@@ -163,7 +164,7 @@ export function NumberField(p: NumberFieldProps) {
         <button
           type="button"
           class="u"
-          title="Change the unit"
+          title={TEXTS.changeTheUnit}
           tabindex={-1}
           onClick={(e) => {
             e.preventDefault();
@@ -189,16 +190,16 @@ export const arrowStep = (e: KeyboardEvent, step: number): number =>
   (e.key === 'ArrowUp' ? 1 : -1) * step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1);
 
 /** Why what was typed cannot be understood. */
-export const noNumber = (typed: string): string => `“${typed.trim().slice(0, 12)}” is no number`;
+export const noNumber = (typed: string): string => TEXTS.isNoNumber(typed.trim().slice(0, 12));
 
 /** In words, why a value is not taken; null where it is. */
 export function outside(v: number, p: Pick<NumberFieldProps, 'range' | 'unit'>): string | null {
-  if (!Number.isFinite(v)) return 'Not a number';
+  if (!Number.isFinite(v)) return TEXTS.notANumber;
   if (!p.range) return null;
   const [min, max] = p.range();
   if (v >= min - 1e-6 && v <= max + 1e-6) return null;
   const text = (n: number): string => num(n, Number.isInteger(Number(n.toFixed(1))) ? 0 : 1);
-  return `${text(min)} to ${text(max)} ${p.unit()}`.trim();
+  return TEXTS.to(text(min), text(max), p.unit()).trim();
 }
 
 type ScrubProps = Pick<NumberFieldProps, 'value' | 'step' | 'set' | 'range'> & { letter: string; class?: string };
@@ -213,7 +214,7 @@ export function Scrub({ letter, value, step, set, range, class: className = 'k' 
   return (
     <span
       class={className}
-      title="Drag to change"
+      title={TEXTS.dragToChange}
       onPointerDown={(e) => {
         const v = value();
         if (v === null || e.button !== 0) return;

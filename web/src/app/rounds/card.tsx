@@ -8,8 +8,9 @@ import type { Hand } from '../../edit/rounds/deck';
 import { LivePicture, type Album, type Pictured } from '../variants/live-picture';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
+import { TEXTS } from '../../texts/rounds-panel';
 
-const WORDS = { keep: 'Kept', reject: 'Rejected' } as const;
+const WORDS = { keep: TEXTS.kept, reject: TEXTS.rejected } as const;
 
 interface Props {
   readonly hand: Hand;
@@ -27,7 +28,7 @@ export function CardView({ hand, index, picture, album }: Props) {
   const letter = LETTERS[index];
   const name = hand.names[index];
   const verdict = said?.verdict ?? null;
-  const words = verdict ? WORDS[verdict] : 'Open';
+  const words = verdict ? WORDS[verdict] : TEXTS.open;
   const point = () => deck.point(index);
   const pull = usePull((up) => rounds.say(index, up ? 'keep' : 'reject'));
   return (
@@ -75,7 +76,7 @@ export function CardView({ hand, index, picture, album }: Props) {
           onClick={() => rounds.say(index, 'keep')}
         >
           <Icon name="check" size={13} />
-          Keep
+          {TEXTS.keep}
         </button>
         <button
           type="button"
@@ -84,7 +85,7 @@ export function CardView({ hand, index, picture, album }: Props) {
           onClick={() => rounds.say(index, 'reject')}
         >
           <Icon name="x" size={13} />
-          Reject
+          {TEXTS.reject}
         </button>
       </div>
       <div class="more">
@@ -93,8 +94,8 @@ export function CardView({ hand, index, picture, album }: Props) {
           type="button"
           class="btn i"
           data-take={letter}
-          aria-label={`Take ${letter}`}
-          title={`Take this one: the others answer it (Alt ${index + 1})`}
+          aria-label={TEXTS.take(letter)}
+          title={TEXTS.takeThisOneThe(index + 1)}
           onClick={() => rounds.take(index)}
         >
           <Icon name="flag" size={14} />
@@ -155,14 +156,14 @@ function Why({ hand, index }: { hand: Hand; index: number }) {
   return (
     <select
       class="field pick"
-      aria-label={`Why, ${LETTERS[index]}`}
+      aria-label={TEXTS.why(LETTERS[index])}
       value={all.some((w) => w.key === now) ? now : ''}
       onChange={(e) => {
         rounds.sayWhy(index, e.currentTarget.value);
         e.currentTarget.blur();
       }}
     >
-      <option value="">{said?.verdict === 'keep' ? 'why: all in all' : 'why?'}</option>
+      <option value="">{said?.verdict === 'keep' ? TEXTS.whyAllInAll : TEXTS.why2}</option>
       {all.map((w) => (
         <option key={w.key} value={w.key}>
           {w.words}

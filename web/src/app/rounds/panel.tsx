@@ -9,6 +9,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import '../../styles/rounds.css';
+import { TEXTS } from '../../texts/rounds-panel';
 
 export default function RoundsPanel() {
   const { rounds } = useApp();
@@ -22,12 +23,12 @@ export default function RoundsPanel() {
           <Icon name="star" size={20} />
         </div>
         <div class="grow">
-          <h2>What you like</h2>
+          <h2>{TEXTS.whatYouLike}</h2>
           <p>
-            {upper(a.name)}, {answers.length === 1 ? '1 answer' : `${answers.length} answers`}
+            {upper(a.name)}, {TEXTS.answers(answers.length)}
           </p>
         </div>
-        <button type="button" class="btn i" aria-label="Close the rounds" onClick={() => rounds.close()}>
+        <button type="button" class="btn i" aria-label={TEXTS.closeTheRounds} onClick={() => rounds.close()}>
           <Icon name="x" size={16} />
         </button>
       </div>
@@ -38,7 +39,7 @@ export default function RoundsPanel() {
       <footer class="sect foot">
         <ActionButton id="round-table" class="line" icon="" />
         <button type="button" class="btn line" onClick={() => rounds.forgetAll()}>
-          Forget all
+          {TEXTS.forgetAll}
         </button>
       </footer>
     </>
@@ -69,14 +70,14 @@ function RoundList({ subject }: Of) {
   return (
     <section class="sect roundlist">
       <h3>
-        Rounds
-        {matches.length ? <small>best match</small> : null}
+        {TEXTS.rounds}
+        {matches.length ? <small>{TEXTS.bestMatch}</small> : null}
       </h3>
       {[...done]
         .sort((x, y) => x - y)
         .map((n) => (
           <p key={n} aria-current={n === now ? 'step' : undefined}>
-            <b>Round {n}</b>
+            <b>{TEXTS.round(n)}</b>
             <span>{countWords(answers.filter((x) => x.round === n))}</span>
             <em>{n === now && matches.length ? percent(Math.max(...matches)) : ''}</em>
           </p>
@@ -87,7 +88,7 @@ function RoundList({ subject }: Of) {
 
 function countWords(of: readonly Answer[]): string {
   const kept = of.filter((x) => x.verdict === 'keep').length;
-  return of.length ? `${kept} kept, ${of.length - kept} rejected` : 'nothing said yet';
+  return of.length ? TEXTS.keptRejected(kept, of.length - kept) : TEXTS.nothingSaidYet;
 }
 
 function Wishes({ subject }: Of) {
@@ -96,13 +97,13 @@ function Wishes({ subject }: Of) {
   return (
     <section class="sect wishes">
       <h3>
-        Learnt wishes
-        {all.some((w) => w.learned) ? <small>strength</small> : null}
+        {TEXTS.learntWishes}
+        {all.some((w) => w.learned) ? <small>{TEXTS.strength}</small> : null}
       </h3>
       {all.map((w) => (
         <WishRow key={wishKey(w.wish)} wished={w} subject={subject} />
       ))}
-      {all.length ? null : <p class="mut">None yet. They come with the next round, once three answers agree.</p>}
+      {all.length ? null : <p class="mut">{TEXTS.noneYetTheyCome}</p>}
       <AddWish />
     </section>
   );
@@ -116,16 +117,16 @@ function WishRow({ wished, subject }: Of & { wished: Wished }) {
   const answers = hand ? earlierAnswers(subject.feedback, hand.asked) : [];
   const rests = learned
     ? restsOn(learned, answers, { nameOf: nameIn(scene), unit: unitFor(editor, subject) })
-    : 'You said so. It counts from the next round.';
+    : TEXTS.youSaidSoItCounts;
   return (
     <div class="wishrow" data-wish={words}>
       <b>{words}</b>
       {learned ? <em>{percent(learned.strength)}</em> : null}
-      <button type="button" class="btn i" aria-label={`Forget: ${words}`} onClick={() => rounds.forget(wished)}>
+      <button type="button" class="btn i" aria-label={TEXTS.forget(words)} onClick={() => rounds.forget(wished)}>
         <Icon name="x" size={13} />
       </button>
       {learned ? (
-        <span class="bar" role="img" aria-label={`Strength ${percent(learned.strength)}`}>
+        <span class="bar" role="img" aria-label={TEXTS.strength2(percent(learned.strength))}>
           <i style={{ width: percent(learned.strength) }} />
         </span>
       ) : null}
@@ -145,7 +146,7 @@ function AddWish() {
   return (
     <select
       class="field pick"
-      aria-label="Add a wish"
+      aria-label={TEXTS.addAWish}
       value=""
       onChange={(e) => {
         const wish = all.find((w) => w.key === e.currentTarget.value)?.wish;
@@ -154,7 +155,7 @@ function AddWish() {
         if (wish) rounds.wish(wish);
       }}
     >
-      <option value="">Add a wish</option>
+      <option value="">{TEXTS.addAWish}</option>
       {all.map((w) => (
         <option key={w.key} value={w.key}>
           {w.words}
@@ -179,11 +180,11 @@ function Apart({ subject }: Of) {
   if (!torn.length) return null;
   return (
     <section class="sect apart">
-      <h3>Where they pull apart</h3>
+      <h3>{TEXTS.whereTheyPull}</h3>
       {torn.map(({ w, against }) => (
         <p key={w.words}>
           <b>{w.words}:</b> {against.slice(0, MOST_NAMED).map(againstWords).join(' ')}
-          {against.length > MOST_NAMED ? ` And ${against.length - MOST_NAMED} more.` : ''}
+          {against.length > MOST_NAMED ? TEXTS.andMore(against.length - MOST_NAMED) : ''}
         </p>
       ))}
     </section>

@@ -13,11 +13,12 @@ import { Icon } from '../parts/icons';
 import { CardView } from './card';
 import '../../styles/variants.css';
 import '../../styles/rounds.css';
+import { TEXTS } from '../../texts/rounds-panel';
 
 /** Whose futures the cards are. */
 const WHOSE = [
-  ['rounds-one', 'This road user'],
-  ['rounds-scene', 'Whole scene'],
+  ['rounds-one', TEXTS.thisRoadUser],
+  ['rounds-scene', TEXTS.wholeScene],
 ] as const;
 
 /** So many rounds are shown as dots from the beginning. */
@@ -31,7 +32,12 @@ export default function RoundStrip() {
   const problem = deck.problem.value;
   const asking = deck.asking.value;
   return (
-    <section class={`strip rounds ${asking ? 'asking' : ''}`} aria-label="Round" data-group="rounds" aria-busy={asking}>
+    <section
+      class={`strip rounds ${asking ? 'asking' : ''}`}
+      aria-label={TEXTS.round2}
+      data-group="rounds"
+      aria-busy={asking}
+    >
       <header>
         <Title />
         <span class="grow" />
@@ -40,13 +46,17 @@ export default function RoundStrip() {
         <ActionButton id="round-stop" class="line" />
         <ActionButton id="round-next" class="pri" icon="" withKey />
       </header>
-      {hand ? <Cards hand={hand} /> : <div class="cards">{problem ? null : <p class="none">Drawing six …</p>}</div>}
+      {hand ? (
+        <Cards hand={hand} />
+      ) : (
+        <div class="cards">{problem ? null : <p class="none">{TEXTS.drawingSix}</p>}</div>
+      )}
       {problem ? (
         <p class="problem" role="alert">
           <Icon name="warn" size={15} />
           {problem}
           <button type="button" class="btn line" onClick={() => rounds.tryAgain()}>
-            Try again
+            {TEXTS.tryAgain}
           </button>
         </p>
       ) : (
@@ -63,20 +73,18 @@ function Title() {
   const asking = editor.deck.asking.value;
   const all = Math.max(USUAL_ROUNDS, round);
   const n = editor.deck.hand.value?.names.length;
-  const many = n === 6 || !n ? 'six' : n;
-  const what = subject?.id === null ? `${many} ways the scene could go` : `${many} futures of ${subject?.name ?? ''}`;
+  const many = n === 6 || !n ? TEXTS.six : n;
+  const what = subject?.id === null ? TEXTS.waysTheScene(many) : TEXTS.futuresOf(many, subject?.name ?? '');
   return (
     <>
-      <h2>Round {round}</h2>
-      <Segments label="Whose rounds" items={WHOSE} />
-      <span class="dots" role="img" aria-label={`Round ${round}`}>
+      <h2>{TEXTS.round3(round)}</h2>
+      <Segments label={TEXTS.whoseRounds} items={WHOSE} />
+      <span class="dots" role="img" aria-label={TEXTS.round3(round)}>
         {Array.from({ length: all }, (_, i) => (
           <i key={i} class={i + 1 < round ? 'done' : i + 1 === round ? 'now' : ''} />
         ))}
       </span>
-      <small role="status">
-        {asking ? 'drawing …' : round === 1 ? what : `${what}, drawn anew from what you said`}
-      </small>
+      <small role="status">{asking ? TEXTS.drawing : round === 1 ? what : TEXTS.drawnAnewFrom(what)}</small>
     </>
   );
 }
@@ -87,9 +95,9 @@ function Counts() {
   const of = (v: string | undefined) => said.filter((s) => s?.verdict === v).length;
   return (
     <span class="counts">
-      <em class="tag ok">{of('keep')} kept</em>
-      <em class="tag no">{of('reject')} rejected</em>
-      <em class="tag">{of(undefined)} open</em>
+      <em class="tag ok">{TEXTS.kept2(of('keep'))}</em>
+      <em class="tag no">{TEXTS.rejected2(of('reject'))}</em>
+      <em class="tag">{TEXTS.open2(of(undefined))}</em>
     </span>
   );
 }
@@ -99,7 +107,7 @@ function Keep() {
   const n = rounds.said.value.filter((s) => s?.verdict === 'keep').length;
   return n ? (
     <ActionButton id="round-variants" class="line" icon="">
-      Keep {n} as {n === 1 ? 'a variant' : 'variants'}
+      {TEXTS.keepAsVariants(n)}
     </ActionButton>
   ) : null;
 }
@@ -142,20 +150,26 @@ function Learnt() {
   const all = rounds.wished.value;
   return (
     <footer>
-      <span class="lab">Learnt</span>
+      <span class="lab">{TEXTS.learnt}</span>
       <span class="chips">
         {all.map((w) => (
           <span key={w.words} class={`wish ${w.learned ? '' : 'own'}`}>
             {w.words}
-            <button type="button" aria-label={`Forget: ${w.words}`} title="Forget" onClick={() => rounds.forget(w)}>
+            <button
+              type="button"
+              aria-label={TEXTS.forget(w.words)}
+              title={TEXTS.forget2}
+              onClick={() => rounds.forget(w)}
+            >
               <Icon name="x" size={11} />
             </button>
           </span>
         ))}
-        {all.length ? null : <small>Nothing yet: it takes three answers that agree, or a wish of your own.</small>}
+        {all.length ? null : <small>{TEXTS.nothingYetIt}</small>}
       </span>
       <span class="hints" aria-hidden="true">
-        <KeyCaps of="K" /> or pull up: keep <KeyCaps of="J" /> or down: reject <KeyCaps of="Right" /> next card
+        <KeyCaps of="K" /> {TEXTS.orPullUpKeep} <KeyCaps of="J" /> {TEXTS.orDownReject} <KeyCaps of="Right" />{' '}
+        {TEXTS.nextCard}
       </span>
     </footer>
   );

@@ -1,5 +1,7 @@
 // When something was done, as people say it.
 
+import { TEXTS } from '../../texts/scenes';
+
 const time = new Intl.DateTimeFormat(undefined, { hour: '2-digit', minute: '2-digit' });
 const day = new Intl.DateTimeFormat(undefined, { day: 'numeric', month: 'short' });
 const dayAndYear = new Intl.DateTimeFormat(undefined, { day: 'numeric', month: 'short', year: 'numeric' });
@@ -14,7 +16,7 @@ export function dayAndTime(at: number | string, now = new Date()): string {
   const d = new Date(at);
   if (Number.isNaN(d.getTime())) return '';
   const days = Math.round((midnight(now) - midnight(d)) / DAY_MS);
-  if (days === 0) return `today ${clock(d)}`;
-  if (days === 1) return `yesterday ${clock(d)}`;
+  if (days === 0) return TEXTS.today(clock(d));
+  if (days === 1) return TEXTS.yesterday(clock(d));
   return d.getFullYear() === now.getFullYear() ? `${day.format(d)} ${clock(d)}` : dayAndYear.format(d);
 }

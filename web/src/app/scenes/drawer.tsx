@@ -10,6 +10,7 @@ import { ActionButton, IconButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { dayAndTime } from './dates';
 import { Thumbnail } from './thumbnail';
+import { TEXTS } from '../../texts/scenes';
 
 export function Drawer() {
   const { scenes } = useApp();
@@ -18,9 +19,9 @@ export function Drawer() {
   const wanted = query.value.trim().toLowerCase().split(/\s+/);
   const words = (s: SceneListItem): string => `${s.name} ${s.source ?? ''} ${s.id} ${about(s)}`.toLowerCase();
   return (
-    <section class="drawer card" aria-label="Scenes" data-group="scenes">
+    <section class="drawer card" aria-label={TEXTS.scenes} data-group="scenes">
       <h2>
-        Scenes
+        {TEXTS.scenes}
         <span class="grow" />
         <ActionButton id="new-map" class="line" size={14} />
         <IconButton id="new-scene" size={16} />
@@ -31,8 +32,8 @@ export function Drawer() {
         <input
           ref={input}
           type="search"
-          placeholder="Find a scene"
-          aria-label="Find a scene"
+          placeholder={TEXTS.findAScene}
+          aria-label={TEXTS.findAScene}
           onInput={() => {
             query.value = input.current!.value;
           }}
@@ -45,8 +46,8 @@ export function Drawer() {
         <List items={scenes.list.value.filter((s) => wanted.every((w) => words(s).includes(w)))} />
       </div>
       <div class="drop">
-        <b>Drop scene files here</b>
-        {'or '}
+        <b>{TEXTS.dropSceneFiles}</b>
+        {TEXTS.or}
         <ChooseFiles />
       </div>
     </section>
@@ -59,11 +60,11 @@ export function ChooseFiles() {
   return (
     <>
       <button type="button" onClick={() => c.chooseFiles()}>
-        choose files
+        {TEXTS.chooseFiles}
       </button>
       {' · '}
       <button type="button" data-action="choose-files" onClick={() => perform(c, 'choose-files')}>
-        what can be read?
+        {TEXTS.whatCanBeRead}
       </button>
     </>
   );
@@ -75,17 +76,17 @@ const MANY = 8,
 
 function List({ items }: { items: readonly SceneListItem[] }) {
   const { scenes } = useApp();
-  if (!items.length) return <p class="mut drop">{scenes.listed.value ? 'No scene of that name.' : 'Loading …'}</p>;
+  if (!items.length) return <p class="mut drop">{scenes.listed.value ? TEXTS.noSceneOfThat : TEXTS.loading}</p>;
   const recent =
     items.length > MANY
       ? scenes.recent.value.flatMap((id) => items.find((s) => s.id === id) ?? []).slice(0, MOST_RECENT)
       : [];
   const rest = items.filter((s) => !recent.includes(s));
   const parts: [string, readonly SceneListItem[]][] = [
-    ['Recent', recent],
-    ['Mine', rest.filter((s) => !s.readonly && !isExample(s.id))],
-    ['Examples', rest.filter((s) => isExample(s.id))],
-    ['Recorded', rest.filter((s) => s.readonly && !isExample(s.id))],
+    [TEXTS.recent, recent],
+    [TEXTS.mine, rest.filter((s) => !s.readonly && !isExample(s.id))],
+    [TEXTS.examples, rest.filter((s) => isExample(s.id))],
+    [TEXTS.recorded, rest.filter((s) => s.readonly && !isExample(s.id))],
   ];
   return (
     <div>
@@ -160,7 +161,7 @@ function NewName({ item }: { item: SceneListItem }) {
         <input
           ref={input}
           type="text"
-          aria-label="New name"
+          aria-label={TEXTS.newName}
           maxlength={80}
           value={item.name}
           onBlur={() => done(true)}
@@ -179,6 +180,6 @@ function NewName({ item }: { item: SceneListItem }) {
 /** `29 road users · example` */
 export function about(s: SceneListItem): string {
   const n = countAll(s.counts);
-  const kind = s.source && isRecorded(s.source) ? 'recorded' : s.readonly ? 'example' : 'own';
-  return [n ? `${n} road users` : 'nobody yet', kind].join(' · ');
+  const kind = s.source && isRecorded(s.source) ? TEXTS.recorded2 : s.readonly ? TEXTS.example : TEXTS.own;
+  return [n ? TEXTS.roadUsers(n) : TEXTS.nobodyYet, kind].join(' · ');
 }

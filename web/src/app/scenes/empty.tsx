@@ -4,6 +4,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { about, ChooseFiles } from './drawer';
 import { Thumbnail } from './thumbnail';
+import { TEXTS } from '../../texts/empty';
 
 const OFFERED = 3;
 
@@ -13,7 +14,7 @@ export function Empty() {
   return (
     <div class="empty">
       <div class="in">
-        <h1>{cards.length ? 'Start with a crossing' : 'Bring a scene'}</h1>
+        <h1>{cards.length ? TEXTS.startWithACrossing : TEXTS.bringAScene}</h1>
         <Words some={cards.length > 0} />
         {cards.length ? (
           <div class="cards">
@@ -29,8 +30,8 @@ export function Empty() {
           </div>
         ) : null}
         <div class="drop">
-          <b>Drop scene files anywhere</b>
-          {'Scenario records, lane maps or saved scenes · or '}
+          <b>{TEXTS.dropSceneFiles}</b>
+          {TEXTS.scenarioRecords}
           <ChooseFiles />
           {' · '}
           <ActionButton id="new-map" class="line" size={14} />
@@ -43,8 +44,6 @@ export function Empty() {
 function Words({ some }: { some: boolean }) {
   const { editor } = useApp();
   const away = useComputed(() => editor.away.value !== null).value;
-  const none = away
-    ? 'The server is not answering. Scenes appear here when it does.'
-    : 'There are no examples here. Drop a scenario record or a saved scene.';
-  return <p>{some ? 'Open an example and drag a car. Or bring your own scene.' : none}</p>;
+  const none = away ? TEXTS.theServerIsNot : TEXTS.thereAreNoExamples;
+  return <p>{some ? TEXTS.openAnExample : none}</p>;
 }

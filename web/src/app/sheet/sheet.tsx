@@ -10,8 +10,9 @@ import { IconButton } from '../parts/buttons';
 import { useLiveEffect } from '../parts/hooks';
 import { Icon } from '../parts/icons';
 import { Timeline } from '../timeline/timeline';
+import { TEXTS } from '../../texts/page';
 
-const WORDS: Record<SheetHeight, string> = { peek: 'nearly closed', half: 'half open', full: 'fully open' };
+const WORDS: Record<SheetHeight, string> = { peek: TEXTS.nearlyClosed, half: TEXTS.halfOpen, full: TEXTS.fullyOpen };
 /** A grip that moved less was tapped, pixels. */
 const TAP_PX = 6;
 /** A flick is faster than this, pixels a millisecond. */
@@ -44,11 +45,11 @@ export function Sheet() {
     document.documentElement.style.setProperty('--sheet', `${px}px`);
   });
   const grip = useGrip(c, inHand);
-  const label = useComputed(() => `Panel, ${WORDS[form.height.value]}`);
+  const label = useComputed(() => TEXTS.panel(WORDS[form.height.value]));
   return (
     <section
       class="sheet"
-      aria-label="Panel"
+      aria-label={TEXTS.panel2}
       data-height={form.height}
       data-held={useComputed(() => (inHand.value === null ? null : ''))}
       style={useComputed(() => `height: ${px.value}px`)}

@@ -7,6 +7,7 @@ import { canMove } from '../../model/scene';
 import { metres, num, speedLabel, type SpeedUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
+import { TEXTS } from '../../texts/point-fields';
 
 export function CurveMisfit() {
   const { editor } = useApp();
@@ -22,7 +23,7 @@ export function CurveMisfit() {
   if (!misfit) return null;
   const unit = editor.unitOf(a);
   return (
-    <div class="misfit" role="group" aria-label="Why the curve cannot be driven">
+    <div class="misfit" role="group" aria-label={TEXTS.whyTheCurveCannot}>
       <p role="status">
         <Icon name="warn" size={15} />
         {wordsOf(misfit, unit)}
@@ -52,19 +53,17 @@ export function CurveMisfit() {
 }
 
 function wordsOf(m: Misfit, unit: SpeedUnit): string {
-  if (m.what === 'short') return `Cannot make it by ${num(m.time, 1)} s: ${metres(m.by, 0)} short.`;
+  if (m.what === 'short') return TEXTS.cannotMakeIt(num(m.time, 1), metres(m.by, 0));
   const [wanted, reached] = [speedLabel(m.point.v, unit), speedLabel(m.reached, unit)];
   const by = `${num(m.point.t, 1)} s`;
-  if (m.what === 'gathering') return `Cannot reach ${wanted} by ${by}: ${reached} is the most by then.`;
-  return m.point.v > 0
-    ? `Cannot brake to ${wanted} by ${by}: still ${reached} then.`
-    : `Cannot stop by ${by}: still ${reached} then.`;
+  if (m.what === 'gathering') return TEXTS.cannotReachBy(wanted, by, reached);
+  return m.point.v > 0 ? TEXTS.cannotBrakeTo(wanted, by, reached) : TEXTS.cannotStopBy(by, reached);
 }
 
 function labelOf(w: Way, { what }: Misfit, unit: SpeedUnit): string {
-  if (w.kind === 'later') return `Give it ${num(w.by, 1)} s more`;
-  if (w.kind === 'shorter') return `Shorter stop, ${num(w.hold, 1)} s`;
+  if (w.kind === 'later') return TEXTS.giveItSMore(num(w.by, 1));
+  if (w.kind === 'shorter') return TEXTS.shorterStopS(num(w.hold, 1));
   const to = speedLabel(w.v, unit);
-  if (what === 'short') return `Leave at ${to}`;
-  return what === 'braking' ? `Only down to ${to}` : `Only up to ${to}`;
+  if (what === 'short') return TEXTS.leaveAt(to);
+  return what === 'braking' ? TEXTS.onlyDownTo(to) : TEXTS.onlyUpTo(to);
 }

@@ -8,17 +8,18 @@ import { modeStyle } from '../../draw/strokes';
 import { useApp } from '../parts/app-context';
 import { colourKey } from '../../draw/sprites';
 import { severalShown, X0, type Axes } from './axes';
+import { TEXTS } from '../../texts/timeline';
 
 export function Curves({ axes: a }: { axes: Axes }) {
   const c = useApp();
   const { editor } = c;
   const agent = editor.agent.peek();
   const several = severalShown(c);
-  const dashed = editor.curve.before.peek() ? 'before' : editor.layers.peek().log ? 'log' : null;
+  const dashed = editor.curve.before.peek() ? TEXTS.before : editor.layers.peek().log ? TEXTS.log : null;
   const name = agent
-    ? ` · ${agent.name}${dashed ? `, dashed: ${dashed}` : ''}`
+    ? ` · ${agent.name}${dashed ? TEXTS.dashed(dashed) : ''}`
     : several.length
-      ? ` · ${several.length} selected, one line each`
+      ? TEXTS.selectedOneLine(several.length)
       : '';
   const start = agent && startPose(agent);
   // Beside a curve that begins at the top it stands below.
@@ -66,10 +67,10 @@ function Hint({ axes: a }: { axes: Axes }) {
   return (
     <text class="big back" x={(X0 + a.x1) / 2} y={(a.y0 + a.y1) / 2 + 4} text-anchor="middle">
       {!editor.scene.peek()
-        ? 'Nothing to play yet'
+        ? TEXTS.nothingToPlay
         : editor.scene.peek()!.agents.size
-          ? 'Select a road user to see its speed'
-          : 'Place somebody to see how fast they go'}
+          ? TEXTS.selectARoadUser
+          : TEXTS.placeSomebody}
     </text>
   );
 }

@@ -3,6 +3,7 @@ import { counted, type TrafficEvent } from '../../model/events';
 import { goToEvent } from '../inspector/event-list';
 import { useApp } from '../parts/app-context';
 import { placeSigns, SIGN, X0, type Axes, type Placed } from './axes';
+import { TEXTS } from '../../texts/timeline';
 
 const RANK = { collision: 0, rule: 1, near: 2, short: 3 } as const;
 const FILL = { collision: '--collision', rule: '--near', near: '--near', short: '--surface-3' } as const;
@@ -33,7 +34,7 @@ export function EventBadges({ axes: a }: { axes: Axes }) {
 
 function LogSign({ event: e, x }: { event: TrafficEvent; x: number }) {
   const c = useApp();
-  const label = `${e.label}, in the log: ${e.title}`;
+  const label = TEXTS.inTheLog(e.label, e.title);
   return (
     <g class="badge log" role="button" aria-label={label} onClick={() => goToEvent(c, e)}>
       <title>{label}</title>
@@ -53,7 +54,7 @@ function Badge({ events, shown: e, placed: p }: BadgeProps) {
   const c = useApp();
   const picked = c.editor.selectedEvent.peek();
   const more = events.length - 1;
-  const label = `${e.label}: ${e.title}${more ? `, and ${more} more` : ''}`;
+  const label = `${e.label}: ${e.title}${more ? TEXTS.andMore(more) : ''}`;
   // A second click goes on to the next one that shares the place.
   const turn = events.indexOf(picked!) < 0 ? events.indexOf(e) : events.indexOf(picked!) + 1;
   const go = () => goToEvent(c, events[turn % events.length]);

@@ -4,6 +4,7 @@ import { counted } from '../../model/events';
 import { num } from '../../model/units';
 import { useApp } from '../parts/app-context';
 import { LANE, markedSpan, X0, type Axes } from './axes';
+import { TEXTS } from '../../texts/timeline';
 
 /** Seconds marked behind the curves at least. */
 const MARKED_S = { collision: 0.3, rule: 0.3, near: 0.8 } as const;
@@ -14,7 +15,7 @@ export function Grid({ axes: a }: { axes: Axes }) {
     <>
       <rect x={X0} y={2} width={Math.max(0, a.x1 - X0)} height={LANE - 4} rx={4} fill="var(--surface-2)" />
       <text x={X0 - 8} y={16} text-anchor="end">
-        Events
+        {TEXTS.events}
       </text>
       <SpeedLines axes={a} />
       <SecondLines axes={a} />

@@ -12,6 +12,7 @@ import { Curves } from './curves';
 import { EventBadges } from './event-badges';
 import { EventTimes, Grid } from './grid';
 import { SpeedPoints } from './speed-points';
+import { TEXTS } from '../../texts/timeline';
 
 /** Everything that the curves, the grid and the badges show. */
 const shown = ({ editor }: Context): unknown => [
@@ -58,19 +59,19 @@ export function Plot() {
         class="seek"
         role="slider"
         tabindex={0}
-        aria-label="Playhead"
+        aria-label={TEXTS.playhead}
         aria-valuemin={0}
         aria-valuemax={end as never}
         aria-valuenow={now as never}
-        aria-valuetext={useComputed(() => `${now.value} seconds`)}
+        aria-valuetext={useComputed(() => TEXTS.seconds(now.value))}
         {...seek}
       >
-        <svg role="img" aria-label="Speed over time">
+        <svg role="img" aria-label={TEXTS.speedOverTime}>
           <Drawing tick={tick} axes={axes} />
           <Playhead axes={axes} />
         </svg>
       </div>
-      <svg class="pts" role="group" aria-label="Points of the speed curve">
+      <svg class="pts" role="group" aria-label={TEXTS.pointsOfTheSpeed}>
         <Points tick={tick} axes={axes} />
       </svg>
       {pointed ? <Later part="points" /> : null}

@@ -6,6 +6,7 @@ import { useApp } from '../parts/app-context';
 import { CurveMisfit } from './curve-misfit';
 import { Icon } from '../parts/icons';
 import { NumberField } from '../parts/number-field';
+import { TEXTS } from '../../texts/point-fields';
 
 /** Braking is marked from here on, m/s². */
 const HARD_MPS2 = 4;
@@ -27,13 +28,13 @@ export function PointFields() {
     <div
       class="card pointfields"
       role="group"
-      aria-label="Point of the speed curve"
+      aria-label={TEXTS.pointOfTheSpeed}
       onPointerDown={(e) => e.stopPropagation()}
     >
       <CurveMisfit />
       <div class="row">
         <NumberField
-          label="Speed at this point"
+          label={TEXTS.speedAtThisPoint}
           field="point-speed"
           unit={() => unit}
           quantity={() => unit}
@@ -43,9 +44,9 @@ export function PointFields() {
           text={() => num(toUnit(now().v, unit), unit === 'm/s' ? 1 : 0)}
           set={(v) => curve.set(i, { v: fromUnit(v, unit) })}
         />
-        <span>for</span>
+        <span>{TEXTS.for}</span>
         <NumberField
-          label="Seconds that it is held"
+          label={TEXTS.secondsThatIt}
           field="point-hold"
           unit={() => 's'}
           quantity={() => 'time'}
@@ -57,9 +58,9 @@ export function PointFields() {
         />
         {i ? (
           <>
-            <span>at</span>
+            <span>{TEXTS.at}</span>
             <NumberField
-              label="Time of this point"
+              label={TEXTS.timeOfThisPoint}
               field="point-time"
               unit={() => 's'}
               quantity={() => 'time'}
@@ -72,15 +73,15 @@ export function PointFields() {
           </>
         ) : null}
         {i && i < curve.points.value.length - 1 ? (
-          <button type="button" class="btn i" aria-label="Remove this point" onClick={() => curve.remove(i)}>
+          <button type="button" class="btn i" aria-label={TEXTS.removeThisPoint} onClick={() => curve.remove(i)}>
             <Icon name="x" size={16} />
           </button>
         ) : null}
         <button type="button" class="btn" onClick={() => curve.clear()}>
-          Clear the curve
+          {TEXTS.clearTheCurve}
         </button>
         <span class={`brakes ${braking > TOO_HARD_MPS2 ? 'toohard' : braking > HARD_MPS2 ? 'hard' : ''}`}>
-          {`brakes ${num(braking, 1)} m/s² at most`}
+          {TEXTS.brakesMSAtMost(num(braking, 1))}
         </span>
       </div>
     </div>

@@ -5,6 +5,7 @@ import { num, speedLabel, toUnit, fromUnit } from '../../model/units';
 import type { SpeedPoint } from '../../model/profile';
 import { useApp } from '../parts/app-context';
 import type { Axes } from './axes';
+import { TEXTS } from '../../texts/timeline';
 
 /** Above the ground a point sticks to it, below it one pulls a hold out of it, pixels. */
 const STICK_PX = 6;
@@ -123,7 +124,7 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
                 <rect x={xe - reach} y={axes.y1 - 26} width={2 * reach} height={30} fill="transparent" />
                 <rect class="holdbar" x={xe - 3} y={y - 9} width={6} height={18} rx={3} />
                 <text class="back" x={(x + xe) / 2} y={y - 12} text-anchor="middle">
-                  {`holds ${num(p.hold, 1)} s`}
+                  {TEXTS.holdsS(num(p.hold, 1))}
                 </text>
               </g>
             ) : null}
@@ -131,7 +132,7 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
               class={`point ${i ? (last ? 'goal' : 'own') : 'start'} ${at ? 'on' : ''}`}
               role="slider"
               tabindex={0}
-              aria-label={i ? (last ? 'Speed at the end' : `Speed point ${i}`) : 'Speed at the start'}
+              aria-label={i ? (last ? TEXTS.speedAtTheEnd : TEXTS.speedPoint(i)) : TEXTS.speedAtTheStart}
               aria-valuemin={0}
               aria-valuemax={Math.round(toUnit(60, axes.unit))}
               aria-valuenow={Math.round(toUnit(p.v, axes.unit))}
@@ -152,4 +153,6 @@ export function SpeedPoints({ axes }: { axes: Axes }) {
 }
 
 const wordsOf = (p: SpeedPoint, axes: Axes): string =>
-  `${speedLabel(p.v, axes.unit)}${p.hold ? ` for ${num(p.hold, 1)} s` : ''} at ${num(p.t, 1)} s`;
+  p.hold
+    ? TEXTS.forSAtS(speedLabel(p.v, axes.unit), num(p.hold, 1), num(p.t, 1))
+    : TEXTS.atS(speedLabel(p.v, axes.unit), num(p.t, 1));

@@ -7,11 +7,12 @@ import { IconButton, Segments } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { OTHERS } from '../parts/others';
 import { Plot } from './plot';
+import { TEXTS } from '../../texts/timeline';
 
 export function Timeline() {
   const { form } = useApp();
   return (
-    <footer class="time" aria-label="Timeline" data-group="timeline">
+    <footer class="time" aria-label={TEXTS.timeline} data-group="timeline">
       <div class="tb">
         <IconButton id="to-start" />
         <IconButton id="play" class="playing" after={<Icon name="pause" size={18} />} />
@@ -23,12 +24,12 @@ export function Timeline() {
         <IconButton id="next-event" />
         <IconButton id="tall-timeline" />
         <span class="grow" />
-        <span class="fieldlab">Length</span>
-        <Segments label="How much is worked out" items={seconds('length', LENGTHS)} />
-        <span class="fieldlab">Plan anew</span>
-        <Segments label="How often everybody plans anew" items={seconds('replan', REPLANS)} />
-        <span class="fieldlab">Others</span>
-        <Segments label="What the others do" items={OTHERS} />
+        <span class="fieldlab">{TEXTS.length}</span>
+        <Segments label={TEXTS.howMuchIsWorked} items={seconds('length', LENGTHS)} />
+        <span class="fieldlab">{TEXTS.planAnew}</span>
+        <Segments label={TEXTS.howOftenEverybody} items={seconds('replan', REPLANS)} />
+        <span class="fieldlab">{TEXTS.others}</span>
+        <Segments label={TEXTS.whatTheOthers} items={OTHERS} />
       </div>
       <Plot />
     </footer>
@@ -60,7 +61,7 @@ function Scrubber() {
     <input
       type="range"
       class="scrub"
-      aria-label="Time"
+      aria-label={TEXTS.time}
       min={0}
       max={end as never}
       step={0.1}
@@ -81,8 +82,8 @@ function RateButton() {
     <button
       type="button"
       class="btn rate"
-      title="Playback speed (Shift < >)"
-      aria-label={`Playback speed ${rate} times`}
+      title={TEXTS.playbackSpeed}
+      aria-label={TEXTS.playbackSpeedTimes(rate)}
       onClick={(e) => playhead.changeRate(e.shiftKey ? -1 : 1, true)}
     >
       {rate}×

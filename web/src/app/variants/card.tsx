@@ -7,12 +7,13 @@ import type { Card } from '../../edit/variants/cards';
 import { useApp } from '../parts/app-context';
 import { Icon } from '../parts/icons';
 import { LivePicture, type Album } from './live-picture';
+import { TEXTS } from '../../texts/variants-panel';
 
 const MARKS: Record<TrafficEvent['kind'], readonly [colour: string, word: string]> = {
-  collision: ['collision', 'Collision'],
-  rule: ['collision', 'Rule broken'],
-  near: ['near', 'Near miss'],
-  short: ['near', 'Goal missed'],
+  collision: ['collision', TEXTS.collision],
+  rule: ['collision', TEXTS.ruleBroken],
+  near: ['near', TEXTS.nearMiss],
+  short: ['near', TEXTS.goalMissed],
 };
 
 /** What happens in it, in a word with its colour, and one fact. */
@@ -21,7 +22,7 @@ export function verdictOf({ set, events }: Card): { colour: string; word: string
   if (!set) return { colour: '', word: '…', fact: '' };
   if (!worst) {
     const pet = set.score?.pet;
-    return { colour: 'ok', word: 'No conflict', fact: pet == null ? '' : `gap ${num(pet, 1)} s` };
+    return { colour: 'ok', word: TEXTS.noConflict, fact: pet == null ? '' : TEXTS.gapS(num(pet, 1)) };
   }
   const [colour, word] = MARKS[worst];
   const first = counted(events).find((e) => e.kind === worst)!;
@@ -39,7 +40,9 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
   }).value;
   const renaming = useComputed(() => variants.renaming.value === id).value;
   const verdict = verdictOf(card);
-  const words = `Variant ${id}, ${card.name}, ${verdict.word}${verdict.fact ? `, ${verdict.fact}` : ''}`;
+  const words = verdict.fact
+    ? TEXTS.variant(id, card.name, verdict.word, verdict.fact)
+    : TEXTS.variant2(id, card.name, verdict.word);
   return (
     <article
       class={`vcard ${shown ? 'on' : ''} ${side ? 'side' : ''} ${card.scene ? '' : 'gone'}`}
@@ -70,16 +73,16 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
         {card.set ? (
           <LivePicture card={card} album={album} />
         ) : (
-          <span class="blank">{card.scene ? 'Working it out …' : 'Other road users were here then.'}</span>
+          <span class="blank">{card.scene ? TEXTS.workingItOut : TEXTS.otherRoadUsers}</span>
         )}
       </button>
       {side ? <em class="badge-side">{side}</em> : null}
       <button
         type="button"
         class={`star ${v.starred ? 'on' : ''}`}
-        aria-label={`Star variant ${id}`}
+        aria-label={TEXTS.starVariant(id)}
         aria-pressed={v.starred}
-        title="Star (S)"
+        title={TEXTS.starS}
         onClick={() => variants.toggleStar(id)}
       >
         <Icon name="star" size={14} />
@@ -90,16 +93,16 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
           type="button"
           class={`keep ${v.kept ? 'on' : ''}`}
           aria-pressed={v.kept}
-          aria-label={`Keep variant ${id}`}
-          title="Keep (Ctrl D)"
+          aria-label={TEXTS.keepVariant(id)}
+          title={TEXTS.keepCtrlD}
           onClick={() => variants.toggleKept(id)}
         >
           {v.kept ? (
             <>
-              <Icon name="check" size={12} /> Kept
+              <Icon name="check" size={12} /> {TEXTS.kept}
             </>
           ) : (
-            'Keep'
+            TEXTS.keep
           )}
         </button>
       </div>
@@ -114,7 +117,7 @@ export function CardView({ card, album }: { card: Card; album: Album }) {
 function Name({ card }: { card: Card }) {
   const { variants } = useApp();
   return (
-    <b title={`${card.name}\nDouble click: another name`} onDblClick={() => variants.startRenaming(card.id)}>
+    <b title={TEXTS.ndoubleClick(card.name)} onDblClick={() => variants.startRenaming(card.id)}>
       <i>{card.id}</i> {card.name}
     </b>
   );
@@ -128,7 +131,7 @@ function NameField({ card }: { card: Card }) {
     <input
       ref={input}
       type="text"
-      aria-label={`Name of variant ${card.id}`}
+      aria-label={TEXTS.nameOfVariant(card.id)}
       maxlength={60}
       defaultValue={card.variant.called ?? card.name}
       onBlur={() => variants.rename(card.id, named(input.current!.value, card))}

@@ -7,6 +7,7 @@ import { useApp } from '../parts/app-context';
 import { ActionButton } from '../parts/buttons';
 import { Icon } from '../parts/icons';
 import { SpeedPair } from './speed-pair';
+import { TEXTS } from '../../texts/variants-panel';
 
 export default function ComparePanel() {
   const c = useApp();
@@ -20,12 +21,10 @@ export default function ComparePanel() {
           <Icon name="compare" size={20} />
         </div>
         <div class="grow">
-          <h2>Compare</h2>
-          <p>
-            Variant {left.id} and variant {right.id}
-          </p>
+          <h2>{TEXTS.compare}</h2>
+          <p>{TEXTS.variantAndVariant(left.id, right.id)}</p>
         </div>
-        <button type="button" class="btn i" aria-label="End the comparison" onClick={() => c.variants.endCompare()}>
+        <button type="button" class="btn i" aria-label={TEXTS.endTheComparison} onClick={() => c.variants.endCompare()}>
           <Icon name="x" size={16} />
         </button>
       </div>
@@ -52,24 +51,24 @@ export default function ComparePanel() {
       <SpeedPair key={`${left.id} ${right.id}`} now={now} />
       <section class="sect">
         <h3>
-          When they part
-          <small>click to go there</small>
+          {TEXTS.whenTheyPart}
+          <small>{TEXTS.clickToGoThere}</small>
         </h3>
-        {parting.moments.length ? null : <p class="sec">They are the same.</p>}
+        {parting.moments.length ? null : <p class="sec">{TEXTS.theyAreTheSame}</p>}
         {parting.moments.map((m) => (
           <MomentRow key={`${m.time} ${m.words}`} moment={m} />
         ))}
       </section>
       <section class="sect last">
-        <h3>Same in both</h3>
+        <h3>{TEXTS.sameInBoth}</h3>
         <p class="sec">{sameWords(now)}</p>
       </section>
       <footer class="sect foot">
         <ActionButton id="export-variants" class="line" icon="">
-          Export both
+          {TEXTS.exportBoth}
         </ActionButton>
         <ActionButton id="swap-variants" class="line" icon="">
-          Swap sides
+          {TEXTS.swapSides}
         </ActionButton>
       </footer>
     </>
@@ -89,8 +88,8 @@ function MomentRow({ moment: m }: { moment: Moment }) {
 
 function sameWords({ left, right, parting }: Compared): string {
   const numbers = [
-    left.state.seed === right.state.seed ? `seed ${left.state.seed}` : '',
-    left.state.diversity === right.state.diversity ? `diversity ${num(left.state.diversity * 100, 0)}%` : '',
+    left.state.seed === right.state.seed ? TEXTS.seed(left.state.seed) : '',
+    left.state.diversity === right.state.diversity ? TEXTS.diversity(num(left.state.diversity * 100, 0)) : '',
   ].filter(Boolean);
-  return `${['Map', ...numbers].join(', ')}, ${parting.same} of ${parting.all} road users.`;
+  return TEXTS.ofRoadUsers([TEXTS.map, ...numbers].join(', '), parting.same, parting.all);
 }

@@ -20,6 +20,7 @@ import type { View } from '../../draw/view';
 import { useApp } from '../parts/app-context';
 import { useLiveEffect } from '../parts/hooks';
 import { verdictOf } from './card';
+import { TEXTS } from '../../texts/variants-panel';
 
 export default function CompareView() {
   const c = useApp();
@@ -95,7 +96,7 @@ function Pane({ now }: { now: Compared }) {
     <section
       ref={el}
       class="pane"
-      aria-label={`Variant ${now.right.id}, ${now.right.name}`}
+      aria-label={TEXTS.variant3(now.right.id, now.right.name)}
       onPointerDown={(e) => e.currentTarget.setPointerCapture(e.pointerId)}
       onPointerMove={(e) => {
         if (!e.buttons) return;

@@ -4,14 +4,15 @@ import { fromUnit, num, toUnit, type Quantity } from '../../model/units';
 import { perform } from '../../actions/registry';
 import { useApp } from '../parts/app-context';
 import { NumberField } from '../parts/number-field';
+import { TEXTS } from '../../texts/variants-panel';
 
 const BY: readonly (readonly [Over, string])[] = [
-  ['start', 'by speed at the start'],
-  ['goal', 'by speed at the goal'],
-  ['time', 'by time at the goal'],
+  ['start', TEXTS.bySpeedAtThe],
+  ['goal', TEXTS.bySpeedAtTheGoal],
+  ['time', TEXTS.byTimeAtTheGoal],
 ];
 
-const SAID: Record<Over, string> = { start: 'starts at', goal: 'arrives at', time: 'is there after' };
+const SAID: Record<Over, string> = { start: TEXTS.startsAt, goal: TEXTS.arrivesAt, time: TEXTS.isThereAfter };
 
 /** What new ones differ by: chance, or a number of the one road user that they are about. */
 export function RangePick() {
@@ -21,11 +22,11 @@ export function RangePick() {
   return (
     <select
       class="field pick"
-      aria-label="What new variants differ by"
+      aria-label={TEXTS.whatNewVariants}
       value={sweep?.over ?? ''}
       onChange={(e) => variants.sweepOver((e.currentTarget.value || null) as Over | null)}
     >
-      <option value="">by chance</option>
+      <option value="">{TEXTS.byChance}</option>
       {BY.map(([over, words]) => (
         <option key={over} value={over}>
           {words}
@@ -73,17 +74,17 @@ export function Range() {
   };
   const n = variants.wanted.value;
   return (
-    <div class="range" role="group" aria-label="Range of the new variants">
+    <div class="range" role="group" aria-label={TEXTS.rangeOfTheNew}>
       {subject ? (
         <>
           <span>
             <b>{subject.name}</b> {SAID[sweep.over]}
           </span>
-          {field('from', 'First value')}
-          <span>to</span>
-          {field('to', 'Last value')}
-          <span>in steps of</span>
-          {field('step', 'Step')}
+          {field('from', TEXTS.firstValue)}
+          <span>{TEXTS.to}</span>
+          {field('to', TEXTS.lastValue)}
+          <span>{TEXTS.inStepsOf}</span>
+          {field('step', TEXTS.step)}
         </>
       ) : null}
       {obstacle ? (
@@ -97,7 +98,7 @@ export function Range() {
           disabled={variants.making.value !== null}
           onClick={() => perform(c, 'make-variants')}
         >
-          {n === 1 ? 'Make 1 variant' : `Make ${n} variants`}
+          {n === 1 ? 'Make 1 variant' : TEXTS.makeVariants(n)}
         </button>
       )}
     </div>

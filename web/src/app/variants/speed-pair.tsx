@@ -4,6 +4,7 @@ import type { Compared } from '../../edit/variants/cards';
 import { poseAt, STEP_S, type Motion } from '../../model/motion';
 import { toUnit } from '../../model/units';
 import { useApp } from '../parts/app-context';
+import { TEXTS } from '../../texts/variants-panel';
 
 const W = 280;
 const H = 96;
@@ -37,12 +38,12 @@ export function SpeedPair({ now }: { now: Compared }) {
   return (
     <section class="sect speedpair">
       <h3>
-        Speed
+        {TEXTS.speed}
         <small>{unit}</small>
       </h3>
       <select
         class="field pick"
-        aria-label="Whose speed"
+        aria-label={TEXTS.whoseSpeed}
         value={who.agent.id}
         onChange={(e) => (picked.value = e.currentTarget.value)}
       >
@@ -52,7 +53,7 @@ export function SpeedPair({ now }: { now: Compared }) {
           </option>
         ))}
       </select>
-      <svg viewBox={`0 0 ${W} ${H}`} role="img" aria-label={`Speed of ${who.agent.name} in both`}>
+      <svg viewBox={`0 0 ${W} ${H}`} role="img" aria-label={TEXTS.speedOfInBoth(who.agent.name)}>
         <path d={`M${X0} ${Y0}V${Y1}H${W}`} class="axis" />
         <text x={X0 - 4} y={Y0 + 8} text-anchor="end">
           {top}

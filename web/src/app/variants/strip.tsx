@@ -11,11 +11,12 @@ import { useAlbum } from './album';
 import { CardView } from './card';
 import { Range, RangePick } from './range';
 import '../../styles/variants.css';
+import { TEXTS } from '../../texts/variants-panel';
 
 const FILTERS: readonly (readonly [Filter, string])[] = [
-  ['all', 'All'],
-  ['events', 'With events'],
-  ['starred', 'Starred'],
+  ['all', TEXTS.all],
+  ['events', TEXTS.withEvents],
+  ['starred', TEXTS.starred],
 ];
 
 export default function Strip() {
@@ -36,12 +37,12 @@ export default function Strip() {
     if (next) list.current?.querySelector<HTMLElement>(`[data-variant="${next.id}"] .face`)?.focus();
   };
   return (
-    <section class="strip" aria-label="Variants" data-group="variants">
+    <section class="strip" aria-label={TEXTS.variants} data-group="variants">
       <header>
-        <h2>Variants</h2>
+        <h2>{TEXTS.variants}</h2>
         <About />
         <span class="grow" />
-        <div class="seg" role="radiogroup" aria-label="Which variants">
+        <div class="seg" role="radiogroup" aria-label={TEXTS.whichVariants}>
           {FILTERS.map(([id, text]) => (
             <button
               key={id}
@@ -56,12 +57,12 @@ export default function Strip() {
           ))}
         </div>
         <ActionButton id="compare-variants" size={16}>
-          Compare 2
+          {TEXTS.compare2}
         </ActionButton>
         <ActionButton id="export-variants" class="line" icon="">
-          Export all
+          {TEXTS.exportAll}
         </ActionButton>
-        <button type="button" class="btn i" aria-label="Close the variants" onClick={() => variants.show(false)}>
+        <button type="button" class="btn i" aria-label={TEXTS.closeTheVariants} onClick={() => variants.show(false)}>
           <Icon name="x" size={16} />
         </button>
       </header>
@@ -81,10 +82,10 @@ export default function Strip() {
   function Nobody({ any }: { any: boolean }) {
     return (
       <p class="none">
-        {any ? 'None of them is like that.' : 'No variants yet.'}{' '}
+        {any ? TEXTS.noneOfThemIs : TEXTS.noVariantsYet}{' '}
         {any || variants.sweep.value ? null : (
           <button type="button" class="btn pri" onClick={() => perform(c, 'make-variants')}>
-            Make {variants.count.value}
+            {TEXTS.make(variants.count.value)}
           </button>
         )}
       </p>
@@ -101,30 +102,29 @@ function About() {
   const making = variants.making.value;
   const paused = variants.paused.value;
   const words = useComputed(() => {
-    if (editor.playing.value) return 'all run on one clock';
+    if (editor.playing.value) return TEXTS.allRunOnOneClock;
     const last = variants.cards.value.reduce<Card | null>((a, b) => (a && a.id > b.id ? a : b), null);
-    if (!last) return 'ways the scene could go';
+    if (!last) return TEXTS.waysTheScene;
     const who = last.state.subject === null ? null : editor.scene.value?.agents.get(last.state.subject)?.name;
     const seed = Math.min(
       ...variants.cards.value.filter((v) => !v.variant.kept && !v.variant.starred).map((v) => v.state.seed),
       last.state.seed,
     );
-    const from = `seed ${seed}, diversity ${Math.round(last.state.diversity * 100)}%`;
-    return `${who ? `ways of ${who}` : 'everybody anew'}, from ${from}`;
+    const from = TEXTS.seedDiversity(seed, Math.round(last.state.diversity * 100));
+    return who ? TEXTS.waysOfFrom(who, from) : TEXTS.everybodyAnew(from);
   });
   if (making)
     return (
       <>
         <small role="status">
-          {making.done} of {making.of}
-          {paused ? ', waiting' : ''}
+          {paused ? TEXTS.ofWaiting(making.done, making.of) : TEXTS.of(making.done, making.of)}
         </small>
         <button type="button" class="btn line" onClick={() => variants.pause(!paused)}>
           <Icon name={paused ? 'play' : 'pause'} size={14} />
-          {paused ? 'Go on' : 'Pause'}
+          {paused ? TEXTS.goOn : TEXTS.pause}
         </button>
         <button type="button" class="btn line" onClick={() => variants.stop()}>
-          Stop{making.done ? `, keep ${making.done}` : ''}
+          {making.done ? TEXTS.stopKeep(making.done) : TEXTS.stop}
         </button>
       </>
     );
@@ -137,11 +137,11 @@ function About() {
             type="number"
             min={1}
             max={MOST_NEW}
-            aria-label="How many variants are made"
+            aria-label={TEXTS.howManyVariants}
             value={variants.count.value}
             onChange={(e) => variants.setCount(Number(e.currentTarget.value) || 1)}
           />
-          <span>new</span>
+          <span>{TEXTS.new}</span>
         </label>
       )}
       <RangePick />

@@ -13,6 +13,7 @@ import { stateOfVariant, takeVariant } from '../../model/variants';
 import { Away, Refused } from '../../net/client';
 import type { Beside, Editor } from '../editor';
 import { Stopped, type Maker, type Take } from '../variants/making';
+import { TEXTS } from '../../texts/cases';
 
 /** What was found: what everybody does, the moment that it is about, and how many more were like it. */
 export interface Case {
@@ -140,10 +141,10 @@ export class Cases {
     const s = this.#sought.value;
     const scene = this.editor.scene.value;
     const who = s && scene?.agents.get(s.who);
-    if (!s || !who) return 'Select one or two road users first.';
-    if (!canMove(who)) return `${who.name} ${who.locked ? 'is locked' : 'can be looked at, not changed'}.`;
-    if (KINDS[s.what].two && s.other === null) return 'This is between two: select a second road user with Shift.';
-    if (s.what === 'goal' && !who.goal.pos) return `${who.name} has no goal yet. Press G to set one.`;
+    if (!s || !who) return TEXTS.selectOneOrTwo;
+    if (!canMove(who)) return `${who.name} ${who.locked ? TEXTS.isLocked : TEXTS.canBeLookedAt}.`;
+    if (KINDS[s.what].two && s.other === null) return TEXTS.thisIsBetween;
+    if (s.what === 'goal' && !who.goal.pos) return TEXTS.hasNoGoalYet(who.name);
     return null;
   });
 
@@ -228,7 +229,7 @@ export class Cases {
       this.#found.value = Object.freeze(next);
       this.#progress.value = { ...this.#progress.peek(), found: this.#progress.peek().found + 1 };
     });
-    if (!same) this.editor.notices.say(`Case ${id}: ${momentWords(sought, moment)}.`);
+    if (!same) this.editor.notices.say(TEXTS.case2(id, momentWords(sought, moment)));
   }
 
   #count(n: number, began: { ms: number; tried: number }): void {
@@ -245,7 +246,7 @@ export class Cases {
 
   #fail(e: unknown): void {
     if (!(e instanceof Refused) && !(e instanceof Away)) throw e;
-    this.#problem.value = e instanceof Refused ? e.message : 'The generator is not answering. What was found is there.';
+    this.#problem.value = e instanceof Refused ? e.message : TEXTS.theGenerator;
   }
 
   #end(): void {
@@ -254,7 +255,7 @@ export class Cases {
     const { tried, of } = this.#progress.peek();
     const through = tried >= of || found >= ENOUGH;
     this.#state.value = through ? 'done' : 'paused';
-    if (through) notices.say(found ? `${found} cases found.` : `Nothing found in ${tried} tries.`);
+    if (through) notices.say(found ? TEXTS.casesFound(found) : TEXTS.nothingFound(tried));
   }
 
   /** What is on its way is dropped; what was found stays, and it can go on. */
@@ -331,12 +332,12 @@ export class Cases {
     const sought = this.#sought.peek();
     if (!now || !sought || now.id !== c.take.scene.id) return;
     if (now.roster !== c.take.scene.roster) {
-      editor.notices.show({ text: 'Other road users were here when the search began. Undo brings them back.' });
+      editor.notices.show({ text: TEXTS.otherRoadUsers });
       return;
     }
     this.show(null);
     editor.answers.know(c.take.set);
-    const name = `Case taken: ${momentWords(sought, c.moment)}`;
+    const name = TEXTS.caseTaken(momentWords(sought, c.moment));
     editor.run({ ...takeVariant(now, stateOfVariant(c.take.scene, sought.who), name), fold: undefined });
     editor.setTime(c.moment.time);
     editor.notices.show({ text: `${name}.`, undo: true });
@@ -350,7 +351,7 @@ export class Cases {
 }
 
 const meetingOf = (c: Case, sought: Sought): NonNullable<Beside['meeting']> => ({
-  words: `Case ${c.id} · ${momentWords(sought, c.moment)}`,
+  words: TEXTS.case3(c.id, momentWords(sought, c.moment)),
   at: c.moment.at,
   time: c.moment.time,
   who: c.moment.other === null ? [sought.who] : [sought.who, c.moment.other],

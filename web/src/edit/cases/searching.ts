@@ -4,6 +4,7 @@ import type { What } from '../../model/cases';
 import type { Editor } from '../editor';
 import type { Maker } from '../variants/making';
 import type { Cases } from './cases';
+import { TEXTS } from '../../texts/generation';
 
 export class Searching {
   readonly #now = signal<Cases | null>(null);
@@ -30,7 +31,7 @@ export class Searching {
       if (start) await cases.run();
     } catch (e) {
       if (!(e instanceof TypeError)) throw e;
-      this.editor.notices.show({ text: 'The search did not load. Try again when the network is back.' });
+      this.editor.notices.show({ text: TEXTS.theSearchDid });
     }
   }
 }

@@ -7,6 +7,7 @@ import type { Chart, State } from './chart';
 import { Panning } from './panning';
 import type { Press } from './pressed';
 import type { Tool } from './tools';
+import { TEXTS } from '../../texts/gestures';
 
 /** The knob of an arm lies so far out from its stop line, its lane buttons and those that take lanes away, metres. */
 const KNOB_M = 9;
@@ -180,10 +181,10 @@ class BendingKerb implements State {
 /** What the pointer does while a map is being made, whatever tool is chosen in the rail. */
 export const MAKE: Tool = {
   name: 'make',
-  label: 'Make a map',
+  label: TEXTS.makeAMap,
   key: '',
   icon: 'plus',
-  help: '',
+  help: 'crossingsRoundabouts',
   cursor: '',
   picks: false,
   hover: (chart) => chart.surface.setCursor(knobAt(chart, chart.at, false) ? 'grab' : ''),

@@ -11,7 +11,7 @@ export function ask(chart: Chart, { x, y, hit }: Press): void {
   if (id && !editor.selected.peek().includes(id)) editor.select(id);
   const on = hit.kind === 'pennant' || (hit.kind === 'grip' && hit.grip.part === 'goal') ? 'goal' : null;
   const some = id !== null || hit.kind === 'grip' || hit.kind === 'frame';
-  const who = !some ? 'ground' : editor.selected.peek().length > 1 ? 'several' : 'road user';
+  const who = !some ? 'ground' : editor.selected.peek().length > 1 ? 'several' : 'road-user';
   const future = hit.kind === 'future' ? hit.index : null;
   chart.parts.menu({ x, y }, on ?? (future === null ? who : 'future'), future);
 }

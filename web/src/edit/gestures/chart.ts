@@ -29,7 +29,7 @@ export interface PointerDown extends Point {
 }
 
 /** What a menu is asked for. */
-export type MenuOn = 'road user' | 'several' | 'goal' | 'future' | 'ground';
+export type MenuOn = 'road-user' | 'several' | 'goal' | 'future' | 'ground';
 
 /** What a state is told and may do. Every method is optional: what is left out is not answered. */
 export interface State {

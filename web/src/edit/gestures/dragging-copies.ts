@@ -6,6 +6,7 @@ import { ghostsFor, snapNewcomer } from '../placing';
 import { addThem, copiesOf, tooMany, whoWords } from '../several';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import { TEXTS } from '../../texts/gestures';
 
 export class DraggingCopies implements State {
   readonly name = 'dragging copies';
@@ -39,7 +40,7 @@ export class DraggingCopies implements State {
     const [x, y] = chart.surface.view.from(chart.at.x, chart.at.y);
     const moved = this.#copies.map((n) => shifted(n, x - this.#grab[0], y - this.#grab[1]));
     this.#there = moved.length === 1 ? [this.#snapped(moved[0])] : moved;
-    const words = `Copy of ${whoWords(this.originals)}`;
+    const words = TEXTS.copyOf(whoWords(this.originals));
     chart.editor.placement.show(ghostsFor(scene, this.#there, words));
     chart.surface.invalidate('overlay');
   }

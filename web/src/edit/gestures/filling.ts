@@ -3,6 +3,7 @@
 import type { Vec } from '../../model/geometry';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import { TEXTS } from '../../texts/gestures';
 
 /** The line takes a further point after so many metres; it has this many at most. */
 const STEP_M = 0.5;
@@ -115,10 +116,10 @@ function click(chart: Chart, press: Press): void {
 
 export const FILL = {
   name: 'fill' as const,
-  label: 'Fill an area',
+  label: TEXTS.fillAnArea,
   key: 'D',
   icon: 'fill',
-  help: 'Draw round a piece of road and see who could be there, before anybody is added',
+  help: 'drawRoundA' as const,
   cursor: 'crosshair',
   picks: false,
   drag: (chart: Chart, press: Press): State => {

@@ -13,6 +13,7 @@ import { edgesInTheWay } from '../ways-out';
 import type { Modifiers } from './chart';
 import type { Press } from './pressed';
 import { Resistance } from './resistance';
+import { TEXTS } from '../../texts/gestures';
 
 /** Pixels of drag on the time tag for one second. */
 const PX_PER_SECOND = 40;
@@ -98,15 +99,15 @@ export class HandleMove {
   }
 
   #named(what: 'heading' | 'speed', c: Command): Command {
-    const words = { heading: ['Goal heading', 'Heading'], speed: ['Goal speed', 'Speed'] }[what];
-    return { ...c, name: `${words[this.grip.part === 'goal' ? 0 : 1]} of ${this.agent.name} changed` };
+    const words = { heading: [TEXTS.goalHeading, TEXTS.heading], speed: [TEXTS.goalSpeed, TEXTS.speed] }[what];
+    return { ...c, name: TEXTS.ofChanged(words[this.grip.part === 'goal' ? 0 : 1], this.agent.name) };
   }
 
   #put(patch: Partial<GoalSpec>, mods: Modifiers): Command {
     const { agent: a } = this;
     if (mods.ctrl) return this.#both(patch);
     if (this.grip.part === 'goal') return setGoal(a, { ...a.goal, ...patch });
-    return { ...setStart(a, { ...a.start, ...patch } as StartSpec), name: `Start of ${a.name} moved` };
+    return { ...setStart(a, { ...a.start, ...patch } as StartSpec), name: TEXTS.startOfMoved(a.name) };
   }
 
   /** Turning a goal's tiller means that the goal is wanted here: a free position becomes fixed with it. */
@@ -203,7 +204,7 @@ export class HandleMove {
     const grid = mods.alt ? 0.01 : mods.shift || Math.abs(raw - Math.round(raw)) < WHOLE_SECOND_S ? 1 : 0.1;
     const time = goalTime(this.editor.scene.peek(), Math.round(raw / grid) * grid);
     const patch = { time: Math.round(time * 100) / 100, ...this.#keptGoal() };
-    return { ...setGoal(a, { ...a.goal, ...patch }), name: `Goal time of ${a.name} changed` };
+    return { ...setGoal(a, { ...a.goal, ...patch }), name: TEXTS.goalTimeOfChanged(a.name) };
   }
 
   /** Ctrl: start and goal move, turn or change speed together. */

@@ -57,7 +57,7 @@ export class Idle implements State {
       case 'agent':
         return editor.time.peek() < 0.05 ? 'grab' : 'pointer';
       case 'future':
-      case 'by road':
+      case 'by-road':
       case 'pennant':
         return 'pointer';
       case 'frame':

@@ -4,6 +4,7 @@ import type { Chart, State } from './chart';
 import type { Press } from './pressed';
 import { click } from './select';
 import { Sweeping } from './sweeping';
+import { TEXTS } from '../../texts/gestures';
 
 /** The line takes a further point after so many metres; it has this many at most. */
 const STEP_M = 0.3;
@@ -18,10 +19,10 @@ function longer(from: Vec, to: Vec, before: readonly Vec[]): readonly Vec[] {
 
 export const LASSO = {
   name: 'lasso' as const,
-  label: 'Lasso',
+  label: TEXTS.lasso,
   key: 'L',
   icon: 'lasso',
-  help: 'Draw a line round road users to select them',
+  help: 'drawALineRound' as const,
   cursor: 'crosshair',
   picks: true,
   drag: (chart: Chart, press: Press): State => new Sweeping('lasso', chart, press, longer),

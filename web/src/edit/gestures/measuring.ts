@@ -1,6 +1,7 @@
 // A line is drawn and its length shown.
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import { TEXTS } from '../../texts/gestures';
 
 class Measuring implements State {
   readonly name = 'measuring';
@@ -23,10 +24,10 @@ class Measuring implements State {
 
 export const MEASURE = {
   name: 'measure' as const,
-  label: 'Measure',
+  label: TEXTS.measure,
   key: 'M',
   icon: 'ruler',
-  help: 'Drag a line to read its length',
+  help: 'dragALineTo' as const,
   cursor: 'crosshair',
   picks: false,
   drag: (chart: Chart, press: Press): State => new Measuring(chart, press),

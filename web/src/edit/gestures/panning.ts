@@ -1,6 +1,7 @@
 // The picture moves with the pointer.
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import { TEXTS } from '../../texts/gestures';
 
 export class Panning implements State {
   readonly name = 'panning';
@@ -32,10 +33,10 @@ export class Panning implements State {
 
 export const PAN = {
   name: 'pan' as const,
-  label: 'Move the picture',
+  label: TEXTS.moveThePicture,
   key: 'H',
   icon: 'hand',
-  help: 'Dragging moves the picture wherever it starts',
+  help: 'draggingMoves' as const,
   cursor: 'grab',
   picks: false,
   drag: (chart: Chart, press: Press): State => new Panning(chart, press),

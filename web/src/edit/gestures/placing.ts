@@ -1,6 +1,6 @@
 // Putting road users into the scene: one a click, or many with one drag.
 import type { Vec } from '../../model/geometry';
-import { KIND_NAMES, countWords, type PlacedKind } from '../../model/kinds';
+import { KIND_WORDS, countWords, type PlacedKind } from '../../model/kinds';
 import type { Newcomer } from '../../model/newcomer';
 import { alongLine, ghostsFor, overArea, snapNewcomer } from '../placing';
 import { freeShift, inTheWay, standing } from '../room';
@@ -9,6 +9,7 @@ import { addThem, tooMany } from '../several';
 import { shifted } from '../../model/newcomer';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import { TEXTS } from '../../texts/gestures';
 
 /** The ghost of somebody of a kind under the pointer. */
 export const ghostHere = (chart: Chart, kind: PlacedKind, at = chart.at, heading?: number): void => {
@@ -46,12 +47,12 @@ export function placeGhost(editor: Editor): void {
   const free = furtherOn(editor, ghost.who);
   const { x, y } = ghost.who.pose;
   const far = free && Math.hypot(free.pose.x - x, free.pose.y - y);
-  const where = far ? `, or ${far.toFixed(1)} m further on` : '';
+  const where = far ? TEXTS.orMFurtherOn(far.toFixed(1)) : '';
   editor.notices.show(
     {
-      text: `${there?.agent.name ?? 'Somebody'} stands here. Put it here anyway${where}?`,
-      ...(free ? { action: { label: 'Further on', run: () => put(free) } } : {}),
-      second: { label: 'Put here', run: () => put(ghost.who) },
+      text: TEXTS.standsHerePut(there?.agent.name ?? TEXTS.somebody, where),
+      ...(free ? { action: { label: TEXTS.furtherOn, run: () => put(free) } } : {}),
+      second: { label: TEXTS.putHere, run: () => put(ghost.who) },
     },
     12_000,
   );
@@ -139,7 +140,7 @@ class Spreading implements State {
     const all = spread(scene, choice, this.#from, to, surface.view.z);
     const ghosts = ghostsFor(scene, all, '');
     const n = ghosts.all.filter((g) => g.fits).length;
-    const words = n < choice.count ? `${n} of ${countWords(kind, choice.count)} fit` : countWords(kind, n);
+    const words = n < choice.count ? TEXTS.ofFit(n, countWords(kind, choice.count)) : countWords(kind, n);
     editor.placement.show({ ...ghosts, words });
     const [[x0, y0], [x1, y1]] = [this.#from, to];
     const area: readonly Vec[] =
@@ -165,13 +166,13 @@ class Spreading implements State {
     chart.rest();
     const full = tooMany(scene, all.length);
     if (full || !all.length) {
-      editor.notices.show({ text: full ?? 'There is no room here.' });
+      editor.notices.show({ text: full ?? TEXTS.thereIsNoRoom });
       return;
     }
     editor.run(addThem(scene, all, 'placed'));
     if (all.length < wanted)
       editor.notices.show({
-        text: `${all.length} of ${countWords(kind, wanted)} placed: the others had no room.`,
+        text: TEXTS.ofPlacedTheOthers(all.length, countWords(kind, wanted)),
         undo: true,
       });
   }
@@ -183,10 +184,10 @@ class Spreading implements State {
 
 const place = <K extends PlacedKind>(kind: K, key: string) => ({
   name: `place-${kind}` as const,
-  label: `Place a ${KIND_NAMES[kind].toLowerCase()}`,
+  label: TEXTS.placeA(KIND_WORDS[kind]),
   key,
   icon: kind,
-  help: `Click where the ${KIND_NAMES[kind].toLowerCase()} should start; several in a row, until Esc`,
+  help: `place-${kind}` as const,
   cursor: 'crosshair',
   picks: false,
   places: kind,

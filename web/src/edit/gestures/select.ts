@@ -15,16 +15,17 @@ import { Panning } from './panning';
 import { ghostHere, placeGhost } from './placing';
 import type { Press } from './pressed';
 import { rectangle, Sweeping } from './sweeping';
+import { TEXTS } from '../../texts/gestures';
 
 /** How far ahead of a road user without futures its goal is taken to be, in metres. */
 const GOAL_AHEAD_M = 20;
 
 export const SELECT = {
   name: 'select' as const,
-  label: 'Select and drag',
+  label: TEXTS.selectAndDrag,
   key: 'V',
   icon: 'select',
-  help: 'Click a road user, drag its handles; drag over the ground to take several',
+  help: 'clickARoad' as const,
   cursor: '',
   picks: true,
   hover,
@@ -143,7 +144,7 @@ export function click(chart: Chart, press: Press, timeStamp: number): void {
       if (command) editor.run(command);
       break;
     }
-    case 'by road': {
+    case 'by-road': {
       const way = a && !a.locked && roadWay(editor, a);
       if (way) editor.run(way.command);
       break;

@@ -4,6 +4,7 @@ import { kindsWords } from '../../model/kinds';
 import { poseShown } from '../frame';
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import { TEXTS } from '../../texts/gestures';
 
 /** Makes the outline longer, or anew, for the newest place. */
 export type Outline = (from: Vec, to: Vec, before: readonly Vec[]) => readonly Vec[];
@@ -73,7 +74,7 @@ export class Sweeping implements State {
     chart.rest();
     chart.editor.selectAll(ids);
     const kinds = chart.editor.chosenOnes.map((a) => a.kind);
-    if (ids.length > 1) chart.editor.notices.say(`${kindsWords(kinds)} selected.`);
+    if (ids.length > 1) chart.editor.notices.say(TEXTS.selected(kindsWords(kinds)));
   }
 
   cancel(): boolean {

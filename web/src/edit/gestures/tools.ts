@@ -2,6 +2,7 @@
 // palette entry and line in the shortcut sheet are made from it.
 import type { Chart, State } from './chart';
 import type { Press } from './pressed';
+import type { Help } from '../../texts/helps';
 import type { PlacedKind } from '../../model/kinds';
 import { FILL } from './filling';
 import { LASSO } from './lasso';
@@ -15,7 +16,7 @@ export interface Tool {
   readonly label: string;
   readonly key: string;
   readonly icon: string;
-  readonly help: string;
+  readonly help: Help;
   /** The pointer over the picture where nothing is under it; empty for the plain one. */
   readonly cursor: string;
   /** Does a press take hold of what lies under it? */

@@ -6,6 +6,7 @@ import { canMove, startPose, type Agent } from '../../model/scene';
 import type { Part } from '../editor';
 import type { Chart, State } from './chart';
 import { Pinching } from './pinching';
+import { TEXTS } from '../../texts/gestures';
 
 /** The middle of the two fingers lies so near to what they turn, pixels. */
 const NEAR_PX = 44;
@@ -78,8 +79,8 @@ class Turning implements State {
     editor.setHeadingFollows(part, a, false);
     this.#command =
       part === 'goal'
-        ? setGoal(a, { ...a.goal, heading }, 'Goal heading')
-        : setStart(a, { ...a.start, heading }, 'Heading');
+        ? setGoal(a, { ...a.goal, heading }, TEXTS.goalHeading)
+        : setStart(a, { ...a.start, heading }, TEXTS.heading);
     editor.previewDrag(this.#command);
     previews.preview(a.id);
     surface.invalidate('overlay');

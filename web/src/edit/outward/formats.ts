@@ -1,16 +1,17 @@
 // The kinds of file that the server writes and reads, by what people want of them, in plain words.
 import type { FormatInfo } from '../../net/types';
+import { TEXTS } from '../../texts/formats';
 
 /** What a file out of here is for. */
 export type Wish = 'again' | 'simulate' | 'table' | 'show' | 'train' | 'more';
 
 export const WISHES: readonly (readonly [Wish, string])[] = [
-  ['again', 'Go on with it here'],
-  ['simulate', 'Test in a simulator'],
-  ['table', 'Look into it: tables and maps'],
-  ['show', 'Show to a colleague'],
-  ['train', 'Train a model'],
-  ['more', 'More'],
+  ['again', TEXTS.goOnWithItHere],
+  ['simulate', TEXTS.testInASimulator],
+  ['table', TEXTS.lookIntoItTables],
+  ['show', TEXTS.showToAColleague],
+  ['train', TEXTS.trainAModel],
+  ['more', TEXTS.more],
 ];
 
 export interface OutFormat {
@@ -26,135 +27,135 @@ const OUT: readonly OutFormat[] = [
   {
     id: 'dragtraffic',
     wish: 'again',
-    label: 'Saved scene',
+    label: TEXTS.savedScene,
     icon: 'layers',
-    says: 'Everything that is in it. Opens here as it is now.',
+    says: TEXTS.everythingThat,
   },
   {
     id: 'openscenario',
     wish: 'simulate',
-    label: 'Simulator scenario',
+    label: TEXTS.simulatorScenario,
     icon: 'car',
-    says: 'Road and road users, for esmini, CARLA and others that play OpenSCENARIO.',
+    says: TEXTS.roadAndRoadUsers,
   },
   {
     id: 'opendrive',
     wish: 'simulate',
-    label: 'Road alone',
+    label: TEXTS.roadAlone,
     icon: 'road',
-    says: 'The lanes as OpenDRIVE, for simulators and map tools.',
+    says: TEXTS.theLanesAsOpendrive,
   },
   {
     id: 'commonroad',
     wish: 'simulate',
-    label: 'CommonRoad scenario',
+    label: TEXTS.commonroadScenario,
     icon: 'file',
-    says: 'A task for motion planners: one drives, the others are in its way.',
+    says: TEXTS.aTaskForMotion,
   },
   {
     id: 'sumo',
     wish: 'simulate',
-    label: 'SUMO scenario',
+    label: TEXTS.sumoScenario,
     icon: 'car',
-    says: 'Road, trips and the recording in one zip that SUMO runs.',
+    says: TEXTS.roadTripsAnd,
   },
   {
     id: 'sumo-net',
     wish: 'simulate',
-    label: 'SUMO road alone',
+    label: TEXTS.sumoRoadAlone,
     icon: 'road',
-    says: 'The lanes, links and lights as a network of SUMO.',
+    says: TEXTS.theLanesLinks,
   },
   {
     id: 'sumo-fcd',
     wish: 'simulate',
-    label: 'SUMO recording alone',
+    label: TEXTS.sumoRecording,
     icon: 'table',
-    says: 'Where everybody is at each step, as SUMO itself writes it.',
+    says: TEXTS.whereEverybody,
   },
   {
     id: 'csv',
     wish: 'table',
-    label: 'Table',
+    label: TEXTS.table,
     icon: 'table',
-    says: 'A row for each road user and step, for Excel and others.',
+    says: TEXTS.aRowForEachRoad,
   },
   {
     id: 'parquet',
     wish: 'table',
-    label: 'Table, compact',
+    label: TEXTS.tableCompact,
     icon: 'table',
-    says: 'The same rows for pandas, R and DuckDB: smaller and quicker.',
+    says: TEXTS.theSameRowsFor,
   },
   {
     id: 'geojson',
     wish: 'table',
-    label: 'Map layers',
+    label: TEXTS.mapLayers,
     icon: 'layers',
-    says: 'Lanes and ways as lines, for QGIS and web maps.',
+    says: TEXTS.lanesAndWays,
   },
   {
     id: 'mcap',
     wish: 'table',
-    label: 'Foxglove log',
+    label: TEXTS.foxgloveLog,
     icon: 'film',
-    says: 'To step through in Foxglove, beside logs of a car.',
+    says: TEXTS.toStepThrough,
   },
   {
     id: 'html',
     wish: 'show',
-    label: 'Page that plays',
+    label: TEXTS.pageThatPlays,
     icon: 'play',
-    says: 'Plays in any browser, with nothing to install. Can be sent by mail.',
+    says: TEXTS.playsInAnyBrowser,
   },
   {
     id: 'womd',
     wish: 'train',
-    label: 'Scenario record',
+    label: TEXTS.scenarioRecord,
     icon: 'file',
-    says: 'As in the Waymo Open Motion Dataset.',
+    says: TEXTS.asInTheWaymo,
   },
   {
     id: 'womd-example',
     wish: 'train',
-    label: 'Scenario as tf.Example',
+    label: TEXTS.scenarioAsTf,
     icon: 'file',
-    says: 'The flat form of the same dataset, for TensorFlow and Waymax.',
+    says: TEXTS.theFlatFormOf,
   },
   {
     id: 'sim-agents',
     wish: 'train',
-    label: 'Sim Agents submission',
+    label: TEXTS.simAgentsSubmission,
     icon: 'file',
-    says: 'Futures of everybody as the Waymo challenge takes them.',
+    says: TEXTS.futuresOfEverybody,
   },
   {
     id: 'scenarionet',
     wish: 'train',
-    label: 'ScenarioNet',
+    label: TEXTS.scenarionet,
     icon: 'file',
-    says: 'For MetaDrive and what else reads ScenarioNet.',
+    says: TEXTS.forMetadrive,
   },
   {
     id: 'av2',
     wish: 'train',
-    label: 'Argoverse 2 scenario',
+    label: TEXTS.argoverse2Scenario,
     icon: 'file',
     says: 'Motion as in Argoverse 2, without its map.',
   },
   {
     id: 'gpudrive',
     wish: 'train',
-    label: 'GPUDrive',
+    label: TEXTS.gpudrive,
     icon: 'file',
-    says: 'For training many worlds at once on a graphics card.',
+    says: TEXTS.forTrainingMany,
   },
   {
     id: 'nocturne',
     wish: 'train',
-    label: 'Nocturne',
+    label: TEXTS.nocturne,
     icon: 'file',
-    says: 'For agents that see only what they could see.',
+    says: TEXTS.forAgentsThat,
   },
 ];
 
@@ -182,33 +183,33 @@ export interface InKind {
 
 const IN: readonly InKind[] = [
   {
-    label: 'Saved scenes',
+    label: TEXTS.savedScenes,
     icon: 'layers',
-    says: 'As they were saved here, also on another computer.',
+    says: TEXTS.asTheyWereSaved,
     formats: ['dragtraffic'],
   },
   {
-    label: 'Recorded traffic',
+    label: TEXTS.recordedTraffic,
     icon: 'film',
-    says: 'Scenarios of data sets, with their road. Drop an Argoverse scenario and its map together.',
+    says: TEXTS.scenariosOfData,
     formats: ['womd', 'av2', 'scenarionet', 'commonroad', 'gpudrive', 'nocturne'],
   },
   {
-    label: 'Simulated traffic',
+    label: TEXTS.simulatedTraffic,
     icon: 'car',
-    says: 'What SUMO writes of who drove where. Drop it together with its network.',
+    says: TEXTS.whatSumoWrites,
     formats: ['sumo-fcd'],
   },
   {
-    label: 'Tables of motion',
+    label: TEXTS.tablesOfMotion,
     icon: 'table',
-    says: 'A row for each road user and moment. The columns may have any names: you say what they are.',
+    says: TEXTS.aRowForEachRoadUser,
     formats: ['csv', 'parquet'],
   },
   {
-    label: 'Maps alone',
+    label: TEXTS.mapsAlone,
     icon: 'road',
-    says: 'The road of a scene. You put road users on it, or traffic all over it.',
+    says: TEXTS.theRoadOfAScene,
     formats: ['opendrive', 'lanelet2', 'sumo-net', 'osm'],
   },
 ];
@@ -218,6 +219,6 @@ export function inKinds(known: readonly FormatInfo[]): (InKind & { files: readon
   const read = known.filter((f) => f.import);
   const kinds = IN.map((k) => ({ ...k, files: k.formats.flatMap((id) => read.find((f) => f.id === id) ?? []) }));
   const others = read.filter((f) => !IN.some((k) => k.formats.includes(f.id)));
-  const more = { label: 'More', icon: 'file', says: '', formats: others.map((f) => f.id), files: others };
+  const more = { label: TEXTS.more, icon: 'file', says: '', formats: others.map((f) => f.id), files: others };
   return [...kinds, more].filter((k) => k.files.length);
 }

@@ -6,6 +6,8 @@ import type { Vec } from '../../model/geometry';
 import { endPose } from '../../model/motion';
 import { canChange, startPose, touched, type Agent, type Scene } from '../../model/scene';
 import { num, seconds, speedLabel, type SpeedUnit } from '../../model/units';
+import { LANGUAGE } from '../../texts/language';
+import { TEXTS } from '../../texts/report-page';
 
 export interface ReportOf {
   readonly scene: Scene;
@@ -40,30 +42,29 @@ export function reportPage(r: ReportOf): string {
   const reached = asked.filter((a) => a.goal.pos && r.motion.reach.get(a.id)?.status !== 'unreachable');
   const goals = asked.filter((a) => a.goal.pos);
   const facts: [string, string][] = [
-    ['Road users', String(all.length)],
-    ['With something asked of them', String(asked.length)],
-    ['Goals reached', goals.length ? `${reached.length} of ${goals.length}` : 'none set'],
-    ['Collisions', String(own.filter((e) => e.kind === 'collision').length)],
-    ['Near misses', String(own.filter((e) => e.kind === 'near').length)],
-    ['Least time to collision', r.motion.score?.minTtc == null ? 'none' : seconds(r.motion.score.minTtc)],
-    ['Seed, diversity', `${scene.seed}, ${Math.round(scene.diversity * 100)} %`],
-    ['Others', { react: 'react', log: 'replay the log', still: 'hold still' }[scene.others]],
-    ['Length', seconds(scene.duration)],
-    ...(scene.licence ? [['Licence of the recording', scene.licence] as [string, string]] : []),
+    [TEXTS.roadUsers, String(all.length)],
+    [TEXTS.asked, String(asked.length)],
+    [TEXTS.goalsReached, goals.length ? TEXTS.of(reached.length, goals.length) : TEXTS.noneSet],
+    [TEXTS.collisions, String(own.filter((e) => e.kind === 'collision').length)],
+    [TEXTS.nearMisses, String(own.filter((e) => e.kind === 'near').length)],
+    [TEXTS.leastTime, r.motion.score?.minTtc == null ? TEXTS.none : seconds(r.motion.score.minTtc)],
+    [TEXTS.seedDiversity, `${scene.seed}, ${Math.round(scene.diversity * 100)} %`],
+    [TEXTS.others, { react: TEXTS.react, log: TEXTS.replayTheLog, still: TEXTS.holdStill }[scene.others]],
+    [TEXTS.length, seconds(scene.duration)],
+    ...(scene.licence ? [[TEXTS.licence, scene.licence] as [string, string]] : []),
   ];
   const rows = (list: [string, string][]): string =>
     list.map(([k, v]) => `<tr><th scope="row">${text(k)}</th>${cell(v)}</tr>`).join('');
   return `<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<html lang="${LANGUAGE}"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>${text(scene.name)}</title><style>${STYLE}</style></head><body>
-<h1>${text(scene.name)}</h1><p>The picture shows ${seconds(r.time)} of ${seconds(scene.duration)}.</p>
-<img alt="The scene from above" src="${r.picture}">
-<h2>Result</h2><table>${rows(facts)}</table>
-<h2>What happens</h2>${eventTable(r.events)}
-<h2>Road users</h2><table>${head('Who', 'Start, m', 'Speed', 'Goal, m', 'Ends at, m', '')}
+<h1>${text(scene.name)}</h1><p>${text(TEXTS.thePictureShows(seconds(r.time), seconds(scene.duration)))}</p>
+<img alt="${text(TEXTS.fromAbove)}" src="${r.picture}">
+<h2>${TEXTS.result}</h2><table>${rows(facts)}</table>
+<h2>${TEXTS.whatHappens}</h2>${eventTable(r.events)}
+<h2>${TEXTS.roadUsers}</h2><table>${head(TEXTS.who, TEXTS.start('m'), TEXTS.speed, TEXTS.goal('m'), TEXTS.endsAt('m'), '')}
 ${all.map((a) => agentRow(r, a, words.get(a.id))).join('\n')}</table>
-<h2>Units and axes</h2><p>Metres and seconds; x east, y north; headings from the x axis, to the left.
-0 s is the first step. ${text(r.origin)}</p>
+<h2>${TEXTS.unitsAndAxes}</h2><p>${text(TEXTS.axesInMetres)} ${text(r.origin)}</p>
 </body></html>
 `;
 }
@@ -72,9 +73,9 @@ const head = (...names: string[]): string => `<tr>${names.map((n) => `<th>${n}</
 const row = (...cells: string[]): string => `<tr>${cells.map(cell).join('')}</tr>`;
 
 function eventTable(events: readonly TrafficEvent[]): string {
-  if (!events.length) return '<p>Nothing that is judged.</p>';
-  const rows = events.map((e) => row(seconds(e.time), e.words, e.title, place(e.at), e.inLog ? 'in the log' : ''));
-  return `<table>${head('When', 'What', 'Who', 'Where, m', '')}${rows.join('')}</table>`;
+  if (!events.length) return `<p>${TEXTS.nothingJudged}</p>`;
+  const rows = events.map((e) => row(seconds(e.time), e.words, e.title, place(e.at), e.inLog ? TEXTS.inTheLog : ''));
+  return `<table>${head(TEXTS.when, TEXTS.what, TEXTS.who, TEXTS.where('m'), '')}${rows.join('')}</table>`;
 }
 
 /** What everybody does otherwise than in the log, in words. */
@@ -87,14 +88,14 @@ function agentRow(r: ReportOf, a: Agent, words: string | undefined): string {
   const start = startPose(a);
   const end = endPose(motionOf(r.scene, r.motion, a));
   const unit = a.type === 'pedestrian' ? 'm/s' : r.unit;
-  const goal = a.goal.pos ? `${place(a.goal.pos)} at ${seconds(a.goal.time)}` : '';
+  const goal = a.goal.pos ? TEXTS.at(place(a.goal.pos), seconds(a.goal.time)) : '';
   const cells = [
     a.name,
-    start ? place([start.x, start.y]) : 'comes later',
+    start ? place([start.x, start.y]) : TEXTS.comesLater,
     start ? speedLabel(start.speed, unit) : '',
     goal,
     end ? place([end.x, end.y]) : '',
-    words ?? (a.parked ? 'parked' : ''),
+    words ?? (a.parked ? TEXTS.parked : ''),
   ];
   return `<tr${touched(a) ? ' class="asked"' : ''}>${cells.map(cell).join('')}</tr>`;
 }

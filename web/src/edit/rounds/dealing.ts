@@ -12,6 +12,7 @@ import type { FinalEvent } from '../../net/types';
 import { motionAfter, naming } from '../motion-after';
 import type { Take } from '../variants/making';
 import type { OneHand, SceneHand } from './deck';
+import { TEXTS } from '../../texts/rounds';
 
 type Made<T> = Omit<T, 'print' | 'asked' | 'round'>;
 
@@ -49,7 +50,7 @@ function scenes(scene: Scene, now: MotionSet, e: FinalEvent): Made<SceneHand> {
 
 /** The document that a card of the whole scene makes: everybody worked out anew, once more for each card. */
 export function sceneTaken(scene: Scene, hand: SceneHand, index: number): { command: Command; take: Take } {
-  const name = `Card ${LETTERS[index]} of a round taken for everybody`;
+  const name = TEXTS.cardOfARound(LETTERS[index]);
   const command = patchScene(name, { drawn: scene.drawn + 1 + index });
   const after = command.apply(scene);
   return { command, take: { scene: after, set: { ...hand.sets[index], key: sceneKey(after) } } };

@@ -31,6 +31,7 @@ import { handOf, sceneTaken } from './dealing';
 import type { Take } from '../variants/making';
 import type { Dealt } from '../variants/variants';
 import { saidOf, subjectOf } from './said';
+import { TEXTS } from '../../texts/rounds';
 
 /** What is wished, as far as it is known. */
 export interface Wished {
@@ -43,7 +44,7 @@ export interface Wished {
 /** Rounds that an undo shows again at once. */
 const REMEMBERED = 24;
 
-const NO_ANSWER = 'The generator is not answering.';
+const NO_ANSWER = TEXTS.theGenerator;
 
 /** Joint scenes are judged, each by itself. */
 const EVERYBODY: Wanted = {
@@ -118,7 +119,7 @@ export class Rounds {
 
   /** For everybody. */
   openScene(): void {
-    if (this.editor.scene.peek()) this.#open(null, 'the whole scene');
+    if (this.editor.scene.peek()) this.#open(null, TEXTS.theWholeScene);
   }
 
   #open(id: string | null, name: string): void {
@@ -132,7 +133,7 @@ export class Rounds {
       editor.setTime(0);
       editor.deck.open(id);
     });
-    editor.notices.say(`Rounds of ${name}.`);
+    editor.notices.say(TEXTS.roundsOf(name));
   }
 
   close(): void {
@@ -189,7 +190,7 @@ export class Rounds {
   /** Draws the next round. */
   next(): void {
     if (this.mayGoOn.peek()) this.#run(nextRound);
-    else if (this.#ready()) this.editor.notices.show({ text: 'Keep or reject one first, or add a wish.' });
+    else if (this.#ready()) this.editor.notices.show({ text: TEXTS.keepOrReject });
   }
 
   /**
@@ -265,13 +266,13 @@ export class Rounds {
     const document = scene.peek();
     const round = e.feedback;
     const made = document && handOf(document, motion.peek(), of, e);
-    if (!round || !made?.names.length) return deck.fail('No cards came.');
+    if (!round || !made?.names.length) return deck.fail(TEXTS.noCardsCame);
     const hand: Hand = { ...made, print: shortFor(text), asked, round };
     this.#known.set(text, hand);
     if (this.#known.size > REMEMBERED) this.#known.delete(this.#known.keys().next().value as string);
     deck.deal(hand);
-    const many = of.id === null ? 'ways' : 'futures';
-    this.editor.notices.say(`Round ${asked.round}: ${hand.names.length} ${many}. A: ${hand.names[0]}.`);
+    const many = of.id === null ? TEXTS.ways : TEXTS.futures;
+    this.editor.notices.say(TEXTS.roundA(asked.round, hand.names.length, many, hand.names[0]));
   }
 
   /** Are the cards those of the document? */

@@ -16,6 +16,7 @@ import { motionAfter } from '../motion-after';
 import type { Questions, Wanted } from '../question';
 import { readScore } from '../read-answer';
 import type { SceneFile } from '../scene-file';
+import { TEXTS } from '../../texts/variants';
 
 /** A document and what everybody does in it. */
 export interface Take {
@@ -129,7 +130,7 @@ export class Maker {
         draft: () => undefined,
         final: resolve,
         refused: (p) => reject(new Refused(p.status ?? 422, p)),
-        away: () => reject(new Away('The generator is not answering.')),
+        away: () => reject(new Away(TEXTS.theGenerator)),
         dropped: () => reject(new Stopped()),
       });
       this.generator.ask(question);

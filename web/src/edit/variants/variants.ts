@@ -31,6 +31,7 @@ import { Away, Refused } from '../../net/client';
 import type { Editor } from '../editor';
 import { cardsOf, comparedOf, filtered, isWhole, type Card, type Compared, type Filter, type WholeCard } from './cards';
 import { Maker, Stopped, subjectOf, type Take } from './making';
+import { TEXTS } from '../../texts/variants';
 
 /** What an export is about: the scene as it is, or several variants. */
 export type Scope = 'present' | 'kept' | 'starred' | 'all' | 'pair';
@@ -194,14 +195,14 @@ export class Variants {
     const a = this.subject.value;
     const scene = this.editor.scene.value;
     if (!sweep || !scene) return null;
-    if (!a) return 'Select whose number it is.';
-    if (sweep.over === 'time' && valueOf(a, 'time') === null) return `${a.name} has no goal yet. Press G to set one.`;
+    if (!a) return TEXTS.selectWhoseNumber;
+    if (sweep.over === 'time' && valueOf(a, 'time') === null) return TEXTS.hasNoGoalYet(a.name);
     const [least, most] = limitsOfSweep(a, scene, sweep.over);
     const beyond = (v: number): boolean => v < least - 1e-6 || v > most + 1e-6;
-    if (beyond(sweep.from) || beyond(sweep.to)) return `${a.name} cannot be asked for all of that.`;
+    if (beyond(sweep.from) || beyond(sweep.to)) return TEXTS.cannotBeAsked(a.name);
     const room = MOST_VARIANTS - scene.variants.filter((v) => v.kept || v.starred).length;
     const n = countOf(sweep);
-    return n > room ? `${n} values; there is room for ${room}.` : null;
+    return n > room ? TEXTS.valuesThereIs(n, room) : null;
   }
 
   setFilter(filter: Filter): void {
@@ -294,10 +295,10 @@ export class Variants {
     }
     const n = takes.length;
     if (!n && stopped) return;
-    const made = n ? `${n} variant${n === 1 ? '' : 's'} made` : 'No variant made';
+    const made = n ? TEXTS.variantsMade(n) : TEXTS.noVariantMade;
     if (why) notices.show({ text: why });
     else if (stopped || n === wanted) notices.show({ text: `${made}.`, undo: n > 0 });
-    else notices.show({ text: `${made}: more would be alike. A higher diversity helps.`, undo: n > 0 });
+    else notices.show({ text: TEXTS.moreWouldBeAlike(made), undo: n > 0 });
     notices.say(`${made}.`);
   }
 
@@ -364,21 +365,24 @@ export class Variants {
     const scene = editor.scene.peek();
     if (!card || !scene || this.shown.peek() === id) return;
     if (!sameCast(scene, card.state)) {
-      editor.notices.show({ text: 'Other road users were here when it was made. Undo brings them back.' });
+      editor.notices.show({ text: TEXTS.otherRoadUsers });
       return;
     }
     if (card.set) editor.answers.know(card.set);
-    editor.run(takeVariant(scene, card.state, `${card.name} shown`));
+    editor.run(takeVariant(scene, card.state, TEXTS.shown(card.name)));
   }
 
   toggleKept(id: number): void {
-    this.#patch(id, (v, name) => ({ patch: { kept: !v.kept }, name: `${name} ${v.kept ? 'not kept' : 'kept'}` }));
+    this.#patch(id, (v, name) => ({
+      patch: { kept: !v.kept },
+      name: `${name} ${v.kept ? TEXTS.notKept : TEXTS.kept}`,
+    }));
   }
 
   toggleStar(id: number): void {
     this.#patch(id, (v, name) => ({
       patch: { starred: !v.starred },
-      name: v.starred ? `Star of ${name} taken away` : `${name} starred`,
+      name: v.starred ? TEXTS.starOfTakenAway(name) : TEXTS.starred(name),
     }));
   }
 
@@ -386,7 +390,7 @@ export class Variants {
     this.#renaming.value = null;
     const name = called.trim() || null;
     if (name === this.card(id)?.variant.called) return;
-    this.#patch(id, (_, was) => ({ patch: { called: name }, name: `${was} named ${name ?? 'by what differs'}` }));
+    this.#patch(id, (_, was) => ({ patch: { called: name }, name: TEXTS.named(was, name ?? TEXTS.byWhatDiffers) }));
   }
 
   /** What goes out, of the variants that everything is known of. */
@@ -415,14 +419,14 @@ export class Variants {
   remove(id: number): void {
     const scene = this.editor.scene.peek();
     const card = this.card(id);
-    if (scene && card) this.editor.run(removeVariant(scene, id, `${card.name} removed`));
+    if (scene && card) this.editor.run(removeVariant(scene, id, TEXTS.removed(card.name)));
   }
 
   /** The scene as it is on the picture becomes one of the variants. */
   keepPresent(): void {
     const { editor } = this;
     const scene = editor.scene.peek();
-    const command = scene && keepAsVariant(scene, 'Kept as a variant');
+    const command = scene && keepAsVariant(scene, TEXTS.keptAsAVariant);
     if (!scene || !command) return;
     const set = editor.motion.peek();
     if (!set.stale) this.#keepSets([{ scene, set: { ...set, key: sceneKey(scene) } }]);
@@ -458,8 +462,8 @@ export class Variants {
     if (!takes.length || now?.id !== takes[0].scene.id || now.roster !== takes[0].scene.roster) return;
     const n = takes.length;
     const states = takes.map((t) => stateOfVariant(t.scene, subject));
-    const command = keepStates(now, states, n === 1 ? `A ${what} kept as a variant` : `${n} ${what}s kept as variants`);
-    if (!command) return editor.notices.show({ text: 'There is no room for more variants. Remove some first.' });
+    const command = keepStates(now, states, TEXTS.sKeptAsVariants(n, what));
+    if (!command) return editor.notices.show({ text: TEXTS.thereIsNoRoom });
     this.#keepSets(takes);
     editor.run(command);
   }
@@ -494,7 +498,7 @@ export class Variants {
     });
     const moment = this.compared.peek()?.parting.moments[0];
     this.editor.notices.say(
-      `Variants ${left} and ${right}. ${moment ? `They part: ${moment.words}.` : 'They are alike.'}`,
+      moment ? TEXTS.variantsAndThey(left, right, moment.words) : TEXTS.variantsAndTheyAre(left, right),
     );
   }
 
@@ -532,6 +536,6 @@ function nextSeed(scene: Scene, subject: string | null): number {
 function reasonOf(e: unknown): string | null {
   if (e instanceof Stopped) return null;
   if (e instanceof Refused) return e.message;
-  if (e instanceof Away) return 'The generator is not answering. What was made so far is there.';
+  if (e instanceof Away) return TEXTS.theGeneratorIs;
   throw e;
 }

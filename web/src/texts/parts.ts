@@ -1,0 +1,15 @@
+import { table } from './table';
+
+export const TEXTS = table('parts', {
+  seed: 'Seed',
+  diversity: 'Diversity',
+  waiting: 'Waiting …',
+  generate: 'Generate',
+  howFarTheSix: 'How far the six may differ',
+  react: 'React',
+  replayLog: 'Replay log',
+  holdStill: 'Hold still',
+  everybodyYou: 'Everybody you gave no goal adapts when you let go.',
+  theyDoWhatWas: 'They do what was recorded.',
+  theyStayWhere: 'They stay where they start, and nobody else comes in.',
+});

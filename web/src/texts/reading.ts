@@ -1,0 +1,11 @@
+import { table } from './table';
+
+export const TEXTS = table('reading', {
+  dragtrafficRoad: 'dragtraffic road users',
+  aColumnIsBroken: 'a column is broken',
+  thisIsNotAScene: 'This is not a scene: it has no list of road users.',
+  thisSceneWas: (version: undefined | number) =>
+    `This scene was saved by a newer version (${version}). This one reads up to 1.`,
+  theMapOfThis: 'The map of this scene is not here.',
+  untitled: 'Untitled',
+});

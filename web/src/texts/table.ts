@@ -1,0 +1,30 @@
+// All that a person reads stands in tables, one a part of the page, so that a script brings its own words alone. A text
+// with values in it is a function of them. Another language is a table of the same shape (`de`).
+import { change, pluralOf } from './language';
+
+/** A text, or how to make it of values; they may lie in groups. */
+export type Word = string | ((...values: never[]) => string);
+export interface Words {
+  readonly [key: string]: Word | Words;
+}
+
+/** The same shape with any words in it. */
+export type Said<T> = {
+  readonly [K in keyof T]: T[K] extends string ? string : T[K] extends (...v: never[]) => string ? T[K] : Said<T[K]>;
+};
+
+/** What another language may say of an area: the same, or a part of it. */
+export type Part<T> = {
+  readonly [K in keyof T]?: T[K] extends string | ((...v: never[]) => string) ? T[K] : Part<T[K]>;
+};
+
+/** The words of an area, as this language says them. */
+export function table<const T extends Words>(area: string, english: T): Said<T> {
+  return (change ? change(area, english) : english) as Said<T>;
+}
+
+/** The forms that a text has by a number; a language that needs more of them has them in its own table. */
+export type Forms = Readonly<Partial<Record<Intl.LDMLPluralRule, string>> & { other: string }>;
+
+/** The form for so many. */
+export const plural = (n: number, forms: Forms): string => forms[pluralOf(n)] ?? forms.other;
